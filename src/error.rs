@@ -1,0 +1,112 @@
+//! The one error type. Every variant names the value or index that was refused.
+
+use core::fmt;
+
+/// Why a cloud, a viewpoint or an option was refused.
+///
+/// [`Error::code`] gives the stable short name that the JavaScript package
+/// reports as `HprError.code`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// Some positions hold NaN or an infinity.
+    NonFinite {
+        /// How many points are affected.
+        count: usize,
+        /// The lowest index among them.
+        first: usize,
+    },
+    /// The viewpoint holds NaN or an infinity.
+    Viewpoint {
+        /// The viewpoint as given.
+        viewpoint: [f64; 3],
+    },
+    /// The radius is NaN, infinite, zero or negative.
+    RadiusInvalid {
+        /// The radius as given.
+        radius: f64,
+    },
+    /// The radius is smaller than the distance of the farthest point, so the
+    /// sphere would not hold the cloud (paper, eq. 1).
+    RadiusTooSmall {
+        /// The radius as given.
+        radius: f64,
+        /// The smallest radius that would be accepted.
+        farthest: f64,
+    },
+    /// A distance from the viewpoint, or twice the radius, exceeds the range of `f64`.
+    RadiusOverflow {
+        /// The farthest distance, infinite where it overflowed.
+        farthest: f64,
+    },
+    /// The exponent is NaN, infinite or negative.
+    ExponentInvalid {
+        /// The exponent as given.
+        exponent: f64,
+    },
+    /// More points than [`MAX_POINTS`](crate::MAX_POINTS).
+    TooManyPoints {
+        /// How many were given.
+        count: usize,
+    },
+    /// The allocator refused memory; nothing was changed.
+    OutOfMemory,
+}
+
+impl Error {
+    /// The stable short name of this error.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NonFinite { .. } => "non-finite",
+            Self::Viewpoint { .. } => "viewpoint",
+            Self::RadiusInvalid { .. }
+            | Self::RadiusTooSmall { .. }
+            | Self::RadiusOverflow { .. } => "radius",
+            Self::ExponentInvalid { .. } => "option",
+            Self::TooManyPoints { .. } | Self::OutOfMemory => "too-large",
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NonFinite { count, first } => write!(
+                f,
+                "{count} point(s) have a coordinate that is NaN or infinite, the first at index {first}"
+            ),
+            Self::Viewpoint { viewpoint } => {
+                write!(f, "the viewpoint must be finite, got {viewpoint:?}")
+            }
+            Self::RadiusInvalid { radius } => {
+                write!(f, "radius must be finite and positive, got {radius}")
+            }
+            Self::RadiusTooSmall { radius, farthest } => write!(
+                f,
+                "radius {radius} is smaller than the distance of the farthest point, {farthest}"
+            ),
+            Self::RadiusOverflow { farthest } => write!(
+                f,
+                "the farthest distance ({farthest}) or twice the radius exceeds the range of f64"
+            ),
+            Self::ExponentInvalid { exponent } => {
+                write!(f, "exponent must be finite and at least 0, got {exponent}")
+            }
+            Self::TooManyPoints { count } => write!(
+                f,
+                "{count} points exceed the limit of {}",
+                crate::MAX_POINTS
+            ),
+            Self::OutOfMemory => write!(f, "not enough memory for this cloud"),
+        }
+    }
+}
+
+impl core::error::Error for Error {}
+
+impl From<alloc::collections::TryReserveError> for Error {
+    fn from(_: alloc::collections::TryReserveError) -> Self {
+        Self::OutOfMemory
+    }
+}

@@ -1,0 +1,148 @@
+//! The definition in the lower dimension: all points in one plane or on one
+//! line with the viewpoint.
+//!
+//! Leaving out a coordinate maps the plane one-to-one and keeps rays, lines and
+//! convexity, so nothing is rounded.
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use crate::error::Error;
+use crate::predicates::{Sign, orient2d};
+use crate::spatial::compare_coordinates;
+
+const ORIGIN: [f64; 2] = [0.0; 2];
+
+/// Marks the visible points among `count`, which lie in one plane with the origin.
+pub(super) fn mark_visible(
+    count: u32,
+    flipped: &impl Fn(u32) -> Option<DVec3>,
+    visible: &mut [bool],
+) -> Result<(), Error> {
+    let mut points: Vec<(DVec3, u32)> = Vec::new();
+    points.try_reserve_exact(count as usize)?;
+    for index in 0..count {
+        match flipped(index) {
+            Some(q) => points.push((q, index)),
+            None => visible[index as usize] = true,
+        }
+    }
+    let Some(&(a, _)) = points.first() else {
+        return Ok(());
+    };
+    let plane = points.iter().find_map(|&(b, _)| spanned_axes(a, b));
+    match plane {
+        Some(axes) => mark_in_plane(points, axes, visible),
+        None => {
+            mark_on_line(&points, visible);
+            Ok(())
+        }
+    }
+}
+
+/// Whether a, b and the origin are exactly in one line.
+pub(super) fn collinear_with_origin(a: DVec3, b: DVec3) -> bool {
+    spanned_axes(a, b).is_none()
+}
+
+/// Two coordinate axes in whose plane a and b are not in line with the origin.
+fn spanned_axes(a: DVec3, b: DVec3) -> Option<[usize; 2]> {
+    let pick = |p: DVec3, [i, j]: [usize; 2]| [p[i], p[j]];
+    [[0, 1], [1, 2], [2, 0]]
+        .into_iter()
+        .find(|&axes| orient2d(ORIGIN, pick(a, axes), pick(b, axes)) != Sign::Zero)
+}
+
+/// On a line, the farthest flipped point of either side is visible.
+fn mark_on_line(points: &[(DVec3, u32)], visible: &mut [bool]) {
+    let Some(&(a, _)) = points.first() else {
+        return;
+    };
+    let axis = a.abs().max_position();
+    let (mut least, mut most) = (0.0f64, 0.0f64);
+    for &(q, _) in points {
+        least = least.min(q[axis]);
+        most = most.max(q[axis]);
+    }
+    for &(q, index) in points {
+        if q[axis] == least || q[axis] == most {
+            visible[index as usize] = true;
+        }
+    }
+}
+
+/// In a plane, the points on those edges of the convex hull of all points and
+/// the origin whose line misses the origin.
+fn mark_in_plane(
+    mut points: Vec<(DVec3, u32)>,
+    [i, j]: [usize; 2],
+    visible: &mut [bool],
+) -> Result<(), Error> {
+    points.try_reserve(1)?;
+    points.push((DVec3::ZERO, u32::MAX));
+    points.sort_unstable_by(|(p, _), (q, _)| {
+        let at = |p: &DVec3| [p[i] + 0.0, p[j] + 0.0, 0.0];
+        compare_coordinates(at(p), at(q))
+    });
+    let at = |k: u32| {
+        let (q, _) = points[k as usize];
+        [q[i], q[j]]
+    };
+
+    // One representative of equal points walks the hull.
+    let mut distinct: Vec<u32> = Vec::new();
+    let mut chain: Vec<u32> = Vec::new();
+    distinct.try_reserve_exact(points.len())?;
+    chain.try_reserve_exact(points.len())?;
+    for k in 0..points.len() as u32 {
+        if distinct.last().is_none_or(|&last| at(last) != at(k)) {
+            distinct.push(k);
+        }
+    }
+    let mut on_boundary = Vec::new();
+    on_boundary.try_reserve_exact(points.len())?;
+    on_boundary.resize(points.len(), false);
+    let mut add_chain = |sorted: &mut dyn Iterator<Item = u32>| {
+        convex_chain(sorted, &at, &mut chain);
+        for edge in chain.windows(2) {
+            if orient2d(ORIGIN, at(edge[0]), at(edge[1])) != Sign::Zero {
+                on_boundary[edge[0] as usize] = true;
+                on_boundary[edge[1] as usize] = true;
+            }
+        }
+    };
+    add_chain(&mut distinct.iter().copied());
+    add_chain(&mut distinct.iter().rev().copied());
+
+    let mut representative = 0;
+    for k in 0..points.len() as u32 {
+        if at(k) != at(representative) {
+            representative = k;
+        }
+        let index = points[k as usize].1;
+        if on_boundary[representative as usize] && index != u32::MAX {
+            visible[index as usize] = true;
+        }
+    }
+    Ok(())
+}
+
+/// Andrew's monotone chain: the hull's lower side for points sorted from left
+/// to right, its upper side from right to left. Points in line with their
+/// neighbors are kept.
+fn convex_chain(
+    sorted: &mut dyn Iterator<Item = u32>,
+    at: &impl Fn(u32) -> [f64; 2],
+    chain: &mut Vec<u32>,
+) {
+    chain.clear();
+    for next in sorted {
+        while let [.., before, last] = chain[..] {
+            if orient2d(at(before), at(last), at(next)) != Sign::Negative {
+                break;
+            }
+            chain.pop();
+        }
+        chain.push(next);
+    }
+}

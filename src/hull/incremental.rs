@@ -1,0 +1,359 @@
+//! The exact hull in space, point by point, with the viewpoint as ghost vertex.
+//!
+//! K = conv({q} ∪ {0}) is star-shaped around the viewpoint, so its outer faces
+//! triangulate directions: a point is hidden once it lies inside the face its
+//! ray pierces, and otherwise sees the faces that it will replace. Faces that
+//! hold the origin ("ghost faces") close the hull where no point is seen. They
+//! vanish when the viewpoint is inside the cloud, so inside and outside are one
+//! algorithm.
+//!
+//! Every decision is a sign: first of a rounded dual plane with a proved bound
+//! of its error, then exact (`predicates`).
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use super::topology::{Face, FaceId, HalfEdge, Surface, Vertex};
+use crate::error::Error;
+use crate::predicates::{Sign, side_of_face, side_of_origin};
+
+/// The ghost vertex.
+const ORIGIN: Vertex = 0;
+
+/// A face's dual plane: `m·x = 1` on it, `m·x > 1` outside.
+///
+/// With u = a − p, w = b − p, n = u × w and D = n·p, m is n/D. In units of
+/// ε = 2⁻⁵³ and with |p|, |q| ≤ L/2 the rounded value differs from the true
+/// n·(q − p)/D by at most, to first order and with κ = ½(|u|² + |w|²)·L/D:
+///
+/// - n: 4√2·|u||w|, which shifts n·q/D by 2.9 κ;
+/// - D: (4√2 + 3)·|u||w||p|, which shifts m·q by 4.4 κ·(m·q);
+/// - the division and the sum m·q − 1: 4·|m||q| + 1 ≤ 2 κ + 1.
+///
+/// At m·q near 1 that is below 10 ε (1 + κ); `error` is twice that. Farther
+/// from the plane the error grows with |m·q|, but by less than 10⁻⁸ of it, so
+/// the sign stays right. L is twice the largest |q| or more ([`Flip::reach`]).
+///
+/// [`Flip::reach`]: crate::inversion::Flip::reach
+#[derive(Clone, Copy)]
+struct Plane {
+    m: DVec3,
+    /// Bound of the error of `m·q − 1`; infinite where only exact signs count.
+    error: f64,
+}
+
+impl Plane {
+    /// A plane that decides nothing by itself: ghost faces, faces seen edge-on.
+    const EXACT_ONLY: Self = Self {
+        m: DVec3::ZERO,
+        error: f64::INFINITY,
+    };
+
+    fn through(a: DVec3, b: DVec3, p: DVec3, reach: f64) -> Self {
+        const ROUNDING: f64 = f64::EPSILON / 2.0;
+        const MAX_CONDITION: f64 = 1e6;
+        // Above this no product in `n` that matters has underflowed.
+        const MIN_VOLUME: f64 = 1e-200;
+        let u = a - p;
+        let w = b - p;
+        let n = u.cross(w);
+        let volume = n.dot(p);
+        let condition = 0.5 * (u.length_squared() + w.length_squared()) * reach / volume;
+        // Written so that a NaN is refused, too.
+        if volume > MIN_VOLUME && volume < f64::MAX && condition < MAX_CONDITION {
+            Self {
+                m: n / volume,
+                error: 20.0 * ROUNDING * (1.0 + condition),
+            }
+        } else {
+            Self::EXACT_ONLY
+        }
+    }
+
+    fn is_exact_only(&self) -> bool {
+        self.error == f64::INFINITY
+    }
+}
+
+/// Where a flipped point lies relative to the hull.
+enum Location {
+    /// Strictly outside this face.
+    Outside(FaceId),
+    /// Exactly on the outer boundary.
+    Boundary(FaceId),
+    /// In K, and K goes on beyond it: hidden, now and for every larger K.
+    Inside(FaceId),
+}
+
+/// Marks the visible points among those of `order`. `corners` is the first
+/// tetrahedron's outer face, counter-clockwise seen from outside.
+pub(super) fn mark_visible(
+    order: impl Iterator<Item = u32>,
+    flipped: &impl Fn(u32) -> Option<DVec3>,
+    reach: f64,
+    corners: [u32; 3],
+    visible: &mut [bool],
+) -> Result<(), Error> {
+    let mut hull = Hull::new(corners, flipped, reach);
+    // A point found exactly on the boundary is visible only if it still is
+    // when the hull is complete.
+    let mut on_boundary: Vec<u32> = Vec::new();
+    let mut hint = 0;
+    for index in order {
+        let Some(q) = flipped(index) else {
+            visible[index as usize] = true;
+            continue;
+        };
+        hint = match hull.locate(q, hint) {
+            Location::Outside(face) => hull.insert(index, q, face)?,
+            Location::Boundary(face) => {
+                on_boundary.try_reserve(1)?;
+                on_boundary.push(index);
+                face
+            }
+            Location::Inside(face) => face,
+        };
+    }
+    hull.mark_outer_vertices(visible);
+    for index in on_boundary {
+        if let Some(q) = flipped(index) {
+            hint = match hull.locate(q, hint) {
+                Location::Boundary(face) => {
+                    visible[index as usize] = true;
+                    face
+                }
+                Location::Inside(face) | Location::Outside(face) => face,
+            };
+        }
+    }
+    Ok(())
+}
+
+struct Hull {
+    surface: Surface<Plane>,
+    vertices: Vertices,
+}
+
+struct Vertices {
+    /// Flipped positions; the origin comes first.
+    positions: Vec<DVec3>,
+    /// Which point of the cloud each one is; unused for the origin.
+    points: Vec<u32>,
+    reach: f64,
+}
+
+impl Vertices {
+    #[inline]
+    fn plane(&self, [a, b, c]: [Vertex; 3]) -> Plane {
+        if a == ORIGIN || b == ORIGIN || c == ORIGIN {
+            return Plane::EXACT_ONLY;
+        }
+        Plane::through(self.at(a), self.at(b), self.at(c), self.reach)
+    }
+
+    #[inline]
+    fn at(&self, vertex: Vertex) -> DVec3 {
+        self.positions[vertex as usize]
+    }
+
+    /// Which side of `face` the point `q` is on: positive is outside.
+    #[inline]
+    fn side(&self, face: &Face<Plane>, q: DVec3) -> Sign {
+        let plane = &face.data;
+        let above = plane.m.dot(q) - 1.0;
+        if above > plane.error {
+            Sign::Positive
+        } else if above < -plane.error {
+            Sign::Negative
+        } else {
+            self.exact_side(face, q)
+        }
+    }
+
+    #[cold]
+    fn exact_side(&self, face: &Face<Plane>, q: DVec3) -> Sign {
+        let [a, b, c] = face.vertices.map(|v| self.at(v));
+        side_of_face(a, b, c, q)
+    }
+
+    /// Whether the ray of `q` passes strictly beyond edge `edge` of an outer face.
+    fn is_beyond(&self, face: &Face<Plane>, edge: usize, q: DVec3) -> bool {
+        let tail = self.at(face.vertices[edge]);
+        let head = self.at(face.vertices[(edge + 1) % 3]);
+        side_of_origin(tail, head, q) == Sign::Negative
+    }
+
+    /// Whether the plane of `face` leaves the origin strictly inside: not a
+    /// ghost face and not seen edge-on.
+    fn is_outer(&self, face: &Face<Plane>) -> bool {
+        if !face.data.is_exact_only() {
+            return true;
+        }
+        let [a, b, c] = face.vertices.map(|v| self.at(v));
+        side_of_origin(a, b, c) == Sign::Positive
+    }
+}
+
+impl Hull {
+    fn new(corners: [u32; 3], flipped: &impl Fn(u32) -> Option<DVec3>, reach: f64) -> Self {
+        let mut vertices = Vertices {
+            positions: alloc::vec![DVec3::ZERO],
+            points: alloc::vec![u32::MAX],
+            reach,
+        };
+        for corner in corners {
+            if let Some(q) = flipped(corner) {
+                vertices.positions.push(q);
+                vertices.points.push(corner);
+            }
+        }
+        let surface = Surface::tetrahedron(ORIGIN, [1, 2, 3], |v| vertices.plane(v));
+        Self { surface, vertices }
+    }
+
+    /// Walks from face `hint` towards the face that the ray of `q` pierces.
+    ///
+    /// Two neighbors' dual planes agree on their edge, so which of m·q is the
+    /// larger tells on which side of that edge the ray passes, and the largest
+    /// m·q of all belongs to the face it pierces. If that one has q inside, all have.
+    fn locate(&self, q: DVec3, hint: FaceId) -> Location {
+        let mut id = self.walkable(hint);
+        let mut entered_by = usize::MAX;
+        // Walks are short; a cycle through coplanar faces would be the only long one.
+        let patience = 1000 + self.surface.slots() / 64;
+        for _ in 0..patience {
+            let face = self.surface.face(id);
+            let height = face.data.m.dot(q);
+            if height - 1.0 > face.data.error {
+                return Location::Outside(id);
+            }
+            let crossing = match self.steepest_neighbor(face, height, q, entered_by) {
+                Ok(twin) => twin,
+                Err(in_doubt) => {
+                    let beyond = in_doubt
+                        .into_iter()
+                        .zip(0..)
+                        .find(|&(doubt, edge)| doubt && self.vertices.is_beyond(face, edge, q));
+                    let Some((_, edge)) = beyond else {
+                        return self.decide(id, q);
+                    };
+                    let twin = face.twins[edge];
+                    // The plane of a ghost or edge-on face is the plane of this
+                    // edge and the origin, and q lies strictly beyond it.
+                    if !self.vertices.is_outer(self.surface.face(twin.face())) {
+                        return Location::Outside(twin.face());
+                    }
+                    twin
+                }
+            };
+            id = crossing.face();
+            entered_by = crossing.edge();
+        }
+        self.search(q, id)
+    }
+
+    /// The neighbor with the largest m·q, if any is certainly larger than
+    /// `height`, this face's own; else which edges need an exact test.
+    #[inline]
+    fn steepest_neighbor(
+        &self,
+        face: &Face<Plane>,
+        height: f64,
+        q: DVec3,
+        entered_by: usize,
+    ) -> Result<HalfEdge, [bool; 3]> {
+        let mut steepest = None;
+        let mut largest_gain = 0.0;
+        let mut in_doubt = [false; 3];
+        for edge in 0..3 {
+            if edge == entered_by {
+                continue;
+            }
+            let twin = face.twins[edge];
+            let neighbor = &self.surface.face(twin.face()).data;
+            let gain = neighbor.m.dot(q) - height;
+            let error = neighbor.error + face.data.error;
+            if gain > error {
+                if gain > largest_gain {
+                    largest_gain = gain;
+                    steepest = Some(twin);
+                }
+            } else if gain >= -error || height <= 0.0 {
+                in_doubt[edge] = true;
+            }
+        }
+        steepest.ok_or(in_doubt)
+    }
+
+    /// Decides for the face that the ray of `q` pierces.
+    fn decide(&self, id: FaceId, q: DVec3) -> Location {
+        let face = self.surface.face(id);
+        if !self.vertices.is_outer(face) {
+            // Seen edge-on: piercing it says nothing.
+            return self.search(q, id);
+        }
+        match self.vertices.side(face, q) {
+            Sign::Positive => Location::Outside(id),
+            Sign::Zero => Location::Boundary(id),
+            Sign::Negative => Location::Inside(id),
+        }
+    }
+
+    /// A face to start a walk from: `hint`, or a neighbor with a plane.
+    fn walkable(&self, hint: FaceId) -> FaceId {
+        let face = self.surface.face(hint);
+        if !face.data.is_exact_only() {
+            return hint;
+        }
+        let neighbors = face.twins.map(HalfEdge::face);
+        let has_plane = |&id: &FaceId| !self.surface.face(id).data.is_exact_only();
+        let outer = |&id: &FaceId| !self.surface.face(id).has(ORIGIN);
+        neighbors
+            .into_iter()
+            .find(has_plane)
+            .or_else(|| [hint].into_iter().chain(neighbors).find(outer))
+            .unwrap_or(hint)
+    }
+
+    /// The answer by looking at every face, for the rare walk that ends nowhere.
+    #[cold]
+    fn search(&self, q: DVec3, hint: FaceId) -> Location {
+        let mut location = Location::Inside(hint);
+        for (id, face) in self.surface.alive() {
+            match self.vertices.side(face, q) {
+                Sign::Positive => return Location::Outside(id),
+                Sign::Zero if self.vertices.is_outer(face) => location = Location::Boundary(id),
+                Sign::Zero | Sign::Negative => {}
+            }
+        }
+        location
+    }
+
+    /// Makes `q`, strictly outside face `start`, a vertex.
+    fn insert(&mut self, point: u32, q: DVec3, start: FaceId) -> Result<FaceId, Error> {
+        let vertex = self.vertices.positions.len() as Vertex;
+        self.vertices.positions.try_reserve(1)?;
+        self.vertices.points.try_reserve(1)?;
+        self.vertices.positions.push(q);
+        self.vertices.points.push(point);
+        let vertices = &self.vertices;
+        Ok(self.surface.insert(
+            vertex,
+            start,
+            |face| vertices.side(face, q) == Sign::Positive,
+            |corners| vertices.plane(corners),
+        )?)
+    }
+
+    /// A vertex is visible when one of its faces has the origin strictly inside;
+    /// on ghost and edge-on faces alone, its ray stays in K beyond it.
+    fn mark_outer_vertices(&self, visible: &mut [bool]) {
+        for (_, face) in self.surface.alive() {
+            if self.vertices.is_outer(face) {
+                for vertex in face.vertices {
+                    visible[self.vertices.points[vertex as usize] as usize] = true;
+                }
+            }
+        }
+    }
+}

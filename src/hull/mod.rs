@@ -1,0 +1,97 @@
+//! Which flipped points lie on the outer boundary of K = conv({q} ∪ {0})?
+//!
+//! INPUT    the flipped points q, one for each distinct point of the cloud
+//!          (none for points at the viewpoint); the viewpoint is the origin.
+//! OUTPUT   for each point: visible (the ray from the origin through q leaves K
+//!          at q) or hidden. Exact for the rounded q, in every dimension K has.
+//! SUMMARY  Three points that span space with the origin start an incremental
+//!          hull (`incremental`); where there are none, K is flat and its
+//!          dimension decides (`flat`).
+
+mod flat;
+mod incremental;
+mod order;
+mod topology;
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use crate::cloud::Position;
+use crate::error::Error;
+use crate::inversion::Flip;
+use crate::predicates::{Sign, side_of_origin};
+
+/// Points looked at for a first tetrahedron before all of them are.
+const SEED_SAMPLE: usize = 512;
+
+/// Marks the visible ones among `points`, flipped by `flip`.
+pub(crate) fn mark_visible<P: Position>(points: &[P], flip: &Flip) -> Result<Vec<bool>, Error> {
+    let flip = flip.rescaled_for(points);
+    let flipped = |index: u32| flip.apply(points[index as usize].widen());
+
+    let mut visible = Vec::new();
+    visible.try_reserve_exact(points.len())?;
+    visible.resize(points.len(), false);
+
+    let count = points.len() as u32;
+    let sample = order::spatial_rounds(count).take(SEED_SAMPLE);
+    let seed =
+        first_tetrahedron(sample, &flipped).or_else(|| first_tetrahedron(0..count, &flipped));
+    match seed {
+        Some(corners) => incremental::mark_visible(
+            order::spatial_rounds(count),
+            &flipped,
+            flip.reach(),
+            corners,
+            &mut visible,
+        )?,
+        None => flat::mark_visible(count, &flipped, &mut visible)?,
+    }
+    Ok(visible)
+}
+
+/// Three points that span space with the origin, of a large determinant, in
+/// the order that makes it positive; `None` if the candidates lie in one plane
+/// with the origin.
+fn first_tetrahedron(
+    candidates: impl Iterator<Item = u32> + Clone,
+    flipped: &impl Fn(u32) -> Option<DVec3>,
+) -> Option<[u32; 3]> {
+    let points = || {
+        candidates
+            .clone()
+            .filter_map(|i| flipped(i).map(|q| (i, q)))
+    };
+    let (i, a) = points().next()?;
+    let (j, b) = largest(points(), |q| a.cross(q).length_squared())?;
+    let normal = a.cross(b);
+    let (k, c) = largest(points(), |q| normal.dot(q).abs())?;
+    match side_of_origin(a, b, c) {
+        Sign::Positive => return Some([i, j, k]),
+        Sign::Negative => return Some([i, k, j]),
+        Sign::Zero => {}
+    }
+    // In doubt: exactly, the first b off the line through a, the first c off their plane.
+    let (j, b) = points().find(|&(_, q)| !flat::collinear_with_origin(a, q))?;
+    points().find_map(|(k, c)| match side_of_origin(a, b, c) {
+        Sign::Positive => Some([i, j, k]),
+        Sign::Negative => Some([i, k, j]),
+        Sign::Zero => None,
+    })
+}
+
+fn largest(
+    points: impl Iterator<Item = (u32, DVec3)>,
+    measure: impl Fn(DVec3) -> f64,
+) -> Option<(u32, DVec3)> {
+    let mut best = None;
+    let mut best_measure = f64::NEG_INFINITY;
+    for (index, q) in points {
+        let m = measure(q);
+        if m > best_measure {
+            best = Some((index, q));
+            best_measure = m;
+        }
+    }
+    best
+}

@@ -1,0 +1,223 @@
+//! A closed triangulated surface as indices. This file knows no coordinates:
+//! what a face carries besides its indices is the caller's business.
+
+use alloc::collections::TryReserveError;
+use alloc::vec::Vec;
+
+/// A vertex number.
+pub(crate) type Vertex = u32;
+/// A face number.
+pub(crate) type FaceId = u32;
+
+/// No vertex at all: marks a face that is not part of the surface.
+const NONE: u32 = u32::MAX;
+
+/// Edge `edge` of face `face`: from `vertices[edge]` to `vertices[(edge + 1) % 3]`.
+///
+/// Packed as `face << 2 | edge`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct HalfEdge(u32);
+
+impl HalfEdge {
+    #[inline]
+    pub(crate) fn new(face: FaceId, edge: u32) -> Self {
+        debug_assert!(edge < 3);
+        Self(face << 2 | edge)
+    }
+
+    #[inline]
+    pub(crate) fn face(self) -> FaceId {
+        self.0 >> 2
+    }
+
+    #[inline]
+    pub(crate) fn edge(self) -> usize {
+        (self.0 & 3) as usize
+    }
+
+    /// The next edge around the same face.
+    #[inline]
+    pub(crate) fn next(self) -> Self {
+        Self(if self.0 & 3 == 2 {
+            self.0 - 2
+        } else {
+            self.0 + 1
+        })
+    }
+}
+
+/// One triangle: vertices counter-clockwise seen from outside, and across each
+/// edge the half-edge that runs the other way.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Face<T> {
+    pub vertices: [Vertex; 3],
+    pub twins: [HalfEdge; 3],
+    pub data: T,
+}
+
+impl<T> Face<T> {
+    #[inline]
+    pub(crate) fn has(&self, vertex: Vertex) -> bool {
+        self.vertices.contains(&vertex)
+    }
+
+    #[inline]
+    fn is_alive(&self) -> bool {
+        self.vertices[0] != NONE
+    }
+}
+
+/// A closed triangulated surface whose faces can be replaced.
+pub(crate) struct Surface<T> {
+    faces: Vec<Face<T>>,
+    free: Vec<FaceId>,
+    cavity: Vec<FaceId>,
+    horizon: Vec<(Vertex, Vertex, HalfEdge)>,
+    crossings: Vec<HalfEdge>,
+}
+
+impl<T: Copy> Surface<T> {
+    /// The tetrahedron of `apex` and the face (a, b, c), which is
+    /// counter-clockwise seen from outside.
+    pub(crate) fn tetrahedron(
+        apex: Vertex,
+        [a, b, c]: [Vertex; 3],
+        data: impl Fn([Vertex; 3]) -> T,
+    ) -> Self {
+        let face = |vertices, twins: [(FaceId, u32); 3]| Face {
+            vertices,
+            twins: twins.map(|(face, edge)| HalfEdge::new(face, edge)),
+            data: data(vertices),
+        };
+        Self {
+            faces: alloc::vec![
+                face([a, b, c], [(1, 1), (2, 1), (3, 1)]),
+                face([apex, b, a], [(2, 2), (0, 0), (3, 0)]),
+                face([apex, c, b], [(3, 2), (0, 1), (1, 0)]),
+                face([apex, a, c], [(1, 2), (0, 2), (2, 0)]),
+            ],
+            free: Vec::new(),
+            cavity: Vec::new(),
+            horizon: Vec::new(),
+            crossings: Vec::new(),
+        }
+    }
+
+    #[inline]
+    pub(crate) fn face(&self, id: FaceId) -> &Face<T> {
+        &self.faces[id as usize]
+    }
+
+    /// How many face slots there are, dead ones included.
+    pub(crate) fn slots(&self) -> usize {
+        self.faces.len()
+    }
+
+    /// The faces of the surface with their numbers.
+    pub(crate) fn alive(&self) -> impl Iterator<Item = (FaceId, &Face<T>)> {
+        (0..).zip(&self.faces).filter(|(_, face)| face.is_alive())
+    }
+
+    /// Replaces the faces around `start` for which `conflicts` holds by a fan
+    /// from the new vertex `apex` to their horizon; returns one of the new faces.
+    ///
+    /// The conflicting faces must form a disk that holds `start`. They are
+    /// crossed depth-first and counter-clockwise, so that the horizon's edges
+    /// come out in cyclic order: each starts where the last one ended.
+    pub(crate) fn insert(
+        &mut self,
+        apex: Vertex,
+        start: FaceId,
+        mut conflicts: impl FnMut(&Face<T>) -> bool,
+        data: impl Fn([Vertex; 3]) -> T,
+    ) -> Result<FaceId, TryReserveError> {
+        self.find_cavity(start, &mut conflicts)?;
+        self.fill_cavity(apex, data)
+    }
+
+    fn find_cavity(
+        &mut self,
+        start: FaceId,
+        conflicts: &mut impl FnMut(&Face<T>) -> bool,
+    ) -> Result<(), TryReserveError> {
+        self.cavity.clear();
+        self.horizon.clear();
+        self.crossings.clear();
+        self.enter(start)?;
+        let [e0, e1, e2] = [0, 1, 2].map(|edge| HalfEdge::new(start, edge));
+        self.crossings.extend([e2, e1, e0]);
+        while let Some(crossing) = self.crossings.pop() {
+            // Faces of the cavity are dead from when they are entered, but keep
+            // their other indices, which are needed until the fan is built.
+            let from = &self.faces[crossing.face() as usize];
+            let twin = from.twins[crossing.edge()];
+            let across = &self.faces[twin.face() as usize];
+            if !across.is_alive() {
+                continue;
+            }
+            if conflicts(across) {
+                self.enter(twin.face())?;
+                self.crossings.push(twin.next().next());
+                self.crossings.push(twin.next());
+            } else {
+                // The edge as the face across sees it runs the other way.
+                let edge = twin.edge();
+                let tail = across.vertices[(edge + 1) % 3];
+                let head = across.vertices[edge];
+                self.horizon.try_reserve(1)?;
+                self.horizon.push((tail, head, twin));
+            }
+        }
+        Ok(())
+    }
+
+    /// Moves a face from the surface to the cavity.
+    fn enter(&mut self, face: FaceId) -> Result<(), TryReserveError> {
+        self.cavity.try_reserve(1)?;
+        self.crossings.try_reserve(3)?;
+        self.cavity.push(face);
+        self.faces[face as usize].vertices[0] = NONE;
+        Ok(())
+    }
+
+    /// Builds the fan in the cavity's own slots, then in free ones, then in new ones.
+    fn fill_cavity(
+        &mut self,
+        apex: Vertex,
+        data: impl Fn([Vertex; 3]) -> T,
+    ) -> Result<FaceId, TryReserveError> {
+        let count = self.horizon.len();
+        debug_assert!(count >= 3);
+        while self.cavity.len() < count {
+            let slot = match self.free.pop() {
+                Some(slot) => slot,
+                None => {
+                    self.faces.try_reserve(1)?;
+                    self.cavity.try_reserve(1)?;
+                    // Any dead face will do; it is overwritten below.
+                    self.faces.push(self.faces[self.cavity[0] as usize]);
+                    (self.faces.len() - 1) as FaceId
+                }
+            };
+            self.cavity.push(slot);
+        }
+        for i in 0..count {
+            let (tail, head, outside) = self.horizon[i];
+            let slot = self.cavity[i];
+            let next = self.cavity[if i + 1 == count { 0 } else { i + 1 }];
+            let previous = self.cavity[if i == 0 { count - 1 } else { i - 1 }];
+            let vertices = [tail, head, apex];
+            self.faces[slot as usize] = Face {
+                vertices,
+                twins: [outside, HalfEdge::new(next, 2), HalfEdge::new(previous, 1)],
+                data: data(vertices),
+            };
+            self.faces[outside.face() as usize].twins[outside.edge()] = HalfEdge::new(slot, 0);
+        }
+        // Vertices vanished with the cavity: fewer faces are needed than were there.
+        let spare = self.cavity.len() - count;
+        self.free.try_reserve(spare)?;
+        self.free.extend(self.cavity.drain(count..));
+        Ok(self.cavity[count - 1])
+    }
+}

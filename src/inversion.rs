@@ -1,0 +1,141 @@
+//! Spherical flipping (paper §3, eq. 1): points move along their rays from the
+//! viewpoint C to the far side of a sphere of radius R around it, nearest farthest.
+//!
+//! ```text
+//!   before                          after
+//!   C ·  ·· near ··  far   |R       C            | far ·· near        2R
+//!     |----d---->|                  |------------2R − d---->|
+//! ```
+
+use glam::DVec3;
+
+use crate::cloud::Position;
+use crate::error::Error;
+
+/// The flip around one viewpoint, with one fixed sequence of operations, so
+/// that every platform rounds alike: v = p − C, d = √(vx² + vy² + vz²),
+/// s = (2R − d)/d, q = v·s.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Flip {
+    viewpoint: DVec3,
+    radius: f64,
+    /// A power of two that brings |q| near 1 where R is extreme; otherwise 1.
+    scale: f64,
+}
+
+impl Flip {
+    /// `radius` is at least the farthest distance, and 2R is finite.
+    pub(crate) fn new(viewpoint: [f64; 3], radius: f64) -> Self {
+        Self {
+            viewpoint: DVec3::from_array(viewpoint),
+            radius,
+            scale: 1.0,
+        }
+    }
+
+    /// The flipped point q, or `None` for a point at the viewpoint (d = 0 or s
+    /// not finite), which is visible and takes no part in the hull.
+    #[inline]
+    pub(crate) fn apply(&self, p: [f64; 3]) -> Option<DVec3> {
+        let v = DVec3::from_array(p) - self.viewpoint;
+        let d = square_root(v.dot(v));
+        // d = 0 makes s infinite or NaN.
+        let s = (2.0 * self.radius - d) / d;
+        s.is_finite().then(|| v * s * self.scale)
+    }
+
+    /// An upper bound of |q|. Twice 2R, because squares that underflow can make
+    /// d up to a quarter too small.
+    pub(crate) fn reach(&self) -> f64 {
+        4.0 * self.radius * self.scale
+    }
+
+    /// Rescales the flipped cloud by a power of two where R is so extreme that
+    /// floating-point filters would over- or underflow. Signs don't change with
+    /// scale; where the scaling itself would round, it is left out.
+    pub(crate) fn rescaled_for<P: Position>(self, points: &[P]) -> Self {
+        const MODERATE: core::ops::Range<f64> = 1e-30..1e30;
+        if MODERATE.contains(&self.radius) {
+            return self;
+        }
+        let scale = power_of_two_below(1.0 / self.radius);
+        let scaled = Self { scale, ..self };
+        let exact = points
+            .iter()
+            .all(|p| match (self.apply(p.widen()), scaled.apply(p.widen())) {
+                (Some(q), Some(small)) => small / scale == q,
+                _ => true,
+            });
+        if exact { scaled } else { self }
+    }
+}
+
+/// The largest distance from `viewpoint`, 0 for an empty cloud.
+///
+/// # Errors
+/// [`Error::RadiusOverflow`] when a distance exceeds the range of f64.
+pub(crate) fn farthest_distance<P: Position>(
+    points: &[P],
+    viewpoint: [f64; 3],
+) -> Result<f64, Error> {
+    let viewpoint = DVec3::from_array(viewpoint);
+    let mut largest = 0.0f64;
+    for p in points {
+        let v = DVec3::from_array(p.widen()) - viewpoint;
+        largest = largest.max(v.dot(v));
+    }
+    // The root is monotonic, so the root of the largest is the largest root.
+    let farthest = square_root(largest);
+    if farthest.is_finite() {
+        Ok(farthest)
+    } else {
+        Err(Error::RadiusOverflow { farthest })
+    }
+}
+
+/// The correctly rounded square root, from the platform where there is one.
+pub(crate) fn square_root(x: f64) -> f64 {
+    #[cfg(feature = "std")]
+    {
+        x.sqrt()
+    }
+    #[cfg(not(feature = "std"))]
+    {
+        libm::sqrt(x)
+    }
+}
+
+/// The largest normal power of two not above the positive number `x`, or the
+/// smallest normal one.
+fn power_of_two_below(x: f64) -> f64 {
+    f64::from_bits(x.max(f64::MIN_POSITIVE).to_bits() & 0x7ff0_0000_0000_0000)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn glam_keeps_the_fixed_operation_order() {
+        let c = [0.1, -7.3, 1e6];
+        for i in 0..1000 {
+            let i = f64::from(i);
+            let p = [i * 0.37 - 90.0, i * i * 1e-3, 1e6 + i * 1e-3];
+            let (x, y, z) = (p[0] - c[0], p[1] - c[1], p[2] - c[2]);
+            let xx_yy = x * x + y * y;
+            let d = (xx_yy + z * z).sqrt();
+            let s = (2.0 * 5e3 - d) / d;
+            let q = Flip::new(c, 5e3).apply(p).map(|q| q.to_array());
+            assert_eq!(q, Some([x * s, y * s, z * s]));
+        }
+    }
+
+    #[test]
+    fn points_at_the_viewpoint_are_left_out() {
+        let flip = Flip::new([1.0, 2.0, 3.0], 10.0);
+        assert_eq!(flip.apply([1.0, 2.0, 3.0]), None);
+        // d underflows to 0, then s overflows.
+        assert_eq!(Flip::new([0.0; 3], 1.0).apply([1e-200, 0.0, 0.0]), None);
+        assert_eq!(Flip::new([0.0; 3], 1e300).apply([1e-150, 0.0, 0.0]), None);
+    }
+}

@@ -1,0 +1,51 @@
+//! Which points of a point cloud can be seen from here?
+//!
+//! Hidden-point removal without a surface, normals or a screen: the HPR operator
+//! of S. Katz, A. Tal and R. Basri, "Direct Visibility of Point Sets", ACM
+//! Transactions on Graphics 26(3), 2007. Points are flipped on a sphere around
+//! the viewpoint; those on the convex hull of the flipped cloud and the
+//! viewpoint are visible.
+//!
+//! ```
+//! use hidden_point_removal::{Options, PointCloud};
+//!
+//! let positions = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]];
+//! let cloud = PointCloud::new(&positions)?;
+//! let visible = cloud.visible_from([0.0, 0.0, 5.0], &Options::default())?;
+//! assert_eq!(visible.indices(), [0, 2]);
+//! # Ok::<(), hidden_point_removal::Error>(())
+//! ```
+//!
+//! Answers are exact for the flipped points as rounded to `f64`: every sign
+//! comes from an adaptive exact predicate, so native code, WebAssembly and
+//! `no_std` builds give the same bits.
+//!
+//! # Features
+//! - `std` (default): the platform's square root. Without it the crate needs
+//!   only `alloc`; answers are the same.
+//! - `wasm`: the JavaScript bindings of the npm package; not a Rust API.
+#![no_std]
+#![cfg_attr(not(feature = "wasm"), forbid(unsafe_code))]
+#![warn(missing_docs)]
+
+extern crate alloc;
+#[cfg(feature = "std")]
+extern crate std;
+
+mod cloud;
+mod error;
+mod hull;
+mod inversion;
+mod options;
+mod predicates;
+mod radius;
+mod spacing;
+mod spatial;
+mod visibility;
+#[cfg(feature = "wasm")]
+mod wasm;
+
+pub use cloud::{MAX_POINTS, NonFinite, PointCloud, Position};
+pub use error::Error;
+pub use options::{Options, Radius};
+pub use visibility::Visibility;

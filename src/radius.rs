@@ -1,0 +1,79 @@
+//! Choosing the radius R of the flipping sphere (paper §4).
+
+use crate::error::Error;
+use crate::options::Radius;
+use crate::spacing::{Statistics, distance_squared};
+
+/// A radius fit for flipping: at least the farthest distance, 2R finite.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ResolvedRadius {
+    pub radius: f64,
+    /// log₁₀(R ÷ farthest distance), 0 where there is no distance to compare.
+    pub exponent: f64,
+}
+
+/// The largest R the flip accepts: 2R·(1 + rounding) must not overflow.
+const LARGEST: f64 = f64::MAX / 2.0 * (1.0 - 1e-15);
+
+/// Turns the caller's choice into a radius for a cloud with these `statistics`,
+/// whose farthest point from `viewpoint` is at `farthest`.
+pub(crate) fn resolve(
+    choice: Radius,
+    statistics: &Statistics,
+    viewpoint: [f64; 3],
+    farthest: f64,
+) -> Result<ResolvedRadius, Error> {
+    match choice {
+        Radius::Auto => Ok(from_radius(
+            automatic(statistics, viewpoint, farthest),
+            farthest,
+        )),
+        Radius::Absolute(radius) => {
+            if !(radius > 0.0 && radius.is_finite()) {
+                Err(Error::RadiusInvalid { radius })
+            } else if radius < farthest {
+                Err(Error::RadiusTooSmall { radius, farthest })
+            } else if radius > LARGEST {
+                Err(Error::RadiusOverflow { farthest })
+            } else {
+                Ok(from_radius(radius, farthest))
+            }
+        }
+        Radius::Exponent(exponent) => {
+            if !(exponent >= 0.0 && exponent.is_finite()) {
+                return Err(Error::ExponentInvalid { exponent });
+            }
+            if farthest == 0.0 {
+                return Ok(from_radius(0.0, farthest));
+            }
+            let radius = farthest * libm::pow(10.0, exponent);
+            if radius > LARGEST {
+                return Err(Error::RadiusOverflow { farthest });
+            }
+            Ok(ResolvedRadius { radius, exponent })
+        }
+    }
+}
+
+/// R = 5·r²/s, with r the root-mean-square distance of the points from the
+/// viewpoint and s their spacing: a denser or more distant cloud needs a larger
+/// sphere. r² is |C − centroid|² + variance, so no pass over the points is
+/// needed, and it moves smoothly with the viewpoint, inside the cloud too.
+fn automatic(statistics: &Statistics, viewpoint: [f64; 3], farthest: f64) -> f64 {
+    if statistics.count < 2 || statistics.spacing == 0.0 || farthest == 0.0 {
+        return farthest;
+    }
+    let r_squared = distance_squared(viewpoint, statistics.centroid) + statistics.variance;
+    let radius = 5.0 * r_squared / statistics.spacing;
+    // `max` and `min` also turn a NaN from overflowing statistics into a bound.
+    radius.max(farthest).min(LARGEST)
+}
+
+fn from_radius(radius: f64, farthest: f64) -> ResolvedRadius {
+    let exponent = if farthest > 0.0 && radius > farthest {
+        libm::log10(radius / farthest).min(f64::MAX)
+    } else {
+        0.0
+    };
+    ResolvedRadius { radius, exponent }
+}

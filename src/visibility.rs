@@ -1,0 +1,148 @@
+//! From a cloud and a viewpoint to visible indices.
+
+use alloc::vec::Vec;
+
+use crate::cloud::{PointCloud, with_points};
+use crate::error::Error;
+use crate::hull;
+use crate::inversion::{Flip, farthest_distance};
+use crate::options::{Options, Radius};
+use crate::radius::{self, ResolvedRadius};
+
+/// Which points of a cloud are visible from one viewpoint.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Visibility {
+    indices: Vec<u32>,
+    cloud_len: usize,
+    radius: f64,
+    exponent: f64,
+}
+
+impl Visibility {
+    /// The visible points' indices in the cloud, ascending.
+    #[must_use]
+    pub fn indices(&self) -> &[u32] {
+        &self.indices
+    }
+
+    /// The visible points' indices, ascending, by value.
+    #[must_use]
+    pub fn into_indices(self) -> Vec<u32> {
+        self.indices
+    }
+
+    /// How many points are visible.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.indices.len()
+    }
+
+    /// The radius R of the flipping sphere, in the cloud's units; 0 where no
+    /// point is away from the viewpoint.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// log₁₀(R ÷ farthest distance), the paper's parameter.
+    #[must_use]
+    pub fn exponent(&self) -> f64 {
+        self.exponent
+    }
+
+    /// How many hulls were spent choosing R, the final one not counted.
+    #[must_use]
+    pub fn evaluations(&self) -> u32 {
+        // The closed form of `Radius::Auto` needs none.
+        0
+    }
+
+    /// One byte a point of the cloud: 1 visible, 0 hidden.
+    #[must_use]
+    pub fn mask(&self) -> Vec<u8> {
+        let mut mask = alloc::vec![0; self.cloud_len];
+        for &index in &self.indices {
+            mask[index as usize] = 1;
+        }
+        mask
+    }
+}
+
+impl PointCloud {
+    /// Which points are visible from `viewpoint`, given in the cloud's own
+    /// coordinates? The HPR operator, Algorithm 1 of the paper, exact for the
+    /// flipped points as rounded to `f64`.
+    ///
+    /// A point at the viewpoint is visible and hides nothing; of several points
+    /// on one ray only the nearest can be visible; equal points share one answer.
+    ///
+    /// ```
+    /// use hidden_point_removal::{Options, PointCloud};
+    ///
+    /// // Two points on one ray: the nearer hides the farther.
+    /// let cloud = PointCloud::new(&[[0.0, 0.0, 1.0], [0.0, 0.0, 2.0]])?;
+    /// let visible = cloud.visible_from([0.0, 0.0, 5.0], &Options::default())?;
+    /// assert_eq!(visible.indices(), [1]);
+    /// # Ok::<(), hidden_point_removal::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Viewpoint`] for a viewpoint that is not finite; the `Radius…`
+    /// and `Exponent…` errors for a choice of R that does not fit the view;
+    /// [`Error::OutOfMemory`].
+    pub fn visible_from(
+        &self,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        let resolved = self.resolve_radius(viewpoint, options.radius)?;
+        let flip = Flip::new(viewpoint, resolved.radius);
+        let visible = with_points!(self, points => hull::mark_visible(points, &flip)?);
+        Ok(Visibility {
+            indices: self.callers_indices(&visible)?,
+            cloud_len: self.len(),
+            radius: resolved.radius,
+            exponent: resolved.exponent,
+        })
+    }
+
+    /// The radius that [`Radius::Auto`] takes for `viewpoint`, and its exponent.
+    ///
+    /// # Errors
+    /// [`Error::Viewpoint`], [`Error::RadiusOverflow`].
+    pub fn auto_radius(&self, viewpoint: [f64; 3]) -> Result<(f64, f64), Error> {
+        let resolved = self.resolve_radius(viewpoint, Radius::Auto)?;
+        Ok((resolved.radius, resolved.exponent))
+    }
+
+    fn resolve_radius(&self, viewpoint: [f64; 3], choice: Radius) -> Result<ResolvedRadius, Error> {
+        if viewpoint.iter().any(|x| !x.is_finite()) {
+            return Err(Error::Viewpoint { viewpoint });
+        }
+        let farthest = with_points!(self, points => farthest_distance(points, viewpoint)?);
+        radius::resolve(choice, &self.statistics, viewpoint, farthest)
+    }
+
+    /// The caller's indices of the marked distinct points, ascending.
+    fn callers_indices(&self, visible: &[bool]) -> Result<Vec<u32>, Error> {
+        let mut count = 0;
+        let mut marked: Vec<bool> = Vec::new();
+        marked.try_reserve_exact(self.len())?;
+        marked.resize(self.len(), false);
+        for (k, _) in visible.iter().enumerate().filter(|(_, visible)| **visible) {
+            for &index in self.indices_of(k) {
+                marked[index as usize] = true;
+                count += 1;
+            }
+        }
+        let mut indices = Vec::new();
+        indices.try_reserve_exact(count)?;
+        indices.extend(
+            (0..)
+                .zip(&marked)
+                .filter(|(_, marked)| **marked)
+                .map(|(i, _): (u32, _)| i),
+        );
+        Ok(indices)
+    }
+}
