@@ -44,8 +44,8 @@ impl Flip {
         s.is_finite().then(|| v * s * self.scale)
     }
 
-    /// An upper bound of |q|. Twice 2R, because squares that underflow can make
-    /// d up to a quarter too small.
+    /// Twice the largest |q|, which is 2R but for rounding (and at most 2.5 R
+    /// where squares underflow and make d too small).
     pub(crate) fn reach(&self) -> f64 {
         4.0 * self.radius * self.scale
     }

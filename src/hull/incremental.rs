@@ -28,11 +28,12 @@ const ORIGIN: Vertex = 0;
 ///
 /// - n: 4√2·|u||w|, which shifts n·q/D by 2.9 κ;
 /// - D: (4√2 + 3)·|u||w||p|, which shifts m·q by 4.4 κ·(m·q);
-/// - the division and the sum m·q − 1: 4·|m||q| + 1 ≤ 2 κ + 1.
+/// - the division and the sum m·q − 1: 5·|m||q| + 1 ≤ 2.5 κ + 1.
 ///
 /// At m·q near 1 that is below 10 ε (1 + κ); `error` is twice that. Farther
 /// from the plane the error grows with |m·q|, but by less than 10⁻⁸ of it, so
-/// the sign stays right. L is twice the largest |q| or more ([`Flip::reach`]).
+/// the sign stays right, also of the difference of two neighbors' m·q while one
+/// of them is between 0 and 1. L is [`Flip::reach`].
 ///
 /// [`Flip::reach`]: crate::inversion::Flip::reach
 #[derive(Clone, Copy)]
@@ -58,11 +59,12 @@ impl Plane {
         let w = b - p;
         let n = u.cross(w);
         let volume = n.dot(p);
-        let condition = 0.5 * (u.length_squared() + w.length_squared()) * reach / volume;
+        let inverse = 1.0 / volume;
+        let condition = 0.5 * (u.length_squared() + w.length_squared()) * reach * inverse;
         // Written so that a NaN is refused, too.
         if volume > MIN_VOLUME && volume < f64::MAX && condition < MAX_CONDITION {
             Self {
-                m: n / volume,
+                m: n * inverse,
                 error: 20.0 * ROUNDING * (1.0 + condition),
             }
         } else {
@@ -218,71 +220,57 @@ impl Hull {
     /// m·q of all belongs to the face it pierces. If that one has q inside, all have.
     fn locate(&self, q: DVec3, hint: FaceId) -> Location {
         let mut id = self.walkable(hint);
-        let mut entered_by = usize::MAX;
+        let mut height = self.surface.face(id).data.m.dot(q);
         // Walks are short; a cycle through coplanar faces would be the only long one.
         let patience = 1000 + self.surface.slots() / 64;
         for _ in 0..patience {
             let face = self.surface.face(id);
-            let height = face.data.m.dot(q);
-            if height - 1.0 > face.data.error {
+            let error = face.data.error;
+            if height - 1.0 > error {
                 return Location::Outside(id);
             }
-            let crossing = match self.steepest_neighbor(face, height, q, entered_by) {
-                Ok(twin) => twin,
-                Err(in_doubt) => {
-                    let beyond = in_doubt
-                        .into_iter()
-                        .zip(0..)
-                        .find(|&(doubt, edge)| doubt && self.vertices.is_beyond(face, edge, q));
-                    let Some((_, edge)) = beyond else {
-                        return self.decide(id, q);
-                    };
-                    let twin = face.twins[edge];
-                    // The plane of a ghost or edge-on face is the plane of this
-                    // edge and the origin, and q lies strictly beyond it.
-                    if !self.vertices.is_outer(self.surface.face(twin.face())) {
-                        return Location::Outside(twin.face());
-                    }
-                    twin
+            let mut steepest = id;
+            let mut steepest_height = f64::NEG_INFINITY;
+            let mut steepest_error = 0.0;
+            let mut bound = f64::NEG_INFINITY;
+            for twin in face.twins {
+                let neighbor = &self.surface.face(twin.face()).data;
+                let h = neighbor.m.dot(q);
+                bound = bound.max(h + neighbor.error);
+                if h > steepest_height {
+                    steepest = twin.face();
+                    steepest_height = h;
+                    steepest_error = neighbor.error;
                 }
-            };
-            id = crossing.face();
-            entered_by = crossing.edge();
+            }
+            if steepest_height - height > steepest_error + error {
+                id = steepest;
+                height = steepest_height;
+            } else if height > 0.0 && bound < height - error {
+                // All three neighbors are certainly lower.
+                return self.decide(id, q);
+            } else if let Some(twin) = self.crossed_edge(face, q) {
+                id = twin.face();
+                let face = self.surface.face(id);
+                // The plane of a ghost or edge-on face is the plane of this
+                // edge and the origin, and q lies strictly beyond it.
+                if !self.vertices.is_outer(face) {
+                    return Location::Outside(id);
+                }
+                height = face.data.m.dot(q);
+            } else {
+                return self.decide(id, q);
+            }
         }
         self.search(q, id)
     }
 
-    /// The neighbor with the largest m·q, if any is certainly larger than
-    /// `height`, this face's own; else which edges need an exact test.
-    #[inline]
-    fn steepest_neighbor(
-        &self,
-        face: &Face<Plane>,
-        height: f64,
-        q: DVec3,
-        entered_by: usize,
-    ) -> Result<HalfEdge, [bool; 3]> {
-        let mut steepest = None;
-        let mut largest_gain = 0.0;
-        let mut in_doubt = [false; 3];
-        for edge in 0..3 {
-            if edge == entered_by {
-                continue;
-            }
-            let twin = face.twins[edge];
-            let neighbor = &self.surface.face(twin.face()).data;
-            let gain = neighbor.m.dot(q) - height;
-            let error = neighbor.error + face.data.error;
-            if gain > error {
-                if gain > largest_gain {
-                    largest_gain = gain;
-                    steepest = Some(twin);
-                }
-            } else if gain >= -error || height <= 0.0 {
-                in_doubt[edge] = true;
-            }
-        }
-        steepest.ok_or(in_doubt)
+    /// Exactly, for near-ties: an edge of `face` beyond which the ray of `q` passes.
+    #[cold]
+    fn crossed_edge(&self, face: &Face<Plane>, q: DVec3) -> Option<HalfEdge> {
+        (0..3)
+            .find(|&edge| self.vertices.is_beyond(face, edge, q))
+            .map(|edge| face.twins[edge])
     }
 
     /// Decides for the face that the ray of `q` pierces.
