@@ -80,18 +80,21 @@ impl fmt::Display for Error {
                 write!(f, "the viewpoint must be finite, got {viewpoint:?}")
             }
             Self::RadiusInvalid { radius } => {
-                write!(f, "radius must be finite and positive, got {radius}")
+                write!(f, "radius must be finite and positive, got {radius:?}")
             }
             Self::RadiusTooSmall { radius, farthest } => write!(
                 f,
-                "radius {radius} is smaller than the distance of the farthest point, {farthest}"
+                "radius {radius:?} is smaller than the distance of the farthest point, {farthest:?}"
             ),
             Self::RadiusOverflow { farthest } => write!(
                 f,
-                "the farthest distance ({farthest}) or twice the radius exceeds the range of f64"
+                "the farthest distance ({farthest:?}) or twice the radius exceeds the range of f64"
             ),
             Self::ExponentInvalid { exponent } => {
-                write!(f, "exponent must be finite and at least 0, got {exponent}")
+                write!(
+                    f,
+                    "exponent must be finite and at least 0, got {exponent:?}"
+                )
             }
             Self::TooManyPoints { count } => write!(
                 f,

@@ -49,3 +49,8 @@ pub use cloud::{MAX_POINTS, NonFinite, PointCloud, Position};
 pub use error::Error;
 pub use options::{Options, Radius};
 pub use visibility::Visibility;
+
+/// The README's Rust snippets, as documentation tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -1,0 +1,23 @@
+import { defineConfig, globalIgnores } from "eslint/config";
+import tseslint from "typescript-eslint";
+
+export default defineConfig(
+  // `src/ts/wasm` is what wasm-bindgen generates.
+  globalIgnores(["dist", "www/dist", "www/public", "target", "src/ts/wasm"]),
+  {
+    files: ["**/*.ts"],
+    extends: [tseslint.configs.strictTypeChecked],
+    languageOptions: { parserOptions: { projectService: true, tsconfigRootDir: import.meta.dirname } },
+    linterOptions: { reportUnusedDisableDirectives: "error" },
+    rules: {
+      // Loops over flat arrays know that the index is in range; the compiler cannot.
+      "@typescript-eslint/no-non-null-assertion": "off",
+      // Numbers read well in messages without `String(…)` around them.
+      "@typescript-eslint/restrict-template-expressions": ["error", { allowNumber: true }],
+    },
+  },
+  {
+    files: ["**/*.mjs"],
+    extends: [tseslint.configs.strict],
+  },
+);

@@ -1,0 +1,42 @@
+import { run } from "../lib/run.js";
+import { BUILD } from "./build.js";
+import type { Check, Outcome } from "./check.js";
+import { FAIL, PASS, checkCommand, sum } from "./check.js";
+
+/** Everything a user of the npm package gets. */
+const WANTED = /^(dist\/.+\.(js|d\.ts|wasm)|README\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
+const INDISPENSABLE = ["dist/index.js", "dist/index.d.ts", "dist/wasm/hpr_bg.wasm", "README.md", "LICENSE-MIT"];
+
+export const packagingChecks: Check[] = [
+  {
+    title: "Packaging: crate",
+    // Builds the crate from what would be uploaded.
+    run: () => checkCommand("cargo", ["package", "--locked", "--allow-dirty"]),
+  },
+  {
+    title: "Packaging: npm package",
+    needs: [BUILD],
+    run: npmPackage,
+  },
+];
+
+async function npmPackage(): Promise<Outcome> {
+  const { ok, output } = await run("npm", ["pack", "--dry-run", "--json", "--loglevel=error"], { show: "nothing" });
+  if (!ok) {
+    console.log(output);
+    return FAIL;
+  }
+  const files = filesIn(output);
+  const unwanted = files.filter((file) => !WANTED.test(file));
+  const missing = INDISPENSABLE.filter((file) => !files.includes(file));
+  if (unwanted.length > 0) console.log(`Would be published, but should not: ${unwanted.join(", ")}`);
+  if (missing.length > 0) console.log(`Would not be published, but should: ${missing.join(", ")}`);
+  console.log(`${files.length} files`);
+  return sum([unwanted.length === 0 ? PASS : FAIL, missing.length === 0 ? PASS : FAIL]);
+}
+
+function filesIn(output: string): string[] {
+  const json = output.slice(output.indexOf("["), output.lastIndexOf("]") + 1);
+  const [pack] = JSON.parse(json) as { files: { path: string }[] }[];
+  return pack?.files.map((file) => file.path) ?? [];
+}

@@ -1,0 +1,35 @@
+import { existsSync } from "node:fs";
+import { homedir } from "node:os";
+import { delimiter, join } from "node:path";
+
+/** The repository: this file runs as target/scripts/lib/paths.js. */
+export const root = join(import.meta.dirname, "..", "..", "..");
+
+/** Where wasm-pack and the wasm-bindgen commands are installed. */
+export const toolsRoot = join(root, "target", "tools");
+const toolsBin = join(toolsRoot, "bin");
+
+/** A path inside the repository. */
+export function inRoot(...parts: string[]): string {
+  return join(root, ...parts);
+}
+
+/**
+ * The environment every command runs in. Our own tools come first, so that a
+ * wasm-bindgen of another version elsewhere on the PATH does no harm; rustup's
+ * directory comes last, for shells that were opened before rustup was installed.
+ */
+export function environment(extra: Record<string, string> = {}): NodeJS.ProcessEnv {
+  const cargoBin = join(process.env["CARGO_HOME"] ?? join(homedir(), ".cargo"), "bin");
+  const path = [toolsBin, inRoot("node_modules", ".bin"), process.env["PATH"] ?? "", cargoBin];
+  return { ...process.env, ...extra, PATH: path.join(delimiter) };
+}
+
+/** The full path of a command, or undefined where it is not on the PATH. */
+export function findOnPath(command: string): string | undefined {
+  const suffixes = process.platform === "win32" ? [".exe", ".cmd"] : [""];
+  return (environment()["PATH"] ?? "")
+    .split(delimiter)
+    .flatMap((directory) => suffixes.map((suffix) => join(directory, command + suffix)))
+    .find((file) => existsSync(file));
+}

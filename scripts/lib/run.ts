@@ -1,0 +1,73 @@
+import { spawn } from "node:child_process";
+import type { SpawnOptions } from "node:child_process";
+
+import { environment, root } from "./paths.js";
+
+export interface RunResult {
+  ok: boolean;
+  /** Standard output and standard error, as they came. */
+  output: string;
+}
+
+interface RunOptions {
+  env?: Record<string, string>;
+  /**
+   * Where the output is shown while it comes. Progress (the default) goes to
+   * standard error, so that standard output holds results only.
+   */
+  show?: "progress" | "results" | "nothing";
+}
+
+/** Runs a command in the repository's root and waits for it; never throws. */
+export function run(command: string, args: string[], options: RunOptions = {}): Promise<RunResult> {
+  const show = options.show ?? "progress";
+  const screen = { progress: process.stderr, results: process.stdout, nothing: undefined }[show];
+  // Colors are lost when a command writes to a pipe, unless it is asked for them.
+  const color = screen?.isTTY ? { CARGO_TERM_COLOR: "always", FORCE_COLOR: "1" } : {};
+  const settings: SpawnOptions = {
+    cwd: root,
+    env: environment({ ...color, ...options.env }),
+    stdio: ["ignore", "pipe", "pipe"],
+    shell: process.platform === "win32",
+  };
+  return new Promise((resolve) => {
+    const child = spawn(command, args, settings);
+    let output = "";
+    const take = (chunk: Buffer): void => {
+      output += chunk.toString();
+      screen?.write(chunk);
+    };
+    child.stdout?.on("data", take);
+    child.stderr?.on("data", take);
+    child.on("error", (error) => {
+      resolve({ ok: false, output: output + error.message });
+    });
+    child.on("close", (code) => {
+      resolve({ ok: code === 0, output });
+    });
+  });
+}
+
+/** Runs a command without showing its output; true where it succeeded. */
+export async function succeeds(command: string, ...args: string[]): Promise<boolean> {
+  return (await run(command, args, { show: "nothing" })).ok;
+}
+
+/** Runs a command, and stops everything with a plain message where it fails. */
+export async function mustRun(
+  command: string,
+  args: string[],
+  whatFailed: string,
+  options: RunOptions = {},
+): Promise<void> {
+  const result = await run(command, args, options);
+  if (!result.ok) throw new Problem(`${whatFailed} (the messages above say why).`);
+}
+
+/** Says what is being done, beside the commands' own progress. */
+export function say(message: string): void {
+  console.error(message);
+}
+
+/** Something the person at the keyboard can act on: shown without a stack. */
+export class Problem extends Error {}

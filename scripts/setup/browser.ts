@@ -1,0 +1,49 @@
+import { existsSync } from "node:fs";
+
+import { chromium } from "playwright-core";
+
+import { findOnPath } from "../lib/paths.js";
+import { Problem, run, say } from "../lib/run.js";
+import { aptInstall, canInstallOnDebian } from "./debian.js";
+
+const COMMANDS = ["chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
+
+/**
+ * The Chromium the page is tested in: the one HPR_CHROMIUM names, one on the
+ * PATH, or Playwright's own; where there is none, one is installed.
+ */
+export async function setUpBrowser(): Promise<string> {
+  const named = process.env["HPR_CHROMIUM"];
+  if (named !== undefined) {
+    if (existsSync(named)) return named;
+    throw new Problem(`HPR_CHROMIUM names ${named}, which does not exist.`);
+  }
+  const found = findBrowser();
+  if (found !== undefined) return found;
+
+  say("Installing Chromium for the page's tests (a minute or less)…");
+  await installBrowser();
+  const installed = findBrowser();
+  if (installed !== undefined) return installed;
+  throw new Problem(
+    "Chromium could not be installed (the messages above say why). " +
+      "Install Chromium or Chrome yourself, or name one in HPR_CHROMIUM.",
+  );
+}
+
+function findBrowser(): string | undefined {
+  const onPath = COMMANDS.map(findOnPath).find((path) => path !== undefined);
+  if (onPath !== undefined) return onPath;
+  const playwrights = chromium.executablePath();
+  return existsSync(playwrights) ? playwrights : undefined;
+}
+
+async function installBrowser(): Promise<void> {
+  // Debian's own package comes first where it can be had: it brings every
+  // library it needs along, and is reachable where downloads are not.
+  if (canInstallOnDebian() && (await aptInstall("chromium"))) return;
+  // Playwright may ask for a password to install libraries with, so it only
+  // gets to do that where it need not ask.
+  const libraries = process.getuid?.() === 0 ? ["--with-deps"] : [];
+  await run("playwright-core", ["install", ...libraries, "--no-shell", "chromium"]);
+}

@@ -1,0 +1,18 @@
+import { setUpLinker } from "./linker.js";
+import { BARE_TARGET, WASM_TARGET, setUpComponents, setUpRust, setUpTarget } from "./rust.js";
+import { setUpWasmTools } from "./tools.js";
+
+/** Everything a build needs; what is there already is left alone. */
+export async function setUpForBuild(): Promise<void> {
+  await setUpRust();
+  await setUpLinker();
+  await setUpTarget(WASM_TARGET);
+  await setUpWasmTools();
+}
+
+/** What the checks need besides (the browser is set up by the tests that open it). */
+export async function setUpForChecks(): Promise<void> {
+  await setUpForBuild();
+  await setUpTarget(BARE_TARGET);
+  await setUpComponents();
+}

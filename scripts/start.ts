@@ -1,0 +1,36 @@
+// npm start: builds, then serves the demo page until it is stopped. PORT is honored.
+// Changes to the page show at once; changes to the package, after a restart.
+import { createServer } from "vite";
+
+import { buildPackage } from "./build/package.js";
+import { buildWasm } from "./build/wasm.js";
+import { command } from "./lib/command.js";
+import { inRoot } from "./lib/paths.js";
+import { Problem } from "./lib/run.js";
+import { setUpForBuild } from "./setup/setup.js";
+
+await command(async () => {
+  const { port, asked } = chosenPort();
+  await setUpForBuild();
+  await buildWasm();
+  await buildPackage();
+  // A port that was asked for is used or refused; the usual one may give way to the next.
+  // Named by number: with `localhost` some systems would listen on IPv6 only.
+  const settings = { host: "127.0.0.1", port, strictPort: asked };
+  const server = await createServer({ root: inRoot("www"), configLoader: "runner", server: settings });
+  try {
+    await server.listen();
+  } catch (error) {
+    await server.close();
+    throw new Problem(`The page cannot be served: ${String(error)}`);
+  }
+  console.log(`\nThe demo page: http://localhost:${server.config.server.port}/ (Ctrl+C stops it)`);
+});
+
+function chosenPort(): { port: number; asked: boolean } {
+  const text = process.env["PORT"] ?? "";
+  if (text === "") return { port: 5173, asked: false };
+  const port = Number(text);
+  if (Number.isInteger(port) && port > 0 && port < 65536) return { port, asked: true };
+  throw new Problem(`PORT is ${text}, which is no port number (1 to 65535).`);
+}

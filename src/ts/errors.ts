@@ -1,0 +1,68 @@
+/** The stable short names of everything that can go wrong. */
+export type HprErrorCode =
+  | "positions-length"
+  | "positions-type"
+  | "non-finite"
+  | "viewpoint"
+  | "radius"
+  | "option"
+  | "too-large"
+  | "not-initialised"
+  | "load"
+  | "disposed"
+  | "internal";
+
+/**
+ * The one error type of this package. Branch on {@link HprError.code}; the
+ * message is for people and names the offending value.
+ *
+ * | code | when |
+ * |---|---|
+ * | `positions-length` | the length is not a multiple of the stride |
+ * | `positions-type` | not a Float32Array, a Float64Array or an array of numbers |
+ * | `non-finite` | NaN or an infinity among the positions |
+ * | `viewpoint` | not three finite numbers |
+ * | `radius` | not finite, not positive, smaller than the farthest distance, or overflowing |
+ * | `option` | unknown, out of range, or excluding another one |
+ * | `too-large` | more points than supported, or memory refused; everything else goes on working |
+ * | `not-initialised` | a synchronous call before `init()` has resolved |
+ * | `load` | the wasm (or the worker) could not be fetched, compiled or started |
+ * | `disposed` | use after `dispose()` |
+ * | `internal` | a trap inside the wasm, or a worker that died |
+ */
+export class HprError extends Error {
+  override readonly name = "HprError";
+  /** What went wrong, as a stable short name. */
+  readonly code: HprErrorCode;
+
+  constructor(code: HprErrorCode, message: string, options?: { cause?: unknown }) {
+    super(message, options);
+    this.code = code;
+  }
+}
+
+/** A refused value as it appears in a message. */
+export function describe(value: unknown): string {
+  switch (typeof value) {
+    case "string":
+      return JSON.stringify(value.length > 40 ? `${value.slice(0, 40)}…` : value);
+    case "bigint":
+      return `${value}n`;
+    case "number":
+    case "boolean":
+    case "undefined":
+      return String(value);
+    case "object":
+      return value === null ? "null" : `an object of type ${typeTag(value)}`;
+    default:
+      return `a ${typeof value}`;
+  }
+}
+
+/**
+ * The built-in type of a value, such as `"Float32Array"`. Unlike `instanceof`
+ * it also recognizes values from another frame or context.
+ */
+export function typeTag(value: unknown): string {
+  return Object.prototype.toString.call(value).slice("[object ".length, -1);
+}

@@ -1,0 +1,106 @@
+import { HprError, type HprErrorCode } from "./errors.js";
+import * as glue from "./wasm/hpr_bg.js";
+
+/** What the wasm exports, as the generated glue presents it. */
+export type Bindings = Omit<typeof glue, "__wbg_set_wasm">;
+
+/**
+ * One running copy of the wasm. The glue serves one copy at a time, so at most
+ * one is alive: after a trap its memory may be in any state, and it is given up
+ * with every cloud in it.
+ */
+export class Instance {
+  readonly module: WebAssembly.Module;
+  readonly #exports: WebAssembly.Exports;
+  #trap: unknown;
+
+  constructor(module: WebAssembly.Module, exports: WebAssembly.Exports) {
+    this.module = module;
+    this.#exports = exports;
+  }
+
+  get alive(): boolean {
+    return current === this;
+  }
+
+  /** Calls into the wasm; whatever comes out of it is an `HprError`. */
+  call<T>(use: (bindings: Bindings) => T): T {
+    if (!this.alive) {
+      throw new HprError(
+        "internal",
+        "this cloud was lost when the wasm instance trapped; call init() again and build a new one",
+        { cause: this.#trap },
+      );
+    }
+    try {
+      return use(glue);
+    } catch (thrown) {
+      if (isFailure(thrown)) {
+        throw new HprError(thrown.code, thrown.message);
+      }
+      this.#trap = thrown;
+      current = undefined;
+      detachMemory(this.#exports);
+      throw new HprError(
+        "internal",
+        `the wasm instance trapped (${String(thrown)}) and was given up with all of its clouds; ` +
+          "call init() again to go on with new ones",
+        { cause: thrown },
+      );
+    }
+  }
+}
+
+let current: Instance | undefined;
+
+/** What the wasm module imports. */
+export const imports: WebAssembly.Imports = { "./hpr_bg.js": glue };
+
+/** The instance that is alive, if any. */
+export function runningInstance(): Instance | undefined {
+  return current;
+}
+
+/** The instance that is alive. */
+export function requireInstance(): Instance {
+  if (current === undefined) {
+    throw new HprError(
+      "not-initialised",
+      "the wasm is not running yet: await init(), or call initSync() with its bytes, first",
+    );
+  }
+  return current;
+}
+
+/** Makes an instance the one that the glue serves. None may be alive. */
+export function startInstance(module: WebAssembly.Module, { exports }: WebAssembly.Instance): void {
+  glue.__wbg_set_wasm(exports);
+  try {
+    (exports["__wbindgen_start"] as () => void)();
+  } catch (cause) {
+    detachMemory(exports);
+    throw cause;
+  }
+  current = new Instance(module, exports);
+}
+
+/**
+ * The glue keeps views of the memory it last used and renews them only once
+ * their buffer is detached, which every `grow` does, even one by nothing.
+ */
+function detachMemory({ memory }: WebAssembly.Exports): void {
+  if (memory instanceof WebAssembly.Memory) {
+    memory.grow(0);
+  }
+}
+
+/** An error the bindings threw on purpose, having cleaned up behind them. */
+function isFailure(thrown: unknown): thrown is { code: HprErrorCode; message: string } {
+  return (
+    typeof thrown === "object" &&
+    thrown !== null &&
+    !(thrown instanceof Error) &&
+    "code" in thrown &&
+    "message" in thrown
+  );
+}

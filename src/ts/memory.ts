@@ -1,0 +1,10 @@
+import { HprError } from "./errors.js";
+
+/** Runs an allocation in JavaScript's memory; one that is refused becomes `too-large`. */
+export function allocating<T>(what: string, allocate: () => T): T {
+  try {
+    return allocate();
+  } catch (cause) {
+    throw new HprError("too-large", `no memory for ${what}`, { cause });
+  }
+}

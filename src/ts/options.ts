@@ -1,0 +1,134 @@
+import { describe, HprError } from "./errors.js";
+
+/** How a cloud's positions are to be read. */
+export interface PointCloudOptions {
+  /** Coordinates of a point; 3 is the only dimension supported. Default 3. */
+  dimension?: number;
+  /**
+   * Numbers from the start of one point to the start of the next, at least 3;
+   * the first three are x, y and z, the others are skipped. Default 3.
+   */
+  stride?: number;
+  /**
+   * What becomes of points with a NaN or infinite coordinate: `"error"` refuses
+   * the cloud, `"skip"` keeps their indices, but they are never visible and hide
+   * nothing. Default `"error"`.
+   */
+  nonFinite?: "error" | "skip";
+}
+
+/**
+ * How one view is computed. At most one of `radius` and `exponent` may be given.
+ */
+export interface VisibilityOptions {
+  /**
+   * R, the radius of the sphere that points are flipped about (paper, §3.1,
+   * eq. 1), in the cloud's units: finite, and at least the distance of the
+   * farthest point. `"auto"`, the default, derives it from the cloud's spacing
+   * and the viewpoint.
+   */
+  radius?: number | "auto";
+  /** R = farthest distance · 10^exponent, the paper's own parameter; at least 0. */
+  exponent?: number;
+  /** The kernel that flips the points; spherical flipping is the only one supported. */
+  inversion?: "spherical";
+}
+
+/** Options of a cloud, checked and complete. */
+export interface CloudSettings {
+  stride: number;
+  skipNonFinite: boolean;
+}
+
+/** Options of a view, checked; neither field means the automatic radius. */
+export interface ViewSettings {
+  radius?: number;
+  exponent?: number;
+}
+
+export const CLOUD_OPTIONS = ["dimension", "stride", "nonFinite"] as const;
+export const VIEW_OPTIONS = ["radius", "exponent", "inversion"] as const;
+
+/**
+ * The options that were really given, those that are `undefined` left out.
+ * Refuses what is in none of the groups of names.
+ */
+export function givenOptions(
+  options: unknown,
+  ...groups: readonly (readonly string[])[]
+): Record<string, unknown> {
+  if (options === undefined) {
+    return {};
+  }
+  if (typeof options !== "object" || options === null) {
+    throw new HprError("option", `the options must be an object, got ${describe(options)}`);
+  }
+  const known = groups.flat();
+  const given = Object.entries(options).filter(([, value]) => value !== undefined);
+  for (const [name] of given) {
+    if (!known.includes(name)) {
+      throw new HprError("option", `unknown option ${describe(name)}; known are ${known.join(", ")}`);
+    }
+  }
+  return Object.fromEntries(given);
+}
+
+/** Those of the given options that are in one group of names. */
+export function pick(
+  given: Record<string, unknown>,
+  names: readonly string[],
+): Record<string, unknown> {
+  return Object.fromEntries(Object.entries(given).filter(([name]) => names.includes(name)));
+}
+
+export function cloudSettings(given: Record<string, unknown>): CloudSettings {
+  const { dimension = 3, stride = 3, nonFinite = "error" } = given;
+  if (dimension !== 3) {
+    throw new HprError("option", `dimension must be 3, the only one supported, got ${describe(dimension)}`);
+  }
+  if (!isStride(stride)) {
+    throw new HprError("option", `stride must be an integer of at least 3, got ${describe(stride)}`);
+  }
+  if (nonFinite !== "error" && nonFinite !== "skip") {
+    throw new HprError("option", `nonFinite must be "error" or "skip", got ${describe(nonFinite)}`);
+  }
+  return { stride, skipNonFinite: nonFinite === "skip" };
+}
+
+/** Types only: ranges are the core's to check, which knows the distances. */
+export function viewSettings(given: Record<string, unknown>): ViewSettings {
+  const { radius, exponent, inversion = "spherical" } = given;
+  if (radius !== undefined && exponent !== undefined) {
+    throw new HprError("option", "radius and exponent exclude each other; give one of the two");
+  }
+  if (inversion !== "spherical") {
+    throw new HprError(
+      "option",
+      `inversion must be "spherical", the only one supported, got ${describe(inversion)}`,
+    );
+  }
+  if (typeof exponent === "number") {
+    return { exponent };
+  }
+  if (exponent !== undefined) {
+    throw new HprError("option", `exponent must be a number, got ${describe(exponent)}`);
+  }
+  if (typeof radius === "number") {
+    return { radius };
+  }
+  if (radius !== undefined && radius !== "auto") {
+    throw new HprError("option", `radius must be a number or "auto", got ${describe(radius)}`);
+  }
+  return {};
+}
+
+/** The rule of `autoRadius`. */
+export function checkRule(rule: unknown): void {
+  if (rule !== undefined && rule !== "auto") {
+    throw new HprError("option", `the rule must be "auto", the only one supported, got ${describe(rule)}`);
+  }
+}
+
+function isStride(value: unknown): value is number {
+  return Number.isSafeInteger(value) && (value as number) >= 3;
+}

@@ -1,0 +1,209 @@
+/// <reference lib="esnext.disposable" preserve="true" />
+import { addDisposeSymbol } from "../dispose-symbol.js";
+import { describe, HprError } from "../errors.js";
+import { moduleForWorker } from "../loader.js";
+import { allocating } from "../memory.js";
+import {
+  checkRule,
+  CLOUD_OPTIONS,
+  type CloudSettings,
+  cloudSettings,
+  givenOptions,
+  pick,
+  type PointCloudOptions,
+  VIEW_OPTIONS,
+  viewSettings,
+  type VisibilityOptions,
+} from "../options.js";
+import { isFloatArray, type Positions, readPositions, readViewpoint } from "../positions.js";
+import { type ChosenRadius, type Visibility, VisibilityAnswer } from "../visibility.js";
+import { abortError, readSignal, untilAborted } from "./abort.js";
+import { RequestQueue } from "./request-queue.js";
+
+/** How a cloud is brought to its worker. */
+export interface WorkerPointCloudOptions extends PointCloudOptions {
+  /**
+   * Gives the positions' whole ArrayBuffer away instead of copying them: the
+   * caller's array, and every other view of that buffer, is empty afterwards.
+   * Only for a Float32Array or Float64Array that is not in shared memory.
+   * Default false.
+   */
+  transfer?: boolean;
+  /** Gives up, with an `AbortError`, when it aborts before the cloud is ready. */
+  signal?: AbortSignal;
+}
+
+/** How one view is computed, and when it need not be. */
+export interface WorkerVisibilityOptions extends VisibilityOptions {
+  /**
+   * For a viewpoint that moves: while the request still waits for its turn, a
+   * newer one with `latest` takes its place, and it is rejected with an
+   * `AbortError`. One that is being computed is finished. Default false.
+   */
+  latest?: boolean;
+  /** Rejects with an `AbortError` when it aborts before the answer is there. */
+  signal?: AbortSignal;
+}
+
+/**
+ * A point cloud in a worker of its own, with the methods and the answers of
+ * `PointCloud`; each returns a promise. Nothing needs to be initialized, except
+ * that a wasm file in an unusual place is named by calling `init()` first: what
+ * runs in the page is shared with the worker.
+ *
+ * If the worker dies, whatever is pending and all later calls are rejected with
+ * `internal`. No copy of the positions is kept, so the cloud is lost; a new one
+ * gets a new worker.
+ */
+export class WorkerPointCloud {
+  /** How many points were given, skipped ones included; also the length of a mask. */
+  readonly length: number;
+  /** How many points are left out because a coordinate is not finite. */
+  readonly skipped: number;
+  /** The same as {@link WorkerPointCloud.dispose}, on platforms that have `Symbol.dispose`. */
+  declare readonly [Symbol.dispose]: () => void;
+
+  readonly #queue: RequestQueue;
+
+  static {
+    addDisposeSymbol(this.prototype);
+  }
+
+  private constructor(queue: RequestQueue, info: { length: number; skipped: number }) {
+    this.#queue = queue;
+    this.length = info.length;
+    this.skipped = info.skipped;
+    unreachable.register(this, queue, this);
+  }
+
+  /**
+   * Starts a worker and prepares positions, in any units, in it.
+   *
+   * @param positions x, y, z of one point after another, copied before this returns.
+   * @throws HprError (as a rejection) `option`, `positions-type`,
+   *   `positions-length`, `non-finite`, `too-large`, `load`, `internal`.
+   */
+  static async create(
+    positions: Positions,
+    options?: WorkerPointCloudOptions,
+  ): Promise<WorkerPointCloud> {
+    const given = givenOptions(options, CLOUD_OPTIONS, ["transfer", "signal"]);
+    const settings = cloudSettings(pick(given, CLOUD_OPTIONS));
+    const transfer = readFlag(given, "transfer");
+    const signal = readSignal(given["signal"]);
+    if (signal?.aborted === true) {
+      throw abortError("aborted by its signal");
+    }
+    const own = toOwn(positions, settings.stride, transfer);
+    const queue = new RequestQueue();
+    try {
+      return await untilAborted(signal, WorkerPointCloud.#build(queue, own, settings));
+    } catch (error) {
+      void queue.close(abortError("the cloud was not created"));
+      throw error;
+    }
+  }
+
+  static async #build(
+    queue: RequestQueue,
+    positions: Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>,
+    settings: CloudSettings,
+  ): Promise<WorkerPointCloud> {
+    const [module] = await Promise.all([moduleForWorker(), queue.start()]);
+    const transfer = [positions.buffer];
+    const info = await queue.ask({ kind: "create", module, positions, settings }, { transfer });
+    return new WorkerPointCloud(queue, info);
+  }
+
+  /**
+   * Which points can be seen from a viewpoint; see `PointCloud.visibleFrom`.
+   * Requests are answered in order.
+   *
+   * @param viewpoint x, y, z in the cloud's units.
+   * @throws HprError (as a rejection) `viewpoint`, `option`, `radius`,
+   *   `too-large`, `disposed`, `internal`.
+   */
+  async visibleFrom(
+    viewpoint: ArrayLike<number>,
+    options?: WorkerVisibilityOptions,
+  ): Promise<Visibility> {
+    const given = givenOptions(options, VIEW_OPTIONS, ["latest", "signal"]);
+    const latest = readFlag(given, "latest");
+    const signal = readSignal(given["signal"]);
+    const request = {
+      kind: "visibleFrom" as const,
+      viewpoint: readViewpoint(viewpoint),
+      settings: viewSettings(pick(given, VIEW_OPTIONS)),
+    };
+    const asked = this.#queue.ask(request, { latest, signal, owner: this });
+    return new VisibilityAnswer(await untilAborted(signal, asked), this.length);
+  }
+
+  /**
+   * The radius that {@link WorkerPointCloud.visibleFrom} chooses for a viewpoint by itself.
+   *
+   * @throws HprError (as a rejection) `viewpoint`, `option`, `radius`, `disposed`, `internal`.
+   */
+  async autoRadius(viewpoint: ArrayLike<number>, rule?: "auto"): Promise<ChosenRadius> {
+    checkRule(rule);
+    const request = { kind: "autoRadius" as const, viewpoint: readViewpoint(viewpoint) };
+    return this.#queue.ask(request, { owner: this });
+  }
+
+  /**
+   * Ends the worker, which gives all of its memory back; resolves when it has
+   * ended. Whatever is pending is rejected with `disposed`. May be called twice.
+   */
+  async dispose(): Promise<void> {
+    unreachable.unregister(this);
+    await this.#queue.close(new HprError("disposed", "this cloud has been disposed of"));
+  }
+}
+
+/** Clouds that were never disposed of: a worker would outlive them. */
+const unreachable = new FinalizationRegistry<RequestQueue>((queue) => {
+  void queue.close(new HprError("disposed", "this cloud has been disposed of"));
+});
+
+/** Positions that may be moved to a worker: the caller's buffer itself only if it is given away. */
+function toOwn(
+  positions: Positions,
+  stride: number,
+  transfer: boolean,
+): Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer> {
+  const numbers = readPositions(positions, stride);
+  if (transfer) {
+    return giveAway(positions, numbers);
+  }
+  // What was read from an array of numbers is new, and ours already.
+  return isFloatArray(positions)
+    ? allocating(`a copy of ${numbers.length} coordinates`, () => numbers.slice())
+    : (numbers as Float64Array<ArrayBuffer>);
+}
+
+/** Moved at once, so that nothing written afterwards is part of the cloud. */
+function giveAway(
+  positions: Positions,
+  numbers: Float32Array | Float64Array,
+): Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer> {
+  try {
+    if (numbers !== positions) {
+      throw new TypeError("an array of numbers has no buffer");
+    }
+    return structuredClone(numbers, { transfer: [numbers.buffer as ArrayBuffer] }) as
+      | Float32Array<ArrayBuffer>
+      | Float64Array<ArrayBuffer>;
+  } catch (cause) {
+    throw new HprError("option", `transfer is not possible for these positions: ${String(cause)}`, {
+      cause,
+    });
+  }
+}
+
+function readFlag(given: Record<string, unknown>, name: string): boolean {
+  const value = given[name] ?? false;
+  if (typeof value !== "boolean") {
+    throw new HprError("option", `${name} must be true or false, got ${describe(value)}`);
+  }
+  return value;
+}

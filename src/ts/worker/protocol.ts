@@ -1,0 +1,39 @@
+import { HprError, type HprErrorCode } from "../errors.js";
+import type { CloudSettings, ViewSettings } from "../options.js";
+import type { ChosenRadius } from "../visibility.js";
+
+/**
+ * What the page and its worker say to each other. The worker says `"ready"`
+ * once; after that, every request gets one reply before the next is sent. The
+ * first request is `create`: a worker holds one cloud.
+ */
+export type Request =
+  | {
+      kind: "create";
+      module: WebAssembly.Module;
+      positions: Float32Array | Float64Array;
+      settings: CloudSettings;
+    }
+  | { kind: "visibleFrom"; viewpoint: Viewpoint; settings: ViewSettings }
+  | { kind: "autoRadius"; viewpoint: Viewpoint };
+
+export type Viewpoint = [x: number, y: number, z: number];
+
+/** The value of a reply, by the kind of its request. */
+export interface Replies {
+  create: { length: number; skipped: number };
+  visibleFrom: ChosenRadius & { indices: Uint32Array };
+  autoRadius: ChosenRadius;
+}
+
+export type Reply<Value = unknown> =
+  | { value: Value }
+  | { error: { code: HprErrorCode; message: string } };
+
+export const READY = "ready";
+
+/** An error as it crosses the border, where its class would be lost. */
+export function failedReply(thrown: unknown): Reply<never> {
+  const code = thrown instanceof HprError ? thrown.code : "internal";
+  return { error: { code, message: thrown instanceof Error ? thrown.message : String(thrown) } };
+}

@@ -1,0 +1,135 @@
+import { HprError } from "../errors.js";
+import { abortError } from "./abort.js";
+import { READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { startThread, type Thread, type ThreadEvents } from "./thread.js";
+
+type Kind = Request["kind"];
+
+interface AskOptions {
+  transfer?: ArrayBuffer[];
+  /** May be dropped when a newer request of this sort comes before it has started. */
+  latest?: boolean;
+  signal?: AbortSignal | undefined;
+  /** Kept from being collected while the request is pending. */
+  owner?: object;
+}
+
+interface Pending extends AskOptions {
+  request: Request;
+  resolve: (value: unknown) => void;
+  reject: (reason: Error) => void;
+}
+
+/**
+ * The requests to one thread, which sees one at a time: what still waits here
+ * can be dropped without having cost anything.
+ */
+export class RequestQueue implements ThreadEvents {
+  #thread: Thread | undefined;
+  #ready = false;
+  #running: Pending | undefined;
+  #waiting: Pending[] = [];
+  #closed: Error | undefined;
+
+  async start(): Promise<void> {
+    const thread = await startThread(this);
+    if (this.#closed !== undefined) {
+      await thread.end();
+      throw this.#closed;
+    }
+    this.#thread = thread;
+    this.#sendNext();
+  }
+
+  ask<K extends Kind>(
+    request: Extract<Request, { kind: K }>,
+    options: AskOptions = {},
+  ): Promise<Replies[K]> {
+    return new Promise<unknown>((resolve, reject) => {
+      if (this.#closed !== undefined) {
+        reject(this.#closed);
+        return;
+      }
+      if (options.latest === true) {
+        this.#dropOvertaken();
+      }
+      this.#waiting.push({ ...options, request, resolve, reject });
+      this.#sendNext();
+    }) as Promise<Replies[K]>;
+  }
+
+  /** Ends the thread; what is pending, and what still comes, is rejected with `reason`. */
+  async close(reason: Error): Promise<void> {
+    this.#closed = reason;
+    const pending = this.#running === undefined ? this.#waiting : [this.#running, ...this.#waiting];
+    this.#running = undefined;
+    this.#waiting = [];
+    for (const { reject } of pending) {
+      reject(reason);
+    }
+    const thread = this.#thread;
+    this.#thread = undefined;
+    await thread?.end();
+  }
+
+  message(message: unknown): void {
+    if (message === READY) {
+      this.#ready = true;
+    } else {
+      this.#settle(message as Reply);
+    }
+    this.#sendNext();
+  }
+
+  died(cause: unknown): void {
+    const reason = cause instanceof Error ? cause.message : String(cause);
+    void this.close(
+      this.#ready
+        ? new HprError("internal", `the worker died: ${reason}; create a new cloud to go on`, { cause })
+        : new HprError(
+            "load",
+            `the worker could not be started: ${reason}. ` +
+              "Serve worker-thread.js of this package from the origin of the page",
+            { cause },
+          ),
+    );
+  }
+
+  #settle(reply: Reply): void {
+    const request = this.#running;
+    this.#running = undefined;
+    if ("value" in reply) {
+      request?.resolve(reply.value);
+      return;
+    }
+    const error = new HprError(reply.error.code, reply.error.message);
+    request?.reject(error);
+    if (error.code === "internal") {
+      // Its instance is lost, and with it the cloud.
+      void this.close(error);
+    }
+  }
+
+  #sendNext(): void {
+    if (this.#thread === undefined || !this.#ready || this.#running !== undefined) {
+      return;
+    }
+    let next: Pending | undefined;
+    do {
+      next = this.#waiting.shift();
+    } while (next?.signal?.aborted === true);
+    this.#running = next;
+    this.#thread.setBusy(next !== undefined);
+    if (next !== undefined) {
+      this.#thread.post(next.request, next.transfer ?? []);
+    }
+  }
+
+  #dropOvertaken(): void {
+    const overtaken = this.#waiting.filter(({ latest }) => latest === true);
+    this.#waiting = this.#waiting.filter(({ latest }) => latest !== true);
+    for (const { reject } of overtaken) {
+      reject(abortError("overtaken by a newer request"));
+    }
+  }
+}

@@ -1,0 +1,63 @@
+import { PointCloud } from "../cloud.js";
+import { initSync } from "../loader.js";
+import { importNodeModule } from "../node.js";
+import { failedReply, READY, type Replies, type Reply, type Request } from "./protocol.js";
+
+type Post = (message: unknown, transfer: ArrayBuffer[]) => void;
+
+let cloud: PointCloud | undefined;
+
+function answer(request: Request): Replies[Request["kind"]] {
+  if (request.kind === "create") {
+    initSync(request.module);
+    const { stride, skipNonFinite } = request.settings;
+    const nonFinite = skipNonFinite ? "skip" : "error";
+    cloud = new PointCloud(request.positions, { stride, nonFinite });
+    return { length: cloud.length, skipped: cloud.skipped };
+  }
+  if (cloud === undefined) {
+    throw new Error(`${request.kind} came before create`);
+  }
+  if (request.kind === "autoRadius") {
+    return cloud.autoRadius(request.viewpoint);
+  }
+  const { indices, radius, exponent, evaluations } = cloud.visibleFrom(
+    request.viewpoint,
+    request.settings,
+  );
+  return { indices, radius, exponent, evaluations };
+}
+
+/** Every request gets a reply, whatever is thrown. */
+function serve(request: Request, post: Post): void {
+  let reply: Reply<Replies[Request["kind"]]>;
+  try {
+    reply = { value: answer(request) };
+  } catch (thrown) {
+    reply = failedReply(thrown);
+  }
+  const moved =
+    "value" in reply && "indices" in reply.value ? [reply.value.indices.buffer as ArrayBuffer] : [];
+  post(reply, moved);
+}
+
+async function serveNode(): Promise<void> {
+  const { parentPort } =
+    await importNodeModule<typeof import("node:worker_threads")>("node:worker_threads");
+  const post: Post = (message, transfer) => parentPort?.postMessage(message, transfer);
+  parentPort?.on("message", (request: Request) => {
+    serve(request, post);
+  });
+  post(READY, []);
+}
+
+const scope = globalThis as unknown as { postMessage?: Post };
+if (scope.postMessage === undefined) {
+  void serveNode();
+} else {
+  const post: Post = scope.postMessage.bind(globalThis);
+  addEventListener("message", (event: MessageEvent<Request>) => {
+    serve(event.data, post);
+  });
+  post(READY, []);
+}

@@ -1,0 +1,272 @@
+//! The JavaScript bindings: check, copy in, call, copy out, map errors.
+//!
+//! Clouds stay on this side and JavaScript holds a number for each, so that a
+//! number from an instance that was given up can never free memory of the next
+//! one. Typed arrays arrive as JavaScript objects, never as `&[f32]`: the glue
+//! would copy those before any code here runs, and trap where memory is refused.
+
+use alloc::boxed::Box;
+use alloc::string::{String, ToString};
+use alloc::vec::Vec;
+use core::cell::RefCell;
+use std::panic;
+use std::thread_local;
+
+use js_sys::{Float32Array, Float64Array, Uint32Array};
+use serde::{Deserialize, Serialize};
+use wasm_bindgen::prelude::*;
+
+use crate::{Error, NonFinite, Options, PointCloud, Position, Radius};
+
+/// Coordinates copied from JavaScript at a time, where they are not packed.
+const BLOCK_POINTS: usize = 4096;
+
+thread_local! {
+    static CLOUDS: RefCell<Vec<Option<PointCloud>>> = const { RefCell::new(Vec::new()) };
+}
+
+#[wasm_bindgen]
+extern "C" {
+    // js-sys has this constructor too, but there a refused allocation would
+    // unwind through the frames of this instance instead of being an error.
+    #[wasm_bindgen(js_name = Uint32Array)]
+    type FallibleUint32Array;
+    #[wasm_bindgen(catch, constructor, js_class = "Uint32Array")]
+    fn new(length: u32) -> Result<FallibleUint32Array, JsValue>;
+}
+
+/// What JavaScript receives as an exception: the fields of an `HprError`.
+#[derive(Serialize)]
+struct Failure {
+    code: &'static str,
+    message: String,
+}
+
+impl From<Error> for Failure {
+    fn from(error: Error) -> Self {
+        Self {
+            code: error.code(),
+            message: error.to_string(),
+        }
+    }
+}
+
+impl From<Failure> for JsValue {
+    fn from(failure: Failure) -> Self {
+        to_js(&failure)
+    }
+}
+
+/// Chosen by the caller and checked for type on the JavaScript side.
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+struct CloudOptions {
+    stride: usize,
+    skip_non_finite: bool,
+}
+
+/// At most one of the two; neither is `Radius::Auto`.
+#[derive(Deserialize)]
+struct ViewOptions {
+    radius: Option<f64>,
+    exponent: Option<f64>,
+}
+
+#[derive(Serialize)]
+struct CloudInfo {
+    handle: u32,
+    length: usize,
+    skipped: usize,
+}
+
+#[derive(Serialize)]
+struct Answer {
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    indices: Uint32Array,
+    radius: f64,
+    exponent: f64,
+    evaluations: u32,
+}
+
+#[derive(Serialize)]
+struct ChosenRadius {
+    radius: f64,
+    exponent: f64,
+    evaluations: u32,
+}
+
+/// Runs once for each instance: a panic says what happened before it traps.
+#[wasm_bindgen(start)]
+fn start() {
+    panic::set_hook(Box::new(|info| {
+        web_sys::console::error_1(&info.to_string().into());
+    }));
+}
+
+/// A cloud of single-precision positions, kept in single precision.
+#[wasm_bindgen(js_name = createCloudF32, unchecked_return_type = "CloudInfo")]
+pub fn create_cloud_f32(
+    positions: &Float32Array,
+    #[wasm_bindgen(unchecked_param_type = "CloudOptions")] options: JsValue,
+) -> Result<JsValue, JsValue> {
+    create_cloud(positions.length(), options, |start, block| {
+        positions
+            .subarray(start, start + block.len() as u32)
+            .copy_to(block);
+    })
+}
+
+/// A cloud of double-precision positions.
+#[wasm_bindgen(js_name = createCloudF64, unchecked_return_type = "CloudInfo")]
+pub fn create_cloud_f64(
+    positions: &Float64Array,
+    #[wasm_bindgen(unchecked_param_type = "CloudOptions")] options: JsValue,
+) -> Result<JsValue, JsValue> {
+    create_cloud(positions.length(), options, |start, block| {
+        positions
+            .subarray(start, start + block.len() as u32)
+            .copy_to(block);
+    })
+}
+
+/// Frees a cloud; its number may be given to another one afterwards.
+#[wasm_bindgen(js_name = freeCloud)]
+pub fn free_cloud(handle: u32) {
+    CLOUDS.with_borrow_mut(|clouds| clouds[handle as usize] = None);
+}
+
+/// Which points are visible from (x, y, z)?
+#[wasm_bindgen(js_name = visibleFrom, unchecked_return_type = "Answer")]
+pub fn visible_from(
+    handle: u32,
+    x: f64,
+    y: f64,
+    z: f64,
+    #[wasm_bindgen(unchecked_param_type = "ViewOptions")] options: JsValue,
+) -> Result<JsValue, JsValue> {
+    let options: ViewOptions = serde_wasm_bindgen::from_value(options)?;
+    let radius = match (options.radius, options.exponent) {
+        (Some(radius), _) => Radius::Absolute(radius),
+        (None, Some(exponent)) => Radius::Exponent(exponent),
+        (None, None) => Radius::Auto,
+    };
+    let visibility = with_cloud(handle, |cloud| {
+        cloud.visible_from([x, y, z], &Options { radius })
+    })?;
+    Ok(to_js(&Answer {
+        indices: copy_out(visibility.indices())?,
+        radius: visibility.radius(),
+        exponent: visibility.exponent(),
+        evaluations: visibility.evaluations(),
+    }))
+}
+
+/// The radius that `visibleFrom` chooses by itself for (x, y, z).
+#[wasm_bindgen(js_name = autoRadius, unchecked_return_type = "ChosenRadius")]
+pub fn auto_radius(handle: u32, x: f64, y: f64, z: f64) -> Result<JsValue, JsValue> {
+    let (radius, exponent) = with_cloud(handle, |cloud| cloud.auto_radius([x, y, z]))?;
+    Ok(to_js(&ChosenRadius {
+        radius,
+        exponent,
+        // A closed form: no hull is built for it.
+        evaluations: 0,
+    }))
+}
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &str = r#"
+/** Makes all of the functions below call into this instance. */
+export function __wbg_set_wasm(exports: WebAssembly.Exports): void;
+interface CloudOptions { stride: number; skipNonFinite: boolean }
+interface CloudInfo { handle: number; length: number; skipped: number }
+interface ViewOptions { radius?: number; exponent?: number }
+interface ChosenRadius { radius: number; exponent: number; evaluations: number }
+interface Answer extends ChosenRadius { indices: Uint32Array }
+"#;
+
+fn create_cloud<T: Copy + Default>(
+    length: u32,
+    options: JsValue,
+    copy_block: impl Fn(u32, &mut [T]),
+) -> Result<JsValue, JsValue>
+where
+    [T; 3]: Position,
+{
+    let options: CloudOptions = serde_wasm_bindgen::from_value(options)?;
+    let non_finite = if options.skip_non_finite {
+        NonFinite::Skip
+    } else {
+        NonFinite::Error
+    };
+    let positions = copy_in(length as usize, options.stride, copy_block).map_err(Failure::from)?;
+    let cloud = PointCloud::with_non_finite(&positions, non_finite).map_err(Failure::from)?;
+    let (length, skipped) = (cloud.len(), cloud.skipped());
+    let handle = keep(cloud).map_err(Failure::from)?;
+    Ok(to_js(&CloudInfo {
+        handle,
+        length,
+        skipped,
+    }))
+}
+
+/// The first three of every `stride` values, `length` being a multiple of it.
+fn copy_in<T: Copy + Default>(
+    length: usize,
+    stride: usize,
+    copy_block: impl Fn(u32, &mut [T]),
+) -> Result<Vec<[T; 3]>, Error> {
+    let count = length / stride;
+    let mut positions: Vec<[T; 3]> = Vec::new();
+    positions.try_reserve_exact(count)?;
+    if stride == 3 {
+        positions.resize(count, [T::default(); 3]);
+        copy_block(0, positions.as_flattened_mut());
+        return Ok(positions);
+    }
+    let mut block = Vec::new();
+    block.try_reserve_exact(count.min(BLOCK_POINTS).saturating_mul(stride))?;
+    for start in (0..count).step_by(BLOCK_POINTS) {
+        let points = BLOCK_POINTS.min(count - start);
+        block.resize(points * stride, T::default());
+        copy_block((start * stride) as u32, &mut block);
+        positions.extend(block.chunks_exact(stride).map(|p| [p[0], p[1], p[2]]));
+    }
+    Ok(positions)
+}
+
+/// The caller's own copy: views of this memory would die when it grows.
+fn copy_out(indices: &[u32]) -> Result<Uint32Array, Failure> {
+    let copy = FallibleUint32Array::new(indices.len() as u32).map_err(|_| Error::OutOfMemory)?;
+    let copy: Uint32Array = copy.unchecked_into();
+    copy.copy_from(indices);
+    Ok(copy)
+}
+
+fn keep(cloud: PointCloud) -> Result<u32, Error> {
+    CLOUDS.with_borrow_mut(|clouds| {
+        let free = clouds.iter().position(Option::is_none);
+        let slot = free.unwrap_or(clouds.len());
+        if free.is_none() {
+            clouds.try_reserve(1)?;
+            clouds.push(None);
+        }
+        clouds[slot] = Some(cloud);
+        Ok(slot as u32)
+    })
+}
+
+fn with_cloud<T>(
+    handle: u32,
+    query: impl FnOnce(&PointCloud) -> Result<T, Error>,
+) -> Result<T, Failure> {
+    CLOUDS.with_borrow(|clouds| {
+        let cloud = clouds[handle as usize]
+            .as_ref()
+            .expect("JavaScript never uses a cloud it has freed");
+        query(cloud).map_err(Failure::from)
+    })
+}
+
+fn to_js(value: &impl Serialize) -> JsValue {
+    serde_wasm_bindgen::to_value(value).unwrap_or_else(JsValue::from)
+}

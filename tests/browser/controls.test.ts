@@ -1,0 +1,136 @@
+import { expect, test } from "vitest";
+import {
+  answerInNode,
+  differentPixels,
+  drag,
+  dragonPositions,
+  openReady,
+  picture,
+  refiltered,
+  settled,
+  status,
+} from "./support.js";
+
+const SAMPLE = "?sample=dragon_res3";
+
+test("changing the field of view re-filters nothing, by slider, wheel or key", async () => {
+  const page = await openReady(SAMPLE);
+  const before = await settled(page);
+  const pictures = [await picture(page)];
+
+  await page.getByLabel("Field of view", { exact: true }).fill("20");
+  pictures.push(await picture(page));
+  const box = (await page.locator("#view").boundingBox())!;
+  await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+  await page.keyboard.down("Alt");
+  await page.mouse.wheel(0, 400);
+  await page.keyboard.up("Alt");
+  pictures.push(await picture(page));
+  await page.locator("#view").focus();
+  await page.keyboard.press("]");
+  pictures.push(await picture(page));
+
+  for (let i = 1; i < pictures.length; i++) {
+    expect(await differentPixels(page, pictures[i - 1]!, pictures[i]!)).toBeGreaterThan(500);
+  }
+  expect(await settled(page)).toEqual(before);
+});
+
+test("zooming, panning and keys move the viewpoint", async () => {
+  const page = await openReady(SAMPLE);
+  let last = await settled(page);
+  const moves: [string, () => Promise<void>][] = [
+    ["wheel", () => page.mouse.wheel(0, 300)],
+    ["right drag", () => drag(page, 60, 30, "right")],
+    ["arrow key", () => page.keyboard.press("ArrowLeft")],
+    ["Shift and arrow key", () => page.keyboard.press("Shift+ArrowUp")],
+    ["plus key", () => page.keyboard.press("+")],
+  ];
+  await drag(page, 0, 0);
+  await page.locator("#view").focus();
+  for (const [name, move] of moves) {
+    await move();
+    const now = await refiltered(page, last);
+    expect(now.viewpoint, name).not.toEqual(last.viewpoint);
+    last = now;
+  }
+  expect(last).toMatchObject(await answerInNode(dragonPositions("_res3"), last));
+
+  const home = await status(await openReady(SAMPLE));
+  await page.getByRole("button", { name: "Reset view" }).click();
+  expect((await refiltered(page, last)).viewpoint).toEqual(home.viewpoint);
+});
+
+test("keys in the panel's fields do not move the camera", async () => {
+  const page = await openReady(SAMPLE);
+  const before = await settled(page);
+  await page.getByLabel("Point size").focus();
+  await page.keyboard.press("ArrowRight");
+  expect(await settled(page)).toEqual(before);
+});
+
+test("hidden points are off, dimmed or shown, and that re-filters nothing", async () => {
+  const page = await openReady(SAMPLE);
+  const before = await settled(page);
+  const off = await picture(page);
+  await page.getByRole("radio", { name: "Dimmed" }).check();
+  const dimmed = await picture(page);
+  await page.getByRole("radio", { name: "Shown" }).check();
+  const shown = await picture(page);
+  for (const [a, b] of [[off, dimmed], [dimmed, shown], [off, shown]] as const) {
+    expect(await differentPixels(page, a, b)).toBeGreaterThan(2000);
+  }
+  await page.locator("#view").focus();
+  await page.keyboard.press("h");
+  await expect.poll(() => page.getByRole("radio", { name: "Off" }).isChecked()).toBe(true);
+  expect(await differentPixels(page, off, await picture(page))).toBe(0);
+  expect(await settled(page)).toEqual(before);
+});
+
+test("a frozen viewpoint stays while the camera flies around, and is let go again", async () => {
+  const page = await openReady(SAMPLE);
+  const before = await settled(page);
+  const freeze = page.getByRole("button", { name: "Freeze viewpoint" });
+  await freeze.click();
+  expect(await freeze.getAttribute("aria-pressed")).toBe("true");
+  await expect.poll(async () => (await status(page)).sentence).toMatch(/were visible from the frozen viewpoint/);
+  const there = await picture(page);
+  await drag(page, 200, 0);
+  const frozen = await settled(page);
+  expect(frozen.refilters).toBe(before.refilters);
+  expect(frozen.viewpoint).toEqual(before.viewpoint);
+  expect(await differentPixels(page, there, await picture(page))).toBeGreaterThan(2000);
+
+  await freeze.click();
+  const free = await refiltered(page, frozen);
+  expect(free.viewpoint).not.toEqual(before.viewpoint);
+  expect(free).toMatchObject(await answerInNode(dragonPositions("_res3"), free));
+});
+
+test("the exponent is automatic, then the slider's, then automatic again", async () => {
+  const page = await openReady(SAMPLE);
+  const automatic = await settled(page);
+  const slider = page.getByLabel("Exponent", { exact: true });
+  const button = page.getByRole("button", { name: "Automatic" });
+  expect(Number(await slider.inputValue())).toBeCloseTo(automatic.exponent, 1);
+
+  await slider.fill("2");
+  const manual = await refiltered(page, automatic);
+  expect(manual.exponent).toBeCloseTo(2, 12);
+  expect(manual.visible).not.toBe(automatic.visible);
+  expect(manual).toMatchObject(await answerInNode(dragonPositions("_res3"), manual, { exponent: 2 }));
+  expect(await button.getAttribute("aria-pressed")).toBe("false");
+
+  await button.click();
+  const again = await refiltered(page, manual);
+  expect(again).toMatchObject({ exponent: automatic.exponent, visible: automatic.visible });
+});
+
+test("a larger point size covers more of the picture", async () => {
+  const page = await openReady(SAMPLE);
+  const before = await settled(page);
+  const small = await picture(page);
+  await page.getByLabel("Point size").fill("4");
+  expect(await differentPixels(page, small, await picture(page))).toBeGreaterThan(2000);
+  expect(await settled(page)).toEqual(before);
+});

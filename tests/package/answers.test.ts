@@ -1,0 +1,251 @@
+import { runInNewContext } from "node:vm";
+import { setFlagsFromString } from "node:v8";
+import { describe, expect, it } from "vitest";
+
+import { bumpySphere, bunny, cappedWasm, freshPackage, pointsAt, randomNumbers, readyPackage } from "./support";
+
+const { PointCloud, hiddenPointRemoval } = await readyPackage();
+
+const sphere = bumpySphere(1, 2000);
+const viewpoints = [[0, 0, 5], [3, -2, 1], [0.1, 0.2, -0.1], [-40, 7, 1000]];
+const bunnyPositions = bunny();
+
+describe("an answer", () => {
+  const cloud = new PointCloud(sphere);
+  const visible = cloud.visibleFrom([0, 0, 5]);
+
+  it("has ascending indices in range, and as many as it counts", () => {
+    expect(visible.indices).toBeInstanceOf(Uint32Array);
+    expect(visible.count).toBe(visible.indices.length);
+    expect(visible.count).toBeGreaterThan(100);
+    expect(visible.count).toBeLessThan(1900);
+    expect(visible.indices.every((index, i) => i === 0 || index > visible.indices[i - 1]!)).toBe(true);
+    expect(visible.indices.at(-1)).toBeLessThan(cloud.length);
+  });
+
+  it("says how the points were flipped", () => {
+    const farthest = Math.max(
+      ...Array.from({ length: 2000 }, (_, i) =>
+        Math.hypot(sphere[3 * i]!, sphere[3 * i + 1]!, sphere[3 * i + 2]! - 5),
+      ),
+    );
+    expect(visible.inversion).toBe("spherical");
+    expect(visible.evaluations).toBe(0);
+    expect(visible.radius).toBeGreaterThanOrEqual(farthest);
+    expect(visible.exponent).toBeCloseTo(Math.log10(visible.radius / farthest), 10);
+    expect(cloud.autoRadius([0, 0, 5])).toEqual({
+      radius: visible.radius,
+      exponent: visible.exponent,
+      evaluations: 0,
+    });
+    expect(cloud.autoRadius([0, 0, 5], "auto").radius).toBe(visible.radius);
+
+    const chosen = cloud.visibleFrom([0, 0, 5], { exponent: 2 });
+    expect(chosen.radius).toBeCloseTo(100 * farthest, 8);
+    const given = cloud.visibleFrom([0, 0, 5], { radius: chosen.radius });
+    expect(given.radius).toBe(chosen.radius);
+    expect(given.indices).toEqual(chosen.indices);
+    expect(cloud.visibleFrom([0, 0, 5], { radius: "auto", inversion: "spherical" }).indices).toEqual(visible.indices);
+  });
+
+  it("has a mask that says the same", () => {
+    const mask = visible.mask();
+    expect(mask).toBeInstanceOf(Uint8Array);
+    expect(mask).toHaveLength(cloud.length);
+    expect([...mask.keys()].filter((i) => mask[i] === 1)).toEqual([...visible.indices]);
+    expect(mask.every((byte) => byte === 0 || byte === 1)).toBe(true);
+
+    const target = new Uint8Array(2003).fill(9);
+    visible.maskInto(target);
+    expect(target.subarray(0, 2000)).toEqual(mask);
+    expect([...target.subarray(2000)]).toEqual([9, 9, 9]);
+  });
+
+  it("writes its indices where it is told", () => {
+    const target = new Uint32Array(visible.count + 1).fill(77);
+    expect(visible.indicesInto(target)).toBe(visible.count);
+    expect(target.subarray(0, visible.count)).toEqual(visible.indices);
+    expect(target.at(-1)).toBe(77);
+  });
+
+  it("is the caller's own copy, through other queries, growing memory and disposal", () => {
+    const mortal = new PointCloud(sphere);
+    const kept = mortal.visibleFrom([0, 0, 5]);
+    const before = [...kept.indices];
+    expect(kept.indices.byteLength).toBe(kept.indices.buffer.byteLength);
+    mortal.visibleFrom([5, 0, 0]).indices.fill(0);
+    new PointCloud(bumpySphere(2, 400_000)).dispose();
+    mortal.dispose();
+    expect([...kept.indices]).toEqual(before);
+    expect(kept.mask().reduce((sum, byte) => sum + byte, 0)).toBe(before.length);
+  });
+
+  it("is the same in one call", () => {
+    for (const viewpoint of viewpoints) {
+      const once = hiddenPointRemoval(sphere, viewpoint, { exponent: 2 });
+      expect(once).toEqual(cloud.visibleFrom(viewpoint, { exponent: 2 }));
+      expect(once.mask()).toEqual(cloud.visibleFrom(viewpoint, { exponent: 2 }).mask());
+    }
+    expect(hiddenPointRemoval([1, 2, NaN, 0, 0, 1], [0, 0, 5], { nonFinite: "skip" }).indices).toEqual(
+      Uint32Array.of(1),
+    );
+  });
+
+  it("is empty for an empty cloud", () => {
+    for (const nothing of [[], new Float32Array(0), new Float64Array(0)]) {
+      const none = new PointCloud(nothing);
+      expect(none.length).toBe(0);
+      expect(none.visibleFrom([0, 0, 5])).toMatchObject({ count: 0, radius: 0, exponent: 0 });
+      expect(none.visibleFrom([0, 0, 5]).mask()).toHaveLength(0);
+    }
+  });
+});
+
+describe("positions", () => {
+  const doubles = Float64Array.from(sphere);
+  const shared = new Float32Array(new SharedArrayBuffer(sphere.byteLength));
+  shared.set(sphere);
+  const strided = (stride: number, Type: typeof Float32Array | typeof Float64Array) => {
+    const all = new Type((sphere.length / 3) * stride).fill(NaN);
+    for (let i = 0; i < sphere.length / 3; i++) all.set(sphere.subarray(3 * i, 3 * i + 3), i * stride);
+    return all;
+  };
+  const forms: [name: string, positions: ArrayLike<number>, stride?: number][] = [
+    ["a Float64Array", doubles],
+    ["an array of numbers", [...sphere]],
+    ["an array-like object", Object.assign({ length: sphere.length }, sphere)],
+    ["a view into a larger buffer", new Float32Array([9, 9, ...sphere, 9]).subarray(2, -1)],
+    ["shared memory", shared],
+    ["a typed array of another context", runInNewContext("Float32Array.from(sphere)", { sphere }) as Float32Array],
+    ["a Float32Array with stride 4", strided(4, Float32Array), 4],
+    ["a Float64Array with stride 7", strided(7, Float64Array), 7],
+    ["an array with stride 5", [...strided(5, Float32Array)], 5],
+  ];
+  it.each(forms)("give the same answers as %s", (_, positions, stride) => {
+    const [plain, other] = [new PointCloud(sphere), new PointCloud(positions, { stride: stride ?? 3 })];
+    expect(other.length).toBe(plain.length);
+    for (const viewpoint of viewpoints) {
+      expect(other.visibleFrom(viewpoint)).toEqual(plain.visibleFrom(viewpoint));
+    }
+  });
+
+  it("are read in blocks where they have a stride, none of them lost", () => {
+    const large = bumpySphere(5, 10_000);
+    const padded = new Float32Array(40_000);
+    for (let i = 0; i < 10_000; i++) padded.set([...large.subarray(3 * i, 3 * i + 3), NaN], 4 * i);
+    expect(hiddenPointRemoval(padded, [0, 3, 0], { stride: 4 })).toEqual(hiddenPointRemoval(large, [0, 3, 0]));
+  });
+
+  it("are copied: what is written later changes nothing", () => {
+    const own = sphere.slice();
+    const cloud = new PointCloud(own);
+    const before = cloud.visibleFrom([0, 0, 5]).indices;
+    own.fill(0);
+    expect(cloud.visibleFrom([0, 0, 5]).indices).toEqual(before);
+  });
+
+  it("of an array keep double precision", () => {
+    // In single precision all three would be equal, hence all visible.
+    const behindOneAnother = [0, 0, 1, 0, 0, 1 + 2 ** -40, 0, 0, 1 + 2 ** -39];
+    expect([...hiddenPointRemoval(behindOneAnother, [0, 0, 5], { exponent: 3 }).indices]).toEqual([2]);
+    const rounded = Float32Array.from(behindOneAnother);
+    expect([...hiddenPointRemoval(rounded, [0, 0, 5], { exponent: 3 }).indices]).toEqual([0, 1, 2]);
+  });
+
+  it("that are not finite are skipped on request, indices unshifted", () => {
+    const holes = Float32Array.from([...sphere, NaN, 0, 0, ...sphere, 0, Infinity, 0]);
+    const cloud = new PointCloud(holes, { nonFinite: "skip" });
+    const plain = new PointCloud(sphere).visibleFrom([0, 0, 5]);
+    const visible = cloud.visibleFrom([0, 0, 5]);
+    expect(cloud.length).toBe(4002);
+    expect(cloud.skipped).toBe(2);
+    expect([...visible.indices]).toEqual([...plain.indices, ...plain.indices.map((i) => i + 2001)]);
+    expect(visible.radius).toBe(plain.radius);
+    expect(visible.mask()).toHaveLength(4002);
+  });
+});
+
+describe("a viewpoint", () => {
+  it.each([[new Float32Array([3, -2, 1])], [new Int8Array([3, -2, 1])], [{ 0: 3, 1: -2, 2: 1, length: 3 }]])(
+    "may be any three numbers: %o",
+    (viewpoint) => {
+      const cloud = new PointCloud(sphere);
+      expect(cloud.visibleFrom(viewpoint)).toEqual(cloud.visibleFrom([3, -2, 1]));
+    },
+  );
+});
+
+describe("the bunny", () => {
+  const single = new PointCloud(bunnyPositions);
+  const double = new PointCloud(Float64Array.from(bunnyPositions));
+  const views = [[0, 5, 20], [-15, 4, -3], [0, 30, 0], [-1.5, 5, 0]];
+
+  it.each(views)("looks the same in single and double precision from %d, %d, %d", (...viewpoint) => {
+    const visible = single.visibleFrom(viewpoint);
+    expect(double.visibleFrom(viewpoint)).toEqual(visible);
+    expect(visible.count).toBeGreaterThan(100);
+    for (const exponent of [2, 3, 4]) {
+      expect(double.visibleFrom(viewpoint, { exponent }).indices).toEqual(
+        single.visibleFrom(viewpoint, { exponent }).indices,
+      );
+    }
+  });
+
+  it.each(views)("does not depend on the order of its points, nor on duplicates, from %d, %d, %d", (...viewpoint) => {
+    const random = randomNumbers(7);
+    const order = Array.from({ length: single.length }, (_, i) => ({ i, key: random() }))
+      .sort((a, b) => a.key - b.key)
+      .map(({ i }) => i);
+    order.push(...order.slice(0, 100));
+    const shuffled = new PointCloud(pointsAt(bunnyPositions, order)).visibleFrom(viewpoint);
+    const visible = single.visibleFrom(viewpoint);
+    expect(shuffled.radius).toBe(visible.radius);
+    const mask = visible.mask();
+    expect([...shuffled.mask()]).toEqual(order.map((i) => mask[i]));
+  });
+
+  it.each(views)("is what the visible points of its halves give together, from %d, %d, %d", (...viewpoint) => {
+    const { radius, indices } = single.visibleFrom(viewpoint);
+    const halves = [0, 1].map((half) =>
+      Array.from({ length: single.length }, (_, i) => i).filter((i) => i % 2 === half),
+    );
+    const survivors = halves.flatMap((half) => {
+      const visible = hiddenPointRemoval(pointsAt(bunnyPositions, half), viewpoint, { radius });
+      return [...visible.indices].map((i) => half[i]!);
+    });
+    const merged = hiddenPointRemoval(pointsAt(bunnyPositions, survivors), viewpoint, { radius });
+    expect([...merged.indices].map((i) => survivors[i]!).sort((a, b) => a - b)).toEqual([...indices]);
+  });
+});
+
+describe("memory", () => {
+  // Room for a few clouds of this size at once.
+  const pages = 120;
+  const points = bumpySphere(9, 20_000);
+
+  it("comes back from clouds that are disposed of", async () => {
+    const small = await freshPackage();
+    small.initSync(cappedWasm(pages));
+    for (let i = 0; i < 30; i++) {
+      const cloud = new small.PointCloud(points);
+      expect(cloud.visibleFrom([0, 0, 5]).count).toBeGreaterThan(100);
+      cloud.dispose();
+      small.hiddenPointRemoval(points, [0, 5, 0]);
+    }
+  });
+
+  it("comes back from clouds that nothing refers to any more", async () => {
+    setFlagsFromString("--expose-gc");
+    const collectGarbage = runInNewContext("gc") as () => void;
+    const small = await freshPackage();
+    small.initSync(cappedWasm(pages));
+    for (let i = 0; i < 30; i++) {
+      new small.PointCloud(points);
+      collectGarbage();
+      await new Promise((next) => setTimeout(next));
+    }
+    const hoard: unknown[] = [];
+    const fill = () => { for (let i = 0; i < 30; i++) hoard.push(new small.PointCloud(points)); };
+    expect(fill).toThrow(expect.objectContaining({ code: "too-large" }));
+  });
+});

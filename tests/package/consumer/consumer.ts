@@ -1,0 +1,47 @@
+// What a user writes against the published types; compiled, never run.
+import {
+  hiddenPointRemoval,
+  HprError,
+  type HprErrorCode,
+  init,
+  type InitInput,
+  initSync,
+  PointCloud,
+  type PointCloudOptions,
+  type Visibility,
+  type VisibilityOptions,
+} from "hidden-point-removal";
+import { WorkerPointCloud } from "hidden-point-removal/worker";
+
+const inputs: InitInput[] = ["hpr.wasm", new URL("https://example.org/hpr.wasm"), new Uint8Array(8), new ArrayBuffer(8)];
+const options: VisibilityOptions = { exponent: 3 };
+const reading: PointCloudOptions = { stride: 4, nonFinite: "skip" };
+
+export async function everything(): Promise<HprErrorCode | undefined> {
+  await init();
+  await init(inputs[0]);
+  initSync(new Uint8Array(8));
+  try {
+    using cloud = new PointCloud(new Float32Array(12), reading);
+    const visible: Visibility = cloud.visibleFrom([0, 0, 5], options);
+    const indices: Uint32Array = visible.indices;
+    visible.maskInto(new Uint8Array(cloud.length));
+    const written: number = visible.indicesInto(new Uint32Array(visible.count));
+    const { radius, exponent, evaluations } = cloud.autoRadius(new Float64Array(3));
+    console.log(indices, written, radius, exponent, evaluations, visible.mask(), visible.inversion);
+    console.log(hiddenPointRemoval([1, 2, 3], [0, 0, 5], { radius: 10, ...reading }).count);
+
+    const controller = new AbortController();
+    const remote = await WorkerPointCloud.create([1, 2, 3], { transfer: false, signal: controller.signal });
+    await remote.visibleFrom([0, 0, 5], { latest: true, signal: controller.signal, radius: "auto" });
+    await remote.dispose();
+
+    // @ts-expect-error -- there is no such option
+    cloud.visibleFrom([0, 0, 5], { farness: 3 });
+    // @ts-expect-error -- a string is no list of numbers
+    cloud.visibleFrom("0, 0");
+  } catch (error) {
+    return error instanceof HprError ? error.code : undefined;
+  }
+  return undefined;
+}

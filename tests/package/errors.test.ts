@@ -1,0 +1,197 @@
+import { describe, expect, it } from "vitest";
+
+import { bumpySphere, cappedWasm, freshPackage, problemOf, readyPackage, wasmBytes } from "./support";
+
+const hpr = await readyPackage();
+const { PointCloud, hiddenPointRemoval, HprError } = hpr;
+
+const sphere = bumpySphere(1, 500);
+const farAway = [0, 0, 5];
+const loose = (value: unknown) => value as never;
+const newCloud = (positions: unknown, options?: unknown) => () =>
+  new PointCloud(loose(positions), loose(options));
+const view = (viewpoint: unknown, options?: unknown) => () =>
+  new PointCloud(sphere).visibleFrom(loose(viewpoint), loose(options));
+const autoRadius = (viewpoint: unknown, rule?: unknown) => () =>
+  new PointCloud(sphere).autoRadius(loose(viewpoint), loose(rule));
+
+/** code, what the message names, and a call that fails for it */
+const refusals: [code: string, names: RegExp, call: () => unknown][] = [
+  ["positions-length", /got 4\b.*multiple of 3/, newCloud([1, 2, 3, 4])],
+  ["positions-length", /got 2\b/, newCloud(new Float32Array(2))],
+  ["positions-length", /got 9\b.*multiple of 4/, newCloud(new Float64Array(9), { stride: 4 })],
+
+  ["positions-type", /undefined/, newCloud(undefined)],
+  ["positions-type", /null/, newCloud(null)],
+  ["positions-type", /"1, 2, 3"/, newCloud("1, 2, 3")],
+  ["positions-type", /function/, newCloud(() => 0)],
+  ["positions-type", /Object/, newCloud({})],
+  ["positions-type", /Object/, newCloud({ length: -3 })],
+  ["positions-type", /Int32Array/, newCloud(new Int32Array(3))],
+  ["positions-type", /BigInt64Array/, newCloud(new BigInt64Array(3))],
+  ["positions-type", /DataView/, newCloud(new DataView(new ArrayBuffer(24)))],
+  ["positions-type", /ArrayBuffer/, newCloud(new ArrayBuffer(24))],
+  ["positions-type", /positions\[1\].*"2"/, newCloud([1, "2", 3])],
+  ["positions-type", /positions\[2\].*undefined/, newCloud([1, 2, , 4, 5, 6])],
+  ["positions-type", /positions\[0\].*Array/, newCloud([[1, 2, 3]])],
+  ["positions-type", /positions\[0\].*5n/, newCloud([5n, 5n, 5n])],
+
+  ["non-finite", /\b1 point.*index 1\b/, newCloud([1, 2, 3, NaN, 5, 6])],
+  ["non-finite", /\b2 point.*index 0\b/, newCloud(new Float32Array([Infinity, 2, 3, 1, 2, 3, 4, 5, -Infinity]))],
+
+  ["viewpoint", /undefined/, view(undefined)],
+  ["viewpoint", /null/, view(null)],
+  ["viewpoint", /2 of them/, view([1, 2])],
+  ["viewpoint", /4 of them/, view([1, 2, 3, 4])],
+  ["viewpoint", /"1"/, view(["1", 2, 3])],
+  ["viewpoint", /5n/, view(new BigInt64Array([5n, 5n, 5n]))],
+  ["viewpoint", /NaN/, view([0, NaN, 5])],
+  ["viewpoint", /inf/i, view([0, 0, Infinity])],
+  ["viewpoint", /"abc"/, autoRadius("abc")],
+  ["viewpoint", /NaN/, autoRadius([NaN, 0, 0])],
+
+  ["radius", /NaN/, view(farAway, { radius: NaN })],
+  ["radius", /inf/i, view(farAway, { radius: Infinity })],
+  ["radius", /\b0\b/, view(farAway, { radius: 0 })],
+  ["radius", /-7/, view(farAway, { radius: -7 })],
+  ["radius", /\b5\.5\b.*farthest/, view(farAway, { radius: 5.5 })],
+  ["radius", /range/, view([0, 0, 1e200], { radius: 1e300 })],
+  ["radius", /range/, view(farAway, { radius: 1.5e308 })],
+
+  ["option", /dimension.*2/, newCloud(sphere, { dimension: 2 })],
+  ["option", /dimension.*4/, newCloud(sphere, { dimension: 4 })],
+  ["option", /stride.*2/, newCloud(sphere, { stride: 2 })],
+  ["option", /stride.*3\.5/, newCloud(sphere, { stride: 3.5 })],
+  ["option", /stride.*"3"/, newCloud(sphere, { stride: "3" })],
+  ["option", /nonFinite.*"ignore"/, newCloud(sphere, { nonFinite: "ignore" })],
+  ["option", /"strid"/, newCloud(sphere, { strid: 4 })],
+  ["option", /object.*null/, newCloud(sphere, null)],
+  ["option", /object.*3/, newCloud(sphere, 3)],
+  ["option", /radius and exponent/, view(farAway, { radius: 10, exponent: 2 })],
+  ["option", /radius and exponent/, view(farAway, { radius: "auto", exponent: 2 })],
+  ["option", /radius.*"search"/, view(farAway, { radius: "search" })],
+  ["option", /radius.*"opposite"/, view(farAway, { radius: "opposite" })],
+  ["option", /radius.*null/, view(farAway, { radius: null })],
+  ["option", /exponent.*"3"/, view(farAway, { exponent: "3" })],
+  ["option", /exponent.*-1/, view(farAway, { exponent: -1 })],
+  ["option", /exponent.*NaN/, view(farAway, { exponent: NaN })],
+  ["option", /inversion/, view(farAway, { inversion: { power: 2 } })],
+  ["option", /"denoise"/, view(farAway, { denoise: 8 })],
+  ["option", /"vote"/, view(farAway, { vote: 8 })],
+  ["option", /"latest"/, view(farAway, { latest: true })],
+  ["option", /rule.*"search"/, autoRadius(farAway, "search")],
+  ["option", /"foo"/, () => hiddenPointRemoval(sphere, farAway, loose({ foo: 1 }))],
+  ["option", /maskInto.*500.*499/, () => { new PointCloud(sphere).visibleFrom(farAway).maskInto(new Uint8Array(499)); }],
+  ["option", /maskInto.*Uint8Array.*Float32Array/, () => { new PointCloud(sphere).visibleFrom(farAway).maskInto(loose(new Float32Array(500))); }],
+  ["option", /indicesInto.*length 1/, () => new PointCloud(sphere).visibleFrom(farAway).indicesInto(new Uint32Array(1))],
+];
+
+describe("what is refused", () => {
+  it.each(refusals)("%s, naming %s: case %#", async (code, names, call) => {
+    const problem = await problemOf(call);
+    expect(problem).toBeInstanceOf(HprError);
+    expect(problem).toBeInstanceOf(Error);
+    expect(problem.name).toBe("HprError");
+    expect(problem.code).toBe(code);
+    expect(problem.message).toMatch(names);
+  });
+
+  it("goes on working after every refusal", () => {
+    expect(new PointCloud(sphere).visibleFrom(farAway).count).toBeGreaterThan(0);
+  });
+
+  it("takes an option that is undefined as absent", () => {
+    const plain = new PointCloud(sphere).visibleFrom(farAway);
+    const undefinedOptions = { radius: undefined, exponent: undefined, inversion: undefined, denoise: undefined };
+    const cloud = new PointCloud(sphere, loose({ dimension: undefined, stride: undefined, nonFinite: undefined }));
+    expect(cloud.visibleFrom(farAway, loose(undefinedOptions)).indices).toEqual(plain.indices);
+    expect(cloud.visibleFrom(farAway, loose({ radius: undefined, exponent: 2 })).exponent).toBeCloseTo(2);
+  });
+});
+
+describe("disposed", () => {
+  it("answers every later call, and may be disposed of twice", async () => {
+    const cloud = new PointCloud(sphere);
+    cloud.dispose();
+    cloud.dispose();
+    expect((await problemOf(() => cloud.visibleFrom(farAway))).code).toBe("disposed");
+    expect((await problemOf(() => cloud.autoRadius(farAway))).code).toBe("disposed");
+  });
+
+  it("does not touch other clouds, whose memory comes and goes", () => {
+    const kept = new PointCloud(sphere);
+    const before = kept.visibleFrom(farAway).indices;
+    for (let i = 0; i < 20; i++) new PointCloud(bumpySphere(i, 300)).dispose();
+    expect(kept.visibleFrom(farAway).indices).toEqual(before);
+  });
+
+  it("is what Symbol.dispose does", async () => {
+    const cloud = new PointCloud(sphere);
+    cloud[Symbol.dispose]();
+    expect((await problemOf(() => cloud.visibleFrom(farAway))).code).toBe("disposed");
+  });
+});
+
+describe("not-initialised", () => {
+  it("is answered by every synchronous call until init() has resolved", async () => {
+    const fresh = await freshPackage();
+    const calls = [
+      () => new fresh.PointCloud(sphere),
+      () => fresh.hiddenPointRemoval(sphere, farAway),
+    ];
+    for (const call of calls) expect((await problemOf(call)).code).toBe("not-initialised");
+    const starting = fresh.init();
+    for (const call of calls) {
+      expect(call).toThrow(expect.objectContaining({ code: "not-initialised" }));
+    }
+    await starting;
+    expect(calls[0]!()).toHaveLength(500);
+  });
+});
+
+describe("too-large", () => {
+  it("is answered where memory is refused, and the instance stays usable", async () => {
+    const small = await freshPackage();
+    small.initSync(cappedWasm(40));
+    const kept = new small.PointCloud(sphere);
+    const before = kept.visibleFrom(farAway).indices;
+    for (const array of [new Float32Array(3e6), new Float64Array(3e6), new Array<number>(3e6).fill(1)]) {
+      const problem = await problemOf(() => new small.PointCloud(array));
+      expect(problem.code).toBe("too-large");
+    }
+    expect(kept.visibleFrom(farAway).indices).toEqual(before);
+  });
+
+  it("is answered by a view, too, and clouds of any size leave the instance usable", async () => {
+    const small = await freshPackage();
+    small.initSync(cappedWasm(40));
+    const outcomes = new Set<string>();
+    const points = bumpySphere(3, 40_000);
+    for (let count = 1000; count < 40_000; count = Math.ceil(1.1 * count)) {
+      let cloud: InstanceType<typeof PointCloud> | undefined;
+      try {
+        cloud = new small.PointCloud(points.subarray(0, 3 * count));
+        cloud.visibleFrom(farAway, { exponent: 4 });
+        outcomes.add("fits");
+      } catch (error) {
+        outcomes.add(`${cloud === undefined ? "cloud" : "view"}: ${(error as { code: string }).code}`);
+      }
+      cloud?.dispose();
+    }
+    expect([...outcomes].sort()).toEqual(["cloud: too-large", "fits", "view: too-large"]);
+    expect(new small.PointCloud(sphere).visibleFrom(farAway).count).toBeGreaterThan(0);
+  });
+});
+
+describe("load", () => {
+  it("names what could not be loaded, and a later init() may succeed", async () => {
+    const fresh = await freshPackage();
+    const missing = await problemOf(() => fresh.init("/nowhere/hpr.wasm"));
+    expect(missing.code).toBe("load");
+    expect(missing.message).toContain("/nowhere/hpr.wasm");
+    expect(missing.message).toContain("init()");
+    expect(missing.cause).toMatchObject({ code: "ENOENT" });
+    await fresh.init(wasmBytes());
+    expect(new fresh.PointCloud(sphere)).toHaveLength(500);
+  });
+});

@@ -1,0 +1,95 @@
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import binaryen from "binaryen";
+import { vi } from "vitest";
+
+const require = createRequire(import.meta.url);
+
+export const wasmPath = require.resolve("hidden-point-removal/hpr.wasm");
+export const wasmBytes = (): Uint8Array<ArrayBuffer> => new Uint8Array(readFileSync(wasmPath));
+
+/** The package as on a fresh page: nothing is initialized. */
+export async function freshPackage() {
+  vi.resetModules();
+  return { ...(await import("hidden-point-removal")), ...(await import("hidden-point-removal/worker")) };
+}
+
+/** The package, initialized. */
+export async function readyPackage() {
+  const hpr = await freshPackage();
+  await hpr.init();
+  return hpr;
+}
+
+/** The package's wasm, except that one of the functions it exports traps when called. */
+export function trappingWasm(name: string): Uint8Array<ArrayBuffer> {
+  const module = binaryen.readBinary(wasmBytes());
+  const { value } = binaryen.getExportInfo(module.getExport(name));
+  const { params, results } = binaryen.getFunctionInfo(module.getFunction(value));
+  module.removeFunction(value);
+  module.addFunction(value, params, results, [], module.unreachable());
+  return new Uint8Array(module.emitBinary());
+}
+
+/** The package's wasm, except that its memory is refused growth beyond so many 64 KiB pages. */
+export function cappedWasm(pages: number): Uint8Array<ArrayBuffer> {
+  const module = binaryen.readBinary(wasmBytes());
+  const capped = binaryen.parseText(
+    module.emitText().replace(/\(memory (\S+) (\d+)\)/, `(memory $1 $2 ${pages})`),
+  );
+  capped.setFeatures(module.getFeatures());
+  return new Uint8Array(capped.emitBinary());
+}
+
+/** Random numbers in [0, 1) that are the same for the same seed (mulberry32). */
+export function randomNumbers(seed: number): () => number {
+  let state = seed;
+  return () => {
+    state = (state + 0x6d2b79f5) | 0;
+    let t = Math.imul(state ^ (state >>> 15), 1 | state);
+    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+    return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
+  };
+}
+
+/** Points on a bumpy sphere of radius about 1: some hide others from any viewpoint. */
+export function bumpySphere(seed: number, count: number): Float32Array {
+  const random = randomNumbers(seed);
+  const positions = new Float32Array(3 * count);
+  for (let i = 0; i < count; i++) {
+    const z = 2 * random() - 1;
+    const angle = 2 * Math.PI * random();
+    const radius = 1 + 0.05 * Math.sin(7 * angle) * Math.sin(9 * z) + 0.01 * random();
+    const ring = Math.sqrt(1 - z * z);
+    positions.set([radius * ring * Math.cos(angle), radius * ring * Math.sin(angle), radius * z], 3 * i);
+  }
+  return positions;
+}
+
+/** The Stanford bunny, 1,839 points. */
+export function bunny(): Float32Array {
+  const { positions } = require("bunny") as { positions: number[][] };
+  return Float32Array.from(positions.flat());
+}
+
+/** The points with the given indices, one after another. */
+export function pointsAt(positions: Float32Array, indices: number[]): Float32Array {
+  return Float32Array.from(indices.flatMap((i) => [...positions.subarray(3 * i, 3 * i + 3)]));
+}
+
+export interface Problem {
+  name: string;
+  code?: string;
+  message: string;
+  cause?: unknown;
+}
+
+/** What a call throws, or what a promise is rejected with. */
+export async function problemOf(call: () => unknown): Promise<Problem> {
+  try {
+    await call();
+  } catch (error) {
+    return error as Problem;
+  }
+  throw new Error("nothing was thrown");
+}

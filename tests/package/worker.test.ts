@@ -1,0 +1,287 @@
+import { syncBuiltinESMExports } from "node:module";
+import { setFlagsFromString } from "node:v8";
+import { runInNewContext } from "node:vm";
+import threads from "node:worker_threads";
+import { afterEach, beforeEach, describe, expect, it } from "vitest";
+
+import { bumpySphere, freshPackage, problemOf, readyPackage, trappingWasm } from "./support";
+
+const { WorkerPointCloud, PointCloud, HprError } = await readyPackage();
+
+type WorkerCloud = Awaited<ReturnType<typeof WorkerPointCloud.create>>;
+
+const sphere = bumpySphere(1, 3000);
+const farAway = [0, 0, 5];
+const loose = (value: unknown) => value as never;
+
+/** Every thread that was started, so that a test can end one. */
+const started: threads.Worker[] = [];
+const OriginalWorker = threads.Worker;
+
+function replaceWorker(replacement: typeof threads.Worker) {
+  threads.Worker = replacement;
+  syncBuiltinESMExports();
+}
+
+beforeEach(() => {
+  replaceWorker(
+    class extends OriginalWorker {
+      constructor(...args: ConstructorParameters<typeof OriginalWorker>) {
+        super(...args);
+        started.push(this);
+      }
+    },
+  );
+});
+
+afterEach(async () => {
+  replaceWorker(OriginalWorker);
+  await Promise.all(started.splice(0).map((worker) => worker.terminate()));
+});
+
+describe("a cloud in a worker", () => {
+  it("answers what the synchronous cloud answers, several clouds at once", async () => {
+    const inputs: [ArrayLike<number>, object?][] = [
+      [sphere],
+      [Float64Array.from(bumpySphere(2, 1000))],
+      [[...bumpySphere(3, 500)]],
+      [Float32Array.from([...sphere, NaN, 1, 1]), { nonFinite: "skip" }],
+      [bumpySphere(4, 1200), { stride: 4 }],
+      [[]],
+    ];
+    await Promise.all(
+      inputs.map(async ([positions, options]) => {
+        const direct = new PointCloud(positions, options);
+        const cloud = await WorkerPointCloud.create(positions, options);
+        expect(cloud.length).toBe(direct.length);
+        expect(cloud.skipped).toBe(direct.skipped);
+        for (const viewpoint of [farAway, [0.1, 0.2, 0.3], Float32Array.of(-4, 1, 2)]) {
+          for (const how of [{}, { exponent: 3 }, { radius: 5000 }]) {
+            const [there, here] = [await cloud.visibleFrom(viewpoint, how), direct.visibleFrom(viewpoint, how)];
+            expect(there).toEqual(here);
+            expect(there.mask()).toEqual(here.mask());
+          }
+          expect(await cloud.autoRadius(viewpoint, "auto")).toEqual(direct.autoRadius(viewpoint));
+        }
+        await cloud.dispose();
+      }),
+    );
+  });
+
+  it("needs no init()", async () => {
+    const fresh = await freshPackage();
+    const cloud = await fresh.WorkerPointCloud.create(sphere);
+    expect((await cloud.visibleFrom(farAway)).indices).toEqual(new PointCloud(sphere).visibleFrom(farAway).indices);
+  });
+
+  it("runs what init() is loading", async () => {
+    const fresh = await freshPackage();
+    void fresh.init(trappingWasm("autoRadius"));
+    const cloud = await fresh.WorkerPointCloud.create(sphere);
+    expect((await problemOf(() => cloud.autoRadius(farAway))).code).toBe("internal");
+  });
+
+  it("copies the positions, also from shared memory", async () => {
+    const shared = new Float32Array(new SharedArrayBuffer(sphere.byteLength));
+    const own = sphere.slice();
+    shared.set(sphere);
+    const creating = [own, shared].map((positions) => WorkerPointCloud.create(positions));
+    own.fill(0);
+    shared.fill(0);
+    const expected = new PointCloud(sphere).visibleFrom(farAway).indices;
+    for (const cloud of await Promise.all(creating)) {
+      expect((await cloud.visibleFrom(farAway)).indices).toEqual(expected);
+    }
+    expect(own).toHaveLength(sphere.length);
+  });
+
+  it("takes the buffer itself where it is given away", async () => {
+    const own = sphere.slice();
+    const creating = WorkerPointCloud.create(own, { transfer: true });
+    expect(own).toHaveLength(0);
+    const cloud = await creating;
+    expect((await cloud.visibleFrom(farAway)).indices).toEqual(new PointCloud(sphere).visibleFrom(farAway).indices);
+  });
+
+  it("lets the process end while nothing is pending", async () => {
+    const script = `
+      const { WorkerPointCloud } = await import("hidden-point-removal/worker");
+      const cloud = await WorkerPointCloud.create(Float32Array.from({ length: 300 }, (_, i) => Math.sin(i)));
+      console.log((await cloud.visibleFrom([0, 0, 5])).count > 0);`;
+    const { spawnSync } = await import("node:child_process");
+    const { stdout, status } = spawnSync(process.execPath, ["--input-type=module", "--eval", script], {
+      encoding: "utf8",
+      cwd: new URL(".", import.meta.url),
+    });
+    expect([stdout.trim(), status]).toEqual(["true", 0]);
+  });
+});
+
+describe("a thread", () => {
+  it("ends when nothing refers to its cloud any more, but answers what is pending first", async () => {
+    setFlagsFromString("--expose-gc");
+    const collectGarbage = runInNewContext("gc") as () => void;
+    const answer = (await WorkerPointCloud.create(sphere)).visibleFrom(farAway);
+    const pause = () => new Promise((next) => setTimeout(next, 10));
+    collectGarbage();
+    await pause();
+    expect((await answer).count).toBeGreaterThan(10);
+    // A thread that has ended has no number any more.
+    while (started[0]!.threadId !== -1) {
+      collectGarbage();
+      await pause();
+    }
+  });
+});
+
+describe("what is refused", () => {
+  const refusals: [code: string, names: RegExp, positions: unknown, options?: unknown][] = [
+    ["positions-type", /"abc"/, "abc"],
+    ["positions-length", /got 4\b/, [1, 2, 3, 4]],
+    ["non-finite", /index 0/, [NaN, 2, 3]],
+    ["option", /stride/, sphere, { stride: 1 }],
+    ["option", /dimension/, sphere, { dimension: 2 }],
+    ["option", /"workers"/, sphere, { workers: 2 }],
+    ["option", /"onProgress"/, sphere, { onProgress: () => undefined }],
+    ["option", /transfer/, sphere, { transfer: 1 }],
+    ["option", /transfer/, [1, 2, 3], { transfer: true }],
+    ["option", /transfer/, new Float32Array(new SharedArrayBuffer(12)), { transfer: true }],
+    ["option", /signal/, sphere, { signal: 1 }],
+  ];
+  it.each(refusals)("by create: %s, naming %s", async (code, names, positions, options) => {
+    const problem = await problemOf(() => WorkerPointCloud.create(loose(positions), loose(options)));
+    expect(problem).toBeInstanceOf(HprError);
+    expect(problem.code).toBe(code);
+    expect(problem.message).toMatch(names);
+  });
+
+  it("by a view crosses the border with its code, and the next view works", async () => {
+    const cloud = await WorkerPointCloud.create(sphere);
+    const views: [code: string, viewpoint: unknown, options?: unknown][] = [
+      ["viewpoint", [1, 2]],
+      ["viewpoint", [1, NaN, 2]],
+      ["radius", farAway, { radius: 1 }],
+      ["option", farAway, { radius: 1, exponent: 1 }],
+      ["option", farAway, { exponent: -1 }],
+      ["option", farAway, { denoise: 3 }],
+      ["option", farAway, { latest: "yes" }],
+      ["option", farAway, { signal: {} }],
+    ];
+    for (const [code, viewpoint, options] of views) {
+      const problem = await problemOf(() => cloud.visibleFrom(loose(viewpoint), loose(options)));
+      expect(problem).toBeInstanceOf(HprError);
+      expect(problem.code).toBe(code);
+      const direct = await problemOf(() => new PointCloud(sphere).visibleFrom(loose(viewpoint), loose(options)));
+      expect(direct.code).toBe(code);
+    }
+    expect((await problemOf(() => cloud.autoRadius(farAway, loose("search")))).code).toBe("option");
+    expect((await problemOf(() => cloud.autoRadius([1, 2, Infinity]))).code).toBe("viewpoint");
+    expect((await cloud.visibleFrom(farAway)).count).toBeGreaterThan(10);
+  });
+});
+
+describe("requests given up", () => {
+  const isAbort = (problem: unknown) => problem instanceof DOMException && problem.name === "AbortError";
+  const settled = async (promises: Promise<unknown>[]) =>
+    (await Promise.allSettled(promises)).map((one) =>
+      one.status === "fulfilled" ? "answered" : isAbort(one.reason) ? "aborted" : String(one.reason),
+    );
+
+  it("are those that a newer one with `latest` has overtaken", async () => {
+    const cloud = await WorkerPointCloud.create(sphere);
+    const asked = [1, 2, 3, 4, 5].map((z) => cloud.visibleFrom([0, 0, z + 2], { latest: true }));
+    expect(await settled(asked)).toEqual(["answered", "aborted", "aborted", "aborted", "answered"]);
+    expect((await asked[4]!).indices).toEqual(new PointCloud(sphere).visibleFrom([0, 0, 7]).indices);
+    expect(await settled([cloud.visibleFrom(farAway, { latest: true })])).toEqual(["answered"]);
+  });
+
+  it("are never those without `latest`", async () => {
+    const cloud = await WorkerPointCloud.create(sphere);
+    const flags = [true, false, true, false, true];
+    const asked = flags.map((latest) => cloud.visibleFrom(farAway, { latest }));
+    expect(await settled(asked)).toEqual(["answered", "answered", "aborted", "answered", "answered"]);
+  });
+
+  it("are those whose signal aborts: waiting, running, or not yet asked", async () => {
+    const cloud = await WorkerPointCloud.create(sphere);
+    const [running, waiting] = [new AbortController(), new AbortController()];
+    const asked = [
+      cloud.visibleFrom(farAway, { signal: running.signal }),
+      cloud.visibleFrom(farAway, { signal: waiting.signal }),
+      cloud.visibleFrom(farAway, { signal: AbortSignal.abort(new Error("a reason of one's own")) }),
+      cloud.visibleFrom(farAway, { signal: new AbortController().signal }),
+    ];
+    waiting.abort();
+    running.abort();
+    expect(await settled(asked)).toEqual(["aborted", "aborted", "aborted", "answered"]);
+  });
+
+  it("may be the cloud itself", async () => {
+    const controller = new AbortController();
+    const creating = [
+      WorkerPointCloud.create(sphere, { signal: controller.signal }),
+      WorkerPointCloud.create(sphere, { signal: AbortSignal.abort() }),
+      WorkerPointCloud.create(sphere, { signal: new AbortController().signal }),
+    ];
+    controller.abort();
+    expect(await settled(creating)).toEqual(["aborted", "aborted", "answered"]);
+  });
+});
+
+describe("a worker that is gone", () => {
+  const codesOf = async (promises: Promise<unknown>[]) =>
+    Promise.all(promises.map(async (promise) => (await problemOf(() => promise)).code));
+  const pendingIn = (cloud: WorkerCloud) => [
+    cloud.visibleFrom(farAway),
+    cloud.visibleFrom(farAway, { latest: true }),
+    cloud.autoRadius(farAway),
+  ];
+
+  it("rejects what is pending with disposed, after dispose()", async () => {
+    const cloud = await WorkerPointCloud.create(sphere);
+    const pending = codesOf(pendingIn(cloud));
+    const [first, second] = [cloud.dispose(), cloud.dispose()];
+    expect(await pending).toEqual(["disposed", "disposed", "disposed"]);
+    expect(await codesOf(pendingIn(cloud))).toEqual(["disposed", "disposed", "disposed"]);
+    await first;
+    await second;
+    expect(started.at(-1)!.threadId).toBe(-1);
+  });
+
+  it("rejects everything with internal where it died, and a new cloud works", async () => {
+    const [cloud, other] = [await WorkerPointCloud.create(sphere), await WorkerPointCloud.create(sphere)];
+    const pending = codesOf(pendingIn(cloud));
+    void started[0]!.terminate();
+    expect(await pending).toEqual(["internal", "internal", "internal"]);
+    expect(await codesOf(pendingIn(cloud))).toEqual(["internal", "internal", "internal"]);
+    const next = await WorkerPointCloud.create(sphere);
+    expect((await next.visibleFrom(farAway)).indices).toEqual((await other.visibleFrom(farAway)).indices);
+    await cloud.dispose();
+  });
+
+  it("rejects everything with internal where the wasm trapped", async () => {
+    const hpr = await freshPackage();
+    // The worker runs what the page runs.
+    hpr.initSync(trappingWasm("visibleFrom"));
+    const cloud = await hpr.WorkerPointCloud.create(sphere);
+    expect((await cloud.autoRadius(farAway)).radius).toBeGreaterThan(0);
+    expect(await codesOf(pendingIn(cloud))).toEqual(["internal", "internal", "internal"]);
+    expect(await codesOf([cloud.autoRadius(farAway)])).toEqual(["internal"]);
+    expect((await problemOf(() => new hpr.PointCloud(sphere).visibleFrom(farAway))).code).toBe("internal");
+    const next = await hpr.WorkerPointCloud.create(sphere);
+    expect((await next.visibleFrom(farAway)).count).toBeGreaterThan(10);
+  });
+
+  it("is answered as load where it could not be started at all", async () => {
+    replaceWorker(
+      class extends OriginalWorker {
+        constructor() {
+          super(new URL("file:///nowhere/worker-thread.js"));
+        }
+      },
+    );
+    const problem = await problemOf(() => WorkerPointCloud.create(sphere));
+    expect(problem.code).toBe("load");
+    expect(problem.message).toMatch(/worker-thread\.js/);
+  });
+});

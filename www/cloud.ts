@@ -1,0 +1,46 @@
+/** Which way is up in a file's coordinates. */
+export type Up = "y" | "z" | "-y";
+
+/** What a loader hands over: the file's own coordinates, and colors as the file shows them (sRGB bytes), or none. */
+export interface LoadedCloud {
+  positions: Float32Array | Float64Array;
+  colors: Uint8Array | null;
+}
+
+/** A cloud ready to draw: recentered in f32 for the graphics card. The file's own coordinates go to the hull's worker. */
+export interface Cloud {
+  count: number;
+  colors: Uint8Array | null;
+  /** Center of the bounding box in the file's coordinates; local = file − center. */
+  center: [number, number, number];
+  local: Float32Array;
+  /** Width, height and depth of the bounding box, and half its diagonal. */
+  size: [number, number, number];
+  radius: number;
+}
+
+export function prepareCloud({ positions, colors }: LoadedCloud): Cloud {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < positions.length; i += 3) {
+    for (let axis = 0; axis < 3; axis++) {
+      const value = positions[i + axis]!;
+      if (value < low[axis]!) low[axis] = value;
+      if (value > high[axis]!) high[axis] = value;
+    }
+  }
+  const center = low.map((value, axis) => value / 2 + high[axis]! / 2) as [number, number, number];
+
+  // The subtraction happens in f64: a georeferenced cloud keeps its millimeters on the graphics card.
+  const local = new Float32Array(positions.length);
+  for (let i = 0; i < positions.length; i++) local[i] = positions[i]! - center[i % 3]!;
+
+  const size = high.map((value, axis) => value - low[axis]!) as [number, number, number];
+  const radius = Math.hypot(...size) / 2;
+  // A single point, or many equal ones, still need a distance to be looked at from.
+  return { colors, count: positions.length / 3, center, local, size, radius: radius > 0 ? radius : 1 };
+}
+
+export function upVector(up: Up): [number, number, number] {
+  return up === "z" ? [0, 0, 1] : [0, up === "y" ? 1 : -1, 0];
+}

@@ -1,0 +1,30 @@
+import type { LoadedCloud } from "../cloud.ts";
+import { LoadProblem } from "./problem.ts";
+import type { LoadReply, LoadRequest } from "./protocol.ts";
+
+export { LoadProblem } from "./problem.ts";
+export type { LoadRequest } from "./protocol.ts";
+
+/** Loads a cloud in a worker of its own: a large file does not hold up the page, and its memory goes when the worker ends. */
+export function loadCloud(
+  request: LoadRequest,
+  signal: AbortSignal,
+  onProgress: (step: string, fraction: number | null) => void,
+): Promise<LoadedCloud> {
+  const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
+  return new Promise<LoadedCloud>((resolve, reject) => {
+    signal.addEventListener("abort", () => {
+      reject(new DOMException("Another cloud was opened.", "AbortError"));
+    });
+    worker.onmessage = ({ data: reply }: MessageEvent<LoadReply>) => {
+      if (reply.kind === "progress") onProgress(reply.step, reply.fraction);
+      else if (reply.kind === "cloud") resolve(reply.cloud);
+      else reject(new LoadProblem(reply.sentence, reply.nonFinite));
+    };
+    worker.onerror = (event) => {
+      event.preventDefault();
+      reject(new LoadProblem(`${request.name} could not be read: the browser ran out of memory or stopped the loader.`));
+    };
+    worker.postMessage(request);
+  }).finally(() => { worker.terminate(); });
+}

@@ -1,0 +1,12 @@
+/** A file that cannot be shown: the message is the sentence the user reads. */
+export class LoadProblem extends Error {
+  override readonly name = "LoadProblem";
+
+  /** Points whose coordinates are not finite; the rest could be loaded without them. */
+  readonly nonFinite: number;
+
+  constructor(sentence: string, nonFinite = 0) {
+    super(sentence);
+    this.nonFinite = nonFinite;
+  }
+}

@@ -1,0 +1,14 @@
+import type { LoadedCloud } from "../cloud.ts";
+
+/** What the page asks of the loading worker; one request each. */
+export type LoadRequest =
+  | { kind: "sample"; name: string; url: string }
+  | { kind: "room"; name: string }
+  | { kind: "url"; name: string; url: string; skipNonFinite: boolean }
+  | { kind: "file"; name: string; file: File; skipNonFinite: boolean };
+
+/** What comes back: any number of steps, then the cloud or what was wrong. `fraction` is null where it cannot be known. */
+export type LoadReply =
+  | { kind: "progress"; step: string; fraction: number | null }
+  | { kind: "cloud"; cloud: LoadedCloud }
+  | { kind: "problem"; sentence: string; nonFinite: number };

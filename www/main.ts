@@ -1,0 +1,22 @@
+import { byId } from "./panel/dom.ts";
+import { Message } from "./panel/message.ts";
+import { bindSheet } from "./panel/sheet.ts";
+import { readParams } from "./params.ts";
+import { SAMPLES } from "./samples.ts";
+import { startSession } from "./session.ts";
+import { Status } from "./status.ts";
+import { canDraw } from "./view/stage.ts";
+
+const status = new Status(byId("status"));
+const message = new Message();
+bindSheet();
+
+if (canDraw()) {
+  const params = readParams(location.search, SAMPLES.map((sample) => sample.name));
+  startSession(params, status, message);
+  if (params.notes.length > 0) message.show(params.notes.join(" "));
+} else {
+  const sentence = "This page draws with WebGL 2, which this browser does not offer or has switched off.";
+  status.error(sentence);
+  message.show(sentence);
+}

@@ -1,0 +1,29 @@
+import { byId } from "./dom.ts";
+
+/** A row of radio buttons of which one is chosen. */
+export class Segmented<Value extends string> {
+  private readonly inputs: HTMLInputElement[];
+
+  constructor(id: string, onChange: (value: Value) => void) {
+    this.inputs = [...byId(id).querySelectorAll("input")];
+    for (const input of this.inputs) {
+      input.addEventListener("change", () => {
+        onChange(input.value as Value);
+      });
+    }
+  }
+
+  get value(): Value {
+    return this.inputs.find((input) => input.checked)!.value as Value;
+  }
+
+  set value(value: Value) {
+    for (const input of this.inputs) input.checked = input.value === value;
+  }
+
+  /** The value after the current one, the first after the last. */
+  get next(): Value {
+    const at = this.inputs.findIndex((input) => input.checked);
+    return this.inputs[(at + 1) % this.inputs.length]!.value as Value;
+  }
+}

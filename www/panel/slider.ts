@@ -1,0 +1,33 @@
+import { byId } from "./dom.ts";
+
+/** A range input with its value written beside its label. */
+export class Slider {
+  private readonly input: HTMLInputElement;
+  private readonly output: HTMLOutputElement;
+  private readonly format: (value: number) => string;
+
+  constructor(id: string, format: (value: number) => string, onInput: (value: number) => void) {
+    this.input = byId(id, HTMLInputElement);
+    this.output = byId(`${id}-value`, HTMLOutputElement);
+    this.format = format;
+    this.input.addEventListener("input", () => {
+      this.show(this.value);
+      onInput(this.value);
+    });
+    this.show(this.value);
+  }
+
+  get value(): number {
+    return this.input.valueAsNumber;
+  }
+
+  /** The knob stops at the ends of its range; what is written is the value itself. */
+  set value(value: number) {
+    this.input.value = String(value);
+    this.show(value);
+  }
+
+  private show(value: number): void {
+    this.output.textContent = this.format(value);
+  }
+}

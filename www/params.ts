@@ -1,0 +1,46 @@
+/** What the address of the page asks for. Anything that cannot be used is named in `notes`, in plain words. */
+export interface Params {
+  sample: string;
+  src: string | null;
+  /** `null`: the automatic radius. */
+  exponent: number | null;
+  /** In the file's own coordinates. */
+  view: [number, number, number] | null;
+  notes: string[];
+}
+
+export function readParams(search: string, samples: readonly string[]): Params {
+  const query = new URLSearchParams(search);
+  const notes: string[] = [];
+
+  let sample = query.get("sample") ?? samples[0]!;
+  if (!samples.includes(sample)) {
+    notes.push(`There is no sample called “${sample}”, so this is the ${samples[0]}.`);
+    sample = samples[0]!;
+  }
+
+  const exponent = query.has("exponent") ? parseNumber(query.get("exponent")!) : null;
+  const exponentFits = exponent === null || (Number.isFinite(exponent) && exponent >= 0);
+  if (!exponentFits) {
+    notes.push("The exponent in the address is not a number of 0 or more, so the automatic one is used.");
+  }
+
+  const view = query.has("view") ? query.get("view")!.split(",").map(parseNumber) : null;
+  const viewFits = view === null || (view.length === 3 && view.every(Number.isFinite));
+  if (!viewFits) {
+    notes.push("The view in the address is not three numbers x,y,z, so the usual view is used.");
+  }
+
+  return {
+    sample,
+    src: query.get("src"),
+    exponent: exponentFits ? exponent : null,
+    view: viewFits ? (view as [number, number, number] | null) : null,
+    notes,
+  };
+}
+
+/** Like Number, but an empty text is no number. */
+function parseNumber(text: string): number {
+  return text.trim() === "" ? NaN : Number(text);
+}

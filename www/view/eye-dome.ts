@@ -1,0 +1,131 @@
+import {
+  BufferAttribute,
+  BufferGeometry,
+  type Color,
+  DepthTexture,
+  GLSL3,
+  Mesh,
+  NearestFilter,
+  OrthographicCamera,
+  type PerspectiveCamera,
+  Scene,
+  ShaderMaterial,
+  Vector2,
+  type WebGLRenderer,
+  WebGLRenderTarget,
+} from "three";
+
+/*
+ * Eye-dome lighting (C. Boucheny, 2009): a scan has no normals to shade by, so a pixel is darkened by how far its
+ * neighbors stand in front of it. Edges, folds and slopes come out, and points that shine through from behind show.
+ */
+
+const STRENGTH = 110;
+/** Points wider than this many device pixels are shaded more softly, or each would get a rim of its own. */
+const SOFT_FROM = 2;
+/** How far away the neighbors are, in device pixels. */
+const REACH = 1.6;
+
+const vertexShader = /* glsl */ `
+  void main() {
+    gl_Position = vec4(position, 1.0);
+  }
+`;
+
+const fragmentShader = /* glsl */ `
+  uniform sampler2D colors;
+  uniform highp sampler2D depths;
+  uniform vec2 planes;
+  uniform vec3 background;
+  uniform float reach, strength, softness;
+  out vec4 result;
+
+  const vec2 AROUND[8] = vec2[8](
+    vec2(1.0, 0.0), vec2(0.7, 0.7), vec2(0.0, 1.0), vec2(-0.7, 0.7),
+    vec2(-1.0, 0.0), vec2(-0.7, -0.7), vec2(0.0, -1.0), vec2(0.7, -0.7));
+
+  /* log2 of the distance from the eye: a step counts by its share of the distance. */
+  float logDistance(float depth) {
+    float near = planes.x, far = planes.y;
+    return log2(near * far / (far - depth * (far - near)));
+  }
+
+  void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    ivec2 last = textureSize(depths, 0) - 1;
+    float depth = texelFetch(depths, pixel, 0).r;
+    gl_FragDepth = depth;
+    if (depth >= 1.0) {
+      result = vec4(background, 1.0);
+      return;
+    }
+    float own = logDistance(depth);
+    float sum = 0.0;
+    for (int i = 0; i < 8; i++) {
+      ivec2 there = clamp(ivec2(round(vec2(pixel) + reach * AROUND[i])), ivec2(0), last);
+      float other = texelFetch(depths, there, 0).r;
+      if (other < 1.0) sum += max(0.0, own - logDistance(other));
+    }
+    float soft = min(1.0, exp2(own) / softness);
+    float shade = exp(-strength * soft * sum / 8.0);
+    result = vec4(texelFetch(colors, pixel, 0).rgb * mix(0.2, 1.0, shade), 1.0);
+  }
+`;
+
+export class EyeDome {
+  /** The width of a point in the scene's units. */
+  pointWidth = 1;
+  private readonly target: WebGLRenderTarget;
+  private readonly material: ShaderMaterial;
+  private readonly screen = new Scene();
+  private readonly camera = new OrthographicCamera();
+  private readonly size = new Vector2();
+  private readonly planes = new Vector2();
+
+  constructor(background: Color) {
+    this.target = new WebGLRenderTarget(1, 1, {
+      minFilter: NearestFilter,
+      magFilter: NearestFilter,
+      depthTexture: new DepthTexture(1, 1),
+    });
+    this.material = new ShaderMaterial({
+      vertexShader,
+      fragmentShader,
+      glslVersion: GLSL3,
+      depthTest: true,
+      depthWrite: true,
+      uniforms: {
+        colors: { value: this.target.texture },
+        depths: { value: this.target.depthTexture },
+        planes: { value: this.planes },
+        background: { value: background.clone().convertLinearToSRGB() },
+        reach: { value: REACH },
+        strength: { value: STRENGTH },
+        softness: { value: 1 },
+      },
+    });
+    // One triangle that covers the screen.
+    const triangle = new BufferGeometry();
+    triangle.setAttribute("position", new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+    const cover = new Mesh(triangle, this.material);
+    cover.frustumCulled = false;
+    this.screen.add(cover);
+  }
+
+  /** Draws the scene shaded onto the screen; its depths go along, so that more can be drawn among the points. */
+  render(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
+    renderer.getDrawingBufferSize(this.size);
+    if (this.target.width !== this.size.x || this.target.height !== this.size.y) this.target.setSize(this.size.x, this.size.y);
+    renderer.setRenderTarget(this.target);
+    renderer.clear();
+    renderer.render(scene, camera);
+    renderer.setRenderTarget(null);
+    this.planes.set(camera.near, camera.far);
+    this.material.uniforms["reach"]!.value = REACH * renderer.getPixelRatio();
+    // The distance at which a point is as wide as SOFT_FROM pixels; nearer ones are wider in proportion.
+    const pixels = (camera.projectionMatrix.elements[5] * this.size.y) / 2;
+    this.material.uniforms["softness"]!.value = (this.pointWidth * pixels) / SOFT_FROM;
+    renderer.clear();
+    renderer.render(this.screen, this.camera);
+  }
+}

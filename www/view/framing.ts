@@ -1,0 +1,61 @@
+import { Vector3 } from "three";
+import { type Cloud, type Up, upVector } from "../cloud.ts";
+import type { Viewpoint } from "../refilter.ts";
+import type { Sample } from "../samples.ts";
+import type { Pose } from "./navigation.ts";
+
+/** Where a cloud is first looked at from: the camera's pose, and the same place in the file's coordinates. */
+export interface Home {
+  pose: Pose;
+  viewpoint: Viewpoint;
+}
+
+/** The vertical field of view in degrees, and width by height. */
+export interface Lens {
+  fov: number;
+  aspect: number;
+}
+
+/** From a little to the side and above, for files nobody has chosen a view for. */
+const FROM: Record<Up, [number, number, number]> = { y: [0.55, 0.4, 1], z: [0.55, -1, 0.5], "-y": [0.3, -0.25, -1] };
+
+/** The view asked for, or the sample's own, or one from which the whole cloud is in the picture. */
+export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: Viewpoint | null, lens: Lens): Home {
+  const upward = new Vector3(...upVector(up));
+  const inLocal = (point: readonly number[]) => new Vector3(...(point.map((value, axis) => value - cloud.center[axis]!) as Viewpoint));
+  const at = (viewpoint: Viewpoint, target: Vector3) => ({ pose: { at: inLocal(viewpoint), target, up: upward }, viewpoint });
+
+  if (view) {
+    const center = new Vector3();
+    // From the very center there is nothing to turn to: look ahead.
+    const ahead = inLocal(view).length() > 1e-6 * cloud.radius;
+    return at(view, ahead ? center : new Vector3(...FROM[up]).setLength(-0.1 * cloud.radius));
+  }
+  if (sample?.eye) return at(sample.eye.at, inLocal(sample.eye.target));
+
+  const from = new Vector3(...(sample?.from ?? FROM[up])).normalize();
+  const local = from.clone().multiplyScalar(1.08 * fittingDistance(cloud, from, upward, lens));
+  return {
+    pose: { at: local, target: new Vector3(), up: upward },
+    viewpoint: inFile(cloud, local),
+  };
+}
+
+/** A place in the recentered coordinates in those of the file. */
+export function inFile(cloud: Cloud, local: Vector3): Viewpoint {
+  return [local.x + cloud.center[0], local.y + cloud.center[1], local.z + cloud.center[2]];
+}
+
+/** How far away along `from` the camera has to be for all corners of the bounding box to be in the picture. */
+function fittingDistance({ size, radius }: Cloud, from: Vector3, up: Vector3, { fov, aspect }: Lens): number {
+  const tangent = Math.tan((fov * Math.PI) / 360);
+  const right = up.clone().cross(from).normalize();
+  const above = from.clone().cross(right);
+  let distance = 0.1 * radius;
+  for (let corner = 0; corner < 8; corner++) {
+    const point = new Vector3(...(size.map((length, axis) => ((corner >> axis) & 1 ? length : -length) / 2) as Viewpoint));
+    const sideways = Math.max(Math.abs(point.dot(right)) / aspect, Math.abs(point.dot(above))) / tangent;
+    distance = Math.max(distance, point.dot(from) + sideways);
+  }
+  return distance;
+}

@@ -1,0 +1,94 @@
+import { type PerspectiveCamera, Vector3 } from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+/** Where the camera stands and what it looks at, in the recentered coordinates. */
+export interface Pose {
+  at: Vector3;
+  target: Vector3;
+  up: Vector3;
+}
+
+/** Orbit, pan and zoom by mouse and touch (OrbitControls) and by keys while the canvas has the focus. */
+export class Navigation {
+  /** Asks for a field of view so many times as wide as now. */
+  onFieldOfView: (factor: number) => void = () => undefined;
+  private readonly camera: PerspectiveCamera;
+  private readonly canvas: HTMLCanvasElement;
+  private controls: OrbitControls;
+  private home: Pose = { at: new Vector3(0, 0, 3), target: new Vector3(), up: new Vector3(0, 1, 0) };
+
+  constructor(camera: PerspectiveCamera, canvas: HTMLCanvasElement) {
+    this.camera = camera;
+    this.canvas = canvas;
+    this.controls = this.place(this.home);
+    canvas.addEventListener("keydown", (event) => { this.onKey(event); });
+    // In the capture phase, so that the orbit controls do not zoom as well. Some systems turn the wheel sideways with Alt.
+    canvas.addEventListener(
+      "wheel",
+      (event) => {
+        if (!event.altKey) return;
+        event.preventDefault();
+        event.stopImmediatePropagation();
+        this.onFieldOfView((event.deltaY || event.deltaX) > 0 ? 1.08 : 1 / 1.08);
+      },
+      { capture: true, passive: false },
+    );
+  }
+
+  setHome(pose: Pose): void {
+    this.home = pose;
+    this.reset();
+  }
+
+  reset(): void {
+    this.controls.dispose();
+    this.controls = this.place(this.home);
+  }
+
+  /** OrbitControls read the camera's up once, when they are made: a new home gets new ones. */
+  private place({ at, target, up }: Pose): OrbitControls {
+    this.camera.up.copy(up);
+    this.camera.position.copy(at);
+    const controls = new OrbitControls(this.camera, this.canvas);
+    controls.target.copy(target);
+    const distance = at.distanceTo(target);
+    controls.minDistance = distance / 1000;
+    controls.maxDistance = distance * 1000;
+    controls.update();
+    // The controls go by angles and come back a few bits off; the viewpoint asked for is the one to answer.
+    this.camera.position.copy(at);
+    return controls;
+  }
+
+  private onKey(event: KeyboardEvent): void {
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    const action = event.shiftKey ? (this.panKeys[event.key] ?? this.keys[event.key]) : this.keys[event.key];
+    if (!action) return;
+    event.preventDefault();
+    action();
+  }
+
+  private readonly keys: Record<string, () => void> = {
+    ArrowLeft: () => { this.controls.rotateLeft(ORBIT_STEP); },
+    ArrowRight: () => { this.controls.rotateLeft(-ORBIT_STEP); },
+    ArrowUp: () => { this.controls.rotateUp(ORBIT_STEP); },
+    ArrowDown: () => { this.controls.rotateUp(-ORBIT_STEP); },
+    "+": () => { this.controls.dollyIn(ZOOM_STEP); },
+    "=": () => { this.controls.dollyIn(ZOOM_STEP); },
+    "-": () => { this.controls.dollyOut(ZOOM_STEP); },
+    "[": () => { this.onFieldOfView(1 / 1.08); },
+    "]": () => { this.onFieldOfView(1.08); },
+  };
+
+  private readonly panKeys: Record<string, () => void> = {
+    ArrowLeft: () => { this.controls.pan(PAN_STEP, 0); },
+    ArrowRight: () => { this.controls.pan(-PAN_STEP, 0); },
+    ArrowUp: () => { this.controls.pan(0, PAN_STEP); },
+    ArrowDown: () => { this.controls.pan(0, -PAN_STEP); },
+  };
+}
+
+/** Radians, a share of the distance, and pixels for each press of a key. */
+const ORBIT_STEP = Math.PI / 36;
+const ZOOM_STEP = 0.92;
+const PAN_STEP = 24;

@@ -1,0 +1,87 @@
+import { Color, PerspectiveCamera, Scene, WebGLRenderer } from "three";
+import { EyeDome } from "./eye-dome.ts";
+
+/** The canvas: one camera, the shaded points, and an overlay of what is drawn among them unshaded. */
+export class Stage {
+  readonly camera = new PerspectiveCamera(45, 1, 0.01, 100);
+  readonly points = new Scene();
+  readonly overlay = new Scene();
+  /** Called before each frame is drawn or found unchanged. */
+  onFrame: () => void = () => undefined;
+
+  private readonly canvas: HTMLCanvasElement;
+  private readonly renderer: WebGLRenderer;
+  private readonly eyeDome: EyeDome;
+  private changed = true;
+  private drawnFrom = "";
+  /** Half the size of what is to be seen, around the origin. */
+  private extent = 1;
+
+  constructor(canvas: HTMLCanvasElement) {
+    this.canvas = canvas;
+    const background = new Color(getComputedStyle(document.documentElement).getPropertyValue("--canvas").trim());
+    this.renderer = new WebGLRenderer({ canvas, powerPreference: "high-performance" });
+    this.renderer.autoClear = false;
+    this.eyeDome = new EyeDome(background);
+    new ResizeObserver(() => { this.resize(); }).observe(canvas);
+    this.resize();
+    this.renderer.setAnimationLoop(() => { this.frame(); });
+  }
+
+  setExtent(extent: number): void {
+    this.extent = extent;
+    this.invalidate();
+  }
+
+  /** In the cloud's units. */
+  setPointWidth(width: number): void {
+    this.eyeDome.pointWidth = width;
+    this.invalidate();
+  }
+
+  setFieldOfView(degrees: number): void {
+    this.camera.fov = degrees;
+    this.invalidate();
+  }
+
+  /** Something other than the camera has changed: draw again. */
+  invalidate(): void {
+    this.changed = true;
+  }
+
+  private resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    if (width === 0 || height === 0) return;
+    this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.invalidate();
+    // A resized canvas is empty; drawing at once avoids a flash.
+    this.frame();
+  }
+
+  private frame(): void {
+    this.onFrame();
+    this.camera.updateMatrixWorld();
+    const from = this.camera.matrixWorld.elements.join();
+    if (!this.changed && from === this.drawnFrom) return;
+    this.changed = false;
+    this.drawnFrom = from;
+
+    // As tight as the cloud allows: the depth buffer is shared by clouds of a millimeter and of a hundred kilometers.
+    const distance = this.camera.position.length();
+    this.camera.far = distance + 1.1 * this.extent;
+    this.camera.near = Math.max(distance - 1.1 * this.extent, this.camera.far / 5000);
+    this.camera.updateProjectionMatrix();
+
+    this.eyeDome.render(this.renderer, this.points, this.camera);
+    this.renderer.render(this.overlay, this.camera);
+  }
+}
+
+/** Whether this browser can draw at all; asked of a canvas of its own, so that nothing is logged where it cannot. */
+export function canDraw(): boolean {
+  const context = document.createElement("canvas").getContext("webgl2");
+  context?.getExtension("WEBGL_lose_context")?.loseContext();
+  return context !== null;
+}
