@@ -243,13 +243,18 @@ fn sort_along_curve<P: Position>(
             keyed.push((curve.key(p), index as u32));
         }
     }
-    keyed.sort_unstable_by(|a, b| {
-        a.0.cmp(&b.0)
-            .then_with(|| {
-                let at = |index: u32| positions[index as usize].without_negative_zero().widen();
-                compare_coordinates(at(a.1), at(b.1))
-            })
-            .then(a.1.cmp(&b.1))
-    });
+    keyed.sort_unstable();
+    for run in keyed.chunk_by_mut(|a, b| a.0 == b.0) {
+        if run.len() > 1 {
+            let at = |index: u32| positions[index as usize].without_negative_zero().widen();
+            sort_by_coordinates(run, &at);
+        }
+    }
     Ok(keyed)
+}
+
+/// Sorts points of one key; a function of its own, and not generic, to be in the
+/// WebAssembly only once.
+fn sort_by_coordinates(run: &mut [(u64, u32)], at: &dyn Fn(u32) -> [f64; 3]) {
+    run.sort_unstable_by(|a, b| compare_coordinates(at(a.1), at(b.1)).then(a.1.cmp(&b.1)));
 }

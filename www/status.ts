@@ -28,13 +28,15 @@ export class Status {
 
   loaded(): void {
     this.since = 0;
+    this.interrupt();
   }
 
   /** The attributes of the cloud that is still there stay, and its next question makes it "ready" again. */
   error(sentence: string): void {
     this.since = performance.now();
     this.element.dataset["state"] = "error";
-    this.say(sentence, true);
+    this.interrupt();
+    this.say(sentence);
   }
 
   /** All attributes are those of this one answer. */
@@ -61,25 +63,23 @@ export class Status {
     const { visibility, milliseconds, total } = this.last;
     const share = total > 0 ? Math.round((100 * visibility.count) / total) : 0;
     const where = frozen ? "were visible from the frozen viewpoint" : "are visible from here";
-    const effort = `found in ${milliseconds < 10 ? milliseconds.toFixed(1) : Math.round(milliseconds)} ms`;
+    const effort = `found in ${milliseconds < 10 ? milliseconds.toFixed(1) : number.format(Math.round(milliseconds))} ms`;
     this.say(`${number.format(visibility.count)} of ${number.format(total)} points (${share} %) ${where}, ${effort}.`);
   }
 
-  private say(sentence: string, atOnce = false): void {
+  /** Lets the next sentence be heard at once. */
+  private interrupt(): void {
+    if (this.timer !== null) clearTimeout(this.timer);
+    this.timer = null;
+  }
+
+  private say(sentence: string): void {
     this.sentence = sentence;
-    if (atOnce && this.timer !== null) {
-      clearTimeout(this.timer);
-      this.timer = null;
-    }
     if (this.timer !== null) return;
-    this.write();
+    this.element.textContent = sentence;
     this.timer = setTimeout(() => {
       this.timer = null;
       if (this.element.textContent !== this.sentence) this.say(this.sentence);
     }, QUIET);
-  }
-
-  private write(): void {
-    this.element.textContent = this.sentence;
   }
 }

@@ -1,7 +1,7 @@
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
-import { doubleLoaders } from "./build/double-loaders-plugin.ts";
 import { samples } from "./build/samples-plugin.ts";
+import { threeForLoaders } from "./build/three-for-loaders-plugin.ts";
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
@@ -11,7 +11,7 @@ export default defineConfig({
   base: "./",
   build: { outDir: here("dist"), emptyOutDir: true, target: "es2022", chunkSizeWarningLimit: 900 },
   plugins: [samples(here("public/samples"))],
-  worker: { format: "es", plugins: () => [doubleLoaders()] },
+  worker: { format: "es", plugins: () => [threeForLoaders()] },
   // Bundling three ahead of time would hide from the plugin above which loader asks for it.
   optimizeDeps: { exclude: ["three", "hidden-point-removal"] },
 });

@@ -17,9 +17,8 @@ export async function setUpRust(): Promise<void> {
   if (!(await succeeds("rustc", "--version"))) {
     if (!rustup) throw new Problem("Rust is needed: install rustup from https://rustup.rs and run this again.");
     say("Installing the stable Rust toolchain…");
-    await mustRun("rustup", ["toolchain", "install", "stable", "--profile", "minimal"], "Rust could not be installed");
-    // Only for the commands started from here: the user's default stays theirs.
-    process.env["RUSTUP_TOOLCHAIN"] = "stable";
+    const args = ["toolchain", "install", "stable", "--profile", "minimal", "--no-self-update"];
+    await mustRun("rustup", args, "Rust could not be installed");
   }
   await checkVersion(rustup);
 }

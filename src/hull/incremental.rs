@@ -213,13 +213,15 @@ impl Hull {
         Self { surface, vertices }
     }
 
-    /// Walks from face `hint` towards the face that the ray of `q` pierces.
+    /// Walks from `hint`, an outer face, towards the face that the ray of `q`
+    /// pierces, by way of outer faces only: beyond a ghost or edge-on face, which
+    /// side of an edge is farther would have no meaning.
     ///
     /// Two neighbors' dual planes agree on their edge, so which of m·q is the
     /// larger tells on which side of that edge the ray passes, and the largest
     /// m·q of all belongs to the face it pierces. If that one has q inside, all have.
     fn locate(&self, q: DVec3, hint: FaceId) -> Location {
-        let mut id = self.walkable(hint);
+        let mut id = hint;
         let mut height = self.surface.face(id).data.m.dot(q);
         // Walks are short; a cycle through coplanar faces would be the only long one.
         let patience = 1000 + self.surface.slots() / 64;
@@ -273,34 +275,14 @@ impl Hull {
             .map(|edge| face.twins[edge])
     }
 
-    /// Decides for the face that the ray of `q` pierces.
+    /// Decides for the outer face that the ray of `q` pierces.
     fn decide(&self, id: FaceId, q: DVec3) -> Location {
         let face = self.surface.face(id);
-        if !self.vertices.is_outer(face) {
-            // Seen edge-on: piercing it says nothing.
-            return self.search(q, id);
-        }
         match self.vertices.side(face, q) {
             Sign::Positive => Location::Outside(id),
             Sign::Zero => Location::Boundary(id),
             Sign::Negative => Location::Inside(id),
         }
-    }
-
-    /// A face to start a walk from: `hint`, or a neighbor with a plane.
-    fn walkable(&self, hint: FaceId) -> FaceId {
-        let face = self.surface.face(hint);
-        if !face.data.is_exact_only() {
-            return hint;
-        }
-        let neighbors = face.twins.map(HalfEdge::face);
-        let has_plane = |&id: &FaceId| !self.surface.face(id).data.is_exact_only();
-        let outer = |&id: &FaceId| !self.surface.face(id).has(ORIGIN);
-        neighbors
-            .into_iter()
-            .find(has_plane)
-            .or_else(|| [hint].into_iter().chain(neighbors).find(outer))
-            .unwrap_or(hint)
     }
 
     /// The answer by looking at every face, for the rare walk that ends nowhere.
@@ -317,7 +299,8 @@ impl Hull {
         location
     }
 
-    /// Makes `q`, strictly outside face `start`, a vertex.
+    /// Makes `q`, strictly outside face `start`, a vertex; returns one of its faces
+    /// that is outer. There is one, because the ray of a new vertex ends at it.
     fn insert(&mut self, point: u32, q: DVec3, start: FaceId) -> Result<FaceId, Error> {
         let vertex = self.vertices.positions.len() as Vertex;
         self.vertices.positions.try_reserve(1)?;
@@ -325,12 +308,15 @@ impl Hull {
         self.vertices.positions.push(q);
         self.vertices.points.push(point);
         let vertices = &self.vertices;
-        Ok(self.surface.insert(
+        self.surface.insert(
             vertex,
             start,
             |face| vertices.side(face, q) == Sign::Positive,
             |corners| vertices.plane(corners),
-        )?)
+        )?;
+        let is_outer = |&id: &FaceId| self.vertices.is_outer(self.surface.face(id));
+        let outer = self.surface.fan().iter().rev().copied().find(is_outer);
+        Ok(outer.expect("a new vertex is on the outer boundary"))
     }
 
     /// A vertex is visible when one of its faces has the origin strictly inside;

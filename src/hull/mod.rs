@@ -62,22 +62,34 @@ fn first_tetrahedron(
             .clone()
             .filter_map(|i| flipped(i).map(|q| (i, q)))
     };
-    let (i, a) = points().next()?;
-    let (j, b) = largest(points(), |q| a.cross(q).length_squared())?;
-    let normal = a.cross(b);
-    let (k, c) = largest(points(), |q| normal.dot(q).abs())?;
+    let first = points().next()?;
+    let likely = || {
+        let second = largest(points(), |q| first.1.cross(q).length_squared())?;
+        let normal = first.1.cross(second.1);
+        let third = largest(points(), |q| normal.dot(q).abs())?;
+        counter_clockwise(first, second, third)
+    };
+    // In doubt (or where the products overflow): exactly, the first point off the
+    // line through `first`, then the first off their plane.
+    let certain = || {
+        let second = points().find(|&(_, q)| !flat::collinear_with_origin(first.1, q))?;
+        points().find_map(|third| counter_clockwise(first, second, third))
+    };
+    likely().or_else(certain)
+}
+
+/// The three in the order that is counter-clockwise seen from outside, unless
+/// they lie in one plane with the origin.
+fn counter_clockwise(
+    (i, a): (u32, DVec3),
+    (j, b): (u32, DVec3),
+    (k, c): (u32, DVec3),
+) -> Option<[u32; 3]> {
     match side_of_origin(a, b, c) {
-        Sign::Positive => return Some([i, j, k]),
-        Sign::Negative => return Some([i, k, j]),
-        Sign::Zero => {}
-    }
-    // In doubt: exactly, the first b off the line through a, the first c off their plane.
-    let (j, b) = points().find(|&(_, q)| !flat::collinear_with_origin(a, q))?;
-    points().find_map(|(k, c)| match side_of_origin(a, b, c) {
         Sign::Positive => Some([i, j, k]),
         Sign::Negative => Some([i, k, j]),
         Sign::Zero => None,
-    })
+    }
 }
 
 fn largest(

@@ -57,11 +57,6 @@ pub(crate) struct Face<T> {
 
 impl<T> Face<T> {
     #[inline]
-    pub(crate) fn has(&self, vertex: Vertex) -> bool {
-        self.vertices.contains(&vertex)
-    }
-
-    #[inline]
     fn is_alive(&self) -> bool {
         self.vertices[0] != NONE
     }
@@ -108,6 +103,11 @@ impl<T: Copy> Surface<T> {
         &self.faces[id as usize]
     }
 
+    /// The faces that the last insertion made, around the new vertex.
+    pub(crate) fn fan(&self) -> &[FaceId] {
+        &self.cavity
+    }
+
     /// How many face slots there are, dead ones included.
     pub(crate) fn slots(&self) -> usize {
         self.faces.len()
@@ -119,7 +119,7 @@ impl<T: Copy> Surface<T> {
     }
 
     /// Replaces the faces around `start` for which `conflicts` holds by a fan
-    /// from the new vertex `apex` to their horizon; returns one of the new faces.
+    /// from the new vertex `apex` to their horizon, which [`Surface::fan`] then lists.
     ///
     /// The conflicting faces must form a disk that holds `start`. They are
     /// crossed depth-first and counter-clockwise, so that the horizon's edges
@@ -130,7 +130,7 @@ impl<T: Copy> Surface<T> {
         start: FaceId,
         mut conflicts: impl FnMut(&Face<T>) -> bool,
         data: impl Fn([Vertex; 3]) -> T,
-    ) -> Result<FaceId, TryReserveError> {
+    ) -> Result<(), TryReserveError> {
         self.find_cavity(start, &mut conflicts)?;
         self.fill_cavity(apex, data)
     }
@@ -185,7 +185,7 @@ impl<T: Copy> Surface<T> {
         &mut self,
         apex: Vertex,
         data: impl Fn([Vertex; 3]) -> T,
-    ) -> Result<FaceId, TryReserveError> {
+    ) -> Result<(), TryReserveError> {
         let count = self.horizon.len();
         debug_assert!(count >= 3);
         while self.cavity.len() < count {
@@ -218,6 +218,6 @@ impl<T: Copy> Surface<T> {
         let spare = self.cavity.len() - count;
         self.free.try_reserve(spare)?;
         self.free.extend(self.cavity.drain(count..));
-        Ok(self.cavity[count - 1])
+        Ok(())
     }
 }

@@ -83,6 +83,8 @@ test("hidden points are off, dimmed or shown, and that re-filters nothing", asyn
   await page.locator("#view").focus();
   await page.keyboard.press("h");
   await expect.poll(() => page.getByRole("radio", { name: "Off" }).isChecked()).toBe(true);
+  // Without the ring of the keyboard focus.
+  await page.locator("#view").blur();
   expect(await differentPixels(page, off, await picture(page))).toBe(0);
   expect(await settled(page)).toEqual(before);
 });

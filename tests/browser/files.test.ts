@@ -1,7 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { asciiPly, ball, binaryPly, georeferencedBall, meshObj, meshPly, pcd, rows, text } from "./clouds.js";
-import { answerInNode, openReady, refiltered, status } from "./support.js";
+import { answered, answerInNode, openReady, status } from "./support.js";
 
 const COUNT = 600;
 const near = ball(COUNT);
@@ -51,7 +51,7 @@ test("every format opens, chosen and dropped, with the file's own coordinates", 
     for (const open of [choose, drop]) {
       const before = await status(page);
       await open(page, name, content);
-      const now = await refiltered(page, before);
+      const now = await answered(page, before);
       expect(now, name).toMatchObject({ state: "ready", total: COUNT, ...(await answerInNode(positions, now)) });
       expect(await page.locator("#sample option:checked").textContent()).toBe(name);
     }
@@ -62,10 +62,10 @@ test("up can be chosen, and the cloud is looked at anew", async () => {
   const page = await openReady("?sample=bunny");
   const before = await status(page);
   await choose(page, "plain.xyz", text(lines(near, " ")));
-  const scanned = await refiltered(page, before);
+  const scanned = await answered(page, before);
   expect(await page.locator("#up-axis input:checked").inputValue()).toBe("z");
   await page.locator("#up-axis").getByRole("radio", { name: "Y", exact: true }).check();
-  const turned = await refiltered(page, scanned);
+  const turned = await answered(page, scanned);
   expect(turned.viewpoint).not.toEqual(scanned.viewpoint);
   expect(turned).toMatchObject(await answerInNode(near, turned));
 });
@@ -78,7 +78,7 @@ test("points that are all the same, and a single point, can be looked at", async
   ] as const) {
     const before = await status(page);
     await choose(page, name, text(content));
-    expect(await refiltered(page, before)).toMatchObject({ state: "ready", total, visible: total });
+    expect(await answered(page, before)).toMatchObject({ state: "ready", total, visible: total });
   }
 });
 
@@ -107,6 +107,7 @@ test.for<[string, Uint8Array, RegExp]>([
   ["stumble.csv", text("x,y,z\n1,2,3\n4,five,6\n"), /line 3 is not a point/],
   ["cube.obj", text("# no vertices\nf 1 2 3\n"), /holds no points/],
   ["nan.xyz", text(nan), /has 1 of 601 points without a position/],
+  ["nan.ply", asciiPly([...near, 0, NaN, 0]), /has 1 of 601 points without a position/],
   ["infinite.xyz", text(`${lines(near, " ")}\n1 2 1e999\n`), /has 1 of 601 points without a position/],
   ["only-nan.pcd", pcd([NaN, NaN, NaN], "binary"), /none of its coordinates are numbers/],
   ["beyond.xyz", text("0 0 0\n1 1 1e300\n"), /too far out/],
@@ -128,7 +129,7 @@ test.for<[string, Uint8Array, RegExp]>([
   expect(await message.isVisible()).toBe(false);
   await page.locator("#view").focus();
   await page.keyboard.press("ArrowLeft");
-  expect(await refiltered(page, after)).toMatchObject({ state: "ready", total: 1839 });
+  expect(await answered(page, after)).toMatchObject({ state: "ready", total: 1839 });
 });
 
 test("points without a position can be left out", async () => {
@@ -136,6 +137,6 @@ test("points without a position can be left out", async () => {
   const before = await status(page);
   await choose(page, "nan.xyz", text(nan));
   await page.getByRole("button", { name: "Load without them" }).click();
-  const now = await refiltered(page, before);
+  const now = await answered(page, before);
   expect(now).toMatchObject({ state: "ready", total: COUNT, ...(await answerInNode(near, now)) });
 });

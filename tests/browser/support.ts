@@ -1,51 +1,30 @@
-import { existsSync, readFileSync } from "node:fs";
-import { createServer, type Server } from "node:http";
+import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import type { AddressInfo } from "node:net";
-import { extname, join, normalize } from "node:path";
 import { gunzipSync } from "node:zlib";
 import { init, PointCloud } from "hidden-point-removal";
-import { type Browser, type BrowserContextOptions, chromium, type Page } from "playwright-core";
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, vi } from "vitest";
+import { launchBrowser, servePage, type Site } from "./site.js";
 
 // Software rendering on a busy machine is slow: these limits only end what hangs.
 vi.setConfig({ testTimeout: 180_000, hookTimeout: 120_000 });
 
 const require = createRequire(import.meta.url);
-const DIST = join(import.meta.dirname, "../../www/dist");
-/** The page is served from a folder, as on a project's site, so that any absolute address in it would fail. */
-const FOLDER = "/some/folder/";
-const TYPES: Record<string, string> = {
-  ".html": "text/html",
-  ".js": "text/javascript",
-  ".css": "text/css",
-  ".svg": "image/svg+xml",
-  ".wasm": "application/wasm",
-};
-
-let server: Server;
+let site: Site;
 let browser: Browser;
 let errors: string[] = [];
 const pages: Page[] = [];
-/** Files the server has besides the page, by name. */
+/** Files the site has besides the page, by name. */
 export const served = new Map<string, Uint8Array>();
 
 beforeAll(async () => {
-  server = createServer((request, response) => {
-    const path = decodeURIComponent(new URL(request.url!, "http://localhost").pathname);
-    const name = path.startsWith(FOLDER) ? path.slice(FOLDER.length) || "index.html" : "";
-    const file = join(DIST, normalize(name));
-    const body = served.get(name) ?? (name !== "" && file.startsWith(DIST) && existsSync(file) ? readFileSync(file) : null);
-    response.writeHead(body ? 200 : 404, { "content-type": TYPES[extname(file)] ?? "application/octet-stream" });
-    response.end(body);
-  });
-  await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
-  browser = await chromium.launch({ executablePath: process.env["HPR_CHROMIUM"] ?? "/usr/bin/chromium" });
+  site = await servePage(served);
+  browser = await launchBrowser();
 });
 
 afterAll(async () => {
   await browser.close();
-  server.close();
+  site.close();
 });
 
 afterEach(async () => {
@@ -63,7 +42,7 @@ export async function openPage(query = "", options: BrowserContextOptions = {}):
     if (message.type() === "error") errors.push(message.text());
   });
   page.on("pageerror", (error) => errors.push(String(error)));
-  await page.goto(`http://127.0.0.1:${(server.address() as AddressInfo).port}${FOLDER}${query}`);
+  await page.goto(site.address + query);
   return page;
 }
 
@@ -99,9 +78,19 @@ export async function reached(page: Page, state: "loading" | "ready" | "error"):
   return status(page);
 }
 
+/** Waits for an answer after `before`. */
+export async function answered(page: Page, before: Status): Promise<Status> {
+  await page.waitForFunction(
+    (refilters) => Number(document.getElementById("status")!.dataset["refilters"]) > refilters,
+    before.refilters,
+    { timeout: 60_000 },
+  );
+  return status(page);
+}
+
 /** Waits for an answer after `before`, and then for the last one. */
 export async function refiltered(page: Page, before: Status): Promise<Status> {
-  await vi.waitFor(async () => { expect((await status(page)).refilters).toBeGreaterThan(before.refilters); }, { timeout: 60_000 });
+  await answered(page, before);
   return settled(page);
 }
 

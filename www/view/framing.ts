@@ -34,7 +34,7 @@ export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: View
   if (sample?.eye) return at(sample.eye.at, inLocal(sample.eye.target));
 
   const from = new Vector3(...(sample?.from ?? FROM[up])).normalize();
-  const local = from.clone().multiplyScalar(1.08 * fittingDistance(cloud, from, upward, lens));
+  const local = from.clone().multiplyScalar(1.03 * fittingDistance(cloud, from, upward, lens));
   return {
     pose: { at: local, target: new Vector3(), up: upward },
     viewpoint: inFile(cloud, local),

@@ -1,0 +1,46 @@
+import { existsSync, readFileSync } from "node:fs";
+import { createServer } from "node:http";
+import type { AddressInfo } from "node:net";
+import { extname, join, normalize } from "node:path";
+import { type Browser, chromium } from "playwright-core";
+
+const DIST = join(import.meta.dirname, "../../www/dist");
+/** The page is served from a folder, as on a project's site, so that any absolute address in it would fail. */
+const FOLDER = "/some/folder/";
+const TYPES: Record<string, string> = {
+  ".html": "text/html",
+  ".js": "text/javascript",
+  ".css": "text/css",
+  ".svg": "image/svg+xml",
+  ".wasm": "application/wasm",
+};
+
+export interface Site {
+  /** Of the page, with a slash at its end. */
+  address: string;
+  close(): void;
+}
+
+/** Serves the built page, and `extra` files beside it. */
+export async function servePage(extra: ReadonlyMap<string, Uint8Array> = new Map()): Promise<Site> {
+  const server = createServer((request, response) => {
+    const path = decodeURIComponent(new URL(request.url!, "http://localhost").pathname);
+    const name = path.startsWith(FOLDER) ? path.slice(FOLDER.length) || "index.html" : "";
+    const file = join(DIST, normalize(name));
+    const own = name !== "" && file.startsWith(DIST) && existsSync(file);
+    const body = extra.get(name) ?? (own ? readFileSync(file) : null);
+    response.writeHead(body ? 200 : 404, { "content-type": TYPES[extname(file)] ?? "application/octet-stream" });
+    response.end(body);
+  });
+  await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
+  return {
+    address: `http://127.0.0.1:${(server.address() as AddressInfo).port}${FOLDER}`,
+    close: () => {
+      server.close();
+    },
+  };
+}
+
+export function launchBrowser(): Promise<Browser> {
+  return chromium.launch({ executablePath: process.env["HPR_CHROMIUM"] ?? "/usr/bin/chromium" });
+}
