@@ -5,57 +5,13 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use crate::error::Error;
+use crate::points::{Points, Position};
 use crate::spacing::Statistics;
-use crate::spatial::{Bounds, HilbertCurve, compare_coordinates};
+use crate::spatial::{Bounds, HilbertCurve, sort_by_coordinates};
 
 /// The largest number of points in one cloud: hull faces are numbered in 30
 /// bits, and a hull has up to two faces a point.
 pub const MAX_POINTS: usize = 1 << 28;
-
-/// A point as three coordinates: `[f32; 3]` or `[f64; 3]`. Single precision is
-/// stored as it is and widened when it is used.
-pub trait Position: sealed::Sealed + Copy {
-    /// The coordinates in double precision.
-    fn widen(self) -> [f64; 3];
-}
-
-mod sealed {
-    pub trait Sealed: Sized {
-        /// -0 becomes +0, so that equal points have equal bits.
-        fn without_negative_zero(self) -> Self;
-        fn store(points: alloc::vec::Vec<Self>) -> super::Points;
-    }
-}
-
-impl Position for [f32; 3] {
-    fn widen(self) -> [f64; 3] {
-        self.map(f64::from)
-    }
-}
-
-impl sealed::Sealed for [f32; 3] {
-    fn without_negative_zero(self) -> Self {
-        self.map(|x| x + 0.0)
-    }
-    fn store(points: Vec<Self>) -> Points {
-        Points::Single(points)
-    }
-}
-
-impl Position for [f64; 3] {
-    fn widen(self) -> [f64; 3] {
-        self
-    }
-}
-
-impl sealed::Sealed for [f64; 3] {
-    fn without_negative_zero(self) -> Self {
-        self.map(|x| x + 0.0)
-    }
-    fn store(points: Vec<Self>) -> Points {
-        Points::Double(points)
-    }
-}
 
 /// What becomes of points with a NaN or infinite coordinate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -66,23 +22,6 @@ pub enum NonFinite {
     /// They keep their indices, are never visible and hide nothing.
     Skip,
 }
-
-/// Distinct points in the precision they came in. Public only in a private module.
-pub enum Points {
-    Single(Vec<[f32; 3]>),
-    Double(Vec<[f64; 3]>),
-}
-
-/// Runs `$body` with `$points` bound to the slice of either precision.
-macro_rules! with_points {
-    ($cloud:expr, $points:ident => $body:expr) => {
-        match &$cloud.points {
-            $crate::cloud::Points::Single($points) => $body,
-            $crate::cloud::Points::Double($points) => $body,
-        }
-    };
-}
-pub(crate) use with_points;
 
 /// A point cloud, prepared for visibility queries.
 ///
@@ -154,9 +93,10 @@ impl PointCloud {
         }
         drop(keyed);
 
+        let points = P::store(points);
         let statistics = Statistics::measure(&points, &bounds)?;
         Ok(Self {
-            points: P::store(points),
+            points,
             order,
             starts,
             len: positions.len(),
@@ -244,17 +184,19 @@ fn sort_along_curve<P: Position>(
         }
     }
     keyed.sort_unstable();
+    // What shares a cell of the curve: mostly duplicates.
+    let mut cell = Vec::new();
     for run in keyed.chunk_by_mut(|a, b| a.0 == b.0) {
         if run.len() > 1 {
-            let at = |index: u32| positions[index as usize].without_negative_zero().widen();
-            sort_by_coordinates(run, &at);
+            cell.clear();
+            cell.try_reserve(run.len())?;
+            let point = |index: u32| positions[index as usize].without_negative_zero().widen();
+            cell.extend(run.iter().map(|&(_, index)| (point(index), index)));
+            sort_by_coordinates(&mut cell);
+            for (slot, &(_, index)) in run.iter_mut().zip(&cell) {
+                slot.1 = index;
+            }
         }
     }
     Ok(keyed)
-}
-
-/// Sorts points of one key; a function of its own, and not generic, to be in the
-/// WebAssembly only once.
-fn sort_by_coordinates(run: &mut [(u64, u32)], at: &dyn Fn(u32) -> [f64; 3]) {
-    run.sort_unstable_by(|a, b| compare_coordinates(at(a.1), at(b.1)).then(a.1.cmp(&b.1)));
 }

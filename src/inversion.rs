@@ -9,8 +9,8 @@
 
 use glam::DVec3;
 
-use crate::cloud::Position;
 use crate::error::Error;
+use crate::points::Points;
 
 /// The flip around one viewpoint, with one fixed sequence of operations, so
 /// that every platform rounds alike: v = p − C, d = √(vx² + vy² + vz²),
@@ -53,7 +53,7 @@ impl Flip {
     /// Rescales the flipped cloud by a power of two where R is so extreme that
     /// floating-point filters would over- or underflow. Signs don't change with
     /// scale; where the scaling itself would round, it is left out.
-    pub(crate) fn rescaled_for<P: Position>(self, points: &[P]) -> Self {
+    pub(crate) fn rescaled_for(self, points: &Points) -> Self {
         const MODERATE: core::ops::Range<f64> = 1e-30..1e30;
         if MODERATE.contains(&self.radius) {
             return self;
@@ -62,7 +62,7 @@ impl Flip {
         let scaled = Self { scale, ..self };
         let exact = points
             .iter()
-            .all(|p| match (self.apply(p.widen()), scaled.apply(p.widen())) {
+            .all(|p| match (self.apply(p), scaled.apply(p)) {
                 (Some(q), Some(small)) => small / scale == q,
                 _ => true,
             });
@@ -74,14 +74,11 @@ impl Flip {
 ///
 /// # Errors
 /// [`Error::RadiusOverflow`] when a distance exceeds the range of f64.
-pub(crate) fn farthest_distance<P: Position>(
-    points: &[P],
-    viewpoint: [f64; 3],
-) -> Result<f64, Error> {
+pub(crate) fn farthest_distance(points: &Points, viewpoint: [f64; 3]) -> Result<f64, Error> {
     let viewpoint = DVec3::from_array(viewpoint);
     let mut largest = 0.0f64;
-    for p in points {
-        let v = DVec3::from_array(p.widen()) - viewpoint;
+    for p in points.iter() {
+        let v = DVec3::from_array(p) - viewpoint;
         largest = largest.max(v.dot(v));
     }
     // The root is monotonic, so the root of the largest is the largest root.

@@ -37,6 +37,7 @@ mod error;
 mod hull;
 mod inversion;
 mod options;
+mod points;
 mod predicates;
 mod radius;
 mod spacing;
@@ -45,9 +46,10 @@ mod visibility;
 #[cfg(feature = "wasm")]
 mod wasm;
 
-pub use cloud::{MAX_POINTS, NonFinite, PointCloud, Position};
+pub use cloud::{MAX_POINTS, NonFinite, PointCloud};
 pub use error::Error;
 pub use options::{Options, Radius};
+pub use points::Position;
 pub use visibility::Visibility;
 
 /// The README's Rust snippets, as documentation tests.

@@ -5,8 +5,8 @@
 
 use alloc::vec::Vec;
 
-use crate::cloud::Position;
 use crate::error::Error;
+use crate::points::Points;
 use crate::spatial::Bounds;
 
 /// Neighbors whose mean distance is a point's spacing.
@@ -33,24 +33,23 @@ pub(crate) struct Statistics {
 
 impl Statistics {
     /// Measures `points`: distinct, finite, along the Hilbert curve.
-    pub(crate) fn measure<P: Position>(points: &[P], bounds: &Bounds) -> Result<Self, Error> {
-        if points.is_empty() {
+    pub(crate) fn measure(points: &Points, bounds: &Bounds) -> Result<Self, Error> {
+        if points.len() == 0 {
             return Ok(Self::default());
         }
         let count = points.len() as f64;
         // Sums relative to a corner of the box keep the detail of georeferenced clouds.
         let corner = bounds.min;
         let mut sum = [0.0; 3];
-        for p in points {
-            let p = p.widen();
+        for p in points.iter() {
             for axis in 0..3 {
                 sum[axis] += p[axis] - corner[axis];
             }
         }
         let centroid: [f64; 3] = core::array::from_fn(|axis| corner[axis] + sum[axis] / count);
         let mut squares = 0.0;
-        for p in points {
-            squares += distance_squared(p.widen(), centroid);
+        for p in points.iter() {
+            squares += distance_squared(p, centroid);
         }
         Ok(Self {
             count: points.len(),
@@ -66,7 +65,7 @@ pub(crate) fn distance_squared(a: [f64; 3], b: [f64; 3]) -> f64 {
     v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
 }
 
-fn mean_spacing<P: Position>(points: &[P]) -> Result<f64, Error> {
+fn mean_spacing(points: &Points) -> Result<f64, Error> {
     let n = points.len();
     if n < 2 {
         return Ok(0.0);
@@ -94,13 +93,13 @@ struct BoxTree {
 }
 
 impl BoxTree {
-    fn new<P: Position>(points: &[P]) -> Result<Self, Error> {
+    fn new(points: &Points) -> Result<Self, Error> {
         let mut level: Vec<Bounds> = Vec::new();
         level.try_reserve_exact(points.len().div_ceil(LEAF))?;
-        for run in points.chunks(LEAF) {
+        for start in (0..points.len()).step_by(LEAF) {
             let mut bounds = Bounds::EMPTY;
-            for p in run {
-                bounds.include(p.widen());
+            for index in start..points.len().min(start + LEAF) {
+                bounds.include(points.get(index));
             }
             level.push(bounds);
         }
@@ -123,7 +122,7 @@ impl BoxTree {
     }
 
     /// The squared distances from point `query` to its nearest others.
-    fn nearest<P: Position>(&self, points: &[P], query: usize) -> Nearest {
+    fn nearest(&self, points: &Points, query: usize) -> Nearest {
         let mut nearest = Nearest::new();
         // The query's own leaf first: it bounds the search from the start.
         let own = query / LEAF;
@@ -135,9 +134,9 @@ impl BoxTree {
         nearest
     }
 
-    fn descend<P: Position>(
+    fn descend(
         &self,
-        points: &[P],
+        points: &Points,
         level: usize,
         node: usize,
         query: usize,
@@ -145,7 +144,7 @@ impl BoxTree {
         nearest: &mut Nearest,
     ) {
         let bounds = &self.levels[level][node];
-        if bounds.distance_squared(points[query].widen()) >= nearest.worst() {
+        if bounds.distance_squared(points.get(query)) >= nearest.worst() {
             return;
         }
         if level == 0 {
@@ -183,12 +182,12 @@ impl Nearest {
         &self.squared[..self.len]
     }
 
-    fn scan_leaf<P: Position>(&mut self, points: &[P], leaf: usize, query: usize) {
-        let center = points[query].widen();
+    fn scan_leaf(&mut self, points: &Points, leaf: usize, query: usize) {
+        let center = points.get(query);
         let end = points.len().min((leaf + 1) * LEAF);
-        for (index, p) in points.iter().enumerate().take(end).skip(leaf * LEAF) {
+        for index in leaf * LEAF..end {
             if index != query {
-                self.offer(distance_squared(center, p.widen()));
+                self.offer(distance_squared(center, points.get(index)));
             }
         }
     }

@@ -5,8 +5,6 @@
 //! alone (ties on the curve are broken by coordinates), never on the order of
 //! the input, so everything computed in it is reproducible to the bit.
 
-use core::cmp::Ordering;
-
 /// Bits per axis; three axes fill 63 bits of the key.
 const BITS: u32 = 21;
 
@@ -128,9 +126,12 @@ fn spread(x: u32) -> u64 {
     (x | x << 2) & 0x1249_2492_4924_9249
 }
 
-/// Lexicographic order of finite coordinates.
-pub(crate) fn compare_coordinates(a: [f64; 3], b: [f64; 3]) -> Ordering {
-    a[0].total_cmp(&b[0])
-        .then(a[1].total_cmp(&b[1]))
-        .then(a[2].total_cmp(&b[2]))
+/// Sorts points by their coordinates, equal ones by index. Coordinates hold no -0.
+pub(crate) fn sort_by_coordinates(points: &mut [([f64; 3], u32)]) {
+    points.sort_unstable_by(|(a, i), (b, j)| {
+        a[0].total_cmp(&b[0])
+            .then(a[1].total_cmp(&b[1]))
+            .then(a[2].total_cmp(&b[2]))
+            .then(i.cmp(j))
+    });
 }

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use crate::cloud::{PointCloud, with_points};
+use crate::cloud::PointCloud;
 use crate::error::Error;
 use crate::hull;
 use crate::inversion::{Flip, farthest_distance};
@@ -97,7 +97,7 @@ impl PointCloud {
     ) -> Result<Visibility, Error> {
         let resolved = self.resolve_radius(viewpoint, options.radius)?;
         let flip = Flip::new(viewpoint, resolved.radius);
-        let visible = with_points!(self, points => hull::mark_visible(points, &flip)?);
+        let visible = hull::mark_visible(&self.points, &flip)?;
         Ok(Visibility {
             indices: self.callers_indices(&visible)?,
             cloud_len: self.len(),
@@ -119,7 +119,7 @@ impl PointCloud {
         if viewpoint.iter().any(|x| !x.is_finite()) {
             return Err(Error::Viewpoint { viewpoint });
         }
-        let farthest = with_points!(self, points => farthest_distance(points, viewpoint)?);
+        let farthest = farthest_distance(&self.points, viewpoint)?;
         radius::resolve(choice, &self.statistics, viewpoint, farthest)
     }
 

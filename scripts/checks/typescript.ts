@@ -42,7 +42,7 @@ async function vitest(directory: string, env: Record<string, string> = {}): Prom
   mkdirSync(inRoot("target", "reports"), { recursive: true });
   rmSync(report, { force: true });
   const reporters = ["--reporter=default", "--reporter=json", `--outputFile.json=${report}`];
-  const { ok } = await run("vitest", ["run", "--dir", directory, ...reporters], { show: "results", env });
+  const { ok } = await run("vitest", ["run", `${directory}/`, ...reporters], { show: "results", env });
   return counted(ok, countsIn(report));
 }
 

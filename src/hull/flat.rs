@@ -9,7 +9,7 @@ use glam::DVec3;
 
 use crate::error::Error;
 use crate::predicates::{Sign, orient2d};
-use crate::spatial::compare_coordinates;
+use crate::spatial::sort_by_coordinates;
 
 const ORIGIN: [f64; 2] = [0.0; 2];
 
@@ -32,7 +32,7 @@ pub(super) fn mark_visible(
     };
     let plane = points.iter().find_map(|&(b, _)| spanned_axes(a, b));
     match plane {
-        Some(axes) => mark_in_plane(points, axes, visible),
+        Some(axes) => mark_in_plane(&points, axes, visible),
         None => {
             mark_on_line(&points, visible);
             Ok(())
@@ -74,34 +74,38 @@ fn mark_on_line(points: &[(DVec3, u32)], visible: &mut [bool]) {
 /// In a plane, the points on those edges of the convex hull of all points and
 /// the origin whose line misses the origin.
 fn mark_in_plane(
-    mut points: Vec<(DVec3, u32)>,
+    points: &[(DVec3, u32)],
     [i, j]: [usize; 2],
     visible: &mut [bool],
 ) -> Result<(), Error> {
-    points.try_reserve(1)?;
-    points.push((DVec3::ZERO, u32::MAX));
-    points.sort_unstable_by(|(p, _), (q, _)| {
-        let at = |p: &DVec3| [p[i] + 0.0, p[j] + 0.0, 0.0];
-        compare_coordinates(at(p), at(q))
-    });
+    let mut sorted: Vec<([f64; 3], u32)> = Vec::new();
+    sorted.try_reserve_exact(points.len() + 1)?;
+    sorted.push(([0.0; 3], u32::MAX));
+    // Adding 0 makes -0 the same as 0.
+    sorted.extend(
+        points
+            .iter()
+            .map(|(q, index)| ([q[i] + 0.0, q[j] + 0.0, 0.0], *index)),
+    );
+    sort_by_coordinates(&mut sorted);
     let at = |k: u32| {
-        let (q, _) = points[k as usize];
-        [q[i], q[j]]
+        let ([x, y, _], _) = sorted[k as usize];
+        [x, y]
     };
 
     // One representative of equal points walks the hull.
     let mut distinct: Vec<u32> = Vec::new();
     let mut chain: Vec<u32> = Vec::new();
-    distinct.try_reserve_exact(points.len())?;
-    chain.try_reserve_exact(points.len())?;
-    for k in 0..points.len() as u32 {
+    distinct.try_reserve_exact(sorted.len())?;
+    chain.try_reserve_exact(sorted.len())?;
+    for k in 0..sorted.len() as u32 {
         if distinct.last().is_none_or(|&last| at(last) != at(k)) {
             distinct.push(k);
         }
     }
     let mut on_boundary = Vec::new();
-    on_boundary.try_reserve_exact(points.len())?;
-    on_boundary.resize(points.len(), false);
+    on_boundary.try_reserve_exact(sorted.len())?;
+    on_boundary.resize(sorted.len(), false);
     let mut add_chain = |sorted: &mut dyn Iterator<Item = u32>| {
         convex_chain(sorted, &at, &mut chain);
         for edge in chain.windows(2) {
@@ -115,11 +119,11 @@ fn mark_in_plane(
     add_chain(&mut distinct.iter().rev().copied());
 
     let mut representative = 0;
-    for k in 0..points.len() as u32 {
+    for k in 0..sorted.len() as u32 {
         if at(k) != at(representative) {
             representative = k;
         }
-        let index = points[k as usize].1;
+        let index = sorted[k as usize].1;
         if on_boundary[representative as usize] && index != u32::MAX {
             visible[index as usize] = true;
         }

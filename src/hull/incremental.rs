@@ -10,6 +10,7 @@
 //! Every decision is a sign: first of a rounded dual plane with a proved bound
 //! of its error, then exact (`predicates`).
 
+use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
 use glam::DVec3;
 
@@ -96,7 +97,7 @@ pub(super) fn mark_visible(
     corners: [u32; 3],
     visible: &mut [bool],
 ) -> Result<(), Error> {
-    let mut hull = Hull::new(corners, flipped, reach);
+    let mut hull = Hull::new(corners, flipped, reach, visible.len())?;
     // A point found exactly on the boundary is visible only if it still is
     // when the hull is complete.
     let mut on_boundary: Vec<u32> = Vec::new();
@@ -145,6 +146,11 @@ struct Vertices {
 }
 
 impl Vertices {
+    fn reserve(&mut self, more: usize) -> Result<(), TryReserveError> {
+        self.positions.try_reserve(more)?;
+        self.points.try_reserve(more)
+    }
+
     #[inline]
     fn plane(&self, [a, b, c]: [Vertex; 3]) -> Plane {
         if a == ORIGIN || b == ORIGIN || c == ORIGIN {
@@ -197,20 +203,33 @@ impl Vertices {
 }
 
 impl Hull {
-    fn new(corners: [u32; 3], flipped: &impl Fn(u32) -> Option<DVec3>, reach: f64) -> Self {
+    /// The first tetrahedron, with room, if it can be had, for a hull that half of
+    /// `count` points are on: growing later would hold two copies for a moment.
+    fn new(
+        corners: [u32; 3],
+        flipped: &impl Fn(u32) -> Option<DVec3>,
+        reach: f64,
+        count: usize,
+    ) -> Result<Self, Error> {
         let mut vertices = Vertices {
-            positions: alloc::vec![DVec3::ZERO],
-            points: alloc::vec![u32::MAX],
+            positions: Vec::new(),
+            points: Vec::new(),
             reach,
         };
+        vertices
+            .reserve(4 + count / 2)
+            .or_else(|_| vertices.reserve(4))?;
+        vertices.positions.push(DVec3::ZERO);
+        vertices.points.push(u32::MAX);
         for corner in corners {
             if let Some(q) = flipped(corner) {
                 vertices.positions.push(q);
                 vertices.points.push(corner);
             }
         }
-        let surface = Surface::tetrahedron(ORIGIN, [1, 2, 3], |v| vertices.plane(v));
-        Self { surface, vertices }
+        let mut surface = Surface::tetrahedron(ORIGIN, [1, 2, 3], |v| vertices.plane(v));
+        surface.reserve(count);
+        Ok(Self { surface, vertices })
     }
 
     /// Walks from `hint`, an outer face, towards the face that the ray of `q`
@@ -303,8 +322,7 @@ impl Hull {
     /// that is outer. There is one, because the ray of a new vertex ends at it.
     fn insert(&mut self, point: u32, q: DVec3, start: FaceId) -> Result<FaceId, Error> {
         let vertex = self.vertices.positions.len() as Vertex;
-        self.vertices.positions.try_reserve(1)?;
-        self.vertices.points.try_reserve(1)?;
+        self.vertices.reserve(1)?;
         self.vertices.positions.push(q);
         self.vertices.points.push(point);
         let vertices = &self.vertices;

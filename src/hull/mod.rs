@@ -16,18 +16,18 @@ mod topology;
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::cloud::Position;
 use crate::error::Error;
 use crate::inversion::Flip;
+use crate::points::Points;
 use crate::predicates::{Sign, side_of_origin};
 
 /// Points looked at for a first tetrahedron before all of them are.
 const SEED_SAMPLE: usize = 512;
 
 /// Marks the visible ones among `points`, flipped by `flip`.
-pub(crate) fn mark_visible<P: Position>(points: &[P], flip: &Flip) -> Result<Vec<bool>, Error> {
+pub(crate) fn mark_visible(points: &Points, flip: &Flip) -> Result<Vec<bool>, Error> {
     let flip = flip.rescaled_for(points);
-    let flipped = |index: u32| flip.apply(points[index as usize].widen());
+    let flipped = |index: u32| flip.apply(points.get(index as usize));
 
     let mut visible = Vec::new();
     visible.try_reserve_exact(points.len())?;

@@ -98,6 +98,12 @@ impl<T: Copy> Surface<T> {
         }
     }
 
+    /// Makes room for `faces` more faces, if it can be had; the surface can grow
+    /// without.
+    pub(crate) fn reserve(&mut self, faces: usize) {
+        let _ = self.faces.try_reserve_exact(faces);
+    }
+
     #[inline]
     pub(crate) fn face(&self, id: FaceId) -> &Face<T> {
         &self.faces[id as usize]

@@ -1,0 +1,54 @@
+//! The crate against exact certificates on clouds that are too large for the
+//! oracle; and the certificates against the oracle.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use crate::common::scenes::{KINDS, Scene};
+use crate::common::{ask, indices_of, oracle, proved};
+
+/// Every point of the scene: the crate's answer and the proved one.
+fn check(name: &str, seed: u64, scene: &Scene) {
+    let answer = ask(&scene.points, scene.viewpoint, &scene.options);
+    let expected = proved(&scene.points, scene.viewpoint, answer.radius());
+    assert_eq!(
+        answer.indices(),
+        indices_of(&expected),
+        "{name} with seed {seed}, {} points, {:?}",
+        scene.points.len(),
+        scene.options
+    );
+}
+
+#[test]
+fn every_point_of_medium_clouds_is_certified() {
+    for kind in KINDS {
+        for seed in 1000..1008 {
+            check(
+                kind.name,
+                seed,
+                &kind.scene(seed, 40 + 60 * (seed % 4) as usize),
+            );
+        }
+    }
+}
+
+#[test]
+fn every_point_of_larger_clouds_is_certified() {
+    for kind in KINDS {
+        check(kind.name, 7, &kind.scene(7, 1200));
+    }
+}
+
+#[test]
+fn certificates_and_oracle_agree() {
+    for kind in KINDS {
+        for seed in 3000..3010 {
+            let scene = kind.scene(seed, 14);
+            let radius = ask(&scene.points, scene.viewpoint, &scene.options).radius();
+            let certified = proved(&scene.points, scene.viewpoint, radius);
+            let expected = oracle::visible(&scene.points, scene.viewpoint, radius);
+            assert_eq!(certified, expected, "{} with seed {seed}", kind.name);
+        }
+    }
+}

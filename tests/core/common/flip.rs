@@ -1,0 +1,35 @@
+//! The spherical flip, operation by operation: the one fixed sequence of `f64`
+//! operations that the answers are exact for.
+
+/// `v = p − C` and its length, left to right.
+fn relative(p: [f64; 3], viewpoint: [f64; 3]) -> ([f64; 3], f64) {
+    let x = p[0] - viewpoint[0];
+    let y = p[1] - viewpoint[1];
+    let z = p[2] - viewpoint[2];
+    let xx = x * x;
+    let yy = y * y;
+    let zz = z * z;
+    ([x, y, z], ((xx + yy) + zz).sqrt())
+}
+
+pub fn distance(p: [f64; 3], viewpoint: [f64; 3]) -> f64 {
+    relative(p, viewpoint).1
+}
+
+/// The farthest distance; 0 for no points.
+pub fn farthest(points: &[[f64; 3]], viewpoint: [f64; 3]) -> f64 {
+    points
+        .iter()
+        .map(|&p| distance(p, viewpoint))
+        .fold(0.0, f64::max)
+}
+
+/// q, or `None` for a point at the viewpoint: it is visible and hides nothing.
+pub fn flip(p: [f64; 3], viewpoint: [f64; 3], radius: f64) -> Option<[f64; 3]> {
+    let (v, d) = relative(p, viewpoint);
+    if d == 0.0 {
+        return None;
+    }
+    let s = (2.0 * radius - d) / d;
+    s.is_finite().then(|| v.map(|x| x * s))
+}

@@ -1,0 +1,55 @@
+//! What the tests of the core share. Nothing here knows how the crate finds its
+//! answers: everything is derived from the definition of visibility,
+//!
+//! > q is visible exactly when λq ∉ K for every λ > 1, K = conv(Q ∪ {0}),
+//!
+//! where Q are the flipped points as rounded to `f64`.
+// Each test program uses its own part of this.
+#![allow(dead_code)]
+
+pub mod certify;
+pub mod flip;
+pub mod oracle;
+pub mod rng;
+pub mod scenes;
+pub mod shapes;
+
+use hidden_point_removal::{Options, PointCloud, Position, Visibility};
+
+use certify::Certifier;
+use flip::flip;
+
+/// Asks the crate, for inputs that must be accepted.
+pub fn ask<P: Position>(points: &[P], viewpoint: [f64; 3], options: &Options) -> Visibility {
+    PointCloud::new(points)
+        .expect("an acceptable cloud")
+        .visible_from(viewpoint, options)
+        .expect("an acceptable view")
+}
+
+/// The positions of the set bits.
+pub fn indices_of(mask: &[bool]) -> Vec<u32> {
+    (0..mask.len() as u32)
+        .filter(|&i| mask[i as usize])
+        .collect()
+}
+
+/// The answer by certificates for every point.
+pub fn proved(points: &[[f64; 3]], viewpoint: [f64; 3], radius: f64) -> Vec<bool> {
+    let flipped: Vec<_> = points.iter().map(|&p| flip(p, viewpoint, radius)).collect();
+    let q: Vec<_> = flipped.iter().flatten().copied().collect();
+    if q.is_empty() {
+        return vec![true; points.len()];
+    }
+    let certifier = Certifier::new(&q);
+    let mut number = 0;
+    flipped
+        .iter()
+        .map(|q| {
+            q.is_none() || {
+                number += 1;
+                certifier.verdict(number - 1).visible
+            }
+        })
+        .collect()
+}

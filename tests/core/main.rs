@@ -1,0 +1,14 @@
+//! The core against its definition: the same tests run natively
+//! (`cargo test --release --test core`) and, compiled to WebAssembly, under Node.
+
+mod common;
+
+mod automatic;
+mod certificates;
+mod definition;
+mod digest;
+mod fixtures;
+mod invariance;
+mod oracle;
+mod radius;
+mod refusals;

@@ -1,0 +1,75 @@
+//! The crate against the naive oracle, on thousands of small and mostly
+//! degenerate scenes; and the oracle against what can be seen by eye.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use crate::common::scenes::{EXTREME, KINDS, Kind};
+use crate::common::{ask, indices_of, oracle};
+
+fn compare(kind: &Kind, seeds: std::ops::Range<u64>) {
+    for seed in seeds {
+        let scene = kind.scene(seed, (seed % 14) as usize);
+        let answer = ask(&scene.points, scene.viewpoint, &scene.options);
+        let expected = oracle::visible(&scene.points, scene.viewpoint, answer.radius());
+        assert_eq!(
+            answer.indices(),
+            indices_of(&expected),
+            "{} with seed {seed}: {scene:?}",
+            kind.name
+        );
+    }
+}
+
+#[test]
+fn every_kind_of_small_scene_is_answered_by_the_definition() {
+    for kind in KINDS {
+        compare(kind, 0..200);
+    }
+}
+
+#[test]
+fn the_ends_of_the_range_are_answered_by_the_definition() {
+    for kind in EXTREME {
+        compare(kind, 0..100);
+    }
+}
+
+/// Which of these flipped points are visible by the oracle's enumeration?
+fn enumerate<const N: usize>(q: [[f64; 3]; N]) -> [bool; N] {
+    let hidden = oracle::hidden(&oracle::integers(&q));
+    core::array::from_fn(|i| !hidden[i])
+}
+
+#[test]
+fn the_oracle_knows_points_on_one_ray() {
+    assert_eq!(enumerate([[1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]), [false, true]);
+    assert_eq!(enumerate([[-1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]), [true, true]);
+    assert_eq!(enumerate([[0.0; 3]]), [false]);
+}
+
+#[test]
+fn the_oracle_knows_edges_in_a_plane_with_the_viewpoint() {
+    // On the edge from (2,0) to (0,2); below it; beyond it.
+    let edge = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
+    let with = |x, y| enumerate([edge[0], edge[1], [x, y, 0.0]]);
+    assert_eq!(with(1.0, 1.0), [true, true, true]);
+    assert_eq!(with(1.0, 0.75), [true, true, false]);
+    assert_eq!(with(1.0, 1.25), [true, true, true]);
+    // Pointing away: K is thinner than a ray there, so the ray leaves at once.
+    assert_eq!(with(-0.25, -0.25), [true, true, true]);
+    // On the side of K that the viewpoint lies on: hidden behind the corner.
+    assert_eq!(with(1.5, 0.0), [true, true, false]);
+}
+
+#[test]
+fn the_oracle_knows_facets() {
+    let corners = [[4.0, 0.0, 0.0], [0.0, 4.0, 0.0], [0.0, 0.0, 4.0]];
+    let with = |q| enumerate([corners[0], corners[1], corners[2], q])[3];
+    assert!(with([1.0, 1.0, 2.0]), "on the facet");
+    assert!(with([2.0, 2.0, 0.0]), "on its edge");
+    assert!(!with([1.0, 1.0, 1.875]), "below it");
+    assert!(with([1.0, 1.0, 2.125]), "above it");
+    assert!(!with([1.0, 1.0, 0.0]), "on a side through the viewpoint");
+    assert!(with([-1.0, 0.0, 0.0]), "behind the viewpoint");
+}
