@@ -24,8 +24,18 @@ await command(async () => {
     await server.close();
     throw new Problem(`The page cannot be served: ${String(error)}`);
   }
+  stopWithNpm();
   console.log(`\nThe demo page: http://localhost:${server.config.server.port}/ (Ctrl+C stops it)`);
 });
+
+/** Ending npm ends the shell it runs scripts in, but not what runs in that shell. */
+function stopWithNpm(): void {
+  if (process.env["npm_lifecycle_event"] === undefined) return;
+  const parent = process.ppid;
+  setInterval(() => {
+    if (process.ppid !== parent) process.exit();
+  }, 500).unref();
+}
 
 function chosenPort(): { port: number; asked: boolean } {
   const text = process.env["PORT"] ?? "";

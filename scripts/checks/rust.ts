@@ -31,7 +31,7 @@ export const rustChecks: Check[] = [
   },
   {
     title: "Rust: tests, native",
-    run: () => cargoTest("cargo", ["test", "--locked", "--release"]),
+    run: () => cargoTest("cargo", ["test", "--locked", "--release", "--no-fail-fast"]),
   },
   {
     title: "Rust: tests in WebAssembly, under Node",
