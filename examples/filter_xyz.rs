@@ -9,24 +9,35 @@
 
 use std::error::Error;
 use std::io::{BufWriter, Write};
+use std::process::ExitCode;
 
 use hidden_point_removal::{Options, PointCloud};
 
-fn main() -> Result<(), Box<dyn Error>> {
+fn main() -> ExitCode {
+    match filter() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            eprintln!("{error}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn filter() -> Result<(), Box<dyn Error>> {
     let mut args = std::env::args().skip(1);
     let (Some(file), Some(viewpoint)) = (args.next(), args.next()) else {
         return Err("usage: filter_xyz CLOUD.xyz X,Y,Z".into());
     };
     let viewpoint = coordinates(viewpoint.split(','))?;
 
-    let text = std::fs::read_to_string(file)?;
+    let text = std::fs::read_to_string(&file).map_err(|e| format!("{file}: {e}"))?;
     let lines: Vec<&str> = text
         .lines()
         .filter(|line| !line.trim().is_empty())
         .collect();
     let positions = lines
         .iter()
-        .map(|line| coordinates(line.split_whitespace()))
+        .map(|line| coordinates(line.split_whitespace()).map_err(|e| format!("{e}: {line:?}")))
         .collect::<Result<Vec<_>, _>>()?;
 
     let cloud = PointCloud::new(&positions)?;

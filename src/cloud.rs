@@ -184,19 +184,30 @@ fn sort_along_curve<P: Position>(
         }
     }
     keyed.sort_unstable();
-    // What shares a cell of the curve: mostly duplicates.
-    let mut cell = Vec::new();
-    for run in keyed.chunk_by_mut(|a, b| a.0 == b.0) {
-        if run.len() > 1 {
-            cell.clear();
-            cell.try_reserve(run.len())?;
-            let point = |index: u32| positions[index as usize].without_negative_zero().widen();
-            cell.extend(run.iter().map(|&(_, index)| (point(index), index)));
-            sort_by_coordinates(&mut cell);
-            for (slot, &(_, index)) in run.iter_mut().zip(&cell) {
+    // What shares a cell, mostly duplicates: along a curve inside it, and then by
+    // coordinates.
+    let point = |index: u32| positions[index as usize].without_negative_zero().widen();
+    let mut same_key = Vec::new();
+    for cell in runs_of_equal_keys(&mut keyed) {
+        for (key, index) in cell.iter_mut() {
+            *key = curve.key_in_cell(point(*index));
+        }
+        cell.sort_unstable();
+        for run in runs_of_equal_keys(cell) {
+            same_key.clear();
+            same_key.try_reserve(run.len())?;
+            same_key.extend(run.iter().map(|&(_, index)| (point(index), index)));
+            sort_by_coordinates(&mut same_key);
+            for (slot, &(_, index)) in run.iter_mut().zip(&same_key) {
                 slot.1 = index;
             }
         }
     }
     Ok(keyed)
+}
+
+fn runs_of_equal_keys(keyed: &mut [(u64, u32)]) -> impl Iterator<Item = &mut [(u64, u32)]> {
+    keyed
+        .chunk_by_mut(|a, b| a.0 == b.0)
+        .filter(|run| run.len() > 1)
 }

@@ -7,6 +7,8 @@
 
 /// Bits per axis; three axes fill 63 bits of the key.
 const BITS: u32 = 21;
+/// Cells along an axis.
+const CELLS: f64 = (1u32 << BITS) as f64;
 
 /// Axis-aligned bounding box.
 #[derive(Clone, Copy, Debug)]
@@ -67,19 +69,32 @@ impl HilbertCurve {
         }
     }
 
-    /// The key of `p`; equal points have equal keys.
+    /// The key of `p` among all points; equal points have equal keys.
     pub(crate) fn key(&self, p: [f64; 3]) -> u64 {
-        const CELLS: f64 = (1u32 << BITS) as f64;
-        let mut cell = [0u32; 3];
-        if self.half_extent > 0.0 {
-            for axis in 0..3 {
-                let along = (p[axis] * 0.5 - self.min[axis] * 0.5) / self.half_extent;
-                // `as` saturates, and the far side of the box belongs to the last cell.
-                cell[axis] = ((along * CELLS) as u32).min((1 << BITS) - 1);
-            }
-        }
-        interleave(to_hilbert(cell))
+        interleave(to_hilbert(self.cells(p).map(cell)))
     }
+
+    /// The key of `p` among the points of one cell, along a curve of its own: a
+    /// single far point can make the box so large that all others share a few cells.
+    pub(crate) fn key_in_cell(&self, p: [f64; 3]) -> u64 {
+        let inside = |cells: f64| cell((cells - f64::from(cell(cells))) * CELLS);
+        interleave(to_hilbert(self.cells(p).map(inside)))
+    }
+
+    /// How many cells away from the corner of the box `p` is along each axis.
+    fn cells(&self, p: [f64; 3]) -> [f64; 3] {
+        if self.half_extent == 0.0 {
+            return [0.0; 3];
+        }
+        let along = |axis: usize| (p[axis] * 0.5 - self.min[axis] * 0.5) / self.half_extent;
+        core::array::from_fn(|axis| along(axis) * CELLS)
+    }
+}
+
+/// The number of the cell; the far side of the box belongs to the last one.
+fn cell(cells: f64) -> u32 {
+    // `as` saturates.
+    (cells as u32).min((1 << BITS) - 1)
 }
 
 /// Skilling's transform ("Programming the Hilbert curve", 2004): coordinates to

@@ -18,6 +18,9 @@ use super::topology::{Face, FaceId, HalfEdge, Surface, Vertex};
 use crate::error::Error;
 use crate::predicates::{Sign, side_of_face, side_of_origin};
 
+/// Steps of a walk before it is worth looking for a better start.
+const PATIENCE: usize = 64;
+
 /// The ghost vertex.
 const ORIGIN: Vertex = 0;
 
@@ -32,7 +35,7 @@ const ORIGIN: Vertex = 0;
 /// - the division and the sum m·q − 1: 5·|m||q| + 1 ≤ 2.5 κ + 1.
 ///
 /// At m·q near 1 that is below 10 ε (1 + κ); `error` is twice that. Farther
-/// from the plane the error grows with |m·q|, but by less than 10⁻⁸ of it, so
+/// from the plane the error grows with |m·q|, but by less than 10⁻⁵ of it, so
 /// the sign stays right, also of the difference of two neighbors' m·q while one
 /// of them is between 0 and 1. L is [`Flip::reach`].
 ///
@@ -53,7 +56,7 @@ impl Plane {
 
     fn through(a: DVec3, b: DVec3, p: DVec3, reach: f64) -> Self {
         const ROUNDING: f64 = f64::EPSILON / 2.0;
-        const MAX_CONDITION: f64 = 1e6;
+        const MAX_CONDITION: f64 = 1e10;
         // Above this no product in `n` that matters has underflowed.
         const MIN_VOLUME: f64 = 1e-200;
         let u = a - p;
@@ -242,9 +245,11 @@ impl Hull {
     fn locate(&self, q: DVec3, hint: FaceId) -> Location {
         let mut id = hint;
         let mut height = self.surface.face(id).data.m.dot(q);
-        // Walks are short; a cycle through coplanar faces would be the only long one.
-        let patience = 1000 + self.surface.slots() / 64;
-        for _ in 0..patience {
+        for step in 0..PATIENCE + self.surface.slots() {
+            if step % PATIENCE == PATIENCE - 1 {
+                id = self.jump(id, q, step);
+                height = self.surface.face(id).data.m.dot(q);
+            }
             let face = self.surface.face(id);
             let error = face.data.error;
             if height - 1.0 > error {
@@ -270,7 +275,7 @@ impl Hull {
             } else if height > 0.0 && bound < height - error {
                 // All three neighbors are certainly lower.
                 return self.decide(id, q);
-            } else if let Some(twin) = self.crossed_edge(face, q) {
+            } else if let Some(twin) = self.crossed_edge(face, q, step) {
                 id = twin.face();
                 let face = self.surface.face(id);
                 // The plane of a ghost or edge-on face is the plane of this
@@ -287,11 +292,36 @@ impl Hull {
     }
 
     /// Exactly, for near-ties: an edge of `face` beyond which the ray of `q` passes.
+    /// Which edge is tried first changes from step to step, or a walk could go
+    /// round in a circle of coplanar faces.
     #[cold]
-    fn crossed_edge(&self, face: &Face<Plane>, q: DVec3) -> Option<HalfEdge> {
-        (0..3)
+    fn crossed_edge(&self, face: &Face<Plane>, q: DVec3, step: usize) -> Option<HalfEdge> {
+        // The high bits of a product with the golden ratio look random.
+        let first = (step as u32).wrapping_mul(0x9e37_79b9) >> 16;
+        (first..first + 3)
+            .map(|edge| (edge % 3) as usize)
             .find(|&edge| self.vertices.is_beyond(face, edge, q))
             .map(|edge| face.twins[edge])
+    }
+
+    /// A better place to walk on from than `id`, after many steps: walks are short
+    /// but for those around a vertex of very many faces. Looks at as many faces as
+    /// a walk between two of them may need steps.
+    #[cold]
+    fn jump(&self, id: FaceId, q: DVec3, step: usize) -> FaceId {
+        let slots = self.surface.slots();
+        let stride = slots.isqrt().max(1);
+        let mut best = id;
+        let mut best_height = self.surface.face(id).data.m.dot(q);
+        for slot in (step % stride..slots).step_by(stride) {
+            let face = self.surface.face(slot as FaceId);
+            let height = face.data.m.dot(q);
+            if height > best_height && face.is_alive() && !face.data.is_exact_only() {
+                best = slot as FaceId;
+                best_height = height;
+            }
+        }
+        best
     }
 
     /// Decides for the outer face that the ray of `q` pierces.

@@ -57,7 +57,7 @@ pub(crate) struct Face<T> {
 
 impl<T> Face<T> {
     #[inline]
-    fn is_alive(&self) -> bool {
+    pub(crate) fn is_alive(&self) -> bool {
         self.vertices[0] != NONE
     }
 }
