@@ -5,6 +5,8 @@ export type Up = "y" | "z" | "-y";
 export interface LoadedCloud {
   positions: Float32Array | Float64Array;
   colors: Uint8Array | null;
+  /** What the file says of how it was taken: which way was up, and from where. */
+  taken?: { up: Up; from: [number, number, number] };
 }
 
 /** A cloud ready to draw: recentered in f32 for the graphics card. The file's own coordinates go to the hull's worker. */

@@ -12,9 +12,7 @@ const message = new Message();
 bindSheet();
 
 if (canDraw()) {
-  const params = readParams(location.search, SAMPLES.map((sample) => sample.name));
-  startSession(params, status, message);
-  if (params.notes.length > 0) message.show(params.notes.join(" "));
+  startSession(readParams(location.search, SAMPLES.map((sample) => sample.name)), status, message);
 } else {
   const sentence = "This page draws with WebGL 2, which this browser does not offer or has switched off.";
   status.error(sentence);

@@ -9,6 +9,9 @@ export interface Params {
   notes: string[];
 }
 
+/** The end of the slider. */
+const MOST_EXPONENT = 6;
+
 export function readParams(search: string, samples: readonly string[]): Params {
   const query = new URLSearchParams(search);
   const notes: string[] = [];
@@ -20,9 +23,9 @@ export function readParams(search: string, samples: readonly string[]): Params {
   }
 
   const exponent = query.has("exponent") ? parseNumber(query.get("exponent")!) : null;
-  const exponentFits = exponent === null || (Number.isFinite(exponent) && exponent >= 0);
+  const exponentFits = exponent === null || (exponent >= 0 && exponent <= MOST_EXPONENT);
   if (!exponentFits) {
-    notes.push("The exponent in the address is not a number of 0 or more, so the automatic one is used.");
+    notes.push(`The exponent in the address is not a number from 0 to ${MOST_EXPONENT}, so the automatic one is used.`);
   }
 
   const view = query.has("view") ? query.get("view")!.split(",").map(parseNumber) : null;
@@ -31,9 +34,12 @@ export function readParams(search: string, samples: readonly string[]): Params {
     notes.push("The view in the address is not three numbers x,y,z, so the usual view is used.");
   }
 
+  const src = query.get("src");
+  if (src === "") notes.push(`The address names no file after “src=”, so this is the ${sample}.`);
+
   return {
     sample,
-    src: query.get("src"),
+    src: src === "" ? null : src,
     exponent: exponentFits ? exponent : null,
     view: viewFits ? (view as [number, number, number] | null) : null,
     notes,

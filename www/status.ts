@@ -1,15 +1,22 @@
+import { byId } from "./panel/dom.ts";
 import type { Answer } from "./refilter.ts";
 
-/** Screen readers read the sentence anew each time it changes: not more often than this, in milliseconds. */
-const QUIET = 800;
+/** The sentence changes not more often than this, in milliseconds, and is announced when it has stood for this long. */
+const CALM = 800;
+const SETTLED = 1000;
 
 const number = new Intl.NumberFormat("en-US");
 
-/** The #status line: its data-attributes tell at once and in full precision, its sentence in calm and rounded. */
+/**
+ * The #status line: its data-attributes tell at once and in full precision, its sentence in calm and rounded. Screen
+ * readers hear of a new sentence once the movement that changes it has stopped.
+ */
 export class Status {
   private readonly element: HTMLElement;
+  private readonly announcement = byId("announcement");
   private sentence = "";
-  private timer: ReturnType<typeof setTimeout> | null = null;
+  private timer: ReturnType<typeof setTimeout> | undefined;
+  private announcing: ReturnType<typeof setTimeout> | undefined;
   private refilters = 0;
   private last: (Pick<Answer, "visibility" | "milliseconds"> & { total: number }) | null = null;
   /** Answers to what was asked before this moment do not end a "loading" or an "error". */
@@ -61,25 +68,37 @@ export class Status {
   describe(frozen: boolean): void {
     if (!this.last || this.element.dataset["state"] !== "ready") return;
     const { visibility, milliseconds, total } = this.last;
-    const share = total > 0 ? Math.round((100 * visibility.count) / total) : 0;
     const where = frozen ? "were visible from the frozen viewpoint" : "are visible from here";
-    const effort = `found in ${milliseconds < 10 ? milliseconds.toFixed(1) : number.format(Math.round(milliseconds))} ms`;
-    this.say(`${number.format(visibility.count)} of ${number.format(total)} points (${share} %) ${where}, ${effort}.`);
+    const time = milliseconds < 10 ? milliseconds.toFixed(1) : number.format(Math.round(milliseconds));
+    const share = percent(visibility.count, total);
+    this.say(`${number.format(visibility.count)} of ${number.format(total)} points (${share}) ${where}, found in ${time}\u00a0ms.`);
   }
 
-  /** Lets the next sentence be heard at once. */
+  /** Lets the next sentence be read at once. */
   private interrupt(): void {
-    if (this.timer !== null) clearTimeout(this.timer);
-    this.timer = null;
+    clearTimeout(this.timer);
+    this.timer = undefined;
   }
 
   private say(sentence: string): void {
     this.sentence = sentence;
-    if (this.timer !== null) return;
+    clearTimeout(this.announcing);
+    this.announcing = setTimeout(() => {
+      this.announcement.textContent = sentence;
+    }, SETTLED);
+    if (this.timer !== undefined) return;
     this.element.textContent = sentence;
     this.timer = setTimeout(() => {
-      this.timer = null;
-      if (this.element.textContent !== this.sentence) this.say(this.sentence);
-    }, QUIET);
+      this.timer = undefined;
+      this.element.textContent = this.sentence;
+    }, CALM);
   }
+}
+
+/** Rounded, but neither to none nor to all where that is not so. */
+function percent(count: number, total: number): string {
+  const share = total > 0 ? Math.round((100 * count) / total) : 0;
+  if (share === 0 && count > 0) return "<\u00a01\u00a0%";
+  if (share === 100 && count < total) return ">\u00a099\u00a0%";
+  return `${share}\u00a0%`;
 }

@@ -1,9 +1,9 @@
 import type { Cloud, Up } from "./cloud.ts";
 import type { Answer, Refilter, Viewpoint } from "./refilter.ts";
-import { findHome, type Home, inFile } from "./view/framing.ts";
+import { type Home, inFile } from "./view/framing.ts";
 import { ViewpointMarker } from "./view/marker.ts";
 import { Navigation } from "./view/navigation.ts";
-import { CloudPoints, type HiddenMode } from "./view/points.ts";
+import { CloudPoints, type HiddenMode, THROUGH_OPACITY } from "./view/points.ts";
 import { Stage } from "./view/stage.ts";
 
 /** A cloud that is ready to be shown, with the first answer about it. */
@@ -13,6 +13,8 @@ export interface Opened {
   home: Home;
   up: Up;
   answer: Answer;
+  /** Where to look at it from with that side up, in a picture of the shape it has now. */
+  findHome: (up: Up) => Home;
 }
 
 /** What is on screen: one cloud, the camera before it, and the viewpoint its points are filtered for. */
@@ -35,8 +37,17 @@ export class Viewer {
     this.navigation = new Navigation(this.stage.camera, canvas);
     this.marker = new ViewpointMarker(this.stage.overlay);
     this.stage.onFrame = () => {
+      this.marker.follow(this.stage.camera);
       this.shown?.refilter.want({ viewpoint: this.frozenAt ?? this.viewpoint(), exponent: this.exponent });
     };
+    // Who has not moved yet goes on seeing the whole cloud; who has stays there.
+    this.stage.onResize = () => {
+      if (this.isHome) this.reset();
+    };
+  }
+
+  get isEmpty(): boolean {
+    return this.shown === null;
   }
 
   /** Puts a cloud in the place of the one before. */
@@ -59,9 +70,8 @@ export class Viewer {
       this.onError(error);
     };
     this.stage.points.add(points.solid);
-    this.stage.overlay.add(points.ghost);
     points.setUp(up);
-    points.show(this.mode, false);
+    this.showHidden();
     this.setPointSize(this.pointSize);
     this.stage.setExtent(cloud.radius);
     this.navigation.setHome(home.pose);
@@ -70,8 +80,7 @@ export class Viewer {
 
   setHiddenMode(mode: HiddenMode): void {
     this.mode = mode;
-    this.shown?.points.show(mode, this.frozenAt !== null);
-    this.stage.invalidate();
+    this.showHidden();
   }
 
   /** In multiples of the points' rough distance from one another. */
@@ -83,10 +92,16 @@ export class Viewer {
   /** Turns the cloud upright another way, and looks at it as for the first time. */
   setUp(up: Up): void {
     if (!this.shown) return;
-    const home = findHome(this.shown.cloud, up, null, null, this.stage.camera);
-    Object.assign(this.shown, { up, home });
+    this.shown.up = up;
     this.shown.points.setUp(up);
-    this.navigation.setHome(home.pose);
+    this.reset();
+  }
+
+  /** Looks at the cloud as for the first time. */
+  reset(): void {
+    if (!this.shown) return;
+    this.shown.home = this.shown.findHome(this.shown.up);
+    this.navigation.setHome(this.shown.home.pose);
     this.stage.invalidate();
   }
 
@@ -101,14 +116,30 @@ export class Viewer {
       this.frozenAt = this.viewpoint();
       this.marker.place(this.stage.camera, 0.18 * radius);
     }
-    this.shown.points.show(this.mode, frozen);
+    this.showHidden();
     this.stage.setExtent(frozen ? Math.max(radius, this.stage.camera.position.length() + 0.2 * radius) : radius);
+  }
+
+  /**
+   * Points have no size of their own, so nothing of a cloud really covers anything: as long as the viewpoint goes with the
+   * camera, hidden points are drawn through the visible ones. Seen from elsewhere, they stand where they are.
+   */
+  private showHidden(): void {
+    if (!this.shown) return;
+    const { points } = this.shown;
+    const frozen = this.frozenAt !== null;
+    points.show(this.mode, frozen);
+    (frozen ? this.stage.points : this.stage.through).add(points.ghost);
+    this.stage.setThroughOpacity(THROUGH_OPACITY[this.mode]);
+  }
+
+  private get isHome(): boolean {
+    return this.shown !== null && this.stage.camera.position.equals(this.shown.home.pose.at);
   }
 
   /** The camera's place in the file's coordinates: at home exactly the numbers that were asked for. */
   private viewpoint(): Viewpoint {
     const { cloud, home } = this.shown!;
-    const { position } = this.stage.camera;
-    return position.equals(home.pose.at) ? home.viewpoint : inFile(cloud, position);
+    return this.isHome ? home.viewpoint : inFile(cloud, this.stage.camera.position);
   }
 }

@@ -10,7 +10,7 @@ export default defineConfig({
   // Relative addresses: the page can be served from any folder of any site.
   base: "./",
   build: { outDir: here("dist"), emptyOutDir: true, target: "es2022", chunkSizeWarningLimit: 900 },
-  plugins: [samples(here("public/samples"))],
+  plugins: [samples()],
   worker: { format: "es", plugins: () => [threeForLoaders()] },
   // Bundling three ahead of time would hide from the plugin above which loader asks for it.
   optimizeDeps: { exclude: ["three", "hidden-point-removal"] },

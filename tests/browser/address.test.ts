@@ -2,7 +2,7 @@ import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { expect, test } from "vitest";
 import { asciiPly, ball } from "./clouds.js";
-import { answerInNode, dragonPositions, openPage, openReady, reached, served, settled, status } from "./support.js";
+import { answered, answerInNode, dragonPositions, openPage, openReady, reached, refiltered, served, settled, status } from "./support.js";
 
 const bunny = createRequire(import.meta.url)("bunny") as { positions: number[][] };
 
@@ -60,8 +60,37 @@ test("what the address asks for and cannot have is said in a plain sentence", as
   }
 });
 
-test("?src of a page instead of a cloud is refused in a plain sentence", async () => {
+test.for([
+  ["exponent=400", /exponent in the address is not a number from 0 to 6/],
+  ["view=1e300,0,0", /view in the address is too far away/],
+  ["view=1e19,0,0", /view in the address is too far away/],
+  ["src=", /names no file after “src=”/],
+] as const)("?%s is refused with a note, and the sample is seen as usual", async ([query, note]) => {
+  const usual = await status(await openReady("?sample=bunny"));
+  const page = await openReady(`?sample=bunny&${query}`);
+  const { state, total, visible, viewpoint } = usual;
+  expect(await settled(page)).toMatchObject({ state, total, visible, viewpoint });
+  expect(await page.locator("#message").textContent()).toMatch(note);
+});
+
+test("a sample that is picked is in the address", async () => {
+  const page = await openReady("?sample=bunny&view=1,2,3&exponent=2");
+  const before = await status(page);
+  await page.locator("#sample").selectOption("dragon_res4");
+  await answered(page, before);
+  expect(new URL(page.url()).search).toBe("?sample=dragon_res4&exponent=2");
+});
+
+test("?src of a page instead of a cloud is refused in a plain sentence, and the usual sample is there", async () => {
   served.set("clouds/lost.ply", readFileSync(new URL("../../www/index.html", import.meta.url)));
-  const { sentence } = await reached(await openPage("?src=clouds/lost.ply"), "error");
+  const page = await openPage("?src=clouds/lost.ply&sample=bunny");
+  const { sentence } = await reached(page, "error");
   expect(sentence).toMatch(/lost\.ply is not a point cloud/);
+  await page.locator('#status[data-total="1839"]').waitFor();
+  const now = await settled(page);
+  expect(now).toMatchObject({ state: "error", sentence });
+  expect(await page.locator("#message p").textContent()).toBe(sentence);
+  expect(await page.locator("#sample").inputValue()).toBe("bunny");
+  await page.locator("#view").press("ArrowLeft");
+  expect((await refiltered(page, now)).state).toBe("ready");
 });

@@ -31,6 +31,11 @@ export function text(content: string): Uint8Array {
   return new TextEncoder().encode(content);
 }
 
+/** As some spreadsheets write it, behind its mark. */
+export function utf16(content: string): Uint8Array {
+  return new Uint8Array(Buffer.from(`\ufeff${content}`, "utf16le"));
+}
+
 function joined(...parts: Uint8Array[]): Uint8Array {
   return new Uint8Array(Buffer.concat(parts));
 }

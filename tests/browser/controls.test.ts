@@ -57,8 +57,10 @@ test("zooming, panning and keys move the viewpoint", async () => {
   expect(last).toMatchObject(await answerInNode(dragonPositions("_res3"), last));
 
   const home = await status(await openReady(SAMPLE));
+  await page.getByLabel("Field of view", { exact: true }).fill("20");
   await page.getByRole("button", { name: "Reset view" }).click();
   expect((await refiltered(page, last)).viewpoint).toEqual(home.viewpoint);
+  expect(await page.getByLabel("Field of view", { exact: true }).inputValue()).toBe("45");
 });
 
 test("keys in the panel's fields do not move the camera", async () => {
@@ -69,8 +71,8 @@ test("keys in the panel's fields do not move the camera", async () => {
   expect(await settled(page)).toEqual(before);
 });
 
-test("hidden points are off, dimmed or shown, and that re-filters nothing", async () => {
-  const page = await openReady(SAMPLE);
+test.for(["dragon_res3", "bunny"])("hidden points of %s are off, dimmed or shown, and that re-filters nothing", async (sample) => {
+  const page = await openReady(`?sample=${sample}`);
   const before = await settled(page);
   const off = await picture(page);
   await page.getByRole("radio", { name: "Dimmed" }).check();
@@ -93,8 +95,12 @@ test("a frozen viewpoint stays while the camera flies around, and is let go agai
   const page = await openReady(SAMPLE);
   const before = await settled(page);
   const freeze = page.getByRole("button", { name: "Freeze viewpoint" });
+  const unfrozen = await picture(page);
   await freeze.click();
   expect(await freeze.getAttribute("aria-pressed")).toBe("true");
+  expect(await freeze.textContent()).toBe("Unfreeze viewpoint");
+  // The mark at the viewpoint is seen from elsewhere only.
+  expect(await differentPixels(page, unfrozen, await picture(page))).toBe(0);
   await expect.poll(async () => (await status(page)).sentence).toMatch(/were visible from the frozen viewpoint/);
   const there = await picture(page);
   await drag(page, 200, 0);
@@ -135,4 +141,34 @@ test("a larger point size covers more of the picture", async () => {
   await page.getByLabel("Point size").fill("4");
   expect(await differentPixels(page, small, await picture(page))).toBeGreaterThan(2000);
   expect(await settled(page)).toEqual(before);
+});
+
+test("back to the side that was up at first is back to the first view", async () => {
+  const page = await openReady("?sample=room");
+  const inside = await settled(page);
+  await page.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).check();
+  const turned = await refiltered(page, inside);
+  expect(turned.viewpoint).not.toEqual(inside.viewpoint);
+  await page.locator("#up-axis").getByRole("radio", { name: "Y", exact: true }).check();
+  expect((await refiltered(page, turned)).viewpoint).toEqual(inside.viewpoint);
+});
+
+test("the sentence is announced once, after the movement", async () => {
+  const page = await openReady(SAMPLE);
+  const before = await settled(page);
+  await page.waitForTimeout(1500);
+  const announced = await page.evaluateHandle(() => {
+    const texts: string[] = [];
+    const region = document.querySelector('[role="status"]')!;
+    new MutationObserver(() => texts.push(region.textContent)).observe(region, { childList: true });
+    return texts;
+  });
+  for (let step = 0; step < 3; step++) {
+    await drag(page, 40, 10);
+    await page.waitForTimeout(150);
+  }
+  const after = await refiltered(page, before);
+  await page.waitForTimeout(2000);
+  expect(await announced.jsonValue()).toEqual([(await status(page)).sentence]);
+  expect(after.refilters).toBeGreaterThan(before.refilters);
 });

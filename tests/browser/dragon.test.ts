@@ -8,7 +8,7 @@ test("the page opens on the dragon, and every answer while orbiting is the packa
   expect(first.total).toBe(437_645);
   expect(first.visible).toBeGreaterThan(0);
   expect(first.visible).toBeLessThan(first.total);
-  expect(first.sentence).toMatch(/^[\d,]+ of 437,645 points \(\d+ %\) are visible from here, found in [\d.]+ ms\.$/);
+  expect(first.sentence).toMatch(/^[\d,]+ of 437,645 points \(\d+\s%\) are visible from here, found in [\d.]+\sms\.$/);
   expect(first).toMatchObject(await answerInNode(positions, first));
 
   await drag(page, 180, 40);

@@ -1,6 +1,6 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { asciiPly, ball, binaryPly, georeferencedBall, meshObj, meshPly, pcd, rows, text } from "./clouds.js";
+import { asciiPly, ball, binaryPly, georeferencedBall, meshObj, meshPly, pcd, rows, text, utf16 } from "./clouds.js";
 import { answered, answerInNode, openReady, status } from "./support.js";
 
 const COUNT = 600;
@@ -22,6 +22,10 @@ const FILES: [string, Uint8Array, Float32Array | Float64Array][] = [
   ["colored.txt", text(`# x y z r g b\n${lines(near, "\t").replaceAll("\n", "\t200\t100\t50\n")}\t1\t2\t3\n`), near],
   ["counted.txt", text(`${COUNT}\n${lines(far, " ").replaceAll("\n", " 17 200 100 50\n")} 17 1 2 3\n`), far],
   ["table.csv", text(`id,z,"Y",x\r\n${rows(far).map(([x, y, z], i) => `${i},${z},${y},${x}`).join("\r\n")}`), far],
+  ["survey.csv", text(`point_id,time,x_m,y_m,z_m\n${rows(far).map((row, i) => `${i},${i / 8},${row.join()}`).join("\n")}`), far],
+  ["units.txt", text(`//X [m] Y [m] Z [m]\n${lines(far, " ")}`), far],
+  ["wide.csv", utf16(`x,y,z\r\n${lines(near, ",")}`), near],
+  ["capitals.ply", text(new TextDecoder().decode(asciiPly(near)).replace(/float ([xyz])/g, (_, axis: string) => `float ${axis.toUpperCase()}`)), near],
   ["european.csv", text(lines(far, ";").replaceAll(".", ",")), far],
   ["mesh.obj", meshObj(far), far],
 ];
@@ -70,6 +74,34 @@ test("up can be chosen, and the cloud is looked at anew", async () => {
   expect(turned).toMatchObject(await answerInNode(near, turned));
 });
 
+test("a depth camera's cloud is seen upright from where it was taken", async () => {
+  const page = await openReady("?sample=bunny");
+  const before = await status(page);
+  const content = new TextDecoder().decode(pcd(near, "ascii")).replace("WIDTH 600\nHEIGHT 1\nVIEWPOINT 0 0 0", "WIDTH 30\nHEIGHT 20\nVIEWPOINT 1 2 -9");
+  await choose(page, "kinect.pcd", text(content));
+  const now = await answered(page, before);
+  expect(now).toMatchObject({ state: "ready", total: COUNT, viewpoint: [1, 2, -9], ...(await answerInNode(near, now)) });
+  expect(await page.locator("#up-axis input:checked").inputValue()).toBe("-y");
+});
+
+test("of several dropped files the first is opened, and what is no file is named", async () => {
+  const page = await openReady("?sample=bunny");
+  const dropped = async (make: (data: DataTransfer) => void) => {
+    const transfer = await page.evaluateHandle(`(() => { const data = new DataTransfer(); (${String(make)})(data); return data; })()`);
+    await page.dispatchEvent("#view", "drop", { dataTransfer: transfer });
+  };
+  await dropped((data) => {
+    data.setData("text/plain", "hello");
+  });
+  expect(await page.locator("#message p").textContent()).toBe("That is not a file; drop a file.");
+  const before = await status(page);
+  await dropped((data) => {
+    for (const name of ["one.xyz", "two.xyz"]) data.items.add(new File(["1 2 3\n4 5 6\n7 8 9.5\n"], name));
+  });
+  expect(await answered(page, before)).toMatchObject({ total: 3 });
+  expect(await page.locator("#message p").textContent()).toBe("Of the 2 files only the first was opened, one.xyz.");
+});
+
 test("points that are all the same, and a single point, can be looked at", async () => {
   const page = await openReady("?sample=bunny");
   for (const [name, content, total] of [
@@ -85,7 +117,7 @@ test("points that are all the same, and a single point, can be looked at", async
 const nan = `${lines(near, " ")}\nnan nan nan\n`;
 const png = Uint8Array.from([0x89, 0x50, 0x4e, 0x47, 0x0d, 0x0a, 0x1a, 0x0a, 0, 0, 0, 13, 0x49, 0x48, 0x44, 0x52]);
 
-test.for<[string, Uint8Array, RegExp]>([
+const REFUSED: [string, Uint8Array, RegExp][] = [
   ["broken.ply", text("ply\nformat ascii 1.0\nelement vertex 3\n"), /is broken: its PLY header has no end/],
   ["cut.ply", asciiPly(near).slice(0, 4000), /is broken: it ends before the 600 points/],
   ["cut-binary.ply", binaryPly(near, "float", true).slice(0, 3000), /is broken: it ends before the 600 points/],
@@ -104,6 +136,10 @@ test.for<[string, Uint8Array, RegExp]>([
   ["picture.xyz", png, /is not a point cloud this page knows/],
   ["page.pcd", text("<!doctype html><title>404</title>"), /is not a point cloud: it does not begin like a PCD file/],
   ["letter.txt", text("Dear all,\n\nthank you for 3 nice days.\n\nYours, Ada\n"), /does not look like a point cloud/],
+  ["nameless.csv", text("id,time,a,b,c\n1,2,3,4,5\n2,3,4,5,6\n"), /does not say which columns are x, y and z: its header is “id,time,a,b,c”/],
+  ["comma.ply", text(new TextDecoder().decode(asciiPly([0.5, 1.5, 2.5])).replace(/(\d)\.(5)/g, "$1,$2")), /its numbers have commas/],
+  ["first.xyz", text(`nan nan nan\n${lines(near, " ")}`), /has 1 of 601 points without a position/],
+  ["short.obj", text("v 1 2 3\nv 4 5\n"), /a vertex line has fewer than three numbers \(“v 4 5”\)/],
   ["stumble.csv", text("x,y,z\n1,2,3\n4,five,6\n"), /line 3 is not a point/],
   ["cube.obj", text("# no vertices\nf 1 2 3\n"), /holds no points/],
   ["nan.xyz", text(nan), /has 1 of 601 points without a position/],
@@ -111,25 +147,30 @@ test.for<[string, Uint8Array, RegExp]>([
   ["infinite.xyz", text(`${lines(near, " ")}\n1 2 1e999\n`), /has 1 of 601 points without a position/],
   ["only-nan.pcd", pcd([NaN, NaN, NaN], "binary"), /none of its coordinates are numbers/],
   ["beyond.xyz", text("0 0 0\n1 1 1e300\n"), /too far out/],
-])("%s is refused in a plain sentence, and the cloud that was there stays", async ([name, content, sentence]) => {
-  const page = await openReady("?sample=bunny");
-  const before = await status(page);
-  await choose(page, name, content);
-  await page.locator('#status[data-state="error"]').waitFor();
-  const after = await status(page);
-  expect(after).toEqual({ ...before, state: "error", sentence: after.sentence });
-  expect(after.sentence).toMatch(sentence);
-  expect(after.sentence).toMatch(/^\S.*\.$/);
-  const message = page.locator("#message");
-  expect(await message.locator("p").textContent()).toBe(after.sentence);
-  expect(await page.locator("#sample").inputValue()).toBe("bunny");
-  expect(await page.locator("#progress").isVisible()).toBe(false);
+];
 
-  await message.getByRole("button", { name: "Dismiss" }).click();
-  expect(await message.isVisible()).toBe(false);
-  await page.locator("#view").focus();
-  await page.keyboard.press("ArrowLeft");
-  expect(await answered(page, after)).toMatchObject({ state: "ready", total: 1839 });
+test("what is no cloud is refused in a plain sentence, and the cloud that was there stays", async () => {
+  const page = await openReady("?sample=bunny");
+  const message = page.locator("#message");
+  for (const [name, content, sentence] of REFUSED) {
+    const before = await status(page);
+    await choose(page, name, content);
+    await page.locator('#status[data-state="error"]').waitFor();
+    const after = await status(page);
+    expect(after, name).toEqual({ ...before, state: "error", sentence: after.sentence });
+    expect(after.sentence).toMatch(sentence);
+    expect(after.sentence).toMatch(/^\S.*\.$/);
+    expect(await message.locator("p").textContent()).toBe(after.sentence);
+    expect(await page.locator("#sample").inputValue()).toBe("bunny");
+    expect(await page.locator("#progress").isVisible()).toBe(false);
+
+    await message.getByRole("button", { name: "Dismiss" }).focus();
+    await page.keyboard.press("Escape");
+    expect(await message.isVisible()).toBe(false);
+    // The focus has gone back to the cloud.
+    await page.keyboard.press("ArrowLeft");
+    expect(await answered(page, after)).toMatchObject({ state: "ready", total: 1839 });
+  }
 });
 
 test("points without a position can be left out", async () => {

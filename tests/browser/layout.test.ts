@@ -1,6 +1,6 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { openPage, openReady, reached, refiltered, status } from "./support.js";
+import { openPage, openReady, reached, refiltered, settled, status } from "./support.js";
 
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
 
@@ -85,4 +85,29 @@ test("without WebGL a plain sentence says so", async () => {
   });
   await page.reload();
   expect((await reached(page, "error")).sentence).toMatch(/WebGL 2, which this browser does not offer/);
+});
+
+test("with the system's own colors one sees what is chosen", async () => {
+  const page = await openReady("?sample=dragon_res4", { forcedColors: "active" });
+  const background = (text: string) => page.locator("#hidden-points label", { hasText: text }).evaluate((label) => getComputedStyle(label).backgroundColor);
+  expect(await background("Off")).not.toBe(await background("Dimmed"));
+  const freeze = page.getByRole("button", { name: "Freeze viewpoint" });
+  const color = () => freeze.evaluate((button) => getComputedStyle(button).backgroundColor);
+  const before = await color();
+  await freeze.click();
+  expect(await color()).not.toBe(before);
+});
+
+test("a narrower window still shows the whole cloud, at once and after a reset", async () => {
+  const page = await openReady("?sample=dragon_res4");
+  const wide = await status(page);
+  await page.setViewportSize({ width: 420, height: 800 });
+  const narrow = await refiltered(page, wide);
+  expect(Math.hypot(...narrow.viewpoint)).toBeGreaterThan(1.2 * Math.hypot(...wide.viewpoint));
+  await page.locator("#view").press("ArrowLeft");
+  const moved = await refiltered(page, narrow);
+  await page.setViewportSize({ width: 1000, height: 700 });
+  expect((await settled(page)).viewpoint).toEqual(moved.viewpoint);
+  await page.getByRole("button", { name: "Reset view" }).click();
+  expect((await refiltered(page, moved)).viewpoint).toEqual(wide.viewpoint);
 });

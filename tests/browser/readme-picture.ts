@@ -8,14 +8,21 @@ import { mkdirSync, writeFileSync } from "node:fs";
 import type { Page } from "playwright-core";
 import { launchBrowser, servePage } from "./site.js";
 
-const WIDTH = 560;
-const HEIGHT = 420;
+const WIDTH = 470;
+const HEIGHT = 384;
 const PANEL = 320;
+
+interface Half {
+  label: string;
+  /** A PNG file in base64. */
+  image: string;
+}
 
 const site = await servePage();
 const browser = await launchBrowser();
 const page = await browser.newPage({ viewport: { width: WIDTH + PANEL, height: HEIGHT } });
-await page.goto(site.address);
+// Few and small enough points for the back to shine through the front, as it does in any viewer.
+await page.goto(`${site.address}?sample=dragon_res3`);
 await page.locator('#status[data-state="ready"]').waitFor();
 // A little closer than the page begins.
 for (let step = 0; step < 2; step++) await page.locator("#view").press("+");
@@ -23,21 +30,25 @@ await page.locator("#view").blur();
 // The answer for the last step.
 await page.waitForTimeout(2000);
 
-const pictures: string[] = [];
-for (const hidden of ["Shown", "Off"]) {
+const halves: Half[] = [];
+for (const { label, hidden, size } of [
+  { label: "all points", hidden: "Shown", size: "0.5" },
+  { label: "visible from here", hidden: "Off", size: "2" },
+]) {
   await page.getByRole("radio", { name: hidden }).check();
-  pictures.push((await page.locator("#view").screenshot()).toString("base64"));
+  await page.getByLabel("Point size").fill(size);
+  halves.push({ label, image: (await page.locator("#view").screenshot()).toString("base64") });
 }
 const file = new URL("../../docs/before-after.png", import.meta.url);
 mkdirSync(new URL(".", file), { recursive: true });
-writeFileSync(file, Buffer.from(await sideBySide(page, pictures), "base64"));
+writeFileSync(file, Buffer.from(await sideBySide(page, halves), "base64"));
 await browser.close();
 site.close();
 
-function sideBySide(canvasPage: Page, images: string[]): Promise<string> {
-  return canvasPage.evaluate(async (sources) => {
+function sideBySide(canvasPage: Page, sources: Half[]): Promise<string> {
+  return canvasPage.evaluate(async (parts) => {
     const bitmaps = await Promise.all(
-      sources.map(async (source) => createImageBitmap(await (await fetch(`data:image/png;base64,${source}`)).blob())),
+      parts.map(async ({ image: source }) => createImageBitmap(await (await fetch(`data:image/png;base64,${source}`)).blob())),
     );
     const canvas = document.createElement("canvas");
     canvas.width = bitmaps.reduce((sum, bitmap) => sum + bitmap.width, 0);
@@ -48,6 +59,12 @@ function sideBySide(canvasPage: Page, images: string[]): Promise<string> {
       context.drawImage(bitmap, x, 0);
       x += bitmap.width;
     }
+    context.font = "600 19px system-ui, sans-serif";
+    context.textAlign = "center";
+    context.fillStyle = "#e8eaed";
+    for (const [i, { label }] of parts.entries()) context.fillText(label, (i + 0.5) * bitmaps[0]!.width, 32);
+    context.fillStyle = "#343a43";
+    context.fillRect(bitmaps[0]!.width - 1, 0, 2, canvas.height);
     return canvas.toDataURL("image/png").split(",")[1]!;
-  }, images);
+  }, sources);
 }

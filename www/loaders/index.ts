@@ -23,7 +23,9 @@ export function loadCloud(
     };
     worker.onerror = (event) => {
       event.preventDefault();
-      reject(new LoadProblem(`${request.name} could not be read: the browser ran out of memory or stopped the loader.`));
+      // Only an error of a worker that runs says where it happened.
+      const why = event instanceof ErrorEvent ? "the browser ran out of memory or stopped the loader" : "a part of this page could not be downloaded";
+      reject(new LoadProblem(`${request.name} could not be read: ${why}.`));
     };
     worker.postMessage(request);
   }).finally(() => { worker.terminate(); });

@@ -43,9 +43,9 @@ export function checkedCloud(name: string, cloud: LoadedCloud, skipNonFinite: bo
   }
   const finite = bad > 0 ? withoutNonFinite(cloud, total - bad) : cloud;
   if (finite.positions.some((value) => Math.abs(value) > MAX_EXTENT)) {
-    throw new LoadProblem(`${name} has coordinates above ${MAX_EXTENT}, too far out to be drawn.`);
+    throw new LoadProblem(`${name} has coordinates above 10¹⁸, too far out to be drawn.`);
   }
-  return { positions: narrowed(finite.positions), colors: finite.colors };
+  return { ...cloud, positions: narrowed(finite.positions), colors: finite.colors };
 }
 
 function isFiniteAt(positions: LoadedCloud["positions"], i: number): boolean {

@@ -70,5 +70,15 @@ export function readPcd(name: string, data: ArrayBuffer): LoadedCloud {
   // A four-byte float is a float, also where a text writes it with more digits.
   const cloud = pointsOf(geometry, size[fields.indexOf("x")] === 4 ? "single" : "double");
   if (cloud.positions.length !== 3 * points) throw endsEarly();
-  return cloud;
+  return isOrganized(header) ? { ...cloud, taken: { up: "-y", from: takenFrom(header) } } : cloud;
+}
+
+/** Rows and columns as a depth camera sees them: in its own coordinates, x to the right, y down, z ahead. */
+function isOrganized(header: Map<string, string[]>): boolean {
+  return Number(header.get("HEIGHT")?.[0]) > 1;
+}
+
+function takenFrom(header: Map<string, string[]>): [number, number, number] {
+  const [x, y, z] = (header.get("VIEWPOINT") ?? []).map(Number);
+  return [x, y, z].every(Number.isFinite) ? [x!, y!, z!] : [0, 0, 0];
 }

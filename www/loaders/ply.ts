@@ -34,6 +34,9 @@ export function readPly(name: string, data: ArrayBuffer): LoadedCloud {
   const elements = readElements(name, lines);
   const at = elements.findIndex((element) => element.name === "vertex");
   if (at < 0) throw new LoadProblem(`${name} is a PLY file without vertices.`);
+  if (format === "ascii" && /\d,\d/.test(new TextDecoder().decode(new Uint8Array(data, end, Math.min(4096, data.byteLength - end))))) {
+    throw new LoadProblem(`${name} is broken: its numbers have commas, which a PLY file writes as points.`);
+  }
   const wanted = elements.slice(0, at + 1);
   const vertex = elements[at]!;
   checkPointCount(name, vertex.count);
@@ -79,7 +82,8 @@ function readElements(name: string, lines: string[]): PlyElement[] {
       elements.push({ name: words[1] ?? "", count, lines: [line], bytes: 0 });
     } else if (words[0] === "property" && elements.length > 0) {
       const element = elements[elements.length - 1]!;
-      element.lines.push(line);
+      // Some programs write X, Y and Z; the loader knows x, y and z.
+      element.lines.push(words[1] === "list" ? line : line.toLowerCase());
       if (words[1] !== "list" && BYTES[words[1] ?? ""] === undefined) {
         throw new LoadProblem(`${name} is broken: its PLY header has a property of unknown type (${words[1] ?? "none"}).`);
       }

@@ -17,14 +17,22 @@ export function readFile(name: string, data: ArrayBuffer): LoadedCloud {
     if (ending === "ply" || ending === "pcd") {
       throw new LoadProblem(`${name} is not a point cloud: it does not begin like a ${ending.toUpperCase()} file.`);
     }
-    if (looksBinary(start)) throw new LoadProblem(`${name} is not a point cloud this page knows. It opens ${FORMATS} files.`);
-    const text = new TextDecoder().decode(data);
+    const encoding = encodingOf(data);
+    if (encoding === "utf-8" && looksBinary(start)) throw new LoadProblem(`${name} is not a point cloud this page knows. It opens ${FORMATS} files.`);
+    const text = new TextDecoder(encoding).decode(data);
     return ending === "obj" || /^v[ \t]+[-+.\d]/m.test(start) ? readObj(name, text) : readXyz(name, text);
   } catch (error) {
     if (error instanceof LoadProblem) throw error;
     // Whatever a loader trips over, it was the file: a size, an offset or a number that cannot be.
     throw new LoadProblem(`${name} is broken and could not be read.`);
   }
+}
+
+/** By the mark at its beginning: some spreadsheets export text of two bytes a character. */
+function encodingOf(data: ArrayBuffer): "utf-8" | "utf-16le" | "utf-16be" {
+  const [first, second] = new Uint8Array(data, 0, Math.min(data.byteLength, 2));
+  if (first === 0xff && second === 0xfe) return "utf-16le";
+  return first === 0xfe && second === 0xff ? "utf-16be" : "utf-8";
 }
 
 /** Text has no control characters but tabs and line ends. */

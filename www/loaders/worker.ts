@@ -34,7 +34,11 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   } else {
     data = await download(request.name, request.url, (fraction) => { progress("Downloading", fraction); });
   }
-  if (request.kind === "sample") return { positions: new Float32Array(data), colors: null };
+  if (request.kind === "sample") {
+    // A server that answers with a page for what it does not have.
+    if (data.byteLength % 12 !== 0) throw new LoadProblem(`${request.name} could not be downloaded: the server sent something else.`);
+    return { positions: new Float32Array(data), colors: null };
+  }
   progress("Reading", null);
   return checkedCloud(request.name, readFile(request.name, data), request.skipNonFinite);
 }

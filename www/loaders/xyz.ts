@@ -73,9 +73,9 @@ function findLayout(name: string, lines: string[]): { layout: Layout; first: num
     if (line === "" || /^\d+$/.test(line)) continue;
     const writing = separators(line);
     const words = split(line, writing);
-    const isPoint = words.length >= 3 && words.every((word) => NUMBER.test(word) || NO_NUMBER.test(word)) && words.some((word) => NUMBER.test(word));
+    const isPoint = words.length >= 3 && words.every((word) => NUMBER.test(word) || NO_NUMBER.test(word)) && words.some((word) => word !== "");
     if (isPoint || (header !== "" && words.filter((word) => NUMBER.test(word)).length >= 3)) {
-      return { layout: columns(header, lines.slice(i, i + LOOK_AT), writing), first: i };
+      return { layout: columns(name, header, lines.slice(i, i + LOOK_AT), writing), first: i };
     }
     // One line of names may stand above the points; after a second line of words this is a text, not a table.
     if (!isComment(line) && header !== "" && !isComment(header)) break;
@@ -92,11 +92,16 @@ function separators(line: string): Pick<Layout, "separator" | "decimalComma"> {
   return { separator: /\s+/, decimalComma: decimals };
 }
 
-function columns(header: string, lines: string[], writing: Pick<Layout, "separator" | "decimalComma">): Layout {
+function columns(name: string, header: string, lines: string[], writing: Pick<Layout, "separator" | "decimalComma">): Layout {
   const rows = lines.map((line) => line.trim()).filter((line) => line !== "" && !isComment(line)).map((line) => split(line, writing));
-  const names = split(header.replace(/^(#|\/\/)\s*/, "").toLowerCase(), separators(header));
+  const names = namesIn(header);
   const named = COLUMN_NAMES.map((patterns) => patterns.map((pattern) => names.findIndex((word) => pattern.test(word))));
-  const position = named[0]!.includes(-1) ? [0, 1, 2] : named[0]!;
+  const unnamed = named[0]!.includes(-1);
+  // A line of names without these among them: the first three columns may be anything.
+  if (unnamed && !isComment(header) && names.length === rows[0]!.length && names.length > 3) {
+    throw new LoadProblem(`${name} does not say which columns are x, y and z: its header is “${header.slice(0, 80)}”.`);
+  }
+  const position = unnamed ? [0, 1, 2] : named[0]!;
 
   let color = named[1]!.includes(-1) ? null : named[1]!;
   if (!color && !rows.some((row) => row.length !== rows[0]!.length)) {
@@ -108,6 +113,12 @@ function columns(header: string, lines: string[], writing: Pick<Layout, "separat
   const largest = color ? Math.max(...rows.flatMap((row) => color.map((column) => Number(row[column])))) : 0;
   const colorScale = largest <= 1 ? 255 : largest > 255 ? 255 / 65535 : 1;
   return { ...writing, position, color: Number.isFinite(largest) ? color : null, colorScale };
+}
+
+/** The names in a header line, in lower case and without their units: “X [m]” and “x_m” are x. */
+function namesIn(header: string): string[] {
+  const bare = header.toLowerCase().replace(/^(#|\/\/)\s*/, "").replace(/\s*(\[[^\]]*\]|\([^)]*\))/g, "");
+  return split(bare, separators(bare)).map((name) => name.replace(/[ _.-]?coord(inate)?$/, "").replace(/[ _.-](m|mm|cm|km|ft|met(er|re)s?)$/, ""));
 }
 
 function isByte(word: string): boolean {

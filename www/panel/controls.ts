@@ -16,6 +16,18 @@ export function usualFieldOfView(sample: Sample | null): number {
   return sample?.fieldOfView ?? USUAL_FIELD_OF_VIEW;
 }
 
+/** The fewer the points, the wider they are on screen: at the size that closes a dense surface they would be scales on a sparse one. */
+export function usualPointSize(sample: Sample | null, count: number): number {
+  return sample?.pointSize ?? (count < 20_000 ? 1.4 : count < 200_000 ? 2 : 3);
+}
+
+/** What the controls begin with for a cloud. */
+export interface Settings {
+  fieldOfView: number;
+  pointSize: number;
+  up: Up;
+}
+
 /** The panel's controls and the keys that stand for them, bound to the viewer. */
 export class Controls {
   onFreeze: (frozen: boolean) => void = () => undefined;
@@ -24,6 +36,8 @@ export class Controls {
   private readonly freeze: FreezeButton;
   private readonly exponent: ExponentControl;
   private readonly fieldOfView: Slider;
+  private readonly pointSize: Slider;
+  private usualFieldOfView = USUAL_FIELD_OF_VIEW;
   private readonly up: Segmented<Up>;
 
   constructor(viewer: Viewer, exponent: number | null) {
@@ -39,10 +53,10 @@ export class Controls {
     this.exponent = new ExponentControl(exponent, (value) => {
       viewer.exponent = value;
     });
-    const pointSize = new Slider("point-size", (value) => `${value.toFixed(1)} ×`, (value) => {
+    this.pointSize = new Slider("point-size", (value) => `${value.toFixed(1)} ×`, (value) => {
       viewer.setPointSize(value);
     });
-    viewer.setPointSize(pointSize.value);
+    viewer.setPointSize(this.pointSize.value);
     this.fieldOfView = new Slider("field-of-view", (value) => `${Math.round(value)}°`, (value) => {
       viewer.stage.setFieldOfView(value);
     });
@@ -51,7 +65,7 @@ export class Controls {
       viewer.setUp(up);
     });
     byId("reset").addEventListener("click", () => {
-      viewer.navigation.reset();
+      this.reset();
     });
     viewer.navigation.onFieldOfView = (factor) => {
       this.setFieldOfView(this.fieldOfView.value * factor);
@@ -70,15 +84,23 @@ export class Controls {
   }
 
   /** Sets what depends on the cloud. */
-  prepare(fieldOfView: number, up: Up): void {
+  prepare({ fieldOfView, pointSize, up }: Settings): void {
     this.unfreeze();
     this.up.value = up;
+    this.pointSize.value = pointSize;
+    this.viewer.setPointSize(pointSize);
+    this.usualFieldOfView = fieldOfView;
     this.setFieldOfView(fieldOfView);
   }
 
   /** Shows what the answer was found with. */
   follow(answer: Answer): void {
     this.exponent.follow(answer.visibility.exponent);
+  }
+
+  private reset(): void {
+    this.setFieldOfView(this.usualFieldOfView);
+    this.viewer.reset();
   }
 
   private setFieldOfView(degrees: number): void {
@@ -90,7 +112,7 @@ export class Controls {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     const key = event.key.toLowerCase();
     if (key === "f") this.freeze.toggle();
-    else if (key === "r") this.viewer.navigation.reset();
+    else if (key === "r") this.reset();
     else if (key === "h") {
       this.hidden.value = this.hidden.next;
       this.viewer.setHiddenMode(this.hidden.value);

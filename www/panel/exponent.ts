@@ -19,7 +19,8 @@ export class ExponentControl {
     this.button.addEventListener("click", () => {
       this.set(null);
     });
-    if (initial !== null) this.slider.value = initial;
+    if (initial === null) this.slider.clear();
+    else this.slider.value = initial;
     this.set(initial);
   }
 

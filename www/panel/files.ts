@@ -1,7 +1,14 @@
 import { byId } from "./dom.ts";
 
+export interface FileActions {
+  /** With what the user has to know besides. */
+  open: (file: File, notes: string[]) => void;
+  /** What was dropped cannot be opened. */
+  refuse: (sentence: string) => void;
+}
+
 /** A file chosen by the button or dropped anywhere on the page. */
-export function onFile(open: (file: File) => void): void {
+export function onFile({ open, refuse }: FileActions): void {
   const input = byId("file", HTMLInputElement);
   byId("open").addEventListener("click", () => {
     input.click();
@@ -9,14 +16,12 @@ export function onFile(open: (file: File) => void): void {
   input.addEventListener("change", () => {
     const file = input.files?.[0];
     // Emptied, so that choosing the same file again is a change again.
-    if (file) open(file);
+    if (file) open(file, []);
     input.value = "";
   });
 
   const hint = byId("drop");
-  const carriesFile = (event: DragEvent) => event.dataTransfer?.types.includes("Files") ?? false;
   document.addEventListener("dragover", (event) => {
-    if (!carriesFile(event)) return;
     event.preventDefault();
     hint.hidden = false;
   });
@@ -26,9 +31,12 @@ export function onFile(open: (file: File) => void): void {
   });
   document.addEventListener("drop", (event) => {
     hint.hidden = true;
-    if (!carriesFile(event)) return;
+    // Whatever it is: the browser would leave the page for it.
     event.preventDefault();
-    const file = event.dataTransfer?.files[0];
-    if (file) open(file);
+    const { items, files } = event.dataTransfer!;
+    const file = files[0];
+    if (!file) refuse("That is not a file; drop a file.");
+    else if (items[0]?.webkitGetAsEntry()?.isDirectory) refuse("That is a folder; drop a file.");
+    else open(file, files.length > 1 ? [`Of the ${files.length} files only the first was opened, ${file.name}.`] : []);
   });
 }

@@ -23,6 +23,7 @@ export class FreezeButton {
 
   set(frozen: boolean): void {
     this.button.setAttribute("aria-pressed", String(frozen));
+    this.button.textContent = frozen ? "Unfreeze viewpoint" : "Freeze viewpoint";
     this.onChange(frozen);
   }
 }

@@ -11,6 +11,12 @@ export class Message {
   private readonly text = this.box.querySelector("p")!;
   private readonly actions = this.box.querySelector<HTMLElement>(".actions")!;
 
+  constructor() {
+    document.addEventListener("keydown", (event) => {
+      if (event.key === "Escape" && !this.box.hidden) this.dismiss();
+    });
+  }
+
   show(sentence: string, actions: MessageAction[] = []): void {
     this.text.textContent = sentence;
     const dismiss = { label: "Dismiss", run: () => undefined };
@@ -22,12 +28,18 @@ export class Message {
     this.box.hidden = true;
   }
 
+  /** The focus must not go with the button. */
+  private dismiss(): void {
+    if (this.box.contains(document.activeElement)) byId("view").focus();
+    this.hide();
+  }
+
   private button({ label, run }: MessageAction): HTMLButtonElement {
     const button = document.createElement("button");
     button.type = "button";
     button.textContent = label;
     button.addEventListener("click", () => {
-      this.hide();
+      this.dismiss();
       run();
     });
     return button;

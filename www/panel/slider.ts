@@ -27,6 +27,11 @@ export class Slider {
     this.show(value);
   }
 
+  /** Until there is a value to write. */
+  clear(): void {
+    this.output.textContent = "";
+  }
+
   private show(value: number): void {
     this.output.textContent = this.format(value);
   }

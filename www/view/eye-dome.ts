@@ -20,11 +20,12 @@ import {
  * neighbors stand in front of it. Edges, folds and slopes come out, and points that shine through from behind show.
  */
 
-const STRENGTH = 110;
+const STRENGTH = 150;
 /** Points wider than this many device pixels are shaded more softly, or each would get a rim of its own. */
 const SOFT_FROM = 2;
-/** How far away the neighbors are, in device pixels. */
+/** How far away the neighbors are, in device pixels; with wide points as far as this share of what they are wider. */
 const REACH = 1.6;
+const WIDE = 0.5;
 
 const vertexShader = /* glsl */ `
   void main() {
@@ -38,6 +39,8 @@ const fragmentShader = /* glsl */ `
   uniform vec2 planes;
   uniform vec3 background;
   uniform float reach, strength, softness;
+  uniform float opacity;
+  uniform bool layer;
   out vec4 result;
 
   const vec2 AROUND[8] = vec2[8](
@@ -56,19 +59,21 @@ const fragmentShader = /* glsl */ `
     float depth = texelFetch(depths, pixel, 0).r;
     gl_FragDepth = depth;
     if (depth >= 1.0) {
+      if (layer) discard;
       result = vec4(background, 1.0);
       return;
     }
     float own = logDistance(depth);
+    float soft = min(1.0, exp2(own) / softness);
+    float step = reach * max(1.0, ${WIDE.toFixed(1)} / soft);
     float sum = 0.0;
     for (int i = 0; i < 8; i++) {
-      ivec2 there = clamp(ivec2(round(vec2(pixel) + reach * AROUND[i])), ivec2(0), last);
+      ivec2 there = clamp(ivec2(round(vec2(pixel) + step * AROUND[i])), ivec2(0), last);
       float other = texelFetch(depths, there, 0).r;
       if (other < 1.0) sum += max(0.0, own - logDistance(other));
     }
-    float soft = min(1.0, exp2(own) / softness);
     float shade = exp(-strength * soft * sum / 8.0);
-    result = vec4(texelFetch(colors, pixel, 0).rgb * mix(0.2, 1.0, shade), 1.0);
+    result = vec4(texelFetch(colors, pixel, 0).rgb * mix(0.2, 1.0, shade), opacity);
   }
 `;
 
@@ -92,8 +97,7 @@ export class EyeDome {
       vertexShader,
       fragmentShader,
       glslVersion: GLSL3,
-      depthTest: true,
-      depthWrite: true,
+      transparent: true,
       uniforms: {
         colors: { value: this.target.texture },
         depths: { value: this.target.depthTexture },
@@ -102,6 +106,8 @@ export class EyeDome {
         reach: { value: REACH },
         strength: { value: STRENGTH },
         softness: { value: 1 },
+        opacity: { value: 1 },
+        layer: { value: false },
       },
     });
     // One triangle that covers the screen.
@@ -114,6 +120,17 @@ export class EyeDome {
 
   /** Draws the scene shaded onto the screen; its depths go along, so that more can be drawn among the points. */
   render(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
+    this.shade(renderer, scene, camera);
+    this.draw(renderer, null);
+  }
+
+  /** Draws a scene over the one before, however near that is: as one layer, however many points lie behind one another. */
+  renderOver(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera, opacity: number): void {
+    this.shade(renderer, scene, camera);
+    this.draw(renderer, opacity);
+  }
+
+  private shade(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
     renderer.getDrawingBufferSize(this.size);
     if (this.target.width !== this.size.x || this.target.height !== this.size.y) this.target.setSize(this.size.x, this.size.y);
     renderer.setRenderTarget(this.target);
@@ -125,7 +142,15 @@ export class EyeDome {
     // The distance at which a point is as wide as SOFT_FROM pixels; nearer ones are wider in proportion.
     const pixels = (camera.projectionMatrix.elements[5] * this.size.y) / 2;
     this.material.uniforms["softness"]!.value = (this.pointWidth * pixels) / SOFT_FROM;
-    renderer.clear();
+  }
+
+  /** Onto the screen: with `null` in the place of what is there, else as a layer of that opacity. */
+  private draw(renderer: WebGLRenderer, layer: number | null): void {
+    const { uniforms } = this.material;
+    uniforms["layer"]!.value = layer !== null;
+    uniforms["opacity"]!.value = layer ?? 1;
+    this.material.depthTest = this.material.depthWrite = layer === null;
+    if (layer === null) renderer.clear();
     renderer.render(this.screen, this.camera);
   }
 }

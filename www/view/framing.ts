@@ -41,6 +41,11 @@ export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: View
   };
 }
 
+/** Whether anything of the cloud could be seen from there: beyond, it is far below a pixel, and further out f32 gives up. */
+export function isInReach(cloud: Cloud, view: Viewpoint): boolean {
+  return Math.hypot(...view.map((value, axis) => value - cloud.center[axis]!)) <= 1e6 * cloud.radius;
+}
+
 /** A place in the recentered coordinates in those of the file. */
 export function inFile(cloud: Cloud, local: Vector3): Viewpoint {
   return [local.x + cloud.center[0], local.y + cloud.center[1], local.z + cloud.center[2]];

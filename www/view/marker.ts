@@ -1,9 +1,11 @@
-import { CameraHelper, Color, type Object3D, PerspectiveCamera } from "three";
+import { CameraHelper, Color, type Object3D, PerspectiveCamera, Vector3 } from "three";
 
 /** Where the frozen viewpoint is: a small camera in the accent color, of a fixed share of the cloud's size. */
 export class ViewpointMarker {
   private readonly parent: Object3D;
   private helper: CameraHelper | null = null;
+  private readonly at = new Vector3();
+  private size = 0;
 
   constructor(parent: Object3D) {
     this.parent = parent;
@@ -17,9 +19,17 @@ export class ViewpointMarker {
     standing.position.copy(camera.position);
     standing.quaternion.copy(camera.quaternion);
     standing.updateMatrixWorld();
+    this.at.copy(camera.position);
+    this.size = size;
     this.helper = new CameraHelper(standing);
+    this.helper.visible = false;
     this.helper.setColors(accent, accent, accent, accent, accent);
     this.parent.add(this.helper);
+  }
+
+  /** From within the marker there would be nothing but its lines across the picture. */
+  follow(camera: PerspectiveCamera): void {
+    if (this.helper) this.helper.visible = camera.position.distanceTo(this.at) > this.size;
   }
 
   remove(): void {

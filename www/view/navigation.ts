@@ -15,12 +15,11 @@ export class Navigation {
   private readonly camera: PerspectiveCamera;
   private readonly canvas: HTMLCanvasElement;
   private controls: OrbitControls;
-  private home: Pose = { at: new Vector3(0, 0, 3), target: new Vector3(), up: new Vector3(0, 1, 0) };
 
   constructor(camera: PerspectiveCamera, canvas: HTMLCanvasElement) {
     this.camera = camera;
     this.canvas = canvas;
-    this.controls = this.place(this.home);
+    this.controls = this.place({ at: new Vector3(0, 0, 3), target: new Vector3(), up: new Vector3(0, 1, 0) });
     canvas.addEventListener("keydown", (event) => { this.onKey(event); });
     // In the capture phase, so that the orbit controls do not zoom as well. Some systems turn the wheel sideways with Alt.
     canvas.addEventListener(
@@ -36,14 +35,10 @@ export class Navigation {
   }
 
   setHome(pose: Pose): void {
-    this.home = pose;
-    this.reset();
+    this.controls.dispose();
+    this.controls = this.place(pose);
   }
 
-  reset(): void {
-    this.controls.dispose();
-    this.controls = this.place(this.home);
-  }
 
   /** OrbitControls read the camera's up once, when they are made: a new home gets new ones. */
   private place({ at, target, up }: Pose): OrbitControls {

@@ -1,13 +1,16 @@
 import { Color, PerspectiveCamera, Scene, WebGLRenderer } from "three";
 import { EyeDome } from "./eye-dome.ts";
 
-/** The canvas: one camera, the shaded points, and an overlay of what is drawn among them unshaded. */
+/** The canvas: one camera, the shaded points, those drawn through them, and an overlay of what is drawn among them unshaded. */
 export class Stage {
   readonly camera = new PerspectiveCamera(45, 1, 0.01, 100);
   readonly points = new Scene();
+  readonly through = new Scene();
   readonly overlay = new Scene();
   /** Called before each frame is drawn or found unchanged. */
   onFrame: () => void = () => undefined;
+  /** Called when the picture has got another shape, before it is drawn anew. */
+  onResize: () => void = () => undefined;
 
   private readonly canvas: HTMLCanvasElement;
   private readonly renderer: WebGLRenderer;
@@ -16,6 +19,7 @@ export class Stage {
   private drawnFrom = "";
   /** Half the size of what is to be seen, around the origin. */
   private extent = 1;
+  private throughOpacity = 1;
 
   constructor(canvas: HTMLCanvasElement) {
     this.canvas = canvas;
@@ -24,6 +28,7 @@ export class Stage {
     this.renderer.autoClear = false;
     this.eyeDome = new EyeDome(background);
     new ResizeObserver(() => { this.resize(); }).observe(canvas);
+    canvas.addEventListener("webglcontextrestored", () => { this.invalidate(); });
     this.resize();
     this.renderer.setAnimationLoop(() => { this.frame(); });
   }
@@ -36,6 +41,12 @@ export class Stage {
   /** In the cloud's units. */
   setPointWidth(width: number): void {
     this.eyeDome.pointWidth = width;
+    this.invalidate();
+  }
+
+  /** How much of the points drawn through the others is seen. */
+  setThroughOpacity(opacity: number): void {
+    this.throughOpacity = opacity;
     this.invalidate();
   }
 
@@ -55,6 +66,7 @@ export class Stage {
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
+    this.onResize();
     this.invalidate();
     // A resized canvas is empty; drawing at once avoids a flash.
     this.frame();
@@ -75,6 +87,9 @@ export class Stage {
     this.camera.updateProjectionMatrix();
 
     this.eyeDome.render(this.renderer, this.points, this.camera);
+    if (this.through.children.some((child) => child.visible)) {
+      this.eyeDome.renderOver(this.renderer, this.through, this.camera, this.throughOpacity);
+    }
     this.renderer.render(this.overlay, this.camera);
   }
 }
