@@ -36,6 +36,8 @@ pub enum Error {
     },
     /// A distance from the viewpoint, or twice the radius, exceeds the range of `f64`.
     RadiusOverflow {
+        /// The radius, if it is the one that is too large.
+        radius: Option<f64>,
         /// The farthest distance, infinite where it overflowed.
         farthest: f64,
     },
@@ -76,25 +78,42 @@ impl fmt::Display for Error {
                 f,
                 "{count} point(s) have a coordinate that is NaN or infinite, the first at index {first}"
             ),
-            Self::Viewpoint { viewpoint } => {
-                write!(f, "the viewpoint must be finite, got {viewpoint:?}")
+            Self::Viewpoint {
+                viewpoint: [x, y, z],
+            } => {
+                let (x, y, z) = (Number(x), Number(y), Number(z));
+                write!(f, "the viewpoint must be finite, got {x}, {y}, {z}")
             }
             Self::RadiusInvalid { radius } => {
-                write!(f, "radius must be finite and positive, got {radius:?}")
+                let radius = Number(radius);
+                write!(f, "radius must be finite and positive, got {radius}")
             }
             Self::RadiusTooSmall { radius, farthest } => write!(
                 f,
-                "radius {radius:?} is smaller than the distance of the farthest point, {farthest:?}"
+                "radius {} is smaller than the distance of the farthest point, {}",
+                Number(radius),
+                Number(farthest)
             ),
-            Self::RadiusOverflow { farthest } => write!(
+            Self::RadiusOverflow {
+                radius: Some(radius),
+                farthest,
+            } => write!(
                 f,
-                "the farthest distance ({farthest:?}) or twice the radius exceeds the range of f64"
+                "twice the radius {} exceeds the range of f64 (the farthest distance is {})",
+                Number(radius),
+                Number(farthest)
+            ),
+            Self::RadiusOverflow {
+                radius: None,
+                farthest,
+            } => write!(
+                f,
+                "the farthest distance ({}) exceeds the range of f64",
+                Number(farthest)
             ),
             Self::ExponentInvalid { exponent } => {
-                write!(
-                    f,
-                    "exponent must be finite and at least 0, got {exponent:?}"
-                )
+                let exponent = Number(exponent);
+                write!(f, "exponent must be finite and at least 0, got {exponent}")
             }
             Self::TooManyPoints { count } => write!(
                 f,
@@ -102,6 +121,28 @@ impl fmt::Display for Error {
                 crate::MAX_POINTS
             ),
             Self::OutOfMemory => write!(f, "not enough memory for this cloud"),
+        }
+    }
+}
+
+/// A number spelled as people of any language read it: 5, not 5.0, and neither
+/// `inf` nor hundreds of digits.
+struct Number(f64);
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(number) = *self;
+        let size = number.abs();
+        if size.is_infinite() {
+            f.write_str(if number > 0.0 {
+                "infinity"
+            } else {
+                "-infinity"
+            })
+        } else if size == 0.0 || size.is_nan() || (1e-6..1e21).contains(&size) {
+            write!(f, "{number}")
+        } else {
+            write!(f, "{number:e}")
         }
     }
 }

@@ -86,7 +86,10 @@ pub(crate) fn farthest_distance(points: &Points, viewpoint: [f64; 3]) -> Result<
     if farthest.is_finite() {
         Ok(farthest)
     } else {
-        Err(Error::RadiusOverflow { farthest })
+        Err(Error::RadiusOverflow {
+            radius: None,
+            farthest,
+        })
     }
 }
 

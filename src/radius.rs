@@ -34,7 +34,10 @@ pub(crate) fn resolve(
             } else if radius < farthest {
                 Err(Error::RadiusTooSmall { radius, farthest })
             } else if radius > LARGEST {
-                Err(Error::RadiusOverflow { farthest })
+                Err(Error::RadiusOverflow {
+                    radius: Some(radius),
+                    farthest,
+                })
             } else {
                 Ok(from_radius(radius, farthest))
             }
@@ -48,7 +51,10 @@ pub(crate) fn resolve(
             }
             let radius = farthest * libm::pow(10.0, exponent);
             if radius > LARGEST {
-                return Err(Error::RadiusOverflow { farthest });
+                return Err(Error::RadiusOverflow {
+                    radius: Some(radius),
+                    farthest,
+                });
             }
             Ok(ResolvedRadius { radius, exponent })
         }

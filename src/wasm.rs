@@ -51,6 +51,16 @@ impl From<Error> for Failure {
     }
 }
 
+/// JavaScript checks options before it passes them on; what it let through is refused here.
+impl From<serde_wasm_bindgen::Error> for Failure {
+    fn from(error: serde_wasm_bindgen::Error) -> Self {
+        Self {
+            code: "option",
+            message: error.to_string(),
+        }
+    }
+}
+
 impl From<Failure> for JsValue {
     fn from(failure: Failure) -> Self {
         to_js(&failure)
@@ -132,7 +142,11 @@ pub fn create_cloud_f64(
 /// Frees a cloud; its number may be given to another one afterwards.
 #[wasm_bindgen(js_name = freeCloud)]
 pub fn free_cloud(handle: u32) {
-    CLOUDS.with_borrow_mut(|clouds| clouds[handle as usize] = None);
+    CLOUDS.with_borrow_mut(|clouds| {
+        if let Some(slot) = clouds.get_mut(handle as usize) {
+            *slot = None;
+        }
+    });
 }
 
 /// Which points are visible from (x, y, z)?
@@ -144,7 +158,7 @@ pub fn visible_from(
     z: f64,
     #[wasm_bindgen(unchecked_param_type = "ViewOptions")] options: JsValue,
 ) -> Result<JsValue, JsValue> {
-    let options: ViewOptions = serde_wasm_bindgen::from_value(options)?;
+    let options: ViewOptions = serde_wasm_bindgen::from_value(options).map_err(Failure::from)?;
     let radius = match (options.radius, options.exponent) {
         (Some(radius), _) => Radius::Absolute(radius),
         (None, Some(exponent)) => Radius::Exponent(exponent),
@@ -179,7 +193,7 @@ const TYPES: &str = r#"
 export function __wbg_set_wasm(exports: WebAssembly.Exports): void;
 interface CloudOptions { stride: number; skipNonFinite: boolean }
 interface CloudInfo { handle: number; length: number; skipped: number }
-interface ViewOptions { radius?: number; exponent?: number }
+interface ViewOptions { radius: number | undefined; exponent: number | undefined }
 interface ChosenRadius { radius: number; exponent: number; evaluations: number }
 interface Answer extends ChosenRadius { indices: Uint32Array }
 "#;
@@ -192,7 +206,7 @@ fn create_cloud<T: Copy + Default>(
 where
     [T; 3]: Position,
 {
-    let options: CloudOptions = serde_wasm_bindgen::from_value(options)?;
+    let options: CloudOptions = serde_wasm_bindgen::from_value(options).map_err(Failure::from)?;
     let non_finite = if options.skip_non_finite {
         NonFinite::Skip
     } else {
@@ -260,9 +274,11 @@ fn with_cloud<T>(
     query: impl FnOnce(&PointCloud) -> Result<T, Error>,
 ) -> Result<T, Failure> {
     CLOUDS.with_borrow(|clouds| {
-        let cloud = clouds[handle as usize]
-            .as_ref()
-            .expect("JavaScript never uses a cloud it has freed");
+        let cloud = clouds.get(handle as usize).and_then(Option::as_ref);
+        let cloud = cloud.ok_or_else(|| Failure {
+            code: "disposed",
+            message: "this cloud has been disposed of".to_string(),
+        })?;
         query(cloud).map_err(Failure::from)
     })
 }

@@ -24,14 +24,12 @@ import { type ChosenRadius, type Visibility, VisibilityAnswer } from "./visibili
  * block, or some time after it has become unreachable.
  */
 export class PointCloud {
-  /** How many points were given, skipped ones included; also the length of a mask. */
-  readonly length: number;
-  /** How many points are left out because a coordinate is not finite. */
-  readonly skipped: number;
   /** The same as {@link PointCloud.dispose}, on platforms that have `Symbol.dispose`. */
   declare readonly [Symbol.dispose]: () => void;
 
   readonly #instance: Instance;
+  readonly #length: number;
+  readonly #skipped: number;
   #handle: number | undefined;
 
   static {
@@ -56,9 +54,19 @@ export class PointCloud {
         : bindings.createCloudF64(numbers as Float64Array, settings),
     );
     this.#handle = handle;
-    this.length = length;
-    this.skipped = skipped;
+    this.#length = length;
+    this.#skipped = skipped;
     unreachable.register(this, { instance: this.#instance, handle }, this);
+  }
+
+  /** How many points were given, skipped ones included; also the length of a mask. */
+  get length(): number {
+    return this.#length;
+  }
+
+  /** How many points are left out because a coordinate is not finite. */
+  get skipped(): number {
+    return this.#skipped;
   }
 
   /**
@@ -71,11 +79,13 @@ export class PointCloud {
    * @throws HprError `viewpoint`, `option`, `radius`, `too-large`, `disposed`, `internal`.
    */
   visibleFrom(viewpoint: ArrayLike<number>, options?: VisibilityOptions): Visibility {
-    const handle = this.#requireHandle();
+    this.#requireHandle();
     const [x, y, z] = readViewpoint(viewpoint);
     const settings = viewSettings(givenOptions(options, VIEW_OPTIONS));
+    // Asked again: getters of the arguments may have disposed of the cloud.
+    const handle = this.#requireHandle();
     const answer = this.#instance.call((bindings) => bindings.visibleFrom(handle, x, y, z, settings));
-    return new VisibilityAnswer(answer, this.length);
+    return new VisibilityAnswer(answer, this.#length);
   }
 
   /**
@@ -85,9 +95,10 @@ export class PointCloud {
    * @throws HprError `viewpoint`, `option`, `radius`, `disposed`, `internal`.
    */
   autoRadius(viewpoint: ArrayLike<number>, rule?: "auto"): ChosenRadius {
-    const handle = this.#requireHandle();
+    this.#requireHandle();
     const [x, y, z] = readViewpoint(viewpoint);
     checkRule(rule);
+    const handle = this.#requireHandle();
     return this.#instance.call((bindings) => bindings.autoRadius(handle, x, y, z));
   }
 

@@ -14,12 +14,13 @@ export type HprErrorCode =
 
 /**
  * The one error type of this package. Branch on {@link HprError.code}; the
- * message is for people and names the offending value.
+ * message is for people and names the offending value. What an argument's own
+ * getter, or a proxy, throws while it is read is passed on as it is.
  *
  * | code | when |
  * |---|---|
  * | `positions-length` | the length is not a multiple of the stride |
- * | `positions-type` | not a Float32Array, a Float64Array or an array of numbers |
+ * | `positions-type` | not a Float32Array, a Float64Array or an array of numbers, or transferred away |
  * | `non-finite` | NaN or an infinity among the positions |
  * | `viewpoint` | not three finite numbers |
  * | `radius` | not finite, not positive, smaller than the farthest distance, or overflowing |
@@ -27,7 +28,7 @@ export type HprErrorCode =
  * | `too-large` | more points than supported, or memory refused; everything else goes on working |
  * | `not-initialised` | a synchronous call before `init()` has resolved |
  * | `load` | the wasm (or the worker) could not be fetched, compiled or started |
- * | `disposed` | use after `dispose()` |
+ * | `disposed` | use after `dispose()`, or of an answer whose `indices` were transferred away |
  * | `internal` | a trap inside the wasm, or a worker that died |
  */
 export class HprError extends Error {
@@ -51,6 +52,7 @@ export function describe(value: unknown): string {
     case "number":
     case "boolean":
     case "undefined":
+    case "symbol":
       return String(value);
     case "object":
       return value === null ? "null" : `an object of type ${typeTag(value)}`;
@@ -64,5 +66,10 @@ export function describe(value: unknown): string {
  * it also recognizes values from another frame or context.
  */
 export function typeTag(value: unknown): string {
-  return Object.prototype.toString.call(value).slice("[object ".length, -1);
+  try {
+    return Object.prototype.toString.call(value).slice("[object ".length, -1);
+  } catch {
+    // A revoked proxy, or a tag that throws.
+    return "unknown";
+  }
 }

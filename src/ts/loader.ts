@@ -25,14 +25,15 @@ const WAY_OUT =
   "Serve hpr_bg.wasm (the package exports it as hidden-point-removal/hpr.wasm) and pass its address to init(), " +
   "or pass its bytes";
 
-let starting: Promise<void> | undefined;
+let starting: { input: InitInput | undefined; done: Promise<void> } | undefined;
 let ownModule: Promise<WebAssembly.Module> | undefined;
 
 /**
  * Loads the wasm and starts it. Without an argument it is the file that comes
  * with the package. Does nothing where it is running already, and callers that
- * come while it is starting get the same promise. After a failure it may be
- * called again; after a trap (`internal`) it starts a new instance.
+ * come with the same argument while it is starting get the same promise; with
+ * another one they wait, and try theirs if the earlier one fails. After a failure
+ * it may be called again; after a trap (`internal`) it starts a new instance.
  *
  * @throws HprError `load`, as a rejection, if it cannot be fetched, compiled or started.
  */
@@ -40,10 +41,20 @@ export function init(input?: InitInput): Promise<void> {
   if (runningInstance() !== undefined) {
     return Promise.resolve();
   }
-  starting ??= start(input).finally(() => {
-    starting = undefined;
-  });
-  return starting;
+  if (starting !== undefined && starting.input === input) {
+    return starting.done;
+  }
+  const started = starting === undefined ? start(input) : starting.done.catch(() => start(input));
+  const attempt = {
+    input,
+    done: started.finally(() => {
+      if (starting === attempt) {
+        starting = undefined;
+      }
+    }),
+  };
+  starting = attempt;
+  return attempt.done;
 }
 
 /**
@@ -69,7 +80,7 @@ export function initSync(input: SyncInitInput): void {
  * starting, else the package's own file.
  */
 export async function moduleForWorker(): Promise<WasmModule> {
-  await starting;
+  await starting?.done;
   return runningInstance()?.module ?? (await compileOwn());
 }
 
@@ -178,8 +189,13 @@ function isAddress(input: unknown): input is string | URL {
 }
 
 function nameOf(input: InitInput): string {
-  const address = isResponse(input) ? input.url : input;
-  return isAddress(address) ? `the wasm from ${String(address)}` : "the given wasm";
+  if (isResponse(input)) {
+    return input.url === "" ? "the wasm from the given Response" : `the wasm from ${input.url}`;
+  }
+  if (input === "") {
+    return "the wasm from an empty address";
+  }
+  return isAddress(input) ? `the wasm from ${String(input)}` : "the given wasm";
 }
 
 function loadError(source: string, cause: unknown): HprError {

@@ -1,5 +1,6 @@
-import { describe, HprError, typeTag } from "./errors.js";
+import { describe, HprError } from "./errors.js";
 import { allocating } from "./memory.js";
+import { plainView, typedArrayType } from "./typed-arrays.js";
 
 /**
  * Coordinates of points, x, y, z after one another. A Float32Array is kept in
@@ -8,31 +9,36 @@ import { allocating } from "./memory.js";
  */
 export type Positions = Float32Array | Float64Array | ArrayLike<number>;
 
+/** The core's limit, known here so that nothing is copied in vain. */
+const MAX_POINTS = 2 ** 28;
 /** A 32-bit memory cannot address more. */
 const MAX_LENGTH = 2 ** 32 - 1;
 
-/** Positions in a form that wasm can copy from: the caller's own typed array, or a new one. */
+/**
+ * Positions in a form that wasm can copy from: a plain view of the memory of the
+ * caller's own typed array, or a new array.
+ */
 export function readPositions(positions: unknown, stride: number): Float32Array | Float64Array {
-  const numbers = isFloatArray(positions) ? positions : fromArrayLike(positions);
-  if (numbers.length > MAX_LENGTH) {
-    throw new HprError("too-large", `${numbers.length} coordinates exceed the limit of ${MAX_LENGTH}`);
+  if (isFloatArray(positions)) {
+    const numbers = viewOf(positions);
+    checkLimits(numbers.length, stride);
+    checkMultiple(numbers.length, stride);
+    return numbers;
   }
-  if (numbers.length % stride !== 0) {
-    throw new HprError(
-      "positions-length",
-      `expected ${stride} numbers for each point, got ${numbers.length}, which is not a multiple of ${stride}`,
-    );
-  }
+  const numbers = fromArrayLike(positions, stride);
+  // Only now: that [[1, 2, 3]] is nested says more than its length.
+  checkMultiple(numbers.length, stride);
   return numbers;
 }
 
 /** A viewpoint's three coordinates. Whether they are finite is the core's to check. */
 export function readViewpoint(viewpoint: unknown): [number, number, number] {
-  if (!isArrayLike(viewpoint) || viewpoint.length !== 3) {
-    const got = isArrayLike(viewpoint) ? `${viewpoint.length} of them` : describe(viewpoint);
+  const length = lengthOf(viewpoint);
+  if (length !== 3) {
+    const got = length === undefined ? describe(viewpoint) : `${length} of them`;
     throw new HprError("viewpoint", `the viewpoint must be 3 numbers, got ${got}`);
   }
-  const [x, y, z] = [viewpoint[0], viewpoint[1], viewpoint[2]];
+  const { 0: x, 1: y, 2: z } = viewpoint as ArrayLike<unknown>;
   if (typeof x !== "number" || typeof y !== "number" || typeof z !== "number") {
     throw new HprError(
       "viewpoint",
@@ -43,21 +49,55 @@ export function readViewpoint(viewpoint: unknown): [number, number, number] {
 }
 
 export function isFloatArray(value: unknown): value is Float32Array | Float64Array {
-  const tag = typeTag(value);
-  return ArrayBuffer.isView(value) && (tag === "Float32Array" || tag === "Float64Array");
+  const type = typedArrayType(value);
+  return type === "Float32Array" || type === "Float64Array";
 }
 
-function fromArrayLike(positions: unknown): Float64Array {
-  if (ArrayBuffer.isView(positions) || !isArrayLike(positions)) {
+function viewOf(positions: Float32Array | Float64Array): Float32Array | Float64Array {
+  const numbers =
+    typedArrayType(positions) === "Float32Array"
+      ? plainView(positions as Float32Array, Float32Array)
+      : plainView(positions as Float64Array, Float64Array);
+  if (numbers === undefined) {
+    throw new HprError(
+      "positions-type",
+      "the memory of the positions is gone: their buffer has been transferred away or made smaller",
+    );
+  }
+  return numbers;
+}
+
+function checkLimits(length: number, stride: number): void {
+  if (length > MAX_POINTS * stride) {
+    const count = Math.floor(length / stride);
+    throw new HprError("too-large", `${count} points exceed the limit of ${MAX_POINTS}`);
+  }
+  if (length > MAX_LENGTH) {
+    throw new HprError("too-large", `${length} coordinates exceed the limit of ${MAX_LENGTH}`);
+  }
+}
+
+function checkMultiple(length: number, stride: number): void {
+  if (length % stride !== 0) {
+    throw new HprError(
+      "positions-length",
+      `expected ${stride} numbers for each point, got ${length}, which is not a multiple of ${stride}`,
+    );
+  }
+}
+
+function fromArrayLike(positions: unknown, stride: number): Float64Array {
+  const length = ArrayBuffer.isView(positions) ? undefined : lengthOf(positions);
+  if (length === undefined) {
     throw new HprError(
       "positions-type",
       `positions must be a Float32Array, a Float64Array or an array of numbers, got ${describe(positions)}`,
     );
   }
-  const { length } = positions;
+  checkLimits(length, stride);
   const numbers = allocating(`${length} coordinates`, () => new Float64Array(length));
-  for (let i = 0; i < numbers.length; i++) {
-    const number = positions[i];
+  for (let i = 0; i < length; i++) {
+    const number = (positions as ArrayLike<unknown>)[i];
     if (typeof number !== "number") {
       throw new HprError("positions-type", `positions[${i}] must be a number, got ${describe(number)}`);
     }
@@ -66,12 +106,11 @@ function fromArrayLike(positions: unknown): Float64Array {
   return numbers;
 }
 
-function isArrayLike(value: unknown): value is ArrayLike<unknown> {
-  return (
-    typeof value === "object" &&
-    value !== null &&
-    "length" in value &&
-    Number.isSafeInteger(value.length) &&
-    (value.length as number) >= 0
-  );
+/** The length of what can be read like an array, asked for once: a getter may change its mind. */
+function lengthOf(value: unknown): number | undefined {
+  if (typeof value !== "object" || value === null || !("length" in value)) {
+    return undefined;
+  }
+  const { length } = value;
+  return Number.isSafeInteger(length) && (length as number) >= 0 ? (length as number) : undefined;
 }

@@ -1,5 +1,6 @@
 import { describe, HprError } from "./errors.js";
 import { allocating } from "./memory.js";
+import { plainView, typedArrayType } from "./typed-arrays.js";
 
 /** How a radius was chosen. */
 export interface ChosenRadius {
@@ -14,7 +15,11 @@ export interface ChosenRadius {
   readonly evaluations: number;
 }
 
-/** Which points are visible from one viewpoint. */
+/**
+ * Which points are visible from one viewpoint. The masks are made from `indices`
+ * when they are asked for: what is written there shows in them, and once its
+ * buffer has been transferred away the methods throw an HprError `disposed`.
+ */
 export interface Visibility extends ChosenRadius {
   /** The visible points' indices, ascending: the caller's own copy. */
   readonly indices: Uint32Array;
@@ -61,37 +66,50 @@ export class VisibilityAnswer implements Visibility {
 
   mask(): Uint8Array {
     const length = this.#cloudLength;
+    const indices = this.#readIndices();
     const mask = allocating(`a mask of ${length} bytes`, () => new Uint8Array(length));
-    this.#mark(mask);
+    mark(mask, indices);
     return mask;
   }
 
   maskInto(target: Uint8Array): void {
-    if (!(target instanceof Uint8Array) || target.length < this.#cloudLength) {
+    const bytes = typedArrayType(target) === "Uint8Array" ? plainView(target, Uint8Array) : undefined;
+    if (bytes === undefined || bytes.length < this.#cloudLength) {
       throw tooShort("maskInto", "a Uint8Array", this.#cloudLength, target);
     }
-    target.fill(0, 0, this.#cloudLength);
-    this.#mark(target);
+    const indices = this.#readIndices();
+    bytes.fill(0, 0, this.#cloudLength);
+    mark(bytes, indices);
   }
 
   indicesInto(target: Uint32Array): number {
-    if (!(target instanceof Uint32Array) || target.length < this.count) {
+    const numbers = typedArrayType(target) === "Uint32Array" ? plainView(target, Uint32Array) : undefined;
+    if (numbers === undefined || numbers.length < this.count) {
       throw tooShort("indicesInto", "a Uint32Array", this.count, target);
     }
-    target.set(this.indices);
+    numbers.set(this.#readIndices());
     return this.count;
   }
 
-  #mark(mask: Uint8Array): void {
-    for (const index of this.indices) {
-      mask[index] = 1;
+  #readIndices(): Uint32Array {
+    const indices = plainView(this.indices, Uint32Array);
+    if (indices === undefined) {
+      throw new HprError("disposed", "the indices of this answer are gone: their buffer has been transferred away");
     }
+    return indices;
+  }
+}
+
+function mark(mask: Uint8Array, indices: Uint32Array): void {
+  for (const index of indices) {
+    mask[index] = 1;
   }
 }
 
 function tooShort(method: string, type: string, length: number, target: unknown): HprError {
-  const got = ArrayBuffer.isView(target)
-    ? `${describe(target)} and length ${String((target as Uint8Array).length)}`
-    : describe(target);
+  const got =
+    typedArrayType(target) === undefined
+      ? describe(target)
+      : `${describe(target)} and length ${(target as Uint8Array).length}`;
   return new HprError("option", `${method} needs ${type} of at least ${length} elements, got ${got}`);
 }

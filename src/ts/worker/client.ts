@@ -17,7 +17,7 @@ import {
 } from "../options.js";
 import { isFloatArray, type Positions, readPositions, readViewpoint } from "../positions.js";
 import { type ChosenRadius, type Visibility, VisibilityAnswer } from "../visibility.js";
-import { abortError, readSignal, untilAborted } from "./abort.js";
+import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
 import { RequestQueue } from "./request-queue.js";
 
 /** How a cloud is brought to its worker. */
@@ -28,9 +28,9 @@ export interface WorkerPointCloudOptions extends PointCloudOptions {
    * Only for a Float32Array or Float64Array that is not in shared memory.
    * Default false.
    */
-  transfer?: boolean;
+  transfer?: boolean | undefined;
   /** Gives up, with an `AbortError`, when it aborts before the cloud is ready. */
-  signal?: AbortSignal;
+  signal?: AbortSignal | undefined;
 }
 
 /** How one view is computed, and when it need not be. */
@@ -40,9 +40,9 @@ export interface WorkerVisibilityOptions extends VisibilityOptions {
    * newer one with `latest` takes its place, and it is rejected with an
    * `AbortError`. One that is being computed is finished. Default false.
    */
-  latest?: boolean;
+  latest?: boolean | undefined;
   /** Rejects with an `AbortError` when it aborts before the answer is there. */
-  signal?: AbortSignal;
+  signal?: AbortSignal | undefined;
 }
 
 /**
@@ -56,14 +56,12 @@ export interface WorkerVisibilityOptions extends VisibilityOptions {
  * gets a new worker.
  */
 export class WorkerPointCloud {
-  /** How many points were given, skipped ones included; also the length of a mask. */
-  readonly length: number;
-  /** How many points are left out because a coordinate is not finite. */
-  readonly skipped: number;
   /** The same as {@link WorkerPointCloud.dispose}, on platforms that have `Symbol.dispose`. */
   declare readonly [Symbol.dispose]: () => void;
 
   readonly #queue: RequestQueue;
+  readonly #length: number;
+  readonly #skipped: number;
 
   static {
     addDisposeSymbol(this.prototype);
@@ -71,9 +69,19 @@ export class WorkerPointCloud {
 
   private constructor(queue: RequestQueue, info: { length: number; skipped: number }) {
     this.#queue = queue;
-    this.length = info.length;
-    this.skipped = info.skipped;
+    this.#length = info.length;
+    this.#skipped = info.skipped;
     unreachable.register(this, queue, this);
+  }
+
+  /** How many points were given, skipped ones included; also the length of a mask. */
+  get length(): number {
+    return this.#length;
+  }
+
+  /** How many points are left out because a coordinate is not finite. */
+  get skipped(): number {
+    return this.#skipped;
   }
 
   /**
@@ -92,7 +100,7 @@ export class WorkerPointCloud {
     const transfer = readFlag(given, "transfer");
     const signal = readSignal(given["signal"]);
     if (signal?.aborted === true) {
-      throw abortError("aborted by its signal");
+      throw abortError(BY_SIGNAL);
     }
     const own = toOwn(positions, settings.stride, transfer);
     const queue = new RequestQueue();
@@ -127,16 +135,18 @@ export class WorkerPointCloud {
     viewpoint: ArrayLike<number>,
     options?: WorkerVisibilityOptions,
   ): Promise<Visibility> {
+    this.#queue.requireOpen();
+    const position = readViewpoint(viewpoint);
     const given = givenOptions(options, VIEW_OPTIONS, ["latest", "signal"]);
     const latest = readFlag(given, "latest");
     const signal = readSignal(given["signal"]);
     const request = {
       kind: "visibleFrom" as const,
-      viewpoint: readViewpoint(viewpoint),
+      viewpoint: position,
       settings: viewSettings(pick(given, VIEW_OPTIONS)),
     };
     const asked = this.#queue.ask(request, { latest, signal, owner: this });
-    return new VisibilityAnswer(await untilAborted(signal, asked), this.length);
+    return new VisibilityAnswer(await untilAborted(signal, asked), this.#length);
   }
 
   /**
@@ -145,8 +155,9 @@ export class WorkerPointCloud {
    * @throws HprError (as a rejection) `viewpoint`, `option`, `radius`, `disposed`, `internal`.
    */
   async autoRadius(viewpoint: ArrayLike<number>, rule?: "auto"): Promise<ChosenRadius> {
-    checkRule(rule);
+    this.#queue.requireOpen();
     const request = { kind: "autoRadius" as const, viewpoint: readViewpoint(viewpoint) };
+    checkRule(rule);
     return this.#queue.ask(request, { owner: this });
   }
 
@@ -187,7 +198,7 @@ function giveAway(
   numbers: Float32Array | Float64Array,
 ): Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer> {
   try {
-    if (numbers !== positions) {
+    if (!isFloatArray(positions)) {
       throw new TypeError("an array of numbers has no buffer");
     }
     return structuredClone(numbers, { transfer: [numbers.buffer as ArrayBuffer] }) as

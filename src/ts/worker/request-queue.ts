@@ -1,5 +1,5 @@
 import { HprError } from "../errors.js";
-import { abortError } from "./abort.js";
+import { abortError, BY_SIGNAL } from "./abort.js";
 import { READY, type Replies, type Reply, type Request } from "./protocol.js";
 import { startThread, type Thread, type ThreadEvents } from "./thread.js";
 
@@ -50,12 +50,24 @@ export class RequestQueue implements ThreadEvents {
         reject(this.#closed);
         return;
       }
+      // It never waits, and so overtakes nothing.
+      if (options.signal?.aborted === true) {
+        reject(abortError(BY_SIGNAL));
+        return;
+      }
       if (options.latest === true) {
         this.#dropOvertaken();
       }
       this.#waiting.push({ ...options, request, resolve, reject });
       this.#sendNext();
     }) as Promise<Replies[K]>;
+  }
+
+  /** Throws what `close` was given, if it was called. */
+  requireOpen(): void {
+    if (this.#closed !== undefined) {
+      throw this.#closed;
+    }
   }
 
   /** Ends the thread; what is pending, and what still comes, is rejected with `reason`. */

@@ -16,6 +16,7 @@ import { WorkerPointCloud } from "hidden-point-removal/worker";
 const inputs: InitInput[] = ["hpr.wasm", new URL("https://example.org/hpr.wasm"), new Uint8Array(8), new ArrayBuffer(8)];
 const options: VisibilityOptions = { exponent: 3 };
 const reading: PointCloudOptions = { stride: 4, nonFinite: "skip" };
+const perhaps = undefined as number | undefined;
 
 export async function everything(): Promise<HprErrorCode | undefined> {
   await init();
@@ -31,11 +32,17 @@ export async function everything(): Promise<HprErrorCode | undefined> {
     console.log(indices, written, radius, exponent, evaluations, visible.mask(), visible.inversion);
     console.log(hiddenPointRemoval([1, 2, 3], [0, 0, 5], { radius: 10, ...reading }).count);
 
+    cloud.visibleFrom([0, 0, 5], { radius: perhaps, exponent: perhaps, inversion: undefined });
+    console.log(new PointCloud([], { dimension: perhaps, stride: perhaps, nonFinite: undefined }).skipped);
+
     const controller = new AbortController();
     const remote = await WorkerPointCloud.create([1, 2, 3], { transfer: false, signal: controller.signal });
     await remote.visibleFrom([0, 0, 5], { latest: true, signal: controller.signal, radius: "auto" });
+    await remote.visibleFrom([0, 0, 5], { latest: undefined, signal: undefined });
     await remote.dispose();
 
+    // @ts-expect-error -- a cloud keeps its length
+    cloud.length = 3;
     // @ts-expect-error -- there is no such option
     cloud.visibleFrom([0, 0, 5], { farness: 3 });
     // @ts-expect-error -- a string is no list of numbers

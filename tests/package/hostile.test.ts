@@ -1,0 +1,327 @@
+// Arguments that are not what they seem: each is answered, or refused as an
+// HprError, and the instance lives on.
+import { runInNewContext } from "node:vm";
+import { afterEach, describe, expect, it } from "vitest";
+
+import { bumpySphere, freshPackage, problemOf, readyPackage } from "./support";
+
+const { PointCloud, WorkerPointCloud, hiddenPointRemoval, HprError } = await readyPackage();
+
+const sphere = bumpySphere(1, 500);
+const farAway = [0, 0, 5];
+const expected = new PointCloud(sphere).visibleFrom(farAway);
+const witness = new PointCloud(sphere);
+const loose = (value: unknown) => value as never;
+
+/** A getter or method that a test adds to an object, whatever its type. */
+function withOwn<T extends object>(target: T, name: PropertyKey, descriptor: PropertyDescriptor): T {
+  return Object.defineProperty(target, name, { configurable: true, ...descriptor });
+}
+
+function transferredAway<T extends ArrayBufferView>(view: T): T {
+  structuredClone(view, { transfer: [view.buffer as ArrayBuffer] });
+  return view;
+}
+
+async function expectRefusal(code: string, names: RegExp, call: () => unknown) {
+  const problem = await problemOf(call);
+  expect(problem).toBeInstanceOf(HprError);
+  expect(problem.code).toBe(code);
+  expect(problem.message).toMatch(names);
+}
+
+afterEach(() => {
+  expect(witness.visibleFrom(farAway)).toEqual(expected);
+});
+
+describe("positions whose memory is gone", () => {
+  class Resizable extends ArrayBuffer {
+    declare resize: (length: number) => void;
+  }
+  const cutOff = () => {
+    const buffer = new (ArrayBuffer as unknown as new (length: number, options: object) => Resizable)(72, {
+      maxByteLength: 72,
+    });
+    const view = new Float32Array(buffer, 36, 9);
+    buffer.resize(40);
+    return view;
+  };
+  it.each<[string, () => Float32Array | Float64Array]>([
+    ["a transferred Float32Array", () => transferredAway(new Float32Array(9))],
+    ["a transferred Float64Array", () => transferredAway(new Float64Array(9))],
+    ["a view of what a buffer has lost", cutOff],
+  ])("are refused: %s", async (_, positions) => {
+    await expectRefusal("positions-type", /gone/, () => new PointCloud(positions()));
+    await expectRefusal("positions-type", /gone/, () => new PointCloud(positions(), { stride: 9 }));
+    await expectRefusal("positions-type", /gone/, () => WorkerPointCloud.create(positions()));
+    await expectRefusal("positions-type", /gone/, () => WorkerPointCloud.create(positions(), { transfer: true }));
+  });
+});
+
+describe("typed arrays of a class of their own", () => {
+  class CountsPoints extends Float32Array {
+    constructor(points: number) {
+      super(points * 3);
+    }
+  }
+  class OtherSpecies extends Float32Array {
+    static get [Symbol.species]() {
+      return Float64Array as unknown as Float32ArrayConstructor;
+    }
+  }
+  class OwnTag extends Float32Array {
+    override get [Symbol.toStringTag]() {
+      return "Points" as never;
+    }
+  }
+  const filled = <T extends Float32Array>(array: T) => {
+    array.set(sphere);
+    return array;
+  };
+  const plain = () => sphere.slice();
+  const arrays: [name: string, make: () => Float32Array][] = [
+    ["another constructor", () => filled(new CountsPoints(500))],
+    ["another species", () => filled(new OtherSpecies(1500))],
+    ["a tag of its own", () => filled(new OwnTag(1500))],
+    ["a subarray of its own", () => withOwn(plain(), "subarray", { value: () => null })],
+    ["a length that is too long", () => withOwn(plain(), "length", { get: () => 4500 })],
+    ["a negative length", () => withOwn(plain(), "length", { get: () => -3 })],
+    ["a buffer of its own", () => withOwn(plain(), "buffer", { value: new ArrayBuffer(0) })],
+  ];
+  it.each(arrays)("are read for what they are: %s", async (_, make) => {
+    expect(hiddenPointRemoval(make(), farAway)).toEqual(expected);
+    expect(hiddenPointRemoval(make(), farAway, { stride: 6 }).mask()).toHaveLength(250);
+    for (const transfer of [false, true]) {
+      const cloud = await WorkerPointCloud.create(make(), { transfer });
+      expect(await cloud.visibleFrom(farAway)).toEqual(expected);
+      await cloud.dispose();
+    }
+  });
+});
+
+describe("sizes beyond every limit", () => {
+  it("are refused before anything is copied", async () => {
+    const tooMany = { length: 3 * (2 ** 28 + 1) };
+    const names = /268435457 points.*268435456/;
+    await expectRefusal("too-large", names, () => new PointCloud(tooMany));
+    await expectRefusal("too-large", names, () => WorkerPointCloud.create(tooMany));
+    await expectRefusal("too-large", /2\d{9} coordinates|limit/, () => new PointCloud({ length: 2 ** 32 }, { stride: 64 }));
+  });
+
+  it.each([2 ** 32, 2 ** 53 - 1])("are refused as a stride, too: %d", async (stride) => {
+    for (const nothing of [[], new Float32Array(0)]) {
+      await expectRefusal("option", /stride/, () => new PointCloud(nothing, { stride }));
+    }
+    expect(new PointCloud([], { stride: 2 ** 32 - 1 })).toHaveLength(0);
+  });
+});
+
+describe("arguments that act while they are read", () => {
+  const reading: [name: string, ask: (cloud: InstanceType<typeof PointCloud>, act: () => unknown) => unknown][] = [
+    ["a viewpoint", (cloud, act) => cloud.visibleFrom({ length: 3, get 0() { act(); return 0; }, 1: 0, 2: 5 })],
+    ["options", (cloud, act) => cloud.visibleFrom(farAway, { get exponent() { act(); return 1; } })],
+    ["the viewpoint of autoRadius", (cloud, act) => cloud.autoRadius({ length: 3, 0: 0, 1: 0, get 2() { act(); return 5; } })],
+  ];
+  it.each(reading)("cannot make a cloud answer that was disposed of: %s", async (_, ask) => {
+    const cloud = new PointCloud(sphere);
+    await expectRefusal("disposed", /disposed/, () => ask(cloud, () => { cloud.dispose(); }));
+
+    // Another cloud that takes its place does not answer for it.
+    const other = new PointCloud(sphere);
+    const replace = () => { other.dispose(); new PointCloud([7, 7, 7]); };
+    await expectRefusal("disposed", /disposed/, () => ask(other, replace));
+  });
+
+  it.each([
+    ["positions", (thrown: Error) => new PointCloud({ length: 3, get 0(): number { throw thrown; }, 1: 0, 2: 0 })],
+    ["a viewpoint", (thrown: Error) => witness.visibleFrom({ get length(): number { throw thrown; } })],
+    ["options", (thrown: Error) => witness.visibleFrom(farAway, { get radius(): number { throw thrown; } })],
+  ])("have what they throw passed on: %s", async (_, call) => {
+    const thrown = new RangeError("mine");
+    expect(await problemOf(() => call(thrown))).toBe(thrown);
+  });
+
+  it("are asked for their length once", () => {
+    let length = 0;
+    expect(new PointCloud({ get length() { return (length += 3); }, 0: 1, 1: 1, 2: 1 })).toHaveLength(1);
+  });
+
+  it("may be revoked, or refuse to say what they are", async () => {
+    const { proxy, revoke } = Proxy.revocable([], {});
+    revoke();
+    const secretive = { get [Symbol.toStringTag](): string { throw new Error("no"); } };
+    await expectRefusal("option", /unknown/, () => new PointCloud(sphere, loose(proxy)));
+    await expectRefusal("positions-type", /unknown/, () => new PointCloud(loose(secretive)));
+    await expectRefusal("positions-type", /positions\[0\]/, () => new PointCloud(loose([proxy, 1, 1])));
+    await expectRefusal("viewpoint", /unknown/, () => witness.visibleFrom(loose(secretive)));
+    // The engine's own complaint.
+    expect(await problemOf(() => new PointCloud(loose(proxy)))).toBeInstanceOf(TypeError);
+  });
+});
+
+describe("options", () => {
+  const polluted: object = Object.prototype;
+
+  it.each([["radius", 1], ["exponent", 3], ["stride", 9], ["nonFinite", "skip"], ["latest", 7], ["foo", 7]])(
+    "are not those of Object.prototype: %s",
+    async (name, value) => {
+      withOwn(polluted, name, { value, enumerable: true, writable: true });
+      try {
+        expect(new PointCloud(sphere).visibleFrom(farAway)).toEqual(expected);
+        expect(new PointCloud(sphere, {}).visibleFrom(farAway, {})).toEqual(expected);
+        expect(hiddenPointRemoval(sphere, farAway, { dimension: 3 })).toEqual(expected);
+        const cloud = await WorkerPointCloud.create(sphere);
+        expect(await cloud.visibleFrom(farAway, {})).toEqual(expected);
+        await cloud.dispose();
+      } finally {
+        Reflect.deleteProperty(polluted, name);
+      }
+    },
+  );
+
+  class Settings {
+    get exponent() {
+      return 2;
+    }
+    describe() {
+      return "anything";
+    }
+  }
+  it.each<[string, object]>([
+    ["inherited", Object.create({ exponent: 2 }) as object],
+    ["of an object without a prototype", Object.assign(Object.create(null) as object, { exponent: 2 })],
+    ["getters of a class", new Settings()],
+    ["of another context", runInNewContext("({ exponent: 2 })") as object],
+    ["behind a proxy", new Proxy({ exponent: 2 }, {})],
+    ["hidden from enumeration", withOwn({}, "exponent", { value: 2 })],
+  ])("count wherever they are found: %s", (_, options) => {
+    expect(witness.visibleFrom(farAway, options).exponent).toBe(2);
+    expect(hiddenPointRemoval(sphere, farAway, options).exponent).toBe(2);
+  });
+
+  it.each<[string, RegExp, unknown]>([
+    ["a Map", /Map/, new Map([["exponent", 2]])],
+    ["an array", /Array/, []],
+    ["a promise", /Promise/, Promise.resolve({ exponent: 2 })],
+    ["a symbol as a name", /Symbol\(exponent\)/, { [Symbol("exponent")]: 2 }],
+    ["an unknown name that is inherited", /"foo"/, Object.create({ foo: 1 })],
+    ["a prototype by name", /"__proto__"/, JSON.parse('{"__proto__":{"exponent":2}}')],
+  ])("that would be ignored are refused: %s", async (_, names, options) => {
+    await expectRefusal("option", names, () => witness.visibleFrom(farAway, loose(options)));
+    await expectRefusal("option", names, () => new PointCloud(sphere, loose(options)));
+  });
+});
+
+describe("an answer", () => {
+  it("says so when its indices were transferred away", async () => {
+    const answer = witness.visibleFrom(farAway);
+    transferredAway(answer.indices);
+    const target = new Uint8Array(500).fill(9);
+    await expectRefusal("disposed", /transferred/, () => answer.mask());
+    await expectRefusal("disposed", /transferred/, () => { answer.maskInto(target); });
+    await expectRefusal("disposed", /transferred/, () => answer.indicesInto(new Uint32Array(500)));
+    expect(target.every((byte) => byte === 9)).toBe(true);
+    expect(answer.count).toBe(expected.count);
+  });
+
+  it("is written into arrays of any context, and only into what is one", async () => {
+    const mask = runInNewContext("new Uint8Array(500)") as Uint8Array;
+    expected.maskInto(mask);
+    expect([...mask]).toEqual([...expected.mask()]);
+    const indices = runInNewContext("new Uint32Array(500)") as Uint32Array;
+    expect(expected.indicesInto(indices)).toBe(expected.count);
+    expect([...indices.subarray(0, expected.count)]).toEqual([...expected.indices]);
+
+    await expectRefusal("option", /DataView$/, () => { expected.maskInto(loose(new DataView(new ArrayBuffer(500)))); });
+    await expectRefusal("option", /length 0/, () => { expected.maskInto(transferredAway(new Uint8Array(500))); });
+    const pretender = { __proto__: Uint8Array.prototype, length: 500 };
+    await expectRefusal("option", /maskInto/, () => { expected.maskInto(loose(pretender)); });
+    const none = new PointCloud([]).visibleFrom(farAway);
+    await expectRefusal("option", /maskInto/, () => { none.maskInto(transferredAway(new Uint8Array(1))); });
+  });
+});
+
+describe("what a cloud says about itself", () => {
+  it("cannot be overwritten", async () => {
+    const remote = await WorkerPointCloud.create(sphere);
+    for (const cloud of [new PointCloud(sphere), remote]) {
+      expect(Reflect.set(cloud, "length", 99)).toBe(false);
+      expect(Reflect.set(cloud, "skipped", 99)).toBe(false);
+      expect([cloud.length, cloud.skipped]).toEqual([500, 0]);
+      expect((await cloud.visibleFrom(farAway)).mask()).toHaveLength(500);
+      await cloud.dispose();
+      // The first thing that is wrong, in both.
+      for (const ask of [() => cloud.visibleFrom([0]), () => cloud.autoRadius([0])]) {
+        await expectRefusal("disposed", /disposed/, ask);
+      }
+    }
+  });
+});
+
+describe("signals", () => {
+  const later = () => new Promise((next) => setTimeout(next, 20));
+
+  it("that are none are refused, and nothing is left unhandled", async () => {
+    const unhandled: unknown[] = [];
+    const note = (reason: unknown) => unhandled.push(reason);
+    process.on("unhandledRejection", note);
+    const half = { aborted: false, addEventListener: null };
+    const raising = { aborted: false, addEventListener: () => { throw new RangeError("mine"); }, removeEventListener: () => undefined };
+    const remote = await WorkerPointCloud.create(sphere);
+    for (const signal of [{}, half, { aborted: false, addEventListener: () => undefined }, null]) {
+      await expectRefusal("option", /signal/, () => WorkerPointCloud.create(sphere, { signal: loose(signal) }));
+      await expectRefusal("option", /signal/, () => remote.visibleFrom(farAway, { signal: loose(signal) }));
+    }
+    expect(await problemOf(() => WorkerPointCloud.create(sphere, { signal: loose(raising) }))).toBeInstanceOf(RangeError);
+    expect(await problemOf(() => remote.visibleFrom([0, 0, NaN], { signal: loose(raising) }))).toBeInstanceOf(RangeError);
+    expect((await remote.visibleFrom(farAway)).count).toBe(expected.count);
+    await remote.dispose();
+    await later();
+    process.off("unhandledRejection", note);
+    expect(unhandled).toEqual([]);
+  });
+
+  it("that have aborted already leave a waiting request alone", async () => {
+    const remote = await WorkerPointCloud.create(sphere);
+    const running = remote.visibleFrom([0, 0, 4]);
+    const live = remote.visibleFrom(farAway, { latest: true });
+    const dead = problemOf(() => remote.visibleFrom([0, 0, 6], { latest: true, signal: AbortSignal.abort() }));
+    expect((await dead).name).toBe("AbortError");
+    expect(await live).toEqual(expected);
+    await running;
+    await remote.dispose();
+  });
+});
+
+describe("init, called with something else while it is starting,", () => {
+  it("tries that once the first has failed", async () => {
+    const fresh = await freshPackage();
+    const bytes = new Uint8Array(3);
+    const outcomes = await Promise.allSettled([fresh.init(bytes), fresh.init(bytes), fresh.init("/nowhere.wasm"), fresh.init()]);
+    expect(outcomes.map(({ status }) => status)).toEqual(["rejected", "rejected", "rejected", "fulfilled"]);
+    const [first, second, third] = outcomes.map((one) => (one.status === "rejected" ? (one.reason as Error).message : ""));
+    expect(second).toBe(first);
+    expect(third).toContain("/nowhere.wasm");
+    expect(fresh.hiddenPointRemoval(sphere, farAway)).toEqual(expected);
+  });
+});
+
+describe("messages", () => {
+  it.each<[RegExp, () => unknown]>([
+    [/got infinity$/, () => witness.visibleFrom(farAway, { radius: Infinity })],
+    [/got 0$/, () => witness.visibleFrom(farAway, { radius: 0 })],
+    [/got 0, -infinity, 5$/, () => witness.visibleFrom([0, -Infinity, 5])],
+    [/radius 5 is/, () => witness.visibleFrom(farAway, { radius: 5 })],
+    [/radius 1e308 /, () => witness.visibleFrom(farAway, { radius: 1e308 })],
+  ])("spell numbers plainly: %s", async (names, call) => {
+    expect((await problemOf(call)).message).toMatch(names);
+  });
+
+  it.each<[RegExp, () => unknown]>([
+    [/from the given Response:/, () => new Response(new Uint8Array(3))],
+    [/from an empty address:/, () => ""],
+  ])("name what was to be loaded: %s", async (names, input) => {
+    const fresh = await freshPackage();
+    expect((await problemOf(() => fresh.init(input() as never))).message).toMatch(names);
+  });
+});
