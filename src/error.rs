@@ -13,7 +13,7 @@ pub enum Error {
     NonFinite {
         /// How many points are affected.
         count: usize,
-        /// The lowest index among them.
+        /// The lowest index among them, counted in the positions given.
         first: usize,
     },
     /// The viewpoint holds NaN or an infinity.
@@ -49,6 +49,13 @@ pub enum Error {
         /// How many were given.
         count: usize,
     },
+    /// An index to remove that no point of the cloud ever had.
+    IndexOutOfRange {
+        /// The index as given.
+        index: u32,
+        /// How many indices the cloud has given out.
+        len: usize,
+    },
     /// The allocator refused memory; nothing was changed.
     OutOfMemory,
 }
@@ -63,7 +70,7 @@ impl Error {
             Self::RadiusInvalid { .. }
             | Self::RadiusTooSmall { .. }
             | Self::RadiusOverflow { .. } => "radius",
-            Self::ExponentInvalid { .. } => "option",
+            Self::ExponentInvalid { .. } | Self::IndexOutOfRange { .. } => "option",
             Self::TooManyPoints { .. } | Self::OutOfMemory => "too-large",
         }
     }
@@ -101,6 +108,12 @@ impl fmt::Display for Error {
                 "{count} points exceed the limit of {}",
                 crate::MAX_POINTS
             ),
+            Self::IndexOutOfRange { index, len } => {
+                write!(
+                    f,
+                    "index {index} is out of range for a cloud of length {len}"
+                )
+            }
             Self::OutOfMemory => write!(f, "not enough memory for this cloud"),
         }
     }

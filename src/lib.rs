@@ -40,6 +40,7 @@ mod options;
 mod points;
 mod predicates;
 mod radius;
+mod sequence;
 mod spacing;
 mod spatial;
 mod visibility;

@@ -21,6 +21,8 @@ use crate::{Error, NonFinite, Options, PointCloud, Position, Radius};
 /// Coordinates copied from JavaScript at a time, where they are not packed.
 const BLOCK_POINTS: usize = 4096;
 
+const FREED: &str = "JavaScript never uses a cloud it has freed";
+
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<PointCloud>>> = const { RefCell::new(Vec::new()) };
 }
@@ -80,6 +82,12 @@ struct CloudInfo {
 }
 
 #[derive(Serialize)]
+struct CloudSize {
+    length: usize,
+    skipped: usize,
+}
+
+#[derive(Serialize)]
 struct Answer {
     #[serde(with = "serde_wasm_bindgen::preserve")]
     indices: Uint32Array,
@@ -127,6 +135,46 @@ pub fn create_cloud_f64(
             .subarray(start, start + block.len() as u32)
             .copy_to(block);
     })
+}
+
+/// Adds single-precision points to a cloud of any precision.
+#[wasm_bindgen(js_name = appendF32, unchecked_return_type = "CloudSize")]
+pub fn append_f32(
+    handle: u32,
+    positions: &Float32Array,
+    stride: usize,
+) -> Result<JsValue, JsValue> {
+    append(handle, positions.length(), stride, |start, block| {
+        positions
+            .subarray(start, start + block.len() as u32)
+            .copy_to(block);
+    })
+}
+
+/// Adds double-precision points to a cloud of any precision.
+#[wasm_bindgen(js_name = appendF64, unchecked_return_type = "CloudSize")]
+pub fn append_f64(
+    handle: u32,
+    positions: &Float64Array,
+    stride: usize,
+) -> Result<JsValue, JsValue> {
+    append(handle, positions.length(), stride, |start, block| {
+        positions
+            .subarray(start, start + block.len() as u32)
+            .copy_to(block);
+    })
+}
+
+/// Removes points from a cloud by their indices.
+#[wasm_bindgen]
+pub fn remove(handle: u32, indices: &Uint32Array) -> Result<(), JsValue> {
+    let mut own: Vec<u32> = Vec::new();
+    let count = indices.length() as usize;
+    own.try_reserve_exact(count)
+        .map_err(|refused| Failure::from(Error::from(refused)))?;
+    own.resize(count, 0);
+    indices.copy_to(&mut own);
+    Ok(change_cloud(handle, |cloud| cloud.remove(&own))?)
 }
 
 /// Frees a cloud; its number may be given to another one afterwards.
@@ -178,7 +226,8 @@ const TYPES: &str = r#"
 /** Makes all of the functions below call into this instance. */
 export function __wbg_set_wasm(exports: WebAssembly.Exports): void;
 interface CloudOptions { stride: number; skipNonFinite: boolean }
-interface CloudInfo { handle: number; length: number; skipped: number }
+interface CloudSize { length: number; skipped: number }
+interface CloudInfo extends CloudSize { handle: number }
 interface ViewOptions { radius?: number; exponent?: number }
 interface ChosenRadius { radius: number; exponent: number; evaluations: number }
 interface Answer extends ChosenRadius { indices: Uint32Array }
@@ -207,6 +256,26 @@ where
         length,
         skipped,
     }))
+}
+
+fn append<T: Copy + Default>(
+    handle: u32,
+    length: u32,
+    stride: usize,
+    copy_block: impl Fn(u32, &mut [T]),
+) -> Result<JsValue, JsValue>
+where
+    [T; 3]: Position,
+{
+    let positions = copy_in(length as usize, stride, copy_block).map_err(Failure::from)?;
+    let size = change_cloud(handle, |cloud| {
+        cloud.append(&positions)?;
+        Ok(CloudSize {
+            length: cloud.len(),
+            skipped: cloud.skipped(),
+        })
+    })?;
+    Ok(to_js(&size))
 }
 
 /// The first three of every `stride` values, `length` being a multiple of it.
@@ -260,10 +329,18 @@ fn with_cloud<T>(
     query: impl FnOnce(&PointCloud) -> Result<T, Error>,
 ) -> Result<T, Failure> {
     CLOUDS.with_borrow(|clouds| {
-        let cloud = clouds[handle as usize]
-            .as_ref()
-            .expect("JavaScript never uses a cloud it has freed");
+        let cloud = clouds[handle as usize].as_ref().expect(FREED);
         query(cloud).map_err(Failure::from)
+    })
+}
+
+fn change_cloud<T>(
+    handle: u32,
+    change: impl FnOnce(&mut PointCloud) -> Result<T, Error>,
+) -> Result<T, Failure> {
+    CLOUDS.with_borrow_mut(|clouds| {
+        let cloud = clouds[handle as usize].as_mut().expect(FREED);
+        change(cloud).map_err(Failure::from)
     })
 }
 

@@ -42,6 +42,23 @@ export function readViewpoint(viewpoint: unknown): [number, number, number] {
   return [x, y, z];
 }
 
+/** Indices of points to remove, copied. Whether the cloud has them is the core's to check. */
+export function readIndices(indices: unknown): Uint32Array<ArrayBuffer> {
+  if (!isArrayLike(indices)) {
+    throw new HprError("option", `indices must be an array of integers, got ${describe(indices)}`);
+  }
+  const { length } = indices;
+  const integers = allocating(`${length} indices`, () => new Uint32Array(length));
+  for (let i = 0; i < length; i++) {
+    const index = indices[i];
+    if (typeof index !== "number" || index >>> 0 !== index) {
+      throw new HprError("option", `indices[${i}] must be the index of a point, got ${describe(index)}`);
+    }
+    integers[i] = index;
+  }
+  return integers;
+}
+
 export function isFloatArray(value: unknown): value is Float32Array | Float64Array {
   const tag = typeTag(value);
   return ArrayBuffer.isView(value) && (tag === "Float32Array" || tag === "Float64Array");

@@ -5,6 +5,7 @@ mod common;
 
 mod automatic;
 mod certificates;
+mod changes;
 mod definition;
 mod digest;
 mod fixtures;

@@ -31,9 +31,15 @@ export async function everything(): Promise<HprErrorCode | undefined> {
     console.log(indices, written, radius, exponent, evaluations, visible.mask(), visible.inversion);
     console.log(hiddenPointRemoval([1, 2, 3], [0, 0, 5], { radius: 10, ...reading }).count);
 
+    cloud.append(new Float64Array(3));
+    cloud.remove(new Uint32Array([0]));
+    cloud.remove([1]);
+
     const controller = new AbortController();
     const remote = await WorkerPointCloud.create([1, 2, 3], { transfer: false, signal: controller.signal });
     await remote.visibleFrom([0, 0, 5], { latest: true, signal: controller.signal, radius: "auto" });
+    await remote.append([4, 5, 6]);
+    await remote.remove([0]);
     await remote.dispose();
 
     // @ts-expect-error -- there is no such option
