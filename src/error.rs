@@ -49,6 +49,17 @@ pub enum Error {
         /// How many were given.
         count: usize,
     },
+    /// Parts can be merged only with the radius that each of them was seen with.
+    MergeRadius,
+    /// A part to merge with more positions than ids, or fewer.
+    IdsLength {
+        /// Which of the parts.
+        part: usize,
+        /// How many positions it has.
+        positions: usize,
+        /// How many ids it has.
+        ids: usize,
+    },
     /// An index to remove that no point of the cloud ever had.
     IndexOutOfRange {
         /// The index as given.
@@ -70,7 +81,10 @@ impl Error {
             Self::RadiusInvalid { .. }
             | Self::RadiusTooSmall { .. }
             | Self::RadiusOverflow { .. } => "radius",
-            Self::ExponentInvalid { .. } | Self::IndexOutOfRange { .. } => "option",
+            Self::ExponentInvalid { .. } | Self::IndexOutOfRange { .. } | Self::MergeRadius => {
+                "option"
+            }
+            Self::IdsLength { .. } => "positions-length",
             Self::TooManyPoints { .. } | Self::OutOfMemory => "too-large",
         }
     }
@@ -108,6 +122,15 @@ impl fmt::Display for Error {
                 "{count} points exceed the limit of {}",
                 crate::MAX_POINTS
             ),
+            Self::MergeRadius => write!(
+                f,
+                "merging needs the radius, in the cloud's units, that all parts were seen with"
+            ),
+            Self::IdsLength {
+                part,
+                positions,
+                ids,
+            } => write!(f, "part {part} has {positions} positions, but {ids} ids"),
             Self::IndexOutOfRange { index, len } => {
                 write!(
                     f,

@@ -36,6 +36,7 @@ mod cloud;
 mod error;
 mod hull;
 mod inversion;
+mod merge;
 mod options;
 mod points;
 mod predicates;
@@ -49,6 +50,7 @@ mod wasm;
 
 pub use cloud::{MAX_POINTS, NonFinite, PointCloud};
 pub use error::Error;
+pub use merge::merge_visible;
 pub use options::{Options, Radius};
 pub use points::Position;
 pub use visibility::Visibility;

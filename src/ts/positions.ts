@@ -9,7 +9,7 @@ import { allocating } from "./memory.js";
 export type Positions = Float32Array | Float64Array | ArrayLike<number>;
 
 /** A 32-bit memory cannot address more. */
-const MAX_LENGTH = 2 ** 32 - 1;
+export const MAX_LENGTH = 2 ** 32 - 1;
 
 /** Positions in a form that wasm can copy from: the caller's own typed array, or a new one. */
 export function readPositions(positions: unknown, stride: number): Float32Array | Float64Array {

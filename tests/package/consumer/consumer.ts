@@ -6,10 +6,13 @@ import {
   init,
   type InitInput,
   initSync,
+  type MergeOptions,
+  mergeVisible,
   PointCloud,
   type PointCloudOptions,
   type Visibility,
   type VisibilityOptions,
+  type VisiblePart,
 } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 
@@ -34,6 +37,11 @@ export async function everything(): Promise<HprErrorCode | undefined> {
     cloud.append(new Float64Array(3));
     cloud.remove(new Uint32Array([0]));
     cloud.remove([1]);
+
+    const parts: VisiblePart[] = [{ positions: [1, 2, 3], ids: new Uint32Array([7]) }];
+    const together: MergeOptions = { radius: 100 };
+    const ids: Uint32Array = mergeVisible(parts, [0, 0, 5], together);
+    console.log(ids);
 
     const controller = new AbortController();
     const remote = await WorkerPointCloud.create([1, 2, 3], { transfer: false, signal: controller.signal });
