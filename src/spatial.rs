@@ -23,16 +23,18 @@ impl Bounds {
     };
 
     pub(crate) fn include(&mut self, p: [f64; 3]) {
-        for axis in 0..3 {
-            self.min[axis] = self.min[axis].min(p[axis]);
-            self.max[axis] = self.max[axis].max(p[axis]);
-        }
+        self.union(&Self { min: p, max: p });
     }
 
     pub(crate) fn union(&mut self, other: &Self) {
+        // Compared rather than by `min` and `max`, which WebAssembly calls a function for.
         for axis in 0..3 {
-            self.min[axis] = self.min[axis].min(other.min[axis]);
-            self.max[axis] = self.max[axis].max(other.max[axis]);
+            if other.min[axis] < self.min[axis] {
+                self.min[axis] = other.min[axis];
+            }
+            if other.max[axis] > self.max[axis] {
+                self.max[axis] = other.max[axis];
+            }
         }
     }
 
