@@ -1,16 +1,18 @@
 //! The cloud: checked positions in spatial order, duplicates grouped, and what
-//! does not depend on the viewpoint. Built once, asked many times.
+//! does not depend on the viewpoint. Built once, asked many times, changed at will.
 
 use alloc::vec::Vec;
 use core::fmt;
 
 use crate::error::Error;
-use crate::points::{Points, Position};
+use crate::points::{Position, is_finite};
+use crate::sequence::Sequence;
 use crate::spacing::Statistics;
-use crate::spatial::{Bounds, HilbertCurve, sort_by_coordinates};
+use crate::spatial::{Bounds, HilbertCurve};
 
 /// The largest number of points in one cloud: hull faces are numbered in 30
-/// bits, and a hull has up to two faces a point.
+/// bits, and a hull has up to two faces a point. Removed points count too, since
+/// their indices are never given again.
 pub const MAX_POINTS: usize = 1 << 28;
 
 /// What becomes of points with a NaN or infinite coordinate.
@@ -26,18 +28,20 @@ pub enum NonFinite {
 /// A point cloud, prepared for visibility queries.
 ///
 /// Building costs one sort, O(n log n); each query reuses it. Memory: 16 bytes
-/// a point for `f32` positions, 28 for `f64`.
+/// a point for `f32` positions, 28 for `f64`; while points are appended or removed,
+/// twice that.
+///
+/// Answers and automatic radii depend on the present points alone: a cloud that
+/// was appended to and removed from answers, to the bit, what one built from the
+/// same points does.
 pub struct PointCloud {
-    /// Distinct finite points along the Hilbert curve.
-    pub(crate) points: Points,
-    /// The caller's indices in the order of `points`, equal points side by side.
-    order: Vec<u32>,
-    /// Where each distinct point's indices start in `order`, with an end mark;
-    /// empty where no two points are equal, and `order[k]` is the only one.
-    starts: Vec<u32>,
+    pub(crate) sequence: Sequence,
+    /// The box of the present points.
+    bounds: Bounds,
+    pub(crate) statistics: Statistics,
+    non_finite: NonFinite,
     len: usize,
     skipped: usize,
-    pub(crate) statistics: Statistics,
 }
 
 impl PointCloud {
@@ -49,7 +53,8 @@ impl PointCloud {
         Self::with_non_finite(positions, NonFinite::Error)
     }
 
-    /// Like [`PointCloud::new`], with a choice about points that are not finite.
+    /// Like [`PointCloud::new`], with a choice about points that are not finite,
+    /// which holds for appended points, too.
     ///
     /// # Errors
     /// As [`PointCloud::new`].
@@ -57,55 +62,107 @@ impl PointCloud {
         positions: &[P],
         non_finite: NonFinite,
     ) -> Result<Self, Error> {
-        if positions.len() > MAX_POINTS {
-            return Err(Error::TooManyPoints {
-                count: positions.len(),
-            });
-        }
+        let len = checked_len(positions.len())?;
         let (bounds, skipped) = survey(positions, non_finite)?;
-        let keyed = sort_along_curve(positions, &bounds, positions.len() - skipped)?;
-
-        let mut points: Vec<P> = Vec::new();
-        let mut order = Vec::new();
-        let mut starts = Vec::new();
-        points.try_reserve_exact(keyed.len())?;
-        order.try_reserve_exact(keyed.len())?;
-        let mut previous = None;
-        for &(_, index) in &keyed {
-            let point = positions[index as usize].without_negative_zero();
-            if previous != Some(point.widen()) {
-                previous = Some(point.widen());
-                if !starts.is_empty() {
-                    starts.try_reserve(1)?;
-                    starts.push(order.len() as u32);
-                }
-                points.push(point);
-            } else if starts.is_empty() {
-                // The first duplicate: until here, every group held one index.
-                starts.try_reserve(points.len())?;
-                starts.extend(0..points.len() as u32);
-            }
-            order.push(index);
-        }
-        if !starts.is_empty() {
-            starts.try_reserve(1)?;
-            starts.push(order.len() as u32);
-        }
-        drop(keyed);
-
-        let points = P::store(points);
-        let statistics = Statistics::measure(&points, &bounds)?;
+        let curve = HilbertCurve::new(&bounds);
+        let sequence = Sequence::sorted(positions, 0, len - skipped, &curve)?;
+        let statistics = Statistics::measure(&sequence.points, &bounds)?;
         Ok(Self {
-            points,
-            order,
-            starts,
-            len: positions.len(),
-            skipped,
+            sequence,
+            bounds,
             statistics,
+            non_finite,
+            len,
+            skipped,
         })
     }
 
-    /// How many points were given, skipped ones included.
+    /// Adds points, which take the next indices: all of them, or none and an error.
+    ///
+    /// They are sorted and merged into the order that is there, O(n + m log m) for m
+    /// new points. Only where they extend the cloud's box beyond a power of two (or
+    /// a multiple of it) is the whole cloud sorted again, as when it is built.
+    ///
+    /// Positions keep their precision: `f64` positions make an `f32` cloud an `f64` one.
+    ///
+    /// ```
+    /// use hidden_point_removal::{Options, PointCloud};
+    ///
+    /// let mut cloud = PointCloud::new(&[[0.0f32, 0.0, 1.0]])?;
+    /// cloud.append(&[[0.0f32, 0.0, 2.0]])?;
+    /// let visible = cloud.visible_from([0.0, 0.0, 5.0], &Options::default())?;
+    /// assert_eq!(visible.indices(), [1]);
+    ///
+    /// cloud.remove(&[1])?;
+    /// let visible = cloud.visible_from([0.0, 0.0, 5.0], &Options::default())?;
+    /// assert_eq!(visible.indices(), [0]);
+    /// # Ok::<(), hidden_point_removal::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`], [`Error::TooManyPoints`] (removed points count),
+    /// [`Error::OutOfMemory`]; the cloud is unchanged then.
+    pub fn append<P: Position>(&mut self, positions: &[P]) -> Result<(), Error> {
+        let len = checked_len(self.len.saturating_add(positions.len()))?;
+        let (mut bounds, skipped) = survey(positions, self.non_finite)?;
+        let finite = positions.len() - skipped;
+        if finite > 0 {
+            bounds.union(&self.bounds);
+            let curve = HilbertCurve::new(&bounds);
+            let new = Sequence::sorted(positions, self.len as u32, finite, &curve)?;
+            let sequence = if self.sequence.points.len() == 0 {
+                new
+            } else if curve == HilbertCurve::new(&self.bounds) {
+                self.sequence.merged(&new, &curve)?
+            } else {
+                self.sequence.resorted(&curve)?.merged(&new, &curve)?
+            };
+            self.replace(sequence, bounds)?;
+        }
+        self.len = len;
+        self.skipped += skipped;
+        Ok(())
+    }
+
+    /// Removes the points with these indices: they are never visible again and
+    /// hide nothing, and their indices are never given again. An index that was
+    /// removed before, or skipped, is ignored. Of several equal points the others
+    /// stay.
+    ///
+    /// One pass over the cloud, except that a box which shrinks below a power of
+    /// two has it sorted again; see [`PointCloud::append`].
+    ///
+    /// # Errors
+    /// [`Error::IndexOutOfRange`], [`Error::OutOfMemory`]; the cloud is unchanged then.
+    pub fn remove(&mut self, indices: &[u32]) -> Result<(), Error> {
+        let len = self.len;
+        if let Some(&index) = indices.iter().find(|&&index| index as usize >= len) {
+            return Err(Error::IndexOutOfRange { index, len });
+        }
+        let mut removed: Vec<bool> = Vec::new();
+        removed.try_reserve_exact(len)?;
+        removed.resize(len, false);
+        for &index in indices {
+            removed[index as usize] = true;
+        }
+        let rest = self.sequence.without(|index| removed[index as usize])?;
+        if rest.points.len() == self.sequence.points.len() {
+            // Every position is still there.
+            self.sequence = rest;
+            return Ok(());
+        }
+        let mut bounds = Bounds::EMPTY;
+        rest.points.iter().for_each(|p| bounds.include(p));
+        let curve = HilbertCurve::new(&bounds);
+        if curve == HilbertCurve::new(&self.bounds) {
+            self.replace(rest, bounds)
+        } else {
+            self.replace(rest.resorted(&curve)?, bounds)
+        }
+    }
+
+    /// How many points were given, skipped and removed ones included: one more
+    /// than the largest index.
     #[must_use]
     pub fn len(&self) -> usize {
         self.len
@@ -117,19 +174,19 @@ impl PointCloud {
         self.len == 0
     }
 
-    /// How many points were left out because they are not finite.
+    /// How many of all points given were left out because they are not finite.
     #[must_use]
     pub fn skipped(&self) -> usize {
         self.skipped
     }
 
-    /// The caller's indices of distinct point `k`.
-    pub(crate) fn indices_of(&self, k: usize) -> &[u32] {
-        if self.starts.is_empty() {
-            &self.order[k..=k]
-        } else {
-            &self.order[self.starts[k] as usize..self.starts[k + 1] as usize]
-        }
+    /// The points of `bounds` take the place of those present, unless their
+    /// statistics cannot be measured.
+    fn replace(&mut self, sequence: Sequence, bounds: Bounds) -> Result<(), Error> {
+        self.statistics = Statistics::measure(&sequence.points, &bounds)?;
+        self.sequence = sequence;
+        self.bounds = bounds;
+        Ok(())
     }
 }
 
@@ -140,6 +197,13 @@ impl fmt::Debug for PointCloud {
             .field("skipped", &self.skipped)
             .finish_non_exhaustive()
     }
+}
+
+fn checked_len(count: usize) -> Result<usize, Error> {
+    if count > MAX_POINTS {
+        return Err(Error::TooManyPoints { count });
+    }
+    Ok(count)
 }
 
 /// Checks every coordinate; returns the box of the finite points and how many are not.
@@ -162,52 +226,4 @@ fn survey<P: Position>(positions: &[P], non_finite: NonFinite) -> Result<(Bounds
         return Err(Error::NonFinite { count: bad, first });
     }
     Ok((bounds, bad))
-}
-
-fn is_finite(p: [f64; 3]) -> bool {
-    p.iter().all(|x| x.is_finite())
-}
-
-/// The finite points' indices along the curve, ties by coordinates, then by index.
-fn sort_along_curve<P: Position>(
-    positions: &[P],
-    bounds: &Bounds,
-    finite: usize,
-) -> Result<Vec<(u64, u32)>, Error> {
-    let curve = HilbertCurve::new(bounds);
-    let mut keyed: Vec<(u64, u32)> = Vec::new();
-    keyed.try_reserve_exact(finite)?;
-    for (index, position) in positions.iter().enumerate() {
-        let p = position.widen();
-        if is_finite(p) {
-            keyed.push((curve.key(p), index as u32));
-        }
-    }
-    keyed.sort_unstable();
-    // What shares a cell, mostly duplicates: along a curve inside it, and then by
-    // coordinates.
-    let point = |index: u32| positions[index as usize].without_negative_zero().widen();
-    let mut same_key = Vec::new();
-    for cell in runs_of_equal_keys(&mut keyed) {
-        for (key, index) in cell.iter_mut() {
-            *key = curve.key_in_cell(point(*index));
-        }
-        cell.sort_unstable();
-        for run in runs_of_equal_keys(cell) {
-            same_key.clear();
-            same_key.try_reserve(run.len())?;
-            same_key.extend(run.iter().map(|&(_, index)| (point(index), index)));
-            sort_by_coordinates(&mut same_key);
-            for (slot, &(_, index)) in run.iter_mut().zip(&same_key) {
-                slot.1 = index;
-            }
-        }
-    }
-    Ok(keyed)
-}
-
-fn runs_of_equal_keys(keyed: &mut [(u64, u32)]) -> impl Iterator<Item = &mut [(u64, u32)]> {
-    keyed
-        .chunk_by_mut(|a, b| a.0 == b.0)
-        .filter(|run| run.len() > 1)
 }

@@ -13,7 +13,7 @@ pub enum Error {
     NonFinite {
         /// How many points are affected.
         count: usize,
-        /// The lowest index among them.
+        /// The lowest index among them, counted in the positions given.
         first: usize,
     },
     /// The viewpoint holds NaN or an infinity.
@@ -51,6 +51,24 @@ pub enum Error {
         /// How many were given.
         count: usize,
     },
+    /// Parts can be merged only with the radius that each of them was seen with.
+    MergeRadius,
+    /// A part to merge with more positions than ids, or fewer.
+    IdsLength {
+        /// Which of the parts.
+        part: usize,
+        /// How many positions it has.
+        positions: usize,
+        /// How many ids it has.
+        ids: usize,
+    },
+    /// An index to remove that no point of the cloud ever had.
+    IndexOutOfRange {
+        /// The index as given.
+        index: u32,
+        /// How many indices the cloud has given out.
+        len: usize,
+    },
     /// The allocator refused memory; nothing was changed.
     OutOfMemory,
 }
@@ -65,7 +83,10 @@ impl Error {
             Self::RadiusInvalid { .. }
             | Self::RadiusTooSmall { .. }
             | Self::RadiusOverflow { .. } => "radius",
-            Self::ExponentInvalid { .. } => "option",
+            Self::ExponentInvalid { .. } | Self::IndexOutOfRange { .. } | Self::MergeRadius => {
+                "option"
+            }
+            Self::IdsLength { .. } => "positions-length",
             Self::TooManyPoints { .. } | Self::OutOfMemory => "too-large",
         }
     }
@@ -120,6 +141,21 @@ impl fmt::Display for Error {
                 "{count} points exceed the limit of {}",
                 crate::MAX_POINTS
             ),
+            Self::MergeRadius => write!(
+                f,
+                "merging needs the radius, in the cloud's units, that all parts were seen with"
+            ),
+            Self::IdsLength {
+                part,
+                positions,
+                ids,
+            } => write!(f, "part {part} has {positions} positions, but {ids} ids"),
+            Self::IndexOutOfRange { index, len } => {
+                write!(
+                    f,
+                    "index {index} is out of range for a cloud of length {len}"
+                )
+            }
             Self::OutOfMemory => write!(f, "not enough memory for this cloud"),
         }
     }

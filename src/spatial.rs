@@ -3,7 +3,8 @@
 //! Neighbors on the curve are neighbors in space, so walks on the hull are
 //! short and memory is read in runs. The order depends on the set of points
 //! alone (ties on the curve are broken by coordinates), never on the order of
-//! the input, so everything computed in it is reproducible to the bit.
+//! the input or on what was appended and removed before, so everything computed
+//! in it is reproducible to the bit.
 
 /// Bits per axis; three axes fill 63 bits of the key.
 const BITS: u32 = 21;
@@ -24,16 +25,18 @@ impl Bounds {
     };
 
     pub(crate) fn include(&mut self, p: [f64; 3]) {
-        for axis in 0..3 {
-            self.min[axis] = self.min[axis].min(p[axis]);
-            self.max[axis] = self.max[axis].max(p[axis]);
-        }
+        self.union(&Self { min: p, max: p });
     }
 
     pub(crate) fn union(&mut self, other: &Self) {
+        // Compared rather than by `min` and `max`, which WebAssembly calls a function for.
         for axis in 0..3 {
-            self.min[axis] = self.min[axis].min(other.min[axis]);
-            self.max[axis] = self.max[axis].max(other.max[axis]);
+            if other.min[axis] < self.min[axis] {
+                self.min[axis] = other.min[axis];
+            }
+            if other.max[axis] > self.max[axis] {
+                self.max[axis] = other.max[axis];
+            }
         }
     }
 
@@ -50,22 +53,44 @@ impl Bounds {
     }
 }
 
-/// Maps points of a box to their place on the Hilbert curve through its cube.
+/// Maps points of a box to their place on the Hilbert curve through a cube that
+/// holds the box.
+///
+/// The cube depends on the box only coarsely: its side is twice a power of two,
+/// the `unit`, that is at least the box's largest extent, and its corner a multiple
+/// of that unit. So a cloud that grows or shrinks mostly keeps its curve, and the
+/// order of its points; each time the unit doubles there are at most a few corners.
+///
+/// All lengths are quarters here, because the extent of a finite box can overflow.
+#[derive(PartialEq)]
 pub(crate) struct HilbertCurve {
-    min: [f64; 3],
-    half_extent: f64,
+    /// Infinite along an axis whose coordinates are beyond the range of f64 in
+    /// units; they are all equal then, and in cell 0.
+    corner: [f64; 3],
+    unit: f64,
+}
+
+/// Where a point is in the order: by its key, then by its key in the cell, then by
+/// its coordinates, which hold no -0.
+#[derive(PartialEq, PartialOrd)]
+pub(crate) struct Place {
+    key: u64,
+    key_in_cell: u64,
+    point: [f64; 3],
 }
 
 impl HilbertCurve {
     pub(crate) fn new(bounds: &Bounds) -> Self {
-        // Halves, because the full extent of a finite box can overflow.
-        let mut half_extent = 0.0f64;
+        let mut extent = 0.0f64;
         for axis in 0..3 {
-            half_extent = half_extent.max(bounds.max[axis] * 0.5 - bounds.min[axis] * 0.5);
+            extent = extent.max(bounds.max[axis] * 0.25 - bounds.min[axis] * 0.25);
         }
+        let unit = power_of_two_above(extent);
         Self {
-            min: bounds.min,
-            half_extent,
+            corner: bounds
+                .min
+                .map(|least| libm::floor(least * 0.25 / unit) * unit),
+            unit,
         }
     }
 
@@ -81,20 +106,32 @@ impl HilbertCurve {
         interleave(to_hilbert(self.cells(p).map(inside)))
     }
 
-    /// How many cells away from the corner of the box `p` is along each axis.
-    fn cells(&self, p: [f64; 3]) -> [f64; 3] {
-        if self.half_extent == 0.0 {
-            return [0.0; 3];
+    pub(crate) fn place(&self, point: [f64; 3]) -> Place {
+        Place {
+            key: self.key(point),
+            key_in_cell: self.key_in_cell(point),
+            point,
         }
-        let along = |axis: usize| (p[axis] * 0.5 - self.min[axis] * 0.5) / self.half_extent;
-        core::array::from_fn(|axis| along(axis) * CELLS)
+    }
+
+    /// How many cells away from the corner `p` is along each axis.
+    fn cells(&self, p: [f64; 3]) -> [f64; 3] {
+        let along = |axis: usize| (p[axis] * 0.25 - self.corner[axis]) / self.unit;
+        // Half of the cells are in one unit.
+        core::array::from_fn(|axis| along(axis) * (0.5 * CELLS))
     }
 }
 
-/// The number of the cell; the far side of the box belongs to the last one.
+/// The number of the cell; what rounding put on the far side belongs to the last one.
 fn cell(cells: f64) -> u32 {
     // `as` saturates.
     (cells as u32).min((1 << BITS) - 1)
+}
+
+/// The smallest normal power of two not below `x`, which is at most 2^1023.
+fn power_of_two_above(x: f64) -> f64 {
+    const FRACTION: u64 = (1 << 52) - 1;
+    f64::from_bits((x.max(f64::MIN_POSITIVE).to_bits() + FRACTION) & !FRACTION)
 }
 
 /// Skilling's transform ("Programming the Hilbert curve", 2004): coordinates to
@@ -149,4 +186,45 @@ pub(crate) fn sort_by_coordinates(points: &mut [([f64; 3], u32)]) {
             .then(a[2].total_cmp(&b[2]))
             .then(i.cmp(j))
     });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(min: [f64; 3], max: [f64; 3]) -> HilbertCurve {
+        HilbertCurve::new(&Bounds { min, max })
+    }
+
+    #[test]
+    fn small_changes_of_the_box_keep_the_curve() {
+        let before = curve([0.1, 0.2, -0.3], [3.5, 1.0, 0.0]);
+        assert!(before == curve([0.0, 0.9, -3.9], [4.0, 1.0, -3.8]));
+        assert!(before != curve([0.1, 0.2, -0.3], [4.2, 1.0, 0.0]));
+        assert!(before != curve([-0.1, 0.2, -0.3], [3.5, 1.0, 0.0]));
+    }
+
+    #[test]
+    fn a_box_of_any_size_and_place_is_told_apart() {
+        let tiny = f64::MIN_POSITIVE;
+        for [low, high] in [
+            [0.0, 1.0],
+            [-f64::MAX, f64::MAX],
+            [f64::MAX / 2.0, f64::MAX],
+            [-64.0 * tiny, 64.0 * tiny],
+            [1e6, 1e6 + 1e-6],
+            [-1.0 - f64::EPSILON, -1.0],
+        ] {
+            let curve = curve([low, low, 1e300], [high, high, 1e300]);
+            let key = |x, y| curve.key([x, y, 1e300]);
+            let mut corners = [
+                key(low, low),
+                key(low, high),
+                key(high, low),
+                key(high, high),
+            ];
+            corners.sort_unstable();
+            assert!(corners.is_sorted_by(|a, b| a < b), "{low}..{high}");
+        }
+    }
 }

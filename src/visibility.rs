@@ -57,7 +57,7 @@ impl Visibility {
         0
     }
 
-    /// One byte a point of the cloud: 1 visible, 0 hidden.
+    /// One byte for each index of the cloud: 1 visible, 0 hidden.
     #[must_use]
     pub fn mask(&self) -> Vec<u8> {
         let mut mask = alloc::vec![0; self.cloud_len];
@@ -97,7 +97,7 @@ impl PointCloud {
     ) -> Result<Visibility, Error> {
         let resolved = self.resolve_radius(viewpoint, options.radius)?;
         let flip = Flip::new(viewpoint, resolved.radius);
-        let visible = hull::mark_visible(&self.points, &flip)?;
+        let visible = hull::mark_visible(&self.sequence.points, &flip)?;
         Ok(Visibility {
             indices: self.callers_indices(&visible)?,
             cloud_len: self.len(),
@@ -119,7 +119,7 @@ impl PointCloud {
         if viewpoint.iter().any(|x| !x.is_finite()) {
             return Err(Error::Viewpoint { viewpoint });
         }
-        let farthest = farthest_distance(&self.points, viewpoint)?;
+        let farthest = farthest_distance(&self.sequence.points, viewpoint)?;
         radius::resolve(choice, &self.statistics, viewpoint, farthest)
     }
 
@@ -130,7 +130,7 @@ impl PointCloud {
         marked.try_reserve_exact(self.len())?;
         marked.resize(self.len(), false);
         for (k, _) in visible.iter().enumerate().filter(|(_, visible)| **visible) {
-            for &index in self.indices_of(k) {
+            for &index in self.sequence.indices_of(k) {
                 marked[index as usize] = true;
                 count += 1;
             }

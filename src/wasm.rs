@@ -5,6 +5,8 @@
 //! one. Typed arrays arrive as JavaScript objects, never as `&[f32]`: the glue
 //! would copy those before any code here runs, and trap where memory is refused.
 
+mod transfer;
+
 use alloc::boxed::Box;
 use alloc::string::{String, ToString};
 use alloc::vec::Vec;
@@ -16,23 +18,11 @@ use js_sys::{Float32Array, Float64Array, Uint32Array};
 use serde::{Deserialize, Serialize};
 use wasm_bindgen::prelude::*;
 
-use crate::{Error, NonFinite, Options, PointCloud, Position, Radius};
-
-/// Coordinates copied from JavaScript at a time, where they are not packed.
-const BLOCK_POINTS: usize = 4096;
+use self::transfer::{copy_in, copy_in_integers, copy_out, doubles, singles};
+use crate::{Error, NonFinite, Options, PointCloud, Position, Radius, merge_visible};
 
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<PointCloud>>> = const { RefCell::new(Vec::new()) };
-}
-
-#[wasm_bindgen]
-extern "C" {
-    // js-sys has this constructor too, but there a refused allocation would
-    // unwind through the frames of this instance instead of being an error.
-    #[wasm_bindgen(js_name = Uint32Array)]
-    type FallibleUint32Array;
-    #[wasm_bindgen(catch, constructor, js_class = "Uint32Array")]
-    fn new(length: u32) -> Result<FallibleUint32Array, JsValue>;
 }
 
 /// What JavaScript receives as an exception: the fields of an `HprError`.
@@ -40,6 +30,16 @@ extern "C" {
 struct Failure {
     code: &'static str,
     message: String,
+}
+
+impl Failure {
+    /// A number that names no cloud (any more).
+    fn disposed() -> Self {
+        Self {
+            code: "disposed",
+            message: "this cloud has been disposed of".to_string(),
+        }
+    }
 }
 
 impl From<Error> for Failure {
@@ -90,6 +90,12 @@ struct CloudInfo {
 }
 
 #[derive(Serialize)]
+struct CloudSize {
+    length: usize,
+    skipped: usize,
+}
+
+#[derive(Serialize)]
 struct Answer {
     #[serde(with = "serde_wasm_bindgen::preserve")]
     indices: Uint32Array,
@@ -119,11 +125,7 @@ pub fn create_cloud_f32(
     positions: &Float32Array,
     #[wasm_bindgen(unchecked_param_type = "CloudOptions")] options: JsValue,
 ) -> Result<JsValue, JsValue> {
-    create_cloud(positions.length(), options, |start, block| {
-        positions
-            .subarray(start, start + block.len() as u32)
-            .copy_to(block);
-    })
+    create_cloud(positions.length(), options, singles(positions))
 }
 
 /// A cloud of double-precision positions.
@@ -132,11 +134,62 @@ pub fn create_cloud_f64(
     positions: &Float64Array,
     #[wasm_bindgen(unchecked_param_type = "CloudOptions")] options: JsValue,
 ) -> Result<JsValue, JsValue> {
-    create_cloud(positions.length(), options, |start, block| {
-        positions
-            .subarray(start, start + block.len() as u32)
-            .copy_to(block);
-    })
+    create_cloud(positions.length(), options, doubles(positions))
+}
+
+/// Adds single-precision points to a cloud of any precision.
+#[wasm_bindgen(js_name = appendF32, unchecked_return_type = "CloudSize")]
+pub fn append_f32(
+    handle: u32,
+    positions: &Float32Array,
+    stride: usize,
+) -> Result<JsValue, JsValue> {
+    append(handle, positions.length(), stride, singles(positions))
+}
+
+/// Adds double-precision points to a cloud of any precision.
+#[wasm_bindgen(js_name = appendF64, unchecked_return_type = "CloudSize")]
+pub fn append_f64(
+    handle: u32,
+    positions: &Float64Array,
+    stride: usize,
+) -> Result<JsValue, JsValue> {
+    append(handle, positions.length(), stride, doubles(positions))
+}
+
+/// Removes points from a cloud by their indices.
+#[wasm_bindgen]
+pub fn remove(handle: u32, indices: &Uint32Array) -> Result<(), JsValue> {
+    let indices = copy_in_integers(indices).map_err(Failure::from)?;
+    Ok(change_cloud(handle, |cloud| cloud.remove(&indices))?)
+}
+
+/// The ids of what is visible among single-precision positions, one id for each.
+#[wasm_bindgen(js_name = mergeVisibleF32)]
+pub fn merge_visible_f32(
+    positions: &Float32Array,
+    ids: &Uint32Array,
+    x: f64,
+    y: f64,
+    z: f64,
+    radius: f64,
+) -> Result<Uint32Array, JsValue> {
+    let block = singles(positions);
+    merge(positions.length(), block, ids, [x, y, z], radius)
+}
+
+/// The ids of what is visible among double-precision positions, one id for each.
+#[wasm_bindgen(js_name = mergeVisibleF64)]
+pub fn merge_visible_f64(
+    positions: &Float64Array,
+    ids: &Uint32Array,
+    x: f64,
+    y: f64,
+    z: f64,
+    radius: f64,
+) -> Result<Uint32Array, JsValue> {
+    let block = doubles(positions);
+    merge(positions.length(), block, ids, [x, y, z], radius)
 }
 
 /// Frees a cloud; its number may be given to another one afterwards.
@@ -168,7 +221,7 @@ pub fn visible_from(
         cloud.visible_from([x, y, z], &Options { radius })
     })?;
     Ok(to_js(&Answer {
-        indices: copy_out(visibility.indices())?,
+        indices: copy_out(visibility.indices()).map_err(Failure::from)?,
         radius: visibility.radius(),
         exponent: visibility.exponent(),
         evaluations: visibility.evaluations(),
@@ -192,7 +245,8 @@ const TYPES: &str = r#"
 /** Makes all of the functions below call into this instance. */
 export function __wbg_set_wasm(exports: WebAssembly.Exports): void;
 interface CloudOptions { stride: number; skipNonFinite: boolean }
-interface CloudInfo { handle: number; length: number; skipped: number }
+interface CloudSize { length: number; skipped: number }
+interface CloudInfo extends CloudSize { handle: number }
 interface ViewOptions { radius: number | undefined; exponent: number | undefined }
 interface ChosenRadius { radius: number; exponent: number; evaluations: number }
 interface Answer extends ChosenRadius { indices: Uint32Array }
@@ -223,37 +277,41 @@ where
     }))
 }
 
-/// The first three of every `stride` values, `length` being a multiple of it.
-fn copy_in<T: Copy + Default>(
-    length: usize,
+fn append<T: Copy + Default>(
+    handle: u32,
+    length: u32,
     stride: usize,
     copy_block: impl Fn(u32, &mut [T]),
-) -> Result<Vec<[T; 3]>, Error> {
-    let count = length / stride;
-    let mut positions: Vec<[T; 3]> = Vec::new();
-    positions.try_reserve_exact(count)?;
-    if stride == 3 {
-        positions.resize(count, [T::default(); 3]);
-        copy_block(0, positions.as_flattened_mut());
-        return Ok(positions);
-    }
-    let mut block = Vec::new();
-    block.try_reserve_exact(count.min(BLOCK_POINTS).saturating_mul(stride))?;
-    for start in (0..count).step_by(BLOCK_POINTS) {
-        let points = BLOCK_POINTS.min(count - start);
-        block.resize(points * stride, T::default());
-        copy_block((start * stride) as u32, &mut block);
-        positions.extend(block.chunks_exact(stride).map(|p| [p[0], p[1], p[2]]));
-    }
-    Ok(positions)
+) -> Result<JsValue, JsValue>
+where
+    [T; 3]: Position,
+{
+    let positions = copy_in(length as usize, stride, copy_block).map_err(Failure::from)?;
+    let size = change_cloud(handle, |cloud| {
+        cloud.append(&positions)?;
+        Ok(CloudSize {
+            length: cloud.len(),
+            skipped: cloud.skipped(),
+        })
+    })?;
+    Ok(to_js(&size))
 }
 
-/// The caller's own copy: views of this memory would die when it grows.
-fn copy_out(indices: &[u32]) -> Result<Uint32Array, Failure> {
-    let copy = FallibleUint32Array::new(indices.len() as u32).map_err(|_| Error::OutOfMemory)?;
-    let copy: Uint32Array = copy.unchecked_into();
-    copy.copy_from(indices);
-    Ok(copy)
+fn merge<T: Copy + Default>(
+    length: u32,
+    copy_block: impl Fn(u32, &mut [T]),
+    ids: &Uint32Array,
+    viewpoint: [f64; 3],
+    radius: f64,
+) -> Result<Uint32Array, JsValue>
+where
+    [T; 3]: Position,
+{
+    let positions = copy_in(length as usize, 3, copy_block).map_err(Failure::from)?;
+    let ids = copy_in_integers(ids).map_err(Failure::from)?;
+    let options = Options::with_radius(radius);
+    let seen = merge_visible(&[(&positions, &ids)], viewpoint, &options).map_err(Failure::from)?;
+    Ok(copy_out(&seen).map_err(Failure::from)?)
 }
 
 fn keep(cloud: PointCloud) -> Result<u32, Error> {
@@ -275,11 +333,17 @@ fn with_cloud<T>(
 ) -> Result<T, Failure> {
     CLOUDS.with_borrow(|clouds| {
         let cloud = clouds.get(handle as usize).and_then(Option::as_ref);
-        let cloud = cloud.ok_or_else(|| Failure {
-            code: "disposed",
-            message: "this cloud has been disposed of".to_string(),
-        })?;
-        query(cloud).map_err(Failure::from)
+        query(cloud.ok_or_else(Failure::disposed)?).map_err(Failure::from)
+    })
+}
+
+fn change_cloud<T>(
+    handle: u32,
+    change: impl FnOnce(&mut PointCloud) -> Result<T, Error>,
+) -> Result<T, Failure> {
+    CLOUDS.with_borrow_mut(|clouds| {
+        let cloud = clouds.get_mut(handle as usize).and_then(Option::as_mut);
+        change(cloud.ok_or_else(Failure::disposed)?).map_err(Failure::from)
     })
 }
 

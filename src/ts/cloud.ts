@@ -13,12 +13,14 @@ import {
   viewSettings,
   type VisibilityOptions,
 } from "./options.js";
-import { type Positions, readPositions, readViewpoint } from "./positions.js";
+import { type Positions, readIndices, readPositions, readViewpoint } from "./positions.js";
 import { type ChosenRadius, type Visibility, VisibilityAnswer } from "./visibility.js";
 
 /**
  * A point cloud in the memory of the wasm: prepared once, then asked from as
- * many viewpoints as needed.
+ * many viewpoints as needed. Points can be appended and removed; answers and
+ * automatic radii are then, to the bit, those of a cloud built from the points
+ * that are there.
  *
  * Its memory is given back by {@link PointCloud.dispose}, at the end of a `using`
  * block, or some time after it has become unreachable.
@@ -28,9 +30,10 @@ export class PointCloud {
   declare readonly [Symbol.dispose]: () => void;
 
   readonly #instance: Instance;
-  readonly #length: number;
-  readonly #skipped: number;
+  readonly #stride: number;
   #handle: number | undefined;
+  #length: number;
+  #skipped: number;
 
   static {
     addDisposeSymbol(this.prototype);
@@ -53,18 +56,22 @@ export class PointCloud {
         ? bindings.createCloudF32(numbers as Float32Array, settings)
         : bindings.createCloudF64(numbers as Float64Array, settings),
     );
+    this.#stride = settings.stride;
     this.#handle = handle;
     this.#length = length;
     this.#skipped = skipped;
     unreachable.register(this, { instance: this.#instance, handle }, this);
   }
 
-  /** How many points were given, skipped ones included; also the length of a mask. */
+  /**
+   * How many points were ever given, skipped and removed ones included: the next
+   * index, and the length of a mask.
+   */
   get length(): number {
     return this.#length;
   }
 
-  /** How many points are left out because a coordinate is not finite. */
+  /** How many of the points given are left out because a coordinate is not finite. */
   get skipped(): number {
     return this.#skipped;
   }
@@ -100,6 +107,48 @@ export class PointCloud {
     checkRule(rule);
     const handle = this.#requireHandle();
     return this.#instance.call((bindings) => bindings.autoRadius(handle, x, y, z));
+  }
+
+  /**
+   * Adds points, which take the next indices: all of them, or none and an error.
+   * For m points to n: O(n + m log m), except that the whole cloud is sorted again
+   * where they extend its bounding box beyond a power of two (or a multiple of it).
+   *
+   * @param positions x, y, z of one point after another, in the cloud's units and
+   *   with the `stride` and `nonFinite` the cloud was made with. Double precision
+   *   appended to single precision makes the whole cloud one of double precision.
+   * @throws HprError `positions-type`, `positions-length`, `non-finite`,
+   *   `too-large`, `disposed`, `internal`; the cloud is unchanged then.
+   */
+  append(positions: Positions): void {
+    this.#requireHandle();
+    const numbers = readPositions(positions, this.#stride);
+    const handle = this.#requireHandle();
+    const { length, skipped } = this.#instance.call((bindings) =>
+      numbers.BYTES_PER_ELEMENT === 4
+        ? bindings.appendF32(handle, numbers as Float32Array, this.#stride)
+        : bindings.appendF64(handle, numbers as Float64Array, this.#stride),
+    );
+    this.#length = length;
+    this.#skipped = skipped;
+  }
+
+  /**
+   * Removes points: they are never visible again and hide nothing, and their
+   * indices are never given again. What was removed before is ignored. Of several
+   * equal points the others stay. One pass over the cloud.
+   *
+   * @param indices of points, in any order; removed all together, or none and an error.
+   * @throws HprError `option` for what is not the index of a point, `too-large`,
+   *   `disposed`, `internal`; the cloud is unchanged then.
+   */
+  remove(indices: ArrayLike<number>): void {
+    this.#requireHandle();
+    const integers = readIndices(indices);
+    const handle = this.#requireHandle();
+    this.#instance.call((bindings) => {
+      bindings.remove(handle, integers);
+    });
   }
 
   /** Gives the cloud's memory back. Answers already given stay valid. May be called twice. */

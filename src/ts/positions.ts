@@ -12,7 +12,7 @@ export type Positions = Float32Array | Float64Array | ArrayLike<number>;
 /** The core's limit, known here so that nothing is copied in vain. */
 const MAX_POINTS = 2 ** 28;
 /** A 32-bit memory cannot address more. */
-const MAX_LENGTH = 2 ** 32 - 1;
+export const MAX_LENGTH = 2 ** 32 - 1;
 
 /**
  * Positions in a form that wasm can copy from: a plain view of the memory of the
@@ -46,6 +46,23 @@ export function readViewpoint(viewpoint: unknown): [number, number, number] {
     );
   }
   return [x, y, z];
+}
+
+/** Indices of points to remove, copied. Whether the cloud has them is the core's to check. */
+export function readIndices(indices: unknown): Uint32Array<ArrayBuffer> {
+  const length = lengthOf(indices);
+  if (length === undefined) {
+    throw new HprError("option", `indices must be an array of integers, got ${describe(indices)}`);
+  }
+  const integers = allocating(`${length} indices`, () => new Uint32Array(length));
+  for (let i = 0; i < length; i++) {
+    const index = (indices as ArrayLike<unknown>)[i];
+    if (typeof index !== "number" || index >>> 0 !== index) {
+      throw new HprError("option", `indices[${i}] must be the index of a point, got ${describe(index)}`);
+    }
+    integers[i] = index;
+  }
+  return integers;
 }
 
 export function isFloatArray(value: unknown): value is Float32Array | Float64Array {

@@ -5,10 +5,12 @@ mod common;
 
 mod automatic;
 mod certificates;
+mod changes;
 mod definition;
 mod digest;
 mod fixtures;
 mod invariance;
+mod merge;
 mod oracle;
 mod radius;
 mod refusals;

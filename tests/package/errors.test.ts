@@ -14,12 +14,21 @@ const view = (viewpoint: unknown, options?: unknown) => () =>
   new PointCloud(sphere).visibleFrom(loose(viewpoint), loose(options));
 const autoRadius = (viewpoint: unknown, rule?: unknown) => () =>
   new PointCloud(sphere).autoRadius(loose(viewpoint), loose(rule));
+const append = (positions: unknown, options?: unknown) => () => {
+  new PointCloud(loose(sphere.subarray(0, 120)), loose(options)).append(loose(positions));
+};
+const remove = (indices: unknown) => () => {
+  new PointCloud(sphere).remove(loose(indices));
+};
 
 /** code, what the message names, and a call that fails for it */
 const refusals: [code: string, names: RegExp, call: () => unknown][] = [
   ["positions-length", /got 4\b.*multiple of 3/, newCloud([1, 2, 3, 4])],
   ["positions-length", /got 2\b/, newCloud(new Float32Array(2))],
   ["positions-length", /got 9\b.*multiple of 4/, newCloud(new Float64Array(9), { stride: 4 })],
+
+  ["positions-length", /got 4\b.*multiple of 3/, append([1, 2, 3, 4])],
+  ["positions-length", /got 6\b.*multiple of 4/, append(new Float32Array(6), { stride: 4 })],
 
   ["positions-type", /undefined/, newCloud(undefined)],
   ["positions-type", /null/, newCloud(null)],
@@ -35,9 +44,12 @@ const refusals: [code: string, names: RegExp, call: () => unknown][] = [
   ["positions-type", /positions\[2\].*undefined/, newCloud([1, 2, , 4, 5, 6])],
   ["positions-type", /positions\[0\].*Array/, newCloud([[1, 2, 3]])],
   ["positions-type", /positions\[0\].*5n/, newCloud([5n, 5n, 5n])],
+  ["positions-type", /Int32Array/, append(new Int32Array(3))],
+  ["positions-type", /undefined/, append(undefined)],
 
   ["non-finite", /\b1 point.*index 1\b/, newCloud([1, 2, 3, NaN, 5, 6])],
   ["non-finite", /\b2 point.*index 0\b/, newCloud(new Float32Array([Infinity, 2, 3, 1, 2, 3, 4, 5, -Infinity]))],
+  ["non-finite", /\b1 point.*index 1\b/, append([1, 2, 3, NaN, 5, 6])],
 
   ["viewpoint", /undefined/, view(undefined)],
   ["viewpoint", /null/, view(null)],
@@ -80,6 +92,17 @@ const refusals: [code: string, names: RegExp, call: () => unknown][] = [
   ["option", /"vote"/, view(farAway, { vote: 8 })],
   ["option", /"latest"/, view(farAway, { latest: true })],
   ["option", /rule.*"search"/, autoRadius(farAway, "search")],
+  ["option", /index 500\b.*length 500/, remove([3, 500])],
+  ["option", /indices\[1\].*-1/, remove([3, -1])],
+  ["option", /indices\[0\].*1\.5/, remove([1.5])],
+  ["option", /indices\[0\].*NaN/, remove(new Float64Array([NaN]))],
+  ["option", /indices\[0\].*4294967296/, remove([2 ** 32])],
+  ["option", /indices\[0\].*"1"/, remove(["1"])],
+  ["option", /indices\[0\].*1n/, remove(new BigInt64Array([1n]))],
+  ["option", /indices\[1\].*undefined/, remove([1, , 2])],
+  ["option", /undefined/, remove(undefined)],
+  ["option", /got 7/, remove(7)],
+  ["option", /"12"/, remove("12")],
   ["option", /"foo"/, () => hiddenPointRemoval(sphere, farAway, loose({ foo: 1 }))],
   ["option", /maskInto.*500.*499/, () => { new PointCloud(sphere).visibleFrom(farAway).maskInto(new Uint8Array(499)); }],
   ["option", /maskInto.*Uint8Array.*Float32Array/, () => { new PointCloud(sphere).visibleFrom(farAway).maskInto(loose(new Float32Array(500))); }],
@@ -116,6 +139,8 @@ describe("disposed", () => {
     cloud.dispose();
     expect((await problemOf(() => cloud.visibleFrom(farAway))).code).toBe("disposed");
     expect((await problemOf(() => cloud.autoRadius(farAway))).code).toBe("disposed");
+    expect((await problemOf(() => { cloud.append(sphere); })).code).toBe("disposed");
+    expect((await problemOf(() => { cloud.remove([0]); })).code).toBe("disposed");
   });
 
   it("does not touch other clouds, whose memory comes and goes", () => {
@@ -160,6 +185,26 @@ describe("too-large", () => {
       expect(problem.code).toBe("too-large");
     }
     expect(kept.visibleFrom(farAway).indices).toEqual(before);
+  });
+
+  it("is answered by append and remove, which change nothing then", async () => {
+    const small = await freshPackage();
+    small.initSync(cappedWasm(60));
+    const cloud = new small.PointCloud(sphere);
+    const before = cloud.visibleFrom(farAway);
+    const filler = new small.PointCloud(bumpySphere(2, 50_000));
+    for (const change of [
+      () => { cloud.append(bumpySphere(3, 100_000)); },
+      () => { cloud.append([...bumpySphere(3, 100_000)]); },
+      () => { cloud.remove(new Uint32Array(1_000_000)); },
+    ]) {
+      expect((await problemOf(change)).code).toBe("too-large");
+      expect(cloud).toHaveLength(500);
+      expect(cloud.visibleFrom(farAway)).toEqual(before);
+    }
+    filler.dispose();
+    cloud.append(bumpySphere(3, 500));
+    expect(cloud).toHaveLength(1000);
   });
 
   it("is answered by a view, too, and clouds of any size leave the instance usable", async () => {

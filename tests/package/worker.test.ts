@@ -68,6 +68,51 @@ describe("a cloud in a worker", () => {
     );
   });
 
+  it("is appended to and removed from between what was asked before and after", async () => {
+    const direct = new PointCloud(sphere.subarray(0, 3000), { stride: 4, nonFinite: "skip" });
+    const cloud = await WorkerPointCloud.create(sphere.subarray(0, 3000), { stride: 4, nonFinite: "skip" });
+    const more = sphere.slice(3000, 6000).fill(NaN, 0, 1);
+    const gone = [1, 2, 3, 900];
+    const expected = [direct.visibleFrom(farAway)];
+    direct.append(more);
+    expected.push(direct.visibleFrom(farAway));
+    direct.remove(gone);
+    expected.push(direct.visibleFrom(farAway));
+
+    const asked = [cloud.visibleFrom(farAway)];
+    const changes = [cloud.append(more)];
+    more.fill(0);
+    asked.push(cloud.visibleFrom(farAway));
+    changes.push(cloud.remove(gone));
+    gone.fill(0);
+    asked.push(cloud.visibleFrom(farAway));
+    expect(cloud).toHaveLength(750);
+    await Promise.all(changes);
+    expect([cloud.length, cloud.skipped]).toEqual([1500, 1]);
+    const answers = await Promise.all(asked);
+    expect(answers).toEqual(expected);
+    expect(answers.map((answer) => answer.mask().length)).toEqual([750, 1500, 1500]);
+    expect(await cloud.autoRadius(farAway)).toEqual(direct.autoRadius(farAway));
+  });
+
+  it("is not changed by a change that is refused", async () => {
+    const cloud = await WorkerPointCloud.create(sphere);
+    const before = await cloud.visibleFrom(farAway);
+    const refusals: [code: string, change: () => Promise<void>][] = [
+      ["positions-length", () => cloud.append([1, 2])],
+      ["positions-type", () => cloud.append(loose("abc"))],
+      ["non-finite", () => cloud.append([1, 2, 3, NaN, 1, 1])],
+      ["option", () => cloud.remove([1, 3000])],
+      ["option", () => cloud.remove([1.5])],
+      ["option", () => cloud.remove(loose(undefined))],
+    ];
+    for (const [code, change] of refusals) {
+      expect((await problemOf(change)).code).toBe(code);
+    }
+    expect(cloud).toHaveLength(3000);
+    expect(await cloud.visibleFrom(farAway)).toEqual(before);
+  });
+
   it("needs no init()", async () => {
     const fresh = await freshPackage();
     const cloud = await fresh.WorkerPointCloud.create(sphere);
@@ -235,14 +280,16 @@ describe("a worker that is gone", () => {
     cloud.visibleFrom(farAway),
     cloud.visibleFrom(farAway, { latest: true }),
     cloud.autoRadius(farAway),
+    cloud.append(sphere),
+    cloud.remove([0]),
   ];
 
   it("rejects what is pending with disposed, after dispose()", async () => {
     const cloud = await WorkerPointCloud.create(sphere);
     const pending = codesOf(pendingIn(cloud));
     const [first, second] = [cloud.dispose(), cloud.dispose()];
-    expect(await pending).toEqual(["disposed", "disposed", "disposed"]);
-    expect(await codesOf(pendingIn(cloud))).toEqual(["disposed", "disposed", "disposed"]);
+    expect(await pending).toEqual(Array<string>(5).fill("disposed"));
+    expect(await codesOf(pendingIn(cloud))).toEqual(Array<string>(5).fill("disposed"));
     await first;
     await second;
     expect(started.at(-1)!.threadId).toBe(-1);
@@ -252,8 +299,8 @@ describe("a worker that is gone", () => {
     const [cloud, other] = [await WorkerPointCloud.create(sphere), await WorkerPointCloud.create(sphere)];
     const pending = codesOf(pendingIn(cloud));
     void started[0]!.terminate();
-    expect(await pending).toEqual(["internal", "internal", "internal"]);
-    expect(await codesOf(pendingIn(cloud))).toEqual(["internal", "internal", "internal"]);
+    expect(await pending).toEqual(Array<string>(5).fill("internal"));
+    expect(await codesOf(pendingIn(cloud))).toEqual(Array<string>(5).fill("internal"));
     const next = await WorkerPointCloud.create(sphere);
     expect((await next.visibleFrom(farAway)).indices).toEqual((await other.visibleFrom(farAway)).indices);
     await cloud.dispose();
@@ -265,7 +312,7 @@ describe("a worker that is gone", () => {
     hpr.initSync(trappingWasm("visibleFrom"));
     const cloud = await hpr.WorkerPointCloud.create(sphere);
     expect((await cloud.autoRadius(farAway)).radius).toBeGreaterThan(0);
-    expect(await codesOf(pendingIn(cloud))).toEqual(["internal", "internal", "internal"]);
+    expect(await codesOf(pendingIn(cloud))).toEqual(Array<string>(5).fill("internal"));
     expect(await codesOf([cloud.autoRadius(farAway)])).toEqual(["internal"]);
     expect((await problemOf(() => new hpr.PointCloud(sphere).visibleFrom(farAway))).code).toBe("internal");
     const next = await hpr.WorkerPointCloud.create(sphere);

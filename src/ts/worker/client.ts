@@ -15,9 +15,10 @@ import {
   viewSettings,
   type VisibilityOptions,
 } from "../options.js";
-import { isFloatArray, type Positions, readPositions, readViewpoint } from "../positions.js";
+import { isFloatArray, type Positions, readIndices, readPositions, readViewpoint } from "../positions.js";
 import { type ChosenRadius, type Visibility, VisibilityAnswer } from "../visibility.js";
 import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
+import type { CloudSize } from "./protocol.js";
 import { RequestQueue } from "./request-queue.js";
 
 /** How a cloud is brought to its worker. */
@@ -60,28 +61,31 @@ export class WorkerPointCloud {
   declare readonly [Symbol.dispose]: () => void;
 
   readonly #queue: RequestQueue;
-  readonly #length: number;
-  readonly #skipped: number;
+  readonly #stride: number;
+  #size: CloudSize;
 
   static {
     addDisposeSymbol(this.prototype);
   }
 
-  private constructor(queue: RequestQueue, info: { length: number; skipped: number }) {
+  private constructor(queue: RequestQueue, stride: number, size: CloudSize) {
     this.#queue = queue;
-    this.#length = info.length;
-    this.#skipped = info.skipped;
+    this.#stride = stride;
+    this.#size = size;
     unreachable.register(this, queue, this);
   }
 
-  /** How many points were given, skipped ones included; also the length of a mask. */
+  /**
+   * How many points were ever given, skipped and removed ones included: the next
+   * index. It grows when the promise of {@link WorkerPointCloud.append} resolves.
+   */
   get length(): number {
-    return this.#length;
+    return this.#size.length;
   }
 
-  /** How many points are left out because a coordinate is not finite. */
+  /** How many of the points given are left out because a coordinate is not finite. */
   get skipped(): number {
-    return this.#skipped;
+    return this.#size.skipped;
   }
 
   /**
@@ -119,8 +123,8 @@ export class WorkerPointCloud {
   ): Promise<WorkerPointCloud> {
     const [module] = await Promise.all([moduleForWorker(), queue.start()]);
     const transfer = [positions.buffer];
-    const info = await queue.ask({ kind: "create", module, positions, settings }, { transfer });
-    return new WorkerPointCloud(queue, info);
+    const size = await queue.ask({ kind: "create", module, positions, settings }, { transfer });
+    return new WorkerPointCloud(queue, settings.stride, size);
   }
 
   /**
@@ -146,7 +150,8 @@ export class WorkerPointCloud {
       settings: viewSettings(pick(given, VIEW_OPTIONS)),
     };
     const asked = this.#queue.ask(request, { latest, signal, owner: this });
-    return new VisibilityAnswer(await untilAborted(signal, asked), this.#length);
+    const answer = await untilAborted(signal, asked);
+    return new VisibilityAnswer(answer, answer.length);
   }
 
   /**
@@ -159,6 +164,36 @@ export class WorkerPointCloud {
     const request = { kind: "autoRadius" as const, viewpoint: readViewpoint(viewpoint) };
     checkRule(rule);
     return this.#queue.ask(request, { owner: this });
+  }
+
+  /**
+   * Adds points, which take the next indices; see `PointCloud.append`. What was
+   * asked before is answered without them, what is asked after with them.
+   *
+   * @param positions x, y, z of one point after another, copied before this returns.
+   * @throws HprError (as a rejection) `positions-type`, `positions-length`,
+   *   `non-finite`, `too-large`, `disposed`, `internal`; the cloud is unchanged then.
+   */
+  async append(positions: Positions): Promise<void> {
+    this.#queue.requireOpen();
+    const own = toOwn(positions, this.#stride, false);
+    const request = { kind: "append" as const, positions: own };
+    this.#size = await this.#queue.ask(request, { transfer: [own.buffer], owner: this });
+  }
+
+  /**
+   * Removes points; see `PointCloud.remove`. What was asked before is answered
+   * with them, what is asked after without them.
+   *
+   * @param indices of points, in any order, copied before this returns.
+   * @throws HprError (as a rejection) `option` for what is not the index of a
+   *   point, `too-large`, `disposed`, `internal`; the cloud is unchanged then.
+   */
+  async remove(indices: ArrayLike<number>): Promise<void> {
+    this.#queue.requireOpen();
+    const own = readIndices(indices);
+    const request = { kind: "remove" as const, indices: own };
+    this.#size = await this.#queue.ask(request, { transfer: [own.buffer], owner: this });
   }
 
   /**

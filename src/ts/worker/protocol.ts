@@ -15,15 +15,26 @@ export type Request =
       settings: CloudSettings;
     }
   | { kind: "visibleFrom"; viewpoint: Viewpoint; settings: ViewSettings }
-  | { kind: "autoRadius"; viewpoint: Viewpoint };
+  | { kind: "autoRadius"; viewpoint: Viewpoint }
+  | { kind: "append"; positions: Float32Array | Float64Array }
+  | { kind: "remove"; indices: Uint32Array };
 
 export type Viewpoint = [x: number, y: number, z: number];
 
+/** `length` and `skipped` of a cloud. */
+export interface CloudSize {
+  length: number;
+  skipped: number;
+}
+
 /** The value of a reply, by the kind of its request. */
 export interface Replies {
-  create: { length: number; skipped: number };
-  visibleFrom: ChosenRadius & { indices: Uint32Array };
+  create: CloudSize;
+  /** With the length of the cloud that was asked; it may grow while this is on its way. */
+  visibleFrom: ChosenRadius & { indices: Uint32Array; length: number };
   autoRadius: ChosenRadius;
+  append: CloudSize;
+  remove: CloudSize;
 }
 
 export type Reply<Value = unknown> =

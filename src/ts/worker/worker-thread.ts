@@ -1,7 +1,7 @@
 import { PointCloud } from "../cloud.js";
 import { initSync } from "../loader.js";
 import { importNodeModule } from "../node.js";
-import { failedReply, READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { type CloudSize, failedReply, READY, type Replies, type Reply, type Request } from "./protocol.js";
 
 type Post = (message: unknown, transfer: ArrayBuffer[]) => void;
 
@@ -13,19 +13,30 @@ function answer(request: Request): Replies[Request["kind"]] {
     const { stride, skipNonFinite } = request.settings;
     const nonFinite = skipNonFinite ? "skip" : "error";
     cloud = new PointCloud(request.positions, { stride, nonFinite });
-    return { length: cloud.length, skipped: cloud.skipped };
+    return sizeOf(cloud);
   }
   if (cloud === undefined) {
     throw new Error(`${request.kind} came before create`);
   }
-  if (request.kind === "autoRadius") {
-    return cloud.autoRadius(request.viewpoint);
+  switch (request.kind) {
+    case "visibleFrom": {
+      const { viewpoint, settings } = request;
+      const { indices, radius, exponent, evaluations } = cloud.visibleFrom(viewpoint, settings);
+      return { indices, radius, exponent, evaluations, length: cloud.length };
+    }
+    case "autoRadius":
+      return cloud.autoRadius(request.viewpoint);
+    case "append":
+      cloud.append(request.positions);
+      return sizeOf(cloud);
+    case "remove":
+      cloud.remove(request.indices);
+      return sizeOf(cloud);
   }
-  const { indices, radius, exponent, evaluations } = cloud.visibleFrom(
-    request.viewpoint,
-    request.settings,
-  );
-  return { indices, radius, exponent, evaluations };
+}
+
+function sizeOf({ length, skipped }: PointCloud): CloudSize {
+  return { length, skipped };
 }
 
 /** Every request gets a reply, whatever is thrown. */

@@ -6,10 +6,13 @@ import {
   init,
   type InitInput,
   initSync,
+  type MergeOptions,
+  mergeVisible,
   PointCloud,
   type PointCloudOptions,
   type Visibility,
   type VisibilityOptions,
+  type VisiblePart,
 } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 
@@ -34,11 +37,21 @@ export async function everything(): Promise<HprErrorCode | undefined> {
 
     cloud.visibleFrom([0, 0, 5], { radius: perhaps, exponent: perhaps, inversion: undefined });
     console.log(new PointCloud([], { dimension: perhaps, stride: perhaps, nonFinite: undefined }).skipped);
+    cloud.append(new Float64Array(3));
+    cloud.remove(new Uint32Array([0]));
+    cloud.remove([1]);
+
+    const parts: VisiblePart[] = [{ positions: [1, 2, 3], ids: new Uint32Array([7]) }];
+    const together: MergeOptions = { radius: 100 };
+    const ids: Uint32Array = mergeVisible(parts, [0, 0, 5], together);
+    console.log(ids);
 
     const controller = new AbortController();
     const remote = await WorkerPointCloud.create([1, 2, 3], { transfer: false, signal: controller.signal });
     await remote.visibleFrom([0, 0, 5], { latest: true, signal: controller.signal, radius: "auto" });
     await remote.visibleFrom([0, 0, 5], { latest: undefined, signal: undefined });
+    await remote.append([4, 5, 6]);
+    await remote.remove([0]);
     await remote.dispose();
 
     // @ts-expect-error -- a cloud keeps its length

@@ -1,0 +1,89 @@
+//! One answer from several: a cloud in parts that are never all in one place.
+
+use alloc::vec::Vec;
+
+use crate::cloud::{MAX_POINTS, PointCloud};
+use crate::error::Error;
+use crate::options::{Options, Radius};
+use crate::points::Position;
+
+/// Which points of a cloud are visible, from what is visible in its parts?
+///
+/// However a cloud is divided, a point that its own part hides is hidden by the
+/// whole, and what is hidden hides nothing that the visible points do not. So with
+/// one viewpoint and one radius for all, visible(A ∪ B) =
+/// visible(visible(A) ∪ visible(B)), exactly: tiles can be asked where they are, and
+/// only their visible points brought together.
+///
+/// Each part is positions and as many ids, which are the caller's own numbers: the
+/// points visible in that part from `viewpoint` with the radius of `options`, or any
+/// more of its points. Equal positions share one answer, in whichever parts they
+/// are. Returns the ids of the visible points, ascending, each once.
+///
+/// ```
+/// use hidden_point_removal::{Options, PointCloud, merge_visible};
+///
+/// let tiles = [[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0]], [[0.0, 0.0, 2.0], [1.0, 0.0, 0.0]]];
+/// let first_ids = [10, 20];
+/// let viewpoint = [0.0, 0.0, 5.0];
+/// let options = Options::with_radius(100.0);
+///
+/// let mut parts = Vec::new();
+/// for (tile, first_id) in tiles.iter().zip(first_ids) {
+///     let seen = PointCloud::new(tile)?.visible_from(viewpoint, &options)?;
+///     let positions: Vec<_> = seen.indices().iter().map(|&i| tile[i as usize]).collect();
+///     let ids: Vec<_> = seen.indices().iter().map(|&i| first_id + i).collect();
+///     parts.push((positions, ids));
+/// }
+/// let parts: Vec<_> = parts.iter().map(|(p, ids)| (&p[..], &ids[..])).collect();
+/// // Each tile hides a point of the other.
+/// assert_eq!(merge_visible(&parts, viewpoint, &options)?, [11, 20]);
+/// # Ok::<(), hidden_point_removal::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::MergeRadius`] unless the radius is [`Radius::Absolute`];
+/// [`Error::IdsLength`]; those of [`PointCloud::new`] for all positions together (an
+/// index counts through all parts) and of [`PointCloud::visible_from`].
+pub fn merge_visible<P: Position>(
+    parts: &[(&[P], &[u32])],
+    viewpoint: [f64; 3],
+    options: &Options,
+) -> Result<Vec<u32>, Error> {
+    // Any other radius would be chosen anew, for what is left of the cloud.
+    if !matches!(options.radius, Radius::Absolute(_)) {
+        return Err(Error::MergeRadius);
+    }
+    let mut count = 0usize;
+    for (part, (positions, ids)) in parts.iter().enumerate() {
+        let (positions, ids) = (positions.len(), ids.len());
+        if positions != ids {
+            return Err(Error::IdsLength {
+                part,
+                positions,
+                ids,
+            });
+        }
+        count = count.saturating_add(positions);
+    }
+    if count > MAX_POINTS {
+        return Err(Error::TooManyPoints { count });
+    }
+    let mut positions: Vec<P> = Vec::new();
+    positions.try_reserve_exact(count)?;
+    parts.iter().for_each(|(part, _)| positions.extend(*part));
+    let cloud = PointCloud::new(&positions)?;
+    drop(positions);
+    let visible = cloud.visible_from(viewpoint, options)?;
+
+    let mut ids: Vec<u32> = Vec::new();
+    ids.try_reserve_exact(count)?;
+    parts.iter().for_each(|(_, part)| ids.extend(*part));
+    let mut seen = visible.into_indices();
+    for index in &mut seen {
+        *index = ids[*index as usize];
+    }
+    seen.sort_unstable();
+    seen.dedup();
+    Ok(seen)
+}

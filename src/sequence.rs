@@ -1,0 +1,267 @@
+//! The distinct points of a cloud in canonical order, each with the caller's
+//! indices of it; and how that order is made, merged, thinned and made anew.
+//!
+//! The order (along the Hilbert curve, ties along a curve inside the cell, then by
+//! coordinates) depends on the set of
+//! points alone, so whichever way a sequence came about, it is the same. None of
+//! these changes a sequence in place: where memory is refused, nothing has happened.
+
+use alloc::vec::Vec;
+
+use crate::error::Error;
+use crate::points::{Points, Position, Splice, is_finite};
+use crate::spatial::{HilbertCurve, Place, sort_by_coordinates};
+
+pub(crate) struct Sequence {
+    /// Distinct and finite.
+    pub points: Points,
+    indices: Groups,
+}
+
+impl Sequence {
+    /// Sorts the finite ones among `positions`, of which there are `finite`; the
+    /// caller's indices of `positions` begin with `first_index`.
+    pub(crate) fn sorted<P: Position>(
+        positions: &[P],
+        first_index: u32,
+        finite: usize,
+        curve: &HilbertCurve,
+    ) -> Result<Self, Error> {
+        let keyed = sort_along_curve(positions, finite, curve)?;
+        let mut points: Vec<P> = Vec::new();
+        points.try_reserve_exact(keyed.len())?;
+        let mut indices = Groups::with_capacity(keyed.len())?;
+        let mut previous = None;
+        for &(_, index) in &keyed {
+            let point = positions[index as usize].without_negative_zero();
+            if previous != Some(point.widen()) {
+                previous = Some(point.widen());
+                points.push(point);
+                indices.open()?;
+            }
+            indices.push(first_index + index)?;
+        }
+        indices.close()?;
+        Ok(Self {
+            points: P::store(points),
+            indices,
+        })
+    }
+
+    /// Both together, both along `curve`. Runs between new points are copied
+    /// whole, and only O(log n) keys are computed for each new point.
+    pub(crate) fn merged(&self, new: &Self, curve: &HilbertCurve) -> Result<Self, Error> {
+        let mut places = Vec::new();
+        places.try_reserve_exact(new.points.len())?;
+        let mut after = 0;
+        for point in new.points.iter() {
+            let start = self.first_not_before(&curve.place(point), after, curve);
+            let present = start < self.points.len() && self.points.get(start) == point;
+            after = start + usize::from(present);
+            places.push(Splice { start, after });
+        }
+
+        let mut indices =
+            Groups::with_capacity(self.indices.order.len() + new.indices.order.len())?;
+        let mut copied = 0;
+        for (k, &Splice { start, after }) in places.iter().enumerate() {
+            for unchanged in copied..start {
+                indices.copy(self.indices.of(unchanged))?;
+            }
+            indices.open()?;
+            let present = (start..after).flat_map(|same| self.indices.of(same));
+            for &index in present.chain(new.indices.of(k)) {
+                indices.push(index)?;
+            }
+            copied = after;
+        }
+        for unchanged in copied..self.points.len() {
+            indices.copy(self.indices.of(unchanged))?;
+        }
+        indices.close()?;
+        Ok(Self {
+            points: self.points.spliced(&new.points, &places)?,
+            indices,
+        })
+    }
+
+    /// The same without the indices that `removed` names; a point goes with the
+    /// last of its indices.
+    pub(crate) fn without(&self, removed: impl Fn(u32) -> bool) -> Result<Self, Error> {
+        let mut kept = Vec::new();
+        kept.try_reserve_exact(self.points.len())?;
+        let mut indices = Groups::with_capacity(self.indices.order.len())?;
+        for k in 0..self.points.len() {
+            let mut stays = false;
+            for &index in self.indices.of(k) {
+                if !removed(index) {
+                    if !stays {
+                        stays = true;
+                        kept.push(k as u32);
+                        indices.open()?;
+                    }
+                    indices.push(index)?;
+                }
+            }
+        }
+        indices.close()?;
+        Ok(Self {
+            points: self.points.gathered(&kept)?,
+            indices,
+        })
+    }
+
+    /// The same along another curve.
+    pub(crate) fn resorted(&self, curve: &HilbertCurve) -> Result<Self, Error> {
+        let count = self.points.len();
+        let sorted = match &self.points {
+            Points::Single(points) => Self::sorted(points, 0, count, curve),
+            Points::Double(points) => Self::sorted(points, 0, count, curve),
+        }?;
+        // Distinct points: every group there is one place here.
+        let mut indices = Groups::with_capacity(self.indices.order.len())?;
+        for &k in &sorted.indices.order {
+            indices.copy(self.indices.of(k as usize))?;
+        }
+        indices.close()?;
+        Ok(Self {
+            points: sorted.points,
+            indices,
+        })
+    }
+
+    /// The caller's indices of distinct point `k`.
+    pub(crate) fn indices_of(&self, k: usize) -> &[u32] {
+        self.indices.of(k)
+    }
+
+    /// Where the first point is that does not come before `place`, from `low` on.
+    fn first_not_before(&self, place: &Place, mut low: usize, curve: &HilbertCurve) -> usize {
+        let before = |k: usize| curve.place(self.points.get(k)) < *place;
+        // New points come in order too, so the next one is looked for in steps
+        // that double, then between the last two.
+        let mut step = 1;
+        while low + step <= self.points.len() && before(low + step - 1) {
+            low += step;
+            step *= 2;
+        }
+        let mut high = (low + step - 1).min(self.points.len());
+        while low < high {
+            let middle = low + (high - low) / 2;
+            if before(middle) {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+}
+
+/// Lists of indices, one for each distinct point, one after another.
+struct Groups {
+    order: Vec<u32>,
+    /// Where each list starts in `order`, with an end mark; empty where every
+    /// list holds one index, and `order[k]` is list `k`.
+    starts: Vec<u32>,
+    len: usize,
+}
+
+impl Groups {
+    /// None yet, with room for so many indices.
+    fn with_capacity(indices: usize) -> Result<Self, Error> {
+        let mut order = Vec::new();
+        order.try_reserve_exact(indices)?;
+        Ok(Self {
+            order,
+            starts: Vec::new(),
+            len: 0,
+        })
+    }
+
+    /// Begins the next list.
+    fn open(&mut self) -> Result<(), Error> {
+        self.len += 1;
+        self.mark()
+    }
+
+    /// Adds to the list that was begun last.
+    fn push(&mut self, index: u32) -> Result<(), Error> {
+        if self.starts.is_empty() && self.order.len() == self.len {
+            // The first list of more than one: until here, each held one.
+            self.starts.try_reserve(self.len)?;
+            self.starts.extend(0..self.len as u32);
+        }
+        self.order.push(index);
+        Ok(())
+    }
+
+    fn copy(&mut self, list: &[u32]) -> Result<(), Error> {
+        self.open()?;
+        list.iter().try_for_each(|&index| self.push(index))
+    }
+
+    /// Ends the last list.
+    fn close(&mut self) -> Result<(), Error> {
+        self.mark()
+    }
+
+    fn mark(&mut self) -> Result<(), Error> {
+        if !self.starts.is_empty() {
+            self.starts.try_reserve(1)?;
+            self.starts.push(self.order.len() as u32);
+        }
+        Ok(())
+    }
+
+    fn of(&self, k: usize) -> &[u32] {
+        if self.starts.is_empty() {
+            &self.order[k..=k]
+        } else {
+            &self.order[self.starts[k] as usize..self.starts[k + 1] as usize]
+        }
+    }
+}
+
+/// The finite positions along the curve, ties by coordinates, then by index.
+fn sort_along_curve<P: Position>(
+    positions: &[P],
+    finite: usize,
+    curve: &HilbertCurve,
+) -> Result<Vec<(u64, u32)>, Error> {
+    let mut keyed: Vec<(u64, u32)> = Vec::new();
+    keyed.try_reserve_exact(finite)?;
+    for (index, position) in positions.iter().enumerate() {
+        let p = position.widen();
+        if is_finite(p) {
+            keyed.push((curve.key(p), index as u32));
+        }
+    }
+    keyed.sort_unstable();
+    // What shares a cell, mostly duplicates: along a curve inside it, and then by
+    // coordinates.
+    let point = |index: u32| positions[index as usize].without_negative_zero().widen();
+    let mut same_key = Vec::new();
+    for cell in runs_of_equal_keys(&mut keyed) {
+        for (key, index) in cell.iter_mut() {
+            *key = curve.key_in_cell(point(*index));
+        }
+        cell.sort_unstable();
+        for run in runs_of_equal_keys(cell) {
+            same_key.clear();
+            same_key.try_reserve(run.len())?;
+            same_key.extend(run.iter().map(|&(_, index)| (point(index), index)));
+            sort_by_coordinates(&mut same_key);
+            for (slot, &(_, index)) in run.iter_mut().zip(&same_key) {
+                slot.1 = index;
+            }
+        }
+    }
+    Ok(keyed)
+}
+
+fn runs_of_equal_keys(keyed: &mut [(u64, u32)]) -> impl Iterator<Item = &mut [(u64, u32)]> {
+    keyed
+        .chunk_by_mut(|a, b| a.0 == b.0)
+        .filter(|run| run.len() > 1)
+}

@@ -1,0 +1,129 @@
+import { describe, HprError } from "./errors.js";
+import { requireInstance } from "./instance.js";
+import { allocating } from "./memory.js";
+import { givenOptions, viewSettings } from "./options.js";
+import { MAX_LENGTH, type Positions, readPositions, readViewpoint } from "./positions.js";
+import { plainView, typedArrayType } from "./typed-arrays.js";
+
+/** What is visible in one part of a cloud, or any more of that part. */
+export interface VisiblePart {
+  /** x, y, z of one point after another, in the units of the whole cloud. */
+  positions: Positions;
+  /** The caller's own number for each point. */
+  ids: Uint32Array;
+}
+
+/** How all of the parts were seen. */
+export interface MergeOptions {
+  /**
+   * R of the flipping sphere, in the cloud's units: the same for every part, and at
+   * least the distance of the farthest point. There is no default.
+   */
+  radius?: number | undefined;
+  /** The kernel that flips the points; spherical flipping is the only one supported. */
+  inversion?: "spherical" | undefined;
+}
+
+/**
+ * Which points of a cloud are visible, from what is visible in its parts.
+ *
+ * However the cloud was divided: ask each part (a tile, a worker's share, a
+ * server's) from one viewpoint with one radius, and bring only the visible points
+ * together here. visible(A ∪ B) = visible(visible(A) ∪ visible(B)), exactly.
+ *
+ * @param parts their positions and ids. Equal positions share one answer, in
+ *   whichever parts they are.
+ * @param viewpoint x, y, z that every part was seen from.
+ * @returns the ids of the visible points, ascending, each once.
+ * @throws HprError `not-initialised`, `option`, `positions-type`,
+ *   `positions-length` (also unless there is one id for each point), `non-finite`
+ *   (its index counts through all parts), `viewpoint`, `radius`, `too-large`, `internal`.
+ */
+export function mergeVisible(
+  parts: readonly VisiblePart[],
+  viewpoint: ArrayLike<number>,
+  options: MergeOptions,
+): Uint32Array {
+  const instance = requireInstance();
+  const [x, y, z] = readViewpoint(viewpoint);
+  const radius = readRadius(options);
+  const { positions, ids } = joined(readParts(parts));
+  return instance.call((bindings) =>
+    positions.BYTES_PER_ELEMENT === 4
+      ? bindings.mergeVisibleF32(positions as Float32Array, ids, x, y, z, radius)
+      : bindings.mergeVisibleF64(positions as Float64Array, ids, x, y, z, radius),
+  );
+}
+
+interface ReadPart {
+  positions: Float32Array | Float64Array;
+  ids: Uint32Array;
+}
+
+function readRadius(options: unknown): number {
+  const given = givenOptions(options, ["radius", "inversion"]);
+  const { radius } = viewSettings(given);
+  if (radius === undefined) {
+    throw new HprError(
+      "option",
+      `radius must be the number that all parts were seen with, got ${describe(given["radius"])}`,
+    );
+  }
+  return radius;
+}
+
+function readParts(parts: unknown): ReadPart[] {
+  if (!Array.isArray(parts)) {
+    throw new HprError("option", `parts must be an array of { positions, ids }, got ${describe(parts)}`);
+  }
+  return Array.from(parts, readPart);
+}
+
+function readPart(part: unknown, number: number): ReadPart {
+  const name = `parts[${number}]`;
+  if (typeof part !== "object" || part === null) {
+    throw new HprError("option", `${name} must be { positions, ids }, got ${describe(part)}`);
+  }
+  const { positions, ids } = part as Partial<Record<"positions" | "ids", unknown>>;
+  const ownIds = typedArrayType(ids) === "Uint32Array" ? plainView(ids as Uint32Array, Uint32Array) : undefined;
+  if (ownIds === undefined) {
+    throw new HprError("option", `${name}.ids must be a Uint32Array, not transferred away, got ${describe(ids)}`);
+  }
+  const numbers = readPositionsOf(name, positions);
+  if (numbers.length !== 3 * ownIds.length) {
+    throw new HprError(
+      "positions-length",
+      `${name}: expected 3 numbers for each of ${ownIds.length} ids, got ${numbers.length}`,
+    );
+  }
+  return { positions: numbers, ids: ownIds };
+}
+
+/** Refusals say which part they are about. */
+function readPositionsOf(name: string, positions: unknown): Float32Array | Float64Array {
+  try {
+    return readPositions(positions, 3);
+  } catch (cause) {
+    throw cause instanceof HprError ? new HprError(cause.code, `${name}: ${cause.message}`, { cause }) : cause;
+  }
+}
+
+/** All parts as one, in single precision only where every part is. */
+function joined(parts: ReadPart[]): ReadPart {
+  const count = parts.reduce((sum, { ids }) => sum + ids.length, 0);
+  if (3 * count > MAX_LENGTH) {
+    throw new HprError("too-large", `${count} points exceed what this memory can address`);
+  }
+  const single = parts.every(({ positions }) => positions.BYTES_PER_ELEMENT === 4);
+  return allocating(`${count} points`, () => {
+    const positions = single ? new Float32Array(3 * count) : new Float64Array(3 * count);
+    const ids = new Uint32Array(count);
+    let start = 0;
+    for (const part of parts) {
+      positions.set(part.positions, 3 * start);
+      ids.set(part.ids, start);
+      start += part.ids.length;
+    }
+    return { positions, ids };
+  });
+}

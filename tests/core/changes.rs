@@ -1,0 +1,246 @@
+//! Appending and removing: whatever was done to a cloud, it answers, to the bit,
+//! what a cloud built from its present points answers.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{Error, NonFinite, Options, PointCloud, Position, Radius};
+
+use crate::common::rng::Rng;
+use crate::common::scenes::{EXTREME, KINDS};
+use crate::common::shapes;
+
+const NAN: f64 = f64::NAN;
+const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
+
+/// A cloud, and what every index that was ever given stands for.
+struct Changed {
+    cloud: PointCloud,
+    present: Vec<Option<[f64; 3]>>,
+}
+
+impl Changed {
+    fn new<P: Position>(points: &[P]) -> Self {
+        Self {
+            cloud: PointCloud::new(points).unwrap(),
+            present: points.iter().map(|p| Some(p.widen())).collect(),
+        }
+    }
+
+    fn append<P: Position>(&mut self, points: &[P]) {
+        self.cloud.append(points).unwrap();
+        self.present.extend(points.iter().map(|p| Some(p.widen())));
+    }
+
+    fn remove(&mut self, indices: &[u32]) {
+        self.cloud.remove(indices).unwrap();
+        for &index in indices {
+            self.present[index as usize] = None;
+        }
+    }
+
+    fn check(&self, viewpoint: [f64; 3], options: &Options, title: &str) {
+        let (indices, points): (Vec<u32>, Vec<[f64; 3]>) = (0..)
+            .zip(&self.present)
+            .filter_map(|(index, point)| point.map(|p| (index, p)))
+            .unzip();
+        let fresh = PointCloud::new(&points).unwrap();
+        assert_eq!(self.cloud.len(), self.present.len(), "{title}");
+        let bits = |(radius, exponent): (f64, f64)| (radius.to_bits(), exponent.to_bits());
+        assert_eq!(
+            self.cloud.auto_radius(viewpoint).map(bits),
+            fresh.auto_radius(viewpoint).map(bits),
+            "{title}"
+        );
+        let answer = self.cloud.visible_from(viewpoint, options);
+        let expected = fresh.visible_from(viewpoint, options);
+        let seen = answer.as_ref().map(|answer| answer.indices().to_vec());
+        let expected = expected.as_ref().map(|answer| {
+            let seen = answer.indices().iter();
+            seen.map(|&k| indices[k as usize]).collect::<Vec<_>>()
+        });
+        assert_eq!(seen, expected, "{title}");
+        if let Ok(answer) = answer {
+            assert_eq!(answer.mask().len(), self.present.len(), "{title}");
+        }
+    }
+
+    /// Some of the indices ever given, now and then one of them twice.
+    fn some_indices(&self, rng: &mut Rng) -> Vec<u32> {
+        let count = rng.below(self.present.len() / 2 + 1);
+        (0..count)
+            .map(|_| rng.below(self.present.len()) as u32)
+            .collect()
+    }
+}
+
+#[test]
+fn any_history_is_as_if_it_had_never_been() {
+    for kind in KINDS.iter().chain(EXTREME) {
+        for (seed, n) in [(1, 12), (2, 40), (3, 300)] {
+            let scene = kind.scene(seed, n);
+            let mut rng = Rng::new(seed);
+            let mut rest = &scene.points[..];
+            let mut take = |rng: &mut Rng| {
+                let (taken, left) = rest.split_at(rng.below(rest.len() + 1));
+                rest = left;
+                taken
+            };
+            let mut changed = Changed::new(take(&mut rng));
+            for step in 0..8 {
+                match rng.below(4) {
+                    0 | 1 => changed.append(take(&mut rng)),
+                    2 if !changed.present.is_empty() => {
+                        let indices = changed.some_indices(&mut rng);
+                        changed.remove(&indices);
+                    }
+                    _ => {
+                        // What is there already, and what is gone.
+                        let again: Vec<_> = (0..n / 3).map(|_| rng.pick(&scene.points)).collect();
+                        changed.append(&again);
+                    }
+                }
+                let title = format!("{} with seed {seed}, step {step}", kind.name);
+                changed.check(scene.viewpoint, &scene.options, &title);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_large_cloud_changes_a_little() {
+    let mut rng = Rng::new(5);
+    let points = shapes::bumpy(&mut rng, 6000);
+    let mut changed = Changed::new(&points[..5900]);
+    changed.append(&points[5900..]);
+    changed.check(FRONT, &Options::default(), "appended");
+    let some: Vec<u32> = (0..60).map(|_| rng.below(6000) as u32).collect();
+    changed.remove(&some);
+    changed.check(FRONT, &Options::default(), "removed");
+}
+
+#[test]
+fn one_far_point_comes_and_goes() {
+    let points = shapes::bumpy(&mut Rng::new(6), 5000);
+    for far in [[3.0, 0.0, 0.0], [-1e3, 1e9, 0.5], [1e150, -1e140, 1.0]] {
+        let mut changed = Changed::new(&points);
+        let before = changed.cloud.auto_radius(FRONT).unwrap();
+        changed.append(&[far]);
+        changed.check(FRONT, &Options::default(), "far");
+        assert_ne!(changed.cloud.auto_radius(FRONT).unwrap(), before);
+        changed.remove(&[5000]);
+        changed.check(FRONT, &Options::default(), "near again");
+        assert_eq!(changed.cloud.auto_radius(FRONT).unwrap(), before);
+    }
+}
+
+#[test]
+fn a_window_slides_over_a_stream() {
+    let mut changed = Changed::new::<[f64; 3]>(&[]);
+    let mut rng = Rng::new(7);
+    for step in 0..40u32 {
+        let along = f64::from(step) * 0.37 - 5.0;
+        let slice: Vec<_> = (0..50)
+            .map(|_| [along + rng.unit(), rng.unit(), rng.unit()])
+            .collect();
+        changed.append(&slice);
+        if step >= 5 {
+            changed.remove(&((step - 5) * 50..(step - 4) * 50).collect::<Vec<_>>());
+        }
+        changed.check([along, 0.5, 3.0], &Options::default(), "sliding");
+    }
+}
+
+#[test]
+fn equal_points_come_and_go_one_by_one() {
+    let [near, far] = [[0.0, 0.0, 1.0], [0.0, 0.0, 0.0]];
+    let mut cloud = PointCloud::new(&[near, far]).unwrap();
+    let seen = |cloud: &PointCloud| {
+        let answer = cloud.visible_from(FRONT, &Options::default()).unwrap();
+        answer.into_indices()
+    };
+    cloud.append(&[far, near, [-0.0; 3], near]).unwrap();
+    assert_eq!(seen(&cloud), [0, 3, 5]);
+    cloud.remove(&[0, 4]).unwrap();
+    assert_eq!(seen(&cloud), [3, 5]);
+    cloud.remove(&[5, 3, 3]).unwrap();
+    assert_eq!(seen(&cloud), [1, 2]);
+    cloud.append(&[near]).unwrap();
+    assert_eq!(seen(&cloud), [6]);
+    assert_eq!(cloud.len(), 7);
+}
+
+#[test]
+fn a_cloud_can_be_emptied_and_filled_again() {
+    let points = shapes::ball(&mut Rng::new(8), 30);
+    let mut changed = Changed::new(&points);
+    let all: Vec<u32> = (0..30).collect();
+    changed.remove(&all);
+    changed.check(FRONT, &Options::default(), "emptied");
+    assert_eq!(changed.cloud.auto_radius(FRONT), Ok((0.0, 0.0)));
+    assert!(!changed.cloud.is_empty());
+    changed.append(&points);
+    changed.check(FRONT, &Options::default(), "filled again");
+    changed.append::<[f64; 3]>(&[]);
+    changed.remove(&[]);
+    changed.remove(&all);
+    changed.check(FRONT, &Options::default(), "nothing to do");
+}
+
+#[test]
+fn both_precisions_meet_in_one_cloud() {
+    let mut rng = Rng::new(9);
+    let wide = shapes::bumpy(&mut rng, 300);
+    let narrow: Vec<[f32; 3]> = wide[..150].iter().map(|p| p.map(|x| x as f32)).collect();
+    let widened: Vec<[f64; 3]> = narrow.iter().map(|p| p.map(f64::from)).collect();
+    let mut single_first = Changed::new(&narrow);
+    single_first.append(&widened[..70]);
+    single_first.append(&wide);
+    single_first.append(&narrow);
+    single_first.check(FRONT, &Options::default(), "single first");
+    let mut double_first = Changed::new(&wide);
+    double_first.append(&narrow);
+    double_first.remove(&[0, 17, 301]);
+    double_first.check(FRONT, &Options::default(), "double first");
+}
+
+#[test]
+fn what_is_not_finite_is_skipped_or_refused_as_the_cloud_was_told() {
+    let mut skipping = PointCloud::with_non_finite(&[[NAN; 3], FRONT], NonFinite::Skip).unwrap();
+    skipping
+        .append(&[[1.0, 0.0, 0.0], [NAN, 0.0, 0.0]])
+        .unwrap();
+    skipping.append(&[[f64::INFINITY; 3]; 2]).unwrap();
+    assert_eq!((skipping.len(), skipping.skipped()), (6, 4));
+    skipping.remove(&[0, 3, 1]).unwrap();
+    let answer = skipping.visible_from(FRONT, &Options::default()).unwrap();
+    assert_eq!(answer.mask(), [0, 0, 1, 0, 0, 0]);
+    assert_eq!((skipping.len(), skipping.skipped()), (6, 4));
+
+    let mut strict = PointCloud::new(&[FRONT]).unwrap();
+    let error = strict.append(&[FRONT, [NAN; 3], [0.0, NAN, 0.0]]);
+    assert_eq!(error, Err(Error::NonFinite { count: 2, first: 1 }));
+    assert_eq!((strict.len(), strict.skipped()), (1, 0));
+}
+
+#[test]
+fn a_refused_change_changes_nothing() {
+    let points = shapes::bumpy(&mut Rng::new(10), 200);
+    let mut changed = Changed::new(&points);
+    for bad in [200, 201, u32::MAX] {
+        let error = changed.cloud.remove(&[3, bad, 5]).unwrap_err();
+        let expected = Error::IndexOutOfRange {
+            index: bad,
+            len: 200,
+        };
+        assert_eq!((error, error.code()), (expected, "option"));
+        let message = error.to_string();
+        assert!(message.contains(&bad.to_string()) && message.contains("200"));
+    }
+    assert!(changed.cloud.append(&[[1e3; 3], [NAN; 3]]).is_err());
+    changed.check(FRONT, &Options::default(), "refused");
+    let options = Options {
+        radius: Radius::Exponent(2.0),
+    };
+    changed.check([0.1; 3], &options, "refused");
+}
