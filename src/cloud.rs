@@ -199,7 +199,8 @@ impl fmt::Debug for PointCloud {
     }
 }
 
-fn checked_len(count: usize) -> Result<usize, Error> {
+/// `count`, unless it is more than a cloud may hold.
+pub(crate) fn checked_len(count: usize) -> Result<usize, Error> {
     if count > MAX_POINTS {
         return Err(Error::TooManyPoints { count });
     }

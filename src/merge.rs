@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use crate::cloud::{MAX_POINTS, PointCloud};
+use crate::cloud::{PointCloud, checked_len};
 use crate::error::Error;
 use crate::options::{Options, Radius};
 use crate::points::Position;
@@ -66,9 +66,7 @@ pub fn merge_visible<P: Position>(
         }
         count = count.saturating_add(positions);
     }
-    if count > MAX_POINTS {
-        return Err(Error::TooManyPoints { count });
-    }
+    let count = checked_len(count)?;
     let mut positions: Vec<P> = Vec::new();
     positions.try_reserve_exact(count)?;
     parts.iter().for_each(|(part, _)| positions.extend(*part));

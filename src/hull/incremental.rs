@@ -122,14 +122,10 @@ pub(super) fn mark_visible(
     }
     hull.mark_outer_vertices(visible);
     for index in on_boundary {
-        if let Some(q) = flipped(index) {
-            hint = match hull.locate(q, hint) {
-                Location::Boundary(face) => {
-                    visible[index as usize] = true;
-                    face
-                }
-                Location::Inside(face) | Location::Outside(face) => face,
-            };
+        let Some(q) = flipped(index) else { continue };
+        if let Location::Boundary(face) = hull.locate(q, hint) {
+            visible[index as usize] = true;
+            hint = face;
         }
     }
     Ok(())
