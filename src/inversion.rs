@@ -50,6 +50,24 @@ impl Flip {
         4.0 * self.radius * self.scale
     }
 
+    pub(crate) fn viewpoint(&self) -> DVec3 {
+        self.viewpoint
+    }
+
+    /// The largest |q| in the cloud's own units.
+    pub(crate) fn reach_in_cloud(&self) -> f64 {
+        2.0 * self.radius
+    }
+
+    /// A squared distance from which on every point flips to less than `length`, with
+    /// all roundings: 2R − d < length where d > 2R − length.
+    pub(crate) fn hidden_from(&self, length: f64) -> f64 {
+        const ROUNDING: f64 = 1e-12;
+        let diameter = 2.0 * self.radius;
+        let distance = diameter * (1.0 + ROUNDING) - length / self.scale;
+        distance.max(0.0) * distance.max(0.0) * (1.0 + ROUNDING)
+    }
+
     /// Rescales the flipped cloud by a power of two where R is so extreme that
     /// floating-point filters would over- or underflow. Signs don't change with
     /// scale; where the scaling itself would round, it is left out.

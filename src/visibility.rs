@@ -95,11 +95,21 @@ impl PointCloud {
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
+        self.observer().visible_from(viewpoint, options)
+    }
+
+    /// [`PointCloud::visible_from`] with the memory of earlier views.
+    pub(crate) fn visible_from_with(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
         let resolved = self.resolve_radius(viewpoint, options.radius)?;
         let flip = Flip::new(viewpoint, resolved.radius);
-        let visible = hull::mark_visible(&self.sequence.points, &flip)?;
+        hull::mark_visible(&self.sequence.points, &flip, memory)?;
         Ok(Visibility {
-            indices: self.callers_indices(&visible)?,
+            indices: self.callers_indices(memory.visible())?,
             cloud_len: self.len(),
             radius: resolved.radius,
             exponent: resolved.exponent,
