@@ -5,19 +5,21 @@
 //! one. Typed arrays arrive as JavaScript objects, never as `&[f32]`: the glue
 //! would copy those before any code here runs, and trap where memory is refused.
 
+mod failure;
 mod transfer;
 
 use alloc::boxed::Box;
-use alloc::string::{String, ToString};
+use alloc::string::ToString;
 use alloc::vec::Vec;
 use core::cell::RefCell;
 use std::panic;
 use std::thread_local;
 
 use js_sys::{Float32Array, Float64Array, Uint32Array};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
+use self::failure::Failure;
 use self::transfer::{copy_in, copy_in_integers, copy_out, doubles, singles};
 use crate::{Error, NonFinite, Options, PointCloud, Position, Radius, merge_visible};
 
@@ -25,74 +27,38 @@ thread_local! {
     static CLOUDS: RefCell<Vec<Option<PointCloud>>> = const { RefCell::new(Vec::new()) };
 }
 
-/// What JavaScript receives as an exception: the fields of an `HprError`.
-#[derive(Serialize)]
-struct Failure {
-    code: &'static str,
-    message: String,
-}
+#[wasm_bindgen]
+extern "C" {
+    /// Chosen by the caller and checked on the JavaScript side. Read field by field:
+    /// what serde says about a field of the wrong type brings the formatting of
+    /// floats along, 30 kB.
+    #[wasm_bindgen(typescript_type = "CloudOptions")]
+    pub type CloudOptions;
+    #[wasm_bindgen(method, getter)]
+    fn stride(this: &CloudOptions) -> u32;
+    #[wasm_bindgen(method, getter, js_name = skipNonFinite)]
+    fn skip_non_finite(this: &CloudOptions) -> bool;
 
-impl Failure {
-    /// A number that names no cloud (any more).
-    fn disposed() -> Self {
-        Self {
-            code: "disposed",
-            message: "this cloud has been disposed of".to_string(),
-        }
-    }
-}
-
-impl From<Error> for Failure {
-    fn from(error: Error) -> Self {
-        Self {
-            code: error.code(),
-            message: error.to_string(),
-        }
-    }
-}
-
-/// JavaScript checks options before it passes them on; what it let through is refused here.
-impl From<serde_wasm_bindgen::Error> for Failure {
-    fn from(error: serde_wasm_bindgen::Error) -> Self {
-        Self {
-            code: "option",
-            message: error.to_string(),
-        }
-    }
-}
-
-impl From<Failure> for JsValue {
-    fn from(failure: Failure) -> Self {
-        to_js(&failure)
-    }
-}
-
-/// Chosen by the caller and checked for type on the JavaScript side.
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct CloudOptions {
-    stride: usize,
-    skip_non_finite: bool,
-}
-
-/// At most one of the two; neither is `Radius::Auto`.
-#[derive(Deserialize)]
-struct ViewOptions {
-    radius: Option<f64>,
-    exponent: Option<f64>,
+    /// At most one of the two; neither is `Radius::Auto`.
+    #[wasm_bindgen(typescript_type = "ViewOptions")]
+    pub type ViewOptions;
+    #[wasm_bindgen(method, getter)]
+    fn radius(this: &ViewOptions) -> Option<f64>;
+    #[wasm_bindgen(method, getter)]
+    fn exponent(this: &ViewOptions) -> Option<f64>;
 }
 
 #[derive(Serialize)]
 struct CloudInfo {
     handle: u32,
-    length: usize,
-    skipped: usize,
+    length: u32,
+    skipped: u32,
 }
 
 #[derive(Serialize)]
 struct CloudSize {
-    length: usize,
-    skipped: usize,
+    length: u32,
+    skipped: u32,
 }
 
 #[derive(Serialize)]
@@ -123,7 +89,7 @@ fn start() {
 #[wasm_bindgen(js_name = createCloudF32, unchecked_return_type = "CloudInfo")]
 pub fn create_cloud_f32(
     positions: &Float32Array,
-    #[wasm_bindgen(unchecked_param_type = "CloudOptions")] options: JsValue,
+    options: &CloudOptions,
 ) -> Result<JsValue, JsValue> {
     create_cloud(positions.length(), options, singles(positions))
 }
@@ -132,7 +98,7 @@ pub fn create_cloud_f32(
 #[wasm_bindgen(js_name = createCloudF64, unchecked_return_type = "CloudInfo")]
 pub fn create_cloud_f64(
     positions: &Float64Array,
-    #[wasm_bindgen(unchecked_param_type = "CloudOptions")] options: JsValue,
+    options: &CloudOptions,
 ) -> Result<JsValue, JsValue> {
     create_cloud(positions.length(), options, doubles(positions))
 }
@@ -209,10 +175,9 @@ pub fn visible_from(
     x: f64,
     y: f64,
     z: f64,
-    #[wasm_bindgen(unchecked_param_type = "ViewOptions")] options: JsValue,
+    options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
-    let options: ViewOptions = serde_wasm_bindgen::from_value(options).map_err(Failure::from)?;
-    let radius = match (options.radius, options.exponent) {
+    let radius = match (options.radius(), options.exponent()) {
         (Some(radius), _) => Radius::Absolute(radius),
         (None, Some(exponent)) => Radius::Exponent(exponent),
         (None, None) => Radius::Auto,
@@ -254,21 +219,21 @@ interface Answer extends ChosenRadius { indices: Uint32Array }
 
 fn create_cloud<T: Copy + Default>(
     length: u32,
-    options: JsValue,
+    options: &CloudOptions,
     copy_block: impl Fn(u32, &mut [T]),
 ) -> Result<JsValue, JsValue>
 where
     [T; 3]: Position,
 {
-    let options: CloudOptions = serde_wasm_bindgen::from_value(options).map_err(Failure::from)?;
-    let non_finite = if options.skip_non_finite {
+    let non_finite = if options.skip_non_finite() {
         NonFinite::Skip
     } else {
         NonFinite::Error
     };
-    let positions = copy_in(length as usize, options.stride, copy_block).map_err(Failure::from)?;
+    let stride = options.stride() as usize;
+    let positions = copy_in(length as usize, stride, copy_block).map_err(Failure::from)?;
     let cloud = PointCloud::with_non_finite(&positions, non_finite).map_err(Failure::from)?;
-    let (length, skipped) = (cloud.len(), cloud.skipped());
+    let CloudSize { length, skipped } = size_of(&cloud);
     let handle = keep(cloud).map_err(Failure::from)?;
     Ok(to_js(&CloudInfo {
         handle,
@@ -289,10 +254,7 @@ where
     let positions = copy_in(length as usize, stride, copy_block).map_err(Failure::from)?;
     let size = change_cloud(handle, |cloud| {
         cloud.append(&positions)?;
-        Ok(CloudSize {
-            length: cloud.len(),
-            skipped: cloud.skipped(),
-        })
+        Ok(size_of(cloud))
     })?;
     Ok(to_js(&size))
 }
@@ -314,6 +276,14 @@ where
     Ok(copy_out(&seen).map_err(Failure::from)?)
 }
 
+/// Both below `MAX_POINTS`.
+fn size_of(cloud: &PointCloud) -> CloudSize {
+    CloudSize {
+        length: cloud.len() as u32,
+        skipped: cloud.skipped() as u32,
+    }
+}
+
 fn keep(cloud: PointCloud) -> Result<u32, Error> {
     CLOUDS.with_borrow_mut(|clouds| {
         let free = clouds.iter().position(Option::is_none);
@@ -333,7 +303,7 @@ fn with_cloud<T>(
 ) -> Result<T, Failure> {
     CLOUDS.with_borrow(|clouds| {
         let cloud = clouds.get(handle as usize).and_then(Option::as_ref);
-        query(cloud.ok_or_else(Failure::disposed)?).map_err(Failure::from)
+        query(cloud.ok_or(Failure::DISPOSED)?).map_err(Failure::from)
     })
 }
 
@@ -343,7 +313,7 @@ fn change_cloud<T>(
 ) -> Result<T, Failure> {
     CLOUDS.with_borrow_mut(|clouds| {
         let cloud = clouds.get_mut(handle as usize).and_then(Option::as_mut);
-        change(cloud.ok_or_else(Failure::disposed)?).map_err(Failure::from)
+        change(cloud.ok_or(Failure::DISPOSED)?).map_err(Failure::from)
     })
 }
 
