@@ -34,6 +34,7 @@ extern crate std;
 
 mod cloud;
 mod error;
+mod exact_sum;
 mod hull;
 mod inversion;
 mod merge;

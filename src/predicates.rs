@@ -1,12 +1,15 @@
 //! Exact signs. Shewchuk's adaptive predicates (crate `robust`) answer while
-//! their expansions can neither over- nor underflow; big integers answer the rest.
+//! their expansions can neither over- nor underflow; exact sums answer the rest.
 //!
 //! Signs are told from the viewer's side. The viewer stands at the origin, and
 //! a face (a, b, c) of the hull is counter-clockwise seen from outside.
 
+use core::cmp::Ordering;
+
 use glam::DVec3;
-use num_bigint::{BigInt, Sign as BigSign};
 use robust::{Coord, Coord3D};
+
+use crate::exact_sum::ExactSum;
 
 /// The sign of an exact quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,6 +29,14 @@ impl Sign {
             Self::Zero
         }
     }
+
+    fn of_sum(sum: &ExactSum) -> Self {
+        match sum.sign() {
+            Ordering::Less => Self::Negative,
+            Ordering::Equal => Self::Zero,
+            Ordering::Greater => Self::Positive,
+        }
+    }
 }
 
 /// Which side of the plane through the face (a, b, c) `q` is on: positive
@@ -36,8 +47,7 @@ pub(crate) fn side_of_face(a: DVec3, b: DVec3, c: DVec3, q: DVec3) -> Sign {
         // and for (c, b, a) below is our outside.
         return Sign::of(robust::orient3d(coord3(c), coord3(b), coord3(a), coord3(q)));
     }
-    let row = |p: DVec3| -> [BigInt; 3] { core::array::from_fn(|i| exact(p[i]) - exact(q[i])) };
-    determinant(&row(c), &row(b), &row(a))
+    exact_side_of_face(a, b, c, q)
 }
 
 /// The sign of det(a, b, c): positive when a, b, c are clockwise seen from the
@@ -48,8 +58,7 @@ pub(crate) fn side_of_origin(a: DVec3, b: DVec3, c: DVec3) -> Sign {
         let origin = coord3(DVec3::ZERO);
         return Sign::of(robust::orient3d(coord3(a), coord3(b), coord3(c), origin));
     }
-    let row = |p: DVec3| p.to_array().map(exact);
-    determinant(&row(a), &row(b), &row(c))
+    exact_determinant(a.to_array(), b.to_array(), c.to_array())
 }
 
 /// Positive when a, b, c turn counter-clockwise, zero when they are in one line.
@@ -58,8 +67,8 @@ pub(crate) fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
         let coord = |p: [f64; 2]| Coord { x: p[0], y: p[1] };
         return Sign::of(robust::orient2d(coord(a), coord(b), coord(c)));
     }
-    let [a, b, c] = [a, b, c].map(|p| p.map(exact));
-    sign_of_big(&((&a[0] - &c[0]) * (&b[1] - &c[1]) - (&a[1] - &c[1]) * (&b[0] - &c[0])))
+    let row = |[x, y]: [f64; 2]| [x, y, 1.0];
+    exact_determinant(row(a), row(b), row(c))
 }
 
 /// Whether expansions of degree 3 in these coordinates are exact: the last bit
@@ -81,30 +90,22 @@ fn coord3(p: DVec3) -> Coord3D<f64> {
     }
 }
 
-/// A finite f64 as an integer multiple of 2^-1074.
-fn exact(x: f64) -> BigInt {
-    let bits = x.to_bits();
-    let exponent = bits >> 52 & 0x7ff;
-    let fraction = bits & ((1 << 52) - 1);
-    let magnitude = if exponent == 0 {
-        BigInt::from(fraction)
-    } else {
-        BigInt::from(fraction | 1 << 52) << (exponent - 1)
-    };
-    if x < 0.0 { -magnitude } else { magnitude }
+/// The sign of det(c − q, b − q, a − q), of which no difference is rounded.
+fn exact_side_of_face(a: DVec3, b: DVec3, c: DVec3, q: DVec3) -> Sign {
+    let [a, b, c, q] = [a, b, c, q].map(|p| p.to_array());
+    let minus_q = q.map(|x| -x);
+    let mut sum = ExactSum::ZERO;
+    sum.add_determinant(c, b, a);
+    sum.add_determinant(minus_q, b, a);
+    sum.add_determinant(c, minus_q, a);
+    sum.add_determinant(c, b, minus_q);
+    Sign::of_sum(&sum)
 }
 
-fn determinant(a: &[BigInt; 3], b: &[BigInt; 3], c: &[BigInt; 3]) -> Sign {
-    let minor = |i: usize, j: usize| &b[i] * &c[j] - &b[j] * &c[i];
-    sign_of_big(&(&a[0] * minor(1, 2) - &a[1] * minor(0, 2) + &a[2] * minor(0, 1)))
-}
-
-fn sign_of_big(x: &BigInt) -> Sign {
-    match x.sign() {
-        BigSign::Minus => Sign::Negative,
-        BigSign::NoSign => Sign::Zero,
-        BigSign::Plus => Sign::Positive,
-    }
+fn exact_determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Sign {
+    let mut sum = ExactSum::ZERO;
+    sum.add_determinant(a, b, c);
+    Sign::of_sum(&sum)
 }
 
 #[cfg(test)]
@@ -150,16 +151,22 @@ mod tests {
     }
 
     #[test]
-    fn expansions_and_big_integers_agree() {
+    fn expansions_and_sums_agree() {
         let mut random = Random(7);
         let mut zeros = 0;
         for _ in 0..20_000 {
             let [a, b, c, q] = core::array::from_fn(|_| random.point());
-            let row =
-                |p: DVec3| -> [BigInt; 3] { core::array::from_fn(|i| exact(p[i]) - exact(q[i])) };
-            let big = determinant(&row(c), &row(b), &row(a));
-            assert_eq!(side_of_face(a, b, c, q), big, "{a} {b} {c} {q}");
-            zeros += usize::from(big == Sign::Zero);
+            let sum = exact_side_of_face(a, b, c, q);
+            assert_eq!(side_of_face(a, b, c, q), sum, "{a} {b} {c} {q}");
+            zeros += usize::from(sum == Sign::Zero);
+
+            let [a, b, c] = [a, b, c].map(|p| p.to_array());
+            let sum = exact_determinant(a, b, c);
+            assert_eq!(side_of_origin(a.into(), b.into(), c.into()), sum);
+            let flat = |[x, y, _]: [f64; 3]| [x, y];
+            let one = |[x, y, _]: [f64; 3]| [x, y, 1.0];
+            let sum = exact_determinant(one(a), one(b), one(c));
+            assert_eq!(orient2d(flat(a), flat(b), flat(c)), sum);
         }
         assert!(zeros > 300, "only {zeros} degenerate quadruples met");
     }
