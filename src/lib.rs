@@ -43,6 +43,7 @@ mod points;
 mod predicates;
 mod radius;
 mod sequence;
+mod sort;
 mod spacing;
 mod spatial;
 mod visibility;

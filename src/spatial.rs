@@ -6,6 +6,8 @@
 //! the input or on what was appended and removed before, so everything computed
 //! in it is reproducible to the bit.
 
+use crate::sort::{ordered, runs_of_equal, sort_by_number};
+
 /// Bits per axis; three axes fill 63 bits of the key.
 const BITS: u32 = 21;
 /// Cells along an axis.
@@ -180,12 +182,20 @@ fn spread(x: u32) -> u64 {
 
 /// Sorts points by their coordinates, equal ones by index. Coordinates hold no -0.
 pub(crate) fn sort_by_coordinates(points: &mut [([f64; 3], u32)]) {
-    points.sort_unstable_by(|(a, i), (b, j)| {
-        a[0].total_cmp(&b[0])
-            .then(a[1].total_cmp(&b[1]))
-            .then(a[2].total_cmp(&b[2]))
-            .then(i.cmp(j))
-    });
+    sort_from(points, 0);
+}
+
+fn sort_from(points: &mut [([f64; 3], u32)], axis: usize) {
+    let key = |(point, index): &([f64; 3], u32)| match point.get(axis) {
+        Some(&x) => ordered(x),
+        None => u64::from(*index),
+    };
+    sort_by_number(points, &key);
+    if axis < 3 {
+        for run in runs_of_equal(points, key) {
+            sort_from(run, axis + 1);
+        }
+    }
 }
 
 #[cfg(test)]

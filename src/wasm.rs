@@ -20,8 +20,10 @@ use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use self::failure::Failure;
-use self::transfer::{copy_in, copy_in_integers, copy_out, doubles, singles};
-use crate::{Error, NonFinite, Options, PointCloud, Position, Radius, merge_visible};
+use self::transfer::{copy_in_integers, copy_out, doubles, singles};
+use crate::merge::merge;
+use crate::points::Points;
+use crate::{Error, NonFinite, Options, PointCloud, Radius};
 
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<PointCloud>>> = const { RefCell::new(Vec::new()) };
@@ -91,7 +93,7 @@ pub fn create_cloud_f32(
     positions: &Float32Array,
     options: &CloudOptions,
 ) -> Result<JsValue, JsValue> {
-    create_cloud(positions.length(), options, singles(positions))
+    create_cloud(singles(positions, options.stride()), options)
 }
 
 /// A cloud of double-precision positions.
@@ -100,27 +102,19 @@ pub fn create_cloud_f64(
     positions: &Float64Array,
     options: &CloudOptions,
 ) -> Result<JsValue, JsValue> {
-    create_cloud(positions.length(), options, doubles(positions))
+    create_cloud(doubles(positions, options.stride()), options)
 }
 
 /// Adds single-precision points to a cloud of any precision.
 #[wasm_bindgen(js_name = appendF32, unchecked_return_type = "CloudSize")]
-pub fn append_f32(
-    handle: u32,
-    positions: &Float32Array,
-    stride: usize,
-) -> Result<JsValue, JsValue> {
-    append(handle, positions.length(), stride, singles(positions))
+pub fn append_f32(handle: u32, positions: &Float32Array, stride: u32) -> Result<JsValue, JsValue> {
+    append(handle, singles(positions, stride))
 }
 
 /// Adds double-precision points to a cloud of any precision.
 #[wasm_bindgen(js_name = appendF64, unchecked_return_type = "CloudSize")]
-pub fn append_f64(
-    handle: u32,
-    positions: &Float64Array,
-    stride: usize,
-) -> Result<JsValue, JsValue> {
-    append(handle, positions.length(), stride, doubles(positions))
+pub fn append_f64(handle: u32, positions: &Float64Array, stride: u32) -> Result<JsValue, JsValue> {
+    append(handle, doubles(positions, stride))
 }
 
 /// Removes points from a cloud by their indices.
@@ -140,8 +134,7 @@ pub fn merge_visible_f32(
     z: f64,
     radius: f64,
 ) -> Result<Uint32Array, JsValue> {
-    let block = singles(positions);
-    merge(positions.length(), block, ids, [x, y, z], radius)
+    merge_visible(singles(positions, 3), ids, [x, y, z], radius)
 }
 
 /// The ids of what is visible among double-precision positions, one id for each.
@@ -154,8 +147,7 @@ pub fn merge_visible_f64(
     z: f64,
     radius: f64,
 ) -> Result<Uint32Array, JsValue> {
-    let block = doubles(positions);
-    merge(positions.length(), block, ids, [x, y, z], radius)
+    merge_visible(doubles(positions, 3), ids, [x, y, z], radius)
 }
 
 /// Frees a cloud; its number may be given to another one afterwards.
@@ -217,63 +209,49 @@ interface ChosenRadius { radius: number; exponent: number; evaluations: number }
 interface Answer extends ChosenRadius { indices: Uint32Array }
 "#;
 
-fn create_cloud<T: Copy + Default>(
-    length: u32,
+fn create_cloud(
+    positions: Result<Points, Error>,
     options: &CloudOptions,
-    copy_block: impl Fn(u32, &mut [T]),
-) -> Result<JsValue, JsValue>
-where
-    [T; 3]: Position,
-{
+) -> Result<JsValue, JsValue> {
     let non_finite = if options.skip_non_finite() {
         NonFinite::Skip
     } else {
         NonFinite::Error
     };
-    let stride = options.stride() as usize;
-    let positions = copy_in(length as usize, stride, copy_block).map_err(Failure::from)?;
-    let cloud = PointCloud::with_non_finite(&positions, non_finite).map_err(Failure::from)?;
-    let CloudSize { length, skipped } = size_of(&cloud);
-    let handle = keep(cloud).map_err(Failure::from)?;
-    Ok(to_js(&CloudInfo {
-        handle,
-        length,
-        skipped,
-    }))
+    let made = positions.and_then(|positions| {
+        let cloud = PointCloud::prepare(positions.as_given(), non_finite)?;
+        let CloudSize { length, skipped } = size_of(&cloud);
+        let handle = keep(cloud)?;
+        Ok(CloudInfo {
+            handle,
+            length,
+            skipped,
+        })
+    });
+    Ok(to_js(&made.map_err(Failure::from)?))
 }
 
-fn append<T: Copy + Default>(
-    handle: u32,
-    length: u32,
-    stride: usize,
-    copy_block: impl Fn(u32, &mut [T]),
-) -> Result<JsValue, JsValue>
-where
-    [T; 3]: Position,
-{
-    let positions = copy_in(length as usize, stride, copy_block).map_err(Failure::from)?;
+fn append(handle: u32, positions: Result<Points, Error>) -> Result<JsValue, JsValue> {
     let size = change_cloud(handle, |cloud| {
-        cloud.append(&positions)?;
+        cloud.add(positions?.as_given())?;
         Ok(size_of(cloud))
     })?;
     Ok(to_js(&size))
 }
 
-fn merge<T: Copy + Default>(
-    length: u32,
-    copy_block: impl Fn(u32, &mut [T]),
+fn merge_visible(
+    positions: Result<Points, Error>,
     ids: &Uint32Array,
     viewpoint: [f64; 3],
     radius: f64,
-) -> Result<Uint32Array, JsValue>
-where
-    [T; 3]: Position,
-{
-    let positions = copy_in(length as usize, 3, copy_block).map_err(Failure::from)?;
-    let ids = copy_in_integers(ids).map_err(Failure::from)?;
-    let options = Options::with_radius(radius);
-    let seen = merge_visible(&[(&positions, &ids)], viewpoint, &options).map_err(Failure::from)?;
-    Ok(copy_out(&seen).map_err(Failure::from)?)
+) -> Result<Uint32Array, JsValue> {
+    let merged = positions.and_then(|positions| {
+        let ids = copy_in_integers(ids)?;
+        let part = |_| (positions.as_given(), &ids[..]);
+        let seen = merge(1, &part, viewpoint, &Options::with_radius(radius))?;
+        copy_out(&seen)
+    });
+    Ok(merged.map_err(Failure::from)?)
 }
 
 /// Both below `MAX_POINTS`.

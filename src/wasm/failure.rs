@@ -25,6 +25,8 @@ impl Failure {
 }
 
 impl From<Error> for Failure {
+    #[cold]
+    #[inline(never)]
     fn from(error: Error) -> Self {
         let (problem, numbers) = match error {
             Error::NonFinite { count, first } => ("nonFinite", [count as f64, first as f64, 0.0]),
@@ -65,6 +67,8 @@ impl From<Error> for Failure {
 }
 
 impl From<Failure> for JsValue {
+    #[cold]
+    #[inline(never)]
     fn from(failure: Failure) -> Self {
         to_js(&failure)
     }

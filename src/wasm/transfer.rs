@@ -7,6 +7,7 @@ use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use crate::Error;
+use crate::points::Points;
 
 /// Coordinates copied from JavaScript at a time, where they are not packed.
 const BLOCK_POINTS: usize = 4096;
@@ -21,30 +22,32 @@ extern "C" {
     fn new(length: u32) -> Result<FallibleUint32Array, JsValue>;
 }
 
-/// Copies the block that starts at a given element.
-pub(super) fn singles(positions: &Float32Array) -> impl Fn(u32, &mut [f32]) {
-    |start, block| {
+/// The first three of every `stride` values, the length being a multiple of it.
+pub(super) fn singles(positions: &Float32Array, stride: u32) -> Result<Points, Error> {
+    let copy_block = |start, block: &mut [f32]| {
         positions
             .subarray(start, start + block.len() as u32)
             .copy_to(block);
-    }
+    };
+    copy_in(positions.length(), stride, copy_block).map(Points::Single)
 }
 
-/// Copies the block that starts at a given element.
-pub(super) fn doubles(positions: &Float64Array) -> impl Fn(u32, &mut [f64]) {
-    |start, block| {
+/// The first three of every `stride` values, the length being a multiple of it.
+pub(super) fn doubles(positions: &Float64Array, stride: u32) -> Result<Points, Error> {
+    let copy_block = |start, block: &mut [f64]| {
         positions
             .subarray(start, start + block.len() as u32)
             .copy_to(block);
-    }
+    };
+    copy_in(positions.length(), stride, copy_block).map(Points::Double)
 }
 
-/// The first three of every `stride` values, `length` being a multiple of it.
-pub(super) fn copy_in<T: Copy + Default>(
-    length: usize,
-    stride: usize,
+fn copy_in<T: Copy + Default>(
+    length: u32,
+    stride: u32,
     copy_block: impl Fn(u32, &mut [T]),
 ) -> Result<Vec<[T; 3]>, Error> {
+    let (length, stride) = (length as usize, stride as usize);
     let count = length / stride;
     let mut positions: Vec<[T; 3]> = Vec::new();
     positions.try_reserve_exact(count)?;
