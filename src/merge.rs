@@ -6,7 +6,7 @@ use crate::cloud::{NonFinite, PointCloud, checked_len};
 use crate::error::Error;
 use crate::options::{Options, Radius};
 use crate::points::{Given, Points, Position};
-use crate::sort::sort_by_number;
+use crate::sort::sort_keyed;
 
 /// Which points of a cloud are visible, from what is visible in its parts?
 ///
@@ -100,11 +100,18 @@ pub(crate) fn merge<'a>(
     let mut ids: Vec<u32> = Vec::new();
     ids.try_reserve_exact(count)?;
     (0..parts).for_each(|number| ids.extend(part(number).1));
-    let mut seen = visible.into_indices();
-    for index in &mut seen {
-        *index = ids[*index as usize];
-    }
-    sort_by_number(&mut seen, &|&id| u64::from(id));
-    seen.dedup();
-    Ok(seen)
+    let mut seen = Vec::new();
+    seen.try_reserve_exact(visible.count())?;
+    seen.extend(
+        visible
+            .indices()
+            .iter()
+            .map(|&k| (u64::from(ids[k as usize]), k)),
+    );
+    drop(visible);
+    sort_keyed(&mut seen);
+    seen.dedup_by_key(|&mut (id, _)| id);
+    ids.clear();
+    ids.extend(seen.iter().map(|&(id, _)| id as u32));
+    Ok(ids)
 }

@@ -85,6 +85,7 @@ pub(crate) enum Points {
 impl Points {
     /// None yet, with room for so many, in single precision only where `positions`
     /// are, so that no coordinate is rounded.
+    #[inline(never)]
     pub(crate) fn with_capacity(count: usize, positions: Given) -> Result<Self, Error> {
         fn reserved<P>(count: usize) -> Result<Vec<P>, Error> {
             let mut points = Vec::new();
@@ -118,6 +119,7 @@ impl Points {
     }
 
     /// Adds a point that came in the same precision.
+    #[inline(never)]
     pub(crate) fn push(&mut self, point: [f64; 3]) {
         match self {
             Self::Single(points) => points.push(point.map(|x| x as f32)),
@@ -126,6 +128,7 @@ impl Points {
     }
 
     /// Adds a run of points, which came in the same precision or a lower one.
+    #[inline(never)]
     pub(crate) fn extend(&mut self, points: Given, run: Range<usize>) {
         match (&mut *self, points) {
             (Self::Single(own), Given::Single(points)) => own.extend_from_slice(&points[run]),

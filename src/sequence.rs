@@ -10,7 +10,7 @@ use alloc::vec::Vec;
 
 use crate::error::Error;
 use crate::points::{Given, Points, Splice, is_finite};
-use crate::sort::{ordered, runs_of_equal, sort_by_number};
+use crate::sort::{ordered, runs_of_equal, sort_keyed};
 use crate::spatial::{HilbertCurve, Place};
 
 pub(crate) struct Sequence {
@@ -22,6 +22,7 @@ pub(crate) struct Sequence {
 impl Sequence {
     /// Sorts the finite ones among `positions`, of which there are `finite`; the
     /// caller's indices of `positions` begin with `first_index`.
+    #[inline(never)]
     pub(crate) fn sorted(
         positions: Given,
         first_index: u32,
@@ -47,6 +48,7 @@ impl Sequence {
 
     /// Both together, both along `curve`. Runs between new points are copied
     /// whole, and only O(log n) keys are computed for each new point.
+    #[inline(never)]
     pub(crate) fn merged(&self, new: &Self, curve: &HilbertCurve) -> Result<Self, Error> {
         let mut places = Vec::new();
         places.try_reserve_exact(new.points.len())?;
@@ -109,6 +111,7 @@ impl Sequence {
     }
 
     /// The same along another curve.
+    #[inline(never)]
     pub(crate) fn resorted(&self, curve: &HilbertCurve) -> Result<Self, Error> {
         let count = self.points.len();
         let sorted = Self::sorted(self.points.as_given(), 0, count, curve)?;
@@ -130,6 +133,7 @@ impl Sequence {
     }
 
     /// Where the first point is that does not come before `place`, from `low` on.
+    #[inline(never)]
     fn first_not_before(&self, place: &Place, mut low: usize, curve: &HilbertCurve) -> usize {
         let before = |k: usize| curve.place(self.points.get(k)) < *place;
         // New points come in order too, so the next one is looked for in steps
@@ -163,6 +167,7 @@ struct Groups {
 
 impl Groups {
     /// None yet, with room for so many indices.
+    #[inline(never)]
     fn with_capacity(indices: usize) -> Result<Self, Error> {
         let mut order = Vec::new();
         order.try_reserve_exact(indices)?;
@@ -174,12 +179,14 @@ impl Groups {
     }
 
     /// Begins the next list.
+    #[inline(never)]
     fn open(&mut self) -> Result<(), Error> {
         self.len += 1;
         self.mark()
     }
 
     /// Adds to the list that was begun last.
+    #[inline(never)]
     fn push(&mut self, index: u32) -> Result<(), Error> {
         if self.starts.is_empty() && self.order.len() == self.len {
             // The first list of more than one: until here, each held one.
@@ -190,6 +197,7 @@ impl Groups {
         Ok(())
     }
 
+    #[inline(never)]
     fn copy(&mut self, list: &[u32]) -> Result<(), Error> {
         self.open()?;
         list.iter().try_for_each(|&index| self.push(index))
@@ -200,6 +208,7 @@ impl Groups {
         self.mark()
     }
 
+    #[inline(never)]
     fn mark(&mut self) -> Result<(), Error> {
         if !self.starts.is_empty() {
             self.starts.try_reserve(1)?;
@@ -247,7 +256,7 @@ fn sort_along_curve(
 
 /// Sorts by the keys that are there, then by the first of `keys` of the index, and so on.
 fn sort_ties(keyed: &mut [(u64, u32)], keys: &[&dyn Fn(u32) -> u64]) {
-    sort_by_number(keyed, &|&(key, _)| key);
+    sort_keyed(keyed);
     let Some((next, others)) = keys.split_first() else {
         return;
     };

@@ -10,7 +10,13 @@ const BUCKETS: usize = 1 << BITS;
 /// Fewer items than this are sorted by insertion.
 const FEW: usize = 32;
 
+/// Sorts by the first number; in which order equal ones come is not said.
+pub(crate) fn sort_keyed(items: &mut [(u64, u32)]) {
+    sort_by_number(items, &|&(key, _)| key);
+}
+
 /// Sorts by `key`; in which order equal keys come is not said.
+#[inline(never)]
 pub(crate) fn sort_by_number<T: Copy>(items: &mut [T], key: &impl Fn(&T) -> u64) {
     if items.len() < FEW {
         return sort_few(items, key);
@@ -60,6 +66,7 @@ pub(crate) fn sort_by_number<T: Copy>(items: &mut [T], key: &impl Fn(&T) -> u64)
     }
 }
 
+#[inline(never)]
 fn sort_few<T: Copy>(items: &mut [T], key: &impl Fn(&T) -> u64) {
     for sorted in 1..items.len() {
         let item = items[sorted];
