@@ -17,6 +17,7 @@ use std::thread_local;
 
 use js_sys::{Float32Array, Float64Array, Uint32Array};
 use serde::Serialize;
+use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
 use self::failure::Failure;
@@ -296,5 +297,14 @@ fn change_cloud<T>(
 }
 
 fn to_js(value: &impl Serialize) -> JsValue {
-    serde_wasm_bindgen::to_value(value).unwrap_or_else(JsValue::from)
+    /// Flattened, a struct is written as a map of names. As a struct, serde-wasm-bindgen
+    /// would look for its names in a hash map, 3 kB of wasm.
+    #[derive(Serialize)]
+    struct Object<T> {
+        #[serde(flatten)]
+        fields: T,
+    }
+    let serializer = Serializer::new().serialize_maps_as_objects(true);
+    let object = Object { fields: value };
+    object.serialize(&serializer).unwrap_or_else(JsValue::from)
 }
