@@ -159,8 +159,7 @@ impl PointCloud {
             self.sequence = rest;
             return Ok(());
         }
-        let mut bounds = Bounds::EMPTY;
-        rest.points.iter().for_each(|p| bounds.include(p));
+        let (bounds, _) = survey(rest.points.as_given(), NonFinite::Error)?;
         let curve = HilbertCurve::new(&bounds);
         if curve == HilbertCurve::new(&self.bounds) {
             self.replace(rest, bounds)

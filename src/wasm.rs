@@ -37,8 +37,6 @@ extern "C" {
     /// floats along, 30 kB.
     #[wasm_bindgen(typescript_type = "CloudOptions")]
     pub type CloudOptions;
-    #[wasm_bindgen(method, getter)]
-    fn stride(this: &CloudOptions) -> u32;
     #[wasm_bindgen(method, getter, js_name = skipNonFinite)]
     fn skip_non_finite(this: &CloudOptions) -> bool;
 
@@ -88,13 +86,13 @@ fn start() {
     }));
 }
 
-/// A cloud of single-precision positions, kept in single precision.
+/// A cloud of single-precision positions, three a point, kept in single precision.
 #[wasm_bindgen(js_name = createCloudF32, unchecked_return_type = "CloudInfo")]
 pub fn create_cloud_f32(
     positions: &Float32Array,
     options: &CloudOptions,
 ) -> Result<JsValue, JsValue> {
-    create_cloud(singles(positions, options.stride()), options)
+    create_cloud(singles(positions), options)
 }
 
 /// A cloud of double-precision positions.
@@ -103,19 +101,19 @@ pub fn create_cloud_f64(
     positions: &Float64Array,
     options: &CloudOptions,
 ) -> Result<JsValue, JsValue> {
-    create_cloud(doubles(positions, options.stride()), options)
+    create_cloud(doubles(positions), options)
 }
 
 /// Adds single-precision points to a cloud of any precision.
 #[wasm_bindgen(js_name = appendF32, unchecked_return_type = "CloudSize")]
-pub fn append_f32(handle: u32, positions: &Float32Array, stride: u32) -> Result<JsValue, JsValue> {
-    append(handle, singles(positions, stride))
+pub fn append_f32(handle: u32, positions: &Float32Array) -> Result<JsValue, JsValue> {
+    append(handle, singles(positions))
 }
 
 /// Adds double-precision points to a cloud of any precision.
 #[wasm_bindgen(js_name = appendF64, unchecked_return_type = "CloudSize")]
-pub fn append_f64(handle: u32, positions: &Float64Array, stride: u32) -> Result<JsValue, JsValue> {
-    append(handle, doubles(positions, stride))
+pub fn append_f64(handle: u32, positions: &Float64Array) -> Result<JsValue, JsValue> {
+    append(handle, doubles(positions))
 }
 
 /// Removes points from a cloud by their indices.
@@ -135,7 +133,7 @@ pub fn merge_visible_f32(
     z: f64,
     radius: f64,
 ) -> Result<Uint32Array, JsValue> {
-    merge_visible(singles(positions, 3), ids, [x, y, z], radius)
+    merge_visible(singles(positions), ids, [x, y, z], radius)
 }
 
 /// The ids of what is visible among double-precision positions, one id for each.
@@ -148,7 +146,7 @@ pub fn merge_visible_f64(
     z: f64,
     radius: f64,
 ) -> Result<Uint32Array, JsValue> {
-    merge_visible(doubles(positions, 3), ids, [x, y, z], radius)
+    merge_visible(doubles(positions), ids, [x, y, z], radius)
 }
 
 /// Frees a cloud; its number may be given to another one afterwards.
@@ -202,7 +200,7 @@ pub fn auto_radius(handle: u32, x: f64, y: f64, z: f64) -> Result<JsValue, JsVal
 const TYPES: &str = r#"
 /** Makes all of the functions below call into this instance. */
 export function __wbg_set_wasm(exports: WebAssembly.Exports): void;
-interface CloudOptions { stride: number; skipNonFinite: boolean }
+interface CloudOptions { skipNonFinite: boolean }
 interface CloudSize { length: number; skipped: number }
 interface CloudInfo extends CloudSize { handle: number }
 interface ViewOptions { radius: number | undefined; exponent: number | undefined }
