@@ -33,6 +33,9 @@ impl ExactSum {
     }
 
     fn add_product(&mut self, x: f64, y: f64, z: f64) {
+        if x == 0.0 || y == 0.0 || z == 0.0 {
+            return;
+        }
         let [x, y, z] = [x, y, z].map(Parts::of);
         let xy = u128::from(x.significand) * u128::from(y.significand);
         let low = u128::from(xy as u64) * u128::from(z.significand);

@@ -67,7 +67,8 @@ pub(crate) fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
         let left = (a[0] - c[0]) * (b[1] - c[1]);
         let right = (a[1] - c[1]) * (b[0] - c[0]);
         let rounded = left - right;
-        if rounded.abs() > BOUND * (left.abs() + right.abs()) {
+        let size = left.abs() + right.abs();
+        if is_certain(rounded, BOUND, size) {
             return Sign::of(rounded);
         }
     }
@@ -89,7 +90,13 @@ fn rounded_determinant(a: DVec3, b: DVec3, c: DVec3, moderate: bool) -> Option<S
     let [(bc, size_bc), (ca, size_ca), (ab, size_ab)] = [minor(b, c), minor(c, a), minor(a, b)];
     let rounded = a.z * bc + b.z * ca + c.z * ab;
     let size = size_bc * a.z.abs() + size_ca * b.z.abs() + size_ab * c.z.abs();
-    (moderate && rounded.abs() > BOUND * size).then(|| Sign::of(rounded))
+    (moderate && is_certain(rounded, BOUND, size)).then(|| Sign::of(rounded))
+}
+
+/// `size` is the sum of the absolute values of the products that `rounded` is made of;
+/// if it is 0, each has a factor that is exactly 0.
+fn is_certain(rounded: f64, bound: f64, size: f64) -> bool {
+    rounded.abs() > bound * size || size == 0.0
 }
 
 /// Whether no product of three differences of such coordinates leaves the range in
