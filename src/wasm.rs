@@ -49,17 +49,20 @@ extern "C" {
     fn exponent(this: &ViewOptions) -> Option<f64>;
 }
 
+// What JavaScript is given holds doubles, as all of its numbers are: the code that
+// writes a field is compiled once for each type.
+
 #[derive(Serialize)]
 struct CloudInfo {
-    handle: u32,
-    length: u32,
-    skipped: u32,
+    handle: f64,
+    length: f64,
+    skipped: f64,
 }
 
 #[derive(Serialize)]
 struct CloudSize {
-    length: u32,
-    skipped: u32,
+    length: f64,
+    skipped: f64,
 }
 
 #[derive(Serialize)]
@@ -68,14 +71,14 @@ struct Answer {
     indices: Uint32Array,
     radius: f64,
     exponent: f64,
-    evaluations: u32,
+    evaluations: f64,
 }
 
 #[derive(Serialize)]
 struct ChosenRadius {
     radius: f64,
     exponent: f64,
-    evaluations: u32,
+    evaluations: f64,
 }
 
 /// Runs once for each instance: a panic says what happened before it traps.
@@ -180,7 +183,7 @@ pub fn visible_from(
         indices: copy_out(visibility.indices()).map_err(Failure::from)?,
         radius: visibility.radius(),
         exponent: visibility.exponent(),
-        evaluations: visibility.evaluations(),
+        evaluations: f64::from(visibility.evaluations()),
     }))
 }
 
@@ -192,7 +195,7 @@ pub fn auto_radius(handle: u32, x: f64, y: f64, z: f64) -> Result<JsValue, JsVal
         radius,
         exponent,
         // A closed form: no hull is built for it.
-        evaluations: 0,
+        evaluations: 0.0,
     }))
 }
 
@@ -220,7 +223,7 @@ fn create_cloud(
     let made = positions.and_then(|positions| {
         let cloud = PointCloud::prepare(positions.as_given(), non_finite)?;
         let CloudSize { length, skipped } = size_of(&cloud);
-        let handle = keep(cloud)?;
+        let handle = f64::from(keep(cloud)?);
         Ok(CloudInfo {
             handle,
             length,
@@ -253,11 +256,10 @@ fn merge_visible(
     Ok(merged.map_err(Failure::from)?)
 }
 
-/// Both below `MAX_POINTS`.
 fn size_of(cloud: &PointCloud) -> CloudSize {
     CloudSize {
-        length: cloud.len() as u32,
-        skipped: cloud.skipped() as u32,
+        length: cloud.len() as f64,
+        skipped: cloud.skipped() as f64,
     }
 }
 

@@ -1,4 +1,4 @@
-import { describe, HprError, type HprErrorCode } from "./errors.js";
+import { HprError, type HprErrorCode } from "./errors.js";
 
 /**
  * A refusal as the wasm throws it: which one, and the numbers its message names
@@ -37,7 +37,15 @@ export function refusal(thrown: unknown): HprError | undefined {
   }
   const [a, b, c] = thrown.numbers;
   const words: (...numbers: [string, string, string]) => string = MESSAGES[thrown.problem];
-  return new HprError(thrown.code, words(describe(a), describe(b), describe(c)));
+  return new HprError(thrown.code, words(spelled(a), spelled(b), spelled(c)));
+}
+
+/** As the crate spells it: JavaScript's way, but for these. */
+function spelled(number: number): string {
+  if (Object.is(number, -0)) {
+    return "-0";
+  }
+  return String(number).replace("Infinity", "infinity").replace("e+", "e");
 }
 
 function isFailure(thrown: unknown): thrown is Failure {
