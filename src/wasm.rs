@@ -298,7 +298,7 @@ fn change_cloud<T>(
 
 fn to_js(value: &impl Serialize) -> JsValue {
     /// Flattened, a struct is written as a map of names. As a struct, serde-wasm-bindgen
-    /// would look for its names in a hash map, 3 kB of wasm.
+    /// would look for its names in a hash map, and the wasm be 0.8 kB larger.
     #[derive(Serialize)]
     struct Object<T> {
         #[serde(flatten)]
