@@ -34,6 +34,7 @@ extern crate std;
 
 mod cloud;
 mod error;
+mod exact_sum;
 mod hull;
 mod inversion;
 mod merge;
@@ -43,6 +44,7 @@ mod points;
 mod predicates;
 mod radius;
 mod sequence;
+mod sort;
 mod spacing;
 mod spatial;
 mod visibility;
