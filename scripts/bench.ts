@@ -12,7 +12,7 @@ await command(async () => {
   await build();
   await mustRun("cargo", ["build", "--locked", "--release", "--example", "bench_native"], "The native benchmark does not build");
   await mustRun("tsc", ["-p", "tests/bench"], "The benchmarks do not compile");
-  const args = [inRoot("target", "bench", "main.js"), ...process.argv.slice(3)];
+  const args = [inRoot("target", "bench", "tests", "bench", "main.js"), ...process.argv.slice(3)];
   const { status } = spawnSync(process.execPath, args, { cwd: root, env: environment(), stdio: "inherit" });
   process.exitCode = status ?? 1;
 });

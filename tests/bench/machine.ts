@@ -1,0 +1,23 @@
+// What the numbers were measured on, and with which versions.
+import { spawnSync } from "node:child_process";
+import { cpus, platform, release, totalmem } from "node:os";
+
+import type { BrowserEngine } from "./chromium.js";
+import type { Peer } from "./peers.js";
+
+export function describeMachine(browser: BrowserEngine | undefined, peers: Peer[]): Record<string, string> {
+  const cores = cpus();
+  const memory = `${Math.round(totalmem() / 2 ** 30)} GiB`;
+  const rustc = spawnSync("rustc", ["--version"], { encoding: "utf8" }).stdout.trim();
+  const versions = [
+    `Node ${process.versions.node}`,
+    ...(browser === undefined ? [] : [`Chromium ${browser.version}`]),
+    rustc,
+    ...peers.map(({ name, version }) => `${name} ${version}`),
+  ];
+  return {
+    date: new Date().toISOString().slice(0, 10),
+    machine: `${cores[0]?.model.trim() ?? "unknown CPU"}, ${cores.length} cores, ${memory}, ${platform()} ${release()}`,
+    versions: versions.join(", "),
+  };
+}
