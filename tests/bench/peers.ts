@@ -24,8 +24,8 @@ export interface PeerResult {
   peer: string;
   /** Of each run; undefined where the first was stopped. */
   milliseconds: number[] | undefined;
-  /** Labels that the peer has wrong, by the definition. */
-  wrong: number;
+  /** How many labels it has otherwise than the library. */
+  differing: number;
 }
 
 export interface Peer {
@@ -54,9 +54,9 @@ export function peers(python: boolean): Peer[] {
 export function compareWithPeer(peer: Peer, view: View): PeerResult {
   const out = scratch("vertices.u32");
   const output = peer.run(view, out);
-  if (output === undefined) return { peer: peer.name, milliseconds: undefined, wrong: 0 };
+  if (output === undefined) return { peer: peer.name, milliseconds: undefined, differing: 0 };
   const vertices = new Uint32Array(new Uint8Array(readFileSync(out)).buffer);
-  return { peer: peer.name, milliseconds: JSON.parse(output) as number[], wrong: judge(peer, view, vertices) };
+  return { peer: peer.name, milliseconds: JSON.parse(output) as number[], differing: judge(peer, view, vertices) };
 }
 
 function judge(peer: Peer, view: View, vertices: Uint32Array): number {

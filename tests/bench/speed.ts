@@ -43,8 +43,9 @@ const MOVING =
   "and how many times faster that is than the cold queries from the same viewpoints, all of which gave the same visible sets.";
 const PEERS =
   "Milliseconds of the hull alone (Open3D flips by itself and returns a mesh), and how many times longer that takes than " +
-  "the whole cold query. Wherever a label differed, exact arithmetic decided for this library; Open3D rounds its flips " +
-  `otherwise, so its column only counts. Stopped after ${PEER_LIMIT_MS / 1000} s.`;
+  "the whole cold query, flip included. The last column counts labels that differ: exact arithmetic decided for this " +
+  "library each time, except for Open3D, which rounds its flips otherwise and so may answer otherwise. " +
+  `A peer is stopped after ${PEER_LIMIT_MS / 1000} s.`;
 
 /** The outcomes of all engines that take the cloud, checked against each other. */
 export async function measureAll(cloud: Cloud, tasks: Task[], engines: Engine[]): Promise<Map<string, Outcome[]>> {
@@ -95,13 +96,13 @@ function viewOf(cloud: Cloud, { exponent, viewpoint }: Task, timed: Outcome): Vi
   return { cloud, exponent, viewpoint, radius, indices };
 }
 
-function peerRow({ cloud, exponent }: View, { peer, milliseconds, wrong }: PeerResult, outcomes: Outcomes): Row {
+function peerRow({ cloud, exponent }: View, { peer, milliseconds, differing }: PeerResult, outcomes: Outcomes): Row {
   const row: Row = { cloud: cloud.name, points: cloud.positions.length / 3, exponent, peer };
   const stopped = milliseconds === undefined;
   const time = stopped ? PEER_LIMIT_MS : median(milliseconds);
   const shown = (value: number): string | number => (stopped ? `> ${Math.round(value)}` : value);
   row["peer ms"] = shown(time);
   for (const [engine, { cold }] of outcomes) row[`÷ ${engine}`] = shown(time / median(cold));
-  row["labels it has wrong"] = stopped ? "" : wrong;
+  row["other labels"] = stopped ? "" : differing;
   return row;
 }
