@@ -1,9 +1,11 @@
 // What the numbers were measured on, and with which versions.
 import { spawnSync } from "node:child_process";
-import { cpus, platform, release, totalmem } from "node:os";
+import { cpus, loadavg, platform, release, totalmem } from "node:os";
 
 import type { BrowserEngine } from "./chromium.js";
 import type { Peer } from "./peers.js";
+
+const [loadBefore = 0] = loadavg();
 
 export function describeMachine(browser: BrowserEngine | undefined, peers: Peer[]): Record<string, string> {
   const cores = cpus();
@@ -16,6 +18,8 @@ export function describeMachine(browser: BrowserEngine | undefined, peers: Peer[
     ...peers.map(({ name, version }) => `${name} ${version}`),
   ];
   return {
+    // Taken before anything is timed: above a few tenths, other work was in the way.
+    "load before": loadBefore.toFixed(2),
     date: new Date().toISOString().slice(0, 10),
     machine: `${cores[0]?.model.trim() ?? "unknown CPU"}, ${cores.length} cores, ${memory}, ${platform()} ${release()}`,
     versions: versions.join(", "),

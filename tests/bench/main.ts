@@ -42,7 +42,7 @@ const text = [
   "# Measured\n",
   ...Object.entries(machine).map(([what, value]) => `- ${what}: ${value}`),
   `- command: \`${["npm run bench", ...(args.length === 0 ? [] : ["--", ...args])].join(" ")}\`\n`,
-  ...tables.map(markdown),
+  ...tables.map(markdown).filter((table) => table !== ""),
 ].join("\n");
 if (options.write) writeFileSync(join(root, "tests", "bench", "RESULTS.md"), text);
 console.log(options.json ? JSON.stringify({ machine, tables }, undefined, 2) : text);

@@ -36,8 +36,9 @@ export async function timeQueries(clouds: Iterable<Cloud>, engines: Engine[], pe
 }
 
 const COLD =
-  "Median milliseconds of one query on one core, the first one of a cloud that was built for it; " +
-  "building (in Node) is not part of it. All engines gave the same visible set and radius, to the bit.";
+  "Median milliseconds of one query on one core, the first one of a cloud that was built for it; building (in Node) is " +
+  "not part of it. Seen from 2.5 bounding radii, the room from inside. All engines gave the same visible set and radius, " +
+  "to the bit.";
 const MOVING =
   "Median milliseconds of a query one step (so many degrees, seen from the cloud's center) after the last one, " +
   "and how many times faster that is than the cold queries from the same viewpoints, all of which gave the same visible sets.";
