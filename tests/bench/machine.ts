@@ -18,8 +18,8 @@ export function describeMachine(browser: BrowserEngine | undefined, peers: Peer[
     ...peers.map(({ name, version }) => `${name} ${version}`),
   ];
   return {
-    // Taken before anything is timed: above a few tenths, other work was in the way.
-    "load before": loadBefore.toFixed(2),
+    // Taken before anything is timed; of other work than the build just before, there should be none.
+    "load before (one minute)": loadBefore.toFixed(2),
     date: new Date().toISOString().slice(0, 10),
     machine: `${cores[0]?.model.trim() ?? "unknown CPU"}, ${cores.length} cores, ${memory}, ${platform()} ${release()}`,
     versions: versions.join(", "),
