@@ -22,12 +22,21 @@ use wasm_bindgen::prelude::*;
 
 use self::failure::Failure;
 use self::transfer::{copy_in_integers, copy_out, doubles, singles};
+use crate::hull::Memory;
 use crate::merge::merge;
 use crate::points::Points;
 use crate::{Error, NonFinite, Options, PointCloud, Radius};
 
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<PointCloud>>> = const { RefCell::new(Vec::new()) };
+    static LAST_VIEW: RefCell<Option<LastView>> = const { RefCell::new(None) };
+}
+
+/// What the next view may start from: the last one's hull, and its room. One for all
+/// clouds, so that many clouds need no more than one.
+struct LastView {
+    handle: u32,
+    memory: Memory,
 }
 
 #[wasm_bindgen]
@@ -155,6 +164,7 @@ pub fn merge_visible_f64(
 /// Frees a cloud; its number may be given to another one afterwards.
 #[wasm_bindgen(js_name = freeCloud)]
 pub fn free_cloud(handle: u32) {
+    forget(handle);
     CLOUDS.with_borrow_mut(|clouds| {
         if let Some(slot) = clouds.get_mut(handle as usize) {
             *slot = None;
@@ -177,7 +187,9 @@ pub fn visible_from(
         (None, None) => Radius::Auto,
     };
     let visibility = with_cloud(handle, |cloud| {
-        cloud.visible_from([x, y, z], &Options { radius })
+        with_memory(handle, |memory| {
+            cloud.visible_from_with(memory, [x, y, z], &Options { radius })
+        })
     })?;
     Ok(to_js(&Answer {
         indices: copy_out(visibility.indices()).map_err(Failure::from)?,
@@ -286,10 +298,35 @@ fn with_cloud<T>(
     })
 }
 
+/// Runs `view` with the last view's memory, which knows nothing of other clouds.
+fn with_memory<T>(handle: u32, view: impl FnOnce(&mut Memory) -> T) -> T {
+    LAST_VIEW.with_borrow_mut(|last| {
+        let last = last.get_or_insert_with(|| LastView {
+            handle,
+            memory: Memory::default(),
+        });
+        if last.handle != handle {
+            last.memory.forget();
+            last.handle = handle;
+        }
+        view(&mut last.memory)
+    })
+}
+
+/// Gives back what is kept of the cloud's last view.
+fn forget(handle: u32) {
+    LAST_VIEW.with_borrow_mut(|last| {
+        if last.as_ref().is_some_and(|last| last.handle == handle) {
+            *last = None;
+        }
+    });
+}
+
 fn change_cloud<T>(
     handle: u32,
     change: impl FnOnce(&mut PointCloud) -> Result<T, Error>,
 ) -> Result<T, Failure> {
+    forget(handle);
     CLOUDS.with_borrow_mut(|clouds| {
         let cloud = clouds.get_mut(handle as usize).and_then(Option::as_mut);
         change(cloud.ok_or(Failure::DISPOSED)?).map_err(Failure::from)

@@ -54,6 +54,12 @@ impl Flipped<'_> {
         self.flip.apply(self.position(index))
     }
 
+    /// The same, where it is called too rarely to be worth copies of it.
+    #[inline(never)]
+    fn get_out_of_line(&self, index: u32) -> Option<DVec3> {
+        self.get(index)
+    }
+
     fn reach(&self) -> f64 {
         self.flip.reach()
     }
@@ -117,7 +123,7 @@ pub(crate) fn mark_visible(points: &Points, flip: &Flip, memory: &mut Memory) ->
         let seed = first_tetrahedron(sample.take(SEED_SAMPLE), &flipped)
             .or_else(|| first_tetrahedron(0..count, &flipped));
         let Some(corners) = seed else {
-            let flipped = |index| flipped.get(index);
+            let flipped = |index| flipped.get_out_of_line(index);
             return flat::mark_visible(count, &flipped, &mut memory.visible);
         };
         memory.hull.start(corners, flipped.reach(), points.len())?;
@@ -193,6 +199,7 @@ impl Memory {
     }
 
     /// Locates a point and makes it a vertex if it is outside; returns a face near it.
+    #[inline(never)]
     fn add(&mut self, index: u32, flipped: &Flipped, hint: u32) -> Result<u32, Error> {
         let Some(q) = flipped.get(index) else {
             self.on_boundary.try_reserve(1)?;
@@ -217,7 +224,7 @@ impl Memory {
             return;
         };
         for &index in &self.on_boundary {
-            self.visible[index as usize] = match flipped.get(index) {
+            self.visible[index as usize] = match flipped.get_out_of_line(index) {
                 None => true,
                 Some(q) => match self.hull.locate(q, hint) {
                     Location::Boundary(face) => {
@@ -241,7 +248,7 @@ fn first_tetrahedron(
     let points = || {
         candidates
             .clone()
-            .filter_map(|i| flipped.get(i).map(|q| (i, q)))
+            .filter_map(|i| flipped.get_out_of_line(i).map(|q| (i, q)))
     };
     let first = points().next()?;
     let likely = || {

@@ -60,7 +60,7 @@ impl Hull {
         self.vertices.reach = flipped.reach();
         let points = self.vertices.points.iter().skip(1);
         for (position, &point) in self.vertices.positions.iter_mut().skip(1).zip(points) {
-            let Some(q) = flipped.get(point) else {
+            let Some(q) = flipped.get_out_of_line(point) else {
                 return Ok(false);
             };
             *position = q;
@@ -105,7 +105,7 @@ impl Hull {
     /// (With roundings: this only decides which way is faster.)
     fn looks_alike(&self, flipped: &Flipped) -> bool {
         let slots = self.surface.slots();
-        let at = |vertex: Vertex| flipped.get(self.vertices.points[vertex as usize]);
+        let at = |vertex: Vertex| flipped.get_out_of_line(self.vertices.points[vertex as usize]);
         let [mut faces, mut turned, mut reflex] = [0; 3];
         for slot in (0..slots).step_by(slots.div_ceil(SAMPLE)) {
             let face = self.surface.face(slot as FaceId);
@@ -229,14 +229,27 @@ impl Hull {
         repair: &mut Repair,
     ) -> Result<bool, TryReserveError> {
         let twin = self.surface.face(edge.face()).twins[edge.edge()];
-        let vertices = &self.vertices;
-        self.surface.flip(edge, |corners| vertices.plane(corners));
+        self.flip(edge);
         repair.suspect(edge.face())?;
         repair.suspect(twin.face())?;
         Ok(true)
     }
 
+    fn flip(&mut self, edge: HalfEdge) {
+        let twin = self.surface.face(edge.face()).twins[edge.edge()];
+        self.surface.flip(edge);
+        self.renew_plane(edge.face());
+        self.renew_plane(twin.face());
+    }
+
+    #[inline(never)]
+    fn renew_plane(&mut self, id: FaceId) {
+        let face = self.surface.face_mut(id);
+        face.data = self.vertices.plane(face.vertices);
+    }
+
     /// Whether the surface is reflex at an edge between faces that turn outward.
+    #[inline(never)]
     fn is_reflex(&self, edge: HalfEdge) -> bool {
         let face = self.surface.face(edge.face());
         if !face.is_alive() {
@@ -262,8 +275,7 @@ impl Hull {
     ) -> Result<bool, TryReserveError> {
         if self.can_flip(edge) {
             let twin = self.surface.face(edge.face()).twins[edge.edge()];
-            let vertices = &self.vertices;
-            self.surface.flip(edge, |corners| vertices.plane(corners));
+            self.flip(edge);
             // The new edge is convex.
             repair.suspects.try_reserve(4)?;
             for face in [edge.face(), twin.face()] {
@@ -326,10 +338,8 @@ impl Hull {
         }
         for i in 0..repair.ears.len() {
             let (ear, slot) = (repair.ears[i], repair.star[i]);
-            let vertices = &self.vertices;
-            self.surface.cut_ear(&mut repair.rim, ear, slot, |corners| {
-                vertices.plane(corners)
-            });
+            self.surface.cut_ear(&mut repair.rim, ear, slot);
+            self.renew_plane(slot);
             repair.suspect(slot)?;
         }
         for &slot in &repair.star[repair.ears.len()..] {
@@ -437,6 +447,7 @@ impl Vertices {
     }
 
     /// Whether a face of these corners would turn as it should.
+    #[inline(never)]
     fn may_face(&self, corners: [Vertex; 3]) -> bool {
         !self.plane(corners).is_exact_only() || self.turns_right(corners)
     }

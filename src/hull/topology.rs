@@ -283,8 +283,8 @@ impl<T: Copy> Surface<T> {
 
     /// Replaces an edge by the other diagonal of its two triangles: the first of
     /// [`Surface::flipped`] takes the slot of the edge's face, the second that of
-    /// its twin's. Their common edge is the last of both.
-    pub(crate) fn flip(&mut self, edge: HalfEdge, data: impl Fn([Vertex; 3]) -> T) {
+    /// its twin's. Their common edge is the last of both. Their data stay as they were.
+    pub(crate) fn flip(&mut self, edge: HalfEdge) {
         let [first, second] = self.flipped(edge);
         let slot = edge.face();
         let f = *self.face(slot);
@@ -293,8 +293,8 @@ impl<T: Copy> Surface<T> {
         let g = *self.face(other);
         let [_, bc, ca] = f.twins_from(edge.edge());
         let [_, ad, db] = g.twins_from(twin.edge());
-        self.put(slot, first, [ca, ad, HalfEdge::new(other, 2)], &data);
-        self.put(other, second, [db, bc, HalfEdge::new(slot, 2)], &data);
+        self.put(slot, first, [ca, ad, HalfEdge::new(other, 2)]);
+        self.put(other, second, [db, bc, HalfEdge::new(slot, 2)]);
     }
 
     /// The faces around vertex `hub`, counter-clockwise from `start`, which is one of
@@ -328,14 +328,9 @@ impl<T: Copy> Surface<T> {
 
     /// Cuts an ear off the hole with this `rim`: a triangle of rim edge `ear` and the
     /// next, put into the dead slot `slot`. The rim closes behind it. Where the hole
-    /// is that triangle, it is filled and the rim's last edge is left as it was.
-    pub(crate) fn cut_ear(
-        &mut self,
-        rim: &mut Vec<Rim>,
-        ear: usize,
-        slot: FaceId,
-        data: impl Fn([Vertex; 3]) -> T,
-    ) {
+    /// is that triangle, it is filled and the rim's last edge is left as it was. The
+    /// slot's data stay as they were.
+    pub(crate) fn cut_ear(&mut self, rim: &mut Vec<Rim>, ear: usize, slot: FaceId) {
         let next = (ear + 1) % rim.len();
         let (first, second) = (rim[ear], rim[next]);
         let vertices = [first.tail, first.head, second.head];
@@ -345,12 +340,7 @@ impl<T: Copy> Surface<T> {
             // Not linked yet: whoever takes this rim edge will.
             HalfEdge::new(slot, 2)
         };
-        self.put(
-            slot,
-            vertices,
-            [first.outside, second.outside, closing],
-            data,
-        );
+        self.put(slot, vertices, [first.outside, second.outside, closing]);
         rim[ear] = Rim {
             tail: first.tail,
             head: second.head,
@@ -368,18 +358,10 @@ impl<T: Copy> Surface<T> {
     }
 
     /// Writes a face and links the faces across its edges back to it.
-    fn put(
-        &mut self,
-        slot: FaceId,
-        vertices: [Vertex; 3],
-        twins: [HalfEdge; 3],
-        data: impl Fn([Vertex; 3]) -> T,
-    ) {
-        self.faces[slot as usize] = Face {
-            vertices,
-            twins,
-            data: data(vertices),
-        };
+    fn put(&mut self, slot: FaceId, vertices: [Vertex; 3], twins: [HalfEdge; 3]) {
+        let face = self.face_mut(slot);
+        face.vertices = vertices;
+        face.twins = twins;
         for (edge, twin) in (0..).zip(twins) {
             self.faces[twin.face() as usize].twins[twin.edge()] = HalfEdge::new(slot, edge);
         }
