@@ -81,7 +81,14 @@ pub(crate) fn farthest_distance(points: &Points, viewpoint: [f64; 3]) -> Result<
         let v = DVec3::from_array(p) - viewpoint;
         largest = largest.max(v.dot(v));
     }
-    // The root is monotonic, so the root of the largest is the largest root.
+    checked_distance(largest)
+}
+
+/// The root of the largest squared distance, which is the largest root.
+///
+/// # Errors
+/// [`Error::RadiusOverflow`] when it exceeds the range of f64.
+pub(crate) fn checked_distance(largest: f64) -> Result<f64, Error> {
     let farthest = square_root(largest);
     if farthest.is_finite() {
         Ok(farthest)

@@ -32,7 +32,9 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
+mod blocks;
 mod cloud;
+mod division;
 mod error;
 mod hull;
 mod inversion;
@@ -41,6 +43,7 @@ mod options;
 mod points;
 mod predicates;
 mod radius;
+mod sector;
 mod sequence;
 mod spacing;
 mod spatial;
@@ -53,6 +56,7 @@ pub use error::Error;
 pub use merge::merge_visible;
 pub use options::{Options, Radius};
 pub use points::Position;
+pub use sector::Sector;
 pub use visibility::Visibility;
 
 /// The README's Rust snippets, as documentation tests.

@@ -98,8 +98,17 @@ impl PointCloud {
         let resolved = self.resolve_radius(viewpoint, options.radius)?;
         let flip = Flip::new(viewpoint, resolved.radius);
         let visible = hull::mark_visible(&self.sequence.points, &flip)?;
+        self.answer(&visible, resolved)
+    }
+
+    /// The answer with these distinct points visible.
+    pub(crate) fn answer(
+        &self,
+        visible: &[bool],
+        resolved: ResolvedRadius,
+    ) -> Result<Visibility, Error> {
         Ok(Visibility {
-            indices: self.callers_indices(&visible)?,
+            indices: self.callers_indices(visible)?,
             cloud_len: self.len(),
             radius: resolved.radius,
             exponent: resolved.exponent,

@@ -82,7 +82,7 @@ impl Plane {
 }
 
 /// Where a flipped point lies relative to the hull.
-enum Location {
+pub(super) enum Location {
     /// Strictly outside this face.
     Outside(FaceId),
     /// Exactly on the outer boundary.
@@ -131,7 +131,7 @@ pub(super) fn mark_visible(
     Ok(())
 }
 
-struct Hull {
+pub(super) struct Hull {
     surface: Surface<Plane>,
     vertices: Vertices,
 }
@@ -204,7 +204,7 @@ impl Vertices {
 impl Hull {
     /// The first tetrahedron, with room, if it can be had, for a hull that half of
     /// `count` points are on: growing later would hold two copies for a moment.
-    fn new(
+    pub(super) fn new(
         corners: [u32; 3],
         flipped: &impl Fn(u32) -> Option<DVec3>,
         reach: f64,
@@ -238,7 +238,7 @@ impl Hull {
     /// Two neighbors' dual planes agree on their edge, so which of m·q is the
     /// larger tells on which side of that edge the ray passes, and the largest
     /// m·q of all belongs to the face it pierces. If that one has q inside, all have.
-    fn locate(&self, q: DVec3, hint: FaceId) -> Location {
+    pub(super) fn locate(&self, q: DVec3, hint: FaceId) -> Location {
         let mut id = hint;
         let mut height = self.surface.face(id).data.m.dot(q);
         for step in 0..PATIENCE + self.surface.slots() {
@@ -346,7 +346,7 @@ impl Hull {
 
     /// Makes `q`, strictly outside face `start`, a vertex; returns one of its faces
     /// that is outer. There is one, because the ray of a new vertex ends at it.
-    fn insert(&mut self, point: u32, q: DVec3, start: FaceId) -> Result<FaceId, Error> {
+    pub(super) fn insert(&mut self, point: u32, q: DVec3, start: FaceId) -> Result<FaceId, Error> {
         let vertex = self.vertices.positions.len() as Vertex;
         self.vertices.reserve(1)?;
         self.vertices.positions.push(q);
@@ -361,6 +361,30 @@ impl Hull {
         let is_outer = |&id: &FaceId| self.vertices.is_outer(self.surface.face(id));
         let outer = self.surface.fan().iter().rev().copied().find(is_outer);
         Ok(outer.expect("a new vertex is on the outer boundary"))
+    }
+
+    /// The faces that the last insertion made, around the new vertex.
+    pub(super) fn fan(&self) -> &[FaceId] {
+        self.surface.fan()
+    }
+
+    /// Above every face's number.
+    pub(super) fn slots(&self) -> usize {
+        self.surface.slots()
+    }
+
+    /// The points at the corners of a face, if it is one of the surface and outer.
+    pub(super) fn outer_points(&self, id: FaceId) -> Option<[u32; 3]> {
+        let face = self.surface.face(id);
+        let is_outer =
+            face.is_alive() && !face.vertices.contains(&ORIGIN) && self.vertices.is_outer(face);
+        is_outer.then(|| face.vertices.map(|v| self.vertices.points[v as usize]))
+    }
+
+    /// The dual plane m of a face, and a limit: what has m·q below it is strictly inside.
+    pub(super) fn support(&self, id: FaceId) -> (DVec3, f64) {
+        let Plane { m, error } = self.surface.face(id).data;
+        (m, 1.0 - error)
     }
 
     /// A vertex is visible when one of its faces has the origin strictly inside;

@@ -1,0 +1,357 @@
+//! One view divided among several workers: by the direction in which points are seen.
+//!
+//! INPUT    a cloud's blocks, a viewpoint and a radius; which sector of how many.
+//! OUTPUT   for each block, whether it is the sector's own, near it or far from it,
+//!          the same in every worker; and what bounds m·q over the far ones.
+//! SUMMARY  The directions are cut by half-planes that meet in a line through the
+//!          viewpoint, and every block belongs to the sector of its center. Any
+//!          division is right (see `hull::sector`); this one has short seams.
+
+use alloc::vec::Vec;
+use glam::{DVec2, DVec3};
+
+use crate::blocks::{BLOCK, Blocks, FANOUT, Sphere};
+use crate::error::Error;
+use crate::inversion::square_root;
+use crate::sector::Sector;
+
+/// Blocks whose directions decide where the seams are.
+const SAMPLES: usize = 1024;
+/// More than any error of the roundings in a bound, relative to its largest term.
+const MARGIN: f64 = 1e-12;
+
+/// What a block is to a sector.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Role {
+    /// Its points are the sector's to decide.
+    Own,
+    /// They are another sector's, but near the seam, or already in the hull.
+    Entered,
+    /// They are another sector's, and not in the hull.
+    Far,
+}
+
+/// Flipped points known together: directions within an angle around `axis`, at most
+/// `reach` away from the origin.
+#[derive(Clone, Copy)]
+struct Cone {
+    axis: DVec3,
+    cos: f64,
+    /// 1 for what is in all directions.
+    sin: f64,
+    reach: f64,
+}
+
+impl Cone {
+    /// Of the points in `sphere`, seen from `viewpoint` and flipped at R = `diameter`/2.
+    fn of(sphere: &Sphere, viewpoint: DVec3, diameter: f64) -> Self {
+        let v = DVec3::from_array(sphere.center) - viewpoint;
+        let distance = square_root(v.dot(v));
+        // Squares must not have underflowed. Written so that a NaN is refused, too.
+        if distance > 1e-100 && sphere.radius < 0.5 * distance {
+            let sin = sphere.radius / distance;
+            Self {
+                axis: v / distance,
+                cos: square_root(1.0 - sin * sin),
+                sin,
+                reach: diameter - (distance - sphere.radius),
+            }
+        } else {
+            Self {
+                axis: DVec3::ZERO,
+                cos: 0.0,
+                sin: 1.0,
+                reach: diameter,
+            }
+        }
+    }
+
+    fn is_everywhere(&self) -> bool {
+        self.sin == 1.0
+    }
+
+    /// At least the largest m·q, for m of this `length`.
+    fn bound(&self, m: DVec3, length: f64) -> f64 {
+        let along = m.dot(self.axis);
+        let across = square_root((length * length - along * along).max(0.0));
+        // The largest of m·u in the cone: |m| if it holds the direction of m.
+        let largest = if self.is_everywhere() || along * self.sin >= across * self.cos {
+            length
+        } else {
+            along * self.cos + across * self.sin
+        };
+        (largest + MARGIN * length) * self.reach
+    }
+
+    /// At most the least n·u in the cone, for a unit vector n.
+    fn least(&self, n: DVec3) -> f64 {
+        let along = n.dot(self.axis);
+        let across = square_root((1.0 - along * along).max(0.0));
+        if self.is_everywhere() || along <= 0.0 {
+            return -1.0;
+        }
+        along * self.cos - across * self.sin - MARGIN
+    }
+}
+
+/// How one sector sees the cloud.
+pub(crate) struct Division {
+    /// One for each block.
+    pub roles: Vec<Role>,
+    /// The cones of the blocks and of the nodes above them.
+    levels: Vec<Vec<Cone>>,
+    /// How many blocks below each node are far.
+    far: Vec<Vec<u32>>,
+    /// Every far direction u has n·u ≥ `clearance` for one of these n.
+    seams: [DVec3; 2],
+    clearance: f64,
+    /// No far point is flipped farther than this.
+    reach: f64,
+}
+
+impl Division {
+    /// `ahead` is a place in the cloud's middle.
+    pub(crate) fn new(
+        blocks: &Blocks,
+        viewpoint: DVec3,
+        ahead: DVec3,
+        radius: f64,
+        sector: Sector,
+    ) -> Result<Self, Error> {
+        let diameter = 2.0 * radius * (1.0 + MARGIN);
+        let mut levels: Vec<Vec<Cone>> = Vec::new();
+        let mut far: Vec<Vec<u32>> = Vec::new();
+        levels.try_reserve_exact(blocks.levels.len())?;
+        far.try_reserve_exact(blocks.levels.len())?;
+        for spheres in &blocks.levels {
+            let mut cones = Vec::new();
+            cones.try_reserve_exact(spheres.len())?;
+            cones.extend(
+                spheres
+                    .iter()
+                    .map(|sphere| Cone::of(sphere, viewpoint, diameter)),
+            );
+            levels.push(cones);
+            let mut none = Vec::new();
+            none.try_reserve_exact(spheres.len())?;
+            none.resize(spheres.len(), 0);
+            far.push(none);
+        }
+        let fan = Fan::new(&levels[0], ahead - viewpoint, sector.count as usize)?;
+        let seams = fan.seams(sector.number as usize);
+        let mut division = Self {
+            roles: Vec::new(),
+            levels,
+            far,
+            seams,
+            clearance: fan.clearance,
+            reach: 0.0,
+        };
+        division.assign(&fan, sector)?;
+        Ok(division)
+    }
+
+    fn assign(&mut self, fan: &Fan, sector: Sector) -> Result<(), Error> {
+        let mut beyond = [true; 2];
+        let count = self.levels[0].len();
+        self.roles.try_reserve_exact(count)?;
+        for block in 0..count {
+            let cone = self.levels[0][block];
+            let role = if fan.sector_of(cone.axis) == sector.number as usize {
+                Role::Own
+            } else {
+                let clear = self.seams.map(|n| cone.least(n) >= self.clearance);
+                if clear == [false; 2] {
+                    Role::Entered
+                } else {
+                    beyond[0] &= clear[0];
+                    beyond[1] &= clear[1];
+                    self.reach = self.reach.max(cone.reach);
+                    for (level, far) in self.far.iter_mut().enumerate() {
+                        far[block / FANOUT.pow(level as u32)] += 1;
+                    }
+                    Role::Far
+                }
+            };
+            self.roles.push(role);
+        }
+        // A seam with nothing far beyond it but what is beyond the other, too.
+        match beyond {
+            [true, _] => self.seams[1] = self.seams[0],
+            [_, true] => self.seams[0] = self.seams[1],
+            _ => {}
+        }
+        Ok(())
+    }
+
+    /// Whether point `index` of the spatial order is this sector's to decide.
+    #[inline]
+    pub(crate) fn owns(&self, index: u32) -> bool {
+        self.roles[index as usize / BLOCK] == Role::Own
+    }
+
+    /// At least the largest m·q of all far points, at the price of a few products.
+    #[inline]
+    pub(crate) fn bound_of_all(&self, m: DVec3) -> f64 {
+        let squared = m.dot(m);
+        let length = square_root(squared);
+        let mut largest = f64::NEG_INFINITY;
+        for n in self.seams {
+            let along = m.dot(n);
+            let beyond = if along >= self.clearance * length {
+                length
+            } else {
+                // In the plane of m and n, at the edge of what is clear of the seam.
+                let across = square_root((squared - along * along).max(0.0));
+                let edge = square_root((1.0 - self.clearance * self.clearance).max(0.0));
+                along * self.clearance + across * edge
+            };
+            largest = largest.max(beyond);
+        }
+        (largest + MARGIN * length) * self.reach
+    }
+
+    /// Adds far blocks to `found`, a few at most, in which m·q may not be below `limit`.
+    /// There is none if it adds none.
+    pub(crate) fn in_the_way(
+        &self,
+        m: DVec3,
+        limit: f64,
+        found: &mut Vec<u32>,
+    ) -> Result<(), Error> {
+        const ENOUGH: usize = 16;
+        let length = square_root(m.dot(m));
+        let end = found.len() + ENOUGH;
+        let top = self.levels.len() - 1;
+        let mut path: Vec<(usize, usize)> = Vec::new();
+        path.try_reserve(FANOUT * self.levels.len())?;
+        path.extend((0..self.levels[top].len()).map(|node| (top, node)));
+        while let Some((level, node)) = path.pop() {
+            if self.far[level][node] == 0 || self.levels[level][node].bound(m, length) < limit {
+                continue;
+            }
+            if level == 0 {
+                found.try_reserve(1)?;
+                found.push(node as u32);
+                if found.len() == end {
+                    return Ok(());
+                }
+            } else {
+                let below = self.levels[level - 1].len();
+                let children = node * FANOUT..below.min((node + 1) * FANOUT);
+                path.extend(children.map(|child| (level - 1, child)));
+            }
+        }
+        Ok(())
+    }
+
+    /// The points of a far block have been put into the hull.
+    pub(crate) fn enter(&mut self, block: u32) {
+        self.roles[block as usize] = Role::Entered;
+        for (level, far) in self.far.iter_mut().enumerate() {
+            far[block as usize / FANOUT.pow(level as u32)] -= 1;
+        }
+    }
+}
+
+/// Half-planes that meet in a line through the viewpoint. Angles around it are told
+/// on the diamond |x| + |y| = 1 instead of the circle: four quarters of length 1.
+struct Fan {
+    right: DVec3,
+    up: DVec3,
+    /// The angles of the half-planes, ascending; sector k lies between k and k + 1, and the
+    /// last one between the last and the first.
+    angles: Vec<f64>,
+    clearance: f64,
+}
+
+impl Fan {
+    fn new(blocks: &[Cone], ahead: DVec3, count: usize) -> Result<Self, Error> {
+        let step = blocks.len().div_ceil(SAMPLES).max(1);
+        let sample = || blocks.iter().step_by(step).map(|cone| cone.axis);
+        // Angles begin behind: seen from outside, nothing is there.
+        let right = -ahead.try_normalize().unwrap_or(DVec3::X);
+        // Across the direction in which the cloud looks longest, so that seams are short.
+        let mut up = DVec3::ZERO;
+        let mut longest = f64::NEG_INFINITY;
+        for axis in DVec3::AXES {
+            let across = (axis - right * right.dot(axis)).try_normalize();
+            let Some(across) = across else { continue };
+            let spread: f64 = sample().map(|u| u.dot(across) * u.dot(across)).sum();
+            if spread > longest {
+                (up, longest) = (across, spread);
+            }
+        }
+        let mut fan = Self {
+            right,
+            up,
+            angles: Vec::new(),
+            clearance: 0.0,
+        };
+        let mut angles: Vec<f64> = Vec::new();
+        angles.try_reserve_exact(SAMPLES)?;
+        angles.extend(sample().map(|u| fan.angle(u)));
+        angles.sort_unstable_by(f64::total_cmp);
+        let samples = angles.len().max(1) as f64;
+        fan.clearance = BAND * blocks.iter().step_by(step).map(|cone| cone.sin).sum::<f64>() / samples;
+        fan.angles.try_reserve_exact(count)?;
+        if count == 2 {
+            // One plane, so that each side is at most a half of all directions.
+            let first = halving(&angles);
+            fan.angles.extend([first, first + 2.0]);
+        } else {
+            let quantile = |k: usize| angles.get(k * angles.len() / count).copied();
+            fan.angles.push(0.0);
+            fan.angles.extend((1..count).map(|k| quantile(k).unwrap_or(4.0)));
+        }
+        Ok(fan)
+    }
+
+    fn angle(&self, u: DVec3) -> f64 {
+        let (x, y) = (u.dot(self.right), u.dot(self.up));
+        let sum = x.abs() + y.abs();
+        if sum == 0.0 {
+            0.0
+        } else if y >= 0.0 {
+            1.0 - x / sum
+        } else {
+            3.0 + x / sum
+        }
+    }
+
+    fn sector_of(&self, u: DVec3) -> usize {
+        let angle = self.angle(u);
+        let passed = self.angles.iter().filter(|&&seam| seam <= angle).count();
+        // Before the first seam it is the last sector.
+        (passed + self.angles.len() - 1) % self.angles.len()
+    }
+
+    /// The normals of the two half-planes around a sector, outward.
+    fn seams(&self, sector: usize) -> [DVec3; 2] {
+        let normal = |angle: f64| {
+            let y = if angle < 2.0 { 1.0 } else { -1.0 };
+            let x = if angle < 2.0 { 1.0 - angle } else { angle - 3.0 };
+            let on_diamond = DVec2::new(x, y * (1.0 - x.abs()));
+            let normal = on_diamond.perp().normalize();
+            self.right * normal.x + self.up * normal.y
+        };
+        let next = self.angles[(sector + 1) % self.angles.len()];
+        [-normal(self.angles[sector]), normal(next)]
+    }
+}
+
+/// How far beyond a seam points are far, in mean radii of the blocks as seen.
+const BAND: f64 = 2.0;
+
+/// The angle below 2 for which half of these ascending angles are less than 2 above it.
+fn halving(angles: &[f64]) -> f64 {
+    let until = |end: f64| angles.partition_point(|&angle| angle < end);
+    let imbalance = |first: f64| {
+        let inside = until(first + 2.0) - until(first);
+        inside.abs_diff(angles.len() - inside)
+    };
+    let candidates = angles.iter().map(|&angle| angle % 2.0);
+    candidates
+        .min_by_key(|&first| imbalance(first))
+        .unwrap_or(0.0)
+}

@@ -1,0 +1,224 @@
+//! One sector's share of the hull: which of its own points are visible in the whole
+//! cloud, by a hull of far fewer points.
+//!
+//! The hull is of the sector's own points, those near its seams and a sample of all
+//! others, which the rest, the *far* points, can only enlarge. So
+//!
+//! - what it hides is hidden;
+//! - a vertex of an outer face that no far point lies above is visible: the plane
+//!   of that face supports all of K, with the origin strictly on its inner side.
+//!
+//! That no point of a block lies above a face is mostly known from a bound of m·q
+//! over all of its directions. Blocks of which it is not known enter the hull, until
+//! every point is hidden or has such a face; in the end that may be all of them.
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use super::incremental::{Hull, Location};
+use super::topology::FaceId;
+use crate::blocks::BLOCK;
+use crate::error::Error;
+use crate::division::{Division, Role};
+
+/// Of the spatial order, every so manieth point is the sample of the far ones.
+const SAMPLE: u32 = 512;
+
+/// Marks those of the sector's own points that are visible. `corners` is the first
+/// tetrahedron's outer face, as in [`super::incremental::mark_visible`].
+pub(super) fn mark_visible(
+    flipped: &impl Fn(u32) -> Option<DVec3>,
+    reach: f64,
+    corners: [u32; 3],
+    division: Division,
+    visible: &mut [bool],
+) -> Result<(), Error> {
+    let count = visible.len() as u32;
+    let near = division.roles.iter().filter(|&&role| role != Role::Far);
+    let room = near.count() * BLOCK;
+    let mut share = Share {
+        hull: Hull::new(corners, flipped, reach, room)?,
+        flipped,
+        division,
+        visible,
+        hint: 0,
+        on_boundary: Vec::new(),
+    };
+    for index in (0..count).step_by(8 * SAMPLE as usize) {
+        share.add(index)?;
+    }
+    for index in (0..count).step_by(SAMPLE as usize) {
+        if index % (8 * SAMPLE) != 0 {
+            share.add(index)?;
+        }
+    }
+    for (stride, given) in [(64, SAMPLE), (8, 64), (1, 8)] {
+        for block in 0..share.division.roles.len() {
+            if share.division.roles[block] != Role::Far {
+                let start = (block * BLOCK) as u32;
+                for index in (start..count.min(start + BLOCK as u32)).step_by(stride) {
+                    if index % given != 0 {
+                        share.add(index)?;
+                    }
+                }
+            }
+        }
+    }
+    share.settle_vertices()?;
+    share.settle_boundary()
+}
+
+struct Share<'a, F> {
+    hull: Hull,
+    flipped: &'a F,
+    division: Division,
+    /// Only own points are marked.
+    visible: &'a mut [bool],
+    hint: FaceId,
+    /// Own points found exactly on the boundary when they were added.
+    on_boundary: Vec<u32>,
+}
+
+impl<F: Fn(u32) -> Option<DVec3>> Share<'_, F> {
+    /// Adds a point to the hull; returns whether it became a vertex.
+    fn add(&mut self, index: u32) -> Result<bool, Error> {
+        let own = self.division.owns(index);
+        let Some(q) = (self.flipped)(index) else {
+            self.visible[index as usize] |= own;
+            return Ok(false);
+        };
+        let location = self.hull.locate(q, self.hint);
+        self.hint = match location {
+            Location::Outside(face) => self.hull.insert(index, q, face)?,
+            Location::Boundary(face) => {
+                if own {
+                    self.on_boundary.try_reserve(1)?;
+                    self.on_boundary.push(index);
+                }
+                face
+            }
+            Location::Inside(face) => face,
+        };
+        Ok(matches!(location, Location::Outside(_)))
+    }
+
+    /// Own vertices of `face` that are not marked yet.
+    fn open_vertices(&self, face: FaceId) -> impl Iterator<Item = u32> {
+        self.hull
+            .outer_points(face)
+            .into_iter()
+            .flatten()
+            .filter(|&point| self.division.owns(point) && !self.visible[point as usize])
+    }
+
+    fn is_open(&self, face: FaceId) -> bool {
+        self.open_vertices(face).next().is_some()
+    }
+
+    fn mark(&mut self, face: FaceId) {
+        for point in self.hull.outer_points(face).into_iter().flatten() {
+            if self.division.owns(point) {
+                self.visible[point as usize] = true;
+            }
+        }
+    }
+
+    /// Decides about all vertices of the hull that are the sector's own.
+    fn settle_vertices(&mut self) -> Result<(), Error> {
+        let slots = self.hull.slots() as FaceId;
+        for face in 0..slots {
+            if self.is_open(face) {
+                let (m, limit) = self.hull.support(face);
+                if self.division.bound_of_all(m) < limit {
+                    self.mark(face);
+                }
+            }
+        }
+        let mut open: Vec<FaceId> = Vec::new();
+        for face in 0..slots {
+            if self.is_open(face) {
+                open.try_reserve(1)?;
+                open.push(face);
+            }
+        }
+        // The faces in `open` are all that a vertex not marked yet still has.
+        let mut in_the_way: Vec<u32> = Vec::new();
+        let mut failed: Vec<(FaceId, usize)> = Vec::new();
+        while !open.is_empty() {
+            in_the_way.clear();
+            failed.clear();
+            failed.try_reserve(open.len())?;
+            for &face in &open {
+                if !self.is_open(face) {
+                    continue;
+                }
+                let before = in_the_way.len();
+                let (m, limit) = self.hull.support(face);
+                self.division.in_the_way(m, limit, &mut in_the_way)?;
+                if in_the_way.len() == before {
+                    self.mark(face);
+                } else {
+                    failed.push((face, in_the_way.len()));
+                }
+            }
+            open.clear();
+            let mut start = 0;
+            for &(face, end) in &failed {
+                if self.is_open(face) {
+                    open.try_reserve(1)?;
+                    open.push(face);
+                    self.hint = face;
+                    for &block in &in_the_way[start..end] {
+                        self.enter(block, &mut open)?;
+                    }
+                }
+                start = end;
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds a far block to the hull, and new faces of vertices not marked yet to `open`.
+    fn enter(&mut self, block: u32, open: &mut Vec<FaceId>) -> Result<(), Error> {
+        if self.division.roles[block as usize] != Role::Far {
+            return Ok(());
+        }
+        self.division.enter(block);
+        let start = block * BLOCK as u32;
+        let count = self.visible.len() as u32;
+        for index in start..count.min(start + BLOCK as u32) {
+            if index % SAMPLE != 0 && self.add(index)? {
+                let fan = self.hull.fan();
+                open.try_reserve(fan.len())?;
+                open.extend(fan.iter().copied().filter(|&face| self.is_open(face)));
+            }
+        }
+        Ok(())
+    }
+
+    /// Decides about own points that were found exactly on the boundary.
+    fn settle_boundary(&mut self) -> Result<(), Error> {
+        let mut in_the_way: Vec<u32> = Vec::new();
+        let mut ignored = Vec::new();
+        for index in core::mem::take(&mut self.on_boundary) {
+            let Some(q) = (self.flipped)(index) else {
+                continue;
+            };
+            while let Location::Boundary(face) = self.hull.locate(q, self.hint) {
+                self.hint = face;
+                in_the_way.clear();
+                let (m, limit) = self.hull.support(face);
+                self.division.in_the_way(m, limit, &mut in_the_way)?;
+                if in_the_way.is_empty() {
+                    self.visible[index as usize] = true;
+                    break;
+                }
+                for &block in &in_the_way {
+                    self.enter(block, &mut ignored)?;
+                }
+                ignored.clear();
+            }
+        }
+        Ok(())
+    }
+}
