@@ -59,11 +59,6 @@ impl Blocks {
         Ok(Self { levels })
     }
 
-    /// How many blocks there are.
-    pub(crate) fn len(&self) -> usize {
-        self.levels[0].len()
-    }
-
     /// The largest squared distance from `viewpoint`: of all v·v, v = p − C, as they
     /// are rounded, but computed only in blocks that may hold it.
     pub(crate) fn farthest_squared(&self, points: &Points, viewpoint: DVec3) -> f64 {

@@ -341,7 +341,7 @@ impl Fan {
 }
 
 /// How far beyond a seam points are far, in mean radii of the blocks as seen.
-const BAND: f64 = 2.0;
+const BAND: f64 = 1.5;
 
 /// The angle below 2 for which half of these ascending angles are less than 2 above it.
 fn halving(angles: &[f64]) -> f64 {

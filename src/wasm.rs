@@ -5,6 +5,7 @@
 //! one. Typed arrays arrive as JavaScript objects, never as `&[f32]`: the glue
 //! would copy those before any code here runs, and trap where memory is refused.
 
+mod sector;
 mod transfer;
 
 use alloc::boxed::Box;

@@ -52,7 +52,7 @@ pub(super) fn mark_visible(
             share.add(index)?;
         }
     }
-    for (stride, given) in [(64, SAMPLE), (8, 64), (1, 8)] {
+    for (stride, given) in [(BLOCK, SAMPLE), (8, BLOCK as u32), (1, 8)] {
         for block in 0..share.division.roles.len() {
             if share.division.roles[block] != Role::Far {
                 let start = (block * BLOCK) as u32;
@@ -125,20 +125,16 @@ impl<F: Fn(u32) -> Option<DVec3>> Share<'_, F> {
 
     /// Decides about all vertices of the hull that are the sector's own.
     fn settle_vertices(&mut self) -> Result<(), Error> {
-        let slots = self.hull.slots() as FaceId;
-        for face in 0..slots {
+        let mut open: Vec<FaceId> = Vec::new();
+        for face in 0..self.hull.slots() as FaceId {
             if self.is_open(face) {
                 let (m, limit) = self.hull.support(face);
                 if self.division.bound_of_all(m) < limit {
                     self.mark(face);
+                } else {
+                    open.try_reserve(1)?;
+                    open.push(face);
                 }
-            }
-        }
-        let mut open: Vec<FaceId> = Vec::new();
-        for face in 0..slots {
-            if self.is_open(face) {
-                open.try_reserve(1)?;
-                open.push(face);
             }
         }
         // The faces in `open` are all that a vertex not marked yet still has.
