@@ -17,7 +17,10 @@ pub(crate) const FANOUT: usize = 8;
 /// More than any error of the few roundings in a distance, relative to it.
 const MARGIN: f64 = 1e-12;
 
-/// All points of the node are within `radius` of `center`.
+/// Squares above it have not underflowed.
+const WITH_SQUARE: f64 = 1e-200;
+
+/// All points of the node are within `radius` of `center`; infinite where distances overflow.
 #[derive(Clone, Copy)]
 pub(crate) struct Sphere {
     pub center: [f64; 3],
@@ -33,24 +36,14 @@ pub(crate) struct Blocks {
 impl Blocks {
     /// Around `points`, which are in their spatial order.
     pub(crate) fn around(points: &Points) -> Result<Self, Error> {
-        let mut level: Vec<Sphere> = Vec::new();
-        level.try_reserve_exact(points.len().div_ceil(BLOCK))?;
-        for start in (0..points.len()).step_by(BLOCK) {
-            let run = || (start..points.len().min(start + BLOCK)).map(|i| points.get(i));
-            let mut bounds = Bounds::EMPTY;
-            run().for_each(|p| bounds.include(p));
-            level.push(around(middle(&bounds), run().map(|p| (p, 0.0))));
-        }
+        let point = |index: usize| Sphere {
+            center: points.get(index),
+            radius: 0.0,
+        };
         let mut levels = Vec::new();
+        let mut level = around_runs(points.len(), BLOCK, &point)?;
         while level.len() > FANOUT {
-            let mut above: Vec<Sphere> = Vec::new();
-            above.try_reserve_exact(level.len().div_ceil(FANOUT))?;
-            for run in level.chunks(FANOUT) {
-                let mut bounds = Bounds::EMPTY;
-                run.iter().for_each(|sphere| bounds.include(sphere.center));
-                let spheres = run.iter().map(|sphere| (sphere.center, sphere.radius));
-                above.push(around(middle(&bounds), spheres));
-            }
+            let above = around_runs(level.len(), FANOUT, &|node| level[node])?;
             levels.try_reserve(2)?;
             levels.push(level);
             level = above;
@@ -59,53 +52,79 @@ impl Blocks {
         Ok(Self { levels })
     }
 
-    /// The largest squared distance from `viewpoint`: of all v·v, v = p − C, as they
-    /// are rounded, but computed only in blocks that may hold it.
-    pub(crate) fn farthest_squared(&self, points: &Points, viewpoint: DVec3) -> f64 {
+    /// The largest distance of any of the `points` from `viewpoint`, 0 for an empty
+    /// cloud: √ of the largest v·v, v = p − C, of all as they are rounded, but computed
+    /// only in blocks that may hold it.
+    ///
+    /// # Errors
+    /// [`Error::RadiusOverflow`] when a distance exceeds the range of f64.
+    pub(crate) fn farthest_distance(
+        &self,
+        points: &Points,
+        viewpoint: [f64; 3],
+    ) -> Result<f64, Error> {
+        let viewpoint = DVec3::from_array(viewpoint);
         let reach = |sphere: &Sphere| {
             let center = DVec3::from_array(sphere.center) - viewpoint;
             (square_root(center.dot(center)) + sphere.radius) * (1.0 + MARGIN)
         };
-        let in_block = |block: usize, mut largest: f64| {
-            for index in block * BLOCK..points.len().min((block + 1) * BLOCK) {
-                let v = DVec3::from_array(points.get(index)) - viewpoint;
-                largest = largest.max(v.dot(v));
-            }
-            largest
-        };
-        let mut promising = (0, 0.0);
+        // The most promising block first, then every one that may hold a farther point.
+        let mut promising = 0;
+        let mut farthest_reach = 0.0;
         for (block, sphere) in self.levels[0].iter().enumerate() {
             let reach = reach(sphere);
-            if reach > promising.1 {
-                promising = (block, reach);
+            if reach > farthest_reach {
+                promising = block;
+                farthest_reach = reach;
             }
         }
-        let mut largest = in_block(promising.0, 0.0);
-        for (block, sphere) in self.levels[0].iter().enumerate() {
-            let reach = reach(sphere);
-            // Written so that nothing is left out where squares are not to be trusted.
-            if !(reach * reach < largest && largest > 1e-200) {
-                largest = in_block(block, largest);
+        let mut largest = 0.0f64;
+        for block in core::iter::once(promising).chain(0..self.levels[0].len()) {
+            let certain = largest > WITH_SQUARE && {
+                let reach = reach(&self.levels[0][block]);
+                reach * reach < largest
+            };
+            if !certain {
+                for index in block * BLOCK..points.len().min((block + 1) * BLOCK) {
+                    let v = DVec3::from_array(points.get(index)) - viewpoint;
+                    largest = largest.max(v.dot(v));
+                }
             }
         }
-        largest
+        // The root is monotonic, so the root of the largest is the largest root.
+        let farthest = square_root(largest);
+        if farthest.is_finite() {
+            Ok(farthest)
+        } else {
+            Err(Error::RadiusOverflow {
+                radius: None,
+                farthest,
+            })
+        }
     }
 }
 
-fn middle(bounds: &Bounds) -> [f64; 3] {
-    core::array::from_fn(|axis| bounds.min[axis] * 0.5 + bounds.max[axis] * 0.5)
-}
-
-/// The sphere around `center` that holds all of these. Infinite, or NaN, where the
-/// distances overflow: it leaves out nothing then.
-fn around(center: [f64; 3], spheres: impl Iterator<Item = ([f64; 3], f64)>) -> Sphere {
-    let mut radius = 0.0f64;
-    for (other, size) in spheres {
-        let v = DVec3::from_array(other) - DVec3::from_array(center);
-        let far = (square_root(v.dot(v)) + size) * (1.0 + MARGIN);
-        // Where squares underflow, the sum of the coordinates is large enough.
-        let far = far.max(v.abs().element_sum().min(1e-150) + size);
-        radius = radius.max(far);
+/// A sphere around every `run` of `count` spheres.
+fn around_runs(
+    count: usize,
+    run: usize,
+    sphere: &dyn Fn(usize) -> Sphere,
+) -> Result<Vec<Sphere>, Error> {
+    let mut around: Vec<Sphere> = Vec::new();
+    around.try_reserve_exact(count.div_ceil(run))?;
+    for start in (0..count).step_by(run) {
+        let mut bounds = Bounds::EMPTY;
+        let end = count.min(start + run);
+        (start..end).for_each(|k| bounds.include(sphere(k).center));
+        let center = core::array::from_fn(|axis| bounds.min[axis] * 0.5 + bounds.max[axis] * 0.5);
+        let mut radius = 0.0f64;
+        for inner in (start..end).map(sphere) {
+            let v = DVec3::from_array(inner.center) - DVec3::from_array(center);
+            // Where squares may underflow, the sum of the coordinates is large enough.
+            let distance = square_root(v.dot(v)).max(v.abs().element_sum().min(1e-150));
+            radius = radius.max((distance + inner.radius) * (1.0 + MARGIN));
+        }
+        around.push(Sphere { center, radius });
     }
-    Sphere { center, radius }
+    Ok(around)
 }

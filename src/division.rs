@@ -151,6 +151,7 @@ impl Division {
         Ok(division)
     }
 
+    #[inline(never)]
     fn assign(&mut self, fan: &Fan, sector: Sector) -> Result<(), Error> {
         let mut beyond = [true; 2];
         let count = self.levels[0].len();
@@ -190,6 +191,15 @@ impl Division {
         self.roles[index as usize / BLOCK] == Role::Own
     }
 
+    /// Leaves only the sector's own points marked.
+    pub(crate) fn keep_own(&self, visible: &mut [bool]) {
+        for (points, &role) in visible.chunks_mut(BLOCK).zip(&self.roles) {
+            if role != Role::Own {
+                points.fill(false);
+            }
+        }
+    }
+
     /// At least the largest m·q of all far points, at the price of a few products.
     #[inline]
     pub(crate) fn bound_of_all(&self, m: DVec3) -> f64 {
@@ -213,6 +223,7 @@ impl Division {
 
     /// Adds far blocks to `found`, a few at most, in which m·q may not be below `limit`.
     /// There is none if it adds none.
+    #[inline(never)]
     pub(crate) fn in_the_way(
         &self,
         m: DVec3,
@@ -266,6 +277,7 @@ struct Fan {
 }
 
 impl Fan {
+    #[inline(never)]
     fn new(blocks: &[Cone], ahead: DVec3, count: usize) -> Result<Self, Error> {
         let step = blocks.len().div_ceil(SAMPLES).max(1);
         let sample = || blocks.iter().step_by(step).map(|cone| cone.axis);
@@ -288,12 +300,23 @@ impl Fan {
             angles: Vec::new(),
             clearance: 0.0,
         };
+        // Sorted by their bits, which for numbers from 0 on are in their order, because
+        // pairs like these are sorted elsewhere too: less code.
+        let mut sorted: Vec<(u64, u32)> = Vec::new();
+        sorted.try_reserve_exact(SAMPLES)?;
+        sorted.extend(sample().map(|u| (fan.angle(u).to_bits(), 0)));
+        sorted.sort_unstable();
         let mut angles: Vec<f64> = Vec::new();
         angles.try_reserve_exact(SAMPLES)?;
-        angles.extend(sample().map(|u| fan.angle(u)));
-        angles.sort_unstable_by(f64::total_cmp);
+        angles.extend(sorted.iter().map(|&(bits, _)| f64::from_bits(bits)));
         let samples = angles.len().max(1) as f64;
-        fan.clearance = BAND * blocks.iter().step_by(step).map(|cone| cone.sin).sum::<f64>() / samples;
+        fan.clearance = BAND
+            * blocks
+                .iter()
+                .step_by(step)
+                .map(|cone| cone.sin)
+                .sum::<f64>()
+            / samples;
         fan.angles.try_reserve_exact(count)?;
         if count == 2 {
             // One plane, so that each side is at most a half of all directions.
@@ -302,11 +325,13 @@ impl Fan {
         } else {
             let quantile = |k: usize| angles.get(k * angles.len() / count).copied();
             fan.angles.push(0.0);
-            fan.angles.extend((1..count).map(|k| quantile(k).unwrap_or(4.0)));
+            fan.angles
+                .extend((1..count).map(|k| quantile(k).unwrap_or(4.0)));
         }
         Ok(fan)
     }
 
+    #[inline(never)]
     fn angle(&self, u: DVec3) -> f64 {
         let (x, y) = (u.dot(self.right), u.dot(self.up));
         let sum = x.abs() + y.abs();
@@ -330,7 +355,11 @@ impl Fan {
     fn seams(&self, sector: usize) -> [DVec3; 2] {
         let normal = |angle: f64| {
             let y = if angle < 2.0 { 1.0 } else { -1.0 };
-            let x = if angle < 2.0 { 1.0 - angle } else { angle - 3.0 };
+            let x = if angle < 2.0 {
+                1.0 - angle
+            } else {
+                angle - 3.0
+            };
             let on_diamond = DVec2::new(x, y * (1.0 - x.abs()));
             let normal = on_diamond.perp().normalize();
             self.right * normal.x + self.up * normal.y

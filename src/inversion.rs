@@ -9,7 +9,6 @@
 
 use glam::DVec3;
 
-use crate::error::Error;
 use crate::points::Points;
 
 /// The flip around one viewpoint, with one fixed sequence of operations, so
@@ -67,36 +66,6 @@ impl Flip {
                 _ => true,
             });
         if exact { scaled } else { self }
-    }
-}
-
-/// The largest distance from `viewpoint`, 0 for an empty cloud.
-///
-/// # Errors
-/// [`Error::RadiusOverflow`] when a distance exceeds the range of f64.
-pub(crate) fn farthest_distance(points: &Points, viewpoint: [f64; 3]) -> Result<f64, Error> {
-    let viewpoint = DVec3::from_array(viewpoint);
-    let mut largest = 0.0f64;
-    for p in points.iter() {
-        let v = DVec3::from_array(p) - viewpoint;
-        largest = largest.max(v.dot(v));
-    }
-    checked_distance(largest)
-}
-
-/// The root of the largest squared distance, which is the largest root.
-///
-/// # Errors
-/// [`Error::RadiusOverflow`] when it exceeds the range of f64.
-pub(crate) fn checked_distance(largest: f64) -> Result<f64, Error> {
-    let farthest = square_root(largest);
-    if farthest.is_finite() {
-        Ok(farthest)
-    } else {
-        Err(Error::RadiusOverflow {
-            radius: None,
-            farthest,
-        })
     }
 }
 

@@ -7,9 +7,9 @@ use crate::cloud::PointCloud;
 use crate::division::Division;
 use crate::error::Error;
 use crate::hull;
-use crate::inversion::{Flip, checked_distance};
+use crate::inversion::Flip;
 use crate::options::Options;
-use crate::radius;
+use crate::radius::ResolvedRadius;
 use crate::visibility::Visibility;
 
 /// One of several sectors that a view is divided into.
@@ -23,6 +23,12 @@ pub struct Sector {
 }
 
 impl Sector {
+    /// The one sector of a view that is not divided.
+    pub(crate) const WHOLE: Self = Self {
+        number: 0,
+        count: 1,
+    };
+
     /// Sector `number` of `count`; `None` unless `number` is below `count`.
     #[must_use]
     pub fn new(number: u32, count: u32) -> Option<Self> {
@@ -67,30 +73,29 @@ impl PointCloud {
         options: &Options,
         sector: Sector,
     ) -> Result<Visibility, Error> {
-        if viewpoint.iter().any(|x| !x.is_finite()) {
-            return Err(Error::Viewpoint { viewpoint });
-        }
+        let resolved = self.resolve_radius(viewpoint, options.radius)?;
         let points = &self.sequence.points;
-        let center = DVec3::from_array(viewpoint);
-        let farthest = checked_distance(self.blocks.farthest_squared(points, center))?;
-        let resolved = radius::resolve(options.radius, &self.statistics, viewpoint, farthest)?;
-        let flip = Flip::new(viewpoint, resolved.radius);
-        let visible = if sector.count == 1 || !is_divisible(resolved.radius, farthest) {
-            if sector.number > 0 {
-                return self.answer(&[], resolved);
-            }
-            hull::mark_visible(points, &flip)?
-        } else {
+        let division = if sector.count == 1 {
+            None
+        } else if is_divisible(&resolved) {
+            let center = DVec3::from_array(viewpoint);
             let ahead = DVec3::from_array(self.statistics.centroid);
-            let division = Division::new(&self.blocks, center, ahead, resolved.radius, sector)?;
-            hull::mark_visible_in_sector(points, &flip, division)?
+            let radius = resolved.radius;
+            Some(Division::new(&self.blocks, center, ahead, radius, sector)?)
+        } else if sector.number == 0 {
+            // The first one answers for all.
+            None
+        } else {
+            return self.answer(&[], resolved);
         };
+        let flip = Flip::new(viewpoint, resolved.radius);
+        let visible = hull::mark_visible(points, &flip, division)?;
         self.answer(&visible, resolved)
     }
 }
 
 /// Whether bounds of flipped points tell anything: not where squares over- or underflow,
 /// nor where 2R − d keeps too few digits of d.
-fn is_divisible(radius: f64, farthest: f64) -> bool {
-    (1e-30..1e30).contains(&radius) && radius < 1e8 * farthest
+fn is_divisible(resolved: &ResolvedRadius) -> bool {
+    (1e-30..1e30).contains(&resolved.radius) && resolved.exponent < 8.0
 }

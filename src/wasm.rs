@@ -20,7 +20,7 @@ use serde::{Deserialize, Serialize};
 use wasm_bindgen::prelude::*;
 
 use self::transfer::{copy_in, copy_in_integers, copy_out, doubles, singles};
-use crate::{Error, NonFinite, Options, PointCloud, Position, Radius, merge_visible};
+use crate::{Error, NonFinite, Options, PointCloud, Position, merge_visible};
 
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<PointCloud>>> = const { RefCell::new(Vec::new()) };
@@ -212,21 +212,7 @@ pub fn visible_from(
     z: f64,
     #[wasm_bindgen(unchecked_param_type = "ViewOptions")] options: JsValue,
 ) -> Result<JsValue, JsValue> {
-    let options: ViewOptions = serde_wasm_bindgen::from_value(options).map_err(Failure::from)?;
-    let radius = match (options.radius, options.exponent) {
-        (Some(radius), _) => Radius::Absolute(radius),
-        (None, Some(exponent)) => Radius::Exponent(exponent),
-        (None, None) => Radius::Auto,
-    };
-    let visibility = with_cloud(handle, |cloud| {
-        cloud.visible_from([x, y, z], &Options { radius })
-    })?;
-    Ok(to_js(&Answer {
-        indices: copy_out(visibility.indices()).map_err(Failure::from)?,
-        radius: visibility.radius(),
-        exponent: visibility.exponent(),
-        evaluations: visibility.evaluations(),
-    }))
+    sector::visible_in_sector(handle, x, y, z, options, 0, 1)
 }
 
 /// The radius that `visibleFrom` chooses by itself for (x, y, z).

@@ -26,60 +26,44 @@ use crate::predicates::{Sign, side_of_origin};
 /// Points looked at for a first tetrahedron before all of them are.
 const SEED_SAMPLE: usize = 512;
 
-/// Marks the visible ones among `points`, flipped by `flip`.
-pub(crate) fn mark_visible(points: &Points, flip: &Flip) -> Result<Vec<bool>, Error> {
+/// Marks the visible ones among `points`, flipped by `flip`: all of them, or of a
+/// divided view only the sector's own.
+pub(crate) fn mark_visible(
+    points: &Points,
+    flip: &Flip,
+    division: Option<Division>,
+) -> Result<Vec<bool>, Error> {
     let flip = flip.rescaled_for(points);
     let flipped = |index: u32| flip.apply(points.get(index as usize));
-    let mut visible = none_visible(points.len())?;
+    let reach = flip.reach();
+
+    let mut visible = Vec::new();
+    visible.try_reserve_exact(points.len())?;
+    visible.resize(points.len(), false);
+
     let count = points.len() as u32;
-    match seed(count, &flipped) {
-        Some(corners) => incremental::mark_visible(
+    let sample = order::spatial_rounds(count).take(SEED_SAMPLE);
+    let seed =
+        first_tetrahedron(sample, &flipped).or_else(|| first_tetrahedron(0..count, &flipped));
+    match (seed, division) {
+        (Some(corners), None) => incremental::mark_visible(
             order::spatial_rounds(count),
             &flipped,
-            flip.reach(),
+            reach,
             corners,
             &mut visible,
         )?,
-        None => flat::mark_visible(count, &flipped, &mut visible)?,
-    }
-    Ok(visible)
-}
-
-/// Marks those of a sector's own points that are visible among all `points`. `flip` is
-/// one that needs no rescaling.
-pub(crate) fn mark_visible_in_sector(
-    points: &Points,
-    flip: &Flip,
-    division: Division,
-) -> Result<Vec<bool>, Error> {
-    let flipped = |index: u32| flip.apply(points.get(index as usize));
-    let mut visible = none_visible(points.len())?;
-    let count = points.len() as u32;
-    match seed(count, &flipped) {
-        Some(corners) => {
-            sector::mark_visible(&flipped, flip.reach(), corners, division, &mut visible)?;
+        (Some(corners), Some(division)) => {
+            sector::mark_visible(&flipped, reach, corners, division, &mut visible)?;
         }
-        None => {
+        (None, division) => {
             flat::mark_visible(count, &flipped, &mut visible)?;
-            for index in 0..count {
-                visible[index as usize] &= division.owns(index);
+            if let Some(division) = division {
+                division.keep_own(&mut visible);
             }
         }
     }
     Ok(visible)
-}
-
-fn none_visible(count: usize) -> Result<Vec<bool>, Error> {
-    let mut visible = Vec::new();
-    visible.try_reserve_exact(count)?;
-    visible.resize(count, false);
-    Ok(visible)
-}
-
-/// The corners of the first tetrahedron, unless all points lie in one plane with the origin.
-fn seed(count: u32, flipped: &impl Fn(u32) -> Option<DVec3>) -> Option<[u32; 3]> {
-    let sample = order::spatial_rounds(count).take(SEED_SAMPLE);
-    first_tetrahedron(sample, flipped).or_else(|| first_tetrahedron(0..count, flipped))
 }
 
 /// Three points that span space with the origin, of a large determinant, in

@@ -18,8 +18,8 @@ use glam::DVec3;
 use super::incremental::{Hull, Location};
 use super::topology::FaceId;
 use crate::blocks::BLOCK;
-use crate::error::Error;
 use crate::division::{Division, Role};
+use crate::error::Error;
 
 /// Of the spatial order, every so manieth point is the sample of the far ones.
 const SAMPLE: u32 = 512;
@@ -44,12 +44,11 @@ pub(super) fn mark_visible(
         hint: 0,
         on_boundary: Vec::new(),
     };
-    for index in (0..count).step_by(8 * SAMPLE as usize) {
-        share.add(index)?;
-    }
-    for index in (0..count).step_by(SAMPLE as usize) {
-        if index % (8 * SAMPLE) != 0 {
-            share.add(index)?;
+    for (stride, given) in [(8 * SAMPLE, 0), (SAMPLE, 8 * SAMPLE)] {
+        for index in (0..count).step_by(stride as usize) {
+            if given == 0 || index % given != 0 {
+                share.add(index)?;
+            }
         }
     }
     for (stride, given) in [(BLOCK, SAMPLE), (8, BLOCK as u32), (1, 8)] {
@@ -81,6 +80,7 @@ struct Share<'a, F> {
 
 impl<F: Fn(u32) -> Option<DVec3>> Share<'_, F> {
     /// Adds a point to the hull; returns whether it became a vertex.
+    #[inline(never)]
     fn add(&mut self, index: u32) -> Result<bool, Error> {
         let own = self.division.owns(index);
         let Some(q) = (self.flipped)(index) else {
@@ -111,6 +111,7 @@ impl<F: Fn(u32) -> Option<DVec3>> Share<'_, F> {
             .filter(|&point| self.division.owns(point) && !self.visible[point as usize])
     }
 
+    #[inline(never)]
     fn is_open(&self, face: FaceId) -> bool {
         self.open_vertices(face).next().is_some()
     }
@@ -124,6 +125,7 @@ impl<F: Fn(u32) -> Option<DVec3>> Share<'_, F> {
     }
 
     /// Decides about all vertices of the hull that are the sector's own.
+    #[inline(never)]
     fn settle_vertices(&mut self) -> Result<(), Error> {
         let mut open: Vec<FaceId> = Vec::new();
         for face in 0..self.hull.slots() as FaceId {
@@ -174,6 +176,7 @@ impl<F: Fn(u32) -> Option<DVec3>> Share<'_, F> {
         Ok(())
     }
 
+    #[cold]
     /// Adds a far block to the hull, and new faces of vertices not marked yet to `open`.
     fn enter(&mut self, block: u32, open: &mut Vec<FaceId>) -> Result<(), Error> {
         if self.division.roles[block as usize] != Role::Far {
@@ -193,6 +196,7 @@ impl<F: Fn(u32) -> Option<DVec3>> Share<'_, F> {
     }
 
     /// Decides about own points that were found exactly on the boundary.
+    #[inline(never)]
     fn settle_boundary(&mut self) -> Result<(), Error> {
         let mut in_the_way: Vec<u32> = Vec::new();
         let mut ignored = Vec::new();

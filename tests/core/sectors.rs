@@ -49,7 +49,15 @@ fn compare(
 #[test]
 fn sectors_together_give_the_answer_of_the_whole() {
     for kind in KINDS {
-        for (seed, n) in [(1, 0), (2, 9), (3, 30), (4, 65), (5, 400), (6, 1500), (7, 5000)] {
+        for (seed, n) in [
+            (1, 0),
+            (2, 9),
+            (3, 30),
+            (4, 65),
+            (5, 400),
+            (6, 1500),
+            (7, 5000),
+        ] {
             let scene = kind.scene(seed, n);
             let cloud = PointCloud::new(&scene.points).unwrap();
             let title = format!("{} with seed {seed}", kind.name);
@@ -104,7 +112,10 @@ fn sectors_of_a_large_cloud_share_the_work() {
             let counts = compare(&cloud, viewpoint, &options, count, "a large cloud");
             let fair = counts.iter().sum::<usize>() / count as usize;
             for own in counts {
-                assert!(own > fair / 3 && own < 2 * fair, "{own} where {fair} is fair");
+                assert!(
+                    own > fair / 3 && own < 2 * fair,
+                    "{own} where {fair} is fair"
+                );
             }
         }
     }
@@ -137,7 +148,11 @@ fn refusals_are_those_of_the_whole() {
         };
         compare(&cloud, [0.0, 0.0, 3.0], &options, 2, "a bad radius");
     }
-    for viewpoint in [[f64::NAN, 0.0, 0.0], [0.0, f64::INFINITY, 0.0], [1e200, 0.0, 0.0]] {
+    for viewpoint in [
+        [f64::NAN, 0.0, 0.0],
+        [0.0, f64::INFINITY, 0.0],
+        [1e200, 0.0, 0.0],
+    ] {
         compare(&cloud, viewpoint, &Options::default(), 2, "a bad viewpoint");
     }
     assert_eq!(Sector::new(2, 2), None);
