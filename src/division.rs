@@ -73,7 +73,7 @@ impl Cone {
     /// At least the largest m·q, for m of this `length`.
     fn bound(&self, m: DVec3, length: f64) -> f64 {
         let along = m.dot(self.axis);
-        let across = square_root((length * length - along * along).max(0.0));
+        let across = positive_root(length * length - along * along);
         // The largest of m·u in the cone: |m| if it holds the direction of m.
         let largest = if self.is_everywhere() || along * self.sin >= across * self.cos {
             length
@@ -86,7 +86,7 @@ impl Cone {
     /// At most the least n·u in the cone, for a unit vector n.
     fn least(&self, n: DVec3) -> f64 {
         let along = n.dot(self.axis);
-        let across = square_root((1.0 - along * along).max(0.0));
+        let across = positive_root(1.0 - along * along);
         if self.is_everywhere() || along <= 0.0 {
             return -1.0;
         }
@@ -105,6 +105,10 @@ pub(crate) struct Division {
     /// Every far direction u has n·u ≥ `clearance` for one of these n.
     seams: [DVec3; 2],
     clearance: f64,
+    /// √(1 − clearance²)
+    edge: f64,
+    /// Whether the two seams differ.
+    is_wedge: bool,
     /// No far point is flipped farther than this.
     reach: f64,
 }
@@ -145,6 +149,8 @@ impl Division {
             far,
             seams,
             clearance: fan.clearance,
+            edge: positive_root(1.0 - fan.clearance * fan.clearance),
+            is_wedge: true,
             reach: 0.0,
         };
         division.assign(&fan, sector)?;
@@ -167,7 +173,9 @@ impl Division {
                 } else {
                     beyond[0] &= clear[0];
                     beyond[1] &= clear[1];
-                    self.reach = self.reach.max(cone.reach);
+                    if cone.reach > self.reach {
+                        self.reach = cone.reach;
+                    }
                     for (level, far) in self.far.iter_mut().enumerate() {
                         far[block / FANOUT.pow(level as u32)] += 1;
                     }
@@ -182,6 +190,7 @@ impl Division {
             [_, true] => self.seams[0] = self.seams[1],
             _ => {}
         }
+        self.is_wedge = self.seams[0] != self.seams[1];
         Ok(())
     }
 
@@ -205,18 +214,22 @@ impl Division {
     pub(crate) fn bound_of_all(&self, m: DVec3) -> f64 {
         let squared = m.dot(m);
         let length = square_root(squared);
-        let mut largest = f64::NEG_INFINITY;
-        for n in self.seams {
+        let beyond = |n: DVec3| {
             let along = m.dot(n);
-            let beyond = if along >= self.clearance * length {
+            if along >= self.clearance * length {
                 length
             } else {
                 // In the plane of m and n, at the edge of what is clear of the seam.
-                let across = square_root((squared - along * along).max(0.0));
-                let edge = square_root((1.0 - self.clearance * self.clearance).max(0.0));
-                along * self.clearance + across * edge
-            };
-            largest = largest.max(beyond);
+                let across = positive_root(squared - along * along);
+                along * self.clearance + across * self.edge
+            }
+        };
+        let mut largest = beyond(self.seams[0]);
+        if self.is_wedge {
+            let other = beyond(self.seams[1]);
+            if other > largest {
+                largest = other;
+            }
         }
         (largest + MARGIN * length) * self.reach
     }
@@ -263,6 +276,11 @@ impl Division {
             far[block as usize / FANOUT.pow(level as u32)] -= 1;
         }
     }
+}
+
+/// √x, 0 for what rounding made negative.
+fn positive_root(x: f64) -> f64 {
+    if x > 0.0 { square_root(x) } else { 0.0 }
 }
 
 /// Half-planes that meet in a line through the viewpoint. Angles around it are told
@@ -370,7 +388,7 @@ impl Fan {
 }
 
 /// How far beyond a seam points are far, in mean radii of the blocks as seen.
-const BAND: f64 = 1.5;
+const BAND: f64 = 1.0;
 
 /// The angle below 2 for which half of these ascending angles are less than 2 above it.
 fn halving(angles: &[f64]) -> f64 {

@@ -16,7 +16,7 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use super::incremental::{Hull, Location};
-use super::topology::FaceId;
+use super::topology::{FaceId, Vertex};
 use crate::blocks::BLOCK;
 use crate::division::{Division, Role};
 use crate::error::Error;
@@ -42,6 +42,7 @@ pub(super) fn mark_visible(
         division,
         visible,
         hint: 0,
+        open_vertices: Vec::new(),
         on_boundary: Vec::new(),
     };
     for (stride, given) in [(8 * SAMPLE, 0), (SAMPLE, 8 * SAMPLE)] {
@@ -74,6 +75,8 @@ struct Share<'a, F> {
     /// Only own points are marked.
     visible: &'a mut [bool],
     hint: FaceId,
+    /// Own vertices not marked yet; empty until the hull is of all near points.
+    open_vertices: Vec<bool>,
     /// Own points found exactly on the boundary when they were added.
     on_boundary: Vec<u32>,
 }
@@ -102,24 +105,19 @@ impl<F: Fn(u32) -> Option<DVec3>> Share<'_, F> {
         Ok(matches!(location, Location::Outside(_)))
     }
 
-    /// Own vertices of `face` that are not marked yet.
-    fn open_vertices(&self, face: FaceId) -> impl Iterator<Item = u32> {
-        self.hull
-            .outer_points(face)
-            .into_iter()
-            .flatten()
-            .filter(|&point| self.division.owns(point) && !self.visible[point as usize])
-    }
-
-    #[inline(never)]
+    /// Whether own vertices of a face of the surface are not marked yet.
+    #[inline]
     fn is_open(&self, face: FaceId) -> bool {
-        self.open_vertices(face).next().is_some()
+        self.hull
+            .corners(face)
+            .is_some_and(|corners| corners.iter().any(|&v| self.open_vertices[v as usize]))
     }
 
+    /// Own vertices of `face` are visible.
     fn mark(&mut self, face: FaceId) {
-        for point in self.hull.outer_points(face).into_iter().flatten() {
-            if self.division.owns(point) {
-                self.visible[point as usize] = true;
+        for vertex in self.hull.corners(face).into_iter().flatten() {
+            if core::mem::take(&mut self.open_vertices[vertex as usize]) {
+                self.visible[self.hull.point(vertex) as usize] = true;
             }
         }
     }
@@ -127,13 +125,19 @@ impl<F: Fn(u32) -> Option<DVec3>> Share<'_, F> {
     /// Decides about all vertices of the hull that are the sector's own.
     #[inline(never)]
     fn settle_vertices(&mut self) -> Result<(), Error> {
+        let count = self.hull.vertex_count();
+        self.open_vertices.try_reserve_exact(count)?;
+        // The origin is no point of the cloud.
+        self.open_vertices.push(false);
+        self.open_vertices
+            .extend((1..count).map(|v| self.division.owns(self.hull.point(v as Vertex))));
         let mut open: Vec<FaceId> = Vec::new();
         for face in 0..self.hull.slots() as FaceId {
             if self.is_open(face) {
                 let (m, limit) = self.hull.support(face);
                 if self.division.bound_of_all(m) < limit {
                     self.mark(face);
-                } else {
+                } else if self.hull.is_outer(face) {
                     open.try_reserve(1)?;
                     open.push(face);
                 }
@@ -187,9 +191,12 @@ impl<F: Fn(u32) -> Option<DVec3>> Share<'_, F> {
         let count = self.visible.len() as u32;
         for index in start..count.min(start + BLOCK as u32) {
             if index % SAMPLE != 0 && self.add(index)? {
+                self.open_vertices.try_reserve(1)?;
+                self.open_vertices.push(false);
                 let fan = self.hull.fan();
                 open.try_reserve(fan.len())?;
-                open.extend(fan.iter().copied().filter(|&face| self.is_open(face)));
+                let is_open = |&face: &FaceId| self.is_open(face) && self.hull.is_outer(face);
+                open.extend(fan.iter().copied().filter(is_open));
             }
         }
         Ok(())
