@@ -114,12 +114,21 @@ pub(crate) struct Division {
 }
 
 impl Division {
-    /// `ahead` is a place in the cloud's middle.
+    /// The points whose visibility, in a view of them alone, decides how the work is shared.
+    pub(crate) fn sample(blocks: &Blocks) -> impl Iterator<Item = u32> {
+        let count = blocks.levels[0].len();
+        (0..count)
+            .step_by(sample_step(count))
+            .map(|block| (block * BLOCK) as u32)
+    }
+
+    /// `ahead` is a place in the cloud's middle; `seen` are the visible ones of the sample.
     pub(crate) fn new(
         blocks: &Blocks,
         viewpoint: DVec3,
         ahead: DVec3,
         radius: f64,
+        seen: &[bool],
         sector: Sector,
     ) -> Result<Self, Error> {
         let diameter = 2.0 * radius * (1.0 + MARGIN);
@@ -141,7 +150,7 @@ impl Division {
             none.resize(spheres.len(), 0);
             far.push(none);
         }
-        let fan = Fan::new(&levels[0], ahead - viewpoint, sector.count as usize)?;
+        let fan = Fan::new(&levels[0], ahead - viewpoint, seen, sector.count as usize)?;
         let seams = fan.seams(sector.number as usize);
         let mut division = Self {
             roles: Vec::new(),
@@ -296,8 +305,8 @@ struct Fan {
 
 impl Fan {
     #[inline(never)]
-    fn new(blocks: &[Cone], ahead: DVec3, count: usize) -> Result<Self, Error> {
-        let step = blocks.len().div_ceil(SAMPLES).max(1);
+    fn new(blocks: &[Cone], ahead: DVec3, seen: &[bool], count: usize) -> Result<Self, Error> {
+        let step = sample_step(blocks.len());
         let sample = || blocks.iter().step_by(step).map(|cone| cone.axis);
         // Angles begin behind: seen from outside, nothing is there.
         let right = -ahead.try_normalize().unwrap_or(DVec3::X);
@@ -318,33 +327,40 @@ impl Fan {
             angles: Vec::new(),
             clearance: 0.0,
         };
-        // Sorted by their bits, which for numbers from 0 on are in their order, because
-        // pairs like these are sorted elsewhere too: less code.
-        let mut sorted: Vec<(u64, u32)> = Vec::new();
-        sorted.try_reserve_exact(SAMPLES)?;
-        sorted.extend(sample().map(|u| (fan.angle(u).to_bits(), 0)));
-        sorted.sort_unstable();
-        let mut angles: Vec<f64> = Vec::new();
+        // Each with the work that its block stands for. Sorted by their bits, which for
+        // numbers from 0 on are in their order, because such pairs are sorted elsewhere
+        // too: less code.
+        let mut angles: Vec<(u64, u32)> = Vec::new();
         angles.try_reserve_exact(SAMPLES)?;
-        angles.extend(sorted.iter().map(|&(bits, _)| f64::from_bits(bits)));
-        let samples = angles.len().max(1) as f64;
-        fan.clearance = BAND
-            * blocks
-                .iter()
-                .step_by(step)
-                .map(|cone| cone.sin)
-                .sum::<f64>()
-            / samples;
+        let work = |&seen: &bool| if seen { SEEN } else { 1 };
+        angles.extend(
+            sample()
+                .map(|u| fan.angle(u).to_bits())
+                .zip(seen.iter().map(work)),
+        );
+        angles.sort_unstable();
+        let mut total = 0;
+        for (_, work) in &mut angles {
+            total += *work;
+            *work = total;
+        }
+        let sines: f64 = blocks.iter().step_by(step).map(|cone| cone.sin).sum();
+        fan.clearance = BAND * sines / angles.len().max(1) as f64;
         fan.angles.try_reserve_exact(count)?;
         if count == 2 {
             // One plane, so that each side is at most a half of all directions.
             let first = halving(&angles);
             fan.angles.extend([first, first + 2.0]);
         } else {
-            let quantile = |k: usize| angles.get(k * angles.len() / count).copied();
             fan.angles.push(0.0);
-            fan.angles
-                .extend((1..count).map(|k| quantile(k).unwrap_or(4.0)));
+            for k in 1..count {
+                let until = (u64::from(total) * k as u64 / count as u64) as u32;
+                let next = angles.partition_point(|&(_, work)| work <= until);
+                let angle = angles
+                    .get(next)
+                    .map_or(4.0, |&(bits, _)| f64::from_bits(bits));
+                fan.angles.push(angle);
+            }
         }
         Ok(fan)
     }
@@ -389,16 +405,25 @@ impl Fan {
 
 /// How far beyond a seam points are far, in mean radii of the blocks as seen.
 const BAND: f64 = 1.0;
+/// The work of a point that is visible, where that of a hidden one is 1.
+const SEEN: u32 = 4;
 
-/// The angle below 2 for which half of these ascending angles are less than 2 above it.
-fn halving(angles: &[f64]) -> f64 {
-    let until = |end: f64| angles.partition_point(|&angle| angle < end);
-    let imbalance = |first: f64| {
-        let inside = until(first + 2.0) - until(first);
-        inside.abs_diff(angles.len() - inside)
+/// The angle below 2 for which half of the work is less than 2 above it. `angles` are
+/// ascending, with the work up to each.
+fn halving(angles: &[(u64, u32)]) -> f64 {
+    let until = |end: f64| {
+        let count = angles.partition_point(|&(bits, _)| f64::from_bits(bits) < end);
+        if count == 0 { 0 } else { angles[count - 1].1 }
     };
-    let candidates = angles.iter().map(|&angle| angle % 2.0);
+    let total = until(f64::INFINITY);
+    let imbalance = |first: f64| (2 * (until(first + 2.0) - until(first))).abs_diff(total);
+    let candidates = angles.iter().map(|&(bits, _)| f64::from_bits(bits) % 2.0);
     candidates
         .min_by_key(|&first| imbalance(first))
         .unwrap_or(0.0)
+}
+
+/// Every so manieth block is one of the sample.
+fn sample_step(blocks: usize) -> usize {
+    blocks.div_ceil(SAMPLES).max(1)
 }

@@ -1,13 +1,14 @@
 //! A view divided among several threads or workers, each of which answers for its own
 //! points without knowing of the others.
 
+use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::cloud::PointCloud;
 use crate::division::Division;
 use crate::error::Error;
 use crate::hull;
-use crate::inversion::Flip;
+use crate::inversion::{Flip, square_root};
 use crate::options::Options;
 use crate::radius::ResolvedRadius;
 use crate::visibility::Visibility;
@@ -78,10 +79,7 @@ impl PointCloud {
         let division = if sector.count == 1 {
             None
         } else if is_divisible(&resolved) {
-            let center = DVec3::from_array(viewpoint);
-            let ahead = DVec3::from_array(self.statistics.centroid);
-            let radius = resolved.radius;
-            Some(Division::new(&self.blocks, center, ahead, radius, sector)?)
+            Some(self.division(viewpoint, resolved.radius, sector)?)
         } else if sector.number == 0 {
             // The first one answers for all.
             None
@@ -91,6 +89,31 @@ impl PointCloud {
         let flip = Flip::new(viewpoint, resolved.radius);
         let visible = hull::mark_visible(points, &flip, division)?;
         self.answer(&visible, resolved)
+    }
+
+    fn division(
+        &self,
+        viewpoint: [f64; 3],
+        radius: f64,
+        sector: Sector,
+    ) -> Result<Division, Error> {
+        let mut sample = Vec::new();
+        sample.try_reserve_exact(self.blocks.levels[0].len())?;
+        sample.extend(Division::sample(&self.blocks));
+        let points = self.sequence.points.gathered(&sample)?;
+        let center = DVec3::from_array(viewpoint);
+        // Sparser points need a smaller sphere, as for the automatic radius of a surface.
+        let sparser = square_root(points.len() as f64 / self.statistics.count as f64);
+        let mut coarse = radius * sparser;
+        for point in points.iter() {
+            let distance = (DVec3::from_array(point) - center).length();
+            if distance > coarse {
+                coarse = distance;
+            }
+        }
+        let seen = hull::mark_visible(&points, &Flip::new(viewpoint, coarse), None)?;
+        let ahead = DVec3::from_array(self.statistics.centroid);
+        Division::new(&self.blocks, center, ahead, radius, &seen, sector)
     }
 }
 
