@@ -243,39 +243,34 @@ impl Division {
         (largest + MARGIN * length) * self.reach
     }
 
-    /// Adds far blocks to `found`, a few at most, in which m·q may not be below `limit`.
-    /// There is none if it adds none.
+    /// Of the far blocks in which m·q may not be below `limit`, the one that m·q may be
+    /// largest in; `None` if it is below in all.
     #[inline(never)]
-    pub(crate) fn in_the_way(
-        &self,
-        m: DVec3,
-        limit: f64,
-        found: &mut Vec<u32>,
-    ) -> Result<(), Error> {
-        const ENOUGH: usize = 16;
+    pub(crate) fn most_in_the_way(&self, m: DVec3, mut limit: f64) -> Result<Option<u32>, Error> {
         let length = square_root(m.dot(m));
-        let end = found.len() + ENOUGH;
+        let mut most = None;
         let top = self.levels.len() - 1;
         let mut path: Vec<(usize, usize)> = Vec::new();
         path.try_reserve(FANOUT * self.levels.len())?;
         path.extend((0..self.levels[top].len()).map(|node| (top, node)));
         while let Some((level, node)) = path.pop() {
-            if self.far[level][node] == 0 || self.levels[level][node].bound(m, length) < limit {
+            if self.far[level][node] == 0 {
+                continue;
+            }
+            let bound = self.levels[level][node].bound(m, length);
+            if bound < limit {
                 continue;
             }
             if level == 0 {
-                found.try_reserve(1)?;
-                found.push(node as u32);
-                if found.len() == end {
-                    return Ok(());
-                }
+                most = Some(node as u32);
+                limit = bound;
             } else {
                 let below = self.levels[level - 1].len();
                 let children = node * FANOUT..below.min((node + 1) * FANOUT);
                 path.extend(children.map(|child| (level - 1, child)));
             }
         }
-        Ok(())
+        Ok(most)
     }
 
     /// The points of a far block have been put into the hull.

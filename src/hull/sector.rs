@@ -144,37 +144,27 @@ impl<F: Fn(u32) -> Option<DVec3>> Share<'_, F> {
             }
         }
         // The faces in `open` are all that a vertex not marked yet still has.
-        let mut in_the_way: Vec<u32> = Vec::new();
-        let mut failed: Vec<(FaceId, usize)> = Vec::new();
+        let mut failed: Vec<(FaceId, u32)> = Vec::new();
         while !open.is_empty() {
-            in_the_way.clear();
             failed.clear();
             failed.try_reserve(open.len())?;
             for &face in &open {
-                if !self.is_open(face) {
-                    continue;
-                }
-                let before = in_the_way.len();
-                let (m, limit) = self.hull.support(face);
-                self.division.in_the_way(m, limit, &mut in_the_way)?;
-                if in_the_way.len() == before {
-                    self.mark(face);
-                } else {
-                    failed.push((face, in_the_way.len()));
+                if self.is_open(face) {
+                    let (m, limit) = self.hull.support(face);
+                    match self.division.most_in_the_way(m, limit)? {
+                        Some(block) => failed.push((face, block)),
+                        None => self.mark(face),
+                    }
                 }
             }
             open.clear();
-            let mut start = 0;
-            for &(face, end) in &failed {
+            for &(face, block) in &failed {
                 if self.is_open(face) {
                     open.try_reserve(1)?;
                     open.push(face);
                     self.hint = face;
-                    for &block in &in_the_way[start..end] {
-                        self.enter(block, &mut open)?;
-                    }
+                    self.enter(block, &mut open)?;
                 }
-                start = end;
             }
         }
         Ok(())
@@ -205,7 +195,6 @@ impl<F: Fn(u32) -> Option<DVec3>> Share<'_, F> {
     /// Decides about own points that were found exactly on the boundary.
     #[inline(never)]
     fn settle_boundary(&mut self) -> Result<(), Error> {
-        let mut in_the_way: Vec<u32> = Vec::new();
         let mut ignored = Vec::new();
         for index in core::mem::take(&mut self.on_boundary) {
             let Some(q) = (self.flipped)(index) else {
@@ -213,16 +202,12 @@ impl<F: Fn(u32) -> Option<DVec3>> Share<'_, F> {
             };
             while let Location::Boundary(face) = self.hull.locate(q, self.hint) {
                 self.hint = face;
-                in_the_way.clear();
                 let (m, limit) = self.hull.support(face);
-                self.division.in_the_way(m, limit, &mut in_the_way)?;
-                if in_the_way.is_empty() {
+                let Some(block) = self.division.most_in_the_way(m, limit)? else {
                     self.visible[index as usize] = true;
                     break;
-                }
-                for &block in &in_the_way {
-                    self.enter(block, &mut ignored)?;
-                }
+                };
+                self.enter(block, &mut ignored)?;
                 ignored.clear();
             }
         }
