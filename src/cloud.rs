@@ -28,8 +28,8 @@ pub enum NonFinite {
 
 /// A point cloud, prepared for visibility queries.
 ///
-/// Building costs one sort, O(n log n); each query reuses it. Memory: 16 bytes
-/// a point for `f32` positions, 28 for `f64`; while points are appended or removed,
+/// Building costs one sort, O(n log n); each query reuses it. Memory: 17 bytes
+/// a point for `f32` positions, 29 for `f64`; while points are appended or removed,
 /// twice that.
 ///
 /// Answers and automatic radii depend on the present points alone: a cloud that

@@ -44,7 +44,7 @@ impl PointCloud {
     ///
     /// For several threads, one sector each, or several processes with the same points.
     /// Sectors take about equal time, and each a little more than its part of the
-    /// whole. Clouds below some 50,000 points are faster asked at once.
+    /// whole. Clouds below some 200,000 points gain little.
     ///
     /// ```
     /// use hidden_point_removal::{Options, PointCloud, Sector};

@@ -187,7 +187,7 @@ describe("several workers", () => {
   it("are taken by default for large clouds only, as many as there are cores", async () => {
     await (await WorkerPointCloud.create(sphere)).dispose();
     expect(started.splice(0)).toHaveLength(1);
-    const large = bumpySphere(3, 120_000);
+    const large = bumpySphere(3, 210_000);
     const cloud = await WorkerPointCloud.create(large);
     expect(started).toHaveLength(Math.min(availableParallelism(), 4));
     expect((await cloud.visibleFrom(farAway)).indices).toEqual(new PointCloud(large).visibleFrom(farAway).indices);

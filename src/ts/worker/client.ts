@@ -34,7 +34,7 @@ export interface WorkerPointCloudOptions extends PointCloudOptions {
   /**
    * How many workers share every view, from 1 to 64; answers are the same, to the
    * bit. Each keeps the whole cloud in a memory of its own. By default 1 for a cloud
-   * that has fewer than 100,000 points when it is created; otherwise as many as there
+   * that has fewer than 200,000 points when it is created; otherwise as many as there
    * are cores, but at most 4, and no more than hold 16 million points together.
    */
   workers?: number | undefined;
@@ -55,14 +55,14 @@ export interface WorkerVisibilityOptions extends VisibilityOptions {
 }
 
 /**
- * A point cloud in a worker of its own, with the methods and the answers of
+ * A point cloud in workers of its own, with the methods and the answers of
  * `PointCloud`; each returns a promise. Nothing needs to be initialized, except
  * that a wasm file in an unusual place is named by calling `init()` first: what
  * runs in the page is shared with the worker.
  *
- * If the worker dies, whatever is pending and all later calls are rejected with
+ * If a worker dies, whatever is pending and all later calls are rejected with
  * `internal`. No copy of the positions is kept, so the cloud is lost; a new one
- * gets a new worker.
+ * gets new workers.
  */
 export class WorkerPointCloud {
   /** The same as {@link WorkerPointCloud.dispose}, on platforms that have `Symbol.dispose`. */
@@ -97,7 +97,7 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Starts a worker and prepares positions, in any units, in it.
+   * Starts the workers and prepares positions, in any units, in each.
    *
    * @param positions x, y, z of one point after another, copied before this returns.
    * @throws HprError (as a rejection) `option`, `positions-type`,
@@ -207,7 +207,7 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Ends the worker, which gives all of its memory back; resolves when it has
+   * Ends the workers, which gives all of their memory back; resolves when they have
    * ended. Whatever is pending is rejected with `disposed`. May be called twice.
    */
   async dispose(): Promise<void> {
