@@ -4,9 +4,8 @@ import { hasNodeModules, importNodeModule } from "../node.js";
 /** More would each wait for memory, and every one holds the whole cloud. */
 const MAX_WORKERS = 64;
 /**
- * Points below which a second worker gains too little, by the processor time of the
- * slower one: views from outside take 1.3 times as long with one worker at 100,000
- * points and 1.5 times at 200,000, but from inside some are slower with two.
+ * Points below which a second worker gains too little. From here on it makes views from
+ * outside 1.4 to 1.7 times as fast; from inside some gain nothing, less so the larger.
  */
 const CROSSOVER = 200_000;
 /** At most as many by default: the page has other uses for cores and memory. */
