@@ -21,7 +21,7 @@ use crate::blocks::BLOCK;
 use crate::division::{Division, Role};
 use crate::error::Error;
 
-/// Of the spatial order, every so manieth point is the sample of the far ones.
+/// Of the spatial order, every point whose place is a multiple of this is in the sample of the far ones.
 const SAMPLE: u32 = 512;
 
 /// Marks those of the sector's own points that are visible. `corners` is the first
