@@ -4,6 +4,7 @@
 use alloc::vec::Vec;
 use core::fmt;
 
+use crate::blocks::Blocks;
 use crate::error::Error;
 use crate::points::{Given, Position, is_finite};
 use crate::sequence::Sequence;
@@ -27,8 +28,8 @@ pub enum NonFinite {
 
 /// A point cloud, prepared for visibility queries.
 ///
-/// Building costs one sort, O(n log n); each query reuses it. Memory: 16 bytes
-/// a point for `f32` positions, 28 for `f64`; while points are appended or removed,
+/// Building costs one sort, O(n log n); each query reuses it. Memory: 17 bytes
+/// a point for `f32` positions, 29 for `f64`; while points are appended or removed,
 /// twice that.
 ///
 /// Answers and automatic radii depend on the present points alone: a cloud that
@@ -39,6 +40,7 @@ pub struct PointCloud {
     /// The box of the present points.
     bounds: Bounds,
     pub(crate) statistics: Statistics,
+    pub(crate) blocks: Blocks,
     non_finite: NonFinite,
     len: usize,
     skipped: usize,
@@ -71,10 +73,12 @@ impl PointCloud {
         let curve = HilbertCurve::new(&bounds);
         let sequence = Sequence::sorted(positions, 0, len - skipped, &curve)?;
         let statistics = Statistics::measure(&sequence.points, &bounds)?;
+        let blocks = Blocks::around(&sequence.points)?;
         Ok(Self {
             sequence,
             bounds,
             statistics,
+            blocks,
             non_finite,
             len,
             skipped,
@@ -188,9 +192,11 @@ impl PointCloud {
     }
 
     /// The points of `bounds` take the place of those present, unless their
-    /// statistics cannot be measured.
+    /// statistics or blocks cannot be measured.
     fn replace(&mut self, sequence: Sequence, bounds: Bounds) -> Result<(), Error> {
-        self.statistics = Statistics::measure(&sequence.points, &bounds)?;
+        let statistics = Statistics::measure(&sequence.points, &bounds)?;
+        self.blocks = Blocks::around(&sequence.points)?;
+        self.statistics = statistics;
         self.sequence = sequence;
         self.bounds = bounds;
         Ok(())

@@ -9,7 +9,6 @@
 
 use glam::DVec3;
 
-use crate::error::Error;
 use crate::points::Points;
 
 /// The flip around one viewpoint, with one fixed sequence of operations, so
@@ -85,29 +84,6 @@ impl Flip {
                 _ => true,
             });
         if exact { scaled } else { self }
-    }
-}
-
-/// The largest distance from `viewpoint`, 0 for an empty cloud.
-///
-/// # Errors
-/// [`Error::RadiusOverflow`] when a distance exceeds the range of f64.
-pub(crate) fn farthest_distance(points: &Points, viewpoint: [f64; 3]) -> Result<f64, Error> {
-    let viewpoint = DVec3::from_array(viewpoint);
-    let mut largest = 0.0f64;
-    for p in points.iter() {
-        let v = DVec3::from_array(p) - viewpoint;
-        largest = largest.max(v.dot(v));
-    }
-    // The root is monotonic, so the root of the largest is the largest root.
-    let farthest = square_root(largest);
-    if farthest.is_finite() {
-        Ok(farthest)
-    } else {
-        Err(Error::RadiusOverflow {
-            radius: None,
-            farthest,
-        })
     }
 }
 

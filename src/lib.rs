@@ -32,7 +32,9 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
+mod blocks;
 mod cloud;
+mod division;
 mod error;
 mod exact_sum;
 mod hull;
@@ -43,6 +45,7 @@ mod options;
 mod points;
 mod predicates;
 mod radius;
+mod sector;
 mod sequence;
 mod sort;
 mod spacing;
@@ -57,6 +60,7 @@ pub use merge::merge_visible;
 pub use observer::Observer;
 pub use options::{Options, Radius};
 pub use points::Position;
+pub use sector::Sector;
 pub use visibility::Visibility;
 
 /// The README's Rust snippets, as documentation tests.

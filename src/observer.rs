@@ -4,6 +4,7 @@ use crate::cloud::PointCloud;
 use crate::error::Error;
 use crate::hull::Memory;
 use crate::options::Options;
+use crate::sector::Sector;
 use crate::visibility::Visibility;
 
 /// Looks at a cloud from one viewpoint after another.
@@ -53,7 +54,13 @@ impl Observer<'_> {
         options: &Options,
     ) -> Result<Visibility, Error> {
         self.cloud
-            .visible_from_with(&mut self.memory, viewpoint, options)
+            .look(&mut self.memory, viewpoint, options, Sector::WHOLE)
+    }
+
+    /// Whether the last view was found from the one before it.
+    #[must_use]
+    pub fn moved(&self) -> bool {
+        self.memory.moved()
     }
 
     /// Forgets the last view, so that the next one is found anew; the memory stays

@@ -4,10 +4,9 @@ use alloc::vec::Vec;
 
 use crate::cloud::PointCloud;
 use crate::error::Error;
-use crate::hull;
-use crate::inversion::{Flip, farthest_distance};
 use crate::options::{Options, Radius};
 use crate::radius::{self, ResolvedRadius};
+use crate::sector::Sector;
 
 /// Which points of a cloud are visible from one viewpoint.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,21 +94,17 @@ impl PointCloud {
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        self.observer().visible_from(viewpoint, options)
+        self.visible_in_sector(viewpoint, options, Sector::WHOLE)
     }
 
-    /// [`PointCloud::visible_from`] with the memory of earlier views.
-    pub(crate) fn visible_from_with(
+    /// The answer with these distinct points visible.
+    pub(crate) fn answer(
         &self,
-        memory: &mut hull::Memory,
-        viewpoint: [f64; 3],
-        options: &Options,
+        visible: &[bool],
+        resolved: ResolvedRadius,
     ) -> Result<Visibility, Error> {
-        let resolved = self.resolve_radius(viewpoint, options.radius)?;
-        let flip = Flip::new(viewpoint, resolved.radius);
-        hull::mark_visible(&self.sequence.points, &flip, memory)?;
         Ok(Visibility {
-            indices: self.callers_indices(memory.visible())?,
+            indices: self.callers_indices(visible)?,
             cloud_len: self.len(),
             radius: resolved.radius,
             exponent: resolved.exponent,
@@ -125,11 +120,17 @@ impl PointCloud {
         Ok((resolved.radius, resolved.exponent))
     }
 
-    fn resolve_radius(&self, viewpoint: [f64; 3], choice: Radius) -> Result<ResolvedRadius, Error> {
+    pub(crate) fn resolve_radius(
+        &self,
+        viewpoint: [f64; 3],
+        choice: Radius,
+    ) -> Result<ResolvedRadius, Error> {
         if viewpoint.iter().any(|x| !x.is_finite()) {
             return Err(Error::Viewpoint { viewpoint });
         }
-        let farthest = farthest_distance(&self.sequence.points, viewpoint)?;
+        let farthest = self
+            .blocks
+            .farthest_distance(&self.sequence.points, viewpoint)?;
         radius::resolve(choice, &self.statistics, viewpoint, farthest)
     }
 

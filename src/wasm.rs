@@ -6,6 +6,7 @@
 //! would copy those before any code here runs, and trap where memory is refused.
 
 mod failure;
+mod sector;
 mod transfer;
 
 use alloc::boxed::Box;
@@ -25,7 +26,7 @@ use self::transfer::{copy_in_integers, copy_out, doubles, singles};
 use crate::hull::Memory;
 use crate::merge::merge;
 use crate::points::Points;
-use crate::{Error, NonFinite, Options, PointCloud, Radius};
+use crate::{Error, NonFinite, Options, PointCloud};
 
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<PointCloud>>> = const { RefCell::new(Vec::new()) };
@@ -181,22 +182,7 @@ pub fn visible_from(
     z: f64,
     options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
-    let radius = match (options.radius(), options.exponent()) {
-        (Some(radius), _) => Radius::Absolute(radius),
-        (None, Some(exponent)) => Radius::Exponent(exponent),
-        (None, None) => Radius::Auto,
-    };
-    let visibility = with_cloud(handle, |cloud| {
-        with_memory(handle, |memory| {
-            cloud.visible_from_with(memory, [x, y, z], &Options { radius })
-        })
-    })?;
-    Ok(to_js(&Answer {
-        indices: copy_out(visibility.indices()).map_err(Failure::from)?,
-        radius: visibility.radius(),
-        exponent: visibility.exponent(),
-        evaluations: f64::from(visibility.evaluations()),
-    }))
+    sector::visible_in_sector(handle, x, y, z, options, 0, 1)
 }
 
 /// The radius that `visibleFrom` chooses by itself for (x, y, z).

@@ -15,7 +15,6 @@ use glam::DVec3;
 
 use super::Flipped;
 use super::incremental::Hull;
-use super::order;
 use super::topology::FaceId;
 use crate::inversion::square_root;
 
@@ -23,6 +22,10 @@ use crate::inversion::square_root;
 const MIN_POINTS: usize = 2048;
 /// Corners for each point of the cloud, at most.
 const CORNERS_PER_POINT: f64 = 1.0 / 16.0;
+/// How much of the cloud's depth the curvature of a cell may take.
+const MAX_LOSS: f64 = 0.25;
+/// Every so manieth point tells where the cloud is seen.
+const SAMPLE: usize = 64;
 /// Directions nearer than this to a cell's border, in cells, are not looked up:
 /// far more than rounding can move them.
 const MARGIN: f64 = 1e-6;
@@ -63,11 +66,11 @@ impl DepthMap {
             return Ok(());
         };
         let extents = survey(flipped);
-        let Some(cell) = cell_size(&extents, flipped.len()) else {
+        let Some(cell) = cell_size(&extents, flipped) else {
             return Ok(());
         };
         self.cells_per_unit = 1.0 / cell;
-        for (side, extent) in extents.iter().enumerate() {
+        for (side, extent) in extents.sides.iter().enumerate() {
             let [[x, y], [right, top]] = *extent;
             if x > right {
                 continue;
@@ -142,9 +145,7 @@ impl DepthMap {
                 self.corners.push(reach);
             }
         }
-        // The corners' directions are unit vectors but for rounding, and so are
-        // their distances at most those of the corners on the side itself.
-        let shrink = square_root(1.0 - 0.375 * 2.0 * cell * cell) * (1.0 - 1e-12);
+        let shrink = shrink(cell);
         for row in 0..rows {
             for column in 0..columns {
                 let at = |row: usize, column: usize| self.corners[row * (columns + 1) + column];
@@ -186,33 +187,52 @@ fn direction(side: usize, x: f64, y: f64) -> DVec3 {
     v / square_root(v.dot(v))
 }
 
-/// Where on each side of the cube directions are: [[left, bottom], [right, top]].
-type Extents = [[[f64; 2]; 2]; 6];
+/// Where a sample of the points is seen.
+struct Extents {
+    /// Directions on each side of the cube: [[left, bottom], [right, top]].
+    sides: [[[f64; 2]; 2]; 6],
+    /// Squared distances.
+    nearest: f64,
+    farthest: f64,
+}
 
-/// The extents of a sample of the directions.
 fn survey(flipped: &Flipped) -> Extents {
-    let mut extents = [[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; 6];
-    let sample = order::spatial_rounds().filter(|round| round.is_coarse());
-    for index in sample.flat_map(|round| round.indices(flipped.len() as u32)) {
+    let mut extents = Extents {
+        sides: [[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; 6],
+        nearest: f64::INFINITY,
+        farthest: 0.0,
+    };
+    for index in (0..flipped.len() as u32).step_by(SAMPLE) {
         let v = DVec3::from_array(flipped.position(index)) - flipped.viewpoint();
         let (side, x, y) = place(v);
-        let [[left, bottom], [right, top]] = &mut extents[side];
+        let [[left, bottom], [right, top]] = &mut extents.sides[side];
         *left = left.min(x);
         *bottom = bottom.min(y);
         *right = right.max(x);
         *top = top.max(y);
+        extents.nearest = extents.nearest.min(v.dot(v));
+        extents.farthest = extents.farthest.max(v.dot(v));
     }
     extents
 }
 
-/// The edge of square cells that `points` points pay for; `None` where the extents
-/// are of no use.
-fn cell_size(extents: &Extents, points: usize) -> Option<f64> {
-    let area: f64 = extents
-        .iter()
+/// The edge of square cells as many as `flipped` has points to pay for them; `None`
+/// where they would be so large that the map told little.
+fn cell_size(extents: &Extents, flipped: &Flipped) -> Option<f64> {
+    let sides = extents.sides.iter();
+    let area: f64 = sides
         .filter(|[[left, _], [right, _]]| left <= right)
         .map(|[[left, bottom], [right, top]]| (right - left) * (top - bottom))
         .sum();
-    let cell = square_root(area / (points as f64 * CORNERS_PER_POINT));
-    (1e-5..1.0).contains(&cell).then_some(cell)
+    let cell = square_root(area / (flipped.len() as f64 * CORNERS_PER_POINT));
+    let depth = square_root(extents.farthest) - square_root(extents.nearest);
+    // What the curvature of the flipped sphere takes: |q|·(1 − shrink), |q| near 2R.
+    let loss = flipped.largest_reach() * (1.0 - shrink(cell));
+    ((1e-5..1.0).contains(&cell) && loss < MAX_LOSS * depth).then_some(cell)
+}
+
+/// How much shorter K may be in a cell's directions than along its corners. On the
+/// cube's side their distances are at most `cell`·√2, and less as unit vectors.
+fn shrink(cell: f64) -> f64 {
+    square_root((1.0 - 0.375 * 2.0 * cell * cell).max(0.0)) * (1.0 - 1e-12)
 }

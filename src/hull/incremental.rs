@@ -188,4 +188,34 @@ impl Hull {
         let face = self.surface.face(id);
         face.is_alive() && !face.data.is_exact_only()
     }
+
+    /// How many vertices there ever were; the origin is the first.
+    pub(super) fn vertex_count(&self) -> usize {
+        self.vertices.points.len()
+    }
+
+    /// Which point of the cloud a vertex is; not for the origin.
+    pub(super) fn point(&self, vertex: Vertex) -> u32 {
+        self.vertices.points[vertex as usize]
+    }
+
+    /// The corners of a face, unless it is none of the surface's.
+    #[inline]
+    pub(super) fn corners(&self, id: FaceId) -> Option<[Vertex; 3]> {
+        let face = self.surface.face(id);
+        face.is_alive().then_some(face.vertices)
+    }
+
+    /// Whether a face of the surface is an outer one.
+    pub(super) fn is_outer(&self, id: FaceId) -> bool {
+        let face = self.surface.face(id);
+        !face.vertices.contains(&ORIGIN) && self.vertices.is_outer(face)
+    }
+
+    /// The dual plane m of a face, and a limit: what has m·q below it is strictly inside.
+    #[inline]
+    pub(super) fn support(&self, id: FaceId) -> (DVec3, f64) {
+        let Plane { m, error } = self.surface.face(id).data;
+        (m, 1.0 - error)
+    }
 }

@@ -15,11 +15,14 @@ mod locate;
 mod motion;
 mod order;
 mod plane;
+mod repair;
+mod sector;
 mod topology;
 
 use alloc::vec::Vec;
 use glam::DVec3;
 
+use crate::division::Division;
 use crate::error::Error;
 use crate::inversion::Flip;
 use crate::points::Points;
@@ -27,7 +30,7 @@ use crate::predicates::{Sign, side_of_origin};
 use depth::DepthMap;
 use incremental::Hull;
 use locate::Location;
-use motion::Repair;
+use repair::Repair;
 use topology::FaceId;
 
 /// Points looked at for a first tetrahedron before all of them are.
@@ -68,13 +71,18 @@ impl Flipped<'_> {
         self.flip.viewpoint()
     }
 
+    /// The largest |q| there can be, in the cloud's units.
+    fn largest_reach(&self) -> f64 {
+        self.flip.reach_in_cloud()
+    }
+
     fn hidden_from(&self, length: f64) -> f64 {
         self.flip.hidden_from(length)
     }
 
     /// Whether squares of distances neither over- nor underflow.
     fn keeps_depth(&self) -> bool {
-        (1e-100..1e100).contains(&self.flip.reach_in_cloud())
+        (1e-100..1e100).contains(&self.largest_reach())
     }
 }
 
@@ -91,6 +99,8 @@ pub(crate) struct Memory {
     witnesses: Vec<FaceId>,
     /// Whether `hull` is that of the last view.
     holds_hull: bool,
+    /// Whether the last view was found from the one before it.
+    moved: bool,
 }
 
 impl Memory {
@@ -99,14 +109,25 @@ impl Memory {
         &self.visible
     }
 
+    /// Whether the last view was found from the one before it.
+    pub(crate) fn moved(&self) -> bool {
+        self.moved
+    }
+
     /// Forgets the last view, but keeps the room.
     pub(crate) fn forget(&mut self) {
         self.holds_hull = false;
     }
 }
 
-/// Finds out which of `points`, flipped by `flip`, are visible: [`Memory::visible`].
-pub(crate) fn mark_visible(points: &Points, flip: &Flip, memory: &mut Memory) -> Result<(), Error> {
+/// Finds out which of `points`, flipped by `flip`, are visible, all of them or of a
+/// divided view only the sector's own: [`Memory::visible`].
+pub(crate) fn mark_visible(
+    points: &Points,
+    flip: &Flip,
+    division: Option<Division>,
+    memory: &mut Memory,
+) -> Result<(), Error> {
     let flipped = Flipped {
         points,
         flip: flip.rescaled_for(points),
@@ -115,24 +136,37 @@ pub(crate) fn mark_visible(points: &Points, flip: &Flip, memory: &mut Memory) ->
     memory.visible.try_reserve_exact(points.len())?;
     memory.visible.resize(points.len(), false);
     let held = core::mem::take(&mut memory.holds_hull);
-    if held && memory.move_hull(&flipped)? {
+    memory.moved = held && division.is_none() && memory.move_hull(&flipped)?;
+    if memory.moved {
         memory.add_to_moved_hull(&flipped)?;
-    } else {
-        let count = points.len() as u32;
-        let sample = order::spatial_rounds().flat_map(|round| round.indices(count));
-        let seed = first_tetrahedron(sample.take(SEED_SAMPLE), &flipped)
-            .or_else(|| first_tetrahedron(0..count, &flipped));
-        let Some(corners) = seed else {
-            let flipped = |index| flipped.get_out_of_line(index);
-            return flat::mark_visible(count, &flipped, &mut memory.visible);
-        };
-        memory.hull.start(corners, flipped.reach(), points.len())?;
-        memory.add_in_rounds(&flipped)?;
+        return memory.finish(&flipped);
     }
-    memory.hull.mark_outer_vertices(&mut memory.visible);
-    memory.mark_boundary(&flipped);
-    memory.holds_hull = true;
-    Ok(())
+    let count = points.len() as u32;
+    let sample = order::spatial_rounds().flat_map(|round| round.indices(count));
+    let seed = first_tetrahedron(sample.take(SEED_SAMPLE), &flipped)
+        .or_else(|| first_tetrahedron(0..count, &flipped));
+    let room = division
+        .as_ref()
+        .map_or(points.len(), Division::near_points);
+    match (seed, division) {
+        (Some(corners), None) => {
+            memory.hull.start(corners, flipped.reach(), room)?;
+            memory.add_in_rounds(&flipped)?;
+            memory.finish(&flipped)
+        }
+        (Some(corners), Some(division)) => {
+            memory.hull.start(corners, flipped.reach(), room)?;
+            sector::mark_visible(&mut memory.hull, &flipped, division, &mut memory.visible)
+        }
+        (None, division) => {
+            let flipped = |index| flipped.get_out_of_line(index);
+            flat::mark_visible(count, &flipped, &mut memory.visible)?;
+            if let Some(division) = division {
+                division.keep_own(&mut memory.visible);
+            }
+            Ok(())
+        }
+    }
 }
 
 impl Memory {
@@ -217,11 +251,13 @@ impl Memory {
         })
     }
 
-    /// A point found exactly on the boundary is visible only if it still is when
-    /// the hull is complete; one at the viewpoint is in any case.
-    fn mark_boundary(&mut self, flipped: &Flipped) {
+    /// Reads the complete hull. A point found exactly on the boundary is visible only if
+    /// it still is; one at the viewpoint is in any case.
+    fn finish(&mut self, flipped: &Flipped) -> Result<(), Error> {
+        self.hull.mark_outer_vertices(&mut self.visible);
+        self.holds_hull = true;
         let Some(mut hint) = self.hull.outer_face() else {
-            return;
+            return Ok(());
         };
         for &index in &self.on_boundary {
             self.visible[index as usize] = match flipped.get_out_of_line(index) {
@@ -235,6 +271,7 @@ impl Memory {
                 },
             };
         }
+        Ok(())
     }
 }
 

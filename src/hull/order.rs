@@ -16,11 +16,6 @@ impl Round {
             .filter(move |i| self.given == 0 || i % self.given != 0)
     }
 
-    /// A round of the first few, a sample of one point in 64 together.
-    pub(super) fn is_coarse(&self) -> bool {
-        self.stride >= 64
-    }
-
     pub(super) fn is_last(self) -> bool {
         self.stride == 1
     }

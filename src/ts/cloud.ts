@@ -10,11 +10,23 @@ import {
   pick,
   type PointCloudOptions,
   VIEW_OPTIONS,
+  type ViewSettings,
   viewSettings,
   type VisibilityOptions,
 } from "./options.js";
 import { packed, type Positions, readIndices, readPositions, readViewpoint } from "./positions.js";
 import { type ChosenRadius, type Visibility, VisibilityAnswer } from "./visibility.js";
+
+/**
+ * What `visibleFrom` answers, but only those of its indices that fall to sector
+ * `number` of `count`; each index falls to one. For the workers that share a view.
+ */
+export let visibleInSector: (
+  cloud: PointCloud,
+  viewpoint: readonly [x: number, y: number, z: number],
+  settings: ViewSettings,
+  sector: { number: number; count: number },
+) => ChosenRadius & { readonly indices: Uint32Array };
 
 /**
  * A point cloud in the memory of the wasm: prepared once, then asked from as
@@ -37,6 +49,12 @@ export class PointCloud {
 
   static {
     addDisposeSymbol(this.prototype);
+    visibleInSector = (cloud, [x, y, z], settings, { number, count }) => {
+      const handle = cloud.#requireHandle();
+      return cloud.#instance.call((bindings) =>
+        bindings.visibleInSector(handle, x, y, z, settings, number, count),
+      );
+    };
   }
 
   /**

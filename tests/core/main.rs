@@ -14,3 +14,4 @@ mod merge;
 mod oracle;
 mod radius;
 mod refusals;
+mod sectors;

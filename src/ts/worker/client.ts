@@ -20,6 +20,7 @@ import { type ChosenRadius, type Visibility, VisibilityAnswer } from "../visibil
 import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
 import type { CloudSize } from "./protocol.js";
 import { RequestQueue } from "./request-queue.js";
+import { defaultWorkers, readWorkers } from "./workers.js";
 
 /** How a cloud is brought to its worker. */
 export interface WorkerPointCloudOptions extends PointCloudOptions {
@@ -30,6 +31,13 @@ export interface WorkerPointCloudOptions extends PointCloudOptions {
    * Default false.
    */
   transfer?: boolean | undefined;
+  /**
+   * How many workers share every view, from 1 to 64; answers are the same, to the
+   * bit. Each keeps the whole cloud in a memory of its own. By default 1 for a cloud
+   * that has fewer than 200,000 points when it is created; otherwise as many as there
+   * are cores, but at most 4, and no more than hold 16 million points together.
+   */
+  workers?: number | undefined;
   /** Gives up, with an `AbortError`, when it aborts before the cloud is ready. */
   signal?: AbortSignal | undefined;
 }
@@ -47,14 +55,14 @@ export interface WorkerVisibilityOptions extends VisibilityOptions {
 }
 
 /**
- * A point cloud in a worker of its own, with the methods and the answers of
+ * A point cloud in workers of its own, with the methods and the answers of
  * `PointCloud`; each returns a promise. Nothing needs to be initialized, except
  * that a wasm file in an unusual place is named by calling `init()` first: what
  * runs in the page is shared with the worker.
  *
- * If the worker dies, whatever is pending and all later calls are rejected with
+ * If a worker dies, whatever is pending and all later calls are rejected with
  * `internal`. No copy of the positions is kept, so the cloud is lost; a new one
- * gets a new worker.
+ * gets new workers.
  */
 export class WorkerPointCloud {
   /** The same as {@link WorkerPointCloud.dispose}, on platforms that have `Symbol.dispose`. */
@@ -89,7 +97,7 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Starts a worker and prepares positions, in any units, in it.
+   * Starts the workers and prepares positions, in any units, in each.
    *
    * @param positions x, y, z of one point after another, copied before this returns.
    * @throws HprError (as a rejection) `option`, `positions-type`,
@@ -99,9 +107,10 @@ export class WorkerPointCloud {
     positions: Positions,
     options?: WorkerPointCloudOptions,
   ): Promise<WorkerPointCloud> {
-    const given = givenOptions(options, CLOUD_OPTIONS, ["transfer", "signal"]);
+    const given = givenOptions(options, CLOUD_OPTIONS, ["transfer", "workers", "signal"]);
     const settings = cloudSettings(pick(given, CLOUD_OPTIONS));
     const transfer = readFlag(given, "transfer");
+    const workers = readWorkers(given["workers"]);
     const signal = readSignal(given["signal"]);
     if (signal?.aborted === true) {
       throw abortError(BY_SIGNAL);
@@ -109,7 +118,7 @@ export class WorkerPointCloud {
     const own = toOwn(positions, settings.stride, transfer);
     const queue = new RequestQueue();
     try {
-      return await untilAborted(signal, WorkerPointCloud.#build(queue, own, settings));
+      return await untilAborted(signal, WorkerPointCloud.#build(queue, own, settings, workers));
     } catch (error) {
       void queue.close(abortError("the cloud was not created"));
       throw error;
@@ -120,10 +129,11 @@ export class WorkerPointCloud {
     queue: RequestQueue,
     positions: Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>,
     settings: CloudSettings,
+    workers: number | undefined,
   ): Promise<WorkerPointCloud> {
-    const [module] = await Promise.all([moduleForWorker(), queue.start()]);
-    const transfer = [positions.buffer];
-    const size = await queue.ask({ kind: "create", module, positions, settings }, { transfer });
+    const count = workers ?? (await defaultWorkers(positions.length / settings.stride));
+    const [module] = await Promise.all([moduleForWorker(), queue.start(count)]);
+    const size = await queue.ask({ kind: "create", module, positions, settings });
     return new WorkerPointCloud(queue, settings.stride, size);
   }
 
@@ -178,7 +188,7 @@ export class WorkerPointCloud {
     this.#queue.requireOpen();
     const own = toOwn(positions, this.#stride, false);
     const request = { kind: "append" as const, positions: own };
-    this.#size = await this.#queue.ask(request, { transfer: [own.buffer], owner: this });
+    this.#size = await this.#queue.ask(request, { owner: this });
   }
 
   /**
@@ -193,11 +203,11 @@ export class WorkerPointCloud {
     this.#queue.requireOpen();
     const own = readIndices(indices);
     const request = { kind: "remove" as const, indices: own };
-    this.#size = await this.#queue.ask(request, { transfer: [own.buffer], owner: this });
+    this.#size = await this.#queue.ask(request, { owner: this });
   }
 
   /**
-   * Ends the worker, which gives all of its memory back; resolves when it has
+   * Ends the workers, which gives all of their memory back; resolves when they have
    * ended. Whatever is pending is rejected with `disposed`. May be called twice.
    */
   async dispose(): Promise<void> {

@@ -14,12 +14,18 @@ export type Request =
       positions: Float32Array | Float64Array;
       settings: CloudSettings;
     }
-  | { kind: "visibleFrom"; viewpoint: Viewpoint; settings: ViewSettings }
+  | { kind: "visibleFrom"; viewpoint: Viewpoint; settings: ViewSettings; sector?: Sector }
   | { kind: "autoRadius"; viewpoint: Viewpoint }
   | { kind: "append"; positions: Float32Array | Float64Array }
   | { kind: "remove"; indices: Uint32Array };
 
 export type Viewpoint = [x: number, y: number, z: number];
+
+/** Which part of a view is asked for, where several workers share it: number 0 to count − 1. */
+export interface Sector {
+  number: number;
+  count: number;
+}
 
 /** `length` and `skipped` of a cloud. */
 export interface CloudSize {

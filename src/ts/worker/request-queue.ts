@@ -1,12 +1,12 @@
 import { HprError } from "../errors.js";
 import { abortError, BY_SIGNAL } from "./abort.js";
 import { READY, type Replies, type Reply, type Request } from "./protocol.js";
-import { startThread, type Thread, type ThreadEvents } from "./thread.js";
+import { Team } from "./team.js";
+import type { ThreadEvents } from "./thread.js";
 
 type Kind = Request["kind"];
 
 interface AskOptions {
-  transfer?: ArrayBuffer[];
   /** May be dropped when a newer request of this sort comes before it has started. */
   latest?: boolean;
   signal?: AbortSignal | undefined;
@@ -21,23 +21,24 @@ interface Pending extends AskOptions {
 }
 
 /**
- * The requests to one thread, which sees one at a time: what still waits here
+ * The requests to one team of workers, which sees one at a time: what still waits here
  * can be dropped without having cost anything.
  */
 export class RequestQueue implements ThreadEvents {
-  #thread: Thread | undefined;
+  #team: Team | undefined;
   #ready = false;
   #running: Pending | undefined;
   #waiting: Pending[] = [];
   #closed: Error | undefined;
 
-  async start(): Promise<void> {
-    const thread = await startThread(this);
+  /** Starts so many workers, which act as one. */
+  async start(workers: number): Promise<void> {
+    const team = await Team.start(workers, this);
     if (this.#closed !== undefined) {
-      await thread.end();
+      await team.end();
       throw this.#closed;
     }
-    this.#thread = thread;
+    this.#team = team;
     this.#sendNext();
   }
 
@@ -70,7 +71,7 @@ export class RequestQueue implements ThreadEvents {
     }
   }
 
-  /** Ends the thread; what is pending, and what still comes, is rejected with `reason`. */
+  /** Ends the workers; what is pending, and what still comes, is rejected with `reason`. */
   async close(reason: Error): Promise<void> {
     this.#closed = reason;
     const pending = this.#running === undefined ? this.#waiting : [this.#running, ...this.#waiting];
@@ -79,9 +80,9 @@ export class RequestQueue implements ThreadEvents {
     for (const { reject } of pending) {
       reject(reason);
     }
-    const thread = this.#thread;
-    this.#thread = undefined;
-    await thread?.end();
+    const team = this.#team;
+    this.#team = undefined;
+    await team?.end();
   }
 
   message(message: unknown): void {
@@ -123,7 +124,7 @@ export class RequestQueue implements ThreadEvents {
   }
 
   #sendNext(): void {
-    if (this.#thread === undefined || !this.#ready || this.#running !== undefined) {
+    if (this.#team === undefined || !this.#ready || this.#running !== undefined) {
       return;
     }
     let next: Pending | undefined;
@@ -131,9 +132,9 @@ export class RequestQueue implements ThreadEvents {
       next = this.#waiting.shift();
     } while (next?.signal?.aborted === true);
     this.#running = next;
-    this.#thread.setBusy(next !== undefined);
+    this.#team.setBusy(next !== undefined);
     if (next !== undefined) {
-      this.#thread.post(next.request, next.transfer ?? []);
+      this.#team.post(next.request);
     }
   }
 

@@ -60,17 +60,22 @@ async function startNodeWorker(events: ThreadEvents): Promise<Thread> {
   const here = import.meta.url;
   // Without the flags of this process, some of which (--input-type) a worker refuses.
   const worker = new threads.Worker(new URL("./worker-thread.js", here), { execArgv: [] });
+  let over = false;
   worker.on("message", (message) => {
-    events.message(message);
+    if (!over) {
+      events.message(message);
+    }
   });
-  worker.on("messageerror", (error) => {
-    events.died(error);
-  });
-  worker.on("error", (error) => {
-    events.died(error);
-  });
+  const died = (cause: unknown) => {
+    if (!over) {
+      events.died(cause);
+    }
+  };
+  worker.on("messageerror", died);
+  // Stays to the end: Node raises an error that nobody listens to.
+  worker.on("error", died);
   worker.on("exit", (code) => {
-    events.died(`it ended with exit code ${code}`);
+    died(`it ended with exit code ${code}`);
   });
   return {
     post: (message, transfer) => {
@@ -84,9 +89,7 @@ async function startNodeWorker(events: ThreadEvents): Promise<Thread> {
       }
     },
     end: async () => {
-      worker.removeAllListeners();
-      // Node raises an error that nobody listens to.
-      worker.on("error", () => undefined);
+      over = true;
       await worker.terminate();
     },
   };

@@ -1,4 +1,4 @@
-import { PointCloud } from "../cloud.js";
+import { PointCloud, visibleInSector } from "../cloud.js";
 import { initSync } from "../loader.js";
 import { importNodeModule } from "../node.js";
 import { type CloudSize, failedReply, READY, type Replies, type Reply, type Request } from "./protocol.js";
@@ -20,8 +20,11 @@ function answer(request: Request): Replies[Request["kind"]] {
   }
   switch (request.kind) {
     case "visibleFrom": {
-      const { viewpoint, settings } = request;
-      const { indices, radius, exponent, evaluations } = cloud.visibleFrom(viewpoint, settings);
+      const { viewpoint, settings, sector } = request;
+      const { indices, radius, exponent, evaluations } =
+        sector === undefined
+          ? cloud.visibleFrom(viewpoint, settings)
+          : visibleInSector(cloud, viewpoint, settings, sector);
       return { indices, radius, exponent, evaluations, length: cloud.length };
     }
     case "autoRadius":

@@ -1,0 +1,285 @@
+//! Making a surface of triangles the hull of its vertices again, face by face and
+//! edge by edge, after they moved.
+
+use alloc::collections::TryReserveError;
+use alloc::vec::Vec;
+
+use super::incremental::{Hull, ORIGIN, Vertices};
+use super::plane::Plane;
+use super::topology::{Face, FaceId, HalfEdge, Rim, Vertex};
+use crate::predicates::{Sign, side_of_face, side_of_origin};
+
+/// The largest link of a vertex that is taken out.
+const MAX_DEGREE: usize = 64;
+
+/// Buffers kept from view to view.
+#[derive(Default)]
+pub(super) struct Repair {
+    /// Edges that may be reflex.
+    pub suspects: Vec<HalfEdge>,
+    /// Faces that the motion turned over.
+    pub turned: Vec<FaceId>,
+    rim: Vec<Rim>,
+    star: Vec<FaceId>,
+    ring: Vec<Rim>,
+    ears: Vec<usize>,
+    /// For each vertex, flags of `Hull::settle`.
+    pub sides: Vec<u8>,
+}
+
+impl Hull {
+    /// Mends a face that turned over: mostly one vertex crossed the opposite edge
+    /// and came to lie over the neighbor, where flipping that edge mends it.
+    ///
+    /// With `force`, vertices next to the face may be taken out, too.
+    pub(super) fn unfold(
+        &mut self,
+        id: FaceId,
+        force: bool,
+        repair: &mut Repair,
+    ) -> Result<bool, TryReserveError> {
+        let face = *self.surface.face(id);
+        if !face.is_alive() || !self.vertices.is_turned(&face) {
+            return Ok(true);
+        }
+        let can_flip = |&edge: &HalfEdge| {
+            let [[c, _, d], _] = self.surface.flipped(edge);
+            self.can_flip(edge) && !self.surface.are_joined(c, d, id)
+        };
+        // Not by way of a ghost face if it can be helped: those fit too often.
+        let is_inner = |&edge: &HalfEdge| {
+            let [first, second] = self.surface.flipped(edge);
+            !first.contains(&ORIGIN) && !second.contains(&ORIGIN)
+        };
+        let edges = [0, 1, 2].map(|edge| HalfEdge::new(id, edge));
+        let inner = edges
+            .into_iter()
+            .find(|edge| is_inner(edge) && can_flip(edge));
+        let any = edges.into_iter().find(can_flip);
+        if let Some(edge) = inner {
+            return self.unfold_across(edge, repair);
+        }
+        for vertex in face.vertices {
+            if self.take_out(vertex, id, repair)? {
+                return Ok(true);
+            }
+        }
+        if let Some(edge) = any {
+            return self.unfold_across(edge, repair);
+        }
+        if force {
+            for hub in face.vertices.into_iter().filter(|&v| v != ORIGIN) {
+                let next = self
+                    .surface
+                    .around(hub, id)
+                    .map(|(face, rim)| (rim.tail, face));
+                for (vertex, face) in next.take(MAX_DEGREE).collect::<Vec<_>>() {
+                    if self.take_out(vertex, face, repair)? {
+                        return Ok(false);
+                    }
+                }
+            }
+        }
+        Ok(false)
+    }
+
+    fn unfold_across(
+        &mut self,
+        edge: HalfEdge,
+        repair: &mut Repair,
+    ) -> Result<bool, TryReserveError> {
+        let twin = self.surface.face(edge.face()).twins[edge.edge()];
+        self.flip(edge);
+        repair.suspect(edge.face())?;
+        repair.suspect(twin.face())?;
+        Ok(true)
+    }
+
+    fn flip(&mut self, edge: HalfEdge) {
+        let twin = self.surface.face(edge.face()).twins[edge.edge()];
+        self.surface.flip(edge);
+        self.renew_plane(edge.face());
+        self.renew_plane(twin.face());
+    }
+
+    #[inline(never)]
+    fn renew_plane(&mut self, id: FaceId) {
+        let face = self.surface.face_mut(id);
+        face.data = self.vertices.plane(face.vertices);
+    }
+
+    /// Whether the surface is reflex at an edge between faces that turn outward.
+    #[inline(never)]
+    pub(super) fn is_reflex(&self, edge: HalfEdge) -> bool {
+        let face = self.surface.face(edge.face());
+        if !face.is_alive() {
+            return false;
+        }
+        let twin = face.twins[edge.edge()];
+        let across = self.surface.face(twin.face());
+        // The plane of a face without the origin is enough to decide.
+        let (face, [_, _, apex]) = if face.vertices.contains(&ORIGIN) {
+            (across, face.vertices_from(edge.edge()))
+        } else {
+            (face, across.vertices_from(twin.edge()))
+        };
+        self.vertices.side(face, self.vertices.at(apex)) == Sign::Positive
+    }
+
+    /// Flips a reflex edge; where that would turn a face over, an end of the edge
+    /// is below the others and is taken out.
+    fn make_convex(
+        &mut self,
+        edge: HalfEdge,
+        repair: &mut Repair,
+    ) -> Result<bool, TryReserveError> {
+        if self.can_flip(edge) {
+            let twin = self.surface.face(edge.face()).twins[edge.edge()];
+            self.flip(edge);
+            // The new edge is convex.
+            repair.suspects.try_reserve(4)?;
+            for face in [edge.face(), twin.face()] {
+                repair
+                    .suspects
+                    .extend([0, 1].map(|edge| HalfEdge::new(face, edge)));
+            }
+            return Ok(true);
+        }
+        let [tail, head, _] = self.surface.face(edge.face()).vertices_from(edge.edge());
+        let [with_tail, _] = self.surface.flipped(edge);
+        let below = if self.vertices.may_face(with_tail) {
+            head
+        } else {
+            tail
+        };
+        self.take_out(below, edge.face(), repair)
+    }
+
+    /// Whether both faces that flipping `edge` would make turn outward.
+    fn can_flip(&self, edge: HalfEdge) -> bool {
+        let faces = self.surface.flipped(edge);
+        let [[c, _, d], _] = faces;
+        c != d && faces.into_iter().all(|face| self.vertices.may_face(face))
+    }
+
+    /// Takes `vertex`, one of `face`, out of the surface and fills the hole by ears.
+    fn take_out(
+        &mut self,
+        vertex: Vertex,
+        face: FaceId,
+        repair: &mut Repair,
+    ) -> Result<bool, TryReserveError> {
+        if vertex == ORIGIN {
+            return Ok(false);
+        }
+        repair.rim.clear();
+        repair.star.clear();
+        for (id, rim) in self.surface.around(vertex, face) {
+            repair.rim.try_reserve(1)?;
+            repair.rim.push(rim);
+            repair.star.try_reserve(1)?;
+            repair.star.push(id);
+        }
+        if !(3..=MAX_DEGREE).contains(&repair.rim.len()) {
+            return Ok(false);
+        }
+        // First the plan, so that nothing has changed if there is none.
+        repair.ring.clear();
+        repair.ring.try_reserve(repair.rim.len())?;
+        repair.ring.extend_from_slice(&repair.rim);
+        repair.ears.clear();
+        repair.ears.try_reserve(repair.rim.len())?;
+        while repair.ring.len() > 2 {
+            let Some(ear) = self.ear(&repair.ring) else {
+                return Ok(false);
+            };
+            repair.ears.push(ear);
+            repair.ring.remove((ear + 1) % repair.ring.len());
+        }
+        for i in 0..repair.ears.len() {
+            let (ear, slot) = (repair.ears[i], repair.star[i]);
+            self.surface.cut_ear(&mut repair.rim, ear, slot);
+            self.renew_plane(slot);
+            repair.suspect(slot)?;
+        }
+        for &slot in &repair.star[repair.ears.len()..] {
+            self.surface.free(slot)?;
+        }
+        Ok(true)
+    }
+
+    /// Where on a ring of vertices (the tails of `ring`) an ear can be cut off: a triangle
+    /// of three successive ones that turns outward and holds no other of the ring.
+    /// Where there is none, and the ring opens to the ghost faces, a ghost face.
+    fn ear(&self, ring: &[Rim]) -> Option<usize> {
+        let corners = |ear: usize| [0, 1, 2].map(|i| ring[(ear + i) % ring.len()].tail);
+        if ring.len() == 3 {
+            return self.vertices.may_face(corners(0)).then_some(0);
+        }
+        // Where two vertices are joined already, a second edge would be wrong.
+        let is_new = |ear: usize| {
+            let [tail, _, head] = corners(ear);
+            !self
+                .surface
+                .are_joined(tail, head, ring[ear].outside.face())
+        };
+        let is_ear = |&ear: &usize| {
+            let corners = corners(ear);
+            !corners.contains(&ORIGIN)
+                && self.vertices.turns_outward(corners)
+                && ring.iter().all(|other| {
+                    corners.contains(&other.tail)
+                        || other.tail == ORIGIN
+                        || self.vertices.is_aside(corners, other.tail)
+                })
+                && is_new(ear)
+        };
+        let is_ghost = |&ear: &usize| {
+            ring[ear].tail == ORIGIN && self.vertices.may_face(corners(ear)) && is_new(ear)
+        };
+        (0..ring.len())
+            .find(is_ear)
+            .or_else(|| (0..ring.len()).find(is_ghost))
+    }
+}
+
+impl Vertices {
+    /// Whether a face does not turn outward, or a ghost face not away from `inner`.
+    #[inline]
+    pub(super) fn is_turned(&self, face: &Face<Plane>) -> bool {
+        face.data.is_exact_only() && !self.turns_right(face.vertices)
+    }
+
+    /// Whether a face of these corners would turn as it should.
+    #[inline(never)]
+    fn may_face(&self, corners: [Vertex; 3]) -> bool {
+        !self.plane(corners).is_exact_only() || self.turns_right(corners)
+    }
+
+    #[cold]
+    fn turns_right(&self, corners: [Vertex; 3]) -> bool {
+        if corners.contains(&ORIGIN) {
+            let [a, b, c] = corners.map(|v| self.at(v));
+            side_of_face(a, b, c, self.inner) == Sign::Negative
+        } else {
+            self.turns_outward(corners)
+        }
+    }
+
+    /// Whether the ray of `vertex` misses the face of these corners.
+    fn is_aside(&self, [a, b, c]: [Vertex; 3], vertex: Vertex) -> bool {
+        [[a, b], [b, c], [c, a]].into_iter().any(|[tail, head]| {
+            side_of_origin(self.at(tail), self.at(head), self.at(vertex)) == Sign::Negative
+        })
+    }
+}
+
+impl Repair {
+    /// All edges of a face are to be looked at again.
+    fn suspect(&mut self, face: FaceId) -> Result<(), TryReserveError> {
+        self.suspects.try_reserve(3)?;
+        self.suspects
+            .extend((0..3).map(|edge| HalfEdge::new(face, edge)));
+        Ok(())
+    }
+}

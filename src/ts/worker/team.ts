@@ -1,0 +1,211 @@
+import { HprError } from "../errors.js";
+import { allocating } from "../memory.js";
+import { failedReply, READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { startThread, type Thread, type ThreadEvents } from "./thread.js";
+
+/**
+ * Threads that hold the same cloud, each in a wasm instance of its own, and act as
+ * one: what is asked of the team is asked of all, and answered when all have answered.
+ * A view is divided among them by direction, so that none needs to wait for another;
+ * every visible point is in the answer of exactly one.
+ */
+export class Team {
+  readonly #events: ThreadEvents;
+  #members: Thread[] = [];
+  #starting = 0;
+  #asked: Request | undefined;
+  /** By member; those not asked, or not answered yet, have none. */
+  #replies: (Reply | undefined)[] = [];
+  #missing = 0;
+  #over = false;
+
+  private constructor(events: ThreadEvents) {
+    this.#events = events;
+  }
+
+  static async start(size: number, events: ThreadEvents): Promise<Team> {
+    const team = new Team(events);
+    await team.#start(size);
+    return team;
+  }
+
+  async #start(size: number): Promise<void> {
+    this.#starting = size;
+    const starts = Array.from({ length: size }, async () => {
+      const own: { thread?: Thread } = {};
+      own.thread = await startThread({
+        message: (message) => {
+          this.#message(own.thread, message);
+        },
+        died: (cause) => {
+          this.#died(cause);
+        },
+      });
+      return own.thread;
+    });
+    const settled = await Promise.allSettled(starts);
+    this.#members = settled.flatMap((start) => (start.status === "fulfilled" ? [start.value] : []));
+    const failed = settled.find((start) => start.status === "rejected");
+    if (failed !== undefined) {
+      await this.end();
+      throw failed.reason;
+    }
+  }
+
+  /** Answered by one message, whoever is asked. The arrays in it are given away. */
+  post(request: Request): void {
+    let copies: { request: Request; transfer: ArrayBuffer[] }[];
+    // Which radius would be chosen, one can tell as well as all.
+    const asked = request.kind === "autoRadius" ? this.#members.slice(0, 1) : this.#members;
+    try {
+      copies = asked.map((_, number) => copyFor(request, number, asked.length));
+    } catch (thrown) {
+      // None of them has been asked, so none has changed.
+      queueMicrotask(() => {
+        this.#events.message(failedReply(thrown));
+      });
+      return;
+    }
+    this.#asked = request;
+    this.#replies = [];
+    this.#missing = asked.length;
+    asked.forEach((thread, number) => {
+      const { request, transfer } = copies[number]!;
+      thread.post(request, transfer);
+    });
+  }
+
+  /** While busy, Node's process does not end. */
+  setBusy(busy: boolean): void {
+    for (const thread of this.#members) {
+      thread.setBusy(busy);
+    }
+  }
+
+  /** Ends all threads, which gives their memory back. Nothing is reported any more. */
+  async end(): Promise<void> {
+    this.#over = true;
+    await Promise.all(this.#members.map((thread) => thread.end()));
+  }
+
+  #message(from: Thread | undefined, message: unknown): void {
+    if (this.#over) {
+      return;
+    }
+    if (message === READY) {
+      this.#starting -= 1;
+      if (this.#starting === 0) {
+        this.#events.message(READY);
+      }
+      return;
+    }
+    this.#replies[this.#members.findIndex((thread) => thread === from)] = message as Reply;
+    this.#missing -= 1;
+    if (this.#missing === 0) {
+      this.#events.message(this.#combined());
+    }
+  }
+
+  /** None can do without another: what each holds is only its part of every view. */
+  #died(cause: unknown): void {
+    if (!this.#over) {
+      this.#over = true;
+      this.#events.died(cause);
+    }
+  }
+
+  #combined(): Reply {
+    const replies = this.#replies as Reply[];
+    const failures = replies.filter((reply) => "error" in reply);
+    const values = replies.flatMap((reply) => ("value" in reply ? [reply.value] : []));
+    const lost = failures.find(({ error }) => error.code === "internal") ?? failures[0];
+    const kind = this.#asked?.kind;
+    if (lost !== undefined) {
+      const isChange = kind === "append" || kind === "remove";
+      if (!isChange || lost.error.code === "internal" || values.length === 0) {
+        return lost;
+      }
+      // Memory was refused to some and the others have changed: they go on without.
+      this.#dismiss((_, number) => "error" in replies[number]!);
+    }
+    try {
+      const value = kind === "visibleFrom" ? joined(values as Replies["visibleFrom"][]) : values[0];
+      return { value };
+    } catch (thrown) {
+      return failedReply(thrown);
+    }
+  }
+
+  #dismiss(isDismissed: (thread: Thread, number: number) => boolean): void {
+    const dismissed = this.#members.filter(isDismissed);
+    this.#members = this.#members.filter((thread) => !dismissed.includes(thread));
+    for (const thread of dismissed) {
+      void thread.end();
+    }
+  }
+}
+
+/** What one member is asked: with arrays of its own, and with its sector of a view. */
+function copyFor(
+  request: Request,
+  number: number,
+  count: number,
+): { request: Request; transfer: ArrayBuffer[] } {
+  switch (request.kind) {
+    case "create":
+    case "append": {
+      const positions = ownCopy(request.positions, number);
+      return { request: { ...request, positions }, transfer: [positions.buffer as ArrayBuffer] };
+    }
+    case "remove": {
+      const indices = ownCopy(request.indices, number);
+      return { request: { ...request, indices }, transfer: [indices.buffer as ArrayBuffer] };
+    }
+    case "visibleFrom":
+      return { request: count === 1 ? request : { ...request, sector: { number, count } }, transfer: [] };
+    case "autoRadius":
+      return { request, transfer: [] };
+  }
+}
+
+/** The first member gets the array itself. */
+function ownCopy<T extends Float32Array | Float64Array | Uint32Array>(array: T, number: number): T {
+  return number === 0
+    ? array
+    : allocating(`a copy of ${array.length} numbers for each worker`, () => array.slice() as T);
+}
+
+/** One answer from those of all sectors. */
+function joined(parts: Replies["visibleFrom"][]): Replies["visibleFrom"] {
+  const first = parts[0];
+  if (first === undefined) {
+    throw new HprError("internal", "no worker has answered");
+  }
+  if (parts.length === 1) {
+    return first;
+  }
+  const count = parts.reduce((sum, { indices }) => sum + indices.length, 0);
+  const lists = parts.map(({ indices }) => indices);
+  const indices = allocating(`${count} indices`, () => merged(lists, first.length, count));
+  return { ...first, indices };
+}
+
+/** All of these indices, ascending, by one bit for each index below `length`. */
+function merged(lists: Uint32Array[], length: number, count: number): Uint32Array {
+  const bits = new Int32Array(Math.ceil(length / 32));
+  for (const list of lists) {
+    for (const index of list) {
+      bits[index >>> 5]! |= 1 << (index & 31);
+    }
+  }
+  const indices = new Uint32Array(count);
+  let next = 0;
+  for (let word = 0; word < bits.length; word++) {
+    let rest = bits[word]!;
+    while (rest !== 0) {
+      indices[next++] = (word << 5) + 31 - Math.clz32(rest & -rest);
+      rest &= rest - 1;
+    }
+  }
+  return indices;
+}

@@ -1,0 +1,160 @@
+//! A view divided among sectors: each visible point in one sector's answer, no other.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{Options, PointCloud, Radius, Sector};
+
+use crate::common::rng::Rng;
+use crate::common::scenes::{EXTREME, KINDS};
+use crate::common::shapes;
+
+/// Compares what all sectors together say with what the cloud says at once, and returns
+/// how many points each answered for.
+fn compare(
+    cloud: &PointCloud,
+    viewpoint: [f64; 3],
+    options: &Options,
+    count: u32,
+    title: &str,
+) -> Vec<usize> {
+    let whole = cloud.visible_from(viewpoint, options);
+    let mut all = Vec::new();
+    let mut counts = Vec::new();
+    for number in 0..count {
+        let sector = Sector::new(number, count).expect("a number below the count");
+        let part = cloud.visible_in_sector(viewpoint, options, sector);
+        match (&whole, part) {
+            (Ok(whole), Ok(part)) => {
+                assert_eq!(part.radius().to_bits(), whole.radius().to_bits(), "{title}");
+                assert_eq!(part.exponent().to_bits(), whole.exponent().to_bits());
+                assert!(part.indices().is_sorted(), "{title}");
+                counts.push(part.count());
+                all.extend(part.into_indices());
+            }
+            (whole, part) => assert_eq!(
+                part.map(|_| ()).unwrap_err().to_string(),
+                whole.as_ref().map(|_| ()).unwrap_err().to_string(),
+                "{title}"
+            ),
+        }
+    }
+    if let Ok(whole) = whole {
+        all.sort_unstable();
+        assert_eq!(all, whole.indices(), "{title}, {count} sectors");
+    }
+    counts
+}
+
+#[test]
+fn sectors_together_give_the_answer_of_the_whole() {
+    for kind in KINDS {
+        for (seed, n) in [
+            (1, 0),
+            (2, 9),
+            (3, 30),
+            (4, 65),
+            (5, 400),
+            (6, 1500),
+            (7, 5000),
+        ] {
+            let scene = kind.scene(seed, n);
+            let cloud = PointCloud::new(&scene.points).unwrap();
+            let title = format!("{} with seed {seed}", kind.name);
+            let mut rng = Rng::new(seed);
+            let anywhere = rng.in_ball().map(|x| 2.0 * x);
+            for count in 1..=4 {
+                compare(&cloud, scene.viewpoint, &scene.options, count, &title);
+                compare(&cloud, anywhere, &Options::default(), count, &title);
+            }
+        }
+    }
+}
+
+#[test]
+fn extreme_numbers_are_answered_too() {
+    for kind in EXTREME {
+        for seed in 1..4 {
+            let scene = kind.scene(seed, 150);
+            let cloud = PointCloud::new(&scene.points).unwrap();
+            let title = format!("{} with seed {seed}", kind.name);
+            compare(&cloud, scene.viewpoint, &scene.options, 3, &title);
+        }
+    }
+}
+
+#[test]
+fn every_radius_divides_alike() {
+    let mut rng = Rng::new(8);
+    for shape in [shapes::bumpy, shapes::room, shapes::ball] {
+        let points = shape(&mut rng, 4000);
+        let cloud = PointCloud::new(&points).unwrap();
+        for distance in [0.0, 0.3, 0.9, 3.0, 1e3, 1e7] {
+            let viewpoint = rng.direction().map(|x| distance * x);
+            for exponent in [0.0, 0.3, 1.0, 2.0, 4.0, 7.0, 9.0, 14.0] {
+                let options = Options::with_exponent(exponent);
+                let title = format!("{distance} away, exponent {exponent}");
+                compare(&cloud, viewpoint, &options, 2, &title);
+                compare(&cloud, viewpoint, &options, 5, &title);
+            }
+        }
+    }
+}
+
+#[test]
+fn sectors_of_a_large_cloud_share_the_work() {
+    let mut rng = Rng::new(9);
+    let points = shapes::bumpy(&mut rng, 60_000);
+    let cloud = PointCloud::new(&points).unwrap();
+    for viewpoint in [[0.0, 0.0, 3.0], [2.0, 1.5, -0.5], [0.1, 0.2, 0.1]] {
+        for count in [2, 3, 4] {
+            let options = Options::default();
+            let counts = compare(&cloud, viewpoint, &options, count, "a large cloud");
+            let fair = counts.iter().sum::<usize>() / count as usize;
+            for own in counts {
+                assert!(
+                    own > fair / 3 && own < 2 * fair,
+                    "{own} where {fair} is fair"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn changed_clouds_divide_as_new_ones() {
+    let mut rng = Rng::new(10);
+    let points = shapes::bumpy(&mut rng, 3000);
+    let mut cloud = PointCloud::new(&points[..1000]).unwrap();
+    for (title, change) in [("appended to", 0), ("removed from", 1), ("emptied", 2)] {
+        match change {
+            0 => cloud.append(&points[1000..]).unwrap(),
+            1 => cloud.remove(&(500..1500).collect::<Vec<_>>()).unwrap(),
+            _ => cloud.remove(&(0..3000).collect::<Vec<_>>()).unwrap(),
+        }
+        for viewpoint in [[0.0, 0.0, 3.0], [0.1, 0.0, 0.0]] {
+            compare(&cloud, viewpoint, &Options::default(), 2, title);
+            compare(&cloud, viewpoint, &Options::default(), 3, title);
+        }
+    }
+}
+
+#[test]
+fn refusals_are_those_of_the_whole() {
+    let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(11), 500)).unwrap();
+    for radius in [f64::NAN, -1.0, 0.5, f64::MAX] {
+        let options = Options {
+            radius: Radius::Absolute(radius),
+        };
+        compare(&cloud, [0.0, 0.0, 3.0], &options, 2, "a bad radius");
+    }
+    for viewpoint in [
+        [f64::NAN, 0.0, 0.0],
+        [0.0, f64::INFINITY, 0.0],
+        [1e200, 0.0, 0.0],
+    ] {
+        compare(&cloud, viewpoint, &Options::default(), 2, "a bad viewpoint");
+    }
+    assert_eq!(Sector::new(2, 2), None);
+    assert_eq!(Sector::new(0, 0), None);
+}
