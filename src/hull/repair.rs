@@ -128,7 +128,7 @@ impl Hull {
 
     /// Flips a reflex edge; where that would turn a face over, an end of the edge
     /// is below the others and is taken out.
-    fn make_convex(
+    pub(super) fn make_convex(
         &mut self,
         edge: HalfEdge,
         repair: &mut Repair,
