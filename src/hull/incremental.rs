@@ -62,7 +62,7 @@ impl Vertices {
         Ok((self.positions.len() - 1) as Vertex)
     }
 
-    #[inline]
+    #[inline(always)]
     pub(super) fn plane(&self, [a, b, c]: [Vertex; 3]) -> Plane {
         if a == ORIGIN || b == ORIGIN || c == ORIGIN {
             return Plane::EXACT_ONLY;

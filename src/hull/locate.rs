@@ -49,7 +49,7 @@ impl Hull {
             for twin in face.twins {
                 let neighbor = &self.surface.face(twin.face()).data;
                 let h = neighbor.m.dot(q);
-                bound = bound.max(h + neighbor.error);
+                bound = larger(bound, h + neighbor.error);
                 if h > steepest_height {
                     steepest = twin.face();
                     steepest_height = h;
@@ -93,7 +93,7 @@ impl Hull {
             for twin in face.twins {
                 let neighbor = &self.surface.face(twin.face()).data;
                 let h = neighbor.m.dot(direction);
-                bound = bound.max(h + height.abs() * neighbor.error);
+                bound = larger(bound, h + height.abs() * neighbor.error);
                 if h > steepest_height {
                     steepest = twin.face();
                     steepest_height = h;
@@ -170,4 +170,10 @@ impl Hull {
         }
         location
     }
+}
+
+/// `f64::max`, which WebAssembly calls a function for.
+#[inline]
+pub(super) fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
 }

@@ -17,6 +17,7 @@ use glam::DVec3;
 
 use super::Flipped;
 use super::incremental::{Hull, ORIGIN, Vertices};
+use super::locate::larger;
 use super::repair::Repair;
 use super::topology::{FaceId, HalfEdge, Vertex};
 use crate::predicates::{Sign, side_of_origin};
@@ -130,7 +131,7 @@ impl Hull {
                 let apex = across.vertices[(twin.edge() + 2) % 3];
                 face.data.m.dot(self.vertices.at(apex)) - 1.0
             });
-            let highest = heights[0].max(heights[1]).max(heights[2]);
+            let highest = larger(larger(heights[0], heights[1]), heights[2]);
             if highest < -face.data.error {
                 continue;
             }
