@@ -27,7 +27,7 @@ const SAMPLE: usize = 512;
 /// With more of them turned over than one in this many, starting anew is faster.
 const FEW_TURNED: usize = 100;
 /// Likewise for reflex ones among their edges.
-const FEW_REFLEX: usize = 28;
+const FEW_REFLEX: usize = 45;
 
 impl Hull {
     /// Becomes the hull of its vertices as `flipped` now; false where the hull must
