@@ -46,6 +46,25 @@ pub enum Error {
         /// The exponent as given.
         exponent: f64,
     },
+    /// The power of [`Inversion::Power`](crate::Inversion::Power) is not above 1 and
+    /// at most 16.
+    PowerInvalid {
+        /// The power as given.
+        power: f64,
+    },
+    /// The scale of [`Exponential::Scale`](crate::Exponential::Scale) is not finite
+    /// and positive.
+    ScaleInvalid {
+        /// The scale as given.
+        scale: f64,
+    },
+    /// A choice of R that the inversion has no use for.
+    RadiusWithInversion {
+        /// The option that chose R.
+        option: &'static str,
+        /// The inversion it cannot go with.
+        inversion: &'static str,
+    },
     /// More points than [`MAX_POINTS`](crate::MAX_POINTS).
     TooManyPoints {
         /// How many were given.
@@ -83,9 +102,12 @@ impl Error {
             Self::RadiusInvalid { .. }
             | Self::RadiusTooSmall { .. }
             | Self::RadiusOverflow { .. } => "radius",
-            Self::ExponentInvalid { .. } | Self::IndexOutOfRange { .. } | Self::MergeRadius => {
-                "option"
-            }
+            Self::ExponentInvalid { .. }
+            | Self::PowerInvalid { .. }
+            | Self::ScaleInvalid { .. }
+            | Self::RadiusWithInversion { .. }
+            | Self::IndexOutOfRange { .. }
+            | Self::MergeRadius => "option",
             Self::IdsLength { .. } => "positions-length",
             Self::TooManyPoints { .. } | Self::OutOfMemory => "too-large",
         }
@@ -136,6 +158,23 @@ impl fmt::Display for Error {
                 let exponent = Number(exponent);
                 write!(f, "exponent must be finite and at least 0, got {exponent}")
             }
+            Self::PowerInvalid { power } => {
+                let power = Number(power);
+                write!(
+                    f,
+                    "inversion power must be above 1 and at most 16, got {power}"
+                )
+            }
+            Self::ScaleInvalid { scale } => {
+                let scale = Number(scale);
+                write!(
+                    f,
+                    "inversion exponential must be finite and positive, got {scale}"
+                )
+            }
+            Self::RadiusWithInversion { option, inversion } => {
+                write!(f, "{option} cannot be combined with inversion {inversion}")
+            }
             Self::TooManyPoints { count } => write!(
                 f,
                 "{count} points exceed the limit of {}",
@@ -143,7 +182,7 @@ impl fmt::Display for Error {
             ),
             Self::MergeRadius => write!(
                 f,
-                "merging needs the radius, in the cloud's units, that all parts were seen with"
+                "merging needs the radius, in the cloud's units, or the exponential scale that all parts were seen with"
             ),
             Self::IdsLength {
                 part,

@@ -44,6 +44,7 @@ mod radius;
 mod sequence;
 mod spacing;
 mod spatial;
+mod view;
 mod visibility;
 #[cfg(feature = "wasm")]
 mod wasm;
@@ -51,8 +52,9 @@ mod wasm;
 pub use cloud::{MAX_POINTS, NonFinite, PointCloud};
 pub use error::Error;
 pub use merge::merge_visible;
-pub use options::{Options, Radius};
+pub use options::{Exponential, Inversion, Options, Radius};
 pub use points::Position;
+pub use radius::ChosenRadius;
 pub use visibility::Visibility;
 
 /// The README's Rust snippets, as documentation tests.

@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use crate::cloud::{PointCloud, checked_len};
 use crate::error::Error;
-use crate::options::{Options, Radius};
+use crate::options::{Exponential, Inversion, Options, Radius};
 use crate::points::Position;
 
 /// Which points of a cloud are visible, from what is visible in its parts?
@@ -42,7 +42,8 @@ use crate::points::Position;
 /// ```
 ///
 /// # Errors
-/// [`Error::MergeRadius`] unless the radius is [`Radius::Absolute`];
+/// [`Error::MergeRadius`] unless the radius is [`Radius::Absolute`], or the inversion
+/// an [`Exponential::Scale`];
 /// [`Error::IdsLength`]; those of [`PointCloud::new`] for all positions together (an
 /// index counts through all parts) and of [`PointCloud::visible_from`].
 pub fn merge_visible<P: Position>(
@@ -50,8 +51,14 @@ pub fn merge_visible<P: Position>(
     viewpoint: [f64; 3],
     options: &Options,
 ) -> Result<Vec<u32>, Error> {
-    // Any other radius would be chosen anew, for what is left of the cloud.
-    if !matches!(options.radius, Radius::Absolute(_)) {
+    // Anything else would be chosen anew, for what is left of the cloud.
+    let resolved = match options.inversion {
+        Inversion::Spherical | Inversion::Power(_) => {
+            matches!(options.radius, Radius::Absolute(_))
+        }
+        Inversion::Exponential(scale) => scale != Exponential::Auto,
+    };
+    if !resolved {
         return Err(Error::MergeRadius);
     }
     let mut count = 0usize;

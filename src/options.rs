@@ -13,11 +13,51 @@ pub enum Radius {
     Exponent(f64),
 }
 
+impl Radius {
+    /// The option by which it was chosen, as the JavaScript package calls it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Auto | Self::Absolute(_) => "radius",
+            Self::Exponent(_) => "exponent",
+        }
+    }
+}
+
+/// How far a point at distance d from the viewpoint goes when it is flipped: the
+/// kernel f of q = f(d)·v/|v|, strictly decreasing in d.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Inversion {
+    /// 2R − d, spherical flipping (paper §3, eq. 1); R by [`Options::radius`].
+    #[default]
+    Spherical,
+    /// d·(d/S)^−γ, the paper's other kernel 1/‖p‖^γ (§3), with 1 < γ ≤ 16. The unit S
+    /// fixes the rounding only: [`Radius::Absolute`] if it is given, otherwise the
+    /// farthest distance. The nearer γ is to 1, the more is visible.
+    Power(f64),
+    /// exp(c/d). Its c belongs to the cloud rather than to the view: one serves
+    /// viewpoints near and far. The smaller c is, the more is visible; facing the
+    /// viewer it acts like R = d²/2c.
+    Exponential(Exponential),
+}
+
+/// The scale c of [`Inversion::Exponential`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Exponential {
+    /// From the cloud's spacing s alone: c = 0.07·s.
+    #[default]
+    Auto,
+    /// c itself, in the cloud's units; positive.
+    Scale(f64),
+}
+
 /// The options of one visibility query.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Options {
-    /// How R is chosen.
+    /// How R is chosen. With [`Inversion::Power`] it may only be [`Radius::Auto`] or
+    /// [`Radius::Absolute`], with [`Inversion::Exponential`] only [`Radius::Auto`].
     pub radius: Radius,
+    /// How points are flipped.
+    pub inversion: Inversion,
 }
 
 impl Options {
@@ -26,6 +66,7 @@ impl Options {
     pub fn with_radius(radius: f64) -> Self {
         Self {
             radius: Radius::Absolute(radius),
+            ..Self::default()
         }
     }
 
@@ -34,6 +75,16 @@ impl Options {
     pub fn with_exponent(exponent: f64) -> Self {
         Self {
             radius: Radius::Exponent(exponent),
+            ..Self::default()
+        }
+    }
+
+    /// Options with another inversion than the spherical one.
+    #[must_use]
+    pub fn with_inversion(inversion: Inversion) -> Self {
+        Self {
+            inversion,
+            ..Self::default()
         }
     }
 }

@@ -5,11 +5,27 @@ use crate::options::Radius;
 use crate::spacing::{Statistics, distance_squared};
 
 /// A radius fit for flipping: at least the farthest distance, 2R finite.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ResolvedRadius {
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ChosenRadius {
+    /// R, in the cloud's units; 0 where no point is away from the viewpoint.
     pub radius: f64,
-    /// log₁₀(R ÷ farthest distance), 0 where there is no distance to compare.
+    /// log₁₀(R ÷ farthest distance), the paper's parameter; 0 where there is no
+    /// distance to compare.
     pub exponent: f64,
+    /// How many hulls were spent choosing R.
+    pub evaluations: u32,
+}
+
+impl ChosenRadius {
+    /// A length that no exponent belongs to and no search was needed for.
+    pub(crate) fn unit(radius: f64) -> Self {
+        Self {
+            radius,
+            exponent: 0.0,
+            evaluations: 0,
+        }
+    }
 }
 
 /// The largest R the flip accepts: 2R·(1 + rounding) must not overflow.
@@ -22,7 +38,7 @@ pub(crate) fn resolve(
     statistics: &Statistics,
     viewpoint: [f64; 3],
     farthest: f64,
-) -> Result<ResolvedRadius, Error> {
+) -> Result<ChosenRadius, Error> {
     match choice {
         Radius::Auto => Ok(from_radius(
             automatic(statistics, viewpoint, farthest),
@@ -56,7 +72,11 @@ pub(crate) fn resolve(
                     farthest,
                 });
             }
-            Ok(ResolvedRadius { radius, exponent })
+            Ok(ChosenRadius {
+                radius,
+                exponent,
+                evaluations: 0,
+            })
         }
     }
 }
@@ -75,11 +95,15 @@ fn automatic(statistics: &Statistics, viewpoint: [f64; 3], farthest: f64) -> f64
     radius.max(farthest).min(LARGEST)
 }
 
-fn from_radius(radius: f64, farthest: f64) -> ResolvedRadius {
+fn from_radius(radius: f64, farthest: f64) -> ChosenRadius {
     let exponent = if farthest > 0.0 && radius > farthest {
         libm::log10(radius / farthest).min(f64::MAX)
     } else {
         0.0
     };
-    ResolvedRadius { radius, exponent }
+    ChosenRadius {
+        radius,
+        exponent,
+        evaluations: 0,
+    }
 }

@@ -5,17 +5,16 @@ use alloc::vec::Vec;
 use crate::cloud::PointCloud;
 use crate::error::Error;
 use crate::hull;
-use crate::inversion::{Flip, farthest_distance};
-use crate::options::{Options, Radius};
-use crate::radius::{self, ResolvedRadius};
+use crate::options::{Inversion, Options, Radius};
+use crate::radius::ChosenRadius;
 
 /// Which points of a cloud are visible from one viewpoint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Visibility {
     indices: Vec<u32>,
     cloud_len: usize,
-    radius: f64,
-    exponent: f64,
+    chosen: ChosenRadius,
+    inversion: Inversion,
 }
 
 impl Visibility {
@@ -38,23 +37,30 @@ impl Visibility {
     }
 
     /// The radius R of the flipping sphere, in the cloud's units; 0 where no
-    /// point is away from the viewpoint.
+    /// point is away from the viewpoint. With [`Inversion::Power`] the unit S, with
+    /// [`Inversion::Exponential`] 0.
     #[must_use]
     pub fn radius(&self) -> f64 {
-        self.radius
+        self.chosen.radius
     }
 
-    /// log₁₀(R ÷ farthest distance), the paper's parameter.
+    /// log₁₀(R ÷ farthest distance), the paper's parameter; 0 where there is no R.
     #[must_use]
     pub fn exponent(&self) -> f64 {
-        self.exponent
+        self.chosen.exponent
     }
 
     /// How many hulls were spent choosing R, the final one not counted.
     #[must_use]
     pub fn evaluations(&self) -> u32 {
-        // The closed form of `Radius::Auto` needs none.
-        0
+        self.chosen.evaluations
+    }
+
+    /// The inversion used, with numbers only: asked with it (and with the radius of a
+    /// spherical one), any part of the cloud is flipped alike.
+    #[must_use]
+    pub fn inversion(&self) -> Inversion {
+        self.inversion
     }
 
     /// One byte for each index of the cloud: 1 visible, 0 hidden.
@@ -88,39 +94,35 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::Viewpoint`] for a viewpoint that is not finite; the `Radius…`
-    /// and `Exponent…` errors for a choice of R that does not fit the view;
+    /// and `Exponent…` errors for a choice of R that does not fit the view, or its
+    /// inversion; [`Error::PowerInvalid`], [`Error::ScaleInvalid`];
     /// [`Error::OutOfMemory`].
     pub fn visible_from(
         &self,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        let resolved = self.resolve_radius(viewpoint, options.radius)?;
-        let flip = Flip::new(viewpoint, resolved.radius);
-        let visible = hull::mark_visible(&self.sequence.points, &flip)?;
+        let view = self.view(viewpoint, options)?;
+        let visible = hull::mark_visible(&self.sequence.points, &view.flip)?;
         Ok(Visibility {
             indices: self.callers_indices(&visible)?,
             cloud_len: self.len(),
-            radius: resolved.radius,
-            exponent: resolved.exponent,
+            chosen: view.chosen,
+            inversion: view.inversion,
         })
     }
 
-    /// The radius that [`Radius::Auto`] takes for `viewpoint`, and its exponent.
+    /// The radius that `rule` chooses for `viewpoint` in spherical flipping, without
+    /// asking what is visible.
     ///
     /// # Errors
-    /// [`Error::Viewpoint`], [`Error::RadiusOverflow`].
-    pub fn auto_radius(&self, viewpoint: [f64; 3]) -> Result<(f64, f64), Error> {
-        let resolved = self.resolve_radius(viewpoint, Radius::Auto)?;
-        Ok((resolved.radius, resolved.exponent))
-    }
-
-    fn resolve_radius(&self, viewpoint: [f64; 3], choice: Radius) -> Result<ResolvedRadius, Error> {
-        if viewpoint.iter().any(|x| !x.is_finite()) {
-            return Err(Error::Viewpoint { viewpoint });
-        }
-        let farthest = farthest_distance(&self.sequence.points, viewpoint)?;
-        radius::resolve(choice, &self.statistics, viewpoint, farthest)
+    /// As [`PointCloud::visible_from`].
+    pub fn auto_radius(&self, viewpoint: [f64; 3], rule: Radius) -> Result<ChosenRadius, Error> {
+        let options = Options {
+            radius: rule,
+            ..Options::default()
+        };
+        Ok(self.view(viewpoint, &options)?.chosen)
     }
 
     /// The caller's indices of the marked distinct points, ascending.

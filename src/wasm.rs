@@ -218,7 +218,11 @@ pub fn visible_from(
         (None, None) => Radius::Auto,
     };
     let visibility = with_cloud(handle, |cloud| {
-        cloud.visible_from([x, y, z], &Options { radius })
+        let options = Options {
+            radius,
+            ..Options::default()
+        };
+        cloud.visible_from([x, y, z], &options)
     })?;
     Ok(to_js(&Answer {
         indices: copy_out(visibility.indices()).map_err(Failure::from)?,
@@ -231,12 +235,11 @@ pub fn visible_from(
 /// The radius that `visibleFrom` chooses by itself for (x, y, z).
 #[wasm_bindgen(js_name = autoRadius, unchecked_return_type = "ChosenRadius")]
 pub fn auto_radius(handle: u32, x: f64, y: f64, z: f64) -> Result<JsValue, JsValue> {
-    let (radius, exponent) = with_cloud(handle, |cloud| cloud.auto_radius([x, y, z]))?;
+    let chosen = with_cloud(handle, |cloud| cloud.auto_radius([x, y, z], Radius::Auto))?;
     Ok(to_js(&ChosenRadius {
-        radius,
-        exponent,
-        // A closed form: no hull is built for it.
-        evaluations: 0,
+        radius: chosen.radius,
+        exponent: chosen.exponent,
+        evaluations: chosen.evaluations,
     }))
 }
 

@@ -10,6 +10,7 @@ mod definition;
 mod digest;
 mod fixtures;
 mod invariance;
+mod inversions;
 mod merge;
 mod oracle;
 mod radius;
