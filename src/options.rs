@@ -7,6 +7,16 @@ pub enum Radius {
     /// farthest distance.
     #[default]
     Auto,
+    /// By antipodal search around the closed form of [`Radius::Auto`], where six hulls
+    /// are spent: what is visible should be what is hidden when one looks back along
+    /// the same rays.
+    Search,
+    /// By the paper's own rule (§4): C′ is the mirror image of the viewpoint C in the
+    /// cloud's centroid; R makes the number of points largest that exactly one of the
+    /// two sees, the smallest such R. Some 40 hulls. In perspective it mostly chooses
+    /// far too large an R; it is here for comparison. At the centroid the same as
+    /// [`Radius::Auto`].
+    Opposite,
     /// R itself, in the cloud's units; at least the farthest distance.
     Absolute(f64),
     /// R = farthest distance · 10^exponent, the paper's own parameter; at least 0.
@@ -18,6 +28,8 @@ impl Radius {
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Auto | Self::Absolute(_) => "radius",
+            Self::Search => "radius \"search\"",
+            Self::Opposite => "radius \"opposite\"",
             Self::Exponent(_) => "exponent",
         }
     }

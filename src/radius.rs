@@ -1,7 +1,10 @@
 //! Choosing the radius R of the flipping sphere (paper §4).
 
+mod search;
+
 use crate::error::Error;
 use crate::options::Radius;
+use crate::points::Points;
 use crate::spacing::{Statistics, distance_squared};
 
 /// A radius fit for flipping: at least the farthest distance, 2R finite.
@@ -31,10 +34,11 @@ impl ChosenRadius {
 /// The largest R the flip accepts: 2R·(1 + rounding) must not overflow.
 const LARGEST: f64 = f64::MAX / 2.0 * (1.0 - 1e-15);
 
-/// Turns the caller's choice into a radius for a cloud with these `statistics`,
-/// whose farthest point from `viewpoint` is at `farthest`.
+/// Turns the caller's choice into a radius for a cloud of these `points` and
+/// `statistics`, whose farthest point from `viewpoint` is at `farthest`.
 pub(crate) fn resolve(
     choice: Radius,
+    points: &Points,
     statistics: &Statistics,
     viewpoint: [f64; 3],
     farthest: f64,
@@ -44,6 +48,11 @@ pub(crate) fn resolve(
             automatic(statistics, viewpoint, farthest),
             farthest,
         )),
+        Radius::Search => search::antipodal(points, statistics, viewpoint, farthest),
+        Radius::Opposite => match search::opposite(points, statistics, viewpoint, farthest)? {
+            Some(chosen) => Ok(chosen),
+            None => resolve(Radius::Auto, points, statistics, viewpoint, farthest),
+        },
         Radius::Absolute(radius) => {
             if !(radius > 0.0 && radius.is_finite()) {
                 Err(Error::RadiusInvalid { radius })

@@ -26,8 +26,10 @@ impl PointCloud {
             return Err(Error::Viewpoint { viewpoint });
         }
         let scale = check_inversion(options, self.statistics.spacing)?;
-        let farthest = farthest_distance(&self.sequence.points, viewpoint)?;
-        let radius = |choice| radius::resolve(choice, &self.statistics, viewpoint, farthest);
+        let points = &self.sequence.points;
+        let farthest = farthest_distance(points, viewpoint)?;
+        let radius =
+            |choice| radius::resolve(choice, points, &self.statistics, viewpoint, farthest);
         let (kernel, chosen, inversion) = match options.inversion {
             Inversion::Spherical => {
                 let chosen = radius(options.radius)?;

@@ -1,5 +1,6 @@
 //! How far a flip moves a point, as a function of its distance d: the factors s
-//! of q = v·s. Each makes |q| = d·s strictly decreasing in d, but for rounding.
+//! of q = v·s. Each is strictly decreasing in |q| = d·s but for rounding, except
+//! the antipodal one, which is strictly increasing.
 //!
 //! pow and exp come from `libm` in every build, so that all of them round alike.
 
@@ -8,6 +9,9 @@
 pub(crate) enum Kernel {
     /// |q| = 2R − d: spherical flipping (paper §3, eq. 1).
     Spherical { radius: f64 },
+    /// |q| = 2R + d: the farthest point of a ray wins, as if one looked back along
+    /// the same rays. Only for choosing R (`radius::search`).
+    Antipodal { radius: f64 },
     /// |q| = d·(d/S)^−γ: the paper's other kernel (§3), 1/‖p‖^γ.
     Power { gamma: f64, unit: f64 },
     /// |q| = exp(c/d).
@@ -22,16 +26,17 @@ impl Kernel {
     pub(crate) fn factor(&self, d: f64) -> f64 {
         match *self {
             Self::Spherical { radius } => (2.0 * radius - d) / d,
+            Self::Antipodal { radius } => (2.0 * radius + d) / d,
             Self::Power { gamma, unit } => libm::pow(d / unit, -gamma),
             Self::Exponential { scale } => libm::exp((scale / d).min(MAX_EXPONENT)) / d,
         }
     }
 
-    /// The R of a flip on a sphere, 2R being the largest |q|; `None`
+    /// The R of a flip on a sphere, 2.5 R (or 3 R) being the largest |q|; `None`
     /// where only the points can tell how far they go.
     pub(crate) fn radius(&self) -> Option<f64> {
         match *self {
-            Self::Spherical { radius } => Some(radius),
+            Self::Spherical { radius } | Self::Antipodal { radius } => Some(radius),
             Self::Power { .. } | Self::Exponential { .. } => None,
         }
     }

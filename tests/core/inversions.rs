@@ -62,7 +62,7 @@ fn small_scenes_are_answered_by_the_definition() {
 #[test]
 fn larger_scenes_are_certified() {
     for kind in KINDS {
-        let scene = kind.scene(2000, 150);
+        let scene = kind.scene(2000, 80);
         for options in choices(farthest(&scene.points, scene.viewpoint)) {
             let (answer, flipped) = flipped(&scene, &options);
             let sizes = flipped.iter().flatten().flatten().map(|x| x.abs());
@@ -192,6 +192,8 @@ fn what_does_not_fit_is_refused() {
     for inversion in [Inversion::Power(2.0), AUTOMATIC] {
         let with = |radius| Options { radius, inversion };
         refused(with(Radius::Exponent(2.0)), "exponent");
+        refused(with(Radius::Search), "search");
+        refused(with(Radius::Opposite), "opposite");
     }
     let radius = Radius::Absolute(100.0);
     refused(

@@ -15,3 +15,4 @@ mod merge;
 mod oracle;
 mod radius;
 mod refusals;
+mod search;
