@@ -65,6 +65,17 @@ pub enum Error {
         /// The inversion it cannot go with.
         inversion: &'static str,
     },
+    /// A number that is not in the range it is meant for, or NaN.
+    OutOfRange {
+        /// The option or argument, as the JavaScript package calls it.
+        option: &'static str,
+        /// The number as given.
+        value: f64,
+        /// The least that is accepted.
+        least: f64,
+        /// The most that is accepted.
+        most: f64,
+    },
     /// More points than [`MAX_POINTS`](crate::MAX_POINTS).
     TooManyPoints {
         /// How many were given.
@@ -106,6 +117,7 @@ impl Error {
             | Self::PowerInvalid { .. }
             | Self::ScaleInvalid { .. }
             | Self::RadiusWithInversion { .. }
+            | Self::OutOfRange { .. }
             | Self::IndexOutOfRange { .. }
             | Self::MergeRadius => "option",
             Self::IdsLength { .. } => "positions-length",
@@ -175,6 +187,15 @@ impl fmt::Display for Error {
             Self::RadiusWithInversion { option, inversion } => {
                 write!(f, "{option} cannot be combined with inversion {inversion}")
             }
+            Self::OutOfRange {
+                option,
+                value,
+                least,
+                most,
+            } => {
+                let (value, least, most) = (Number(value), Number(least), Number(most));
+                write!(f, "{option} must be from {least} to {most}, got {value}")
+            }
             Self::TooManyPoints { count } => write!(
                 f,
                 "{count} points exceed the limit of {}",
@@ -223,6 +244,25 @@ impl fmt::Display for Number {
 }
 
 impl core::error::Error for Error {}
+
+/// `value`, unless it is not in the range, or NaN.
+pub(crate) fn in_range(
+    option: &'static str,
+    value: f64,
+    least: f64,
+    most: f64,
+) -> Result<f64, Error> {
+    if (least..=most).contains(&value) {
+        Ok(value)
+    } else {
+        Err(Error::OutOfRange {
+            option,
+            value,
+            least,
+            most,
+        })
+    }
+}
 
 impl From<alloc::collections::TryReserveError> for Error {
     fn from(_: alloc::collections::TryReserveError) -> Self {

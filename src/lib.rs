@@ -44,6 +44,7 @@ mod radius;
 mod sequence;
 mod spacing;
 mod spatial;
+mod union;
 mod view;
 mod visibility;
 #[cfg(feature = "wasm")]
@@ -55,6 +56,7 @@ pub use merge::merge_visible;
 pub use options::{Exponential, Inversion, Options, Radius};
 pub use points::Position;
 pub use radius::ChosenRadius;
+pub use union::ring_of_viewpoints;
 pub use visibility::Visibility;
 
 /// The README's Rust snippets, as documentation tests.

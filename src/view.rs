@@ -25,30 +25,28 @@ impl PointCloud {
         if viewpoint.iter().any(|x| !x.is_finite()) {
             return Err(Error::Viewpoint { viewpoint });
         }
-        let scale = check_inversion(options, self.statistics.spacing)?;
+        let inversion = self.resolved_inversion(options)?;
         let points = &self.sequence.points;
         let farthest = farthest_distance(points, viewpoint)?;
         let radius =
             |choice| radius::resolve(choice, points, &self.statistics, viewpoint, farthest);
-        let (kernel, chosen, inversion) = match options.inversion {
+        let (kernel, chosen) = match inversion {
             Inversion::Spherical => {
                 let chosen = radius(options.radius)?;
                 let radius = chosen.radius;
-                (Kernel::Spherical { radius }, chosen, Inversion::Spherical)
+                (Kernel::Spherical { radius }, chosen)
             }
             Inversion::Power(gamma) => {
                 let unit = match options.radius {
                     Radius::Auto => farthest,
                     choice => radius(choice)?.radius,
                 };
-                let kernel = Kernel::Power { gamma, unit };
-                (kernel, ChosenRadius::unit(unit), options.inversion)
+                (Kernel::Power { gamma, unit }, ChosenRadius::unit(unit))
             }
-            Inversion::Exponential(_) => (
-                Kernel::Exponential { scale },
-                ChosenRadius::unit(0.0),
-                Inversion::Exponential(Exponential::Scale(scale)),
-            ),
+            Inversion::Exponential(scale) => {
+                let scale = self.resolved_scale(scale)?;
+                (Kernel::Exponential { scale }, ChosenRadius::unit(0.0))
+            }
         };
         Ok(View {
             flip: Flip::new(viewpoint, kernel),
@@ -56,44 +54,46 @@ impl PointCloud {
             inversion,
         })
     }
-}
 
-/// Refuses numbers out of range and choices that exclude each other; returns the
-/// scale of an exponential inversion.
-fn check_inversion(options: &Options, spacing: f64) -> Result<f64, Error> {
-    let refuse = |inversion| {
-        let option = options.radius.name();
-        Err(Error::RadiusWithInversion { option, inversion })
-    };
-    match options.inversion {
-        Inversion::Spherical => {}
-        Inversion::Power(power) => {
-            // Written so that a NaN is refused, too.
-            if !(power > 1.0 && power <= 16.0) {
-                return Err(Error::PowerInvalid { power });
+    /// The inversion with numbers only; numbers out of range and choices that exclude
+    /// each other are refused.
+    pub(crate) fn resolved_inversion(&self, options: &Options) -> Result<Inversion, Error> {
+        let refuse = |inversion| {
+            let option = options.radius.name();
+            Err(Error::RadiusWithInversion { option, inversion })
+        };
+        match options.inversion {
+            Inversion::Spherical => Ok(Inversion::Spherical),
+            Inversion::Power(power) => {
+                // Written so that a NaN is refused, too.
+                if !(power > 1.0 && power <= 16.0) {
+                    return Err(Error::PowerInvalid { power });
+                }
+                if !matches!(options.radius, Radius::Auto | Radius::Absolute(_)) {
+                    return refuse("power");
+                }
+                Ok(options.inversion)
             }
-            if !matches!(options.radius, Radius::Auto | Radius::Absolute(_)) {
-                return refuse("power");
+            Inversion::Exponential(scale) => {
+                if options.radius != Radius::Auto {
+                    return refuse("exponential");
+                }
+                let scale = self.resolved_scale(scale)?;
+                Ok(Inversion::Exponential(Exponential::Scale(scale)))
             }
-        }
-        Inversion::Exponential(scale) => {
-            if options.radius != Radius::Auto {
-                return refuse("exponential");
-            }
-            return resolve_scale(scale, spacing);
         }
     }
-    Ok(0.0)
-}
 
-/// Where there is no spacing, any scale gives the same answer.
-fn resolve_scale(scale: Exponential, spacing: f64) -> Result<f64, Error> {
-    match scale {
-        Exponential::Auto if spacing > 0.0 => {
-            Ok((SPACINGS_IN_SCALE * spacing).clamp(f64::MIN_POSITIVE, f64::MAX))
+    /// Where there is no spacing, any scale gives the same answer.
+    fn resolved_scale(&self, scale: Exponential) -> Result<f64, Error> {
+        let spacing = self.statistics.spacing;
+        match scale {
+            Exponential::Auto if spacing > 0.0 => {
+                Ok((SPACINGS_IN_SCALE * spacing).clamp(f64::MIN_POSITIVE, f64::MAX))
+            }
+            Exponential::Auto => Ok(1.0),
+            Exponential::Scale(scale) if scale > 0.0 && scale.is_finite() => Ok(scale),
+            Exponential::Scale(scale) => Err(Error::ScaleInvalid { scale }),
         }
-        Exponential::Auto => Ok(1.0),
-        Exponential::Scale(scale) if scale > 0.0 && scale.is_finite() => Ok(scale),
-        Exponential::Scale(scale) => Err(Error::ScaleInvalid { scale }),
     }
 }

@@ -7,8 +7,9 @@ use crate::error::Error;
 use crate::hull;
 use crate::options::{Inversion, Options, Radius};
 use crate::radius::ChosenRadius;
+use crate::view::View;
 
-/// Which points of a cloud are visible from one viewpoint.
+/// Which points of a cloud are visible from one viewpoint, or from several.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Visibility {
     indices: Vec<u32>,
@@ -102,13 +103,33 @@ impl PointCloud {
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
+        let (visible, view) = self.marks(viewpoint, options)?;
+        self.answer(&visible, view.chosen, view.inversion)
+    }
+
+    /// For each distinct point whether it is visible, and what the view was resolved to.
+    pub(crate) fn marks(
+        &self,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<(Vec<bool>, View), Error> {
         let view = self.view(viewpoint, options)?;
         let visible = hull::mark_visible(&self.sequence.points, &view.flip)?;
+        Ok((visible, view))
+    }
+
+    /// The answer for marked distinct points.
+    pub(crate) fn answer(
+        &self,
+        visible: &[bool],
+        chosen: ChosenRadius,
+        inversion: Inversion,
+    ) -> Result<Visibility, Error> {
         Ok(Visibility {
-            indices: self.callers_indices(&visible)?,
+            indices: self.callers_indices(visible)?,
             cloud_len: self.len(),
-            chosen: view.chosen,
-            inversion: view.inversion,
+            chosen,
+            inversion,
         })
     }
 

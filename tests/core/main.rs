@@ -16,3 +16,4 @@ mod oracle;
 mod radius;
 mod refusals;
 mod search;
+mod union;
