@@ -37,7 +37,7 @@ pub enum NonFinite {
 pub struct PointCloud {
     pub(crate) sequence: Sequence,
     /// The box of the present points.
-    bounds: Bounds,
+    pub(crate) bounds: Bounds,
     pub(crate) statistics: Statistics,
     non_finite: NonFinite,
     len: usize,

@@ -21,6 +21,11 @@ pub enum Error {
         /// The viewpoint as given.
         viewpoint: [f64; 3],
     },
+    /// The direction of a view is zero, or holds NaN or an infinity.
+    Direction {
+        /// The direction as given.
+        direction: [f64; 3],
+    },
     /// The radius is NaN, infinite, zero or negative.
     RadiusInvalid {
         /// The radius as given.
@@ -64,6 +69,11 @@ pub enum Error {
         option: &'static str,
         /// The inversion it cannot go with.
         inversion: &'static str,
+    },
+    /// An option that means nothing for a viewpoint at infinity.
+    NoLimit {
+        /// The option, as the JavaScript package calls it.
+        option: &'static str,
     },
     /// A number that is not in the range it is meant for, or NaN.
     OutOfRange {
@@ -109,7 +119,7 @@ impl Error {
     pub fn code(&self) -> &'static str {
         match self {
             Self::NonFinite { .. } => "non-finite",
-            Self::Viewpoint { .. } => "viewpoint",
+            Self::Viewpoint { .. } | Self::Direction { .. } => "viewpoint",
             Self::RadiusInvalid { .. }
             | Self::RadiusTooSmall { .. }
             | Self::RadiusOverflow { .. } => "radius",
@@ -118,6 +128,7 @@ impl Error {
             | Self::ScaleInvalid { .. }
             | Self::RadiusWithInversion { .. }
             | Self::OutOfRange { .. }
+            | Self::NoLimit { .. }
             | Self::IndexOutOfRange { .. }
             | Self::MergeRadius => "option",
             Self::IdsLength { .. } => "positions-length",
@@ -139,6 +150,19 @@ impl fmt::Display for Error {
                 let (x, y, z) = (Number(x), Number(y), Number(z));
                 write!(f, "the viewpoint must be finite, got {x}, {y}, {z}")
             }
+            Self::Direction {
+                direction: [x, y, z],
+            } => {
+                let (x, y, z) = (Number(x), Number(y), Number(z));
+                write!(
+                    f,
+                    "the direction must be finite and not zero, got {x}, {y}, {z}"
+                )
+            }
+            Self::NoLimit { option } => write!(
+                f,
+                "{option} cannot be used for a direction: it has no limit far away"
+            ),
             Self::RadiusInvalid { radius } => {
                 let radius = Number(radius);
                 write!(f, "radius must be finite and positive, got {radius}")

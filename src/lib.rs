@@ -33,6 +33,7 @@ extern crate alloc;
 extern crate std;
 
 mod cloud;
+mod direction;
 mod error;
 mod hull;
 mod inversion;

@@ -99,9 +99,18 @@ fn automatic(statistics: &Statistics, viewpoint: [f64; 3], farthest: f64) -> f64
         return farthest;
     }
     let r_squared = distance_squared(viewpoint, statistics.centroid) + statistics.variance;
-    let radius = 5.0 * r_squared / statistics.spacing;
+    within(5.0 * r_squared / statistics.spacing, farthest)
+}
+
+/// `radius`, or the nearest one that is fit for flipping.
+fn within(radius: f64, farthest: f64) -> f64 {
     // `max` and `min` also turn a NaN from overflowing statistics into a bound.
     radius.max(farthest).min(LARGEST)
+}
+
+/// `radius`, or the nearest one that is fit for flipping, with its exponent.
+pub(crate) fn bounded(radius: f64, farthest: f64) -> ChosenRadius {
+    from_radius(within(radius, farthest), farthest)
 }
 
 fn from_radius(radius: f64, farthest: f64) -> ChosenRadius {

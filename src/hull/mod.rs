@@ -10,11 +10,14 @@
 
 mod flat;
 mod incremental;
+mod lower;
 mod order;
 mod topology;
 
 use alloc::vec::Vec;
 use glam::DVec3;
+
+pub(crate) use self::lower::mark_lower_boundary;
 
 use crate::error::Error;
 use crate::inversion::Flip;

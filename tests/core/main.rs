@@ -8,6 +8,7 @@ mod certificates;
 mod changes;
 mod definition;
 mod digest;
+mod direction;
 mod fixtures;
 mod invariance;
 mod inversions;
