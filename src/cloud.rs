@@ -180,6 +180,22 @@ impl PointCloud {
         self.skipped
     }
 
+    /// The same indices at other, finite `positions`, one for each distinct point.
+    pub(crate) fn moved(&self, positions: &[[f64; 3]]) -> Result<Self, Error> {
+        let mut bounds = Bounds::EMPTY;
+        positions.iter().for_each(|&p| bounds.include(p));
+        let sequence = self
+            .sequence
+            .moved(positions, &HilbertCurve::new(&bounds))?;
+        let statistics = Statistics::measure(&sequence.points, &bounds)?;
+        Ok(Self {
+            sequence,
+            bounds,
+            statistics,
+            ..*self
+        })
+    }
+
     /// The points of `bounds` take the place of those present, unless their
     /// statistics cannot be measured.
     fn replace(&mut self, sequence: Sequence, bounds: Bounds) -> Result<(), Error> {

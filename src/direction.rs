@@ -53,8 +53,10 @@ impl PointCloud {
         direction: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        let (visible, chosen, inversion) = self.direction_marks(direction, options)?;
-        self.answer(&visible, chosen, inversion)
+        self.after_denoising(options, |cloud, options| {
+            let (visible, chosen, inversion) = cloud.direction_marks(direction, options)?;
+            cloud.answer(&visible, chosen, inversion)
+        })
     }
 
     fn direction_marks(
@@ -69,7 +71,7 @@ impl PointCloud {
         let points = &self.sequence.points;
         let lifted = |index: u32| lift.apply(points.get(index as usize));
         let visible = hull::mark_lower_boundary(points.len() as u32, &lifted)?;
-        Ok((visible, chosen, inversion))
+        Ok((self.voted(visible, options)?, chosen, inversion))
     }
 
     /// a, and the radius that it is one diagonal of the box before the centroid.

@@ -93,6 +93,11 @@ pub enum Error {
     },
     /// Parts can be merged only with the radius that each of them was seen with.
     MergeRadius,
+    /// An option that looks at neighbors, which parts do not know all of.
+    MergeNeighbors {
+        /// The option, as the JavaScript package calls it.
+        option: &'static str,
+    },
     /// A part to merge with more positions than ids, or fewer.
     IdsLength {
         /// Which of the parts.
@@ -130,7 +135,8 @@ impl Error {
             | Self::OutOfRange { .. }
             | Self::NoLimit { .. }
             | Self::IndexOutOfRange { .. }
-            | Self::MergeRadius => "option",
+            | Self::MergeRadius
+            | Self::MergeNeighbors { .. } => "option",
             Self::IdsLength { .. } => "positions-length",
             Self::TooManyPoints { .. } | Self::OutOfMemory => "too-large",
         }
@@ -229,6 +235,9 @@ impl fmt::Display for Error {
                 f,
                 "merging needs the radius, in the cloud's units, or the exponential scale that all parts were seen with"
             ),
+            Self::MergeNeighbors { option } => {
+                write!(f, "{option} cannot be combined with merging")
+            }
             Self::IdsLength {
                 part,
                 positions,

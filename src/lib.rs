@@ -33,11 +33,13 @@ extern crate alloc;
 extern crate std;
 
 mod cloud;
+mod denoise;
 mod direction;
 mod error;
 mod hull;
 mod inversion;
 mod merge;
+mod neighbors;
 mod options;
 mod points;
 mod predicates;

@@ -44,6 +44,7 @@ use crate::points::Position;
 /// # Errors
 /// [`Error::MergeRadius`] unless the radius is [`Radius::Absolute`], or the inversion
 /// an [`Exponential::Scale`];
+/// [`Error::MergeNeighbors`] for [`Options::denoise`] and [`Options::vote`];
 /// [`Error::IdsLength`]; those of [`PointCloud::new`] for all positions together (an
 /// index counts through all parts) and of [`PointCloud::visible_from`].
 pub fn merge_visible<P: Position>(
@@ -60,6 +61,11 @@ pub fn merge_visible<P: Position>(
     };
     if !resolved {
         return Err(Error::MergeRadius);
+    }
+    // The neighbors in a part, or among what is visible, are not those in the cloud.
+    let asked = [("denoise", options.denoise), ("vote", options.vote)];
+    if let Some((option, _)) = asked.into_iter().find(|(_, k)| k.is_some()) {
+        return Err(Error::MergeNeighbors { option });
     }
     let mut count = 0usize;
     for (part, (positions, ids)) in parts.iter().enumerate() {

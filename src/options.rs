@@ -70,6 +70,14 @@ pub struct Options {
     pub radius: Radius,
     /// How points are flipped.
     pub inversion: Inversion,
+    /// For noisy clouds: before everything else, each point is projected on the
+    /// least-squares plane of itself and so many nearest others. Its index and the
+    /// cloud's positions stay. Computed anew for each query: for several, ask
+    /// [`PointCloud::denoised`](crate::PointCloud::denoised) once.
+    pub denoise: Option<usize>,
+    /// For noisy clouds: a point is visible when more than 0.4 of it and so many nearest
+    /// others are.
+    pub vote: Option<usize>,
 }
 
 impl Options {

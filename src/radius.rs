@@ -3,9 +3,10 @@
 mod search;
 
 use crate::error::Error;
+use crate::neighbors::distance_squared;
 use crate::options::Radius;
 use crate::points::Points;
-use crate::spacing::{Statistics, distance_squared};
+use crate::spacing::Statistics;
 
 /// A radius fit for flipping: at least the farthest distance, 2R finite.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -26,7 +26,9 @@ impl PointCloud {
         viewpoints: &[[f64; 3]],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        self.visible_from_several(1, viewpoints, options)
+        self.after_denoising(options, |cloud, options| {
+            cloud.visible_from_several(1, viewpoints, options)
+        })
     }
 
     /// Which points are visible from at least `k` of `viewpoints`? Otherwise as
@@ -56,7 +58,9 @@ impl PointCloud {
         options: &Options,
     ) -> Result<Visibility, Error> {
         in_range("k", k as f64, 1.0, viewpoints.len() as f64)?;
-        self.visible_from_several(k, viewpoints, options)
+        self.after_denoising(options, |cloud, options| {
+            cloud.visible_from_several(k, viewpoints, options)
+        })
     }
 
     fn visible_from_several(

@@ -96,18 +96,22 @@ impl PointCloud {
     /// # Errors
     /// [`Error::Viewpoint`] for a viewpoint that is not finite; the `Radius…`
     /// and `Exponent…` errors for a choice of R that does not fit the view, or its
-    /// inversion; [`Error::PowerInvalid`], [`Error::ScaleInvalid`];
-    /// [`Error::OutOfMemory`].
+    /// inversion; [`Error::PowerInvalid`], [`Error::ScaleInvalid`]; [`Error::OutOfRange`]
+    /// unless 1 ≤ k < the number of present points for [`Options::denoise`] and
+    /// [`Options::vote`]; [`Error::OutOfMemory`].
     pub fn visible_from(
         &self,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        let (visible, view) = self.marks(viewpoint, options)?;
-        self.answer(&visible, view.chosen, view.inversion)
+        self.after_denoising(options, |cloud, options| {
+            let (visible, view) = cloud.marks(viewpoint, options)?;
+            cloud.answer(&visible, view.chosen, view.inversion)
+        })
     }
 
     /// For each distinct point whether it is visible, and what the view was resolved to.
+    /// Votes are counted, but points are taken where they are.
     pub(crate) fn marks(
         &self,
         viewpoint: [f64; 3],
@@ -115,7 +119,15 @@ impl PointCloud {
     ) -> Result<(Vec<bool>, View), Error> {
         let view = self.view(viewpoint, options)?;
         let visible = hull::mark_visible(&self.sequence.points, &view.flip)?;
-        Ok((visible, view))
+        Ok((self.voted(visible, options)?, view))
+    }
+
+    /// What is visible by the vote that `options` ask for, if they do.
+    pub(crate) fn voted(&self, visible: Vec<bool>, options: &Options) -> Result<Vec<bool>, Error> {
+        match options.vote {
+            Some(k) => self.vote(k, &visible),
+            None => Ok(visible),
+        }
     }
 
     /// The answer for marked distinct points.

@@ -190,7 +190,10 @@ fn what_does_not_fit_is_refused() {
         refused(exponential(scale), "exponential");
     }
     for inversion in [Inversion::Power(2.0), AUTOMATIC] {
-        let with = |radius| Options { radius, inversion };
+        let with = |radius| Options {
+            radius,
+            ..Options::with_inversion(inversion)
+        };
         refused(with(Radius::Exponent(2.0)), "exponent");
         refused(with(Radius::Search), "search");
         refused(with(Radius::Opposite), "opposite");
@@ -199,7 +202,7 @@ fn what_does_not_fit_is_refused() {
     refused(
         Options {
             radius,
-            inversion: AUTOMATIC,
+            ..Options::with_inversion(AUTOMATIC)
         },
         "radius",
     );

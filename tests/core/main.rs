@@ -13,6 +13,7 @@ mod fixtures;
 mod invariance;
 mod inversions;
 mod merge;
+mod noise;
 mod oracle;
 mod radius;
 mod refusals;
