@@ -112,13 +112,17 @@ fn outer_product(v: DVec3) -> DMat3 {
 fn least_axis(mut matrix: DMat3) -> DVec3 {
     /// They converge quadratically; a few are enough.
     const SWEEPS: usize = 12;
+    let trace = matrix.col(0)[0] + matrix.col(1)[1] + matrix.col(2)[2];
+    let negligible = 1e-18 * trace;
     let mut axes = DMat3::IDENTITY;
     for _ in 0..SWEEPS {
+        let mut done = true;
         for (i, j) in [(0, 1), (0, 2), (1, 2)] {
             let off = matrix.col(i)[j];
-            if off == 0.0 {
+            if off.abs() <= negligible {
                 continue;
             }
+            done = false;
             let theta = (matrix.col(j)[j] - matrix.col(i)[i]) / (2.0 * off);
             let sign = if theta < 0.0 { -1.0 } else { 1.0 };
             let tangent = sign / (theta.abs() + libm::sqrt(theta * theta + 1.0));
@@ -131,6 +135,9 @@ fn least_axis(mut matrix: DMat3) -> DVec3 {
             rotation.col_mut(i)[j] = -sin;
             matrix = rotation.transpose() * matrix * rotation;
             axes *= rotation;
+        }
+        if done {
+            break;
         }
     }
     let values = DVec3::new(matrix.col(0)[0], matrix.col(1)[1], matrix.col(2)[2]);

@@ -44,6 +44,7 @@ mod options;
 mod points;
 mod predicates;
 mod radius;
+mod reconstruct;
 mod sequence;
 mod spacing;
 mod spatial;
@@ -59,6 +60,7 @@ pub use merge::merge_visible;
 pub use options::{Exponential, Inversion, Options, Radius};
 pub use points::Position;
 pub use radius::ChosenRadius;
+pub use reconstruct::Reconstruction;
 pub use union::ring_of_viewpoints;
 pub use visibility::Visibility;
 

@@ -10,6 +10,8 @@
 //! Every decision is a sign: first of a rounded dual plane with a proved bound
 //! of its error, then exact (`predicates`).
 
+mod triangles;
+
 use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -92,13 +94,15 @@ enum Location {
 }
 
 /// Marks the visible points among those of `order`. `corners` is the first
-/// tetrahedron's outer face, counter-clockwise seen from outside.
+/// tetrahedron's outer face, counter-clockwise seen from outside. The outer faces go
+/// to `triangles`, if they are wanted.
 pub(super) fn mark_visible(
     order: impl Iterator<Item = u32>,
     flipped: &impl Fn(u32) -> Option<DVec3>,
     reach: f64,
     corners: [u32; 3],
     visible: &mut [bool],
+    triangles: Option<&mut Vec<[u32; 3]>>,
 ) -> Result<(), Error> {
     let mut hull = Hull::new(corners, flipped, reach, visible.len())?;
     // A point found exactly on the boundary is visible only if it still is
@@ -121,12 +125,15 @@ pub(super) fn mark_visible(
         };
     }
     hull.mark_outer_vertices(visible);
-    for index in on_boundary {
+    for &index in &on_boundary {
         let Some(q) = flipped(index) else { continue };
         if let Location::Boundary(face) = hull.locate(q, hint) {
             visible[index as usize] = true;
             hint = face;
         }
+    }
+    if let Some(triangles) = triangles {
+        *triangles = hull.outer_triangles(&on_boundary, flipped, hint)?;
     }
     Ok(())
 }

@@ -29,6 +29,25 @@ const SEED_SAMPLE: usize = 512;
 
 /// Marks the visible ones among `points`, flipped by `flip`.
 pub(crate) fn mark_visible(points: &Points, flip: &Flip) -> Result<Vec<bool>, Error> {
+    mark(points, flip, None)
+}
+
+/// The same, and the outer faces of the hull as triangles of points, counter-clockwise
+/// seen from the viewpoint; none where all is in one plane with the viewpoint.
+pub(crate) fn triangulate_visible(
+    points: &Points,
+    flip: &Flip,
+) -> Result<(Vec<bool>, Vec<[u32; 3]>), Error> {
+    let mut triangles = Vec::new();
+    let visible = mark(points, flip, Some(&mut triangles))?;
+    Ok((visible, triangles))
+}
+
+fn mark(
+    points: &Points,
+    flip: &Flip,
+    triangles: Option<&mut Vec<[u32; 3]>>,
+) -> Result<Vec<bool>, Error> {
     let flip = flip.rescaled_for(points);
     let flipped = |index: u32| flip.apply(points.get(index as usize));
 
@@ -47,6 +66,7 @@ pub(crate) fn mark_visible(points: &Points, flip: &Flip) -> Result<Vec<bool>, Er
             flip.reach(),
             corners,
             &mut visible,
+            triangles,
         )?,
         None => flat::mark_visible(count, &flipped, &mut visible)?,
     }

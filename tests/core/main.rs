@@ -16,6 +16,7 @@ mod merge;
 mod noise;
 mod oracle;
 mod radius;
+mod reconstruct;
 mod refusals;
 mod search;
 mod union;
