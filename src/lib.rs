@@ -37,6 +37,7 @@ mod denoise;
 mod direction;
 mod error;
 mod hull;
+mod illumination;
 mod inversion;
 mod merge;
 mod neighbors;
@@ -56,6 +57,7 @@ mod wasm;
 
 pub use cloud::{MAX_POINTS, NonFinite, PointCloud};
 pub use error::Error;
+pub use illumination::Lighting;
 pub use merge::merge_visible;
 pub use options::{Exponential, Inversion, Options, Radius};
 pub use points::Position;

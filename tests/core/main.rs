@@ -10,6 +10,7 @@ mod definition;
 mod digest;
 mod direction;
 mod fixtures;
+mod illumination;
 mod invariance;
 mod inversions;
 mod merge;
