@@ -15,6 +15,7 @@ use crate::inversion::{farthest_distance, square_root};
 use crate::options::{Exponential, Inversion, Options, Radius};
 use crate::radius::{self, ChosenRadius};
 use crate::spatial::Bounds;
+use crate::view::resolved_inversion;
 use crate::visibility::Visibility;
 
 /// a·s of [`Radius::Auto`], whose R is 5·r²/s.
@@ -65,7 +66,7 @@ impl PointCloud {
         options: &Options,
     ) -> Result<(Vec<bool>, ChosenRadius, Inversion), Error> {
         let ahead = normalized(direction).ok_or(Error::Direction { direction })?;
-        let inversion = self.resolved_inversion(options)?;
+        let inversion = resolved_inversion(options, self.statistics.spacing)?;
         let (bend, chosen) = self.bend(ahead, options.radius, inversion)?;
         let lift = Lift::new(&self.bounds, ahead, bend);
         let points = &self.sequence.points;

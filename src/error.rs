@@ -26,6 +26,25 @@ pub enum Error {
         /// The direction as given.
         direction: [f64; 3],
     },
+    /// A viewpoint in another dimension than the cloud's, or not finite.
+    ViewpointDimension {
+        /// How many finite numbers it takes.
+        dimension: usize,
+    },
+    /// Coordinates that are not a multiple of the dimension.
+    PositionsLength {
+        /// How many coordinates there are.
+        len: usize,
+        /// The cloud's dimension.
+        dimension: usize,
+    },
+    /// An option that needs three dimensions.
+    Dimension {
+        /// The option, as the JavaScript package calls it.
+        option: &'static str,
+        /// The cloud's dimension.
+        dimension: usize,
+    },
     /// The radius is NaN, infinite, zero or negative.
     RadiusInvalid {
         /// The radius as given.
@@ -124,7 +143,9 @@ impl Error {
     pub fn code(&self) -> &'static str {
         match self {
             Self::NonFinite { .. } => "non-finite",
-            Self::Viewpoint { .. } | Self::Direction { .. } => "viewpoint",
+            Self::Viewpoint { .. } | Self::ViewpointDimension { .. } | Self::Direction { .. } => {
+                "viewpoint"
+            }
             Self::RadiusInvalid { .. }
             | Self::RadiusTooSmall { .. }
             | Self::RadiusOverflow { .. } => "radius",
@@ -134,10 +155,11 @@ impl Error {
             | Self::RadiusWithInversion { .. }
             | Self::OutOfRange { .. }
             | Self::NoLimit { .. }
+            | Self::Dimension { .. }
             | Self::IndexOutOfRange { .. }
             | Self::MergeRadius
             | Self::MergeNeighbors { .. } => "option",
-            Self::IdsLength { .. } => "positions-length",
+            Self::IdsLength { .. } | Self::PositionsLength { .. } => "positions-length",
             Self::TooManyPoints { .. } | Self::OutOfMemory => "too-large",
         }
     }
@@ -164,6 +186,16 @@ impl fmt::Display for Error {
                     f,
                     "the direction must be finite and not zero, got {x}, {y}, {z}"
                 )
+            }
+            Self::ViewpointDimension { dimension } => {
+                write!(f, "the viewpoint must be {dimension} finite numbers")
+            }
+            Self::PositionsLength { len, dimension } => write!(
+                f,
+                "{len} coordinates are not a multiple of the dimension, {dimension}"
+            ),
+            Self::Dimension { option, dimension } => {
+                write!(f, "{option} needs a cloud of dimension 3, not {dimension}")
             }
             Self::NoLimit { option } => write!(
                 f,

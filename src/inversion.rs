@@ -98,6 +98,11 @@ impl Flip {
         if exact { scaled } else { self }
     }
 
+    /// Whether all points have the viewpoint's z, like those of a cloud in the plane.
+    pub(crate) fn keeps_in_plane(&self, points: &Points) -> bool {
+        points.iter().all(|p| p[2] == self.viewpoint.z)
+    }
+
     fn largest_coordinate(&self, points: &Points) -> f64 {
         let flipped = points.iter().filter_map(|p| self.apply(p));
         flipped.fold(0.0, |largest, q| largest.max(q.abs().max_element()))

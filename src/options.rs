@@ -1,5 +1,7 @@
 //! What a caller may choose for one view.
 
+use crate::error::Error;
+
 /// How the radius R of the flipping sphere is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Radius {
@@ -81,6 +83,15 @@ pub struct Options {
 }
 
 impl Options {
+    /// Refuses what makes sense in space only for a cloud of another dimension.
+    pub(crate) fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        let asked = [("denoise", self.denoise), ("vote", self.vote)];
+        match asked.into_iter().find(|(_, k)| k.is_some()) {
+            Some((option, _)) => Err(Error::Dimension { option, dimension }),
+            None => Ok(()),
+        }
+    }
+
     /// Options with R given in the cloud's units.
     #[must_use]
     pub fn with_radius(radius: f64) -> Self {

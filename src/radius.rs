@@ -1,8 +1,11 @@
 //! Choosing the radius R of the flipping sphere (paper §4).
 
-mod search;
+pub(crate) mod search;
 
+use self::search::Seen;
 use crate::error::Error;
+use crate::hull;
+use crate::inversion::{Flip, farthest_distance};
 use crate::neighbors::distance_squared;
 use crate::options::Radius;
 use crate::points::Points;
@@ -30,6 +33,19 @@ impl ChosenRadius {
             evaluations: 0,
         }
     }
+
+    /// Of two views the one with the larger radius, with the hulls of both.
+    pub(crate) fn joined(self, other: Self) -> Self {
+        let larger = if other.radius > self.radius {
+            other
+        } else {
+            self
+        };
+        Self {
+            evaluations: self.evaluations + other.evaluations,
+            ..larger
+        }
+    }
 }
 
 /// The largest R the flip accepts: 2R·(1 + rounding) must not overflow.
@@ -44,16 +60,40 @@ pub(crate) fn resolve(
     viewpoint: [f64; 3],
     farthest: f64,
 ) -> Result<ChosenRadius, Error> {
+    let automatic = || automatic(statistics, viewpoint, farthest);
+    let seen = |place, kernel| hull::mark_visible(points, &Flip::new(place, kernel));
     match choice {
-        Radius::Auto => Ok(from_radius(
-            automatic(statistics, viewpoint, farthest),
-            farthest,
-        )),
-        Radius::Search => search::antipodal(points, statistics, viewpoint, farthest),
-        Radius::Opposite => match search::opposite(points, statistics, viewpoint, farthest)? {
-            Some(chosen) => Ok(chosen),
-            None => resolve(Radius::Auto, points, statistics, viewpoint, farthest),
-        },
+        Radius::Auto => Ok(from_radius(automatic(), farthest)),
+        Radius::Search => search::antipodal(automatic(), farthest, |kernels| {
+            let [here, there] = kernels.map(|kernel| seen(viewpoint, kernel));
+            Ok(Seen::count(&here?, &there?))
+        }),
+        Radius::Opposite => {
+            let center = statistics.centroid;
+            let mirror: [f64; 3] =
+                core::array::from_fn(|axis| center[axis] + (center[axis] - viewpoint[axis]));
+            // Out of range, or at the centroid, there is no other side.
+            let reach = farthest_distance(points, mirror).unwrap_or(f64::INFINITY);
+            let opposite = if mirror == viewpoint {
+                None
+            } else {
+                search::opposite(reach.max(farthest), farthest, |kernel| {
+                    Ok(Seen::count(
+                        &seen(viewpoint, kernel)?,
+                        &seen(mirror, kernel)?,
+                    ))
+                })?
+            };
+            Ok(opposite.unwrap_or_else(|| from_radius(automatic(), farthest)))
+        }
+        Radius::Absolute(_) | Radius::Exponent(_) => given(choice, farthest),
+    }
+}
+
+/// A radius that is given as a number, checked; any other choice is the closed form
+/// without a spacing.
+pub(crate) fn given(choice: Radius, farthest: f64) -> Result<ChosenRadius, Error> {
+    match choice {
         Radius::Absolute(radius) => {
             if !(radius > 0.0 && radius.is_finite()) {
                 Err(Error::RadiusInvalid { radius })
@@ -88,19 +128,24 @@ pub(crate) fn resolve(
                 evaluations: 0,
             })
         }
+        Radius::Auto | Radius::Search | Radius::Opposite => Ok(from_radius(farthest, farthest)),
     }
 }
 
-/// R = 5·r²/s, with r the root-mean-square distance of the points from the
+fn automatic(statistics: &Statistics, viewpoint: [f64; 3], farthest: f64) -> f64 {
+    let r_squared = distance_squared(viewpoint, statistics.centroid) + statistics.variance;
+    closed_form(statistics.count, r_squared, statistics.spacing, farthest)
+}
+
+/// R = 5·r²/s, with r the root-mean-square distance of the `count` points from the
 /// viewpoint and s their spacing: a denser or more distant cloud needs a larger
 /// sphere. r² is |C − centroid|² + variance, so no pass over the points is
 /// needed, and it moves smoothly with the viewpoint, inside the cloud too.
-fn automatic(statistics: &Statistics, viewpoint: [f64; 3], farthest: f64) -> f64 {
-    if statistics.count < 2 || statistics.spacing == 0.0 || farthest == 0.0 {
+pub(crate) fn closed_form(count: usize, r_squared: f64, spacing: f64, farthest: f64) -> f64 {
+    if count < 2 || spacing == 0.0 || farthest == 0.0 {
         return farthest;
     }
-    let r_squared = distance_squared(viewpoint, statistics.centroid) + statistics.variance;
-    within(5.0 * r_squared / statistics.spacing, farthest)
+    within(5.0 * r_squared / spacing, farthest)
 }
 
 /// `radius`, or the nearest one that is fit for flipping.
@@ -114,7 +159,7 @@ pub(crate) fn bounded(radius: f64, farthest: f64) -> ChosenRadius {
     from_radius(within(radius, farthest), farthest)
 }
 
-fn from_radius(radius: f64, farthest: f64) -> ChosenRadius {
+pub(crate) fn from_radius(radius: f64, farthest: f64) -> ChosenRadius {
     let exponent = if farthest > 0.0 && radius > farthest {
         libm::log10(radius / farthest).min(f64::MAX)
     } else {

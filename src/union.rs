@@ -8,6 +8,7 @@ use crate::cloud::PointCloud;
 use crate::error::{Error, in_range};
 use crate::options::Options;
 use crate::radius::ChosenRadius;
+use crate::view::resolved_inversion;
 use crate::visibility::Visibility;
 
 impl PointCloud {
@@ -69,7 +70,7 @@ impl PointCloud {
         viewpoints: &[[f64; 3]],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        let inversion = self.resolved_inversion(options)?;
+        let inversion = resolved_inversion(options, self.statistics.spacing)?;
         let mut views: Vec<u32> = Vec::new();
         views.try_reserve_exact(self.sequence.points.len())?;
         views.resize(self.sequence.points.len(), 0);
@@ -79,11 +80,7 @@ impl PointCloud {
             for (views, visible) in views.iter_mut().zip(visible) {
                 *views += u32::from(visible);
             }
-            let evaluations = chosen.evaluations + view.chosen.evaluations;
-            if view.chosen.radius > chosen.radius {
-                chosen = view.chosen;
-            }
-            chosen.evaluations = evaluations;
+            chosen = chosen.joined(view.chosen);
         }
         let mut visible: Vec<bool> = Vec::new();
         visible.try_reserve_exact(views.len())?;

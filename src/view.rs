@@ -25,75 +25,86 @@ impl PointCloud {
         if viewpoint.iter().any(|x| !x.is_finite()) {
             return Err(Error::Viewpoint { viewpoint });
         }
-        let inversion = self.resolved_inversion(options)?;
+        let spacing = self.statistics.spacing;
+        let inversion = resolved_inversion(options, spacing)?;
         let points = &self.sequence.points;
         let farthest = farthest_distance(points, viewpoint)?;
-        let radius =
-            |choice| radius::resolve(choice, points, &self.statistics, viewpoint, farthest);
-        let (kernel, chosen) = match inversion {
-            Inversion::Spherical => {
-                let chosen = radius(options.radius)?;
-                let radius = chosen.radius;
-                (Kernel::Spherical { radius }, chosen)
-            }
-            Inversion::Power(gamma) => {
-                let unit = match options.radius {
-                    Radius::Auto => farthest,
-                    choice => radius(choice)?.radius,
-                };
-                (Kernel::Power { gamma, unit }, ChosenRadius::unit(unit))
-            }
-            Inversion::Exponential(scale) => {
-                let scale = self.resolved_scale(scale)?;
-                (Kernel::Exponential { scale }, ChosenRadius::unit(0.0))
-            }
-        };
+        let (kernel, chosen) = resolved_kernel(inversion, options.radius, farthest, |choice| {
+            radius::resolve(choice, points, &self.statistics, viewpoint, farthest)
+        })?;
         Ok(View {
             flip: Flip::new(viewpoint, kernel),
             chosen,
             inversion,
         })
     }
+}
 
-    /// The inversion with numbers only; numbers out of range and choices that exclude
-    /// each other are refused.
-    pub(crate) fn resolved_inversion(&self, options: &Options) -> Result<Inversion, Error> {
-        let refuse = |inversion| {
-            let option = options.radius.name();
-            Err(Error::RadiusWithInversion { option, inversion })
-        };
-        match options.inversion {
-            Inversion::Spherical => Ok(Inversion::Spherical),
-            Inversion::Power(power) => {
-                // Written so that a NaN is refused, too.
-                if !(power > 1.0 && power <= 16.0) {
-                    return Err(Error::PowerInvalid { power });
-                }
-                if !matches!(options.radius, Radius::Auto | Radius::Absolute(_)) {
-                    return refuse("power");
-                }
-                Ok(options.inversion)
+/// How an inversion with numbers only moves points, and what was chosen for it.
+/// `radius` turns a choice of R into a number.
+pub(crate) fn resolved_kernel(
+    inversion: Inversion,
+    choice: Radius,
+    farthest: f64,
+    radius: impl Fn(Radius) -> Result<ChosenRadius, Error>,
+) -> Result<(Kernel, ChosenRadius), Error> {
+    Ok(match inversion {
+        Inversion::Spherical => {
+            let chosen = radius(choice)?;
+            let radius = chosen.radius;
+            (Kernel::Spherical { radius }, chosen)
+        }
+        Inversion::Power(gamma) => {
+            let unit = match choice {
+                Radius::Auto => farthest,
+                choice => radius(choice)?.radius,
+            };
+            (Kernel::Power { gamma, unit }, ChosenRadius::unit(unit))
+        }
+        Inversion::Exponential(scale) => {
+            let scale = resolved_scale(scale, 0.0)?;
+            (Kernel::Exponential { scale }, ChosenRadius::unit(0.0))
+        }
+    })
+}
+
+/// The inversion with numbers only; numbers out of range and choices that exclude
+/// each other are refused.
+pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inversion, Error> {
+    let refuse = |inversion| {
+        let option = options.radius.name();
+        Err(Error::RadiusWithInversion { option, inversion })
+    };
+    match options.inversion {
+        Inversion::Spherical => Ok(Inversion::Spherical),
+        Inversion::Power(power) => {
+            // Written so that a NaN is refused, too.
+            if !(power > 1.0 && power <= 16.0) {
+                return Err(Error::PowerInvalid { power });
             }
-            Inversion::Exponential(scale) => {
-                if options.radius != Radius::Auto {
-                    return refuse("exponential");
-                }
-                let scale = self.resolved_scale(scale)?;
-                Ok(Inversion::Exponential(Exponential::Scale(scale)))
+            if !matches!(options.radius, Radius::Auto | Radius::Absolute(_)) {
+                return refuse("power");
             }
+            Ok(options.inversion)
+        }
+        Inversion::Exponential(scale) => {
+            if options.radius != Radius::Auto {
+                return refuse("exponential");
+            }
+            let scale = resolved_scale(scale, spacing)?;
+            Ok(Inversion::Exponential(Exponential::Scale(scale)))
         }
     }
+}
 
-    /// Where there is no spacing, any scale gives the same answer.
-    fn resolved_scale(&self, scale: Exponential) -> Result<f64, Error> {
-        let spacing = self.statistics.spacing;
-        match scale {
-            Exponential::Auto if spacing > 0.0 => {
-                Ok((SPACINGS_IN_SCALE * spacing).clamp(f64::MIN_POSITIVE, f64::MAX))
-            }
-            Exponential::Auto => Ok(1.0),
-            Exponential::Scale(scale) if scale > 0.0 && scale.is_finite() => Ok(scale),
-            Exponential::Scale(scale) => Err(Error::ScaleInvalid { scale }),
+/// Where there is no spacing, any scale gives the same answer.
+fn resolved_scale(scale: Exponential, spacing: f64) -> Result<f64, Error> {
+    match scale {
+        Exponential::Auto if spacing > 0.0 => {
+            Ok((SPACINGS_IN_SCALE * spacing).clamp(f64::MIN_POSITIVE, f64::MAX))
         }
+        Exponential::Auto => Ok(1.0),
+        Exponential::Scale(scale) if scale > 0.0 && scale.is_finite() => Ok(scale),
+        Exponential::Scale(scale) => Err(Error::ScaleInvalid { scale }),
     }
 }

@@ -19,6 +19,21 @@ pub struct Visibility {
 }
 
 impl Visibility {
+    /// `indices` ascend.
+    pub(crate) fn new(
+        indices: Vec<u32>,
+        cloud_len: usize,
+        chosen: ChosenRadius,
+        inversion: Inversion,
+    ) -> Self {
+        Self {
+            indices,
+            cloud_len,
+            chosen,
+            inversion,
+        }
+    }
+
     /// The visible points' indices in the cloud, ascending.
     #[must_use]
     pub fn indices(&self) -> &[u32] {
@@ -137,12 +152,8 @@ impl PointCloud {
         chosen: ChosenRadius,
         inversion: Inversion,
     ) -> Result<Visibility, Error> {
-        Ok(Visibility {
-            indices: self.callers_indices(visible)?,
-            cloud_len: self.len(),
-            chosen,
-            inversion,
-        })
+        let indices = self.callers_indices(visible)?;
+        Ok(Visibility::new(indices, self.len(), chosen, inversion))
     }
 
     /// The radius that `rule` chooses for `viewpoint` in spherical flipping, without

@@ -57,8 +57,11 @@ fn mark(
 
     let count = points.len() as u32;
     let sample = order::spatial_rounds(count).take(SEED_SAMPLE);
-    let seed =
-        first_tetrahedron(sample, &flipped).or_else(|| first_tetrahedron(0..count, &flipped));
+    let seed = if flip.keeps_in_plane(points) {
+        None
+    } else {
+        first_tetrahedron(sample, &flipped).or_else(|| first_tetrahedron(0..count, &flipped))
+    };
     match seed {
         Some(corners) => incremental::mark_visible(
             order::spatial_rounds(count),

@@ -1,12 +1,9 @@
 //! R by search, from how many points are seen: no truth is needed, hulls are.
 
 use crate::error::Error;
-use crate::hull;
-use crate::inversion::{Flip, Kernel, farthest_distance};
-use crate::points::Points;
-use crate::spacing::Statistics;
+use crate::inversion::Kernel;
 
-use super::{ChosenRadius, LARGEST, automatic, from_radius};
+use super::{ChosenRadius, LARGEST, from_radius};
 
 /// What a point costs that is seen from both sides, against 1 for one that is seen.
 const BOTH: f64 = 5.0;
@@ -24,13 +21,14 @@ const BRACKET: f64 = 0.25;
 ///
 /// The paper's own rule looks from one point on the other side instead, and
 /// perspective hides a band of points from both; see `opposite`.
-pub(super) fn antipodal(
-    points: &Points,
-    statistics: &Statistics,
-    viewpoint: [f64; 3],
+///
+/// `start` is the closed form; `look` tells what is seen with a spherical and with an
+/// antipodal flip of some radius.
+pub(crate) fn antipodal(
+    start: f64,
     farthest: f64,
+    mut look: impl FnMut([Kernel; 2]) -> Result<Seen, Error>,
 ) -> Result<ChosenRadius, Error> {
-    let start = automatic(statistics, viewpoint, farthest);
     if !(farthest > 0.0 && start > 0.0) {
         return Ok(from_radius(start, farthest));
     }
@@ -40,10 +38,8 @@ pub(super) fn antipodal(
         // No room for a bracket at the end of the range.
         return Ok(from_radius(start, farthest));
     }
-    let score = |radius: f64| -> Result<f64, Error> {
-        let here = Flip::new(viewpoint, Kernel::Spherical { radius });
-        let there = Flip::new(viewpoint, Kernel::Antipodal { radius });
-        let seen = Seen::count(points, here, there)?;
+    let mut score = |radius: f64| -> Result<f64, Error> {
+        let seen = look([Kernel::Spherical { radius }, Kernel::Antipodal { radius }])?;
         Ok(seen.one as f64 + (2.0 - BOTH) * seen.both as f64)
     };
     let low = score((middle / step).max(farthest))?;
@@ -74,21 +70,19 @@ fn summit(low: f64, center: f64, high: f64) -> f64 {
 }
 
 /// How many distinct points two flips show.
-struct Seen {
+pub(crate) struct Seen {
     /// By exactly one of them.
     one: usize,
     both: usize,
 }
 
 impl Seen {
-    fn count(points: &Points, a: Flip, b: Flip) -> Result<Self, Error> {
-        let a = hull::mark_visible(points, &a)?;
-        let b = hull::mark_visible(points, &b)?;
-        let pairs = || a.iter().zip(&b);
-        Ok(Self {
+    pub(crate) fn count(a: &[bool], b: &[bool]) -> Self {
+        let pairs = || a.iter().zip(b);
+        Self {
             one: pairs().filter(|(a, b)| a != b).count(),
             both: pairs().filter(|(a, b)| **a && **b).count(),
-        })
+        }
     }
 }
 
@@ -102,32 +96,21 @@ const FINE: [f64; 3] = [0.25, 0.125, 0.0625];
 /// makes the number of points largest that exactly one of the two sees. The objective
 /// is a step function, so it is bracketed rather than descended.
 ///
-/// `None` where C is at the centroid, or C′ out of range.
-pub(super) fn opposite(
-    points: &Points,
-    statistics: &Statistics,
-    viewpoint: [f64; 3],
+/// `least` is the farthest distance from either; `look` tells what is seen from C and
+/// from C′ with some radius. `None` where there is no such radius.
+pub(crate) fn opposite(
+    least: f64,
     farthest: f64,
+    mut look: impl FnMut(Kernel) -> Result<Seen, Error>,
 ) -> Result<Option<ChosenRadius>, Error> {
-    let mirror: [f64; 3] = core::array::from_fn(|axis| {
-        statistics.centroid[axis] + (statistics.centroid[axis] - viewpoint[axis])
-    });
-    if mirror == viewpoint || statistics.count == 0 {
-        return Ok(None);
-    }
-    let Ok(least) = farthest_distance(points, mirror).map(|d| d.max(farthest)) else {
-        return Ok(None);
-    };
     if !(least > 0.0 && least < LARGEST) {
         return Ok(None);
     }
-
     let mut evaluations = 0;
     let mut best: Option<(usize, f64)> = None;
     let mut consider = |decades: f64| -> Result<f64, Error> {
         let radius = (least * libm::pow(10.0, decades)).min(LARGEST);
-        let flip = |place| Flip::new(place, Kernel::Spherical { radius });
-        let one = Seen::count(points, flip(viewpoint), flip(mirror))?.one;
+        let one = look(Kernel::Spherical { radius })?.one;
         evaluations += 2;
         let better = match best {
             Some((most, at)) => one > most || one == most && decades < at,
@@ -159,6 +142,9 @@ pub(super) fn opposite(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::hull;
+    use crate::inversion::Flip;
+    use crate::points::Points;
 
     #[test]
     fn looking_back_along_the_rays_the_farthest_wins() {
