@@ -36,6 +36,7 @@ mod cloud;
 mod denoise;
 mod direction;
 mod error;
+mod guarantees;
 mod hull;
 mod hyperspace;
 mod illumination;
@@ -59,6 +60,7 @@ mod wasm;
 
 pub use cloud::{MAX_POINTS, NonFinite, PointCloud};
 pub use error::Error;
+pub use guarantees::{permissible_curvature, radius_bound};
 pub use hyperspace::{MAX_DIMENSION, PointCloudNd};
 pub use illumination::Lighting;
 pub use merge::merge_visible;

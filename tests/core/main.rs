@@ -10,6 +10,7 @@ mod definition;
 mod digest;
 mod direction;
 mod fixtures;
+mod guarantees;
 mod hyperspace;
 mod illumination;
 mod invariance;
