@@ -11,6 +11,7 @@
 
 use alloc::vec::Vec;
 
+use super::rows::filled;
 use crate::error::Error;
 
 /// Of the distance to the plane that decides, relative to that of the plane itself.
@@ -265,11 +266,4 @@ impl<'a> Solver<'a> {
 
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).fold(0.0, |sum, (x, y)| sum + x * y)
-}
-
-fn filled<T: Clone>(len: usize, value: T) -> Result<Vec<T>, Error> {
-    let mut values = Vec::new();
-    values.try_reserve_exact(len)?;
-    values.resize(len, value);
-    Ok(values)
 }
