@@ -5,7 +5,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use crate::error::Error;
-use crate::points::{Position, is_finite};
+use crate::points::{Given, Position, is_finite};
 use crate::sequence::Sequence;
 use crate::spacing::Statistics;
 use crate::spatial::{Bounds, HilbertCurve};
@@ -62,6 +62,10 @@ impl PointCloud {
         positions: &[P],
         non_finite: NonFinite,
     ) -> Result<Self, Error> {
+        Self::prepare(P::given(positions), non_finite)
+    }
+
+    pub(crate) fn prepare(positions: Given, non_finite: NonFinite) -> Result<Self, Error> {
         let len = checked_len(positions.len())?;
         let (bounds, skipped) = survey(positions, non_finite)?;
         let curve = HilbertCurve::new(&bounds);
@@ -103,6 +107,10 @@ impl PointCloud {
     /// [`Error::NonFinite`], [`Error::TooManyPoints`] (removed points count),
     /// [`Error::OutOfMemory`]; the cloud is unchanged then.
     pub fn append<P: Position>(&mut self, positions: &[P]) -> Result<(), Error> {
+        self.add(P::given(positions))
+    }
+
+    pub(crate) fn add(&mut self, positions: Given) -> Result<(), Error> {
         let len = checked_len(self.len.saturating_add(positions.len()))?;
         let (mut bounds, skipped) = survey(positions, self.non_finite)?;
         let finite = positions.len() - skipped;
@@ -151,8 +159,7 @@ impl PointCloud {
             self.sequence = rest;
             return Ok(());
         }
-        let mut bounds = Bounds::EMPTY;
-        rest.points.iter().for_each(|p| bounds.include(p));
+        let (bounds, _) = survey(rest.points.as_given(), NonFinite::Error)?;
         let curve = HilbertCurve::new(&bounds);
         if curve == HilbertCurve::new(&self.bounds) {
             self.replace(rest, bounds)
@@ -224,12 +231,11 @@ pub(crate) fn checked_len(count: usize) -> Result<usize, Error> {
 }
 
 /// Checks every coordinate; returns the box of the finite points and how many are not.
-fn survey<P: Position>(positions: &[P], non_finite: NonFinite) -> Result<(Bounds, usize), Error> {
+fn survey(positions: Given, non_finite: NonFinite) -> Result<(Bounds, usize), Error> {
     let mut bounds = Bounds::EMPTY;
     let mut bad = 0;
     let mut first = 0;
-    for (index, position) in positions.iter().enumerate() {
-        let p = position.widen();
+    for (index, p) in positions.iter().enumerate() {
         if is_finite(p) {
             bounds.include(p);
         } else {

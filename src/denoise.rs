@@ -147,6 +147,7 @@ fn least_axis(mut matrix: DMat3) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::points::Given;
     use crate::sequence::Sequence;
     use crate::spatial::{Bounds, HilbertCurve};
 
@@ -165,7 +166,7 @@ mod tests {
             let mut bounds = Bounds::EMPTY;
             points.iter().for_each(|&p| bounds.include(p));
             let curve = HilbertCurve::new(&bounds);
-            let sorted = Sequence::sorted(&points, 0, points.len(), &curve).unwrap();
+            let sorted = Sequence::sorted(Given::Double(&points), 0, points.len(), &curve).unwrap();
             let neighbors = Neighbors::new(&sorted.points).unwrap();
             let query = sorted.points.iter().position(|p| p == points[0]).unwrap();
             let mut nearest = Nearest::with_room(48).unwrap();

@@ -76,6 +76,28 @@ impl Flip {
         times * self.extent * self.scale
     }
 
+    pub(crate) fn viewpoint(&self) -> DVec3 {
+        self.viewpoint
+    }
+
+    /// The largest |q| of a flip on a sphere, in the cloud's own units; infinite for
+    /// other flips, which `hidden_from` says nothing about.
+    pub(crate) fn reach_in_cloud(&self) -> f64 {
+        match self.kernel {
+            Kernel::Spherical { radius } => 2.0 * radius,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// A squared distance from which on every point flips to less than `length`, with
+    /// all roundings: 2R − d < length where d > 2R − length.
+    pub(crate) fn hidden_from(&self, length: f64) -> f64 {
+        const ROUNDING: f64 = 1e-12;
+        let diameter = self.reach_in_cloud();
+        let distance = diameter * (1.0 + ROUNDING) - length / self.scale;
+        distance.max(0.0) * distance.max(0.0) * (1.0 + ROUNDING)
+    }
+
     /// Rescales the flipped cloud by a power of two where it is so large or small
     /// that floating-point filters would over- or underflow. Signs don't change with
     /// scale; where the scaling itself would round, it is left out.

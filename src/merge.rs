@@ -2,10 +2,11 @@
 
 use alloc::vec::Vec;
 
-use crate::cloud::{PointCloud, checked_len};
+use crate::cloud::{NonFinite, PointCloud, checked_len};
 use crate::error::Error;
 use crate::options::{Exponential, Inversion, Options, Radius};
-use crate::points::Position;
+use crate::points::{Given, Points, Position};
+use crate::sort::sort_keyed;
 
 /// Which points of a cloud are visible, from what is visible in its parts?
 ///
@@ -52,6 +53,21 @@ pub fn merge_visible<P: Position>(
     viewpoint: [f64; 3],
     options: &Options,
 ) -> Result<Vec<u32>, Error> {
+    merge(
+        parts.len(),
+        &|part| (P::given(parts[part].0), parts[part].1),
+        viewpoint,
+        options,
+    )
+}
+
+/// The same for `parts` parts in either precision, all in the same.
+pub(crate) fn merge<'a>(
+    parts: usize,
+    part: &dyn Fn(usize) -> (Given<'a>, &'a [u32]),
+    viewpoint: [f64; 3],
+    options: &Options,
+) -> Result<Vec<u32>, Error> {
     // Anything else would be chosen anew, for what is left of the cloud.
     let resolved = match options.inversion {
         Inversion::Spherical | Inversion::Power(_) => {
@@ -68,11 +84,12 @@ pub fn merge_visible<P: Position>(
         return Err(Error::MergeNeighbors { option });
     }
     let mut count = 0usize;
-    for (part, (positions, ids)) in parts.iter().enumerate() {
+    for number in 0..parts {
+        let (positions, ids) = part(number);
         let (positions, ids) = (positions.len(), ids.len());
         if positions != ids {
             return Err(Error::IdsLength {
-                part,
+                part: number,
                 positions,
                 ids,
             });
@@ -80,21 +97,34 @@ pub fn merge_visible<P: Position>(
         count = count.saturating_add(positions);
     }
     let count = checked_len(count)?;
-    let mut positions: Vec<P> = Vec::new();
-    positions.try_reserve_exact(count)?;
-    parts.iter().for_each(|(part, _)| positions.extend(*part));
-    let cloud = PointCloud::new(&positions)?;
+    let precision = match parts {
+        0 => Given::Single(&[]),
+        _ => part(0).0,
+    };
+    let mut positions = Points::with_capacity(count, precision)?;
+    for number in 0..parts {
+        let (given, _) = part(number);
+        positions.extend(given, 0..given.len());
+    }
+    let cloud = PointCloud::prepare(positions.as_given(), NonFinite::Error)?;
     drop(positions);
     let visible = cloud.visible_from(viewpoint, options)?;
 
     let mut ids: Vec<u32> = Vec::new();
     ids.try_reserve_exact(count)?;
-    parts.iter().for_each(|(_, part)| ids.extend(*part));
-    let mut seen = visible.into_indices();
-    for index in &mut seen {
-        *index = ids[*index as usize];
-    }
-    seen.sort_unstable();
-    seen.dedup();
-    Ok(seen)
+    (0..parts).for_each(|number| ids.extend(part(number).1));
+    let mut seen = Vec::new();
+    seen.try_reserve_exact(visible.count())?;
+    seen.extend(
+        visible
+            .indices()
+            .iter()
+            .map(|&k| (u64::from(ids[k as usize]), k)),
+    );
+    drop(visible);
+    sort_keyed(&mut seen);
+    seen.dedup_by_key(|&mut (id, _)| id);
+    ids.clear();
+    ids.extend(seen.iter().map(|&(id, _)| id as u32));
+    Ok(ids)
 }

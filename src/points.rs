@@ -1,6 +1,7 @@
 //! Positions as they are given and as they are stored.
 
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use crate::error::Error;
 
@@ -24,44 +25,38 @@ impl Position for [f64; 3] {
 }
 
 mod sealed {
-    use super::{Points, Vec};
+    use super::Given;
 
     pub trait Sealed: Sized {
-        /// -0 becomes +0, so that equal points have equal bits.
-        fn without_negative_zero(self) -> Self;
-        fn store(points: Vec<Self>) -> Points;
+        fn given(positions: &[Self]) -> Given<'_>;
     }
 
     impl Sealed for [f32; 3] {
-        fn without_negative_zero(self) -> Self {
-            self.map(|x| x + 0.0)
-        }
-        fn store(points: Vec<Self>) -> Points {
-            Points::Single(points)
+        fn given(positions: &[Self]) -> Given<'_> {
+            Given::Single(positions)
         }
     }
 
     impl Sealed for [f64; 3] {
-        fn without_negative_zero(self) -> Self {
-            self.map(|x| x + 0.0)
-        }
-        fn store(points: Vec<Self>) -> Points {
-            Points::Double(points)
+        fn given(positions: &[Self]) -> Given<'_> {
+            Given::Double(positions)
         }
     }
 }
 
-/// Points in the precision they came in. (Public only inside this private module.)
+/// Somebody's positions in the precision they come in. (Public only inside this
+/// private module.)
 ///
 /// An enum rather than a type parameter, so that everything downstream is compiled
 /// once; which precision it is, every access finds out anew, at no cost that shows.
-pub enum Points {
-    Single(Vec<[f32; 3]>),
-    Double(Vec<[f64; 3]>),
+#[derive(Clone, Copy)]
+pub enum Given<'a> {
+    Single(&'a [[f32; 3]]),
+    Double(&'a [[f64; 3]]),
 }
 
-impl Points {
-    pub(crate) fn len(&self) -> usize {
+impl Given<'_> {
+    pub(crate) fn len(self) -> usize {
         match self {
             Self::Single(points) => points.len(),
             Self::Double(points) => points.len(),
@@ -69,42 +64,105 @@ impl Points {
     }
 
     #[inline]
-    pub(crate) fn get(&self, index: usize) -> [f64; 3] {
+    pub(crate) fn get(self, index: usize) -> [f64; 3] {
         match self {
             Self::Single(points) => points[index].widen(),
             Self::Double(points) => points[index],
         }
     }
 
-    /// The points with these indices, in their order.
-    pub(crate) fn gathered(&self, indices: &[u32]) -> Result<Self, Error> {
-        fn gather<P: Copy>(points: &[P], indices: &[u32]) -> Result<Vec<P>, Error> {
-            let mut gathered = Vec::new();
-            gathered.try_reserve_exact(indices.len())?;
-            gathered.extend(indices.iter().map(|&index| points[index as usize]));
-            Ok(gathered)
+    pub(crate) fn iter(self) -> impl ExactSizeIterator<Item = [f64; 3]> {
+        (0..self.len()).map(move |index| self.get(index))
+    }
+}
+
+/// Points of our own, in the precision they came in.
+pub(crate) enum Points {
+    Single(Vec<[f32; 3]>),
+    Double(Vec<[f64; 3]>),
+}
+
+impl Points {
+    /// None yet, with room for so many, in single precision only where `positions`
+    /// are, so that no coordinate is rounded.
+    #[inline(never)]
+    pub(crate) fn with_capacity(count: usize, positions: Given) -> Result<Self, Error> {
+        fn reserved<P>(count: usize) -> Result<Vec<P>, Error> {
+            let mut points = Vec::new();
+            points.try_reserve_exact(count)?;
+            Ok(points)
         }
-        Ok(match self {
-            Self::Single(points) => Self::Single(gather(points, indices)?),
-            Self::Double(points) => Self::Double(gather(points, indices)?),
+        Ok(match positions {
+            Given::Single(_) => Self::Single(reserved(count)?),
+            Given::Double(_) => Self::Double(reserved(count)?),
         })
     }
 
-    /// These and `new` ones, new one k in `places[k]`. Single precision only where
-    /// both are, so that no coordinate is rounded.
-    pub(crate) fn spliced(&self, new: &Self, places: &[Splice]) -> Result<Self, Error> {
-        use Points::{Double, Single};
-        let same = |p: [f64; 3]| p;
-        Ok(match (self, new) {
-            (Single(a), Single(b)) => Single(splice(a, b, places, |p| p, |p| p)?),
-            (Single(a), Double(b)) => Double(splice(a, b, places, Position::widen, same)?),
-            (Double(a), Single(b)) => Double(splice(a, b, places, same, Position::widen)?),
-            (Double(a), Double(b)) => Double(splice(a, b, places, same, same)?),
-        })
+    pub(crate) fn as_given(&self) -> Given<'_> {
+        match self {
+            Self::Single(points) => Given::Single(points),
+            Self::Double(points) => Given::Double(points),
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.as_given().len()
+    }
+
+    #[inline]
+    pub(crate) fn get(&self, index: usize) -> [f64; 3] {
+        self.as_given().get(index)
     }
 
     pub(crate) fn iter(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
-        (0..self.len()).map(|index| self.get(index))
+        self.as_given().iter()
+    }
+
+    /// Adds a point that came in the same precision.
+    #[inline(never)]
+    pub(crate) fn push(&mut self, point: [f64; 3]) {
+        match self {
+            Self::Single(points) => points.push(point.map(|x| x as f32)),
+            Self::Double(points) => points.push(point),
+        }
+    }
+
+    /// Adds a run of points, which came in the same precision or a lower one.
+    #[inline(never)]
+    pub(crate) fn extend(&mut self, points: Given, run: Range<usize>) {
+        match (&mut *self, points) {
+            (Self::Single(own), Given::Single(points)) => own.extend_from_slice(&points[run]),
+            (Self::Double(own), Given::Double(points)) => own.extend_from_slice(&points[run]),
+            _ => run.for_each(|index| self.push(points.get(index))),
+        }
+    }
+
+    /// The points with these indices, in their order.
+    pub(crate) fn gathered(&self, indices: &[u32]) -> Result<Self, Error> {
+        let mut gathered = Self::with_capacity(indices.len(), self.as_given())?;
+        for &index in indices {
+            gathered.push(self.get(index as usize));
+        }
+        Ok(gathered)
+    }
+
+    /// These and `new` ones, new one k in `places[k]`.
+    pub(crate) fn spliced(&self, new: &Self, places: &[Splice]) -> Result<Self, Error> {
+        let (present, new) = (self.as_given(), new.as_given());
+        let equal: usize = places.iter().map(|place| place.after - place.start).sum();
+        let widest = match present {
+            Given::Single(_) => new,
+            Given::Double(_) => present,
+        };
+        let mut all = Self::with_capacity(present.len() + new.len() - equal, widest)?;
+        let mut copied = 0;
+        for (k, place) in places.iter().enumerate() {
+            all.extend(present, copied..place.start);
+            all.push(new.get(k));
+            copied = place.after;
+        }
+        all.extend(present, copied..present.len());
+        Ok(all)
     }
 }
 
@@ -114,30 +172,6 @@ impl Points {
 pub(crate) struct Splice {
     pub start: usize,
     pub after: usize,
-}
-
-fn splice<A: Copy, B: Copy, P>(
-    present: &[A],
-    new: &[B],
-    places: &[Splice],
-    from_present: impl Fn(A) -> P,
-    from_new: impl Fn(B) -> P,
-) -> Result<Vec<P>, Error> {
-    let equal: usize = places.iter().map(|place| place.after - place.start).sum();
-    let mut all = Vec::new();
-    all.try_reserve_exact(present.len() + new.len() - equal)?;
-    let mut copied = 0;
-    for (&point, place) in new.iter().zip(places) {
-        all.extend(
-            present[copied..place.start]
-                .iter()
-                .map(|&p| from_present(p)),
-        );
-        all.push(from_new(point));
-        copied = place.after;
-    }
-    all.extend(present[copied..].iter().map(|&p| from_present(p)));
-    Ok(all)
 }
 
 pub(crate) fn is_finite(p: [f64; 3]) -> bool {

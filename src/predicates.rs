@@ -1,12 +1,14 @@
-//! Exact signs. Shewchuk's adaptive predicates (crate `robust`) answer while
-//! their expansions can neither over- nor underflow; big integers answer the rest.
+//! Exact signs: first of rounded determinants with a bound of their error, and where
+//! that leaves a doubt, of exact sums.
 //!
 //! Signs are told from the viewer's side. The viewer stands at the origin, and
 //! a face (a, b, c) of the hull is counter-clockwise seen from outside.
 
+use core::cmp::Ordering;
+
 use glam::DVec3;
-use num_bigint::{BigInt, Sign as BigSign};
-use robust::{Coord, Coord3D};
+
+use crate::exact_sum::ExactSum;
 
 /// The sign of an exact quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,46 +28,81 @@ impl Sign {
             Self::Zero
         }
     }
+
+    fn of_sum(sum: &ExactSum) -> Self {
+        match sum.sign() {
+            Ordering::Less => Self::Negative,
+            Ordering::Equal => Self::Zero,
+            Ordering::Greater => Self::Positive,
+        }
+    }
 }
 
 /// Which side of the plane through the face (a, b, c) `q` is on: positive
 /// outside (the side from which a, b, c are counter-clockwise), zero on it.
+#[inline(never)]
 pub(crate) fn side_of_face(a: DVec3, b: DVec3, c: DVec3, q: DVec3) -> Sign {
-    if [a, b, c, q].iter().all(|p| fits_expansions(&p.to_array())) {
-        // orient3d is positive when its last point lies *below* the plane,
-        // and for (c, b, a) below is our outside.
-        return Sign::of(robust::orient3d(coord3(c), coord3(b), coord3(a), coord3(q)));
-    }
-    let row = |p: DVec3| -> [BigInt; 3] { core::array::from_fn(|i| exact(p[i]) - exact(q[i])) };
-    determinant(&row(c), &row(b), &row(a))
+    let moderate = [a, b, c, q].iter().all(|p| is_moderate(&p.to_array()));
+    // det(c − q, b − q, a − q) is positive when q is below the plane of (c, b, a),
+    // which is our outside.
+    rounded_determinant(c - q, b - q, a - q, moderate)
+        .unwrap_or_else(|| exact_side_of_face(a, b, c, q))
 }
 
 /// The sign of det(a, b, c): positive when a, b, c are clockwise seen from the
 /// origin (so that the face (a, b, c) turns its inner side to the viewer), zero
 /// when the three lie in one plane with the origin.
+#[inline(never)]
 pub(crate) fn side_of_origin(a: DVec3, b: DVec3, c: DVec3) -> Sign {
-    if [a, b, c].iter().all(|p| fits_expansions(&p.to_array())) {
-        let origin = coord3(DVec3::ZERO);
-        return Sign::of(robust::orient3d(coord3(a), coord3(b), coord3(c), origin));
-    }
-    let row = |p: DVec3| p.to_array().map(exact);
-    determinant(&row(a), &row(b), &row(c))
+    let moderate = [a, b, c].iter().all(|p| is_moderate(&p.to_array()));
+    rounded_determinant(a, b, c, moderate)
+        .unwrap_or_else(|| exact_determinant(a.to_array(), b.to_array(), c.to_array()))
 }
 
 /// Positive when a, b, c turn counter-clockwise, zero when they are in one line.
+#[inline(never)]
 pub(crate) fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
-    if [a, b, c].iter().all(|p| fits_expansions(p)) {
-        let coord = |p: [f64; 2]| Coord { x: p[0], y: p[1] };
-        return Sign::of(robust::orient2d(coord(a), coord(b), coord(c)));
+    const BOUND: f64 = (3.0 + 16.0 * ROUNDING) * ROUNDING;
+    if [a, b, c].iter().all(|p| is_moderate(p)) {
+        let left = (a[0] - c[0]) * (b[1] - c[1]);
+        let right = (a[1] - c[1]) * (b[0] - c[0]);
+        let rounded = left - right;
+        let size = left.abs() + right.abs();
+        if is_certain(rounded, BOUND, size) {
+            return Sign::of(rounded);
+        }
     }
-    let [a, b, c] = [a, b, c].map(|p| p.map(exact));
-    sign_of_big(&((&a[0] - &c[0]) * (&b[1] - &c[1]) - (&a[1] - &c[1]) * (&b[0] - &c[0])))
+    let row = |[x, y]: [f64; 2]| [x, y, 1.0];
+    exact_determinant(row(a), row(b), row(c))
 }
 
-/// Whether expansions of degree 3 in these coordinates are exact: the last bit
-/// of 2^-200 is 2^-252, whose cube 2^-756 is far above the smallest f64, and
-/// cubes of 2^200 stay far below the largest.
-fn fits_expansions(coordinates: &[f64]) -> bool {
+const ROUNDING: f64 = f64::EPSILON / 2.0;
+
+/// The sign of det(a, b, c) for rounded differences of moderate coordinates, if it is
+/// beyond doubt: Shewchuk's first filter, with his bound ("Adaptive precision
+/// floating-point arithmetic and fast robust geometric predicates", 1997, §4.3, 4.4).
+fn rounded_determinant(a: DVec3, b: DVec3, c: DVec3, moderate: bool) -> Option<Sign> {
+    const BOUND: f64 = (7.0 + 56.0 * ROUNDING) * ROUNDING;
+    let minor = |p: DVec3, q: DVec3| {
+        let (left, right) = (p.x * q.y, q.x * p.y);
+        (left - right, left.abs() + right.abs())
+    };
+    let [(bc, size_bc), (ca, size_ca), (ab, size_ab)] = [minor(b, c), minor(c, a), minor(a, b)];
+    let rounded = a.z * bc + b.z * ca + c.z * ab;
+    let size = size_bc * a.z.abs() + size_ca * b.z.abs() + size_ab * c.z.abs();
+    (moderate && is_certain(rounded, BOUND, size)).then(|| Sign::of(rounded))
+}
+
+/// `size` is the sum of the absolute values of the products that `rounded` is made of;
+/// if it is 0, each has a factor that is exactly 0.
+fn is_certain(rounded: f64, bound: f64, size: f64) -> bool {
+    rounded.abs() > bound * size || size == 0.0
+}
+
+/// Whether no product of three differences of such coordinates leaves the range in
+/// which rounding is relative: their last bit is at least 2^-252, whose cube 2^-756 is
+/// far above the smallest f64, and cubes of 2^201 stay far below the largest.
+fn is_moderate(coordinates: &[f64]) -> bool {
     const BIAS: u64 = 1023;
     coordinates.iter().all(|x| {
         let exponent = x.to_bits() >> 52 & 0x7ff;
@@ -73,38 +110,22 @@ fn fits_expansions(coordinates: &[f64]) -> bool {
     })
 }
 
-fn coord3(p: DVec3) -> Coord3D<f64> {
-    Coord3D {
-        x: p.x,
-        y: p.y,
-        z: p.z,
-    }
+/// The sign of det(c − q, b − q, a − q), of which no difference is rounded.
+fn exact_side_of_face(a: DVec3, b: DVec3, c: DVec3, q: DVec3) -> Sign {
+    let [a, b, c, q] = [a, b, c, q].map(|p| p.to_array());
+    let minus_q = q.map(|x| -x);
+    let mut sum = ExactSum::ZERO;
+    sum.add_determinant(c, b, a);
+    sum.add_determinant(minus_q, b, a);
+    sum.add_determinant(c, minus_q, a);
+    sum.add_determinant(c, b, minus_q);
+    Sign::of_sum(&sum)
 }
 
-/// A finite f64 as an integer multiple of 2^-1074.
-fn exact(x: f64) -> BigInt {
-    let bits = x.to_bits();
-    let exponent = bits >> 52 & 0x7ff;
-    let fraction = bits & ((1 << 52) - 1);
-    let magnitude = if exponent == 0 {
-        BigInt::from(fraction)
-    } else {
-        BigInt::from(fraction | 1 << 52) << (exponent - 1)
-    };
-    if x < 0.0 { -magnitude } else { magnitude }
-}
-
-fn determinant(a: &[BigInt; 3], b: &[BigInt; 3], c: &[BigInt; 3]) -> Sign {
-    let minor = |i: usize, j: usize| &b[i] * &c[j] - &b[j] * &c[i];
-    sign_of_big(&(&a[0] * minor(1, 2) - &a[1] * minor(0, 2) + &a[2] * minor(0, 1)))
-}
-
-fn sign_of_big(x: &BigInt) -> Sign {
-    match x.sign() {
-        BigSign::Minus => Sign::Negative,
-        BigSign::NoSign => Sign::Zero,
-        BigSign::Plus => Sign::Positive,
-    }
+fn exact_determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Sign {
+    let mut sum = ExactSum::ZERO;
+    sum.add_determinant(a, b, c);
+    Sign::of_sum(&sum)
 }
 
 #[cfg(test)]
@@ -149,17 +170,31 @@ mod tests {
         assert_eq!(orient2d([0.0, 0.0], [1.0, 0.0], [0.0, 1.0]), Sign::Positive);
     }
 
+    /// Shewchuk's adaptive predicates (crate `robust`) say the same.
     #[test]
-    fn expansions_and_big_integers_agree() {
+    fn signs_are_those_of_expansions() {
         let mut random = Random(7);
         let mut zeros = 0;
         for _ in 0..20_000 {
             let [a, b, c, q] = core::array::from_fn(|_| random.point());
-            let row =
-                |p: DVec3| -> [BigInt; 3] { core::array::from_fn(|i| exact(p[i]) - exact(q[i])) };
-            let big = determinant(&row(c), &row(b), &row(a));
-            assert_eq!(side_of_face(a, b, c, q), big, "{a} {b} {c} {q}");
-            zeros += usize::from(big == Sign::Zero);
+            let coord = |p: DVec3| robust::Coord3D {
+                x: p.x,
+                y: p.y,
+                z: p.z,
+            };
+            let [ra, rb, rc, rq] = [a, b, c, q].map(coord);
+            let side = Sign::of(robust::orient3d(rc, rb, ra, rq));
+            assert_eq!(side_of_face(a, b, c, q), side, "{a} {b} {c} {q}");
+            assert_eq!(exact_side_of_face(a, b, c, q), side, "{a} {b} {c} {q}");
+            zeros += usize::from(side == Sign::Zero);
+
+            let side = Sign::of(robust::orient3d(ra, rb, rc, coord(DVec3::ZERO)));
+            assert_eq!(side_of_origin(a, b, c), side, "{a} {b} {c}");
+
+            let coord = |p: DVec3| robust::Coord { x: p.x, y: p.y };
+            let turn = Sign::of(robust::orient2d(coord(a), coord(b), coord(c)));
+            let flat = |p: DVec3| [p.x, p.y];
+            assert_eq!(orient2d(flat(a), flat(b), flat(c)), turn, "{a} {b} {c}");
         }
         assert!(zeros > 300, "only {zeros} degenerate quadruples met");
     }

@@ -61,7 +61,7 @@ pub(crate) fn resolve(
     farthest: f64,
 ) -> Result<ChosenRadius, Error> {
     let automatic = || automatic(statistics, viewpoint, farthest);
-    let seen = |place, kernel| hull::mark_visible(points, &Flip::new(place, kernel));
+    let seen = |place, kernel| hull::visible_once(points, &Flip::new(place, kernel));
     match choice {
         Radius::Auto => Ok(from_radius(automatic(), farthest)),
         Radius::Search => search::antipodal(automatic(), farthest, |kernels| {

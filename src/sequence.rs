@@ -9,8 +9,9 @@
 use alloc::vec::Vec;
 
 use crate::error::Error;
-use crate::points::{Points, Position, Splice, is_finite};
-use crate::spatial::{HilbertCurve, Place, sort_by_coordinates};
+use crate::points::{Given, Points, Splice, is_finite};
+use crate::sort::{ordered, runs_of_equal, sort_keyed};
+use crate::spatial::{HilbertCurve, Place};
 
 pub(crate) struct Sequence {
     /// Distinct and finite.
@@ -21,35 +22,33 @@ pub(crate) struct Sequence {
 impl Sequence {
     /// Sorts the finite ones among `positions`, of which there are `finite`; the
     /// caller's indices of `positions` begin with `first_index`.
-    pub(crate) fn sorted<P: Position>(
-        positions: &[P],
+    #[inline(never)]
+    pub(crate) fn sorted(
+        positions: Given,
         first_index: u32,
         finite: usize,
         curve: &HilbertCurve,
     ) -> Result<Self, Error> {
         let keyed = sort_along_curve(positions, finite, curve)?;
-        let mut points: Vec<P> = Vec::new();
-        points.try_reserve_exact(keyed.len())?;
+        let mut points = Points::with_capacity(keyed.len(), positions)?;
         let mut indices = Groups::with_capacity(keyed.len())?;
         let mut previous = None;
         for &(_, index) in &keyed {
-            let point = positions[index as usize].without_negative_zero();
-            if previous != Some(point.widen()) {
-                previous = Some(point.widen());
+            let point = without_negative_zero(positions.get(index as usize));
+            if previous != Some(point) {
+                previous = Some(point);
                 points.push(point);
                 indices.open()?;
             }
             indices.push(first_index + index)?;
         }
         indices.close()?;
-        Ok(Self {
-            points: P::store(points),
-            indices,
-        })
+        Ok(Self { points, indices })
     }
 
     /// Both together, both along `curve`. Runs between new points are copied
     /// whole, and only O(log n) keys are computed for each new point.
+    #[inline(never)]
     pub(crate) fn merged(&self, new: &Self, curve: &HilbertCurve) -> Result<Self, Error> {
         let mut places = Vec::new();
         places.try_reserve_exact(new.points.len())?;
@@ -112,12 +111,10 @@ impl Sequence {
     }
 
     /// The same along another curve.
+    #[inline(never)]
     pub(crate) fn resorted(&self, curve: &HilbertCurve) -> Result<Self, Error> {
         let count = self.points.len();
-        let sorted = match &self.points {
-            Points::Single(points) => Self::sorted(points, 0, count, curve),
-            Points::Double(points) => Self::sorted(points, 0, count, curve),
-        }?;
+        let sorted = Self::sorted(self.points.as_given(), 0, count, curve)?;
         // Distinct points: every group there is one place here.
         let mut indices = Groups::with_capacity(self.indices.order.len())?;
         for &k in &sorted.indices.order {
@@ -142,7 +139,7 @@ impl Sequence {
         positions: &[[f64; 3]],
         curve: &HilbertCurve,
     ) -> Result<Self, Error> {
-        let sorted = Self::sorted(positions, 0, positions.len(), curve)?;
+        let sorted = Self::sorted(Given::Double(positions), 0, positions.len(), curve)?;
         // Points may have come to lie on each other.
         let mut indices = Groups::with_capacity(self.indices.order.len())?;
         for k in 0..sorted.points.len() {
@@ -166,6 +163,7 @@ impl Sequence {
     }
 
     /// Where the first point is that does not come before `place`, from `low` on.
+    #[inline(never)]
     fn first_not_before(&self, place: &Place, mut low: usize, curve: &HilbertCurve) -> usize {
         let before = |k: usize| curve.place(self.points.get(k)) < *place;
         // New points come in order too, so the next one is looked for in steps
@@ -199,6 +197,7 @@ struct Groups {
 
 impl Groups {
     /// None yet, with room for so many indices.
+    #[inline(never)]
     fn with_capacity(indices: usize) -> Result<Self, Error> {
         let mut order = Vec::new();
         order.try_reserve_exact(indices)?;
@@ -210,12 +209,14 @@ impl Groups {
     }
 
     /// Begins the next list.
+    #[inline(never)]
     fn open(&mut self) -> Result<(), Error> {
         self.len += 1;
         self.mark()
     }
 
     /// Adds to the list that was begun last.
+    #[inline(never)]
     fn push(&mut self, index: u32) -> Result<(), Error> {
         if self.starts.is_empty() && self.order.len() == self.len {
             // The first list of more than one: until here, each held one.
@@ -226,6 +227,7 @@ impl Groups {
         Ok(())
     }
 
+    #[inline(never)]
     fn copy(&mut self, list: &[u32]) -> Result<(), Error> {
         self.open()?;
         list.iter().try_for_each(|&index| self.push(index))
@@ -236,6 +238,7 @@ impl Groups {
         self.mark()
     }
 
+    #[inline(never)]
     fn mark(&mut self) -> Result<(), Error> {
         if !self.starts.is_empty() {
             self.starts.try_reserve(1)?;
@@ -253,45 +256,49 @@ impl Groups {
     }
 }
 
-/// The finite positions along the curve, ties by coordinates, then by index.
-fn sort_along_curve<P: Position>(
-    positions: &[P],
+/// The finite positions along the curve; those in one cell, mostly equal ones, along a
+/// curve inside it, then by coordinates, then by index.
+fn sort_along_curve(
+    positions: Given,
     finite: usize,
     curve: &HilbertCurve,
 ) -> Result<Vec<(u64, u32)>, Error> {
     let mut keyed: Vec<(u64, u32)> = Vec::new();
     keyed.try_reserve_exact(finite)?;
     for (index, position) in positions.iter().enumerate() {
-        let p = position.widen();
-        if is_finite(p) {
-            keyed.push((curve.key(p), index as u32));
+        if is_finite(position) {
+            keyed.push((curve.key(position), index as u32));
         }
     }
-    keyed.sort_unstable();
-    // What shares a cell, mostly duplicates: along a curve inside it, and then by
-    // coordinates.
-    let point = |index: u32| positions[index as usize].without_negative_zero().widen();
-    let mut same_key = Vec::new();
-    for cell in runs_of_equal_keys(&mut keyed) {
-        for (key, index) in cell.iter_mut() {
-            *key = curve.key_in_cell(point(*index));
-        }
-        cell.sort_unstable();
-        for run in runs_of_equal_keys(cell) {
-            same_key.clear();
-            same_key.try_reserve(run.len())?;
-            same_key.extend(run.iter().map(|&(_, index)| (point(index), index)));
-            sort_by_coordinates(&mut same_key);
-            for (slot, &(_, index)) in run.iter_mut().zip(&same_key) {
-                slot.1 = index;
-            }
-        }
-    }
+    let point = |index: u32| without_negative_zero(positions.get(index as usize));
+    sort_ties(
+        &mut keyed,
+        &[
+            &|index| curve.key_in_cell(point(index)),
+            &|index| ordered(point(index)[0]),
+            &|index| ordered(point(index)[1]),
+            &|index| ordered(point(index)[2]),
+            &u64::from,
+        ],
+    );
     Ok(keyed)
 }
 
-fn runs_of_equal_keys(keyed: &mut [(u64, u32)]) -> impl Iterator<Item = &mut [(u64, u32)]> {
-    keyed
-        .chunk_by_mut(|a, b| a.0 == b.0)
-        .filter(|run| run.len() > 1)
+/// Sorts by the keys that are there, then by the first of `keys` of the index, and so on.
+fn sort_ties(keyed: &mut [(u64, u32)], keys: &[&dyn Fn(u32) -> u64]) {
+    sort_keyed(keyed);
+    let Some((next, others)) = keys.split_first() else {
+        return;
+    };
+    for run in runs_of_equal(keyed, |&(key, _)| key) {
+        for (key, index) in &mut *run {
+            *key = next(*index);
+        }
+        sort_ties(run, others);
+    }
+}
+
+/// -0 becomes +0, so that equal points have equal bits.
+fn without_negative_zero(point: [f64; 3]) -> [f64; 3] {
+    point.map(|x| x + 0.0)
 }

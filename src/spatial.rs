@@ -6,6 +6,8 @@
 //! the input or on what was appended and removed before, so everything computed
 //! in it is reproducible to the bit.
 
+use crate::sort::{ordered, runs_of_equal, sort_by_number};
+
 /// Bits per axis; three axes fill 63 bits of the key.
 const BITS: u32 = 21;
 /// Cells along an axis.
@@ -109,6 +111,7 @@ pub(crate) struct Place {
 }
 
 impl HilbertCurve {
+    #[inline(never)]
     pub(crate) fn new(bounds: &Bounds) -> Self {
         let mut extent = 0.0f64;
         for axis in 0..3 {
@@ -124,17 +127,20 @@ impl HilbertCurve {
     }
 
     /// The key of `p` among all points; equal points have equal keys.
+    #[inline(never)]
     pub(crate) fn key(&self, p: [f64; 3]) -> u64 {
         interleave(to_hilbert(self.cells(p).map(cell)))
     }
 
     /// The key of `p` among the points of one cell, along a curve of its own: a
     /// single far point can make the box so large that all others share a few cells.
+    #[inline(never)]
     pub(crate) fn key_in_cell(&self, p: [f64; 3]) -> u64 {
         let inside = |cells: f64| cell((cells - f64::from(cell(cells))) * CELLS);
         interleave(to_hilbert(self.cells(p).map(inside)))
     }
 
+    #[inline(never)]
     pub(crate) fn place(&self, point: [f64; 3]) -> Place {
         Place {
             key: self.key(point),
@@ -207,14 +213,20 @@ fn spread(x: u32) -> u64 {
     (x | x << 2) & 0x1249_2492_4924_9249
 }
 
-/// Sorts points by their coordinates, equal ones by index. Coordinates hold no -0.
+/// Sorts points by their coordinates, which hold no -0; in which order equal ones
+/// come is not said.
 pub(crate) fn sort_by_coordinates(points: &mut [([f64; 3], u32)]) {
-    points.sort_unstable_by(|(a, i), (b, j)| {
-        a[0].total_cmp(&b[0])
-            .then(a[1].total_cmp(&b[1]))
-            .then(a[2].total_cmp(&b[2]))
-            .then(i.cmp(j))
-    });
+    sort_from(points, 0);
+}
+
+fn sort_from(points: &mut [([f64; 3], u32)], axis: usize) {
+    let key = |(point, _): &([f64; 3], u32)| ordered(point[axis]);
+    sort_by_number(points, &key);
+    if axis < 2 {
+        for run in runs_of_equal(points, key) {
+            sort_from(run, axis + 1);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@ use glam::DVec3;
 
 use crate::cloud::PointCloud;
 use crate::error::{Error, in_range};
+use crate::hull;
 use crate::options::Options;
 use crate::radius::ChosenRadius;
 use crate::view::resolved_inversion;
@@ -75,8 +76,9 @@ impl PointCloud {
         views.try_reserve_exact(self.sequence.points.len())?;
         views.resize(self.sequence.points.len(), 0);
         let mut chosen = ChosenRadius::unit(0.0);
+        let mut memory = hull::Memory::default();
         for &viewpoint in viewpoints {
-            let (visible, view) = self.marks(viewpoint, options)?;
+            let (visible, view) = self.marks(&mut memory, viewpoint, options)?;
             for (views, visible) in views.iter_mut().zip(visible) {
                 *views += u32::from(visible);
             }

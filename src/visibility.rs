@@ -119,21 +119,65 @@ impl PointCloud {
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        self.after_denoising(options, |cloud, options| {
-            let (visible, view) = cloud.marks(viewpoint, options)?;
-            cloud.answer(&visible, view.chosen, view.inversion)
-        })
+        self.observer().visible_from(viewpoint, options)
+    }
+
+    /// [`PointCloud::visible_from`] with the memory of earlier views.
+    pub(crate) fn visible_from_with(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        if options.denoise.is_some() {
+            // Other points, whose hull would be no use here.
+            return self.after_denoising(options, |cloud, options| {
+                cloud.visible_from(viewpoint, options)
+            });
+        }
+        let view = self.look(memory, viewpoint, options)?;
+        match options.vote {
+            Some(k) => {
+                let voted = self.vote(k, memory.visible())?;
+                self.answer(&voted, view.chosen, view.inversion)
+            }
+            None => self.answer(memory.visible(), view.chosen, view.inversion),
+        }
+    }
+
+    /// Marks what is visible in `memory`; returns what the view was resolved to. Points
+    /// are taken where they are, and no votes are counted.
+    fn look(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<View, Error> {
+        let view = self.view(viewpoint, options)?;
+        // Hulls of one kind of flip are no start for another.
+        let is_spherical = view.inversion == Inversion::Spherical;
+        if !is_spherical {
+            memory.forget();
+        }
+        hull::mark_visible(&self.sequence.points, &view.flip, memory)?;
+        if !is_spherical {
+            memory.forget();
+        }
+        Ok(view)
     }
 
     /// For each distinct point whether it is visible, and what the view was resolved to.
     /// Votes are counted, but points are taken where they are.
     pub(crate) fn marks(
         &self,
+        memory: &mut hull::Memory,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<(Vec<bool>, View), Error> {
-        let view = self.view(viewpoint, options)?;
-        let visible = hull::mark_visible(&self.sequence.points, &view.flip)?;
+        let view = self.look(memory, viewpoint, options)?;
+        let mut visible = Vec::new();
+        visible.try_reserve_exact(memory.visible().len())?;
+        visible.extend_from_slice(memory.visible());
         Ok((self.voted(visible, options)?, view))
     }
 

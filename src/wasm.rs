@@ -5,94 +5,73 @@
 //! one. Typed arrays arrive as JavaScript objects, never as `&[f32]`: the glue
 //! would copy those before any code here runs, and trap where memory is refused.
 
+mod failure;
 mod transfer;
 
 use alloc::boxed::Box;
-use alloc::string::{String, ToString};
+use alloc::string::ToString;
 use alloc::vec::Vec;
 use core::cell::RefCell;
 use std::panic;
 use std::thread_local;
 
 use js_sys::{Float32Array, Float64Array, Uint32Array};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
+use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
-use self::transfer::{copy_in, copy_in_integers, copy_out, doubles, singles};
-use crate::{Error, NonFinite, Options, PointCloud, Position, Radius, merge_visible};
+use self::failure::Failure;
+use self::transfer::{copy_in_integers, copy_out, doubles, singles};
+use crate::hull::Memory;
+use crate::merge::merge;
+use crate::points::Points;
+use crate::{Error, NonFinite, Options, PointCloud, Radius};
 
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<PointCloud>>> = const { RefCell::new(Vec::new()) };
+    static LAST_VIEW: RefCell<Option<LastView>> = const { RefCell::new(None) };
 }
 
-/// What JavaScript receives as an exception: the fields of an `HprError`.
-#[derive(Serialize)]
-struct Failure {
-    code: &'static str,
-    message: String,
+/// What the next view may start from: the last one's hull, and its room. One for all
+/// clouds, so that many clouds need no more than one.
+struct LastView {
+    handle: u32,
+    memory: Memory,
 }
 
-impl Failure {
-    /// A number that names no cloud (any more).
-    fn disposed() -> Self {
-        Self {
-            code: "disposed",
-            message: "this cloud has been disposed of".to_string(),
-        }
-    }
+#[wasm_bindgen]
+extern "C" {
+    /// Chosen by the caller and checked on the JavaScript side. Read field by field:
+    /// what serde says about a field of the wrong type brings the formatting of
+    /// floats along, 30 kB.
+    #[wasm_bindgen(typescript_type = "CloudOptions")]
+    pub type CloudOptions;
+    #[wasm_bindgen(method, getter, js_name = skipNonFinite)]
+    fn skip_non_finite(this: &CloudOptions) -> bool;
+
+    /// At most one of the two; neither is `Radius::Auto`.
+    #[wasm_bindgen(typescript_type = "ViewOptions")]
+    pub type ViewOptions;
+    #[wasm_bindgen(method, getter)]
+    fn radius(this: &ViewOptions) -> Option<f64>;
+    #[wasm_bindgen(method, getter)]
+    fn exponent(this: &ViewOptions) -> Option<f64>;
 }
 
-impl From<Error> for Failure {
-    fn from(error: Error) -> Self {
-        Self {
-            code: error.code(),
-            message: error.to_string(),
-        }
-    }
-}
-
-/// JavaScript checks options before it passes them on; what it let through is refused here.
-impl From<serde_wasm_bindgen::Error> for Failure {
-    fn from(error: serde_wasm_bindgen::Error) -> Self {
-        Self {
-            code: "option",
-            message: error.to_string(),
-        }
-    }
-}
-
-impl From<Failure> for JsValue {
-    fn from(failure: Failure) -> Self {
-        to_js(&failure)
-    }
-}
-
-/// Chosen by the caller and checked for type on the JavaScript side.
-#[derive(Deserialize)]
-#[serde(rename_all = "camelCase")]
-struct CloudOptions {
-    stride: usize,
-    skip_non_finite: bool,
-}
-
-/// At most one of the two; neither is `Radius::Auto`.
-#[derive(Deserialize)]
-struct ViewOptions {
-    radius: Option<f64>,
-    exponent: Option<f64>,
-}
+// What JavaScript is given holds doubles, as all of its numbers are: the code that
+// writes a field is compiled once for each type.
 
 #[derive(Serialize)]
 struct CloudInfo {
-    handle: u32,
-    length: usize,
-    skipped: usize,
+    handle: f64,
+    length: f64,
+    skipped: f64,
 }
 
 #[derive(Serialize)]
 struct CloudSize {
-    length: usize,
-    skipped: usize,
+    length: f64,
+    skipped: f64,
 }
 
 #[derive(Serialize)]
@@ -101,14 +80,14 @@ struct Answer {
     indices: Uint32Array,
     radius: f64,
     exponent: f64,
-    evaluations: u32,
+    evaluations: f64,
 }
 
 #[derive(Serialize)]
 struct ChosenRadius {
     radius: f64,
     exponent: f64,
-    evaluations: u32,
+    evaluations: f64,
 }
 
 /// Runs once for each instance: a panic says what happened before it traps.
@@ -119,42 +98,34 @@ fn start() {
     }));
 }
 
-/// A cloud of single-precision positions, kept in single precision.
+/// A cloud of single-precision positions, three a point, kept in single precision.
 #[wasm_bindgen(js_name = createCloudF32, unchecked_return_type = "CloudInfo")]
 pub fn create_cloud_f32(
     positions: &Float32Array,
-    #[wasm_bindgen(unchecked_param_type = "CloudOptions")] options: JsValue,
+    options: &CloudOptions,
 ) -> Result<JsValue, JsValue> {
-    create_cloud(positions.length(), options, singles(positions))
+    create_cloud(singles(positions), options)
 }
 
 /// A cloud of double-precision positions.
 #[wasm_bindgen(js_name = createCloudF64, unchecked_return_type = "CloudInfo")]
 pub fn create_cloud_f64(
     positions: &Float64Array,
-    #[wasm_bindgen(unchecked_param_type = "CloudOptions")] options: JsValue,
+    options: &CloudOptions,
 ) -> Result<JsValue, JsValue> {
-    create_cloud(positions.length(), options, doubles(positions))
+    create_cloud(doubles(positions), options)
 }
 
 /// Adds single-precision points to a cloud of any precision.
 #[wasm_bindgen(js_name = appendF32, unchecked_return_type = "CloudSize")]
-pub fn append_f32(
-    handle: u32,
-    positions: &Float32Array,
-    stride: usize,
-) -> Result<JsValue, JsValue> {
-    append(handle, positions.length(), stride, singles(positions))
+pub fn append_f32(handle: u32, positions: &Float32Array) -> Result<JsValue, JsValue> {
+    append(handle, singles(positions))
 }
 
 /// Adds double-precision points to a cloud of any precision.
 #[wasm_bindgen(js_name = appendF64, unchecked_return_type = "CloudSize")]
-pub fn append_f64(
-    handle: u32,
-    positions: &Float64Array,
-    stride: usize,
-) -> Result<JsValue, JsValue> {
-    append(handle, positions.length(), stride, doubles(positions))
+pub fn append_f64(handle: u32, positions: &Float64Array) -> Result<JsValue, JsValue> {
+    append(handle, doubles(positions))
 }
 
 /// Removes points from a cloud by their indices.
@@ -174,8 +145,7 @@ pub fn merge_visible_f32(
     z: f64,
     radius: f64,
 ) -> Result<Uint32Array, JsValue> {
-    let block = singles(positions);
-    merge(positions.length(), block, ids, [x, y, z], radius)
+    merge_visible(singles(positions), ids, [x, y, z], radius)
 }
 
 /// The ids of what is visible among double-precision positions, one id for each.
@@ -188,13 +158,13 @@ pub fn merge_visible_f64(
     z: f64,
     radius: f64,
 ) -> Result<Uint32Array, JsValue> {
-    let block = doubles(positions);
-    merge(positions.length(), block, ids, [x, y, z], radius)
+    merge_visible(doubles(positions), ids, [x, y, z], radius)
 }
 
 /// Frees a cloud; its number may be given to another one afterwards.
 #[wasm_bindgen(js_name = freeCloud)]
 pub fn free_cloud(handle: u32) {
+    forget(handle);
     CLOUDS.with_borrow_mut(|clouds| {
         if let Some(slot) = clouds.get_mut(handle as usize) {
             *slot = None;
@@ -209,10 +179,9 @@ pub fn visible_from(
     x: f64,
     y: f64,
     z: f64,
-    #[wasm_bindgen(unchecked_param_type = "ViewOptions")] options: JsValue,
+    options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
-    let options: ViewOptions = serde_wasm_bindgen::from_value(options).map_err(Failure::from)?;
-    let radius = match (options.radius, options.exponent) {
+    let radius = match (options.radius(), options.exponent()) {
         (Some(radius), _) => Radius::Absolute(radius),
         (None, Some(exponent)) => Radius::Exponent(exponent),
         (None, None) => Radius::Auto,
@@ -222,13 +191,15 @@ pub fn visible_from(
             radius,
             ..Options::default()
         };
-        cloud.visible_from([x, y, z], &options)
+        with_memory(handle, |memory| {
+            cloud.visible_from_with(memory, [x, y, z], &options)
+        })
     })?;
     Ok(to_js(&Answer {
         indices: copy_out(visibility.indices()).map_err(Failure::from)?,
         radius: visibility.radius(),
         exponent: visibility.exponent(),
-        evaluations: visibility.evaluations(),
+        evaluations: f64::from(visibility.evaluations()),
     }))
 }
 
@@ -239,7 +210,7 @@ pub fn auto_radius(handle: u32, x: f64, y: f64, z: f64) -> Result<JsValue, JsVal
     Ok(to_js(&ChosenRadius {
         radius: chosen.radius,
         exponent: chosen.exponent,
-        evaluations: chosen.evaluations,
+        evaluations: f64::from(chosen.evaluations),
     }))
 }
 
@@ -247,7 +218,7 @@ pub fn auto_radius(handle: u32, x: f64, y: f64, z: f64) -> Result<JsValue, JsVal
 const TYPES: &str = r#"
 /** Makes all of the functions below call into this instance. */
 export function __wbg_set_wasm(exports: WebAssembly.Exports): void;
-interface CloudOptions { stride: number; skipNonFinite: boolean }
+interface CloudOptions { skipNonFinite: boolean }
 interface CloudSize { length: number; skipped: number }
 interface CloudInfo extends CloudSize { handle: number }
 interface ViewOptions { radius: number | undefined; exponent: number | undefined }
@@ -255,66 +226,56 @@ interface ChosenRadius { radius: number; exponent: number; evaluations: number }
 interface Answer extends ChosenRadius { indices: Uint32Array }
 "#;
 
-fn create_cloud<T: Copy + Default>(
-    length: u32,
-    options: JsValue,
-    copy_block: impl Fn(u32, &mut [T]),
-) -> Result<JsValue, JsValue>
-where
-    [T; 3]: Position,
-{
-    let options: CloudOptions = serde_wasm_bindgen::from_value(options).map_err(Failure::from)?;
-    let non_finite = if options.skip_non_finite {
+fn create_cloud(
+    positions: Result<Points, Error>,
+    options: &CloudOptions,
+) -> Result<JsValue, JsValue> {
+    let non_finite = if options.skip_non_finite() {
         NonFinite::Skip
     } else {
         NonFinite::Error
     };
-    let positions = copy_in(length as usize, options.stride, copy_block).map_err(Failure::from)?;
-    let cloud = PointCloud::with_non_finite(&positions, non_finite).map_err(Failure::from)?;
-    let (length, skipped) = (cloud.len(), cloud.skipped());
-    let handle = keep(cloud).map_err(Failure::from)?;
-    Ok(to_js(&CloudInfo {
-        handle,
-        length,
-        skipped,
-    }))
+    let made = positions.and_then(|positions| {
+        let cloud = PointCloud::prepare(positions.as_given(), non_finite)?;
+        let CloudSize { length, skipped } = size_of(&cloud);
+        let handle = f64::from(keep(cloud)?);
+        Ok(CloudInfo {
+            handle,
+            length,
+            skipped,
+        })
+    });
+    Ok(to_js(&made.map_err(Failure::from)?))
 }
 
-fn append<T: Copy + Default>(
-    handle: u32,
-    length: u32,
-    stride: usize,
-    copy_block: impl Fn(u32, &mut [T]),
-) -> Result<JsValue, JsValue>
-where
-    [T; 3]: Position,
-{
-    let positions = copy_in(length as usize, stride, copy_block).map_err(Failure::from)?;
+fn append(handle: u32, positions: Result<Points, Error>) -> Result<JsValue, JsValue> {
     let size = change_cloud(handle, |cloud| {
-        cloud.append(&positions)?;
-        Ok(CloudSize {
-            length: cloud.len(),
-            skipped: cloud.skipped(),
-        })
+        cloud.add(positions?.as_given())?;
+        Ok(size_of(cloud))
     })?;
     Ok(to_js(&size))
 }
 
-fn merge<T: Copy + Default>(
-    length: u32,
-    copy_block: impl Fn(u32, &mut [T]),
+fn merge_visible(
+    positions: Result<Points, Error>,
     ids: &Uint32Array,
     viewpoint: [f64; 3],
     radius: f64,
-) -> Result<Uint32Array, JsValue>
-where
-    [T; 3]: Position,
-{
-    let positions = copy_in(length as usize, 3, copy_block).map_err(Failure::from)?;
-    let ids = copy_in_integers(ids).map_err(Failure::from)?;
-    let options = Options::with_radius(radius);
-    let seen = merge_visible(&[(&positions, &ids)], viewpoint, &options).map_err(Failure::from)?;
-    Ok(copy_out(&seen).map_err(Failure::from)?)
+) -> Result<Uint32Array, JsValue> {
+    let merged = positions.and_then(|positions| {
+        let ids = copy_in_integers(ids)?;
+        let part = |_| (positions.as_given(), &ids[..]);
+        let seen = merge(1, &part, viewpoint, &Options::with_radius(radius))?;
+        copy_out(&seen)
+    });
+    Ok(merged.map_err(Failure::from)?)
+}
+
+fn size_of(cloud: &PointCloud) -> CloudSize {
+    CloudSize {
+        length: cloud.len() as f64,
+        skipped: cloud.skipped() as f64,
+    }
 }
 
 fn keep(cloud: PointCloud) -> Result<u32, Error> {
@@ -336,20 +297,54 @@ fn with_cloud<T>(
 ) -> Result<T, Failure> {
     CLOUDS.with_borrow(|clouds| {
         let cloud = clouds.get(handle as usize).and_then(Option::as_ref);
-        query(cloud.ok_or_else(Failure::disposed)?).map_err(Failure::from)
+        query(cloud.ok_or(Failure::DISPOSED)?).map_err(Failure::from)
     })
+}
+
+/// Runs `view` with the last view's memory, which knows nothing of other clouds.
+fn with_memory<T>(handle: u32, view: impl FnOnce(&mut Memory) -> T) -> T {
+    LAST_VIEW.with_borrow_mut(|last| {
+        let last = last.get_or_insert_with(|| LastView {
+            handle,
+            memory: Memory::default(),
+        });
+        if last.handle != handle {
+            last.memory.forget();
+            last.handle = handle;
+        }
+        view(&mut last.memory)
+    })
+}
+
+/// Gives back what is kept of the cloud's last view.
+fn forget(handle: u32) {
+    LAST_VIEW.with_borrow_mut(|last| {
+        if last.as_ref().is_some_and(|last| last.handle == handle) {
+            *last = None;
+        }
+    });
 }
 
 fn change_cloud<T>(
     handle: u32,
     change: impl FnOnce(&mut PointCloud) -> Result<T, Error>,
 ) -> Result<T, Failure> {
+    forget(handle);
     CLOUDS.with_borrow_mut(|clouds| {
         let cloud = clouds.get_mut(handle as usize).and_then(Option::as_mut);
-        change(cloud.ok_or_else(Failure::disposed)?).map_err(Failure::from)
+        change(cloud.ok_or(Failure::DISPOSED)?).map_err(Failure::from)
     })
 }
 
 fn to_js(value: &impl Serialize) -> JsValue {
-    serde_wasm_bindgen::to_value(value).unwrap_or_else(JsValue::from)
+    /// Flattened, a struct is written as a map of names. As a struct, serde-wasm-bindgen
+    /// would look for its names in a hash map, and the wasm be 0.8 kB larger.
+    #[derive(Serialize)]
+    struct Object<T> {
+        #[serde(flatten)]
+        fields: T,
+    }
+    let serializer = Serializer::new().serialize_maps_as_objects(true);
+    let object = Object { fields: value };
+    object.serialize(&serializer).unwrap_or_else(JsValue::from)
 }

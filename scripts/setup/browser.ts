@@ -13,11 +13,6 @@ const COMMANDS = ["chromium", "chromium-browser", "google-chrome", "google-chrom
  * PATH, or Playwright's own; where there is none, one is installed.
  */
 export async function setUpBrowser(): Promise<string> {
-  const named = process.env["HPR_CHROMIUM"];
-  if (named !== undefined) {
-    if (existsSync(named)) return named;
-    throw new Problem(`HPR_CHROMIUM names ${named}, which does not exist.`);
-  }
   const found = findBrowser();
   if (found !== undefined) return found;
 
@@ -31,7 +26,13 @@ export async function setUpBrowser(): Promise<string> {
   );
 }
 
-function findBrowser(): string | undefined {
+/** The Chromium that HPR_CHROMIUM names or that is installed, if any. */
+export function findBrowser(): string | undefined {
+  const named = process.env["HPR_CHROMIUM"];
+  if (named !== undefined) {
+    if (existsSync(named)) return named;
+    throw new Problem(`HPR_CHROMIUM names ${named}, which does not exist.`);
+  }
   const onPath = COMMANDS.map(findOnPath).find((path) => path !== undefined);
   if (onPath !== undefined) return onPath;
   const playwrights = chromium.executablePath();

@@ -31,7 +31,8 @@ pub(crate) fn mark_lower_boundary(
     let mut visible = Vec::new();
     visible.try_reserve_exact(count as usize)?;
     visible.resize(count as usize, false);
-    let sample = order::spatial_rounds(count).take(SEED_SAMPLE);
+    let sample = order::spatial_rounds().flat_map(|round| round.indices(count));
+    let sample = sample.take(SEED_SAMPLE);
     let seed = first_triangle(sample, lifted).or_else(|| first_triangle(0..count, lifted));
     match seed {
         Some(corners) => mark_in_space(count, lifted, corners, &mut visible)?,
@@ -78,11 +79,11 @@ fn mark_in_space(
     corners: [u32; 3],
     visible: &mut [bool],
 ) -> Result<(), Error> {
-    let mut hull = LowerHull::new(corners, lifted);
+    let mut hull = LowerHull::new(corners, lifted)?;
     // On the boundary now; visible only if that is so at the end.
     let mut on_boundary: Vec<u32> = Vec::new();
     let mut hint = 0;
-    for index in order::spatial_rounds(count) {
+    for index in order::spatial_rounds().flat_map(|round| round.indices(count)) {
         let q = lifted(index);
         let (face, side) = hull.locate(q, hint);
         hint = match side {
@@ -150,15 +151,17 @@ impl Vertices {
 }
 
 impl LowerHull {
-    fn new(corners: [u32; 3], lifted: &impl Fn(u32) -> DVec3) -> Self {
+    fn new(corners: [u32; 3], lifted: &impl Fn(u32) -> DVec3) -> Result<Self, Error> {
         let [a, b, c] = corners;
-        Self {
-            surface: Surface::tetrahedron(ABOVE, [1, 2, 3], |_| ()),
+        let mut surface = Surface::default();
+        surface.start(ABOVE, [1, 2, 3], |_| ())?;
+        Ok(Self {
+            surface,
             vertices: Vertices {
                 positions: alloc::vec![DVec3::NAN, lifted(a), lifted(b), lifted(c)],
                 points: alloc::vec![u32::MAX, a, b, c],
             },
-        }
+        })
     }
 
     /// From the outer face `hint` to the one that is below or above `q`, and on which

@@ -8,28 +8,146 @@
 //!          hull (`incremental`); where there are none, K is flat and its
 //!          dimension decides (`flat`).
 
+mod depth;
 mod flat;
 mod incremental;
+mod locate;
 mod lower;
+mod motion;
 mod order;
+mod plane;
 mod topology;
+mod triangles;
 
 use alloc::vec::Vec;
 use glam::DVec3;
-
-pub(crate) use self::lower::mark_lower_boundary;
 
 use crate::error::Error;
 use crate::inversion::Flip;
 use crate::points::Points;
 use crate::predicates::{Sign, side_of_origin};
+use depth::DepthMap;
+use incremental::Hull;
+use locate::Location;
+use motion::Repair;
+use topology::FaceId;
+
+pub(crate) use lower::mark_lower_boundary;
 
 /// Points looked at for a first tetrahedron before all of them are.
 const SEED_SAMPLE: usize = 512;
 
-/// Marks the visible ones among `points`, flipped by `flip`.
-pub(crate) fn mark_visible(points: &Points, flip: &Flip) -> Result<Vec<bool>, Error> {
-    mark(points, flip, None)
+/// The points of a cloud, as one view flips them.
+struct Flipped<'a> {
+    points: &'a Points,
+    flip: Flip,
+}
+
+impl Flipped<'_> {
+    fn len(&self) -> usize {
+        self.points.len()
+    }
+
+    fn position(&self, index: u32) -> [f64; 3] {
+        self.points.get(index as usize)
+    }
+
+    /// The flipped point, or `None` for a point at the viewpoint.
+    #[inline]
+    fn get(&self, index: u32) -> Option<DVec3> {
+        self.flip.apply(self.position(index))
+    }
+
+    /// The same, where it is called too rarely to be worth copies of it.
+    #[inline(never)]
+    fn get_out_of_line(&self, index: u32) -> Option<DVec3> {
+        self.get(index)
+    }
+
+    fn reach(&self) -> f64 {
+        self.flip.reach()
+    }
+
+    fn viewpoint(&self) -> DVec3 {
+        self.flip.viewpoint()
+    }
+
+    fn hidden_from(&self, length: f64) -> f64 {
+        self.flip.hidden_from(length)
+    }
+
+    /// Whether squares of distances neither over- nor underflow.
+    fn keeps_depth(&self) -> bool {
+        (1e-100..1e100).contains(&self.flip.reach_in_cloud())
+    }
+}
+
+/// The last view's hull, and room for the next one's. What it holds never changes
+/// an answer, as long as it is only used for one sequence of points.
+#[derive(Default)]
+pub(crate) struct Memory {
+    hull: Hull,
+    depth: DepthMap,
+    repair: Repair,
+    on_boundary: Vec<u32>,
+    visible: Vec<bool>,
+    /// Near which face each point was last seen: where to look for it next time.
+    witnesses: Vec<FaceId>,
+    /// Whether `hull` is that of the last view.
+    holds_hull: bool,
+}
+
+impl Memory {
+    /// Which of the points were visible.
+    pub(crate) fn visible(&self) -> &[bool] {
+        &self.visible
+    }
+
+    /// Forgets the last view, but keeps the room.
+    pub(crate) fn forget(&mut self) {
+        self.holds_hull = false;
+    }
+}
+
+/// Finds out which of `points`, flipped by `flip`, are visible: [`Memory::visible`].
+pub(crate) fn mark_visible(points: &Points, flip: &Flip, memory: &mut Memory) -> Result<(), Error> {
+    let flipped = Flipped {
+        points,
+        flip: flip.rescaled_for(points),
+    };
+    memory.visible.clear();
+    memory.visible.try_reserve_exact(points.len())?;
+    memory.visible.resize(points.len(), false);
+    let held = core::mem::take(&mut memory.holds_hull);
+    if held && memory.move_hull(&flipped)? {
+        memory.add_to_moved_hull(&flipped)?;
+    } else {
+        let count = points.len() as u32;
+        let sample = order::spatial_rounds().flat_map(|round| round.indices(count));
+        let seed = if flipped.flip.keeps_in_plane(points) {
+            None
+        } else {
+            first_tetrahedron(sample.take(SEED_SAMPLE), &flipped)
+                .or_else(|| first_tetrahedron(0..count, &flipped))
+        };
+        let Some(corners) = seed else {
+            let flipped = |index| flipped.get_out_of_line(index);
+            return flat::mark_visible(count, &flipped, &mut memory.visible);
+        };
+        memory.hull.start(corners, flipped.reach(), points.len())?;
+        memory.add_in_rounds(&flipped)?;
+    }
+    memory.hull.mark_outer_vertices(&mut memory.visible);
+    memory.mark_boundary(&flipped);
+    memory.holds_hull = true;
+    Ok(())
+}
+
+/// Which of `points` are visible, for a single view.
+pub(crate) fn visible_once(points: &Points, flip: &Flip) -> Result<Vec<bool>, Error> {
+    let mut memory = Memory::default();
+    mark_visible(points, flip, &mut memory)?;
+    Ok(memory.visible)
 }
 
 /// The same, and the outer faces of the hull as triangles of points, counter-clockwise
@@ -38,42 +156,118 @@ pub(crate) fn triangulate_visible(
     points: &Points,
     flip: &Flip,
 ) -> Result<(Vec<bool>, Vec<[u32; 3]>), Error> {
+    let mut memory = Memory::default();
+    mark_visible(points, flip, &mut memory)?;
     let mut triangles = Vec::new();
-    let visible = mark(points, flip, Some(&mut triangles))?;
-    Ok((visible, triangles))
+    if memory.holds_hull {
+        let flip = flip.rescaled_for(points);
+        let flipped = Flipped { points, flip };
+        triangles = memory.hull.outer_triangles(&memory.on_boundary, &flipped)?;
+    }
+    Ok((memory.visible, triangles))
 }
 
-fn mark(
-    points: &Points,
-    flip: &Flip,
-    triangles: Option<&mut Vec<[u32; 3]>>,
-) -> Result<Vec<bool>, Error> {
-    let flip = flip.rescaled_for(points);
-    let flipped = |index: u32| flip.apply(points.get(index as usize));
-
-    let mut visible = Vec::new();
-    visible.try_reserve_exact(points.len())?;
-    visible.resize(points.len(), false);
-
-    let count = points.len() as u32;
-    let sample = order::spatial_rounds(count).take(SEED_SAMPLE);
-    let seed = if flip.keeps_in_plane(points) {
-        None
-    } else {
-        first_tetrahedron(sample, &flipped).or_else(|| first_tetrahedron(0..count, &flipped))
-    };
-    match seed {
-        Some(corners) => incremental::mark_visible(
-            order::spatial_rounds(count),
-            &flipped,
-            flip.reach(),
-            corners,
-            &mut visible,
-            triangles,
-        )?,
-        None => flat::mark_visible(count, &flipped, &mut visible)?,
+impl Memory {
+    /// The last view's hull becomes that of the same vertices in this one, which are
+    /// then marked as visible, if that is worth the while.
+    fn move_hull(&mut self, flipped: &Flipped) -> Result<bool, Error> {
+        let moved = self
+            .hull
+            .move_to(flipped, &mut self.repair, &mut self.visible)?;
+        if !moved {
+            self.visible.fill(false);
+        }
+        Ok(moved)
     }
-    Ok(visible)
+
+    /// Every point, to a hull that was just started.
+    fn add_in_rounds(&mut self, flipped: &Flipped) -> Result<(), Error> {
+        self.on_boundary.clear();
+        self.witnesses.clear();
+        self.witnesses.try_reserve_exact(flipped.len())?;
+        self.witnesses.resize(flipped.len(), 0);
+        let mut hint = 0;
+        let count = flipped.len() as u32;
+        for round in order::spatial_rounds() {
+            if !round.is_last() {
+                for index in round.indices(count) {
+                    hint = self.add(index, flipped, hint)?;
+                    self.witnesses[index as usize] = hint;
+                }
+                continue;
+            }
+            // By now the hull has its shape.
+            self.depth.make(&self.hull, flipped)?;
+            for index in round.indices(count) {
+                if !self.depth.hides(flipped.position(index)) {
+                    hint = self.add(index, flipped, hint)?;
+                }
+                self.witnesses[index as usize] = hint;
+            }
+        }
+        Ok(())
+    }
+
+    /// Every point that is no vertex, to a hull that has mostly the right ones.
+    fn add_to_moved_hull(&mut self, flipped: &Flipped) -> Result<(), Error> {
+        self.on_boundary.clear();
+        self.depth.make(&self.hull, flipped)?;
+        let Some(mut hint) = self.hull.outer_face() else {
+            return Ok(());
+        };
+        for index in 0..flipped.len() as u32 {
+            if self.visible[index as usize] || self.depth.hides(flipped.position(index)) {
+                continue;
+            }
+            let witness = self.witnesses[index as usize];
+            if self.hull.is_sound(witness) {
+                hint = witness;
+            }
+            hint = self.add(index, flipped, hint)?;
+            self.witnesses[index as usize] = hint;
+        }
+        self.visible.fill(false);
+        Ok(())
+    }
+
+    /// Locates a point and makes it a vertex if it is outside; returns a face near it.
+    #[inline(never)]
+    fn add(&mut self, index: u32, flipped: &Flipped, hint: u32) -> Result<u32, Error> {
+        let Some(q) = flipped.get(index) else {
+            self.on_boundary.try_reserve(1)?;
+            self.on_boundary.push(index);
+            return Ok(hint);
+        };
+        Ok(match self.hull.locate(q, hint) {
+            Location::Outside(face) => self.hull.insert(index, q, face)?,
+            Location::Boundary(face) => {
+                self.on_boundary.try_reserve(1)?;
+                self.on_boundary.push(index);
+                face
+            }
+            Location::Inside(face) => face,
+        })
+    }
+
+    /// A point found exactly on the boundary is visible only if it still is when
+    /// the hull is complete; one at the viewpoint is in any case.
+    fn mark_boundary(&mut self, flipped: &Flipped) {
+        let Some(mut hint) = self.hull.outer_face() else {
+            return;
+        };
+        for &index in &self.on_boundary {
+            self.visible[index as usize] = match flipped.get_out_of_line(index) {
+                None => true,
+                Some(q) => match self.hull.locate(q, hint) {
+                    Location::Boundary(face) => {
+                        hint = face;
+                        true
+                    }
+                    Location::Outside(_) | Location::Inside(_) => false,
+                },
+            };
+        }
+    }
 }
 
 /// Three points that span space with the origin, of a large determinant, in
@@ -81,12 +275,12 @@ fn mark(
 /// with the origin.
 fn first_tetrahedron(
     candidates: impl Iterator<Item = u32> + Clone,
-    flipped: &impl Fn(u32) -> Option<DVec3>,
-) -> Option<[u32; 3]> {
+    flipped: &Flipped,
+) -> Option<[(u32, DVec3); 3]> {
     let points = || {
         candidates
             .clone()
-            .filter_map(|i| flipped(i).map(|q| (i, q)))
+            .filter_map(|i| flipped.get_out_of_line(i).map(|q| (i, q)))
     };
     let first = points().next()?;
     let likely = || {
@@ -107,13 +301,13 @@ fn first_tetrahedron(
 /// The three in the order that is counter-clockwise seen from outside, unless
 /// they lie in one plane with the origin.
 fn counter_clockwise(
-    (i, a): (u32, DVec3),
-    (j, b): (u32, DVec3),
-    (k, c): (u32, DVec3),
-) -> Option<[u32; 3]> {
-    match side_of_origin(a, b, c) {
-        Sign::Positive => Some([i, j, k]),
-        Sign::Negative => Some([i, k, j]),
+    a: (u32, DVec3),
+    b: (u32, DVec3),
+    c: (u32, DVec3),
+) -> Option<[(u32, DVec3); 3]> {
+    match side_of_origin(a.1, b.1, c.1) {
+        Sign::Positive => Some([a, b, c]),
+        Sign::Negative => Some([a, c, b]),
         Sign::Zero => None,
     }
 }

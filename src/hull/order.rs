@@ -1,21 +1,42 @@
 //! In which order points enter the hull. The order never changes the answer.
 
-/// All indices below `count`, in rounds that sample the spatial order ever more
-/// densely: every 4096th point first, then every 512th not yet given, and so on.
+/// One round: the multiples of `stride` that are no multiples of `given`, the
+/// stride of the round before.
+#[derive(Clone, Copy)]
+pub(super) struct Round {
+    stride: u32,
+    given: u32,
+}
+
+impl Round {
+    /// The round's indices below `count`, ascending.
+    pub(super) fn indices(self, count: u32) -> impl Iterator<Item = u32> + Clone {
+        (0..count)
+            .step_by(self.stride as usize)
+            .filter(move |i| self.given == 0 || i % self.given != 0)
+    }
+
+    /// A round of the first few, a sample of one point in 64 together.
+    pub(super) fn is_coarse(&self) -> bool {
+        self.stride >= 64
+    }
+
+    pub(super) fn is_last(self) -> bool {
+        self.stride == 1
+    }
+}
+
+/// Rounds that sample the spatial order ever more densely: every 4096th point
+/// first, then every 512th not yet given, and so on, until each came once.
 ///
 /// The early rounds give the hull its shape with few points; inside a round
 /// neighbors in space follow each other, so each is found near the last one.
-pub(crate) fn spatial_rounds(count: u32) -> impl Iterator<Item = u32> + Clone {
+pub(super) fn spatial_rounds() -> impl Iterator<Item = Round> + Clone {
     const STRIDES: [u32; 5] = [4096, 512, 64, 8, 1];
-    STRIDES
-        .into_iter()
-        .enumerate()
-        .flat_map(move |(round, stride)| {
-            let given = if round == 0 { 0 } else { STRIDES[round - 1] };
-            (0..count)
-                .step_by(stride as usize)
-                .filter(move |i| given == 0 || i % given != 0)
-        })
+    (0..STRIDES.len()).map(|round| Round {
+        stride: STRIDES[round],
+        given: if round == 0 { 0 } else { STRIDES[round - 1] },
+    })
 }
 
 #[cfg(test)]
@@ -26,7 +47,9 @@ mod tests {
     #[test]
     fn every_index_comes_once() {
         for count in [0, 1, 2, 7, 64, 4096, 10_001] {
-            let mut seen: Vec<u32> = spatial_rounds(count).collect();
+            let mut seen: Vec<u32> = spatial_rounds()
+                .flat_map(|round| round.indices(count))
+                .collect();
             seen.sort_unstable();
             assert!(seen.into_iter().eq(0..count));
         }

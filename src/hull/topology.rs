@@ -60,6 +60,27 @@ impl<T> Face<T> {
     pub(crate) fn is_alive(&self) -> bool {
         self.vertices[0] != NONE
     }
+
+    /// The vertices, the tail of `edge` first.
+    pub(crate) fn vertices_from(&self, edge: usize) -> [Vertex; 3] {
+        let [a, b, c] = self.vertices;
+        [[a, b, c], [b, c, a], [c, a, b]][edge]
+    }
+
+    /// The twins, that of `edge` first.
+    pub(crate) fn twins_from(&self, edge: usize) -> [HalfEdge; 3] {
+        let [a, b, c] = self.twins;
+        [[a, b, c], [b, c, a], [c, a, b]][edge]
+    }
+}
+
+/// An edge of a hole: its tail, its head, and the half-edge outside of the hole
+/// that runs the other way.
+#[derive(Clone, Copy)]
+pub(crate) struct Rim {
+    pub tail: Vertex,
+    pub head: Vertex,
+    pub outside: HalfEdge,
 }
 
 /// A closed triangulated surface whose faces can be replaced.
@@ -67,41 +88,57 @@ pub(crate) struct Surface<T> {
     faces: Vec<Face<T>>,
     free: Vec<FaceId>,
     cavity: Vec<FaceId>,
-    horizon: Vec<(Vertex, Vertex, HalfEdge)>,
+    horizon: Vec<Rim>,
     crossings: Vec<HalfEdge>,
 }
 
-impl<T: Copy> Surface<T> {
-    /// The tetrahedron of `apex` and the face (a, b, c), which is
-    /// counter-clockwise seen from outside.
-    pub(crate) fn tetrahedron(
-        apex: Vertex,
-        [a, b, c]: [Vertex; 3],
-        data: impl Fn([Vertex; 3]) -> T,
-    ) -> Self {
-        let face = |vertices, twins: [(FaceId, u32); 3]| Face {
-            vertices,
-            twins: twins.map(|(face, edge)| HalfEdge::new(face, edge)),
-            data: data(vertices),
-        };
+impl<T> Default for Surface<T> {
+    fn default() -> Self {
         Self {
-            faces: alloc::vec![
-                face([a, b, c], [(1, 1), (2, 1), (3, 1)]),
-                face([apex, b, a], [(2, 2), (0, 0), (3, 0)]),
-                face([apex, c, b], [(3, 2), (0, 1), (1, 0)]),
-                face([apex, a, c], [(1, 2), (0, 2), (2, 0)]),
-            ],
+            faces: Vec::new(),
             free: Vec::new(),
             cavity: Vec::new(),
             horizon: Vec::new(),
             crossings: Vec::new(),
         }
     }
+}
 
-    /// Makes room for `faces` more faces, if it can be had; the surface can grow
-    /// without.
+impl<T: Copy> Surface<T> {
+    /// Becomes the tetrahedron of `apex` and the face (a, b, c), which is
+    /// counter-clockwise seen from outside.
+    pub(crate) fn start(
+        &mut self,
+        apex: Vertex,
+        [a, b, c]: [Vertex; 3],
+        data: impl Fn([Vertex; 3]) -> T,
+    ) -> Result<(), TryReserveError> {
+        let face = |vertices, twins: [(FaceId, u32); 3]| Face {
+            vertices,
+            twins: twins.map(|(face, edge)| HalfEdge::new(face, edge)),
+            data: data(vertices),
+        };
+        self.free.clear();
+        self.faces.clear();
+        self.faces.try_reserve(4)?;
+        self.faces.extend([
+            face([a, b, c], [(1, 1), (2, 1), (3, 1)]),
+            face([apex, b, a], [(2, 2), (0, 0), (3, 0)]),
+            face([apex, c, b], [(3, 2), (0, 1), (1, 0)]),
+            face([apex, a, c], [(1, 2), (0, 2), (2, 0)]),
+        ]);
+        Ok(())
+    }
+
+    /// Makes room for `faces` faces, if it can be had; the surface can grow without.
     pub(crate) fn reserve(&mut self, faces: usize) {
-        let _ = self.faces.try_reserve_exact(faces);
+        let more = faces.saturating_sub(self.faces.len());
+        let _ = self.faces.try_reserve_exact(more);
+    }
+
+    #[inline]
+    pub(crate) fn face_mut(&mut self, id: FaceId) -> &mut Face<T> {
+        &mut self.faces[id as usize]
     }
 
     #[inline]
@@ -171,7 +208,11 @@ impl<T: Copy> Surface<T> {
                 let tail = across.vertices[(edge + 1) % 3];
                 let head = across.vertices[edge];
                 self.horizon.try_reserve(1)?;
-                self.horizon.push((tail, head, twin));
+                self.horizon.push(Rim {
+                    tail,
+                    head,
+                    outside: twin,
+                });
             }
         }
         Ok(())
@@ -208,7 +249,11 @@ impl<T: Copy> Surface<T> {
             self.cavity.push(slot);
         }
         for i in 0..count {
-            let (tail, head, outside) = self.horizon[i];
+            let Rim {
+                tail,
+                head,
+                outside,
+            } = self.horizon[i];
             let slot = self.cavity[i];
             let next = self.cavity[if i + 1 == count { 0 } else { i + 1 }];
             let previous = self.cavity[if i == 0 { count - 1 } else { i - 1 }];
@@ -225,5 +270,100 @@ impl<T: Copy> Surface<T> {
         self.free.try_reserve(spare)?;
         self.free.extend(self.cavity.drain(count..));
         Ok(())
+    }
+
+    /// The two triangles that flipping `edge` would make of its two, first the one
+    /// that holds the edge's tail.
+    pub(crate) fn flipped(&self, edge: HalfEdge) -> [[Vertex; 3]; 2] {
+        let [a, b, c] = self.face(edge.face()).vertices_from(edge.edge());
+        let twin = self.face(edge.face()).twins[edge.edge()];
+        let [_, _, d] = self.face(twin.face()).vertices_from(twin.edge());
+        [[c, a, d], [d, b, c]]
+    }
+
+    /// Replaces an edge by the other diagonal of its two triangles: the first of
+    /// [`Surface::flipped`] takes the slot of the edge's face, the second that of
+    /// its twin's. Their common edge is the last of both. Their data stay as they were.
+    pub(crate) fn flip(&mut self, edge: HalfEdge) {
+        let [first, second] = self.flipped(edge);
+        let slot = edge.face();
+        let f = *self.face(slot);
+        let twin = f.twins[edge.edge()];
+        let other = twin.face();
+        let g = *self.face(other);
+        let [_, bc, ca] = f.twins_from(edge.edge());
+        let [_, ad, db] = g.twins_from(twin.edge());
+        self.put(slot, first, [ca, ad, HalfEdge::new(other, 2)]);
+        self.put(other, second, [db, bc, HalfEdge::new(slot, 2)]);
+    }
+
+    /// The faces around vertex `hub`, counter-clockwise from `start`, which is one of
+    /// them: for each its number, the edge opposite to the hub, and what is outside.
+    pub(crate) fn around(
+        &self,
+        hub: Vertex,
+        start: FaceId,
+    ) -> impl Iterator<Item = (FaceId, Rim)> + '_ {
+        let mut next = Some(start);
+        core::iter::from_fn(move || {
+            let id = next?;
+            let face = self.face(id);
+            let at = face.vertices.iter().position(|&vertex| vertex == hub)?;
+            let [_, tail, head] = face.vertices_from(at);
+            let [_, outside, across] = face.twins_from(at);
+            next = Some(across.face()).filter(|&id| id != start);
+            let rim = Rim {
+                tail,
+                head,
+                outside,
+            };
+            Some((id, rim))
+        })
+    }
+
+    /// Whether an edge joins `hub`, a vertex of `start`, to `other`.
+    pub(crate) fn are_joined(&self, hub: Vertex, other: Vertex, start: FaceId) -> bool {
+        self.around(hub, start).any(|(_, rim)| rim.tail == other)
+    }
+
+    /// Cuts an ear off the hole with this `rim`: a triangle of rim edge `ear` and the
+    /// next, put into the dead slot `slot`. The rim closes behind it. Where the hole
+    /// is that triangle, it is filled and the rim's last edge is left as it was. The
+    /// slot's data stay as they were.
+    pub(crate) fn cut_ear(&mut self, rim: &mut Vec<Rim>, ear: usize, slot: FaceId) {
+        let next = (ear + 1) % rim.len();
+        let (first, second) = (rim[ear], rim[next]);
+        let vertices = [first.tail, first.head, second.head];
+        let closing = if rim.len() == 3 {
+            rim[(ear + 2) % 3].outside
+        } else {
+            // Not linked yet: whoever takes this rim edge will.
+            HalfEdge::new(slot, 2)
+        };
+        self.put(slot, vertices, [first.outside, second.outside, closing]);
+        rim[ear] = Rim {
+            tail: first.tail,
+            head: second.head,
+            outside: HalfEdge::new(slot, 2),
+        };
+        rim.remove(next);
+    }
+
+    /// Takes a face's slot out of the surface, for faces to come.
+    pub(crate) fn free(&mut self, slot: FaceId) -> Result<(), TryReserveError> {
+        self.free.try_reserve(1)?;
+        self.faces[slot as usize].vertices[0] = NONE;
+        self.free.push(slot);
+        Ok(())
+    }
+
+    /// Writes a face and links the faces across its edges back to it.
+    fn put(&mut self, slot: FaceId, vertices: [Vertex; 3], twins: [HalfEdge; 3]) {
+        let face = self.face_mut(slot);
+        face.vertices = vertices;
+        face.twins = twins;
+        for (edge, twin) in (0..).zip(twins) {
+            self.faces[twin.face() as usize].twins[twin.edge()] = HalfEdge::new(slot, edge);
+        }
     }
 }

@@ -156,7 +156,7 @@ mod tests {
             points.extend([1.0, 4.0].map(|times| direction.map(|x| x * times)));
         }
         let points = Points::Double(points);
-        let at = |kernel| hull::mark_visible(&points, &Flip::new([0.0; 3], kernel)).unwrap();
+        let at = |kernel| hull::visible_once(&points, &Flip::new([0.0; 3], kernel)).unwrap();
         let radius = 20.0;
         let near = at(Kernel::Spherical { radius });
         let far = at(Kernel::Antipodal { radius });

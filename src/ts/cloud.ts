@@ -13,7 +13,7 @@ import {
   viewSettings,
   type VisibilityOptions,
 } from "./options.js";
-import { type Positions, readIndices, readPositions, readViewpoint } from "./positions.js";
+import { packed, type Positions, readIndices, readPositions, readViewpoint } from "./positions.js";
 import { type ChosenRadius, type Visibility, VisibilityAnswer } from "./visibility.js";
 
 /**
@@ -50,7 +50,7 @@ export class PointCloud {
   constructor(positions: Positions, options?: PointCloudOptions) {
     this.#instance = requireInstance();
     const settings = cloudSettings(givenOptions(options, CLOUD_OPTIONS));
-    const numbers = readPositions(positions, settings.stride);
+    const numbers = packed(readPositions(positions, settings.stride), settings.stride);
     const { handle, length, skipped } = this.#instance.call((bindings) =>
       numbers.BYTES_PER_ELEMENT === 4
         ? bindings.createCloudF32(numbers as Float32Array, settings)
@@ -122,12 +122,12 @@ export class PointCloud {
    */
   append(positions: Positions): void {
     this.#requireHandle();
-    const numbers = readPositions(positions, this.#stride);
+    const numbers = packed(readPositions(positions, this.#stride), this.#stride);
     const handle = this.#requireHandle();
     const { length, skipped } = this.#instance.call((bindings) =>
       numbers.BYTES_PER_ELEMENT === 4
-        ? bindings.appendF32(handle, numbers as Float32Array, this.#stride)
-        : bindings.appendF64(handle, numbers as Float64Array, this.#stride),
+        ? bindings.appendF32(handle, numbers as Float32Array)
+        : bindings.appendF64(handle, numbers as Float64Array),
     );
     this.#length = length;
     this.#skipped = skipped;

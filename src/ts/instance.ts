@@ -1,4 +1,5 @@
-import { HprError, type HprErrorCode } from "./errors.js";
+import { HprError } from "./errors.js";
+import { refusal } from "./failure.js";
 import * as glue from "./wasm/hpr_bg.js";
 
 /** What the wasm exports, as the generated glue presents it. */
@@ -35,8 +36,9 @@ export class Instance {
     try {
       return use(glue);
     } catch (thrown) {
-      if (isFailure(thrown)) {
-        throw new HprError(thrown.code, thrown.message);
+      const refused = refusal(thrown);
+      if (refused !== undefined) {
+        throw refused;
       }
       this.#trap = thrown;
       current = undefined;
@@ -92,15 +94,4 @@ function detachMemory({ memory }: WebAssembly.Exports): void {
   if (memory instanceof WebAssembly.Memory) {
     memory.grow(0);
   }
-}
-
-/** An error the bindings threw on purpose, having cleaned up behind them. */
-function isFailure(thrown: unknown): thrown is { code: HprErrorCode; message: string } {
-  return (
-    typeof thrown === "object" &&
-    thrown !== null &&
-    !(thrown instanceof Error) &&
-    "code" in thrown &&
-    "message" in thrown
-  );
 }

@@ -31,6 +31,26 @@ export function readPositions(positions: unknown, stride: number): Float32Array 
   return numbers;
 }
 
+/** The first three of every `stride` numbers, which is all that the core reads. */
+export function packed(
+  numbers: Float32Array | Float64Array,
+  stride: number,
+): Float32Array | Float64Array {
+  if (stride === 3) {
+    return numbers;
+  }
+  const count = numbers.length / stride;
+  const Type = numbers.BYTES_PER_ELEMENT === 4 ? Float32Array : Float64Array;
+  const own = allocating(`${count} points`, () => new Type(3 * count));
+  let to = 0;
+  for (let from = 0; from < numbers.length; from += stride) {
+    own[to++] = numbers[from] as number;
+    own[to++] = numbers[from + 1] as number;
+    own[to++] = numbers[from + 2] as number;
+  }
+  return own;
+}
+
 /** A viewpoint's three coordinates. Whether they are finite is the core's to check. */
 export function readViewpoint(viewpoint: unknown): [number, number, number] {
   const length = lengthOf(viewpoint);

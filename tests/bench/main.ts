@@ -1,65 +1,69 @@
-// npm run bench [-- --json] [--peers] [--fidelity]
+// npm run bench: options.ts says what it takes.
 //
 // Milliseconds are medians of one run on one machine; compare ratios.
-import { existsSync } from "node:fs";
-import { cpus } from "node:os";
+import { writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { spawnSync } from "node:child_process";
 
 import { init } from "hidden-point-removal";
 
-import { bunny36k, type Cloud, dragon, root } from "./clouds.js";
+import { type BrowserEngine, openChromium } from "./chromium.js";
+import { CLOUDS, type Cloud } from "./clouds.js";
+import { localEngines } from "./engines.js";
 import { scoreRadiusChoices } from "./fidelity.js";
-import { printTable, type Row } from "./report.js";
-import { timeCloud } from "./speed.js";
+import { timeSizes } from "./linear.js";
+import { describeMachine } from "./machine.js";
+import { measureMemory } from "./memory.js";
+import { type BenchOptions, readOptions, USAGE } from "./options.js";
+import { root } from "./paths.js";
+import { peers } from "./peers.js";
+import { markdown, type Table } from "./report.js";
+import { timeQueries } from "./speed.js";
+import { timeWorkers } from "./workers.js";
 
-const options = new Set(process.argv.slice(2));
-const known = ["--json", "--peers", "--fidelity"];
-const unknown = [...options].find((option) => !known.includes(option));
-if (unknown !== undefined) {
-  console.error(`Unknown option ${unknown}; there are ${known.join(", ")}.`);
-  process.exit(2);
-}
-
+const args = process.argv.slice(2);
+const options = optionsOrExit();
 await init();
-const tables: Record<string, Row[]> = {};
-if (options.has("--fidelity")) {
-  tables["Error against ray-traced visibility"] = scoreRadiusChoices();
-} else {
-  const python = options.has("--peers") ? pythonWithSciPy() : undefined;
-  const bunny = bunny36k();
-  const clouds: Cloud[] = [
-    dragon("dragon"),
-    dragon("dragon_res2"),
-    dragon("dragon_res3"),
-    dragon("dragon_res4"),
-    ...(bunny === undefined ? [] : [bunny]),
-  ];
-  tables["Cold queries from 2.5 bounding radii, one core"] = clouds.flatMap((cloud) =>
-    timeCloud(cloud, python),
-  );
+
+const tables: Table[] = [];
+const others = options.sections.has("speed") ? peers(options.peers) : [];
+const browser = options.sections.has("speed") ? await openChromium() : undefined;
+try {
+  if (options.sections.has("speed")) tables.push(...(await timeQueries(chosenClouds(), enginesWith(browser), others)));
+  if (options.sections.has("workers")) tables.push(...[await timeWorkers()].filter((table) => table !== undefined));
+  if (options.sections.has("linear")) tables.push(await timeSizes(localEngines()));
+  if (options.sections.has("memory")) tables.push(measureMemory());
+  if (options.sections.has("fidelity")) tables.push(scoreRadiusChoices());
+} finally {
+  await browser?.close();
 }
 
-const machine = `${cpus()[0]?.model.trim() ?? "unknown CPU"}, ${cpus().length} cores, Node ${process.version}`;
-if (options.has("--json")) {
-  console.log(JSON.stringify({ machine, tables }, undefined, 2));
-} else {
-  console.log(machine);
-  for (const [title, rows] of Object.entries(tables)) printTable(title, rows);
-}
+const machine = describeMachine(browser, others);
+const text = [
+  "# Measured\n",
+  ...Object.entries(machine).map(([what, value]) => `- ${what}: ${value}`),
+  `- command: \`${["npm run bench", ...(args.length === 0 ? [] : ["--", ...args])].join(" ")}\`\n`,
+  ...tables.map(markdown).filter((table) => table !== ""),
+].join("\n");
+if (options.write) writeFileSync(join(root, "tests", "bench", "RESULTS.md"), text);
+console.log(options.json ? JSON.stringify({ machine, tables }, undefined, 2) : text);
 
-/** Python with SciPy, installed into target/ where the system's has none. */
-function pythonWithSciPy(): string | undefined {
-  const local = join(root, "target", "bench-python");
-  process.env["PYTHONPATH"] = local;
-  const works = (): boolean => spawnSync("python3", ["-c", "import scipy, numpy"]).status === 0;
-  if (!works() && !existsSync(local)) {
-    console.error("Installing SciPy into target/bench-python…");
-    spawnSync("python3", ["-m", "pip", "install", "--quiet", "--target", local, "scipy"], {
-      stdio: ["ignore", "ignore", "inherit"],
-    });
+function optionsOrExit(): BenchOptions {
+  try {
+    return readOptions(args);
+  } catch (error) {
+    console.error(`${error instanceof Error ? error.message : String(error)}\n\n${USAGE}`);
+    process.exit(2);
   }
-  if (works()) return "python3";
-  console.error("Left out: the comparison with SciPy needs Python 3 with pip.");
-  return undefined;
+}
+
+/** Made one at a time: the large ones need not be there together. */
+function* chosenClouds(): Generator<Cloud> {
+  for (const name of options.clouds) {
+    const cloud = CLOUDS[name]!();
+    if (cloud !== undefined) yield cloud;
+  }
+}
+
+function enginesWith(chromium: BrowserEngine | undefined) {
+  return chromium === undefined ? localEngines() : [...localEngines(), chromium];
 }

@@ -1,54 +1,164 @@
-//! Times the native build: `cargo run --release --example bench_native -- FILE X,Y,Z EXPONENT [RUNS]`
+//! Times the native build: `bench_native FILE f32|f64 < TASKS`
 //!
-//! FILE holds raw little-endian f32 x y z. Prints one JSON line: milliseconds of
-//! building the cloud and of each query, and the number of visible points.
+//! FILE holds raw little-endian x y z. Each line of TASKS asks at one exponent,
+//! `EXPONENT RUNS x y z`, and goes on with paths, `/ x y z x y z …`, each a viewpoint
+//! that is left and the viewpoints moved through. Each line is answered by one of JSON,
+//! the `Outcome` of measure.ts, which says what is measured.
 
+use std::collections::HashMap;
+use std::fmt::Write;
+use std::io::{BufRead, stdin};
 use std::time::Instant;
 
-use hidden_point_removal::{Options, PointCloud};
+use hidden_point_removal::{Options, PointCloud, Position, Visibility};
 
 fn main() {
-    let mut args = std::env::args().skip(1);
-    let mut next = |what: &str| {
-        args.next()
-            .unwrap_or_else(|| panic!("missing argument: {what}"))
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let [file, precision] = args.as_slice() else {
+        panic!("usage: bench_native FILE f32|f64 < TASKS");
     };
-    let bytes = std::fs::read(next("FILE")).expect("FILE can be read");
-    let viewpoint: Vec<f64> = next("X,Y,Z")
-        .split(',')
-        .map(|x| x.parse().expect("a number"))
-        .collect();
-    let viewpoint: [f64; 3] = viewpoint.try_into().expect("three coordinates");
-    let exponent: f64 = next("EXPONENT").parse().expect("a number");
-    let runs: usize = args
-        .next()
-        .map_or(5, |runs| runs.parse().expect("a number"));
+    let bytes = std::fs::read(file).expect("FILE can be read");
+    match precision.as_str() {
+        "f32" => answer_all(&points(&bytes, f32::from_le_bytes)),
+        "f64" => answer_all(&points(&bytes, f64::from_le_bytes)),
+        _ => panic!("the precision is f32 or f64"),
+    }
+}
 
-    let positions: Vec<[f32; 3]> = bytes
-        .chunks_exact(12)
-        .map(|p| {
-            core::array::from_fn(|i| {
-                f32::from_le_bytes([p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]])
-            })
+fn points<T: Copy, const SIZE: usize>(bytes: &[u8], read: fn([u8; SIZE]) -> T) -> Vec<[T; 3]> {
+    let at = |i: usize| read(bytes[i * SIZE..][..SIZE].try_into().expect("SIZE bytes"));
+    (0..bytes.len() / (3 * SIZE))
+        .map(|p| core::array::from_fn(|axis| at(3 * p + axis)))
+        .collect()
+}
+
+fn answer_all<P: Position>(positions: &[P]) {
+    for line in stdin().lock().lines() {
+        println!(
+            "{}",
+            outcome(positions, &line.expect("TASKS can be read")).expect("a string grows")
+        );
+    }
+}
+
+/// An answer with what it took to get it.
+#[derive(Clone)]
+struct Answer {
+    milliseconds: f64,
+    digest: String,
+}
+
+fn outcome<P: Position>(positions: &[P], line: &str) -> Result<String, std::fmt::Error> {
+    let groups: Vec<Vec<f64>> = line
+        .split('/')
+        .map(|group| {
+            let numbers = group.split_whitespace();
+            numbers.map(|x| x.parse().expect("a number")).collect()
         })
         .collect();
-    let start = Instant::now();
-    let cloud = PointCloud::new(&positions).expect("a valid cloud");
-    let build = start.elapsed().as_secs_f64() * 1e3;
+    let [exponent, runs, x, y, z] = groups[0][..] else {
+        panic!("a task starts with EXPONENT RUNS x y z");
+    };
     let options = Options::with_exponent(exponent);
-    let mut visible = 0;
-    let queries: Vec<f64> = (0..runs)
-        .map(|_| {
-            let start = Instant::now();
-            visible = cloud
-                .visible_from(viewpoint, &options)
-                .expect("a valid view")
-                .count();
-            start.elapsed().as_secs_f64() * 1e3
-        })
-        .collect();
-    println!(
-        "{{\"points\":{},\"visible\":{visible},\"build_ms\":{build:.2},\"query_ms\":{queries:.2?}}}",
-        cloud.len()
-    );
+    // Another cloud is asked just before: the memory a query needs is then the process's
+    // own, as it is for every query but a program's first, and not fresh from the system.
+    let other = PointCloud::new(positions).expect("a valid cloud");
+    let cold = |viewpoint| {
+        let (cloud, build) = timed(|| PointCloud::new(positions).expect("a valid cloud"));
+        query(&other, viewpoint, &options);
+        let (view, answer) = query(&cloud, viewpoint, &options);
+        (build, view, answer)
+    };
+
+    let mut builds = Vec::new();
+    let mut answers = Vec::new();
+    let mut view = cold([x, y, z]).1; // Not counted.
+    for _ in 0..runs as usize {
+        let (build, again, answer) = cold([x, y, z]);
+        assert!(again == view, "two cold queries gave different answers");
+        view = again;
+        builds.push(build);
+        answers.push(answer);
+    }
+
+    let mut known: HashMap<[u64; 3], Answer> = HashMap::new();
+    let mut out = String::new();
+    write!(
+        out,
+        r#"{{"build":{builds:?},"cold":{:?},"visible":{},"radius":{:?},"digest":"{}","paths":["#,
+        answers.iter().map(|a| a.milliseconds).collect::<Vec<_>>(),
+        view.count(),
+        view.radius(),
+        digest_of(&view),
+    )?;
+    for (i, path) in groups[1..].iter().enumerate() {
+        let path: Vec<[f64; 3]> = path.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
+        let cold: Vec<Answer> = path[1..]
+            .iter()
+            .map(|&point| {
+                let key = point.map(f64::to_bits);
+                known.entry(key).or_insert_with(|| cold(point).2).clone()
+            })
+            .collect();
+        let cloud = PointCloud::new(positions).expect("a valid cloud");
+        query(&cloud, path[0], &options);
+        let moving: Vec<Answer> = path[1..]
+            .iter()
+            .map(|&point| query(&cloud, point, &options).1)
+            .collect();
+        let comma = if i == 0 { "" } else { "," };
+        write!(
+            out,
+            r#"{comma}{{"moving":{},"cold":{}}}"#,
+            json(&moving),
+            json(&cold)
+        )?;
+    }
+    out.push_str("]}");
+    Ok(out)
+}
+
+fn json(answers: &[Answer]) -> String {
+    let answer = |a: &Answer| {
+        format!(
+            r#"{{"milliseconds":{:?},"digest":"{}"}}"#,
+            a.milliseconds, a.digest
+        )
+    };
+    format!(
+        "[{}]",
+        answers.iter().map(answer).collect::<Vec<_>>().join(",")
+    )
+}
+
+fn query(cloud: &PointCloud, viewpoint: [f64; 3], options: &Options) -> (Visibility, Answer) {
+    let (view, milliseconds) = timed(|| {
+        cloud
+            .visible_from(viewpoint, options)
+            .expect("a valid view")
+    });
+    let digest = digest_of(&view);
+    let answer = Answer {
+        milliseconds,
+        digest,
+    };
+    (view, answer)
+}
+
+fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let result = work();
+    (result, start.elapsed().as_secs_f64() * 1e3)
+}
+
+/// FNV-1a over 32-bit words, twice with different constants; measure.ts has the same.
+fn digest_of(view: &Visibility) -> String {
+    let start = (0x811c_9dc5_u32, 0x9e37_79b9_u32);
+    let (a, b) = view.indices().iter().fold(start, |(a, b), &index| {
+        (
+            (a ^ index).wrapping_mul(0x0100_0193),
+            (b ^ index).wrapping_mul(0x85eb_ca6b).rotate_left(13),
+        )
+    });
+    format!("{a:08x}{b:08x}")
 }

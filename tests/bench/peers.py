@@ -1,10 +1,11 @@
-"""Times SciPy's Qhull on the flipped points of one view.
+"""Times a Python peer on one view.
 
-    python3 peers.py POSITIONS.f32 X,Y,Z RADIUS INDICES.u32 RUNS
+    python3 peers.py scipy|open3d CLOUD f32|f64 X,Y,Z RADIUS RUNS OUT
 
-POSITIONS.f32 holds little-endian f32 x y z, INDICES.u32 the answer to compare.
-Prints one JSON line: the milliseconds of each run, and how many labels differ
-(points equal to a hull vertex count as vertices).
+CLOUD holds little-endian x y z; OUT receives the numbers of the hull's vertices as
+little-endian u32. SciPy's ConvexHull gets the flipped points and the viewpoint, and
+only the hull is timed; Open3D's hidden_point_removal flips by itself.
+Prints the milliseconds of each run as JSON.
 """
 
 import json
@@ -12,24 +13,38 @@ import sys
 import time
 
 import numpy as np
-from scipy.spatial import ConvexHull
 
-positions, viewpoint, radius, indices, runs = sys.argv[1:]
-p = np.fromfile(positions, "<f4").reshape(-1, 3).astype(float)
-v = p - np.array([float(x) for x in viewpoint.split(",")])
-d = np.sqrt(v[:, 0] * v[:, 0] + v[:, 1] * v[:, 1] + v[:, 2] * v[:, 2])
-q = v * ((2.0 * float(radius) - d) / d)[:, None]
-with_viewpoint = np.vstack([q, np.zeros(3)])
 
-milliseconds = []
-for _ in range(int(runs)):
-    start = time.perf_counter()
-    hull = ConvexHull(with_viewpoint)
-    milliseconds.append((time.perf_counter() - start) * 1e3)
+def scipy(points, viewpoint, radius):
+    from scipy.spatial import ConvexHull
 
-_, group = np.unique(q, axis=0, return_inverse=True)
-group = group.ravel()
-theirs = np.isin(group, group[hull.vertices[hull.vertices < len(q)]])
-ours = np.zeros(len(q), bool)
-ours[np.fromfile(indices, "<u4")] = True
-print(json.dumps({"milliseconds": milliseconds, "differences": int((ours != theirs).sum())}))
+    v = points - viewpoint
+    x, y, z = v.T
+    d = np.sqrt(x * x + y * y + z * z)
+    q = v * ((2.0 * radius - d) / d)[:, None]
+    with_viewpoint = np.vstack([q, np.zeros(3)])
+    return lambda: ConvexHull(with_viewpoint).vertices
+
+
+def open3d(points, viewpoint, radius):
+    import open3d
+
+    cloud = open3d.geometry.PointCloud(open3d.utility.Vector3dVector(points))
+    return lambda: cloud.hidden_point_removal(viewpoint, radius)[1]
+
+
+def main():
+    peer, cloud, precision, viewpoint, radius, runs, out = sys.argv[1:]
+    points = np.fromfile(cloud, {"f32": "<f4", "f64": "<f8"}[precision]).reshape(-1, 3).astype(float)
+    viewpoint = np.array([float(x) for x in viewpoint.split(",")])
+    work = {"scipy": scipy, "open3d": open3d}[peer](points, viewpoint, float(radius))
+    milliseconds = []
+    for _ in range(int(runs)):
+        start = time.perf_counter()
+        vertices = work()
+        milliseconds.append((time.perf_counter() - start) * 1e3)
+    np.asarray(vertices, "<u4").tofile(out)
+    print(json.dumps(milliseconds))
+
+
+main()

@@ -1,18 +1,38 @@
-// Rows as a Markdown table or as JSON.
+// Tables as Markdown: on the screen, or in RESULTS.md.
 export type Row = Record<string, string | number>;
 
-export function printTable(title: string, rows: Row[]): void {
-  const [first] = rows;
-  if (first === undefined) return;
-  const columns = Object.keys(first);
+export interface Table {
+  title: string;
+  /** What its columns mean. */
+  note: string;
+  rows: Row[];
+}
+
+/** Nothing for a table without rows; a cell that a row has not is empty. */
+export function markdown({ title, note, rows }: Table): string {
+  if (rows.length === 0) return "";
+  const columns = [...new Set(rows.flatMap((row) => Object.keys(row)))];
   const line = (cells: string[]): string => `| ${cells.join(" | ")} |`;
-  console.log(`\n${title}\n`);
-  console.log(line(columns));
-  console.log(line(columns.map((column) => (typeof first[column] === "number" ? "---:" : "---"))));
-  for (const row of rows) console.log(line(columns.map((column) => format(row[column] ?? ""))));
+  const isNumber = (column: string): boolean => rows.some((row) => typeof row[column] === "number");
+  return [
+    `## ${title}`,
+    "",
+    note,
+    "",
+    line(columns),
+    line(columns.map((column) => (isNumber(column) ? "---:" : "---"))),
+    ...rows.map((row) => line(columns.map((column) => format(row[column] ?? "")))),
+    "",
+  ].join("\n");
 }
 
 function format(value: string | number): string {
-  if (typeof value === "string" || Number.isInteger(value)) return value.toLocaleString("en-US");
+  if (typeof value === "string") return value;
+  if (Number.isInteger(value)) return value.toLocaleString("en-US");
   return value.toFixed(value < 10 ? 2 : 1);
+}
+
+export function median(values: number[]): number {
+  const sorted = values.toSorted((a, b) => a - b);
+  return sorted[Math.floor(sorted.length / 2)] ?? NaN;
 }

@@ -1,95 +1,109 @@
-// Cold queries: the wasm under Node, the native build and, with --peers, SciPy's
-// Qhull on the same flipped points, in one run.
-import { spawnSync } from "node:child_process";
-import { mkdirSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
-
+// How long a query takes: cold, moving, and beside the hulls of other libraries.
 import { PointCloud } from "hidden-point-removal";
 
-import { bounds, type Cloud, root } from "./clouds.js";
-import type { Row } from "./report.js";
+import { checkAnswers, WrongAnswer } from "./check.js";
+import type { Cloud } from "./clouds.js";
+import type { Engine } from "./engines.js";
+import { digestOf, type Outcome, type Task } from "./measure.js";
+import { compareWithPeer, PEER_LIMIT_MS, type Peer, type PeerResult, type View } from "./peers.js";
+import { median, type Row, type Table } from "./report.js";
+import { STEPS, tasksFor } from "./views.js";
 
-const EXPONENTS = [2, 3, 4];
-const RUNS = 9;
-const PEER_RUNS = 3;
+/** Three tables over all clouds. Throws at the first wrong answer. */
+export async function timeQueries(clouds: Iterable<Cloud>, engines: Engine[], peers: Peer[]): Promise<Table[]> {
+  const [cold, moving, others]: Row[][] = [[], [], []];
+  for (const cloud of clouds) {
+    const tasks = tasksFor(cloud);
+    const measured = await measureAll(cloud, tasks, engines);
+    tasks.forEach((task, t) => {
+      const outcomes = [...measured].map(([engine, all]) => [engine, all[t]!] as const);
+      cold!.push(coldRow(cloud, task, outcomes));
+      if (task.paths.length > 0) moving!.push(...outcomes.map((of) => movingRow(cloud, task, ...of)));
+      const taking = peers.filter((peer) => peer.takes(cloud));
+      if (taking.length === 0) return;
+      const view = viewOf(cloud, task, outcomes[0]![1]);
+      for (const peer of taking) {
+        console.error(`${cloud.name}, exponent ${task.exponent}: ${peer.name}…`);
+        others!.push(peerRow(view, compareWithPeer(peer, view), outcomes));
+      }
+    });
+  }
+  return [
+    { title: "Cold queries", note: COLD, rows: cold! },
+    { title: "Moving viewpoint", note: MOVING, rows: moving! },
+    { title: "Other hulls on the same flipped points", note: PEERS, rows: others! },
+  ];
+}
 
-const scratch = join(root, "target", "bench-data");
+const COLD =
+  "Median milliseconds of one query on one core, the first one of a cloud that was built for it; building (in Node) is " +
+  "not part of it. Seen from 2.5 bounding radii, the room from inside. All engines gave the same visible set and radius, " +
+  "to the bit.";
+const MOVING =
+  "Median milliseconds of a query one step (so many degrees, seen from the cloud's center) after the last one, " +
+  "and how many times faster that is than the cold queries from the same viewpoints, all of which gave the same visible sets.";
+const PEERS =
+  "Milliseconds of the hull alone (Open3D flips by itself and returns a mesh), and how many times longer that takes than " +
+  "the whole cold query, flip included. The last column counts labels that differ: exact arithmetic decided for this " +
+  "library each time, except for Open3D, which rounds its flips otherwise and so may answer otherwise. " +
+  `A peer is stopped after ${PEER_LIMIT_MS / 1000} s.`;
 
-/** One row for each exponent, seen from 2.5 bounding radii away. */
-export function timeCloud(cloud: Cloud, python: string | undefined): Row[] {
-  mkdirSync(scratch, { recursive: true });
-  const file = join(scratch, `${cloud.name.replace(" ", "-")}.f32`);
-  writeFileSync(file, cloud.positions);
-  const { center, radius } = bounds(cloud);
-  const viewpoint = center.map((x, axis) => x + radius * 2.5 * ([0.36, 0.48, 0.8][axis] ?? 0));
+/** The outcomes of all engines that take the cloud, checked against each other. */
+export async function measureAll(cloud: Cloud, tasks: Task[], engines: Engine[]): Promise<Map<string, Outcome[]>> {
+  const measured = new Map<string, Outcome[]>();
+  for (const engine of engines.filter(({ takes }) => takes(cloud))) {
+    console.error(`${cloud.name}: ${engine.name}…`);
+    measured.set(engine.name, await engine.measure(cloud, tasks));
+  }
+  checkAnswers(cloud, tasks, measured);
+  return measured;
+}
 
-  const started = performance.now();
-  const points = new PointCloud(cloud.positions);
-  const build = performance.now() - started;
-  const rows = EXPONENTS.map((exponent) => {
-    const wasm: number[] = [];
-    let answer = points.visibleFrom(viewpoint, { exponent });
-    for (let run = 0; run < RUNS; run++) {
-      const start = performance.now();
-      answer = points.visibleFrom(viewpoint, { exponent });
-      wasm.push(performance.now() - start);
-    }
-    const native = nativeTimes(file, viewpoint, exponent);
-    if (native.visible !== answer.count) {
-      throw new Error(`${cloud.name}: native sees ${native.visible}, wasm ${answer.count}`);
-    }
-    const row: Row = {
-      cloud: cloud.name,
-      points: points.length,
-      exponent,
-      visible: answer.count,
-      "build ms": build,
-      "wasm ms": median(wasm),
-      "native ms": median(native.query_ms),
-    };
-    if (python === undefined) return row;
-    const indices = join(scratch, "indices.u32");
-    writeFileSync(indices, answer.indices);
-    const peer = peerTimes(python, [file, viewpoint.join(","), String(answer.radius), indices]);
-    return {
-      ...row,
-      "SciPy ms": median(peer.milliseconds),
-      "SciPy ÷ wasm": median(peer.milliseconds) / median(wasm),
-      "differing labels": peer.differences,
-    };
+type Outcomes = (readonly [engine: string, outcome: Outcome])[];
+
+function coldRow(cloud: Cloud, { exponent }: Task, outcomes: Outcomes): Row {
+  const points = cloud.positions.length / 3;
+  const { visible } = outcomes[0]![1];
+  const build = outcomes.find(([engine]) => engine === "wasm")![1].build;
+  return {
+    cloud: cloud.name,
+    source: cloud.source,
+    points,
+    exponent,
+    visible,
+    "share %": (visible / points) * 100,
+    "build ms": median(build),
+    ...Object.fromEntries(outcomes.map(([engine, { cold }]) => [`${engine} ms`, median(cold)])),
+  };
+}
+
+function movingRow(cloud: Cloud, { exponent }: Task, engine: string, { paths }: Outcome): Row {
+  const row: Row = { cloud: cloud.name, points: cloud.positions.length / 3, exponent, engine };
+  const milliseconds = (answers: Outcome["paths"][number]["cold"]): number => median(answers.map((answer) => answer.milliseconds));
+  row["cold ms"] = milliseconds(paths.flatMap(({ cold }) => cold));
+  paths.forEach(({ moving, cold }, p) => {
+    row[`${STEPS[p]!}° ms`] = milliseconds(moving);
+    row[`× faster at ${STEPS[p]!}°`] = milliseconds(cold) / milliseconds(moving);
   });
+  return row;
+}
+
+/** The answer itself, made sure to be the one that was timed. */
+function viewOf(cloud: Cloud, { exponent, viewpoint }: Task, timed: Outcome): View {
+  const points = new PointCloud(cloud.positions);
+  const { indices, radius } = points.visibleFrom(viewpoint, { exponent });
   points.dispose();
-  return rows;
+  if (digestOf(indices) !== timed.digest) throw new WrongAnswer(`${cloud.name}: asked again, the answer is another`);
+  return { cloud, exponent, viewpoint, radius, indices };
 }
 
-interface Native {
-  visible: number;
-  query_ms: number[];
-}
-
-function nativeTimes(file: string, viewpoint: number[], exponent: number): Native {
-  const example = join(root, "target", "release", "examples", "bench_native");
-  return run(example, [file, viewpoint.join(","), String(exponent), String(RUNS)]) as Native;
-}
-
-interface Peer {
-  milliseconds: number[];
-  differences: number;
-}
-
-function peerTimes(python: string, args: string[]): Peer {
-  const script = join(root, "tests", "bench", "peers.py");
-  return run(python, [script, ...args, String(PEER_RUNS)]) as Peer;
-}
-
-/** Runs a command that prints JSON. */
-function run(command: string, args: string[]): unknown {
-  const { status, stdout, stderr } = spawnSync(command, args, { encoding: "utf8" });
-  if (status !== 0) throw new Error(`${command} failed: ${stderr}`);
-  return JSON.parse(stdout) as unknown;
-}
-
-export function median(values: number[]): number {
-  const sorted = values.toSorted((a, b) => a - b);
-  return sorted[Math.floor(sorted.length / 2)] ?? NaN;
+function peerRow({ cloud, exponent }: View, { peer, milliseconds, differing }: PeerResult, outcomes: Outcomes): Row {
+  const row: Row = { cloud: cloud.name, points: cloud.positions.length / 3, exponent, peer };
+  const stopped = milliseconds === undefined;
+  const time = stopped ? PEER_LIMIT_MS : median(milliseconds);
+  const shown = (value: number): string | number => (stopped ? `> ${Math.round(value)}` : value);
+  row["peer ms"] = shown(time);
+  for (const [engine, { cold }] of outcomes) row[`÷ ${engine}`] = shown(time / median(cold));
+  row["other labels"] = stopped ? "" : differing;
+  return row;
 }

@@ -163,6 +163,61 @@ fn an_exponent_that_is_no_number_from_zero_up_is_refused() {
     }
 }
 
+/// The npm package words these itself; tests/package/errors.test.ts expects the same.
+#[test]
+fn messages_spell_numbers_plainly() {
+    let view = |viewpoint, options| refused(&[[3.0, 4.0, 0.0]], viewpoint, options).to_string();
+    let at = |options| view(ORIGIN, options);
+    assert_eq!(
+        PointCloud::new(&[[0.0; 3], [NAN; 3]])
+            .err()
+            .unwrap()
+            .to_string(),
+        "1 point(s) have a coordinate that is NaN or infinite, the first at index 1"
+    );
+    assert_eq!(
+        view([0.0, NAN, 5.5], Options::default()),
+        "the viewpoint must be finite, got 0, NaN, 5.5"
+    );
+    assert_eq!(
+        at(Options::with_radius(INF)),
+        "radius must be finite and positive, got infinity"
+    );
+    assert_eq!(
+        at(Options::with_radius(-0.0)),
+        "radius must be finite and positive, got -0"
+    );
+    assert_eq!(
+        at(Options::with_radius(1.2e-6)),
+        "radius 0.0000012 is smaller than the distance of the farthest point, 5"
+    );
+    assert_eq!(
+        at(Options::with_radius(1.2e-7)),
+        "radius 1.2e-7 is smaller than the distance of the farthest point, 5"
+    );
+    assert_eq!(
+        at(Options::with_radius(1.5e308)),
+        "twice the radius 1.5e308 exceeds the range of f64 (the farthest distance is 5)"
+    );
+    assert_eq!(
+        refused(&[[1e200, 0.0, 0.0]], ORIGIN, Options::default()).to_string(),
+        "the farthest distance (infinity) exceeds the range of f64"
+    );
+    assert_eq!(
+        at(Options::with_exponent(-1e20)),
+        "exponent must be finite and at least 0, got -100000000000000000000"
+    );
+    assert_eq!(
+        at(Options::with_exponent(-1e21)),
+        "exponent must be finite and at least 0, got -1e21"
+    );
+    let mut cloud = PointCloud::new(&POINTS).unwrap();
+    assert_eq!(
+        cloud.remove(&[3]).unwrap_err().to_string(),
+        "index 3 is out of range for a cloud of length 3"
+    );
+}
+
 #[test]
 fn a_refusal_leaves_the_cloud_usable() {
     let cloud = PointCloud::new(&POINTS).unwrap();

@@ -132,6 +132,29 @@ describe("what is refused", () => {
   });
 });
 
+describe("messages of the core", () => {
+  // tests/core/refusals.rs expects the same words of the crate.
+  const worded: [message: string, call: () => unknown][] = [
+    ["1 point(s) have a coordinate that is NaN or infinite, the first at index 1", newCloud([1, 2, 3, NaN, 5, 6])],
+    ["the viewpoint must be finite, got 0, NaN, 5.5", view([0, NaN, 5.5])],
+    ["radius must be finite and positive, got infinity", view(farAway, { radius: Infinity })],
+    ["radius must be finite and positive, got -0", view(farAway, { radius: -0 })],
+    ["radius 0.0000012 is smaller than the distance of the farthest point, 5", () =>
+      hiddenPointRemoval([3, 4, 0], [0, 0, 0], { radius: 1.2e-6 })],
+    ["radius 1.2e-7 is smaller than the distance of the farthest point, 5", () =>
+      hiddenPointRemoval([3, 4, 0], [0, 0, 0], { radius: 1.2e-7 })],
+    ["twice the radius 1.5e308 exceeds the range of f64 (the farthest distance is 5)", () =>
+      hiddenPointRemoval([3, 4, 0], [0, 0, 0], { radius: 1.5e308 })],
+    ["the farthest distance (infinity) exceeds the range of f64", () => hiddenPointRemoval([1e200, 0, 0], [0, 0, 0])],
+    ["exponent must be finite and at least 0, got -100000000000000000000", view(farAway, { exponent: -1e20 })],
+    ["exponent must be finite and at least 0, got -1e21", view(farAway, { exponent: -1e21 })],
+    ["index 500 is out of range for a cloud of length 500", remove([3, 500])],
+  ];
+  it.each(worded)("%s", async (message, call) => {
+    expect((await problemOf(call)).message).toBe(message);
+  });
+});
+
 describe("disposed", () => {
   it("answers every later call, and may be disposed of twice", async () => {
     const cloud = new PointCloud(sphere);

@@ -3,8 +3,11 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::super::topology::{Face, FaceId, Vertex};
-use super::{Hull, Location, Plane};
+use super::Flipped;
+use super::incremental::Hull;
+use super::locate::Location;
+use super::plane::Plane;
+use super::topology::{Face, FaceId};
 use crate::error::Error;
 use crate::predicates::{Sign, side_of_origin};
 
@@ -15,11 +18,15 @@ impl Hull {
     pub(super) fn outer_triangles(
         &mut self,
         on_boundary: &[u32],
-        flipped: &impl Fn(u32) -> Option<DVec3>,
-        mut hint: FaceId,
+        flipped: &Flipped,
     ) -> Result<Vec<[u32; 3]>, Error> {
+        let Some(mut hint) = self.outer_face() else {
+            return Ok(Vec::new());
+        };
         for &point in on_boundary {
-            let Some(q) = flipped(point) else { continue };
+            let Some(q) = flipped.get_out_of_line(point) else {
+                continue;
+            };
             if let Location::Boundary(face) = self.locate(q, hint) {
                 hint = self.cut(point, q, face)?;
             }
@@ -51,10 +58,7 @@ impl Hull {
             face.vertices,
             self.surface.face(across.unwrap_or(id)).vertices,
         ];
-        let vertex = self.vertices.positions.len() as Vertex;
-        self.vertices.reserve(1)?;
-        self.vertices.positions.push(q);
-        self.vertices.points.push(point);
+        let vertex = self.vertices.add(point, q)?;
         let vertices = &self.vertices;
         let conflicts = |face: &Face<Plane>| cut.contains(&face.vertices);
         self.surface

@@ -1,0 +1,218 @@
+//! A map of directions that says from which distance on every point is hidden.
+//!
+//! Directions are told by the faces of a cube around the viewpoint: on each, x and
+//! y are quotients of coordinates, and a window that holds the cloud's directions is
+//! cut into cells. Where K reaches at least r along the four corners of a cell, it
+//! holds everything shorter than r·√(1 − ⅜D²) in the cell's directions, D being the
+//! largest distance between corners taken as unit vectors: a convex combination
+//! Σλᵢuᵢ of four such vectors has the squared length 1 − ½ΣΣλᵢλⱼ|uᵢ − uⱼ|², and
+//! ½ΣΣλᵢλⱼ is at most ⅜. A point that flips to less is hidden, now and for
+//! every larger K, and need not be flipped to know it.
+
+use alloc::collections::TryReserveError;
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use super::Flipped;
+use super::incremental::Hull;
+use super::order;
+use super::topology::FaceId;
+use crate::inversion::square_root;
+
+/// Fewer points are located faster than a map is made.
+const MIN_POINTS: usize = 2048;
+/// Corners for each point of the cloud, at most.
+const CORNERS_PER_POINT: f64 = 1.0 / 16.0;
+/// Directions nearer than this to a cell's border, in cells, are not looked up:
+/// far more than rounding can move them.
+const MARGIN: f64 = 1e-6;
+
+/// The cells of one face of the cube.
+#[derive(Default)]
+struct Window {
+    x: f64,
+    y: f64,
+    /// Cells along x; none in an unused window.
+    columns: usize,
+    rows: usize,
+    /// Index of the first cell.
+    first: usize,
+}
+
+/// See the module's description. Kept for its memory from view to view.
+#[derive(Default)]
+pub(super) struct DepthMap {
+    viewpoint: DVec3,
+    windows: [Window; 6],
+    cells_per_unit: f64,
+    /// Squared distance from which on everything is hidden, for each cell.
+    hidden_from: Vec<f64>,
+    corners: Vec<f64>,
+}
+
+impl DepthMap {
+    /// Makes the map of `hull`, or an empty one where none would pay.
+    pub(super) fn make(&mut self, hull: &Hull, flipped: &Flipped) -> Result<(), TryReserveError> {
+        self.hidden_from.clear();
+        self.windows = Default::default();
+        self.viewpoint = flipped.viewpoint();
+        if flipped.len() < MIN_POINTS || !flipped.keeps_depth() {
+            return Ok(());
+        }
+        let Some(mut face) = hull.outer_face() else {
+            return Ok(());
+        };
+        let extents = survey(flipped);
+        let Some(cell) = cell_size(&extents, flipped.len()) else {
+            return Ok(());
+        };
+        self.cells_per_unit = 1.0 / cell;
+        for (side, extent) in extents.iter().enumerate() {
+            let [[x, y], [right, top]] = *extent;
+            if x > right {
+                continue;
+            }
+            let (columns, rows) = (
+                ((right - x) / cell) as usize + 1,
+                ((top - y) / cell) as usize + 1,
+            );
+            self.windows[side] = Window {
+                x,
+                y,
+                columns,
+                rows,
+                first: self.hidden_from.len(),
+            };
+            face = self.fill_window(side, hull, face, flipped)?;
+        }
+        Ok(())
+    }
+
+    /// Whether a point at `p` is certainly hidden.
+    #[inline]
+    pub(super) fn hides(&self, p: [f64; 3]) -> bool {
+        let v = DVec3::from_array(p) - self.viewpoint;
+        let (side, x, y) = place(v);
+        let window = &self.windows[side];
+        let x = (x - window.x) * self.cells_per_unit;
+        let y = (y - window.y) * self.cells_per_unit;
+        // Out of range becomes 0 or large, NaN becomes 0; both fail below.
+        let (column, row) = (x as u32, y as u32);
+        let (dx, dy) = (x - f64::from(column), y - f64::from(row));
+        const INNER: core::ops::Range<f64> = MARGIN..1.0 - MARGIN;
+        let known = (column as usize) < window.columns
+            && (row as usize) < window.rows
+            && INNER.contains(&dx)
+            && INNER.contains(&dy);
+        let cell = window.first + row as usize * window.columns + column as usize;
+        known && v.dot(v) >= self.hidden_from[cell]
+    }
+
+    /// The thresholds of one side's cells.
+    fn fill_window(
+        &mut self,
+        side: usize,
+        hull: &Hull,
+        mut face: FaceId,
+        flipped: &Flipped,
+    ) -> Result<FaceId, TryReserveError> {
+        let Window {
+            x: left,
+            y: bottom,
+            columns,
+            rows,
+            ..
+        } = self.windows[side];
+        let cell = 1.0 / self.cells_per_unit;
+        self.corners.clear();
+        self.corners.try_reserve((columns + 1) * (rows + 1))?;
+        self.hidden_from.try_reserve(columns * rows)?;
+        let mut row_start = face;
+        for row in 0..=rows {
+            face = row_start;
+            for column in 0..=columns {
+                let x = left + column as f64 * cell;
+                let y = bottom + row as f64 * cell;
+                let corner = direction(side, x, y);
+                let reach;
+                (face, reach) = hull.reach_along(corner, face);
+                if column == 0 {
+                    row_start = face;
+                }
+                self.corners.push(reach);
+            }
+        }
+        // The corners' directions are unit vectors but for rounding, and so are
+        // their distances at most those of the corners on the side itself.
+        let shrink = square_root(1.0 - 0.375 * 2.0 * cell * cell) * (1.0 - 1e-12);
+        for row in 0..rows {
+            for column in 0..columns {
+                let at = |row: usize, column: usize| self.corners[row * (columns + 1) + column];
+                let reach = at(row, column)
+                    .min(at(row, column + 1))
+                    .min(at(row + 1, column))
+                    .min(at(row + 1, column + 1));
+                self.hidden_from.push(flipped.hidden_from(reach * shrink));
+            }
+        }
+        Ok(face)
+    }
+}
+
+/// The side of the cube that `v` points to, and where.
+#[inline]
+fn place(v: DVec3) -> (usize, f64, f64) {
+    let a = v.abs();
+    if a.z >= a.x && a.z >= a.y {
+        let inverse = 1.0 / a.z;
+        (usize::from(v.z < 0.0), v.x * inverse, v.y * inverse)
+    } else if a.x >= a.y {
+        let inverse = 1.0 / a.x;
+        (2 + usize::from(v.x < 0.0), v.y * inverse, v.z * inverse)
+    } else {
+        let inverse = 1.0 / a.y;
+        (4 + usize::from(v.y < 0.0), v.z * inverse, v.x * inverse)
+    }
+}
+
+/// The unit vector that points to (x, y) on a side of the cube.
+fn direction(side: usize, x: f64, y: f64) -> DVec3 {
+    let z = if side % 2 == 0 { 1.0 } else { -1.0 };
+    let v = match side / 2 {
+        0 => DVec3::new(x, y, z),
+        1 => DVec3::new(z, x, y),
+        _ => DVec3::new(y, z, x),
+    };
+    v / square_root(v.dot(v))
+}
+
+/// Where on each side of the cube directions are: [[left, bottom], [right, top]].
+type Extents = [[[f64; 2]; 2]; 6];
+
+/// The extents of a sample of the directions.
+fn survey(flipped: &Flipped) -> Extents {
+    let mut extents = [[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; 6];
+    let sample = order::spatial_rounds().filter(|round| round.is_coarse());
+    for index in sample.flat_map(|round| round.indices(flipped.len() as u32)) {
+        let v = DVec3::from_array(flipped.position(index)) - flipped.viewpoint();
+        let (side, x, y) = place(v);
+        let [[left, bottom], [right, top]] = &mut extents[side];
+        *left = left.min(x);
+        *bottom = bottom.min(y);
+        *right = right.max(x);
+        *top = top.max(y);
+    }
+    extents
+}
+
+/// The edge of square cells that `points` points pay for; `None` where the extents
+/// are of no use.
+fn cell_size(extents: &Extents, points: usize) -> Option<f64> {
+    let area: f64 = extents
+        .iter()
+        .filter(|[[left, _], [right, _]]| left <= right)
+        .map(|[[left, bottom], [right, top]]| (right - left) * (top - bottom))
+        .sum();
+    let cell = square_root(area / (points as f64 * CORNERS_PER_POINT));
+    (1e-5..1.0).contains(&cell).then_some(cell)
+}

@@ -1,0 +1,173 @@
+//! Walking on the hull: which face does a ray from the viewpoint pierce, and is
+//! a point on it outside?
+
+use glam::DVec3;
+
+use super::incremental::Hull;
+use super::plane::Plane;
+use super::topology::{Face, FaceId, HalfEdge};
+use crate::predicates::Sign;
+
+/// Steps of a walk before it is worth looking for a better start.
+const PATIENCE: usize = 64;
+
+/// Where a flipped point lies relative to the hull.
+pub(super) enum Location {
+    /// Strictly outside this face.
+    Outside(FaceId),
+    /// Exactly on the outer boundary.
+    Boundary(FaceId),
+    /// In K, and K goes on beyond it: hidden, now and for every larger K.
+    Inside(FaceId),
+}
+
+impl Hull {
+    /// Walks from `hint`, an outer face, towards the face that the ray of `q`
+    /// pierces, by way of outer faces only: beyond a ghost or edge-on face, which
+    /// side of an edge is farther would have no meaning.
+    ///
+    /// Two neighbors' dual planes agree on their edge, so which of m·q is the
+    /// larger tells on which side of that edge the ray passes, and the largest
+    /// m·q of all belongs to the face it pierces. If that one has q inside, all have.
+    pub(super) fn locate(&self, q: DVec3, hint: FaceId) -> Location {
+        let mut id = hint;
+        let mut height = self.surface.face(id).data.m.dot(q);
+        for step in 0..PATIENCE + self.surface.slots() {
+            if step % PATIENCE == PATIENCE - 1 {
+                id = self.jump(id, q, step);
+                height = self.surface.face(id).data.m.dot(q);
+            }
+            let face = self.surface.face(id);
+            let error = face.data.error;
+            if height - 1.0 > error {
+                return Location::Outside(id);
+            }
+            let mut steepest = id;
+            let mut steepest_height = f64::NEG_INFINITY;
+            let mut steepest_error = 0.0;
+            let mut bound = f64::NEG_INFINITY;
+            for twin in face.twins {
+                let neighbor = &self.surface.face(twin.face()).data;
+                let h = neighbor.m.dot(q);
+                bound = bound.max(h + neighbor.error);
+                if h > steepest_height {
+                    steepest = twin.face();
+                    steepest_height = h;
+                    steepest_error = neighbor.error;
+                }
+            }
+            if steepest_height - height > steepest_error + error {
+                id = steepest;
+                height = steepest_height;
+            } else if height > 0.0 && bound < height - error {
+                // All three neighbors are certainly lower.
+                return self.decide(id, q);
+            } else if let Some(twin) = self.crossed_edge(face, q, step) {
+                id = twin.face();
+                let face = self.surface.face(id);
+                // The plane of a ghost or edge-on face is the plane of this
+                // edge and the origin, and q lies strictly beyond it.
+                if !self.vertices.is_outer(face) {
+                    return Location::Outside(id);
+                }
+                height = face.data.m.dot(q);
+            } else {
+                return self.decide(id, q);
+            }
+        }
+        self.search(q, id)
+    }
+
+    /// How far the hull certainly reaches along the ray of `direction`, whose
+    /// length is near 1: K holds `direction` times this. 0 where the answer is in
+    /// doubt or the ray leaves K at once. Also the face to start the next walk at.
+    pub(super) fn reach_along(&self, direction: DVec3, hint: FaceId) -> (FaceId, f64) {
+        let mut id = hint;
+        let mut face = self.surface.face(id);
+        let mut height = face.data.m.dot(direction);
+        for _ in 0..PATIENCE {
+            let mut steepest = id;
+            let mut steepest_height = height;
+            // Of all neighbors, as a multiple of `height`, with both errors.
+            let mut bound = f64::NEG_INFINITY;
+            for twin in face.twins {
+                let neighbor = &self.surface.face(twin.face()).data;
+                let h = neighbor.m.dot(direction);
+                bound = bound.max(h + height.abs() * neighbor.error);
+                if h > steepest_height {
+                    steepest = twin.face();
+                    steepest_height = h;
+                }
+            }
+            if steepest == id {
+                let error = face.data.error;
+                let certain = height > 0.0 && bound < height * (1.0 - error);
+                // Less the error of m·q − 1 at the returned place, and a rest for
+                // the roundings of this line.
+                let reach = (1.0 - 2.0 * error - 1e-12) / height;
+                return (id, if certain { reach } else { 0.0 });
+            }
+            id = steepest;
+            face = self.surface.face(id);
+            height = steepest_height;
+        }
+        (id, 0.0)
+    }
+
+    /// Exactly, for near-ties: an edge of `face` beyond which the ray of `q` passes.
+    /// Which edge is tried first changes from step to step, or a walk could go
+    /// round in a circle of coplanar faces.
+    #[cold]
+    fn crossed_edge(&self, face: &Face<Plane>, q: DVec3, step: usize) -> Option<HalfEdge> {
+        // The high bits of a product with the golden ratio look random.
+        let first = (step as u32).wrapping_mul(0x9e37_79b9) >> 16;
+        (first..first + 3)
+            .map(|edge| (edge % 3) as usize)
+            .find(|&edge| self.vertices.is_beyond(face, edge, q))
+            .map(|edge| face.twins[edge])
+    }
+
+    /// A better place to walk on from than `id`, after many steps: walks are short
+    /// but for those around a vertex of very many faces. Looks at as many faces as
+    /// a walk between two of them may need steps.
+    #[cold]
+    fn jump(&self, id: FaceId, q: DVec3, step: usize) -> FaceId {
+        let slots = self.surface.slots();
+        let stride = slots.isqrt().max(1);
+        let mut best = id;
+        let mut best_height = self.surface.face(id).data.m.dot(q);
+        for slot in (step % stride..slots).step_by(stride) {
+            let face = self.surface.face(slot as FaceId);
+            let height = face.data.m.dot(q);
+            if height > best_height && face.is_alive() && !face.data.is_exact_only() {
+                best = slot as FaceId;
+                best_height = height;
+            }
+        }
+        best
+    }
+
+    /// Decides for the outer face that the ray of `q` pierces.
+    fn decide(&self, id: FaceId, q: DVec3) -> Location {
+        let face = self.surface.face(id);
+        match self.vertices.side(face, q) {
+            Sign::Positive => Location::Outside(id),
+            Sign::Zero => Location::Boundary(id),
+            Sign::Negative => Location::Inside(id),
+        }
+    }
+
+    /// The answer by looking at every face, for the rare walk that ends nowhere.
+    #[cold]
+    fn search(&self, q: DVec3, hint: FaceId) -> Location {
+        let mut location = Location::Inside(hint);
+        for (id, face) in self.surface.alive() {
+            match self.vertices.side(face, q) {
+                Sign::Positive => return Location::Outside(id),
+                Sign::Zero if self.vertices.is_outer(face) => location = Location::Boundary(id),
+                Sign::Zero | Sign::Negative => {}
+            }
+        }
+        location
+    }
+}

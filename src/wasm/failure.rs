@@ -1,0 +1,122 @@
+//! What JavaScript receives as an exception. It words the message itself
+//! (src/ts/failure.ts): the formatting of numbers alone would be 30 kB of wasm.
+
+use serde::Serialize;
+use wasm_bindgen::JsValue;
+
+use super::to_js;
+use crate::{Error, MAX_POINTS};
+
+/// A refusal: which one, and the option and the numbers its message names.
+#[derive(Serialize)]
+pub(super) struct Failure {
+    code: &'static str,
+    problem: &'static str,
+    option: &'static str,
+    numbers: [f64; 3],
+}
+
+impl Failure {
+    /// A number that names no cloud (any more).
+    pub(super) const DISPOSED: Self = Self {
+        code: "disposed",
+        problem: "disposed",
+        option: "",
+        numbers: [0.0; 3],
+    };
+}
+
+impl From<Error> for Failure {
+    #[cold]
+    #[inline(never)]
+    fn from(error: Error) -> Self {
+        let mut named = "";
+        let (problem, numbers) = match error {
+            Error::NonFinite { count, first } => ("nonFinite", [count as f64, first as f64, 0.0]),
+            Error::Viewpoint { viewpoint } => ("viewpoint", viewpoint),
+            Error::RadiusInvalid { radius } => ("radiusInvalid", [radius, 0.0, 0.0]),
+            Error::RadiusTooSmall { radius, farthest } => {
+                ("radiusTooSmall", [radius, farthest, 0.0])
+            }
+            Error::RadiusOverflow {
+                radius: Some(radius),
+                farthest,
+            } => ("radiusOverflow", [radius, farthest, 0.0]),
+            Error::RadiusOverflow {
+                radius: None,
+                farthest,
+            } => ("distanceOverflow", [farthest, 0.0, 0.0]),
+            Error::ExponentInvalid { exponent } => ("exponentInvalid", [exponent, 0.0, 0.0]),
+            Error::TooManyPoints { count } => {
+                ("tooManyPoints", [count as f64, MAX_POINTS as f64, 0.0])
+            }
+            Error::MergeRadius => ("mergeRadius", [0.0; 3]),
+            Error::IdsLength {
+                part,
+                positions,
+                ids,
+            } => ("idsLength", [part as f64, positions as f64, ids as f64]),
+            Error::IndexOutOfRange { index, len } => {
+                ("indexOutOfRange", [f64::from(index), len as f64, 0.0])
+            }
+            Error::OutOfMemory => ("outOfMemory", [0.0; 3]),
+            Error::PowerInvalid { power } => ("powerInvalid", [power, 0.0, 0.0]),
+            Error::ScaleInvalid { scale } => ("scaleInvalid", [scale, 0.0, 0.0]),
+            Error::RadiusWithInversion { option, inversion } => {
+                named = option;
+                let is_power = inversion == "power";
+                let power = "radiusWithPower";
+                (
+                    if is_power {
+                        power
+                    } else {
+                        "radiusWithExponential"
+                    },
+                    [0.0; 3],
+                )
+            }
+            Error::OutOfRange {
+                option,
+                value,
+                least,
+                most,
+            } => {
+                named = option;
+                ("outOfRange", [least, most, value])
+            }
+            Error::NoLimit { option } => {
+                named = option;
+                ("noLimit", [0.0; 3])
+            }
+            Error::MergeNeighbors { option } => {
+                named = option;
+                ("mergeNeighbors", [0.0; 3])
+            }
+            Error::Dimension { option, dimension } => {
+                named = option;
+                ("dimension", [dimension as f64, 0.0, 0.0])
+            }
+            Error::Direction { direction } => ("direction", direction),
+            Error::ViewpointDimension { dimension } => {
+                ("viewpointDimension", [dimension as f64, 0.0, 0.0])
+            }
+            Error::PositionsLength { len, dimension } => {
+                ("positionsLength", [len as f64, dimension as f64, 0.0])
+            }
+        };
+        Self {
+            code: error.code(),
+            problem,
+            option: named,
+            numbers,
+        }
+    }
+}
+
+impl From<Failure> for JsValue {
+    #[cold]
+    #[inline(never)]
+    fn from(failure: Failure) -> Self {
+        to_js(&failure)
+    }
+}

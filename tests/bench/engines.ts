@@ -1,0 +1,58 @@
+// The builds that are timed. Each gets a process or a page of its own, one after
+// another, and the same tasks.
+import { readdirSync } from "node:fs";
+import { join } from "node:path";
+
+import type { Cloud } from "./clouds.js";
+import type { Outcome, Task } from "./measure.js";
+import { ask, program, root, writeCloud } from "./paths.js";
+
+export interface Engine {
+  name: string;
+  takes: (cloud: Cloud) => boolean;
+  measure(cloud: Cloud, tasks: Task[]): Promise<Outcome[]>;
+}
+
+/** The wasm binaries of the package by what they are called in the tables. */
+export function wasmBuilds(): [name: string, file: string][] {
+  const directory = join(root, "dist", "wasm");
+  const simd = readdirSync(directory).find((file) => file.includes("simd") && file.endsWith(".wasm"));
+  return [
+    ["wasm", join(directory, "hpr_bg.wasm")],
+    ...(simd === undefined ? [] : [["wasm SIMD", join(directory, simd)] as [string, string]]),
+  ];
+}
+
+/** The engines that need no browser; the native one is the first. */
+export function localEngines(): Engine[] {
+  return [native, ...wasmBuilds().map(([name, file]) => wasmInNode(name, file))];
+}
+
+const native: Engine = {
+  name: "native",
+  takes: () => true,
+  measure(cloud, tasks) {
+    const example = join(root, "target", "release", "examples", "bench_native");
+    const input = tasks.map(taskLine).join("\n");
+    const lines = ask(example, writeCloud(cloud), { input })!.trim().split("\n");
+    return Promise.resolve(lines.map((line) => JSON.parse(line) as Outcome));
+  },
+};
+
+/** As native.rs reads it. */
+function taskLine({ exponent, runs, viewpoint, paths }: Task): string {
+  const groups = [[exponent, runs, ...viewpoint], ...paths.map((path) => path.flat())];
+  return groups.map((numbers) => numbers.join(" ")).join(" / ");
+}
+
+function wasmInNode(name: string, wasm: string): Engine {
+  return {
+    name,
+    takes: () => true,
+    measure(cloud, tasks) {
+      const [file] = writeCloud(cloud);
+      const output = ask(process.execPath, [program("node-engine"), wasm, file], { input: JSON.stringify(tasks) });
+      return Promise.resolve(JSON.parse(output!) as Outcome[]);
+    },
+  };
+}

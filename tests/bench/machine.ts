@@ -1,0 +1,27 @@
+// What the numbers were measured on, and with which versions.
+import { spawnSync } from "node:child_process";
+import { cpus, loadavg, platform, release, totalmem } from "node:os";
+
+import type { BrowserEngine } from "./chromium.js";
+import type { Peer } from "./peers.js";
+
+const [loadBefore = 0] = loadavg();
+
+export function describeMachine(browser: BrowserEngine | undefined, peers: Peer[]): Record<string, string> {
+  const cores = cpus();
+  const memory = `${Math.round(totalmem() / 2 ** 30)} GiB`;
+  const rustc = spawnSync("rustc", ["--version"], { encoding: "utf8" }).stdout.trim();
+  const versions = [
+    `Node ${process.versions.node}`,
+    ...(browser === undefined ? [] : [`Chromium ${browser.version}`]),
+    rustc,
+    ...peers.map(({ name, version }) => `${name} ${version}`),
+  ];
+  return {
+    // Taken before anything is timed; of other work than the build just before, there should be none.
+    "load before (one minute)": loadBefore.toFixed(2),
+    date: new Date().toISOString().slice(0, 10),
+    machine: `${cores[0]?.model.trim() ?? "unknown CPU"}, ${cores.length} cores, ${memory}, ${platform()} ${release()}`,
+    versions: versions.join(", "),
+  };
+}

@@ -1,0 +1,52 @@
+// What `npm run bench -- …` takes.
+import { parseArgs } from "node:util";
+
+import { CLOUDS } from "./clouds.js";
+
+export const USAGE = `npm run bench -- [WHAT…] [--clouds NAME,NAME…] [--peers] [--json] [--write]
+
+WHAT, by default --speed and --workers:
+  --speed      cold queries and a moving viewpoint, natively, in Node and in Chromium;
+               three.js and quickhull3d on the same flipped points
+  --workers    two workers against one, on a million points
+  --linear     nanoseconds a point from 30,000 to 3 million points
+  --memory     the wasm memory: peaks, over 1,000 queries, and at 10 million points
+  --fidelity   errors against ray-traced visibility, for each choice of the radius
+  --all        all of it, and --peers
+
+  --clouds     only these of --speed's clouds:
+               ${Object.keys(CLOUDS).join(", ")}
+  --peers      also SciPy (Qhull) and Open3D, installed into target/ (needs Python 3 with pip)
+  --json       prints JSON instead of tables
+  --write      writes the tables to tests/bench/RESULTS.md, too`;
+
+const SECTIONS = ["speed", "workers", "linear", "memory", "fidelity"] as const;
+type Section = (typeof SECTIONS)[number];
+
+export interface BenchOptions {
+  sections: ReadonlySet<Section>;
+  clouds: string[];
+  peers: boolean;
+  json: boolean;
+  write: boolean;
+}
+
+/** Throws an Error that says what is wrong with the arguments. */
+export function readOptions(args: string[]): BenchOptions {
+  const flag = { type: "boolean", default: false } as const;
+  const flags = { speed: flag, workers: flag, linear: flag, memory: flag, fidelity: flag, all: flag };
+  const options = { ...flags, peers: flag, json: flag, write: flag, clouds: { type: "string" } } as const;
+  const { values } = parseArgs({ args, options });
+  const asked = SECTIONS.filter((section) => values[section] || values.all);
+  const clouds = values.clouds?.split(",") ?? Object.keys(CLOUDS);
+  const unknown = clouds.find((name) => !(name in CLOUDS));
+  if (unknown !== undefined) throw new Error(`There is no cloud named ${unknown}.`);
+  const usual: Section[] = values.clouds === undefined ? ["speed", "workers"] : ["speed"];
+  return {
+    sections: new Set(asked.length === 0 ? usual : asked),
+    clouds,
+    peers: values.peers || values.all,
+    json: values.json,
+    write: values.write,
+  };
+}

@@ -1,0 +1,55 @@
+// The viewpoints, by one rule for all clouds: on a sphere around the center of the
+// cloud's box, the first in the direction (0.36, 0.48, 0.8); from there a motion
+// follows a great circle, so that a step of so many degrees is just that, seen from
+// the center. How large the sphere is says the cloud.
+import type { Cloud } from "./clouds.js";
+import type { Point, Task } from "./measure.js";
+
+export const EXPONENTS = [2, 3, 4];
+/** Degrees from one viewpoint of a motion to the next. */
+export const STEPS = [0.2, 1, 3, 10];
+
+const FROM: Point = [0.36, 0.48, 0.8];
+/** At a right angle to it, level. */
+const TOWARDS: Point = [0.8 / Math.hypot(0.8, 0.36), 0, -0.36 / Math.hypot(0.8, 0.36)];
+
+const LARGE = 1_000_000;
+
+/** What every engine is asked about a cloud; less of a large one, to end some day. */
+export function tasksFor(cloud: Cloud): Task[] {
+  const large = cloud.positions.length / 3 >= LARGE;
+  const at = orbit(cloud);
+  return EXPONENTS.map((exponent) => {
+    const moves = large && exponent !== 3 ? [] : STEPS;
+    const length = large ? 5 : 10;
+    return {
+      exponent,
+      viewpoint: at(0),
+      runs: large ? 3 : 9,
+      paths: moves.map((step) => Array.from({ length: length + 1 }, (_, i) => at(i * step))),
+    };
+  });
+}
+
+/** The viewpoint so many degrees along the motion. */
+export function orbit(cloud: Cloud): (degrees: number) => Point {
+  const { center, radius } = bounds(cloud);
+  return (degrees) => {
+    const turn = (degrees * Math.PI) / 180;
+    const along = (axis: number): number => Math.cos(turn) * FROM[axis]! + Math.sin(turn) * TOWARDS[axis]!;
+    return center.map((x, axis) => x + cloud.distance * radius * along(axis)) as Point;
+  };
+}
+
+/** The box's center and the radius of its corner sphere. */
+export function bounds({ positions }: Cloud): { center: Point; radius: number } {
+  const low: Point = [Infinity, Infinity, Infinity];
+  const high: Point = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < positions.length; i++) {
+    const axis = i % 3;
+    low[axis] = Math.min(low[axis]!, positions[i]!);
+    high[axis] = Math.max(high[axis]!, positions[i]!);
+  }
+  const center = low.map((x, axis) => (x + high[axis]!) / 2) as Point;
+  return { center, radius: Math.hypot(...low.map((x, axis) => x - center[axis]!)) };
+}
