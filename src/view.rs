@@ -101,7 +101,8 @@ pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inve
 fn resolved_scale(scale: Exponential, spacing: f64) -> Result<f64, Error> {
     match scale {
         Exponential::Auto if spacing > 0.0 => {
-            Ok((SPACINGS_IN_SCALE * spacing).clamp(f64::MIN_POSITIVE, f64::MAX))
+            // Not `clamp`, whose panic brings the formatting of numbers, 30 kB of wasm.
+            Ok((SPACINGS_IN_SCALE * spacing).max(f64::MIN_POSITIVE))
         }
         Exponential::Auto => Ok(1.0),
         Exponential::Scale(scale) if scale > 0.0 && scale.is_finite() => Ok(scale),

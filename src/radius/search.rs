@@ -3,7 +3,7 @@
 use crate::error::Error;
 use crate::inversion::Kernel;
 
-use super::{ChosenRadius, LARGEST, from_radius};
+use super::{ChosenRadius, LARGEST, bounded, from_radius};
 
 /// What a point costs that is seen from both sides, against 1 for one that is seen.
 const BOTH: f64 = 5.0;
@@ -52,7 +52,7 @@ pub(crate) fn antipodal(
     };
     Ok(ChosenRadius {
         evaluations: 6,
-        ..from_radius(radius.clamp(farthest, LARGEST), farthest)
+        ..bounded(radius, farthest)
     })
 }
 
@@ -63,7 +63,9 @@ fn summit(low: f64, center: f64, high: f64) -> f64 {
     if ascent == 0.0 {
         0.0
     } else if bend > 0.0 {
-        (0.5 * BRACKET * ascent / bend).clamp(-BRACKET, BRACKET)
+        // Not `clamp`, whose panic brings the formatting of numbers.
+        let top = (0.5 * BRACKET * ascent / bend).max(-BRACKET);
+        top.min(BRACKET)
     } else {
         BRACKET.copysign(ascent)
     }
