@@ -38,7 +38,7 @@ pub enum NonFinite {
 pub struct PointCloud {
     pub(crate) sequence: Sequence,
     /// The box of the present points.
-    bounds: Bounds,
+    pub(crate) bounds: Bounds,
     pub(crate) statistics: Statistics,
     pub(crate) blocks: Blocks,
     non_finite: NonFinite,
@@ -189,6 +189,24 @@ impl PointCloud {
     #[must_use]
     pub fn skipped(&self) -> usize {
         self.skipped
+    }
+
+    /// The same indices at other, finite `positions`, one for each distinct point.
+    pub(crate) fn moved(&self, positions: &[[f64; 3]]) -> Result<Self, Error> {
+        let mut bounds = Bounds::EMPTY;
+        positions.iter().for_each(|&p| bounds.include(p));
+        let sequence = self
+            .sequence
+            .moved(positions, &HilbertCurve::new(&bounds))?;
+        let statistics = Statistics::measure(&sequence.points, &bounds)?;
+        let blocks = Blocks::around(&sequence.points)?;
+        Ok(Self {
+            sequence,
+            bounds,
+            statistics,
+            blocks,
+            ..*self
+        })
     }
 
     /// The points of `bounds` take the place of those present, unless their

@@ -21,6 +21,30 @@ pub enum Error {
         /// The viewpoint as given.
         viewpoint: [f64; 3],
     },
+    /// The direction of a view is zero, or holds NaN or an infinity.
+    Direction {
+        /// The direction as given.
+        direction: [f64; 3],
+    },
+    /// A viewpoint in another dimension than the cloud's, or not finite.
+    ViewpointDimension {
+        /// How many finite numbers it takes.
+        dimension: usize,
+    },
+    /// Coordinates that are not a multiple of the dimension.
+    PositionsLength {
+        /// How many coordinates there are.
+        len: usize,
+        /// The cloud's dimension.
+        dimension: usize,
+    },
+    /// An option that needs three dimensions.
+    Dimension {
+        /// The option, as the JavaScript package calls it.
+        option: &'static str,
+        /// The cloud's dimension.
+        dimension: usize,
+    },
     /// The radius is NaN, infinite, zero or negative.
     RadiusInvalid {
         /// The radius as given.
@@ -46,6 +70,41 @@ pub enum Error {
         /// The exponent as given.
         exponent: f64,
     },
+    /// The power of [`Inversion::Power`](crate::Inversion::Power) is not above 1 and
+    /// at most 16.
+    PowerInvalid {
+        /// The power as given.
+        power: f64,
+    },
+    /// The scale of [`Exponential::Scale`](crate::Exponential::Scale) is not finite
+    /// and positive.
+    ScaleInvalid {
+        /// The scale as given.
+        scale: f64,
+    },
+    /// A choice of R that the inversion has no use for.
+    RadiusWithInversion {
+        /// The option that chose R.
+        option: &'static str,
+        /// The inversion it cannot go with.
+        inversion: &'static str,
+    },
+    /// An option that means nothing for a viewpoint at infinity.
+    NoLimit {
+        /// The option, as the JavaScript package calls it.
+        option: &'static str,
+    },
+    /// A number that is not in the range it is meant for, or NaN.
+    OutOfRange {
+        /// The option or argument, as the JavaScript package calls it.
+        option: &'static str,
+        /// The number as given.
+        value: f64,
+        /// The least that is accepted.
+        least: f64,
+        /// The most that is accepted.
+        most: f64,
+    },
     /// More points than [`MAX_POINTS`](crate::MAX_POINTS).
     TooManyPoints {
         /// How many were given.
@@ -53,6 +112,11 @@ pub enum Error {
     },
     /// Parts can be merged only with the radius that each of them was seen with.
     MergeRadius,
+    /// An option that looks at neighbors, which parts do not know all of.
+    MergeNeighbors {
+        /// The option, as the JavaScript package calls it.
+        option: &'static str,
+    },
     /// A part to merge with more positions than ids, or fewer.
     IdsLength {
         /// Which of the parts.
@@ -79,14 +143,23 @@ impl Error {
     pub fn code(&self) -> &'static str {
         match self {
             Self::NonFinite { .. } => "non-finite",
-            Self::Viewpoint { .. } => "viewpoint",
+            Self::Viewpoint { .. } | Self::ViewpointDimension { .. } | Self::Direction { .. } => {
+                "viewpoint"
+            }
             Self::RadiusInvalid { .. }
             | Self::RadiusTooSmall { .. }
             | Self::RadiusOverflow { .. } => "radius",
-            Self::ExponentInvalid { .. } | Self::IndexOutOfRange { .. } | Self::MergeRadius => {
-                "option"
-            }
-            Self::IdsLength { .. } => "positions-length",
+            Self::ExponentInvalid { .. }
+            | Self::PowerInvalid { .. }
+            | Self::ScaleInvalid { .. }
+            | Self::RadiusWithInversion { .. }
+            | Self::OutOfRange { .. }
+            | Self::NoLimit { .. }
+            | Self::Dimension { .. }
+            | Self::IndexOutOfRange { .. }
+            | Self::MergeRadius
+            | Self::MergeNeighbors { .. } => "option",
+            Self::IdsLength { .. } | Self::PositionsLength { .. } => "positions-length",
             Self::TooManyPoints { .. } | Self::OutOfMemory => "too-large",
         }
     }
@@ -105,6 +178,29 @@ impl fmt::Display for Error {
                 let (x, y, z) = (Number(x), Number(y), Number(z));
                 write!(f, "the viewpoint must be finite, got {x}, {y}, {z}")
             }
+            Self::Direction {
+                direction: [x, y, z],
+            } => {
+                let (x, y, z) = (Number(x), Number(y), Number(z));
+                write!(
+                    f,
+                    "the direction must be finite and not zero, got {x}, {y}, {z}"
+                )
+            }
+            Self::ViewpointDimension { dimension } => {
+                write!(f, "the viewpoint must be {dimension} finite numbers")
+            }
+            Self::PositionsLength { len, dimension } => write!(
+                f,
+                "{len} coordinates are not a multiple of the dimension, {dimension}"
+            ),
+            Self::Dimension { option, dimension } => {
+                write!(f, "{option} needs a cloud of dimension 3, not {dimension}")
+            }
+            Self::NoLimit { option } => write!(
+                f,
+                "{option} cannot be used for a direction: it has no limit far away"
+            ),
             Self::RadiusInvalid { radius } => {
                 let radius = Number(radius);
                 write!(f, "radius must be finite and positive, got {radius}")
@@ -136,6 +232,32 @@ impl fmt::Display for Error {
                 let exponent = Number(exponent);
                 write!(f, "exponent must be finite and at least 0, got {exponent}")
             }
+            Self::PowerInvalid { power } => {
+                let power = Number(power);
+                write!(
+                    f,
+                    "inversion power must be above 1 and at most 16, got {power}"
+                )
+            }
+            Self::ScaleInvalid { scale } => {
+                let scale = Number(scale);
+                write!(
+                    f,
+                    "inversion exponential must be finite and positive, got {scale}"
+                )
+            }
+            Self::RadiusWithInversion { option, inversion } => {
+                write!(f, "{option} cannot be combined with inversion {inversion}")
+            }
+            Self::OutOfRange {
+                option,
+                value,
+                least,
+                most,
+            } => {
+                let (value, least, most) = (Number(value), Number(least), Number(most));
+                write!(f, "{option} must be from {least} to {most}, got {value}")
+            }
             Self::TooManyPoints { count } => write!(
                 f,
                 "{count} points exceed the limit of {}",
@@ -143,8 +265,11 @@ impl fmt::Display for Error {
             ),
             Self::MergeRadius => write!(
                 f,
-                "merging needs the radius, in the cloud's units, that all parts were seen with"
+                "merging needs the radius, in the cloud's units, or the exponential scale that all parts were seen with"
             ),
+            Self::MergeNeighbors { option } => {
+                write!(f, "{option} cannot be combined with merging")
+            }
             Self::IdsLength {
                 part,
                 positions,
@@ -184,6 +309,25 @@ impl fmt::Display for Number {
 }
 
 impl core::error::Error for Error {}
+
+/// `value`, unless it is not in the range, or NaN.
+pub(crate) fn in_range(
+    option: &'static str,
+    value: f64,
+    least: f64,
+    most: f64,
+) -> Result<f64, Error> {
+    if (least..=most).contains(&value) {
+        Ok(value)
+    } else {
+        Err(Error::OutOfRange {
+            option,
+            value,
+            least,
+            most,
+        })
+    }
+}
 
 impl From<alloc::collections::TryReserveError> for Error {
     fn from(_: alloc::collections::TryReserveError) -> Self {

@@ -1,5 +1,6 @@
-//! Spherical flipping (paper §3, eq. 1): points move along their rays from the
-//! viewpoint C to the far side of a sphere of radius R around it, nearest farthest.
+//! The flip: points move along their rays from the viewpoint C, the nearest go
+//! farthest. By default to the far side of a sphere of radius R around C (paper
+//! §3, eq. 1); other inversions differ in how far alone (`kernel`).
 //!
 //! ```text
 //!   before                          after
@@ -7,28 +8,35 @@
 //!     |----d---->|                  |------------2R − d---->|
 //! ```
 
+mod kernel;
+
 use glam::DVec3;
 
 use crate::points::Points;
 
+pub(crate) use self::kernel::Kernel;
+
 /// The flip around one viewpoint, with one fixed sequence of operations, so
 /// that every platform rounds alike: v = p − C, d = √(vx² + vy² + vz²),
-/// s = (2R − d)/d, q = v·s.
+/// s from d ([`Kernel::factor`]; (2R − d)/d on a sphere), q = v·s.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Flip {
     viewpoint: DVec3,
-    radius: f64,
-    /// A power of two that brings |q| near 1 where R is extreme; otherwise 1.
+    kernel: Kernel,
+    /// A power of two that brings |q| near 1 where it is extreme; otherwise 1.
     scale: f64,
+    /// No coordinate of a flipped point is larger, but for rounding and `scale`.
+    extent: f64,
 }
 
 impl Flip {
-    /// `radius` is at least the farthest distance, and 2R is finite.
-    pub(crate) fn new(viewpoint: [f64; 3], radius: f64) -> Self {
+    /// A radius in `kernel` is at least the farthest distance, and 2R is finite.
+    pub(crate) fn new(viewpoint: [f64; 3], kernel: Kernel) -> Self {
         Self {
             viewpoint: DVec3::from_array(viewpoint),
-            radius,
+            kernel,
             scale: 1.0,
+            extent: kernel.radius().map_or(f64::INFINITY, |radius| 2.0 * radius),
         }
     }
 
@@ -36,46 +44,71 @@ impl Flip {
     /// not finite), which is visible and takes no part in the hull.
     #[inline]
     pub(crate) fn apply(&self, p: [f64; 3]) -> Option<DVec3> {
+        let Kernel::Spherical { radius } = self.kernel else {
+            return self.apply_other(p);
+        };
         let v = DVec3::from_array(p) - self.viewpoint;
         let d = square_root(v.dot(v));
         // d = 0 makes s infinite or NaN.
-        let s = (2.0 * self.radius - d) / d;
+        let s = (2.0 * radius - d) / d;
         s.is_finite().then(|| v * s * self.scale)
     }
 
-    /// Twice the largest |q|, which is 2R but for rounding (and at most 2.5 R
-    /// where squares underflow and make d too small).
+    /// The same for any kernel, out of the way of the hull's loops. A point that goes
+    /// beyond the range of f64 counts as at the viewpoint, too.
+    #[inline(never)]
+    fn apply_other(&self, p: [f64; 3]) -> Option<DVec3> {
+        let v = DVec3::from_array(p) - self.viewpoint;
+        let q = v * self.kernel.factor(square_root(v.dot(v)));
+        q.is_finite().then(|| q * self.scale)
+    }
+
+    /// At least twice the largest |q| (which is at most 5/8 of it on a sphere, where
+    /// squares underflow and make d too small), once the flip is
+    /// [`rescaled_for`](Self::rescaled_for) the points.
     pub(crate) fn reach(&self) -> f64 {
-        4.0 * self.radius * self.scale
+        let times = match self.kernel {
+            Kernel::Spherical { .. } => 2.0,
+            // |q| is up to 3R there; up to √3 of the largest coordinate here.
+            _ => 4.0,
+        };
+        times * self.extent * self.scale
     }
 
     pub(crate) fn viewpoint(&self) -> DVec3 {
         self.viewpoint
     }
 
-    /// The largest |q| in the cloud's own units.
+    /// The largest |q| of a flip on a sphere, in the cloud's own units; infinite for
+    /// other flips, which `hidden_from` says nothing about.
     pub(crate) fn reach_in_cloud(&self) -> f64 {
-        2.0 * self.radius
+        match self.kernel {
+            Kernel::Spherical { radius } => 2.0 * radius,
+            _ => f64::INFINITY,
+        }
     }
 
     /// A squared distance from which on every point flips to less than `length`, with
     /// all roundings: 2R − d < length where d > 2R − length.
     pub(crate) fn hidden_from(&self, length: f64) -> f64 {
         const ROUNDING: f64 = 1e-12;
-        let diameter = 2.0 * self.radius;
+        let diameter = self.reach_in_cloud();
         let distance = diameter * (1.0 + ROUNDING) - length / self.scale;
         distance.max(0.0) * distance.max(0.0) * (1.0 + ROUNDING)
     }
 
-    /// Rescales the flipped cloud by a power of two where R is so extreme that
-    /// floating-point filters would over- or underflow. Signs don't change with
+    /// Rescales the flipped cloud by a power of two where it is so large or small
+    /// that floating-point filters would over- or underflow. Signs don't change with
     /// scale; where the scaling itself would round, it is left out.
-    pub(crate) fn rescaled_for(self, points: &Points) -> Self {
+    pub(crate) fn rescaled_for(mut self, points: &Points) -> Self {
         const MODERATE: core::ops::Range<f64> = 1e-30..1e30;
-        if MODERATE.contains(&self.radius) {
+        if self.kernel.radius().is_none() {
+            self.extent = self.largest_coordinate(points);
+        }
+        if MODERATE.contains(&self.extent) || self.extent == 0.0 {
             return self;
         }
-        let scale = power_of_two_below(1.0 / self.radius);
+        let scale = power_of_two_below((1.0 / self.extent).min(f64::MAX));
         let scaled = Self { scale, ..self };
         let exact = points
             .iter()
@@ -84,6 +117,16 @@ impl Flip {
                 _ => true,
             });
         if exact { scaled } else { self }
+    }
+
+    /// Whether all points have the viewpoint's z, like those of a cloud in the plane.
+    pub(crate) fn keeps_in_plane(&self, points: &Points) -> bool {
+        points.iter().all(|p| p[2] == self.viewpoint.z)
+    }
+
+    fn largest_coordinate(&self, points: &Points) -> f64 {
+        let flipped = points.iter().filter_map(|p| self.apply(p));
+        flipped.fold(0.0, |largest, q| largest.max(q.abs().max_element()))
     }
 }
 
@@ -109,6 +152,10 @@ fn power_of_two_below(x: f64) -> f64 {
 mod tests {
     use super::*;
 
+    fn sphere(radius: f64) -> Kernel {
+        Kernel::Spherical { radius }
+    }
+
     #[test]
     fn glam_keeps_the_fixed_operation_order() {
         let c = [0.1, -7.3, 1e6];
@@ -119,17 +166,26 @@ mod tests {
             let xx_yy = x * x + y * y;
             let d = (xx_yy + z * z).sqrt();
             let s = (2.0 * 5e3 - d) / d;
-            let q = Flip::new(c, 5e3).apply(p).map(|q| q.to_array());
+            let q = Flip::new(c, sphere(5e3)).apply(p).map(|q| q.to_array());
             assert_eq!(q, Some([x * s, y * s, z * s]));
         }
     }
 
     #[test]
     fn points_at_the_viewpoint_are_left_out() {
-        let flip = Flip::new([1.0, 2.0, 3.0], 10.0);
+        let flip = Flip::new([1.0, 2.0, 3.0], sphere(10.0));
         assert_eq!(flip.apply([1.0, 2.0, 3.0]), None);
         // d underflows to 0, then s overflows.
-        assert_eq!(Flip::new([0.0; 3], 1.0).apply([1e-200, 0.0, 0.0]), None);
-        assert_eq!(Flip::new([0.0; 3], 1e300).apply([1e-150, 0.0, 0.0]), None);
+        let at_origin = |kernel| Flip::new([0.0; 3], kernel);
+        assert_eq!(at_origin(sphere(1.0)).apply([1e-200, 0.0, 0.0]), None);
+        assert_eq!(at_origin(sphere(1e300)).apply([1e-150, 0.0, 0.0]), None);
+        let power = |gamma, unit| at_origin(Kernel::Power { gamma, unit });
+        assert_eq!(power(2.0, 1.0).apply([0.0; 3]), None);
+        assert_eq!(power(16.0, 1.0).apply([1e-30, 0.0, 0.0]), None);
+        // s is finite, but not q.
+        assert_eq!(power(16.0, 1e150).apply([1e131, 0.0, 0.0]), None);
+        let exponential = at_origin(Kernel::Exponential { scale: 1.0 });
+        assert_eq!(exponential.apply([0.0; 3]), None);
+        assert!(exponential.apply([1e-150, 0.0, 0.0]).is_some());
     }
 }

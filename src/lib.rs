@@ -34,33 +34,50 @@ extern crate std;
 
 mod blocks;
 mod cloud;
+mod denoise;
+mod direction;
 mod division;
 mod error;
 mod exact_sum;
+mod guarantees;
 mod hull;
+mod hyperspace;
+mod illumination;
 mod inversion;
 mod merge;
+mod neighbors;
 mod observer;
 mod options;
+mod plane;
 mod points;
 mod predicates;
 mod radius;
+mod reconstruct;
 mod sector;
 mod sequence;
 mod sort;
 mod spacing;
 mod spatial;
+mod union;
+mod view;
 mod visibility;
 #[cfg(feature = "wasm")]
 mod wasm;
 
 pub use cloud::{MAX_POINTS, NonFinite, PointCloud};
 pub use error::Error;
+pub use guarantees::{permissible_curvature, radius_bound};
+pub use hyperspace::{MAX_DIMENSION, PointCloudNd};
+pub use illumination::Lighting;
 pub use merge::merge_visible;
 pub use observer::Observer;
-pub use options::{Options, Radius};
+pub use options::{Exponential, Inversion, Options, Radius};
+pub use plane::PointCloud2d;
 pub use points::Position;
+pub use radius::ChosenRadius;
+pub use reconstruct::Reconstruction;
 pub use sector::Sector;
+pub use union::ring_of_viewpoints;
 pub use visibility::Visibility;
 
 /// The README's Rust snippets, as documentation tests.

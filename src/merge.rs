@@ -4,7 +4,7 @@ use alloc::vec::Vec;
 
 use crate::cloud::{NonFinite, PointCloud, checked_len};
 use crate::error::Error;
-use crate::options::{Options, Radius};
+use crate::options::{Exponential, Inversion, Options, Radius};
 use crate::points::{Given, Points, Position};
 use crate::sort::sort_keyed;
 
@@ -43,7 +43,9 @@ use crate::sort::sort_keyed;
 /// ```
 ///
 /// # Errors
-/// [`Error::MergeRadius`] unless the radius is [`Radius::Absolute`];
+/// [`Error::MergeRadius`] unless the radius is [`Radius::Absolute`], or the inversion
+/// an [`Exponential::Scale`];
+/// [`Error::MergeNeighbors`] for [`Options::denoise`] and [`Options::vote`];
 /// [`Error::IdsLength`]; those of [`PointCloud::new`] for all positions together (an
 /// index counts through all parts) and of [`PointCloud::visible_from`].
 pub fn merge_visible<P: Position>(
@@ -66,9 +68,20 @@ pub(crate) fn merge<'a>(
     viewpoint: [f64; 3],
     options: &Options,
 ) -> Result<Vec<u32>, Error> {
-    // Any other radius would be chosen anew, for what is left of the cloud.
-    if !matches!(options.radius, Radius::Absolute(_)) {
+    // Anything else would be chosen anew, for what is left of the cloud.
+    let resolved = match options.inversion {
+        Inversion::Spherical | Inversion::Power(_) => {
+            matches!(options.radius, Radius::Absolute(_))
+        }
+        Inversion::Exponential(scale) => scale != Exponential::Auto,
+    };
+    if !resolved {
         return Err(Error::MergeRadius);
+    }
+    // The neighbors in a part, or among what is visible, are not those in the cloud.
+    let asked = [("denoise", options.denoise), ("vote", options.vote)];
+    if let Some((option, _)) = asked.into_iter().find(|(_, k)| k.is_some()) {
+        return Err(Error::MergeNeighbors { option });
     }
     let mut count = 0usize;
     for number in 0..parts {

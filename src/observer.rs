@@ -4,7 +4,6 @@ use crate::cloud::PointCloud;
 use crate::error::Error;
 use crate::hull::Memory;
 use crate::options::Options;
-use crate::sector::Sector;
 use crate::visibility::Visibility;
 
 /// Looks at a cloud from one viewpoint after another.
@@ -54,7 +53,7 @@ impl Observer<'_> {
         options: &Options,
     ) -> Result<Visibility, Error> {
         self.cloud
-            .look(&mut self.memory, viewpoint, options, Sector::WHOLE)
+            .visible_from_with(&mut self.memory, viewpoint, options)
     }
 
     /// Whether the last view was found from the one before it.

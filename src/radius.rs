@@ -1,33 +1,103 @@
 //! Choosing the radius R of the flipping sphere (paper §4).
 
+pub(crate) mod search;
+
+use self::search::Seen;
+use crate::blocks::Blocks;
 use crate::error::Error;
+use crate::hull;
+use crate::inversion::Flip;
+use crate::neighbors::distance_squared;
 use crate::options::Radius;
-use crate::spacing::{Statistics, distance_squared};
+use crate::points::Points;
+use crate::spacing::Statistics;
 
 /// A radius fit for flipping: at least the farthest distance, 2R finite.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct ResolvedRadius {
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ChosenRadius {
+    /// R, in the cloud's units; 0 where no point is away from the viewpoint.
     pub radius: f64,
-    /// log₁₀(R ÷ farthest distance), 0 where there is no distance to compare.
+    /// log₁₀(R ÷ farthest distance), the paper's parameter; 0 where there is no
+    /// distance to compare.
     pub exponent: f64,
+    /// How many hulls were spent choosing R.
+    pub evaluations: u32,
+}
+
+impl ChosenRadius {
+    /// A length that no exponent belongs to and no search was needed for.
+    pub(crate) fn unit(radius: f64) -> Self {
+        Self {
+            radius,
+            exponent: 0.0,
+            evaluations: 0,
+        }
+    }
+
+    /// Of two views the one with the larger radius, with the hulls of both.
+    pub(crate) fn joined(self, other: Self) -> Self {
+        let larger = if other.radius > self.radius {
+            other
+        } else {
+            self
+        };
+        Self {
+            evaluations: self.evaluations + other.evaluations,
+            ..larger
+        }
+    }
 }
 
 /// The largest R the flip accepts: 2R·(1 + rounding) must not overflow.
 const LARGEST: f64 = f64::MAX / 2.0 * (1.0 - 1e-15);
 
-/// Turns the caller's choice into a radius for a cloud with these `statistics`,
-/// whose farthest point from `viewpoint` is at `farthest`.
+/// Turns the caller's choice into a radius for a cloud of these `points` and
+/// `statistics`, whose farthest point from `viewpoint` is at `farthest`.
 pub(crate) fn resolve(
     choice: Radius,
+    points: &Points,
+    blocks: &Blocks,
     statistics: &Statistics,
     viewpoint: [f64; 3],
     farthest: f64,
-) -> Result<ResolvedRadius, Error> {
+) -> Result<ChosenRadius, Error> {
+    let automatic = || automatic(statistics, viewpoint, farthest);
+    let seen = |place, kernel| hull::visible_once(points, &Flip::new(place, kernel));
     match choice {
-        Radius::Auto => Ok(from_radius(
-            automatic(statistics, viewpoint, farthest),
-            farthest,
-        )),
+        Radius::Auto => Ok(from_radius(automatic(), farthest)),
+        Radius::Search => search::antipodal(automatic(), farthest, |kernels| {
+            let [here, there] = kernels.map(|kernel| seen(viewpoint, kernel));
+            Ok(Seen::count(&here?, &there?))
+        }),
+        Radius::Opposite => {
+            let center = statistics.centroid;
+            let mirror: [f64; 3] =
+                core::array::from_fn(|axis| center[axis] + (center[axis] - viewpoint[axis]));
+            // Out of range, or at the centroid, there is no other side.
+            let reach = blocks
+                .farthest_distance(points, mirror)
+                .unwrap_or(f64::INFINITY);
+            let opposite = if mirror == viewpoint {
+                None
+            } else {
+                search::opposite(reach.max(farthest), farthest, |kernel| {
+                    Ok(Seen::count(
+                        &seen(viewpoint, kernel)?,
+                        &seen(mirror, kernel)?,
+                    ))
+                })?
+            };
+            Ok(opposite.unwrap_or_else(|| from_radius(automatic(), farthest)))
+        }
+        Radius::Absolute(_) | Radius::Exponent(_) => given(choice, farthest),
+    }
+}
+
+/// A radius that is given as a number, checked; any other choice is the closed form
+/// without a spacing.
+pub(crate) fn given(choice: Radius, farthest: f64) -> Result<ChosenRadius, Error> {
+    match choice {
         Radius::Absolute(radius) => {
             if !(radius > 0.0 && radius.is_finite()) {
                 Err(Error::RadiusInvalid { radius })
@@ -56,30 +126,52 @@ pub(crate) fn resolve(
                     farthest,
                 });
             }
-            Ok(ResolvedRadius { radius, exponent })
+            Ok(ChosenRadius {
+                radius,
+                exponent,
+                evaluations: 0,
+            })
         }
+        Radius::Auto | Radius::Search | Radius::Opposite => Ok(from_radius(farthest, farthest)),
     }
 }
 
-/// R = 5·r²/s, with r the root-mean-square distance of the points from the
+fn automatic(statistics: &Statistics, viewpoint: [f64; 3], farthest: f64) -> f64 {
+    let r_squared = distance_squared(viewpoint, statistics.centroid) + statistics.variance;
+    closed_form(statistics.count, r_squared, statistics.spacing, farthest)
+}
+
+/// R = 5·r²/s, with r the root-mean-square distance of the `count` points from the
 /// viewpoint and s their spacing: a denser or more distant cloud needs a larger
 /// sphere. r² is |C − centroid|² + variance, so no pass over the points is
 /// needed, and it moves smoothly with the viewpoint, inside the cloud too.
-fn automatic(statistics: &Statistics, viewpoint: [f64; 3], farthest: f64) -> f64 {
-    if statistics.count < 2 || statistics.spacing == 0.0 || farthest == 0.0 {
+pub(crate) fn closed_form(count: usize, r_squared: f64, spacing: f64, farthest: f64) -> f64 {
+    if count < 2 || spacing == 0.0 || farthest == 0.0 {
         return farthest;
     }
-    let r_squared = distance_squared(viewpoint, statistics.centroid) + statistics.variance;
-    let radius = 5.0 * r_squared / statistics.spacing;
+    within(5.0 * r_squared / spacing, farthest)
+}
+
+/// `radius`, or the nearest one that is fit for flipping.
+fn within(radius: f64, farthest: f64) -> f64 {
     // `max` and `min` also turn a NaN from overflowing statistics into a bound.
     radius.max(farthest).min(LARGEST)
 }
 
-fn from_radius(radius: f64, farthest: f64) -> ResolvedRadius {
+/// `radius`, or the nearest one that is fit for flipping, with its exponent.
+pub(crate) fn bounded(radius: f64, farthest: f64) -> ChosenRadius {
+    from_radius(within(radius, farthest), farthest)
+}
+
+pub(crate) fn from_radius(radius: f64, farthest: f64) -> ChosenRadius {
     let exponent = if farthest > 0.0 && radius > farthest {
         libm::log10(radius / farthest).min(f64::MAX)
     } else {
         0.0
     };
-    ResolvedRadius { radius, exponent }
+    ChosenRadius {
+        radius,
+        exponent,
+        evaluations: 0,
+    }
 }

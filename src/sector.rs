@@ -8,9 +8,9 @@ use crate::cloud::PointCloud;
 use crate::division::Division;
 use crate::error::Error;
 use crate::hull::{self, Memory};
-use crate::inversion::{Flip, square_root};
-use crate::options::Options;
-use crate::radius::ResolvedRadius;
+use crate::inversion::{Flip, Kernel, square_root};
+use crate::options::{Inversion, Options};
+use crate::view::View;
 use crate::visibility::Visibility;
 
 /// One of several sectors that a view is divided into.
@@ -25,6 +25,7 @@ pub struct Sector {
 
 impl Sector {
     /// The one sector of a view that is not divided.
+    #[cfg(feature = "wasm")]
     pub(crate) const WHOLE: Self = Self {
         number: 0,
         count: 1,
@@ -74,32 +75,43 @@ impl PointCloud {
         options: &Options,
         sector: Sector,
     ) -> Result<Visibility, Error> {
-        self.look(&mut Memory::default(), viewpoint, options, sector)
+        self.visible_in_sector_with(&mut Memory::default(), viewpoint, options, sector)
     }
 
     /// [`PointCloud::visible_in_sector`] with the memory of earlier views.
-    pub(crate) fn look(
+    pub(crate) fn visible_in_sector_with(
         &self,
         memory: &mut Memory,
         viewpoint: [f64; 3],
         options: &Options,
         sector: Sector,
     ) -> Result<Visibility, Error> {
-        let resolved = self.resolve_radius(viewpoint, options.radius)?;
-        let points = &self.sequence.points;
-        let division = if sector.count == 1 {
-            None
-        } else if is_divisible(&resolved) {
-            Some(self.division(viewpoint, resolved.radius, sector)?)
-        } else if sector.number == 0 {
-            // The first one answers for all.
-            None
+        // Where a point's answer takes others' answers, or others' places, the first
+        // sector answers for all.
+        if sector.count > 1 && options.denoise.is_none() && options.vote.is_none() {
+            let view = self.view(viewpoint, options)?;
+            if is_divisible(&view) {
+                let division = Some(self.division(viewpoint, view.chosen.radius, sector)?);
+                memory.forget();
+                hull::mark_visible(&self.sequence.points, &view.flip, division, memory)?;
+                return self.answer(memory.visible(), view.chosen, view.inversion);
+            }
+        }
+        if sector.number == 0 {
+            self.visible_from_with(memory, viewpoint, options)
         } else {
-            return self.answer(&[], resolved);
-        };
-        let flip = Flip::new(viewpoint, resolved.radius);
-        hull::mark_visible(points, &flip, division, memory)?;
-        self.answer(memory.visible(), resolved)
+            self.nothing(viewpoint, options)
+        }
+    }
+
+    /// The answer in which nothing is visible.
+    fn nothing(&self, viewpoint: [f64; 3], options: &Options) -> Result<Visibility, Error> {
+        if options.denoise.is_some() {
+            return self
+                .after_denoising(options, |cloud, options| cloud.nothing(viewpoint, options));
+        }
+        let view = self.view(viewpoint, options)?;
+        self.answer(&[], view.chosen, view.inversion)
     }
 
     fn division(
@@ -123,7 +135,8 @@ impl PointCloud {
             }
         }
         let mut memory = Memory::default();
-        hull::mark_visible(&points, &Flip::new(viewpoint, coarse), None, &mut memory)?;
+        let flip = Flip::new(viewpoint, Kernel::Spherical { radius: coarse });
+        hull::mark_visible(&points, &flip, None, &mut memory)?;
         let ahead = DVec3::from_array(self.statistics.centroid);
         Division::new(
             &self.blocks,
@@ -136,8 +149,10 @@ impl PointCloud {
     }
 }
 
-/// Whether bounds of flipped points tell anything: not where squares over- or underflow,
+/// Whether bounds of flipped points are known and tell anything: not where squares over- or underflow,
 /// nor where 2R − d keeps too few digits of d.
-fn is_divisible(resolved: &ResolvedRadius) -> bool {
-    (1e-30..1e30).contains(&resolved.radius) && resolved.exponent < 8.0
+fn is_divisible(view: &View) -> bool {
+    view.inversion == Inversion::Spherical
+        && (1e-30..1e30).contains(&view.chosen.radius)
+        && view.chosen.exponent < 8.0
 }

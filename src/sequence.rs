@@ -127,6 +127,36 @@ impl Sequence {
         })
     }
 
+    /// How many points there are, equal ones counted each.
+    pub(crate) fn present(&self) -> usize {
+        self.indices.order.len()
+    }
+
+    /// The caller's indices at other `positions`, one for each distinct point, along
+    /// the curve through those.
+    pub(crate) fn moved(
+        &self,
+        positions: &[[f64; 3]],
+        curve: &HilbertCurve,
+    ) -> Result<Self, Error> {
+        let sorted = Self::sorted(Given::Double(positions), 0, positions.len(), curve)?;
+        // Points may have come to lie on each other.
+        let mut indices = Groups::with_capacity(self.indices.order.len())?;
+        for k in 0..sorted.points.len() {
+            indices.open()?;
+            for &before in sorted.indices.of(k) {
+                for &index in self.indices.of(before as usize) {
+                    indices.push(index)?;
+                }
+            }
+        }
+        indices.close()?;
+        Ok(Self {
+            points: sorted.points,
+            indices,
+        })
+    }
+
     /// The caller's indices of distinct point `k`.
     pub(crate) fn indices_of(&self, k: usize) -> &[u32] {
         self.indices.of(k)

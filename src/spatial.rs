@@ -42,6 +42,35 @@ impl Bounds {
         }
     }
 
+    /// The length of the diagonal, 0 for an empty box.
+    pub(crate) fn diagonal(&self) -> f64 {
+        let extent = [0, 1, 2].map(|axis| (self.max[axis] - self.min[axis]).max(0.0));
+        libm::hypot(libm::hypot(extent[0], extent[1]), extent[2])
+    }
+
+    /// A power of two k that brings the box to a size near 1, and a point near its
+    /// middle, times k: of few bits, so that subtracting it from coordinates of few
+    /// bits is exact.
+    pub(crate) fn coarse_center(&self) -> ([f64; 3], f64) {
+        // Far below the last bit of any coordinate there is no other extent than 0.
+        const NOTHING: f64 = 1.0 / (1u64 << 60) as f64;
+        let mut extent = 0.0f64;
+        for axis in 0..3 {
+            let [low, high] = [self.min[axis] * 0.25, self.max[axis] * 0.25];
+            extent = extent.max(high - low);
+            extent = extent.max(low.abs().max(high.abs()) * NOTHING);
+        }
+        // The extent of an empty box is infinite.
+        let unit = power_of_two_above(extent.min(f64::MAX * 0.5));
+        let scale = (0.25 / unit).max(f64::MIN_POSITIVE);
+        let middle = |axis: usize| {
+            let sum = self.max[axis] * (0.5 * scale) + self.min[axis] * (0.5 * scale);
+            libm::floor(sum * 8.0 + 0.5) / 8.0
+        };
+        let center = [0, 1, 2].map(middle);
+        (center.map(|x| if x.is_finite() { x } else { 0.0 }), scale)
+    }
+
     /// Squared distance from `p` to the box, 0 inside.
     pub(crate) fn distance_squared(&self, p: [f64; 3]) -> f64 {
         let mut sum = 0.0;

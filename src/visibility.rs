@@ -4,20 +4,36 @@ use alloc::vec::Vec;
 
 use crate::cloud::PointCloud;
 use crate::error::Error;
-use crate::options::{Options, Radius};
-use crate::radius::{self, ResolvedRadius};
-use crate::sector::Sector;
+use crate::hull;
+use crate::options::{Inversion, Options, Radius};
+use crate::radius::ChosenRadius;
+use crate::view::View;
 
-/// Which points of a cloud are visible from one viewpoint.
+/// Which points of a cloud are visible from one viewpoint, or from several.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Visibility {
     indices: Vec<u32>,
     cloud_len: usize,
-    radius: f64,
-    exponent: f64,
+    chosen: ChosenRadius,
+    inversion: Inversion,
 }
 
 impl Visibility {
+    /// `indices` ascend.
+    pub(crate) fn new(
+        indices: Vec<u32>,
+        cloud_len: usize,
+        chosen: ChosenRadius,
+        inversion: Inversion,
+    ) -> Self {
+        Self {
+            indices,
+            cloud_len,
+            chosen,
+            inversion,
+        }
+    }
+
     /// The visible points' indices in the cloud, ascending.
     #[must_use]
     pub fn indices(&self) -> &[u32] {
@@ -37,23 +53,30 @@ impl Visibility {
     }
 
     /// The radius R of the flipping sphere, in the cloud's units; 0 where no
-    /// point is away from the viewpoint.
+    /// point is away from the viewpoint. With [`Inversion::Power`] the unit S, with
+    /// [`Inversion::Exponential`] 0.
     #[must_use]
     pub fn radius(&self) -> f64 {
-        self.radius
+        self.chosen.radius
     }
 
-    /// log₁₀(R ÷ farthest distance), the paper's parameter.
+    /// log₁₀(R ÷ farthest distance), the paper's parameter; 0 where there is no R.
     #[must_use]
     pub fn exponent(&self) -> f64 {
-        self.exponent
+        self.chosen.exponent
     }
 
     /// How many hulls were spent choosing R, the final one not counted.
     #[must_use]
     pub fn evaluations(&self) -> u32 {
-        // The closed form of `Radius::Auto` needs none.
-        0
+        self.chosen.evaluations
+    }
+
+    /// The inversion used, with numbers only: asked with it (and with the radius of a
+    /// spherical one), any part of the cloud is flipped alike.
+    #[must_use]
+    pub fn inversion(&self) -> Inversion {
+        self.inversion
     }
 
     /// One byte for each index of the cloud: 1 visible, 0 hidden.
@@ -87,51 +110,107 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::Viewpoint`] for a viewpoint that is not finite; the `Radius…`
-    /// and `Exponent…` errors for a choice of R that does not fit the view;
-    /// [`Error::OutOfMemory`].
+    /// and `Exponent…` errors for a choice of R that does not fit the view, or its
+    /// inversion; [`Error::PowerInvalid`], [`Error::ScaleInvalid`]; [`Error::OutOfRange`]
+    /// unless 1 ≤ k < the number of present points for [`Options::denoise`] and
+    /// [`Options::vote`]; [`Error::OutOfMemory`].
     pub fn visible_from(
         &self,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        self.visible_in_sector(viewpoint, options, Sector::WHOLE)
+        self.visible_from_with(&mut hull::Memory::default(), viewpoint, options)
     }
 
-    /// The answer with these distinct points visible.
+    /// [`PointCloud::visible_from`] with the memory of earlier views.
+    pub(crate) fn visible_from_with(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        if options.denoise.is_some() {
+            // Other points, whose hull would be no use here.
+            return self.after_denoising(options, |cloud, options| {
+                cloud.visible_from(viewpoint, options)
+            });
+        }
+        let view = self.look(memory, viewpoint, options)?;
+        match options.vote {
+            Some(k) => {
+                let voted = self.vote(k, memory.visible())?;
+                self.answer(&voted, view.chosen, view.inversion)
+            }
+            None => self.answer(memory.visible(), view.chosen, view.inversion),
+        }
+    }
+
+    /// Marks what is visible in `memory`; returns what the view was resolved to. Points
+    /// are taken where they are, and no votes are counted.
+    fn look(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<View, Error> {
+        let view = self.view(viewpoint, options)?;
+        // Hulls of one kind of flip are no start for another.
+        let is_spherical = view.inversion == Inversion::Spherical;
+        if !is_spherical {
+            memory.forget();
+        }
+        hull::mark_visible(&self.sequence.points, &view.flip, None, memory)?;
+        if !is_spherical {
+            memory.forget();
+        }
+        Ok(view)
+    }
+
+    /// For each distinct point whether it is visible, and what the view was resolved to.
+    /// Votes are counted, but points are taken where they are.
+    pub(crate) fn marks(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<(Vec<bool>, View), Error> {
+        let view = self.look(memory, viewpoint, options)?;
+        let mut visible = Vec::new();
+        visible.try_reserve_exact(memory.visible().len())?;
+        visible.extend_from_slice(memory.visible());
+        Ok((self.voted(visible, options)?, view))
+    }
+
+    /// What is visible by the vote that `options` ask for, if they do.
+    pub(crate) fn voted(&self, visible: Vec<bool>, options: &Options) -> Result<Vec<bool>, Error> {
+        match options.vote {
+            Some(k) => self.vote(k, &visible),
+            None => Ok(visible),
+        }
+    }
+
+    /// The answer for marked distinct points.
     pub(crate) fn answer(
         &self,
         visible: &[bool],
-        resolved: ResolvedRadius,
+        chosen: ChosenRadius,
+        inversion: Inversion,
     ) -> Result<Visibility, Error> {
-        Ok(Visibility {
-            indices: self.callers_indices(visible)?,
-            cloud_len: self.len(),
-            radius: resolved.radius,
-            exponent: resolved.exponent,
-        })
+        let indices = self.callers_indices(visible)?;
+        Ok(Visibility::new(indices, self.len(), chosen, inversion))
     }
 
-    /// The radius that [`Radius::Auto`] takes for `viewpoint`, and its exponent.
+    /// The radius that `rule` chooses for `viewpoint` in spherical flipping, without
+    /// asking what is visible.
     ///
     /// # Errors
-    /// [`Error::Viewpoint`], [`Error::RadiusOverflow`].
-    pub fn auto_radius(&self, viewpoint: [f64; 3]) -> Result<(f64, f64), Error> {
-        let resolved = self.resolve_radius(viewpoint, Radius::Auto)?;
-        Ok((resolved.radius, resolved.exponent))
-    }
-
-    pub(crate) fn resolve_radius(
-        &self,
-        viewpoint: [f64; 3],
-        choice: Radius,
-    ) -> Result<ResolvedRadius, Error> {
-        if viewpoint.iter().any(|x| !x.is_finite()) {
-            return Err(Error::Viewpoint { viewpoint });
-        }
-        let farthest = self
-            .blocks
-            .farthest_distance(&self.sequence.points, viewpoint)?;
-        radius::resolve(choice, &self.statistics, viewpoint, farthest)
+    /// As [`PointCloud::visible_from`].
+    pub fn auto_radius(&self, viewpoint: [f64; 3], rule: Radius) -> Result<ChosenRadius, Error> {
+        let options = Options {
+            radius: rule,
+            ..Options::default()
+        };
+        Ok(self.view(viewpoint, &options)?.chosen)
     }
 
     /// The caller's indices of the marked distinct points, ascending.

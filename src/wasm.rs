@@ -26,7 +26,7 @@ use self::transfer::{copy_in_integers, copy_out, doubles, singles};
 use crate::hull::Memory;
 use crate::merge::merge;
 use crate::points::Points;
-use crate::{Error, NonFinite, Options, PointCloud};
+use crate::{Error, NonFinite, Options, PointCloud, Radius};
 
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<PointCloud>>> = const { RefCell::new(Vec::new()) };
@@ -188,12 +188,11 @@ pub fn visible_from(
 /// The radius that `visibleFrom` chooses by itself for (x, y, z).
 #[wasm_bindgen(js_name = autoRadius, unchecked_return_type = "ChosenRadius")]
 pub fn auto_radius(handle: u32, x: f64, y: f64, z: f64) -> Result<JsValue, JsValue> {
-    let (radius, exponent) = with_cloud(handle, |cloud| cloud.auto_radius([x, y, z]))?;
+    let chosen = with_cloud(handle, |cloud| cloud.auto_radius([x, y, z], Radius::Auto))?;
     Ok(to_js(&ChosenRadius {
-        radius,
-        exponent,
-        // A closed form: no hull is built for it.
-        evaluations: 0.0,
+        radius: chosen.radius,
+        exponent: chosen.exponent,
+        evaluations: f64::from(chosen.evaluations),
     }))
 }
 

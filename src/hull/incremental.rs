@@ -50,7 +50,7 @@ impl Vertices {
     }
 
     /// A number for the point `point`, flipped to `q`.
-    fn add(&mut self, point: u32, q: DVec3) -> Result<Vertex, TryReserveError> {
+    pub(super) fn add(&mut self, point: u32, q: DVec3) -> Result<Vertex, TryReserveError> {
         if let Some(vertex) = self.free.pop() {
             self.positions[vertex as usize] = q;
             self.points[vertex as usize] = point;

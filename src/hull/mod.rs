@@ -12,12 +12,14 @@ mod depth;
 mod flat;
 mod incremental;
 mod locate;
+mod lower;
 mod motion;
 mod order;
 mod plane;
 mod repair;
 mod sector;
 mod topology;
+mod triangles;
 
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -32,6 +34,8 @@ use incremental::Hull;
 use locate::Location;
 use repair::Repair;
 use topology::FaceId;
+
+pub(crate) use lower::mark_lower_boundary;
 
 /// Points looked at for a first tetrahedron before all of them are.
 const SEED_SAMPLE: usize = 512;
@@ -143,8 +147,12 @@ pub(crate) fn mark_visible(
     }
     let count = points.len() as u32;
     let sample = order::spatial_rounds().flat_map(|round| round.indices(count));
-    let seed = first_tetrahedron(sample.take(SEED_SAMPLE), &flipped)
-        .or_else(|| first_tetrahedron(0..count, &flipped));
+    let seed = if flipped.flip.keeps_in_plane(points) {
+        None
+    } else {
+        first_tetrahedron(sample.take(SEED_SAMPLE), &flipped)
+            .or_else(|| first_tetrahedron(0..count, &flipped))
+    };
     let room = division
         .as_ref()
         .map_or(points.len(), Division::near_points);
@@ -167,6 +175,30 @@ pub(crate) fn mark_visible(
             Ok(())
         }
     }
+}
+
+/// Which of `points` are visible, for a single view.
+pub(crate) fn visible_once(points: &Points, flip: &Flip) -> Result<Vec<bool>, Error> {
+    let mut memory = Memory::default();
+    mark_visible(points, flip, None, &mut memory)?;
+    Ok(memory.visible)
+}
+
+/// The same, and the outer faces of the hull as triangles of points, counter-clockwise
+/// seen from the viewpoint; none where all is in one plane with the viewpoint.
+pub(crate) fn triangulate_visible(
+    points: &Points,
+    flip: &Flip,
+) -> Result<(Vec<bool>, Vec<[u32; 3]>), Error> {
+    let mut memory = Memory::default();
+    mark_visible(points, flip, None, &mut memory)?;
+    let mut triangles = Vec::new();
+    if memory.holds_hull {
+        let flip = flip.rescaled_for(points);
+        let flipped = Flipped { points, flip };
+        triangles = memory.hull.outer_triangles(&memory.on_boundary, &flipped)?;
+    }
+    Ok((memory.visible, triangles))
 }
 
 impl Memory {

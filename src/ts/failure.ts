@@ -1,12 +1,13 @@
 import { HprError, type HprErrorCode } from "./errors.js";
 
 /**
- * A refusal as the wasm throws it: which one, and the numbers its message names
+ * A refusal as the wasm throws it: which one, and the option and numbers its message names
  * (src/wasm/failure.rs). Numbers are worded on this side, where that costs nothing.
  */
 interface Failure {
   code: HprErrorCode;
   problem: keyof typeof MESSAGES;
+  option: string;
   numbers: [number, number, number];
 }
 
@@ -23,12 +24,25 @@ const MESSAGES = {
   distanceOverflow: (farthest) => `the farthest distance (${farthest}) exceeds the range of f64`,
   exponentInvalid: (exponent) => `exponent must be finite and at least 0, got ${exponent}`,
   tooManyPoints: (count, limit) => `${count} points exceed the limit of ${limit}`,
-  mergeRadius: () => "merging needs the radius, in the cloud's units, that all parts were seen with",
+  mergeRadius: () => "merging needs the radius, in the cloud's units, or the exponential scale that all parts were seen with",
   idsLength: (part, positions, ids) => `part ${part} has ${positions} positions, but ${ids} ids`,
   indexOutOfRange: (index, length) => `index ${index} is out of range for a cloud of length ${length}`,
   outOfMemory: () => "not enough memory for this cloud",
   disposed: () => "this cloud has been disposed of",
-} satisfies Record<string, (...numbers: [string, string, string]) => string>;
+  powerInvalid: (power) => `inversion power must be above 1 and at most 16, got ${power}`,
+  scaleInvalid: (scale) => `inversion exponential must be finite and positive, got ${scale}`,
+  radiusWithPower: (_a, _b, _c, option) => `${option} cannot be combined with inversion power`,
+  radiusWithExponential: (_a, _b, _c, option) => `${option} cannot be combined with inversion exponential`,
+  outOfRange: (least, most, value, option) => `${option} must be from ${least} to ${most}, got ${value}`,
+  noLimit: (_a, _b, _c, option) => `${option} cannot be used for a direction: it has no limit far away`,
+  mergeNeighbors: (_a, _b, _c, option) => `${option} cannot be combined with merging`,
+  dimension: (dimension, _b, _c, option) => `${option} needs a cloud of dimension 3, not ${dimension}`,
+  direction: (x, y, z) => `the direction must be finite and not zero, got ${x}, ${y}, ${z}`,
+  viewpointDimension: (dimension) => `the viewpoint must be ${dimension} finite numbers`,
+  positionsLength: (length, dimension) => `${length} coordinates are not a multiple of the dimension, ${dimension}`,
+} satisfies Record<string, Words>;
+
+type Words = (...named: [first: string, second: string, third: string, option: string]) => string;
 
 /** What the bindings threw on purpose, having cleaned up behind them, as an error; else undefined. */
 export function refusal(thrown: unknown): HprError | undefined {
@@ -36,8 +50,8 @@ export function refusal(thrown: unknown): HprError | undefined {
     return undefined;
   }
   const [a, b, c] = thrown.numbers;
-  const words: (...numbers: [string, string, string]) => string = MESSAGES[thrown.problem];
-  return new HprError(thrown.code, words(spelled(a), spelled(b), spelled(c)));
+  const words: Words = MESSAGES[thrown.problem];
+  return new HprError(thrown.code, words(spelled(a), spelled(b), spelled(c), thrown.option));
 }
 
 /** As the crate spells it: JavaScript's way, but for these. */

@@ -7,11 +7,12 @@ use wasm_bindgen::JsValue;
 use super::to_js;
 use crate::{Error, MAX_POINTS};
 
-/// A refusal: which one, and the numbers its message names.
+/// A refusal: which one, and the option and the numbers its message names.
 #[derive(Serialize)]
 pub(super) struct Failure {
     code: &'static str,
     problem: &'static str,
+    option: &'static str,
     numbers: [f64; 3],
 }
 
@@ -20,6 +21,7 @@ impl Failure {
     pub(super) const DISPOSED: Self = Self {
         code: "disposed",
         problem: "disposed",
+        option: "",
         numbers: [0.0; 3],
     };
 }
@@ -28,6 +30,7 @@ impl From<Error> for Failure {
     #[cold]
     #[inline(never)]
     fn from(error: Error) -> Self {
+        let mut named = "";
         let (problem, numbers) = match error {
             Error::NonFinite { count, first } => ("nonFinite", [count as f64, first as f64, 0.0]),
             Error::Viewpoint { viewpoint } => ("viewpoint", viewpoint),
@@ -57,10 +60,54 @@ impl From<Error> for Failure {
                 ("indexOutOfRange", [f64::from(index), len as f64, 0.0])
             }
             Error::OutOfMemory => ("outOfMemory", [0.0; 3]),
+            Error::PowerInvalid { power } => ("powerInvalid", [power, 0.0, 0.0]),
+            Error::ScaleInvalid { scale } => ("scaleInvalid", [scale, 0.0, 0.0]),
+            Error::RadiusWithInversion { option, inversion } => {
+                named = option;
+                let is_power = inversion == "power";
+                let power = "radiusWithPower";
+                (
+                    if is_power {
+                        power
+                    } else {
+                        "radiusWithExponential"
+                    },
+                    [0.0; 3],
+                )
+            }
+            Error::OutOfRange {
+                option,
+                value,
+                least,
+                most,
+            } => {
+                named = option;
+                ("outOfRange", [least, most, value])
+            }
+            Error::NoLimit { option } => {
+                named = option;
+                ("noLimit", [0.0; 3])
+            }
+            Error::MergeNeighbors { option } => {
+                named = option;
+                ("mergeNeighbors", [0.0; 3])
+            }
+            Error::Dimension { option, dimension } => {
+                named = option;
+                ("dimension", [dimension as f64, 0.0, 0.0])
+            }
+            Error::Direction { direction } => ("direction", direction),
+            Error::ViewpointDimension { dimension } => {
+                ("viewpointDimension", [dimension as f64, 0.0, 0.0])
+            }
+            Error::PositionsLength { len, dimension } => {
+                ("positionsLength", [len as f64, dimension as f64, 0.0])
+            }
         };
         Self {
             code: error.code(),
             problem,
+            option: named,
             numbers,
         }
     }

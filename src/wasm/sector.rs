@@ -26,7 +26,11 @@ pub fn visible_in_sector(
     let sector = Sector::new(number, count).unwrap_or(Sector::WHOLE);
     let visibility = with_cloud(handle, |cloud| {
         with_memory(handle, |memory| {
-            cloud.look(memory, [x, y, z], &Options { radius }, sector)
+            let options = Options {
+                radius,
+                ..Options::default()
+            };
+            cloud.visible_in_sector_with(memory, [x, y, z], &options, sector)
         })
     })?;
     Ok(to_js(&Answer {

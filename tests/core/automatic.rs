@@ -3,7 +3,7 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use hidden_point_removal::{Options, PointCloud};
+use hidden_point_removal::{Options, PointCloud, Radius};
 
 use crate::common::ask;
 use crate::common::flip::{distance, farthest};
@@ -12,10 +12,10 @@ use crate::common::scenes::KINDS;
 use crate::common::shapes;
 
 fn automatic(points: &[[f64; 3]], viewpoint: [f64; 3]) -> (f64, f64) {
-    PointCloud::new(points)
-        .unwrap()
-        .auto_radius(viewpoint)
-        .unwrap()
+    let cloud = PointCloud::new(points).unwrap();
+    let chosen = cloud.auto_radius(viewpoint, Radius::Auto).unwrap();
+    assert_eq!(chosen.evaluations, 0);
+    (chosen.radius, chosen.exponent)
 }
 
 fn distinct(points: &[[f64; 3]]) -> Vec<[f64; 3]> {

@@ -4,7 +4,7 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use hidden_point_removal::{Error, NonFinite, Options, PointCloud, Position, Radius};
+use hidden_point_removal::{ChosenRadius, Error, NonFinite, Options, PointCloud, Position, Radius};
 
 use crate::common::rng::Rng;
 use crate::common::scenes::{EXTREME, KINDS};
@@ -46,10 +46,10 @@ impl Changed {
             .unzip();
         let fresh = PointCloud::new(&points).unwrap();
         assert_eq!(self.cloud.len(), self.present.len(), "{title}");
-        let bits = |(radius, exponent): (f64, f64)| (radius.to_bits(), exponent.to_bits());
+        let bits = |chosen: ChosenRadius| (chosen.radius.to_bits(), chosen.exponent.to_bits());
         assert_eq!(
-            self.cloud.auto_radius(viewpoint).map(bits),
-            fresh.auto_radius(viewpoint).map(bits),
+            self.cloud.auto_radius(viewpoint, Radius::Auto).map(bits),
+            fresh.auto_radius(viewpoint, Radius::Auto).map(bits),
             "{title}"
         );
         let answer = self.cloud.visible_from(viewpoint, options);
@@ -124,13 +124,19 @@ fn one_far_point_comes_and_goes() {
     let points = shapes::bumpy(&mut Rng::new(6), 5000);
     for far in [[3.0, 0.0, 0.0], [-1e3, 1e9, 0.5], [1e150, -1e140, 1.0]] {
         let mut changed = Changed::new(&points);
-        let before = changed.cloud.auto_radius(FRONT).unwrap();
+        let before = changed.cloud.auto_radius(FRONT, Radius::Auto).unwrap();
         changed.append(&[far]);
         changed.check(FRONT, &Options::default(), "far");
-        assert_ne!(changed.cloud.auto_radius(FRONT).unwrap(), before);
+        assert_ne!(
+            changed.cloud.auto_radius(FRONT, Radius::Auto).unwrap(),
+            before
+        );
         changed.remove(&[5000]);
         changed.check(FRONT, &Options::default(), "near again");
-        assert_eq!(changed.cloud.auto_radius(FRONT).unwrap(), before);
+        assert_eq!(
+            changed.cloud.auto_radius(FRONT, Radius::Auto).unwrap(),
+            before
+        );
     }
 }
 
@@ -177,7 +183,8 @@ fn a_cloud_can_be_emptied_and_filled_again() {
     let all: Vec<u32> = (0..30).collect();
     changed.remove(&all);
     changed.check(FRONT, &Options::default(), "emptied");
-    assert_eq!(changed.cloud.auto_radius(FRONT), Ok((0.0, 0.0)));
+    let chosen = changed.cloud.auto_radius(FRONT, Radius::Auto).unwrap();
+    assert_eq!((chosen.radius, chosen.exponent), (0.0, 0.0));
     assert!(!changed.cloud.is_empty());
     changed.append(&points);
     changed.check(FRONT, &Options::default(), "filled again");
@@ -239,8 +246,6 @@ fn a_refused_change_changes_nothing() {
     }
     assert!(changed.cloud.append(&[[1e3; 3], [NAN; 3]]).is_err());
     changed.check(FRONT, &Options::default(), "refused");
-    let options = Options {
-        radius: Radius::Exponent(2.0),
-    };
+    let options = Options::with_exponent(2.0);
     changed.check([0.1; 3], &options, "refused");
 }

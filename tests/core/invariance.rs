@@ -83,7 +83,10 @@ fn a_power_of_two_scale_changes_no_index() {
             let points: Vec<_> = scene.points.iter().map(|&p| by(p)).collect();
             let options = match scene.options.radius {
                 Radius::Absolute(radius) => Options::with_radius(radius * scale),
-                other => Options { radius: other },
+                other => Options {
+                    radius: other,
+                    ..Options::default()
+                },
             };
             let after = ask(&points, by(scene.viewpoint), &options);
             assert_eq!(
@@ -127,7 +130,10 @@ fn single_precision_positions_are_widened() {
         let wide: Vec<[f64; 3]> = narrow.iter().map(|p| p.map(f64::from)).collect();
         let options = match scene.options.radius {
             Radius::Absolute(_) => Options::with_exponent(2.0),
-            other => Options { radius: other },
+            other => Options {
+                radius: other,
+                ..Options::default()
+            },
         };
         let narrow = ask(&narrow, scene.viewpoint, &options);
         let wide = ask(&wide, scene.viewpoint, &options);

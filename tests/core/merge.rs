@@ -125,12 +125,20 @@ fn what_cannot_be_merged_is_refused() {
     let fits = Options::with_radius(100.0);
 
     for radius in [Radius::Auto, Radius::Exponent(3.0)] {
-        let error = merge(&[part()], FRONT, &Options { radius }).unwrap_err();
+        let error = merge(
+            &[part()],
+            FRONT,
+            &Options {
+                radius,
+                ..Options::default()
+            },
+        )
+        .unwrap_err();
         assert_eq!((error, error.code()), (Error::MergeRadius, "option"));
         assert!(error.to_string().contains("radius"));
     }
     let farthest = PointCloud::new(&[[0.0, 0.0, -95.5]]).unwrap();
-    let (farthest, _) = farthest.auto_radius(FRONT).unwrap();
+    let farthest = farthest.auto_radius(FRONT, Radius::Auto).unwrap().radius;
     let far = (vec![[0.0, 0.0, -95.5]], vec![77]);
     let error = merge(&[part(), far], FRONT, &fits).unwrap_err();
     let expected = Error::RadiusTooSmall {

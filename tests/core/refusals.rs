@@ -46,7 +46,10 @@ fn skipped_points_keep_their_indices_and_are_never_visible() {
     assert_eq!(answer.mask(), [0, 1, 0, 0, 1]);
     // The others are answered as if the skipped ones had not been given.
     let finite = PointCloud::new(&[points[1], points[3], points[4]]).unwrap();
-    assert_eq!(finite.auto_radius(ORIGIN), cloud.auto_radius(ORIGIN));
+    assert_eq!(
+        finite.auto_radius(ORIGIN, Radius::Auto),
+        cloud.auto_radius(ORIGIN, Radius::Auto)
+    );
     assert_eq!(finite.skipped(), 0);
 }
 
@@ -73,7 +76,10 @@ fn a_viewpoint_that_is_not_finite_is_refused() {
                 assert_eq!(error.code(), "viewpoint");
                 let cloud = PointCloud::new(points).unwrap();
                 assert_eq!(
-                    cloud.auto_radius(viewpoint).unwrap_err().code(),
+                    cloud
+                        .auto_radius(viewpoint, Radius::Auto)
+                        .unwrap_err()
+                        .code(),
                     "viewpoint"
                 );
             }
@@ -123,7 +129,7 @@ fn distances_and_radii_beyond_the_range_are_refused() {
     assert_eq!(
         PointCloud::new(&far)
             .unwrap()
-            .auto_radius(ORIGIN)
+            .auto_radius(ORIGIN, Radius::Auto)
             .unwrap_err()
             .code(),
         "radius"
@@ -221,7 +227,17 @@ fn a_refusal_leaves_the_cloud_usable() {
         Radius::Exponent(-1.0),
         Radius::Absolute(NAN),
     ] {
-        assert!(cloud.visible_from(ORIGIN, &Options { radius }).is_err());
+        assert!(
+            cloud
+                .visible_from(
+                    ORIGIN,
+                    &Options {
+                        radius,
+                        ..Options::default()
+                    }
+                )
+                .is_err()
+        );
     }
     let after = cloud.visible_from(ORIGIN, &Options::default()).unwrap();
     assert_eq!(before.indices(), after.indices());

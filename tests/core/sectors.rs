@@ -145,6 +145,7 @@ fn refusals_are_those_of_the_whole() {
     for radius in [f64::NAN, -1.0, 0.5, f64::MAX] {
         let options = Options {
             radius: Radius::Absolute(radius),
+            ..Options::default()
         };
         compare(&cloud, [0.0, 0.0, 3.0], &options, 2, "a bad radius");
     }

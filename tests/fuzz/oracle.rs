@@ -7,14 +7,15 @@
 
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use hidden_point_removal::{Options, PointCloud};
+use hidden_point_removal::{Exponential, Inversion, Options, PointCloud, Radius, Visibility};
 
 #[path = "../core/common/mod.rs"]
 mod common;
 
+use common::flip::{farthest, flip_as};
 use common::rng::Rng;
 use common::scenes::{EXTREME, KINDS, Scene};
-use common::{ask, indices_of, oracle, proved};
+use common::{ask, indices_of, oracle, proved_flipped};
 
 fn main() {
     let minutes: f64 = argument("--minutes").map_or(1.0, |x| x.parse().expect("a number"));
@@ -44,7 +45,10 @@ fn main() {
                 1 | 2 if !extreme => 14 + rng.below(12),
                 _ => rng.below(14),
             };
-            let scene = kind.scene(seed, n);
+            let mut scene = kind.scene(seed, n);
+            if rng.chance(3) {
+                scene.options = Options::with_inversion(inversion(&mut rng, &scene));
+            }
             if is_wrong(&scene) {
                 println!("wrong: {} with seed {seed}, {n} points", kind.name);
                 report(shrink(scene));
@@ -61,23 +65,46 @@ fn argument(name: &str) -> Option<String> {
     std::env::args().skip_while(|arg| arg != name).nth(1)
 }
 
-fn expected(scene: &Scene, radius: f64) -> Vec<bool> {
+/// Any inversion for small scenes, mild ones where certificates have to follow.
+fn inversion(rng: &mut Rng, scene: &Scene) -> Inversion {
+    if scene.points.len() >= 30 {
+        return Inversion::Power(rng.between(1.001, 2.0));
+    }
+    let farthest = farthest(&scene.points, scene.viewpoint).max(1e-300);
+    match rng.below(4) {
+        0 => Inversion::Power(rng.between(1.0001, 16.0)),
+        1 => Inversion::Power(2.0),
+        2 => Inversion::Exponential(Exponential::Auto),
+        _ => {
+            let times = 10f64.powf(rng.between(-8.0, 3.0));
+            Inversion::Exponential(Exponential::Scale(farthest * times))
+        }
+    }
+}
+
+fn expected(scene: &Scene, answer: &Visibility) -> Vec<bool> {
+    let flip = |&p: &[f64; 3]| flip_as(p, scene.viewpoint, answer);
+    let flipped: Vec<_> = scene.points.iter().map(flip).collect();
     if scene.points.len() < 30 {
-        oracle::visible(&scene.points, scene.viewpoint, radius)
+        oracle::visible_flipped(&flipped)
     } else {
-        proved(&scene.points, scene.viewpoint, radius)
+        proved_flipped(&flipped)
     }
 }
 
 fn is_wrong(scene: &Scene) -> bool {
     let answer = ask(&scene.points, scene.viewpoint, &scene.options);
-    answer.indices() != indices_of(&expected(scene, answer.radius()))
+    answer.indices() != indices_of(&expected(scene, &answer))
 }
 
 /// Leaves out points, in ever smaller runs, while the answer stays wrong.
 fn shrink(mut scene: Scene) -> Scene {
-    let radius = ask(&scene.points, scene.viewpoint, &scene.options).radius();
-    scene.options = Options::with_radius(radius);
+    let answer = ask(&scene.points, scene.viewpoint, &scene.options);
+    let inversion = answer.inversion();
+    scene.options = Options::with_inversion(inversion);
+    if !matches!(inversion, Inversion::Exponential(_)) {
+        scene.options.radius = Radius::Absolute(answer.radius());
+    }
     let mut run = scene.points.len() / 2;
     while run > 0 {
         let mut start = 0;
@@ -105,8 +132,5 @@ fn report(scene: Scene) {
         .expect("an acceptable view");
     println!("{scene:?}");
     println!("answered {:?}", answer.indices());
-    println!(
-        "expected {:?}",
-        indices_of(&expected(&scene, answer.radius()))
-    );
+    println!("expected {:?}", indices_of(&expected(&scene, &answer)));
 }

@@ -1,5 +1,7 @@
-//! The spherical flip, operation by operation: the one fixed sequence of `f64`
-//! operations that the answers are exact for.
+//! The flips, operation by operation: the one fixed sequence of `f64` operations
+//! that the answers are exact for.
+
+use hidden_point_removal::{Exponential, Inversion, Visibility};
 
 /// `v = p − C` and its length, left to right.
 fn relative(p: [f64; 3], viewpoint: [f64; 3]) -> ([f64; 3], f64) {
@@ -32,4 +34,17 @@ pub fn flip(p: [f64; 3], viewpoint: [f64; 3], radius: f64) -> Option<[f64; 3]> {
     }
     let s = (2.0 * radius - d) / d;
     s.is_finite().then(|| v.map(|x| x * s))
+}
+
+/// The flip that an answer says it used.
+pub fn flip_as(p: [f64; 3], viewpoint: [f64; 3], answer: &Visibility) -> Option<[f64; 3]> {
+    let (v, d) = relative(p, viewpoint);
+    let s = match answer.inversion() {
+        Inversion::Spherical => return flip(p, viewpoint, answer.radius()),
+        Inversion::Power(gamma) => libm::pow(d / answer.radius(), -gamma),
+        Inversion::Exponential(Exponential::Scale(c)) => libm::exp((c / d).min(200.0)) / d,
+        Inversion::Exponential(Exponential::Auto) => panic!("an unresolved inversion"),
+    };
+    // Beyond the range of f64 is as good as at the viewpoint.
+    Some(v.map(|x| x * s)).filter(|q| q.iter().all(|x| x.is_finite()))
 }

@@ -37,9 +37,14 @@ pub fn indices_of(mask: &[bool]) -> Vec<u32> {
 /// The answer by certificates for every point.
 pub fn proved(points: &[[f64; 3]], viewpoint: [f64; 3], radius: f64) -> Vec<bool> {
     let flipped: Vec<_> = points.iter().map(|&p| flip(p, viewpoint, radius)).collect();
+    proved_flipped(&flipped)
+}
+
+/// The same for points that are flipped already; `None` for those at the viewpoint.
+pub fn proved_flipped(flipped: &[Option<[f64; 3]>]) -> Vec<bool> {
     let q: Vec<_> = flipped.iter().flatten().copied().collect();
     if q.is_empty() {
-        return vec![true; points.len()];
+        return vec![true; flipped.len()];
     }
     let certifier = Certifier::new(&q);
     let mut number = 0;

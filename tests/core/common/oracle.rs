@@ -19,6 +19,11 @@ type Vector = [BigInt; 3];
 /// Visible or not, for each of `points`.
 pub fn visible(points: &[[f64; 3]], viewpoint: [f64; 3], radius: f64) -> Vec<bool> {
     let flipped: Vec<_> = points.iter().map(|&p| flip(p, viewpoint, radius)).collect();
+    visible_flipped(&flipped)
+}
+
+/// The same for points that are flipped already; `None` for those at the viewpoint.
+pub fn visible_flipped(flipped: &[Option<[f64; 3]>]) -> Vec<bool> {
     let mut distinct: Vec<[f64; 3]> = flipped.iter().flatten().copied().collect();
     distinct.sort_by(|a, b| a.partial_cmp(b).expect("finite flipped points"));
     distinct.dedup();

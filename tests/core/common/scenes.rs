@@ -206,6 +206,9 @@ fn with_any_radius(rng: &mut Rng, points: Points, viewpoint: [f64; 3]) -> Scene 
     Scene {
         points,
         viewpoint,
-        options: Options { radius },
+        options: Options {
+            radius,
+            ..Options::default()
+        },
     }
 }

@@ -1,0 +1,251 @@
+//! The lower boundary of a convex hull: what a viewer infinitely far below sees.
+//!
+//! INPUT    points (x, y, w); the viewer looks along +w, and the ghost vertex is
+//!          infinitely far above.
+//! OUTPUT   for each point whether it is on the lower boundary of the hull: no point
+//!          of the hull with the same x, y has a smaller w. Exact.
+//! SUMMARY  As `incremental`, whose rays from the viewpoint are vertical lines here:
+//!          the lower boundary, seen along w, is a triangulation of the plane. Walks
+//!          in it cannot go in circles, because it is a regular one (Edelsbrunner: An
+//!          acyclicity theorem for cell complexes in d dimensions, 1990).
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use super::order;
+use super::topology::{Face, FaceId, Surface, Vertex};
+use crate::error::Error;
+use crate::predicates::{Sign, orient2d, side_of_face};
+use crate::spatial::sort_by_coordinates;
+
+/// The ghost vertex, infinitely far up.
+const ABOVE: Vertex = 0;
+/// Points looked at for a first triangle before all of them are.
+const SEED_SAMPLE: usize = 512;
+
+/// Marks the points on the lower boundary among `count`.
+pub(crate) fn mark_lower_boundary(
+    count: u32,
+    lifted: &impl Fn(u32) -> DVec3,
+) -> Result<Vec<bool>, Error> {
+    let mut visible = Vec::new();
+    visible.try_reserve_exact(count as usize)?;
+    visible.resize(count as usize, false);
+    let sample = order::spatial_rounds().flat_map(|round| round.indices(count));
+    let sample = sample.take(SEED_SAMPLE);
+    let seed = first_triangle(sample, lifted).or_else(|| first_triangle(0..count, lifted));
+    match seed {
+        Some(corners) => mark_in_space(count, lifted, corners, &mut visible)?,
+        None => mark_upright(count, lifted, &mut visible)?,
+    }
+    Ok(visible)
+}
+
+/// Positive when a, b, c are counter-clockwise seen from below.
+fn turn(a: DVec3, b: DVec3, c: DVec3) -> Sign {
+    orient2d([b.x, b.y], [a.x, a.y], [c.x, c.y])
+}
+
+/// Three points that are not above one line, counter-clockwise seen from below.
+fn first_triangle(
+    candidates: impl Iterator<Item = u32> + Clone,
+    lifted: &impl Fn(u32) -> DVec3,
+) -> Option<[u32; 3]> {
+    let points = || candidates.clone().map(|i| (i, lifted(i)));
+    let largest = |measure: &dyn Fn(DVec3) -> f64| {
+        points().max_by(|(_, p), (_, q)| measure(*p).total_cmp(&measure(*q)))
+    };
+    let (i, a) = points().next()?;
+    let likely = largest(&|p| (p.x - a.x) * (p.x - a.x) + (p.y - a.y) * (p.y - a.y))?;
+    // In doubt, any that is not above the first.
+    let apart = |p: DVec3| p.x != a.x || p.y != a.y;
+    let (j, b) = Some(likely)
+        .filter(|(_, p)| apart(*p))
+        .or_else(|| points().find(|(_, p)| apart(*p)))?;
+    let likely = largest(&|p| ((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)).abs());
+    likely
+        .into_iter()
+        .chain(points())
+        .find_map(|(k, c)| match turn(a, b, c) {
+            Sign::Positive => Some([i, j, k]),
+            Sign::Negative => Some([i, k, j]),
+            Sign::Zero => None,
+        })
+}
+
+fn mark_in_space(
+    count: u32,
+    lifted: &impl Fn(u32) -> DVec3,
+    corners: [u32; 3],
+    visible: &mut [bool],
+) -> Result<(), Error> {
+    let mut hull = LowerHull::new(corners, lifted)?;
+    // On the boundary now; visible only if that is so at the end.
+    let mut on_boundary: Vec<u32> = Vec::new();
+    let mut hint = 0;
+    for index in order::spatial_rounds().flat_map(|round| round.indices(count)) {
+        let q = lifted(index);
+        let (face, side) = hull.locate(q, hint);
+        hint = match side {
+            Sign::Positive => hull.insert(index, q, face)?,
+            Sign::Zero => {
+                on_boundary.try_reserve(1)?;
+                on_boundary.push(index);
+                face
+            }
+            Sign::Negative => face,
+        };
+    }
+    for (_, face) in hull.surface.alive() {
+        if hull.vertices.is_outer(face) {
+            for vertex in face.vertices {
+                visible[hull.vertices.points[vertex as usize] as usize] = true;
+            }
+        }
+    }
+    for index in on_boundary {
+        let (face, side) = hull.locate(lifted(index), hint);
+        visible[index as usize] |= side == Sign::Zero;
+        hint = face;
+    }
+    Ok(())
+}
+
+struct LowerHull {
+    surface: Surface<()>,
+    vertices: Vertices,
+}
+
+struct Vertices {
+    /// Their places; unused for the ghost vertex, which comes first.
+    positions: Vec<DVec3>,
+    /// Which point of the cloud each one is; unused for the ghost vertex.
+    points: Vec<u32>,
+}
+
+impl Vertices {
+    fn at(&self, vertex: Vertex) -> DVec3 {
+        self.positions[vertex as usize]
+    }
+
+    /// Which side of `face` the point `q` is on: positive is outside.
+    fn side(&self, face: &Face<()>, q: DVec3) -> Sign {
+        let [a, b, c] = face.vertices;
+        let upright = |tail, head| turn(self.at(tail), self.at(head), q);
+        if a == ABOVE {
+            upright(b, c)
+        } else if b == ABOVE {
+            upright(c, a)
+        } else if c == ABOVE {
+            upright(a, b)
+        } else {
+            side_of_face(self.at(a), self.at(b), self.at(c), q)
+        }
+    }
+
+    /// Whether `face` is neither a ghost face nor upright.
+    fn is_outer(&self, face: &Face<()>) -> bool {
+        let [a, b, c] = face.vertices.map(|v| self.at(v));
+        !face.vertices.contains(&ABOVE) && turn(a, b, c) == Sign::Positive
+    }
+}
+
+impl LowerHull {
+    fn new(corners: [u32; 3], lifted: &impl Fn(u32) -> DVec3) -> Result<Self, Error> {
+        let [a, b, c] = corners;
+        let mut surface = Surface::default();
+        surface.start(ABOVE, [1, 2, 3], |_| ())?;
+        Ok(Self {
+            surface,
+            vertices: Vertices {
+                positions: alloc::vec![DVec3::NAN, lifted(a), lifted(b), lifted(c)],
+                points: alloc::vec![u32::MAX, a, b, c],
+            },
+        })
+    }
+
+    /// From the outer face `hint` to the one that is below or above `q`, and on which
+    /// side of it `q` is; or to an upright face that has `q` outside.
+    fn locate(&self, q: DVec3, hint: FaceId) -> (FaceId, Sign) {
+        let mut id = hint;
+        // The edge that was crossed last need not be tried again.
+        let mut entered = 3;
+        loop {
+            let face = self.surface.face(id);
+            let crossed = (0..3).find(|&edge| {
+                let tail = self.vertices.at(face.vertices[edge]);
+                let head = self.vertices.at(face.vertices[(edge + 1) % 3]);
+                edge != entered && turn(tail, head, q) == Sign::Negative
+            });
+            let Some(edge) = crossed else {
+                return (id, self.vertices.side(face, q));
+            };
+            id = face.twins[edge].face();
+            entered = face.twins[edge].edge();
+            // The plane of a ghost or upright face is the one of this edge, and q is
+            // strictly beyond it.
+            if !self.vertices.is_outer(self.surface.face(id)) {
+                return (id, Sign::Positive);
+            }
+        }
+    }
+
+    /// Makes `q`, strictly outside face `start`, a vertex; returns one of its outer faces.
+    fn insert(&mut self, point: u32, q: DVec3, start: FaceId) -> Result<FaceId, Error> {
+        let vertex = self.vertices.positions.len() as Vertex;
+        self.vertices.positions.try_reserve(1)?;
+        self.vertices.points.try_reserve(1)?;
+        self.vertices.positions.push(q);
+        self.vertices.points.push(point);
+        let vertices = &self.vertices;
+        let conflicts = |face: &Face<()>| vertices.side(face, q) == Sign::Positive;
+        self.surface.insert(vertex, start, conflicts, |_| ())?;
+        let is_outer = |&id: &FaceId| self.vertices.is_outer(self.surface.face(id));
+        let outer = self.surface.fan().iter().rev().copied().find(is_outer);
+        Ok(outer.expect("a new vertex is on the lower boundary"))
+    }
+}
+
+/// All points are above one line (or one point): the lower side of a polygon.
+fn mark_upright(
+    count: u32,
+    lifted: &impl Fn(u32) -> DVec3,
+    visible: &mut [bool],
+) -> Result<(), Error> {
+    if count == 0 {
+        return Ok(());
+    }
+    // A coordinate that tells apart what is not above each other.
+    let first = lifted(0);
+    let by_x = (0..count).any(|i| lifted(i).x != first.x);
+    let mut sorted: Vec<([f64; 3], u32)> = Vec::new();
+    sorted.try_reserve_exact(count as usize)?;
+    // Adding 0 makes -0 the same as 0.
+    sorted.extend((0..count).map(|i| {
+        let p = lifted(i);
+        let along = if by_x { p.x } else { p.y };
+        ([along + 0.0, p.z + 0.0, 0.0], i)
+    }));
+    sort_by_coordinates(&mut sorted);
+    let at = |k: usize| [sorted[k].0[0], sorted[k].0[1]];
+    // Andrew's monotone chain over the lowest of each place, points in line kept.
+    let mut chain: Vec<usize> = Vec::new();
+    chain.try_reserve_exact(sorted.len())?;
+    for next in 0..sorted.len() {
+        if chain.last().is_some_and(|&last| at(last)[0] == at(next)[0]) {
+            continue;
+        }
+        while let [.., before, last] = chain[..] {
+            if orient2d(at(before), at(last), at(next)) != Sign::Negative {
+                break;
+            }
+            chain.pop();
+        }
+        chain.push(next);
+    }
+    for start in chain {
+        let equal = (start..sorted.len()).take_while(|&k| at(k) == at(start));
+        equal.for_each(|k| visible[sorted[k].1 as usize] = true);
+    }
+    Ok(())
+}

@@ -1,0 +1,43 @@
+//! How far a flip moves a point, as a function of its distance d: the factors s
+//! of q = v·s. Each is strictly decreasing in |q| = d·s but for rounding, except
+//! the antipodal one, which is strictly increasing.
+//!
+//! pow and exp come from `libm` in every build, so that all of them round alike.
+
+/// What a point's distance from the viewpoint becomes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Kernel {
+    /// |q| = 2R − d: spherical flipping (paper §3, eq. 1).
+    Spherical { radius: f64 },
+    /// |q| = 2R + d: the farthest point of a ray wins, as if one looked back along
+    /// the same rays. Only for choosing R (`radius::search`).
+    Antipodal { radius: f64 },
+    /// |q| = d·(d/S)^−γ: the paper's other kernel (§3), 1/‖p‖^γ.
+    Power { gamma: f64, unit: f64 },
+    /// |q| = exp(c/d).
+    Exponential { scale: f64 },
+}
+
+/// The largest exponent that `exp` is given: beyond, points all go equally far.
+const MAX_EXPONENT: f64 = 200.0;
+
+impl Kernel {
+    /// The factor s for a point at distance `d`; not finite for d = 0.
+    pub(crate) fn factor(&self, d: f64) -> f64 {
+        match *self {
+            Self::Spherical { radius } => (2.0 * radius - d) / d,
+            Self::Antipodal { radius } => (2.0 * radius + d) / d,
+            Self::Power { gamma, unit } => libm::pow(d / unit, -gamma),
+            Self::Exponential { scale } => libm::exp((scale / d).min(MAX_EXPONENT)) / d,
+        }
+    }
+
+    /// The R of a flip on a sphere, 2.5 R (or 3 R) being the largest |q|; `None`
+    /// where only the points can tell how far they go.
+    pub(crate) fn radius(&self) -> Option<f64> {
+        match *self {
+            Self::Spherical { radius } | Self::Antipodal { radius } => Some(radius),
+            Self::Power { .. } | Self::Exponential { .. } => None,
+        }
+    }
+}

@@ -1,0 +1,285 @@
+//! Orthographic views: the lower boundary of the lifted points, and the limit of
+//! viewpoints that recede.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{
+    Error, Exponential, Inversion, Options, PointCloud, Radius, Visibility,
+};
+
+use crate::common::rng::Rng;
+use crate::common::scenes::KINDS;
+use crate::common::{ask, indices_of, shapes};
+
+fn along(points: &[[f64; 3]], direction: [f64; 3], options: &Options) -> Visibility {
+    let cloud = PointCloud::new(points).unwrap();
+    cloud.visible_from_direction(direction, options).unwrap()
+}
+
+fn exponential(scale: f64) -> Options {
+    Options::with_inversion(Inversion::Exponential(Exponential::Scale(scale)))
+}
+
+/// The naive oracle, in exact integers: hidden when one, two or three points (as a
+/// point, a segment or a triangle) have something strictly below with the same x, y.
+fn lower(points: &[[i64; 3]]) -> Vec<bool> {
+    let turn = |a: [i64; 3], b: [i64; 3], c: [i64; 3]| {
+        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    };
+    // By Carathéodory a triangle is enough, degenerate ones included.
+    let above = |p: [i64; 3], [a, b, c]: [[i64; 3]; 3]| {
+        let all = turn(a, b, c);
+        if all != 0 {
+            let parts = [turn(p, b, c), turn(a, p, c), turn(a, b, p)];
+            let within = parts.iter().all(|part| part.signum() * all.signum() >= 0);
+            let w = parts[0] * a[2] + parts[1] * b[2] + parts[2] * c[2];
+            return within && (w - p[2] * all) * all.signum() < 0;
+        }
+        let on_segment = |a: [i64; 3], b: [i64; 3]| {
+            let axis = usize::from(a[0] == b[0]);
+            if a[..2] == b[..2] {
+                return p[..2] == a[..2] && a[2].min(b[2]) < p[2];
+            }
+            let (length, part) = (b[axis] - a[axis], p[axis] - a[axis]);
+            let sign = length.signum();
+            turn(a, b, p) == 0
+                && (0..=length.abs()).contains(&(part * sign))
+                && (a[2] * (length - part) + b[2] * part - p[2] * length) * sign < 0
+        };
+        on_segment(a, b) || on_segment(b, c) || on_segment(a, c)
+    };
+    let n = points.len();
+    let hidden = |p: [i64; 3]| {
+        (0..n)
+            .any(|i| (0..=i).any(|j| (0..=j).any(|k| above(p, [points[i], points[j], points[k]]))))
+    };
+    points.iter().map(|&p| !hidden(p)).collect()
+}
+
+#[test]
+fn integers_along_the_axes_are_answered_by_the_definition() {
+    let mut rng = Rng::new(31);
+    for case in 0..400 {
+        let half = rng.integer(1, 4);
+        let n = rng.below(14);
+        // Whole planes, lines and columns, too.
+        let flat = rng.below(8);
+        let points: Vec<[f64; 3]> = (0..n)
+            .map(|_| {
+                core::array::from_fn(|axis| {
+                    if flat == axis || flat == 3 && axis != 2 {
+                        return 1.0;
+                    }
+                    f64::from(rng.integer(-half, half))
+                })
+            })
+            .collect();
+        for axis in 0..3 {
+            for sign in [-1.0, 1.0] {
+                let mut direction = [0.0; 3];
+                direction[axis] = 2.5 * sign;
+                // a = 1 and a = 2, or next to a plain hull.
+                for bend in [1, 2] {
+                    let lifted: Vec<[i64; 3]> = points
+                        .iter()
+                        .map(|p| {
+                            let p = p.map(|x| x as i64);
+                            let [x, y] = [p[(axis + 1) % 3], p[(axis + 2) % 3]];
+                            [x, y, sign as i64 * p[axis] + bend * (x * x + y * y)]
+                        })
+                        .collect();
+                    let answer = along(&points, direction, &exponential(0.5 / bend as f64));
+                    assert_eq!(
+                        answer.indices(),
+                        indices_of(&lower(&lifted)),
+                        "case {case}, {points:?} along {direction:?}, a = {bend}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn it_is_the_limit_of_receding_viewpoints() {
+    let mut rng = Rng::new(32);
+    for shape in [shapes::bumpy, shapes::ball, shapes::room] {
+        let points = shape(&mut rng, 1500);
+        let direction = rng.direction();
+        let apart = |times: f64, options: &Options, a: f64| {
+            let viewpoint = direction.map(|x| -x * times);
+            let by_radius = Options::with_radius(a * times * times);
+            let far = if options.inversion == Inversion::Spherical {
+                ask(&points, viewpoint, &by_radius)
+            } else {
+                ask(&points, viewpoint, options)
+            };
+            let limit = along(&points, direction, options).mask();
+            let differ = far
+                .mask()
+                .iter()
+                .zip(&limit)
+                .filter(|(a, b)| a != b)
+                .count();
+            differ as f64 / far.count() as f64
+        };
+        let c = 0.01;
+        for (options, a) in [
+            (exponential(c), 0.5 / c),
+            (Options::default(), automatic_bend(&points)),
+        ] {
+            let [near, mid, far] = [50.0, 500.0, 5000.0].map(|times| apart(times, &options, a));
+            assert!(
+                mid <= 0.3 * near && far < mid.max(1e-9),
+                "{near} {mid} {far}"
+            );
+            assert!(far < 0.002, "{far}");
+        }
+    }
+}
+
+/// 5/s, from the closed form R = 5·r²/s at two distances.
+fn automatic_bend(points: &[[f64; 3]]) -> f64 {
+    let cloud = PointCloud::new(points).unwrap();
+    let radius = |z| {
+        let viewpoint = [0.0, 0.0, z];
+        cloud.auto_radius(viewpoint, Radius::Auto).unwrap().radius
+    };
+    // The second difference of 5/s·(z² + …).
+    (radius(1e3) - 2.0 * radius(0.0) + radius(-1e3)) / 2e6
+}
+
+#[test]
+fn a_number_fixes_the_bend_from_one_diagonal_away() {
+    let points = shapes::bumpy(&mut Rng::new(33), 900);
+    let direction = [1.0, -2.0, 0.5];
+    let automatic = along(&points, direction, &Options::default());
+    assert!(automatic.radius() > 0.0 && automatic.exponent() > 0.0);
+    assert_eq!(automatic.evaluations(), 0);
+    let again = along(
+        &points,
+        direction,
+        &Options::with_radius(automatic.radius()),
+    );
+    assert_eq!(again.indices(), automatic.indices());
+    let again = along(
+        &points,
+        direction,
+        &Options::with_exponent(automatic.exponent()),
+    );
+    assert_eq!(again.indices(), automatic.indices());
+    let more = along(
+        &points,
+        direction,
+        &Options::with_exponent(automatic.exponent() + 1.0),
+    );
+    assert!(more.count() > automatic.count());
+    let scale = 0.5 / automatic_bend(&points);
+    let exponential = along(&points, direction, &exponential(scale));
+    assert_eq!(exponential.indices(), automatic.indices());
+    assert_eq!((exponential.radius(), exponential.exponent()), (0.0, 0.0));
+}
+
+#[test]
+fn both_sides_of_a_shell_are_seen_from_their_sides() {
+    let points = shapes::sphere(&mut Rng::new(34), 4000);
+    let front = along(&points, [0.0, 0.0, -1.0], &Options::default());
+    let back = along(&points, [0.0, 0.0, 3.0], &Options::default());
+    let share = front.count() as f64 / 4000.0;
+    assert!((0.45..0.55).contains(&share), "{share}");
+    let both = front
+        .mask()
+        .iter()
+        .zip(back.mask())
+        .filter(|(a, b)| **a == 1 && *b == 1)
+        .count();
+    assert!(both < 200, "{both}");
+}
+
+#[test]
+fn order_duplicates_length_and_power_of_two_scales_change_nothing() {
+    for kind in KINDS {
+        let scene = kind.scene(6, 70);
+        let mut rng = Rng::new(6);
+        let direction = rng.direction();
+        let options = Options::default();
+        let mask = along(&scene.points, direction, &options).mask();
+        let order: Vec<usize> = (0..100)
+            .map(|i| if i < 70 { i } else { rng.below(70) })
+            .collect();
+        let mut order = order;
+        rng.shuffle(&mut order);
+        let points: Vec<_> = order.iter().map(|&i| scene.points[i]).collect();
+        let shuffled = along(&points, direction.map(|x| x * 0.25), &options).mask();
+        for (k, &i) in order.iter().enumerate() {
+            assert_eq!(shuffled[k], mask[i], "{}", kind.name);
+        }
+        let scaled: Vec<_> = scene.points.iter().map(|p| p.map(|x| x * 8.0)).collect();
+        assert_eq!(
+            along(&scaled, direction, &options).mask(),
+            mask,
+            "{}",
+            kind.name
+        );
+    }
+}
+
+#[test]
+fn few_points_and_extreme_sizes_are_answered() {
+    let down = [0.0, 0.0, -1.0];
+    let o = &Options::default();
+    assert_eq!(along(&[], down, o).count(), 0);
+    assert_eq!(along(&[[1.0, 2.0, 3.0]], down, o).indices(), [0]);
+    assert_eq!(
+        along(&[[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, 1.0]], down, o).indices(),
+        [1, 2]
+    );
+    for size in [1e-320, 1e-300, 1e-150, 1e100, 1e150] {
+        let points = [
+            [0.0; 3],
+            [0.0, 0.0, size],
+            [size, 0.0, 0.0],
+            [size, size, size],
+        ];
+        assert_eq!(along(&points, down, o).indices(), [1, 2, 3], "{size}");
+        let single = [[size; 3]];
+        assert_eq!(along(&single, down, o).indices(), [0], "{size}");
+    }
+    for direction in [[5e-324, 0.0, 0.0], [f64::MAX, f64::MAX, -f64::MAX]] {
+        assert_eq!(along(&[[0.0; 3]], direction, o).count(), 1);
+    }
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(3), 20)).unwrap();
+    let refused = |direction, options: &Options| {
+        cloud
+            .visible_from_direction(direction, options)
+            .unwrap_err()
+    };
+    for direction in [[0.0; 3], [f64::NAN, 1.0, 0.0], [f64::INFINITY, 0.0, 0.0]] {
+        let error = refused(direction, &Options::default());
+        assert_eq!(error.code(), "viewpoint", "{error}");
+    }
+    let down = [0.0, 0.0, -1.0];
+    for radius in [Radius::Search, Radius::Opposite] {
+        let options = Options {
+            radius,
+            ..Options::default()
+        };
+        let error = refused(down, &options);
+        assert!(matches!(error, Error::NoLimit { .. }) && error.code() == "option");
+    }
+    let error = refused(down, &Options::with_inversion(Inversion::Power(2.0)));
+    assert_eq!(
+        (error.code(), error.to_string().contains("power")),
+        ("option", true)
+    );
+    assert_eq!(refused(down, &Options::with_radius(0.1)).code(), "radius");
+    assert_eq!(
+        refused(down, &Options::with_exponent(-0.1)).code(),
+        "option"
+    );
+}

@@ -1,0 +1,294 @@
+//! Four and more dimensions: against the exact answers of three, and by shape.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{
+    Error, Exponential, Inversion, NonFinite, Options, PointCloudNd, Radius, Visibility,
+};
+
+use crate::common::ask;
+use crate::common::rng::Rng;
+use crate::common::scenes::KINDS;
+
+fn asked(dimension: usize, rows: &[Vec<f64>], viewpoint: &[f64], options: &Options) -> Visibility {
+    let cloud = PointCloudNd::new(dimension, &rows.concat()).unwrap();
+    cloud.visible_from(viewpoint, options).unwrap()
+}
+
+/// An orthonormal frame of three vectors in `dimension` dimensions.
+fn frame(rng: &mut Rng, dimension: usize) -> [Vec<f64>; 3] {
+    let mut vectors: Vec<Vec<f64>> = Vec::new();
+    while vectors.len() < 3 {
+        let mut v: Vec<f64> = (0..dimension).map(|_| rng.between(-1.0, 1.0)).collect();
+        for u in &vectors {
+            let along: f64 = u.iter().zip(&v).map(|(a, b)| a * b).sum();
+            v.iter_mut().zip(u).for_each(|(x, u)| *x -= along * u);
+        }
+        let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        if length > 0.1 {
+            vectors.push(v.into_iter().map(|x| x / length).collect());
+        }
+    }
+    vectors.try_into().unwrap()
+}
+
+fn direction(rng: &mut Rng, dimension: usize) -> Vec<f64> {
+    loop {
+        let v: Vec<f64> = (0..dimension).map(|_| rng.between(-1.0, 1.0)).collect();
+        let squared = v.iter().map(|x| x * x).sum::<f64>();
+        if squared < 1.0 && squared > 1e-3 {
+            return v.iter().map(|x| x / squared.sqrt()).collect();
+        }
+    }
+}
+
+#[test]
+fn clouds_in_a_subspace_are_answered_as_in_three_dimensions() {
+    let general = [
+        "sphere_from_outside",
+        "ball_from_anywhere",
+        "bumpy_from_outside",
+        "bumpy_from_inside",
+    ];
+    for kind in KINDS.iter().filter(|kind| general.contains(&kind.name)) {
+        for (seed, n) in [(1, 5), (2, 40), (3, 300)] {
+            for dimension in [4, 6] {
+                let scene = kind.scene(seed, n);
+                let mut rng = Rng::new(seed);
+                let frame = frame(&mut rng, dimension);
+                let place = |p: [f64; 3]| -> Vec<f64> {
+                    let along = |i: usize| (0..3).map(|k| p[k] * frame[k][i]).sum::<f64>() + 3.0;
+                    (0..dimension).map(along).collect()
+                };
+                let rows: Vec<_> = scene.points.iter().map(|&p| place(p)).collect();
+                // A radius that leaves distances more digits than rounding took.
+                let options = Options::with_exponent(1.5);
+                let flat = ask(&scene.points, scene.viewpoint, &options);
+                let answer = asked(dimension, &rows, &place(scene.viewpoint), &options);
+                let title = format!("{} with seed {seed} in {dimension} dimensions", kind.name);
+                assert_eq!(answer.indices(), flat.indices(), "{title}");
+                assert!((answer.radius() / flat.radius() - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_hypersphere_shows_its_near_cap() {
+    let mut rng = Rng::new(61);
+    for dimension in [4, 5] {
+        let rows: Vec<_> = (0..1500).map(|_| direction(&mut rng, dimension)).collect();
+        let mut viewpoint = vec![0.0; dimension];
+        viewpoint[0] = 3.0;
+        let answer = asked(dimension, &rows, &viewpoint, &Options::with_exponent(0.75));
+        // Truly visible is what has x > 1/3; no silhouette is sharper than the spacing.
+        let mask = answer.mask();
+        let seen = |low: f64, high: f64| {
+            let band: Vec<_> = (0..1500)
+                .filter(|&i| (low..high).contains(&rows[i][0]))
+                .collect();
+            let seen = band.iter().filter(|&&i| mask[i] == 1).count();
+            seen as f64 / band.len() as f64
+        };
+        assert!(seen(0.6, 1.1) > 0.95, "{dimension}: {}", seen(0.6, 1.1));
+        assert!(seen(-1.1, -0.3) < 0.05, "{dimension}: {}", seen(-1.1, -0.3));
+    }
+}
+
+#[test]
+fn an_inner_shell_is_hidden() {
+    let mut rng = Rng::new(62);
+    let rows: Vec<Vec<f64>> = (0..1600)
+        .map(|i| {
+            let size = if i < 1200 { 1.0 } else { 0.4 };
+            direction(&mut rng, 4)
+                .into_iter()
+                .map(|x| x * size)
+                .collect()
+        })
+        .collect();
+    for viewpoint in [[0.0, 0.0, 0.0, 4.0], [2.0, -2.0, 2.0, 0.0]] {
+        let answer = asked(4, &rows, &viewpoint, &Options::with_exponent(0.5));
+        assert!(answer.count() > 200);
+        assert!(answer.indices().iter().all(|&i| i < 1200));
+    }
+    // From the middle it is the other way round.
+    let answer = asked(4, &rows, &[0.0; 4], &Options::with_exponent(0.5));
+    assert!(answer.indices().iter().filter(|&&i| i >= 1200).count() == 400);
+    assert!(answer.count() < 450, "{}", answer.count());
+}
+
+#[test]
+fn the_definition_holds_for_rays_equal_points_and_the_viewpoint() {
+    let o = &Options::with_exponent(1.0);
+    let e = |axis: usize, x: f64| {
+        let mut row = vec![0.0; 4];
+        row[axis] = x;
+        row
+    };
+    let viewpoint = [0.0; 4];
+    assert_eq!(asked(4, &[], &viewpoint, o).count(), 0);
+    assert_eq!(asked(4, &[e(0, 1.0)], &viewpoint, o).indices(), [0]);
+    let rows = [
+        e(0, 2.0),
+        e(0, 1.0),
+        e(0, -3.0),
+        e(1, 1.0),
+        e(0, 1.0),
+        e(2, 0.0),
+    ];
+    assert_eq!(asked(4, &rows, &viewpoint, o).indices(), [1, 2, 3, 4, 5]);
+    // All around the viewpoint, and one behind an edge of their flips.
+    let mut rows: Vec<_> = (0..8)
+        .map(|i| e(i % 4, if i < 4 { 1.0 } else { -1.0 }))
+        .collect();
+    rows.push(vec![8.0, 8.0, 0.0, 0.0]);
+    assert_eq!(
+        asked(4, &rows, &viewpoint, &Options::with_exponent(0.0)).count(),
+        8
+    );
+}
+
+#[test]
+fn order_and_duplicates_change_nothing_and_changes_are_as_anew() {
+    let mut rng = Rng::new(63);
+    let rows: Vec<_> = (0..150).map(|_| direction(&mut rng, 4)).collect();
+    let viewpoint = [1.5, 0.0, 0.5, 0.0];
+    let options = Options::default();
+    let before = asked(4, &rows, &viewpoint, &options);
+    let mut order: Vec<usize> = (0..200)
+        .map(|i| if i < 150 { i } else { rng.below(150) })
+        .collect();
+    rng.shuffle(&mut order);
+    let shuffled: Vec<_> = order.iter().map(|&i| rows[i].clone()).collect();
+    let after = asked(4, &shuffled, &viewpoint, &options);
+    assert_eq!(after.radius().to_bits(), before.radius().to_bits());
+    let (old, new) = (before.mask(), after.mask());
+    assert!(order.iter().enumerate().all(|(k, &i)| new[k] == old[i]));
+
+    let mut cloud = PointCloudNd::new(4, &rows[..100].concat()).unwrap();
+    cloud.remove(&[3, 99, 3]).unwrap();
+    cloud.append(&rows[100..].concat()).unwrap();
+    let kept: Vec<u32> = (0..150).filter(|i| ![3, 99].contains(i)).collect();
+    let rest: Vec<_> = kept.iter().map(|&i| rows[i as usize].clone()).collect();
+    let expected = asked(4, &rest, &viewpoint, &options);
+    let answer = cloud.visible_from(&viewpoint, &options).unwrap();
+    let indices: Vec<u32> = expected
+        .indices()
+        .iter()
+        .map(|&i| kept[i as usize])
+        .collect();
+    assert_eq!(answer.indices(), indices);
+    assert_eq!(answer.radius().to_bits(), expected.radius().to_bits());
+    assert_eq!(
+        (cloud.len(), cloud.dimension(), cloud.is_empty()),
+        (150, 4, false)
+    );
+}
+
+#[test]
+fn every_rule_inversion_and_union_is_there() {
+    let mut rng = Rng::new(64);
+    let rows: Vec<_> = (0..200).map(|_| direction(&mut rng, 4)).collect();
+    let cloud = PointCloudNd::new(4, &rows.concat()).unwrap();
+    let viewpoint = [0.0, 2.5, 0.0, 0.0];
+    let auto = cloud.auto_radius(&viewpoint, Radius::Auto).unwrap();
+    assert!(auto.radius >= 3.0 && auto.evaluations == 0);
+    let search = cloud.auto_radius(&viewpoint, Radius::Search).unwrap();
+    assert_eq!(search.evaluations, 6);
+    assert!((search.radius / auto.radius).log10().abs() < 0.2501);
+    let opposite = cloud.auto_radius(&viewpoint, Radius::Opposite).unwrap();
+    assert!(opposite.evaluations > 20 && opposite.radius >= 3.0);
+    for inversion in [
+        Inversion::Power(1.5),
+        Inversion::Exponential(Exponential::Auto),
+    ] {
+        let answer = cloud
+            .visible_from(&viewpoint, &Options::with_inversion(inversion))
+            .unwrap();
+        assert!(answer.count() > 20 && answer.count() < 200);
+    }
+    let back = [0.0, -2.5, 0.0, 0.0];
+    let views = [&viewpoint[..], &back];
+    let options = Options::default();
+    let any = cloud.visible_from_any(&views, &options).unwrap();
+    let both = cloud.visible_from_at_least(2, &views, &options).unwrap();
+    let singly = views.map(|view| cloud.visible_from(view, &options).unwrap().count());
+    assert_eq!(any.count() + both.count(), singly[0] + singly[1]);
+    assert_eq!(cloud.visible_from_any(&[], &options).unwrap().count(), 0);
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    for dimension in [0, 1, 3, 65] {
+        let error = PointCloudNd::new(dimension, &[]).err().unwrap();
+        assert!(matches!(
+            error,
+            Error::OutOfRange {
+                option: "dimension",
+                ..
+            }
+        ));
+    }
+    let error = PointCloudNd::new(4, &[0.0; 7]).err().unwrap();
+    assert_eq!(
+        (error.code(), error),
+        (
+            "positions-length",
+            Error::PositionsLength {
+                len: 7,
+                dimension: 4
+            }
+        )
+    );
+    let bad = [[0.0; 4], [0.0, 1.0, f64::NAN, 0.0], [1.0; 4]].concat();
+    assert_eq!(
+        PointCloudNd::new(4, &bad).err(),
+        Some(Error::NonFinite { count: 1, first: 1 })
+    );
+    let mut cloud = PointCloudNd::with_non_finite(4, &bad, NonFinite::Skip).unwrap();
+    assert_eq!((cloud.len(), cloud.skipped()), (3, 1));
+    let options = Options::default();
+    assert_eq!(
+        cloud
+            .visible_from(&[5.0, 0.0, 0.0, 0.0], &options)
+            .unwrap()
+            .indices(),
+        [0, 2]
+    );
+    for viewpoint in [&[0.0; 3][..], &[0.0, 0.0, 0.0, f64::INFINITY]] {
+        let error = cloud.visible_from(viewpoint, &options).unwrap_err();
+        assert_eq!(
+            (error.code(), error),
+            ("viewpoint", Error::ViewpointDimension { dimension: 4 })
+        );
+    }
+    let noisy = [
+        Options {
+            vote: Some(1),
+            ..options
+        },
+        Options {
+            denoise: Some(1),
+            ..options
+        },
+    ];
+    for options in noisy {
+        let error = cloud.visible_from(&[0.0; 4], &options).unwrap_err();
+        assert!(matches!(error, Error::Dimension { dimension: 4, .. }) && error.code() == "option");
+    }
+    assert_eq!(
+        cloud.remove(&[3]),
+        Err(Error::IndexOutOfRange { index: 3, len: 3 })
+    );
+    let error = cloud
+        .visible_from(&[0.0; 4], &Options::with_radius(0.1))
+        .unwrap_err();
+    assert_eq!(error.code(), "radius");
+    let far = PointCloudNd::new(4, &[1e200; 4]).unwrap();
+    assert_eq!(
+        far.visible_from(&[0.0; 4], &options).unwrap_err().code(),
+        "radius"
+    );
+}

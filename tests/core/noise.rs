@@ -1,0 +1,231 @@
+//! Denoising before a view, votes after it.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{Error, Options, PointCloud, merge_visible};
+
+use crate::common::rng::Rng;
+use crate::common::scenes::KINDS;
+use crate::common::{ask, shapes};
+
+const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
+
+fn voting(k: usize) -> Options {
+    Options {
+        vote: Some(k),
+        ..Options::default()
+    }
+}
+
+fn denoising(k: usize) -> Options {
+    Options {
+        denoise: Some(k),
+        ..Options::default()
+    }
+}
+
+/// The distinct points, nearest to `p` first, ties by coordinates, p itself at the head.
+fn by_distance(points: &[[f64; 3]], p: [f64; 3]) -> Vec<[f64; 3]> {
+    let squared = |q: [f64; 3]| {
+        let v: [f64; 3] = core::array::from_fn(|i| p[i] - q[i]);
+        v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
+    };
+    let mut sorted = points.to_vec();
+    sorted.sort_by(|&a, &b| (squared(a), a).partial_cmp(&(squared(b), b)).unwrap());
+    sorted.dedup();
+    sorted
+}
+
+#[test]
+fn votes_are_counted_among_the_nearest_distinct_points() {
+    for kind in KINDS {
+        for (seed, n, k) in [(1, 12, 1), (2, 60, 6), (3, 200, 16), (4, 90, 89)] {
+            let scene = kind.scene(seed, n);
+            let plain = ask(&scene.points, scene.viewpoint, &scene.options);
+            let options = Options {
+                vote: Some(k),
+                ..scene.options
+            };
+            let voted = ask(&scene.points, scene.viewpoint, &options);
+            assert_eq!(voted.radius(), plain.radius());
+            let mask = plain.mask();
+            let is_seen =
+                |p: &[f64; 3]| mask[scene.points.iter().position(|q| q == p).unwrap()] == 1;
+            let expected: Vec<u32> = (0..n as u32)
+                .filter(|&i| {
+                    let near = by_distance(&scene.points, scene.points[i as usize]);
+                    let near = &near[..near.len().min(k + 1)];
+                    let seen = near.iter().filter(|p| is_seen(p)).count();
+                    seen as f64 / near.len() as f64 > 0.4 + 1e-12
+                })
+                .collect();
+            assert_eq!(voted.indices(), expected, "{} with {n} points", kind.name);
+        }
+    }
+}
+
+/// A sphere whose points are moved along their normals; truly visible is what faces
+/// the viewer.
+fn noisy_sphere(n: usize, noise: f64) -> (Vec<[f64; 3]>, Vec<u8>) {
+    let mut rng = Rng::new(77);
+    let sphere = shapes::sphere(&mut rng, n);
+    let truth = sphere
+        .iter()
+        .map(|p| u8::from(p[2] > 1.0 / FRONT[2]))
+        .collect();
+    let moved = |p: [f64; 3]| {
+        let by = 1.0 + noise * (rng.unit() + rng.unit() + rng.unit() - 1.5);
+        p.map(|x| x * by)
+    };
+    (sphere.into_iter().map(moved).collect(), truth)
+}
+
+#[test]
+fn both_help_where_there_is_noise() {
+    let (points, truth) = noisy_sphere(4000, 0.03);
+    let wrong = |options: &Options| {
+        let mask = ask(&points, FRONT, options).mask();
+        mask.iter().zip(&truth).filter(|(a, b)| a != b).count()
+    };
+    let raw = wrong(&Options::default());
+    let denoised = wrong(&denoising(16));
+    let both = wrong(&Options {
+        vote: Some(16),
+        ..denoising(32)
+    });
+    assert!(denoised * 10 < raw * 7, "{denoised} against {raw}");
+    assert!(both * 10 < raw * 7, "{both} against {raw}");
+}
+
+#[test]
+fn a_denoised_cloud_is_asked_like_any_other() {
+    let (points, _) = noisy_sphere(900, 0.05);
+    let cloud = PointCloud::new(&points).unwrap();
+    let denoised = cloud.denoised(12).unwrap();
+    assert_eq!((denoised.len(), denoised.skipped()), (900, 0));
+    let once = cloud.visible_from(FRONT, &denoising(12)).unwrap();
+    assert_eq!(
+        denoised.visible_from(FRONT, &Options::default()).unwrap(),
+        once
+    );
+    let direction = [0.1, 0.2, -1.0];
+    let once = cloud
+        .visible_from_direction(direction, &denoising(12))
+        .unwrap();
+    let same = denoised.visible_from_direction(direction, &Options::default());
+    assert_eq!(same.unwrap(), once);
+    let views = [FRONT, [0.5, 3.0, 0.0]];
+    let once = cloud
+        .visible_from_at_least(2, &views, &denoising(12))
+        .unwrap();
+    let same = denoised.visible_from_at_least(2, &views, &Options::default());
+    assert_eq!(same.unwrap(), once);
+    // The cloud itself stays as it is.
+    let plain = cloud.visible_from(FRONT, &Options::default()).unwrap();
+    assert_eq!(plain, ask(&points, FRONT, &Options::default()));
+    assert_ne!(plain.radius(), once.radius());
+}
+
+#[test]
+fn points_on_planes_and_lines_stay_where_they_are() {
+    let mut rng = Rng::new(9);
+    for flat in [1, 2] {
+        let points: Vec<[f64; 3]> = (0..200)
+            .map(|_| {
+                let mut p: [f64; 3] = core::array::from_fn(|_| f64::from(rng.integer(-9, 9)));
+                p[..flat].fill(2.0);
+                p
+            })
+            .collect();
+        let plain = ask(&points, [9.5, 0.5, 0.5], &Options::default());
+        let same = ask(&points, [9.5, 0.5, 0.5], &denoising(8));
+        assert_eq!(same.indices(), plain.indices());
+        assert!((same.radius() / plain.radius() - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn order_and_duplicates_change_nothing() {
+    for kind in KINDS {
+        let scene = kind.scene(15, 80);
+        let mut rng = Rng::new(15);
+        let mut order: Vec<usize> = (0..120)
+            .map(|i| if i < 80 { i } else { rng.below(80) })
+            .collect();
+        rng.shuffle(&mut order);
+        let points: Vec<_> = order.iter().map(|&i| scene.points[i]).collect();
+        let options = Options {
+            vote: Some(7),
+            denoise: Some(5),
+            ..Options::default()
+        };
+        let before = ask(&scene.points, scene.viewpoint, &options);
+        let after = ask(&points, scene.viewpoint, &options);
+        assert_eq!(
+            after.radius().to_bits(),
+            before.radius().to_bits(),
+            "{}",
+            kind.name
+        );
+        let (before, after) = (before.mask(), after.mask());
+        for (k, &i) in order.iter().enumerate() {
+            assert_eq!(after[k], before[i], "{}", kind.name);
+        }
+    }
+}
+
+#[test]
+fn removed_and_skipped_points_are_no_neighbors() {
+    let (points, _) = noisy_sphere(300, 0.05);
+    let mut cloud = PointCloud::new(&points[..200]).unwrap();
+    cloud.append(&points[200..]).unwrap();
+    let removed: Vec<u32> = (0..300).step_by(3).collect();
+    cloud.remove(&removed).unwrap();
+    let kept: Vec<usize> = (0..300).filter(|i| i % 3 != 0).collect();
+    let rest: Vec<_> = kept.iter().map(|&i| points[i]).collect();
+    let options = Options {
+        vote: Some(9),
+        ..denoising(9)
+    };
+    let expected: Vec<u32> = ask(&rest, FRONT, &options)
+        .indices()
+        .iter()
+        .map(|&i| kept[i as usize] as u32)
+        .collect();
+    assert_eq!(
+        cloud.visible_from(FRONT, &options).unwrap().indices(),
+        expected
+    );
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    let points = shapes::bumpy(&mut Rng::new(3), 20);
+    let cloud = PointCloud::new(&points).unwrap();
+    for k in [0, 20, usize::MAX] {
+        for (options, name) in [(voting(k), "vote"), (denoising(k), "denoise")] {
+            let error = cloud.visible_from(FRONT, &options).unwrap_err();
+            let Error::OutOfRange { option, most, .. } = error else {
+                panic!("{error}");
+            };
+            assert_eq!((option, most, error.code()), (name, 19.0, "option"));
+        }
+        assert!(cloud.denoised(k).is_err());
+    }
+    for options in [voting(19), denoising(19)] {
+        assert!(cloud.visible_from(FRONT, &options).is_ok());
+        let options = Options {
+            radius: Options::with_radius(9.0).radius,
+            ..options
+        };
+        let parts = [(&points[..], &[0; 20][..])];
+        let error = merge_visible(&parts, FRONT, &options).unwrap_err();
+        assert_eq!(
+            (error.code(), matches!(error, Error::MergeNeighbors { .. })),
+            ("option", true)
+        );
+    }
+    let alone = PointCloud::new(&[[0.0; 3]]).unwrap();
+    assert!(alone.visible_from(FRONT, &voting(1)).is_err());
+}

@@ -1,0 +1,158 @@
+//! R by search: the antipodal one and the paper's own rule.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{ChosenRadius, Error, Options, PointCloud, Radius};
+
+use crate::common::flip::farthest;
+use crate::common::rng::Rng;
+use crate::common::scenes::KINDS;
+use crate::common::{ask, shapes};
+
+const FRONT: [f64; 3] = [0.3, -0.2, 3.0];
+const RULES: [Radius; 2] = [Radius::Search, Radius::Opposite];
+
+fn by(radius: Radius) -> Options {
+    Options {
+        radius,
+        ..Options::default()
+    }
+}
+
+fn chosen(points: &[[f64; 3]], viewpoint: [f64; 3], rule: Radius) -> ChosenRadius {
+    let cloud = PointCloud::new(points).unwrap();
+    cloud.auto_radius(viewpoint, rule).unwrap()
+}
+
+fn centroid(points: &[[f64; 3]]) -> [f64; 3] {
+    let n = points.len() as f64;
+    core::array::from_fn(|i| points.iter().map(|p| p[i]).sum::<f64>() / n)
+}
+
+/// Points seen by exactly one of the viewpoint and its mirror image.
+fn seen_by_one(points: &[[f64; 3]], mirror: [f64; 3], radius: f64) -> usize {
+    let options = Options::with_radius(radius);
+    let here = ask(points, FRONT, &options).mask();
+    let there = ask(points, mirror, &options).mask();
+    here.iter().zip(&there).filter(|(a, b)| a != b).count()
+}
+
+#[test]
+fn answers_use_the_radius_that_the_rule_chose() {
+    let points = shapes::bumpy(&mut Rng::new(21), 1500);
+    for rule in RULES {
+        let chosen = chosen(&points, FRONT, rule);
+        let answer = ask(&points, FRONT, &by(rule));
+        assert_eq!(answer.radius(), chosen.radius);
+        assert_eq!(answer.exponent(), chosen.exponent);
+        assert_eq!(answer.evaluations(), chosen.evaluations);
+        let same = ask(&points, FRONT, &Options::with_radius(chosen.radius));
+        assert_eq!(same.indices(), answer.indices());
+        assert!(
+            (chosen.exponent - (chosen.radius / farthest(&points, FRONT)).log10()).abs() < 1e-12
+        );
+    }
+    assert_eq!(chosen(&points, FRONT, Radius::Search).evaluations, 6);
+}
+
+#[test]
+fn the_antipodal_search_stays_near_the_closed_form_and_finds_dense_shells() {
+    let mut rng = Rng::new(22);
+    let near = |radius: f64, auto: f64| (radius / auto).log10().abs();
+    for n in [300, 3000] {
+        let points = shapes::bumpy(&mut rng, n);
+        for viewpoint in [FRONT, [0.0, 9.0, 1.0], [0.1; 3]] {
+            let auto = chosen(&points, viewpoint, Radius::Auto).radius;
+            let search = chosen(&points, viewpoint, Radius::Search).radius;
+            assert!(near(search, auto) < 0.2501, "{search} against {auto}");
+        }
+    }
+    // From inside a single shell every ray holds one point: the closed form stays.
+    let shell = shapes::sphere(&mut rng, 2000);
+    let auto = chosen(&shell, [0.1; 3], Radius::Auto);
+    let search = chosen(&shell, [0.1; 3], Radius::Search);
+    assert_eq!((search.radius, search.evaluations), (auto.radius, 6));
+}
+
+#[test]
+fn the_papers_rule_makes_points_seen_by_one_side_most() {
+    let points = shapes::bumpy(&mut Rng::new(23), 800);
+    let centroid = centroid(&points);
+    let mirror: [f64; 3] = core::array::from_fn(|i| 2.0 * centroid[i] - FRONT[i]);
+    let least = farthest(&points, FRONT).max(farthest(&points, mirror));
+    let chosen = chosen(&points, FRONT, Radius::Opposite);
+    assert!(chosen.radius >= least * (1.0 - 1e-12));
+    let most = seen_by_one(&points, mirror, chosen.radius);
+    for step in 0..=24 {
+        let radius = least * (1.0 + 1e-12) * 10f64.powf(0.25 * f64::from(step));
+        let other = seen_by_one(&points, mirror, radius);
+        // A step function has other maxima than those a bracket looks at.
+        assert!(
+            other <= most + points.len() / 100,
+            "{other} at {radius}, {most} found"
+        );
+    }
+    assert!(chosen.evaluations > 20 && chosen.evaluations % 2 == 0);
+}
+
+#[test]
+fn ties_take_the_smallest_radius() {
+    // Either side sees one of two points, from the smallest radius on.
+    let points = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+    let chosen = chosen(&points, [0.0, 0.0, 5.0], Radius::Opposite);
+    assert_eq!((chosen.radius, chosen.exponent), (6.0, 0.0));
+}
+
+#[test]
+fn at_the_centroid_the_papers_rule_falls_back() {
+    let cube: Vec<[f64; 3]> = (0..8)
+        .map(|i| [i & 1, i >> 1 & 1, i >> 2].map(|x| f64::from(x as u8) * 2.0 - 1.0))
+        .collect();
+    let opposite = chosen(&cube, [0.0; 3], Radius::Opposite);
+    assert_eq!(opposite, chosen(&cube, [0.0; 3], Radius::Auto));
+}
+
+#[test]
+fn no_rule_minds_order_and_duplicates_and_every_scene_has_a_radius() {
+    for kind in KINDS {
+        for (seed, n) in [(1, 0), (2, 1), (3, 2), (4, 30)] {
+            let scene = kind.scene(seed, n);
+            let mut rng = Rng::new(seed);
+            for rule in RULES {
+                let before = chosen(&scene.points, scene.viewpoint, rule);
+                let far = farthest(&scene.points, scene.viewpoint);
+                assert!(
+                    before.radius >= far && before.exponent >= 0.0,
+                    "{}",
+                    kind.name
+                );
+                let copies: Vec<_> = scene.points.iter().step_by(3).copied().collect();
+                let mut points = [&scene.points[..], &copies].concat();
+                rng.shuffle(&mut points);
+                let after = chosen(&points, scene.viewpoint, rule);
+                assert_eq!(
+                    after.radius.to_bits(),
+                    before.radius.to_bits(),
+                    "{}",
+                    kind.name
+                );
+                assert_eq!(after, before);
+            }
+        }
+    }
+}
+
+#[test]
+fn distances_beyond_the_range_are_refused() {
+    let cloud = PointCloud::new(&[[1e160, 0.0, 0.0], [0.0; 3]]).unwrap();
+    for rule in RULES {
+        let error = cloud.auto_radius([0.0; 3], rule).unwrap_err();
+        assert!(matches!(error, Error::RadiusOverflow { .. }));
+    }
+    // The mirror image is out of range, the viewpoint is not.
+    let far = [0.0, 1.2e154, 1.21e154, 1.22e154].map(|x| [x, 0.0, 0.0]);
+    let viewpoint = [5e152, 0.0, 0.0];
+    let auto = chosen(&far, viewpoint, Radius::Auto);
+    assert_eq!(chosen(&far, viewpoint, Radius::Opposite), auto);
+}

@@ -1,0 +1,169 @@
+//! Several viewpoints, one answer.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{
+    Error, Exponential, Inversion, Options, PointCloud, Radius, ring_of_viewpoints,
+};
+
+use crate::common::flip::distance;
+use crate::common::rng::Rng;
+use crate::common::scenes::KINDS;
+use crate::common::{ask, shapes};
+
+const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
+
+#[test]
+fn a_union_is_what_any_of_the_views_shows() {
+    for kind in KINDS {
+        let scene = kind.scene(5, 60);
+        let mut rng = Rng::new(5);
+        let viewpoints: Vec<_> = (0..5).map(|_| rng.direction().map(|x| x * 6.0)).collect();
+        let options = Options::default();
+        let answers: Vec<_> = viewpoints
+            .iter()
+            .map(|&viewpoint| ask(&scene.points, viewpoint, &options))
+            .collect();
+        let cloud = PointCloud::new(&scene.points).unwrap();
+        for k in 1..=5 {
+            let views = |i: usize| {
+                answers
+                    .iter()
+                    .filter(|answer| answer.mask()[i] == 1)
+                    .count()
+            };
+            let expected: Vec<u32> = (0..60).filter(|&i| views(i as usize) >= k).collect();
+            let answer = cloud
+                .visible_from_at_least(k, &viewpoints, &options)
+                .unwrap();
+            assert_eq!(answer.indices(), expected, "{} from {k}", kind.name);
+            if k == 1 {
+                assert_eq!(
+                    cloud.visible_from_any(&viewpoints, &options).unwrap(),
+                    answer
+                );
+            }
+            let largest = answers
+                .iter()
+                .map(|answer| answer.radius())
+                .fold(0.0, f64::max);
+            assert_eq!(answer.radius(), largest);
+            let mut exponents = answers.iter().filter(|answer| answer.radius() == largest);
+            assert!(exponents.any(|view| view.exponent() == answer.exponent()));
+        }
+    }
+}
+
+#[test]
+fn no_viewpoint_sees_nothing() {
+    let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(1), 50)).unwrap();
+    let options = Options::with_inversion(Inversion::Exponential(Exponential::Scale(0.5)));
+    let answer = cloud.visible_from_any(&[], &options).unwrap();
+    assert_eq!(
+        (answer.count(), answer.radius(), answer.exponent()),
+        (0, 0.0, 0.0)
+    );
+    assert_eq!(answer.inversion(), options.inversion);
+    assert_eq!(answer.mask(), [0; 50]);
+}
+
+#[test]
+fn every_choice_of_a_radius_is_counted() {
+    let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(1), 200)).unwrap();
+    let options = Options {
+        radius: Radius::Search,
+        ..Options::default()
+    };
+    let viewpoints = [FRONT, [0.0, 9.0, 0.0], [1.0, -1.0, 4.0]];
+    let answer = cloud.visible_from_any(&viewpoints, &options).unwrap();
+    assert_eq!(answer.evaluations(), 18);
+}
+
+#[test]
+fn what_does_not_fit_is_refused() {
+    let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(1), 50)).unwrap();
+    let options = Options::default();
+    for (k, views) in [(0, 2), (3, 2), (1, 0)] {
+        let error = cloud
+            .visible_from_at_least(k, &[FRONT; 2][..views], &options)
+            .unwrap_err();
+        assert!(matches!(error, Error::OutOfRange { option: "k", .. }));
+        assert_eq!(error.code(), "option");
+    }
+    let error = cloud
+        .visible_from_any(&[FRONT, [f64::NAN; 3]], &options)
+        .unwrap_err();
+    assert_eq!(error.code(), "viewpoint");
+    let bad = Options::with_inversion(Inversion::Power(0.5));
+    assert_eq!(
+        cloud.visible_from_any(&[], &bad).unwrap_err().code(),
+        "option"
+    );
+}
+
+#[test]
+fn rings_are_even_and_across_the_view() {
+    let mut rng = Rng::new(2);
+    for count in [1, 2, 3, 4, 9] {
+        let viewpoint = rng.direction().map(|x| x * 10.0);
+        let target = rng.direction();
+        let ring = ring_of_viewpoints(viewpoint, target, count, 0.05).unwrap();
+        assert_eq!(ring.len(), count);
+        let reach = distance(viewpoint, target);
+        let ahead: [f64; 3] = core::array::from_fn(|i| target[i] - viewpoint[i]);
+        for (k, &place) in ring.iter().enumerate() {
+            assert!((distance(place, viewpoint) - 0.05 * reach).abs() < 1e-12);
+            let across: f64 = (0..3).map(|i| (place[i] - viewpoint[i]) * ahead[i]).sum();
+            assert!(across.abs() < 1e-12 * reach * reach);
+            let side = 0.1 * reach * (core::f64::consts::PI / count as f64).sin();
+            let next = ring[(k + 1) % count];
+            assert!((distance(place, next) - side.abs()).abs() < 1e-12 * reach);
+        }
+    }
+    // Of any size.
+    for size in [1e-160, 1e150, 1e300] {
+        let ring = ring_of_viewpoints([0.0; 3], [size, size, 0.0], 4, 0.05).unwrap();
+        let radius = distance(ring[0].map(|x| x / size), [0.0; 3]);
+        assert!((radius - 0.05 * 2f64.sqrt()).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn rings_have_their_limits() {
+    assert_eq!(
+        ring_of_viewpoints(FRONT, FRONT, 3, 0.05).unwrap(),
+        [FRONT; 3]
+    );
+    assert_eq!(
+        ring_of_viewpoints(FRONT, [0.0; 3], 0, 0.05).unwrap(),
+        [[0.0; 3]; 0]
+    );
+    assert_eq!(
+        ring_of_viewpoints(FRONT, [0.0; 3], 2, 0.0).unwrap(),
+        [FRONT; 2]
+    );
+    for fraction in [-0.1, f64::NAN, f64::INFINITY] {
+        let error = ring_of_viewpoints(FRONT, [0.0; 3], 4, fraction).unwrap_err();
+        assert!(matches!(
+            error,
+            Error::OutOfRange {
+                option: "fraction",
+                ..
+            }
+        ));
+    }
+    let far = [f64::MAX; 3];
+    for (viewpoint, target) in [
+        ([f64::NAN; 3], FRONT),
+        (FRONT, [f64::INFINITY; 3]),
+        (far, far.map(|x| -x)),
+    ] {
+        let error = ring_of_viewpoints(viewpoint, target, 4, 0.05).unwrap_err();
+        assert_eq!(error.code(), "viewpoint");
+    }
+    assert_eq!(
+        ring_of_viewpoints(FRONT, [0.0; 3], usize::MAX, 0.05),
+        Err(Error::OutOfMemory)
+    );
+}
