@@ -9,6 +9,8 @@ export interface Task {
   exponent: number;
   /** Where the cold queries are asked from. */
   viewpoint: Point;
+  /** A viewpoint from which nothing is known that helps at the others. */
+  away: Point;
   /** How many cold queries are timed. */
   runs: number;
   /** Each a viewpoint that is left and the viewpoints moved through, one step after another. */
@@ -33,10 +35,11 @@ export interface Answer {
 
 /** Queries until the engine has compiled what is hot: at least two, and this long. */
 const WARM_UP_MS = 600;
+const BUILDS = 3;
 
 /**
- * Cold means that nothing of an earlier view can help: each cold query is the first
- * one of a cloud built for it, outside of the timed part.
+ * Cold means that nothing of an earlier view can help: before each cold query the
+ * cloud is looked at from the other side, outside of the timed part.
  */
 export async function measure(
   wasm: string | URL,
@@ -46,16 +49,24 @@ export async function measure(
   await init(wasm);
   const [first] = tasks;
   if (first === undefined) return [];
+  const build = Array.from({ length: BUILDS }, () => {
+    const start = performance.now();
+    new PointCloud(positions).dispose();
+    return performance.now() - start;
+  });
+  const cloud = new PointCloud(positions);
   const started = performance.now();
   for (let asked = 0; asked < 2 || performance.now() - started < WARM_UP_MS; asked++) {
-    coldQuery(positions, first.viewpoint, first.exponent);
+    coldQuery(cloud, first, first.viewpoint);
   }
-  return tasks.map((task) => outcomeOf(positions, task));
+  const outcomes = tasks.map((task) => ({ build, ...outcomeOf(cloud, task) }));
+  cloud.dispose();
+  return outcomes;
 }
 
-function outcomeOf(positions: Float32Array | Float64Array, task: Task): Outcome {
+function outcomeOf(cloud: PointCloud, task: Task): Omit<Outcome, "build"> {
   const { exponent, viewpoint, runs } = task;
-  const queries = Array.from({ length: runs }, () => coldQuery(positions, viewpoint, exponent));
+  const queries = Array.from({ length: runs }, () => coldQuery(cloud, task, viewpoint));
   const digests = new Set(queries.map(({ digest }) => digest));
   if (digests.size !== 1) throw new Error(`${runs} cold queries at exponent ${exponent} gave ${digests.size} answers`);
   const { visible, radius, digest } = queries[0]!;
@@ -64,35 +75,22 @@ function outcomeOf(positions: Float32Array | Float64Array, task: Task): Outcome 
   const known = new Map<string, Answer>();
   const coldAt = (point: Point): Answer => {
     const key = point.join();
-    const answer = known.get(key) ?? coldQuery(positions, point, exponent);
+    const answer = known.get(key) ?? coldQuery(cloud, task, point);
     known.set(key, answer);
     return answer;
   };
   const paths = task.paths.map(([from, ...path]) => {
     const cold = path.map(coldAt);
-    const cloud = new PointCloud(positions);
     cloud.visibleFrom(from!, { exponent });
     const moving = path.map((point) => query(cloud, point, exponent));
-    cloud.dispose();
     return { moving, cold };
   });
-  return {
-    build: queries.map(({ build }) => build),
-    cold: queries.map(({ milliseconds }) => milliseconds),
-    visible,
-    radius,
-    digest,
-    paths,
-  };
+  return { cold: queries.map(({ milliseconds }) => milliseconds), visible, radius, digest, paths };
 }
 
-function coldQuery(positions: Float32Array | Float64Array, viewpoint: Point, exponent: number) {
-  const start = performance.now();
-  const cloud = new PointCloud(positions);
-  const build = performance.now() - start;
-  const answer = query(cloud, viewpoint, exponent);
-  cloud.dispose();
-  return { build, ...answer };
+function coldQuery(cloud: PointCloud, { away, exponent }: Task, viewpoint: Point) {
+  cloud.visibleFrom(away, { exponent });
+  return query(cloud, viewpoint, exponent);
 }
 
 function query(cloud: PointCloud, viewpoint: Point, exponent: number) {

@@ -10,7 +10,7 @@ use std::fmt::Write;
 use std::io::{BufRead, stdin};
 use std::time::Instant;
 
-use hidden_point_removal::{Options, PointCloud, Position, Visibility};
+use hidden_point_removal::{Observer, Options, PointCloud, Position, Visibility};
 
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
@@ -60,24 +60,20 @@ fn outcome<P: Position>(positions: &[P], line: &str) -> Result<String, std::fmt:
         panic!("a task starts with EXPONENT RUNS x y z");
     };
     let options = Options::with_exponent(exponent);
-    // Another cloud is asked just before: the memory a query needs is then the process's
-    // own, as it is for every query but a program's first, and not fresh from the system.
-    let other = PointCloud::new(positions).expect("a valid cloud");
-    let cold = |viewpoint| {
-        let (cloud, build) = timed(|| PointCloud::new(positions).expect("a valid cloud"));
-        query(&other, viewpoint, &options);
-        let (view, answer) = query(&cloud, viewpoint, &options);
-        (build, view, answer)
+    // As in measure.ts, the memory a query needs is there already: it is the observer's.
+    let (cloud, build) = timed(|| PointCloud::new(positions).expect("a valid cloud"));
+    let mut observer = cloud.observer();
+    let mut cold = |viewpoint| {
+        observer.forget();
+        query(&mut observer, viewpoint, &options)
     };
 
-    let mut builds = Vec::new();
     let mut answers = Vec::new();
-    let mut view = cold([x, y, z]).1; // Not counted.
+    let (mut view, _) = cold([x, y, z]); // Not counted.
     for _ in 0..runs as usize {
-        let (build, again, answer) = cold([x, y, z]);
+        let (again, answer) = cold([x, y, z]);
         assert!(again == view, "two cold queries gave different answers");
         view = again;
-        builds.push(build);
         answers.push(answer);
     }
 
@@ -85,7 +81,7 @@ fn outcome<P: Position>(positions: &[P], line: &str) -> Result<String, std::fmt:
     let mut out = String::new();
     write!(
         out,
-        r#"{{"build":{builds:?},"cold":{:?},"visible":{},"radius":{:?},"digest":"{}","paths":["#,
+        r#"{{"build":[{build:?}],"cold":{:?},"visible":{},"radius":{:?},"digest":"{}","paths":["#,
         answers.iter().map(|a| a.milliseconds).collect::<Vec<_>>(),
         view.count(),
         view.radius(),
@@ -97,14 +93,14 @@ fn outcome<P: Position>(positions: &[P], line: &str) -> Result<String, std::fmt:
             .iter()
             .map(|&point| {
                 let key = point.map(f64::to_bits);
-                known.entry(key).or_insert_with(|| cold(point).2).clone()
+                known.entry(key).or_insert_with(|| cold(point).1).clone()
             })
             .collect();
-        let cloud = PointCloud::new(positions).expect("a valid cloud");
-        query(&cloud, path[0], &options);
+        let mut walker = cloud.observer();
+        query(&mut walker, path[0], &options);
         let moving: Vec<Answer> = path[1..]
             .iter()
-            .map(|&point| query(&cloud, point, &options).1)
+            .map(|&point| query(&mut walker, point, &options).1)
             .collect();
         let comma = if i == 0 { "" } else { "," };
         write!(
@@ -131,9 +127,9 @@ fn json(answers: &[Answer]) -> String {
     )
 }
 
-fn query(cloud: &PointCloud, viewpoint: [f64; 3], options: &Options) -> (Visibility, Answer) {
+fn query(observer: &mut Observer, viewpoint: [f64; 3], options: &Options) -> (Visibility, Answer) {
     let (view, milliseconds) = timed(|| {
-        cloud
+        observer
             .visible_from(viewpoint, options)
             .expect("a valid view")
     });

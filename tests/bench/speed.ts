@@ -36,8 +36,8 @@ export async function timeQueries(clouds: Iterable<Cloud>, engines: Engine[], pe
 }
 
 const COLD =
-  "Median milliseconds of one query on one core, the first one of a cloud that was built for it; building (in Node) is " +
-  "not part of it. Seen from 2.5 bounding radii, the room from inside. All engines gave the same visible set and radius, " +
+  "Median milliseconds of one query on one core, after the cloud was looked at from the other side, so that nothing of " +
+  "the last view helps; building (in Node) is not part of it. Seen from 2.5 bounding radii, the room from inside. All engines gave the same visible set and radius, " +
   "to the bit.";
 const MOVING =
   "Median milliseconds of a query one step (so many degrees, seen from the cloud's center) after the last one, " +

@@ -25,6 +25,7 @@ export function tasksFor(cloud: Cloud): Task[] {
     return {
       exponent,
       viewpoint: at(0),
+      away: at(180),
       runs: large ? 3 : 9,
       paths: moves.map((step) => Array.from({ length: length + 1 }, (_, i) => at(i * step))),
     };
