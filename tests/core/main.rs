@@ -11,6 +11,7 @@ mod digest;
 mod fixtures;
 mod invariance;
 mod merge;
+mod motion;
 mod oracle;
 mod radius;
 mod refusals;
