@@ -27,8 +27,6 @@ const SAMPLE: usize = 512;
 const FEW_TURNED: usize = 100;
 /// Likewise for reflex ones among their edges.
 const FEW_REFLEX: usize = 28;
-/// Sides to be told, at most, in search of what fills holes.
-const EFFORT_PER_FACE: usize = 2;
 
 impl Hull {
     /// Becomes the hull of its vertices as `flipped` now; false where the hull must
@@ -57,7 +55,7 @@ impl Hull {
         if repair.turned.len() * FEW_TURNED > self.surface.slots() {
             return Ok(false);
         }
-        repair.effort = EFFORT_PER_FACE * self.surface.slots() + 1000;
+        repair.effort = self.surface.slots() + 1000;
         let mut budget = self.surface.slots() / 2 + 64;
         // What its neighbors prevent for one face is tried again when they are mended,
         // in the end with more force.
