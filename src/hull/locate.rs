@@ -78,6 +78,21 @@ impl Hull {
         self.search(q, id)
     }
 
+    /// The better of an outer face and any other to start a walk at. Where a face was
+    /// replaced, its number may since be that of one far away.
+    #[inline]
+    pub(super) fn nearer_hint(&self, q: DVec3, hint: FaceId, other: FaceId) -> FaceId {
+        if hint == other || !self.is_sound(other) {
+            return hint;
+        }
+        let height = |id| self.surface.face(id).data.m.dot(q);
+        if height(other) > height(hint) {
+            other
+        } else {
+            hint
+        }
+    }
+
     /// How far the hull certainly reaches along the ray of `direction`, whose
     /// length is near 1: K holds `direction` times this. 0 where the answer is in
     /// doubt or the ray leaves K at once. Also the face to start the next walk at.

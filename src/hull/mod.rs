@@ -225,7 +225,7 @@ impl Memory {
         for round in order::spatial_rounds() {
             if !round.is_last() {
                 for index in round.indices(count) {
-                    hint = self.add(index, flipped, hint)?;
+                    hint = self.add(index, flipped, [hint, hint])?;
                     self.witnesses[index as usize] = hint;
                 }
                 continue;
@@ -234,7 +234,7 @@ impl Memory {
             self.depth.make(&self.hull, flipped)?;
             for index in round.indices(count) {
                 if !self.depth.hides(flipped.position(index)) {
-                    hint = self.add(index, flipped, hint)?;
+                    hint = self.add(index, flipped, [hint, hint])?;
                 }
                 self.witnesses[index as usize] = hint;
             }
@@ -254,24 +254,28 @@ impl Memory {
                 continue;
             }
             let witness = self.witnesses[index as usize];
-            if self.hull.is_sound(witness) {
-                hint = witness;
-            }
-            hint = self.add(index, flipped, hint)?;
+            hint = self.add(index, flipped, [hint, witness])?;
             self.witnesses[index as usize] = hint;
         }
         self.visible.fill(false);
         Ok(())
     }
 
-    /// Locates a point and makes it a vertex if it is outside; returns a face near it.
+    /// Locates a point, from the better of two hints, and makes it a vertex if it is
+    /// outside; returns a face near it.
     #[inline(never)]
-    fn add(&mut self, index: u32, flipped: &Flipped, hint: u32) -> Result<u32, Error> {
+    fn add(
+        &mut self,
+        index: u32,
+        flipped: &Flipped,
+        [hint, other]: [FaceId; 2],
+    ) -> Result<FaceId, Error> {
         let Some(q) = flipped.get(index) else {
             self.on_boundary.try_reserve(1)?;
             self.on_boundary.push(index);
             return Ok(hint);
         };
+        let hint = self.hull.nearer_hint(q, hint, other);
         Ok(match self.hull.locate(q, hint) {
             Location::Outside(face) => self.hull.insert(index, q, face)?,
             Location::Boundary(face) => {

@@ -52,6 +52,11 @@ impl Hull {
         let sum = self.vertices.positions.iter().sum::<DVec3>();
         self.vertices.inner = sum / self.vertices.positions.len() as f64;
         self.renew_planes(repair)?;
+        // The sample may have missed them.
+        if repair.turned.len() * FEW_TURNED > self.surface.slots() {
+            return Ok(false);
+        }
+        repair.effort = self.surface.slots() + 1000;
         let mut budget = self.surface.slots() / 2 + 64;
         // What its neighbors prevent for one face is tried again when they are mended,
         // in the end with more force.

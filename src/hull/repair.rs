@@ -19,6 +19,8 @@ pub(super) struct Repair {
     pub suspects: Vec<HalfEdge>,
     /// Faces that the motion turned over.
     pub turned: Vec<FaceId>,
+    /// What may still be spent on taking out vertices, in squares of their degrees.
+    pub effort: usize,
     rim: Vec<Rim>,
     star: Vec<FaceId>,
     ring: Vec<Rim>,
@@ -183,6 +185,11 @@ impl Hull {
         if !(3..=MAX_DEGREE).contains(&repair.rim.len()) {
             return Ok(false);
         }
+        let squared = repair.rim.len() * repair.rim.len();
+        let Some(rest) = repair.effort.checked_sub(squared) else {
+            return Ok(false);
+        };
+        repair.effort = rest;
         // First the plan, so that nothing has changed if there is none.
         repair.ring.clear();
         repair.ring.try_reserve(repair.rim.len())?;

@@ -16,6 +16,7 @@ mod illumination;
 mod invariance;
 mod inversions;
 mod merge;
+mod motion;
 mod noise;
 mod oracle;
 mod plane;

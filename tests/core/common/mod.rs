@@ -13,6 +13,7 @@ pub mod oracle;
 pub mod rng;
 pub mod scenes;
 pub mod shapes;
+pub mod walk;
 
 use hidden_point_removal::{Options, PointCloud, Position, Visibility};
 
