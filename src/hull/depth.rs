@@ -54,19 +54,26 @@ pub(super) struct DepthMap {
 }
 
 impl DepthMap {
-    /// Makes the map of `hull`, or an empty one where none would pay.
-    pub(super) fn make(&mut self, hull: &Hull, flipped: &Flipped) -> Result<(), TryReserveError> {
+    /// Makes the map of `hull`, or an empty one where none would pay, for those points
+    /// that it is `wanted` for, which are about `count`.
+    pub(super) fn make(
+        &mut self,
+        hull: &Hull,
+        flipped: &Flipped,
+        count: usize,
+        wanted: &dyn Fn(u32) -> bool,
+    ) -> Result<(), TryReserveError> {
         self.hidden_from.clear();
         self.windows = Default::default();
         self.viewpoint = flipped.viewpoint();
-        if flipped.len() < MIN_POINTS || !flipped.keeps_depth() {
+        if count < MIN_POINTS || !flipped.keeps_depth() {
             return Ok(());
         }
         let Some(mut face) = hull.outer_face() else {
             return Ok(());
         };
-        let extents = survey(flipped);
-        let Some(cell) = cell_size(&extents, flipped) else {
+        let extents = survey(flipped, wanted);
+        let Some(cell) = cell_size(&extents, flipped, count) else {
             return Ok(());
         };
         self.cells_per_unit = 1.0 / cell;
@@ -196,13 +203,14 @@ struct Extents {
     farthest: f64,
 }
 
-fn survey(flipped: &Flipped) -> Extents {
+fn survey(flipped: &Flipped, wanted: &dyn Fn(u32) -> bool) -> Extents {
     let mut extents = Extents {
         sides: [[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; 6],
         nearest: f64::INFINITY,
         farthest: 0.0,
     };
-    for index in (0..flipped.len() as u32).step_by(SAMPLE) {
+    let sample = (0..flipped.len() as u32).step_by(SAMPLE);
+    for index in sample.filter(|&index| wanted(index)) {
         let v = DVec3::from_array(flipped.position(index)) - flipped.viewpoint();
         let (side, x, y) = place(v);
         let [[left, bottom], [right, top]] = &mut extents.sides[side];
@@ -216,15 +224,15 @@ fn survey(flipped: &Flipped) -> Extents {
     extents
 }
 
-/// The edge of square cells as many as `flipped` has points to pay for them; `None`
+/// The edge of square cells as many as `count` points pay for; `None`
 /// where they would be so large that the map told little.
-fn cell_size(extents: &Extents, flipped: &Flipped) -> Option<f64> {
+fn cell_size(extents: &Extents, flipped: &Flipped, count: usize) -> Option<f64> {
     let sides = extents.sides.iter();
     let area: f64 = sides
         .filter(|[[left, _], [right, _]]| left <= right)
         .map(|[[left, bottom], [right, top]]| (right - left) * (top - bottom))
         .sum();
-    let cell = square_root(area / (flipped.len() as f64 * CORNERS_PER_POINT));
+    let cell = square_root(area / (count as f64 * CORNERS_PER_POINT));
     let depth = square_root(extents.farthest) - square_root(extents.nearest);
     // What the curvature of the flipped sphere takes: |q|·(1 − shrink), |q| near 2R.
     let loss = flipped.largest_reach() * (1.0 - shrink(cell));

@@ -164,7 +164,7 @@ pub(crate) fn mark_visible(
         }
         (Some(corners), Some(division)) => {
             memory.hull.start(corners, flipped.reach(), room)?;
-            sector::mark_visible(&mut memory.hull, &flipped, division, &mut memory.visible)
+            sector::mark_visible(memory, &flipped, division)
         }
         (None, division) => {
             let flipped = |index| flipped.get_out_of_line(index);
@@ -231,7 +231,8 @@ impl Memory {
                 continue;
             }
             // By now the hull has its shape.
-            self.depth.make(&self.hull, flipped)?;
+            self.depth
+                .make(&self.hull, flipped, flipped.len(), &|_| true)?;
             for index in round.indices(count) {
                 if !self.depth.hides(flipped.position(index)) {
                     hint = self.add(index, flipped, [hint, hint])?;
@@ -245,7 +246,8 @@ impl Memory {
     /// Every point that is no vertex, to a hull that has mostly the right ones.
     fn add_to_moved_hull(&mut self, flipped: &Flipped) -> Result<(), Error> {
         self.on_boundary.clear();
-        self.depth.make(&self.hull, flipped)?;
+        self.depth
+            .make(&self.hull, flipped, flipped.len(), &|_| true)?;
         let Some(mut hint) = self.hull.outer_face() else {
             return Ok(());
         };

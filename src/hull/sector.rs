@@ -14,10 +14,10 @@
 
 use alloc::vec::Vec;
 
-use super::Flipped;
 use super::incremental::Hull;
 use super::locate::Location;
 use super::topology::{FaceId, Vertex};
+use super::{Flipped, Memory};
 use crate::blocks::BLOCK;
 use crate::division::{Division, Role};
 use crate::error::Error;
@@ -25,14 +25,19 @@ use crate::error::Error;
 /// Of the spatial order, every point whose place is a multiple of this is in the sample of the far ones.
 const SAMPLE: u32 = 512;
 
-/// Marks those of the sector's own points that are visible. `hull` is the first
-/// tetrahedron.
+/// Marks those of the sector's own points that are visible. The memory's hull is the
+/// first tetrahedron.
 pub(super) fn mark_visible(
-    hull: &mut Hull,
+    memory: &mut Memory,
     flipped: &Flipped,
     division: Division,
-    visible: &mut [bool],
 ) -> Result<(), Error> {
+    let Memory {
+        hull,
+        depth,
+        visible,
+        ..
+    } = memory;
     let count = visible.len() as u32;
     let mut share = Share {
         hull,
@@ -51,11 +56,18 @@ pub(super) fn mark_visible(
         }
     }
     for (stride, given) in [(BLOCK, SAMPLE), (8, BLOCK as u32), (1, 8)] {
+        if stride == 1 {
+            // As in a whole view: by now the hull has its shape.
+            let Share { hull, division, .. } = &share;
+            let is_near = |index: u32| division.roles[index as usize / BLOCK] != Role::Far;
+            depth.make(hull, flipped, division.near_points(), &is_near)?;
+        }
         for block in 0..share.division.roles.len() {
             if share.division.roles[block] != Role::Far {
                 let start = (block * BLOCK) as u32;
                 for index in (start..count.min(start + BLOCK as u32)).step_by(stride) {
-                    if index % given != 0 {
+                    let is_told = stride == 1 && depth.hides(flipped.position(index));
+                    if index % given != 0 && !is_told {
                         share.add(index)?;
                     }
                 }
