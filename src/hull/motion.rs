@@ -26,6 +26,9 @@ use crate::predicates::{Sign, side_of_origin};
 const SAMPLE: usize = 512;
 /// With more of them turned over than one in this many, starting anew is faster.
 const FEW_TURNED: usize = 100;
+/// A surface of so many faces no longer fits into caches, which mending it needs more
+/// than starting anew.
+const MANY: usize = 300_000;
 /// Likewise for reflex ones among their edges.
 const FEW_REFLEX: usize = 45;
 
@@ -115,7 +118,8 @@ impl Hull {
                 }
             }
         }
-        turned * FEW_TURNED <= faces && reflex * FEW_REFLEX <= 3 * faces
+        let few_reflex = FEW_REFLEX * (1 + slots / MANY);
+        turned * FEW_TURNED <= faces && reflex * few_reflex <= 3 * faces
     }
 
     /// Each face's plane in the new view; lists turned faces and reflex edges.
