@@ -225,7 +225,7 @@ describe("what is refused", () => {
       const direct = await problemOf(() => new PointCloud(sphere).visibleFrom(loose(viewpoint), loose(options)));
       expect(direct.code).toBe(code);
     }
-    expect((await problemOf(() => cloud.autoRadius(farAway, loose("search")))).code).toBe("option");
+    expect((await problemOf(() => cloud.autoRadius(farAway, loose("best")))).code).toBe("option");
     expect((await problemOf(() => cloud.autoRadius([1, 2, Infinity]))).code).toBe("viewpoint");
     expect((await cloud.visibleFrom(farAway)).count).toBeGreaterThan(10);
   });
