@@ -50,7 +50,7 @@ export function packed(
 ): Float32Array | Float64Array {
   const Type = numbers.BYTES_PER_ELEMENT === 4 && dimension <= 3 ? Float32Array : Float64Array;
   const width = coreDimension(dimension);
-  if (stride === width && Type.BYTES_PER_ELEMENT === numbers.BYTES_PER_ELEMENT) {
+  if (stride === dimension && width === dimension && Type.BYTES_PER_ELEMENT === numbers.BYTES_PER_ELEMENT) {
     return numbers;
   }
   const count = numbers.length / stride;
