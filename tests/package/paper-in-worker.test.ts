@@ -10,9 +10,9 @@ const viewpoint = [0.5, -1, 5];
 const viewpoints = [viewpoint, Float32Array.of(4, 0, 1), [0.1, 0, 0.2]];
 const triangles = Uint32Array.of(0, 1, 2, 2, 1, 3);
 
-/** What both clouds have; each call gives a value, or a promise of it. */
-type Cloud = Pick<InstanceType<typeof PointCloud> | InstanceType<typeof WorkerPointCloud>, Method>;
 type Method = "visibleFrom" | "visibleFromDirection" | "visibleFromAny" | "visibleFromAtLeast" | "autoRadius" | "reconstruct" | "illuminate";
+/** What both clouds have; each call gives a value, or a promise of it. */
+type Cloud = { [M in Method]: (...args: never[]) => unknown };
 type Call = [method: Method, ...args: unknown[]];
 const ask = (cloud: Cloud, [method, ...args]: Call): unknown =>
   (cloud[method] as (...args: unknown[]) => unknown).apply(cloud, args);
