@@ -2,31 +2,33 @@
 import { addDisposeSymbol } from "./dispose-symbol.js";
 import { HprError } from "./errors.js";
 import { type Instance, requireInstance } from "./instance.js";
+import { CLOUD_OPTIONS, type CloudSettings, cloudSettings, givenOptions, pick, type PointCloudOptions } from "./options.js";
+import { perform } from "./perform.js";
+import { packed, type Positions, readIndices, readPositions } from "./positions.js";
 import {
-  checkRule,
-  CLOUD_OPTIONS,
-  cloudSettings,
-  givenOptions,
-  pick,
-  type PointCloudOptions,
-  VIEW_OPTIONS,
-  type ViewSettings,
-  viewSettings,
-  type VisibilityOptions,
-} from "./options.js";
-import { packed, type Positions, readIndices, readPositions, readViewpoint } from "./positions.js";
-import { type ChosenRadius, type Visibility, VisibilityAnswer } from "./visibility.js";
+  type Answers,
+  directionQuery,
+  type IlluminationOptions,
+  illuminationQuery,
+  type Query,
+  type QueryKind,
+  radiusQuery,
+  type ReconstructionOptions,
+  reconstructionQuery,
+  severalQuery,
+  viewQuery,
+} from "./queries.js";
+import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "./view-options.js";
+import {
+  type ChosenRadius,
+  type Reconstruction,
+  ReconstructionAnswer,
+  type Visibility,
+  VisibilityAnswer,
+} from "./visibility.js";
 
-/**
- * What `visibleFrom` answers, but only those of its indices that fall to sector
- * `number` of `count`; each index falls to one. For the workers that share a view.
- */
-export let visibleInSector: (
-  cloud: PointCloud,
-  viewpoint: readonly [x: number, y: number, z: number],
-  settings: ViewSettings,
-  sector: { number: number; count: number },
-) => ChosenRadius & { readonly indices: Uint32Array };
+/** Asks what was read before, maybe in another thread. */
+export let ask: <K extends QueryKind>(cloud: PointCloud, query: Query<K>) => Answers[K];
 
 /**
  * A point cloud in the memory of the wasm: prepared once, then asked from as
@@ -42,39 +44,38 @@ export class PointCloud {
   declare readonly [Symbol.dispose]: () => void;
 
   readonly #instance: Instance;
-  readonly #stride: number;
+  readonly #settings: CloudSettings;
   #handle: number | undefined;
   #length: number;
   #skipped: number;
 
   static {
     addDisposeSymbol(this.prototype);
-    visibleInSector = (cloud, [x, y, z], settings, { number, count }) => {
-      const handle = cloud.#requireHandle();
-      return cloud.#instance.call((bindings) =>
-        bindings.visibleInSector(handle, x, y, z, settings, number, count),
-      );
-    };
+    ask = (cloud, query) => cloud.#ask(query);
   }
 
   /**
    * Copies and prepares positions, in any units: O(n log n) for n points.
    *
-   * @param positions x, y, z of one point after another. A Float32Array stays in
-   *   single precision; an array of numbers is read in double precision.
+   * @param positions the coordinates of one point after another: x, y, z unless
+   *   `dimension` says otherwise. A Float32Array stays in single precision (up to three
+   *   dimensions); an array of numbers is read in double precision.
    * @throws HprError `not-initialised`, `option`, `positions-type`,
    *   `positions-length`, `non-finite`, `too-large`, `internal`.
    */
   constructor(positions: Positions, options?: PointCloudOptions) {
     this.#instance = requireInstance();
     const settings = cloudSettings(givenOptions(options, CLOUD_OPTIONS));
-    const numbers = packed(readPositions(positions, settings.stride), settings.stride);
-    const { handle, length, skipped } = this.#instance.call((bindings) =>
-      numbers.BYTES_PER_ELEMENT === 4
+    const numbers = readPacked(positions, settings);
+    const { handle, length, skipped } = this.#instance.call((bindings) => {
+      if (settings.dimension > 3) {
+        return bindings.createHyperCloud(numbers as Float64Array, settings.dimension, settings);
+      }
+      return numbers.BYTES_PER_ELEMENT === 4
         ? bindings.createCloudF32(numbers as Float32Array, settings)
-        : bindings.createCloudF64(numbers as Float64Array, settings),
-    );
-    this.#stride = settings.stride;
+        : bindings.createCloudF64(numbers as Float64Array, settings);
+    });
+    this.#settings = settings;
     this.#handle = handle;
     this.#length = length;
     this.#skipped = skipped;
@@ -100,31 +101,99 @@ export class PointCloud {
    * A point is visible exactly when its flipped image is on the outer boundary of
    * the convex hull of all flipped images and the viewpoint.
    *
-   * @param viewpoint x, y, z in the cloud's units.
+   * @param viewpoint x, y, z (as many as the cloud has dimensions) in the cloud's units.
    * @throws HprError `viewpoint`, `option`, `radius`, `too-large`, `disposed`, `internal`.
    */
   visibleFrom(viewpoint: ArrayLike<number>, options?: VisibilityOptions): Visibility {
     this.#requireHandle();
-    const [x, y, z] = readViewpoint(viewpoint);
-    const settings = viewSettings(givenOptions(options, VIEW_OPTIONS));
-    // Asked again: getters of the arguments may have disposed of the cloud.
-    const handle = this.#requireHandle();
-    const answer = this.#instance.call((bindings) => bindings.visibleFrom(handle, x, y, z, settings));
-    return new VisibilityAnswer(answer, this.#length);
+    const given = givenOptions(options, VIEW_OPTIONS);
+    return new VisibilityAnswer(this.#ask(viewQuery(this.#settings.dimension, viewpoint, given)));
   }
 
   /**
-   * The radius that {@link PointCloud.visibleFrom} chooses for a viewpoint by itself.
+   * Which points can be seen along a direction, the way an orthographic camera looks: the
+   * limit of viewpoints that recede to infinity against it, R = a·r² at distance r.
+   * Exactly: the lower boundary of the convex hull of all (x, y, z + a·(x² + y²)), z being
+   * the depth along the direction.
+   *
+   * a is 5 ÷ the cloud's spacing by default, 1/2c with `inversion: { exponential: c }`, and
+   * R/d² for a given `radius` or `exponent`, measured from where the centroid is one
+   * diagonal d of the bounding box ahead. The answer's `radius` is R for that viewpoint.
+   * `"search"`, `"opposite"` and `power` have no limit and are refused (`option`).
+   *
+   * @param direction x, y, z, not zero, of any length. Needs a cloud of dimension 3.
+   * @throws HprError `viewpoint` for the direction, otherwise as {@link PointCloud.visibleFrom}.
+   */
+  visibleFromDirection(direction: ArrayLike<number>, options?: VisibilityOptions): Visibility {
+    this.#requireHandle();
+    return new VisibilityAnswer(this.#ask(directionQuery(this.#settings.dimension, direction, options)));
+  }
+
+  /**
+   * Which points can be seen from one of several viewpoints (paper, §5: viewpoints added
+   * around the first help at silhouettes). Each view chooses its own R; the answer tells
+   * the largest, and the hulls that all choices took. No viewpoint sees nothing.
+   *
+   * @throws HprError as {@link PointCloud.visibleFrom}.
+   */
+  visibleFromAny(viewpoints: readonly ArrayLike<number>[], options?: VisibilityOptions): Visibility {
+    this.#requireHandle();
+    return new VisibilityAnswer(this.#ask(severalQuery(this.#settings.dimension, viewpoints, options)));
+  }
+
+  /**
+   * Which points can be seen from at least `k` of several viewpoints. Two of a small ring
+   * (see `ringOfViewpoints`) and its middle find silhouettes, too, but no hidden planes.
+   *
+   * @param k from 1 to the number of viewpoints.
+   * @throws HprError as {@link PointCloud.visibleFrom}.
+   */
+  visibleFromAtLeast(
+    k: number,
+    viewpoints: readonly ArrayLike<number>[],
+    options?: VisibilityOptions,
+  ): Visibility {
+    this.#requireHandle();
+    return new VisibilityAnswer(this.#ask(severalQuery(this.#settings.dimension, viewpoints, options, { k })));
+  }
+
+  /**
+   * The radius that a rule (by default `"auto"`) chooses for a viewpoint, without asking
+   * what is visible.
    *
    * @param viewpoint x, y, z in the cloud's units.
-   * @throws HprError `viewpoint`, `option`, `radius`, `disposed`, `internal`.
+   * @throws HprError `viewpoint`, `option`, `radius`, `too-large`, `disposed`, `internal`.
    */
-  autoRadius(viewpoint: ArrayLike<number>, rule?: "auto"): ChosenRadius {
+  autoRadius(viewpoint: ArrayLike<number>, rule?: RadiusRule): ChosenRadius {
     this.#requireHandle();
-    const [x, y, z] = readViewpoint(viewpoint);
-    checkRule(rule);
-    const handle = this.#requireHandle();
-    return this.#instance.call((bindings) => bindings.autoRadius(handle, x, y, z));
+    return this.#ask(radiusQuery(this.#settings.dimension, viewpoint, rule));
+  }
+
+  /**
+   * The surface that a viewpoint sees, as far as points tell (paper, §5): the triangles of
+   * the very hull that visibility is found with, corners back in their places. Triangles
+   * with an edge longer than `maxEdge` are left out, and those at the viewpoint.
+   *
+   * @param viewpoint x, y, z in the cloud's units. Needs a cloud of dimension 3.
+   * @throws HprError as {@link PointCloud.visibleFrom}.
+   */
+  reconstruct(viewpoint: ArrayLike<number>, options?: ReconstructionOptions): Reconstruction {
+    this.#requireHandle();
+    return new ReconstructionAnswer(this.#ask(reconstructionQuery(this.#settings.dimension, viewpoint, options)));
+  }
+
+  /**
+   * Light and shadow (paper, §5): for every index ambient + (1 − ambient)·(lights that see
+   * it ÷ lights), softened `smoothing` times. Skipped and removed points are not lit;
+   * without lights all is ambient.
+   *
+   * @param lights the places of point lights, x, y, z each. Needs a cloud of dimension 3.
+   * @returns one number from 0 to 1 for each index: the caller's own copy.
+   * @throws HprError as {@link PointCloud.visibleFrom}.
+   */
+  illuminate(lights: readonly ArrayLike<number>[], options?: IlluminationOptions): Float32Array {
+    this.#requireHandle();
+    return this.#ask(illuminationQuery(this.#settings.dimension, lights, options)).brightness;
   }
 
   /**
@@ -132,21 +201,24 @@ export class PointCloud {
    * For m points to n: O(n + m log m), except that the whole cloud is sorted again
    * where they extend its bounding box beyond a power of two (or a multiple of it).
    *
-   * @param positions x, y, z of one point after another, in the cloud's units and
-   *   with the `stride` and `nonFinite` the cloud was made with. Double precision
+   * @param positions coordinates of one point after another, in the cloud's units and with
+   *   the `dimension`, `stride` and `nonFinite` the cloud was made with. Double precision
    *   appended to single precision makes the whole cloud one of double precision.
    * @throws HprError `positions-type`, `positions-length`, `non-finite`,
    *   `too-large`, `disposed`, `internal`; the cloud is unchanged then.
    */
   append(positions: Positions): void {
     this.#requireHandle();
-    const numbers = packed(readPositions(positions, this.#stride), this.#stride);
+    const numbers = readPacked(positions, this.#settings);
     const handle = this.#requireHandle();
-    const { length, skipped } = this.#instance.call((bindings) =>
-      numbers.BYTES_PER_ELEMENT === 4
+    const { length, skipped } = this.#instance.call((bindings) => {
+      if (this.#settings.dimension > 3) {
+        return bindings.appendHyper(handle, numbers as Float64Array);
+      }
+      return numbers.BYTES_PER_ELEMENT === 4
         ? bindings.appendF32(handle, numbers as Float32Array)
-        : bindings.appendF64(handle, numbers as Float64Array),
-    );
+        : bindings.appendF64(handle, numbers as Float64Array);
+    });
     this.#length = length;
     this.#skipped = skipped;
   }
@@ -179,6 +251,13 @@ export class PointCloud {
     }
   }
 
+  /** Getters of the arguments may have disposed of the cloud while they were read. */
+  #ask<K extends QueryKind>(query: Query<K>): Answers[K] {
+    const handle = this.#requireHandle();
+    const { dimension } = this.#settings;
+    return perform({ instance: this.#instance, handle, dimension, length: this.#length }, query);
+  }
+
   #requireHandle(): number {
     if (this.#handle === undefined) {
       throw new HprError("disposed", "this cloud has been disposed of");
@@ -207,6 +286,10 @@ export function hiddenPointRemoval(
   } finally {
     cloud.dispose();
   }
+}
+
+function readPacked(positions: unknown, { stride, dimension }: CloudSettings): Float32Array | Float64Array {
+  return packed(readPositions(positions, stride), stride, dimension);
 }
 
 /** Clouds that were never disposed of, freed once nothing refers to them any more. */

@@ -22,7 +22,7 @@ export type HprErrorCode =
  * | `positions-length` | the length is not a multiple of the stride |
  * | `positions-type` | not a Float32Array, a Float64Array or an array of numbers, or transferred away |
  * | `non-finite` | NaN or an infinity among the positions |
- * | `viewpoint` | not three finite numbers |
+ * | `viewpoint` | not three finite numbers (as many as the dimension); a direction that is zero |
  * | `radius` | not finite, not positive, smaller than the farthest distance, or overflowing |
  * | `option` | unknown, out of range, or excluding another one |
  * | `too-large` | more points than supported, or memory refused; everything else goes on working |

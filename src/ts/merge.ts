@@ -1,9 +1,10 @@
 import { describe, HprError } from "./errors.js";
 import { requireInstance } from "./instance.js";
 import { allocating } from "./memory.js";
-import { givenOptions, viewSettings } from "./options.js";
+import { givenOptions } from "./options.js";
 import { MAX_LENGTH, type Positions, readPositions, readViewpoint } from "./positions.js";
 import { plainView, typedArrayType } from "./typed-arrays.js";
+import { Kernel, type ResolvedInversion, Rule, type ViewSettings, viewSettings } from "./view-options.js";
 
 /** What is visible in one part of a cloud, or any more of that part. */
 export interface VisiblePart {
@@ -17,19 +18,20 @@ export interface VisiblePart {
 export interface MergeOptions {
   /**
    * R of the flipping sphere, in the cloud's units: the same for every part, and at
-   * least the distance of the farthest point. There is no default.
+   * least the distance of the farthest point. With an inversion by power its unit S.
+   * There is no default; only an exponential inversion has none.
    */
   radius?: number | undefined;
-  /** The kernel that flips the points; spherical flipping is the only one supported. */
-  inversion?: "spherical" | undefined;
+  /** How every part was flipped, with numbers only. Default `"spherical"`. */
+  inversion?: ResolvedInversion | undefined;
 }
 
 /**
  * Which points of a cloud are visible, from what is visible in its parts.
  *
  * However the cloud was divided: ask each part (a tile, a worker's share, a
- * server's) from one viewpoint with one radius, and bring only the visible points
- * together here. visible(A ∪ B) = visible(visible(A) ∪ visible(B)), exactly.
+ * server's) from one viewpoint with one radius and inversion, and bring only the
+ * visible points together here. visible(A ∪ B) = visible(visible(A) ∪ visible(B)), exactly.
  *
  * @param parts their positions and ids. Equal positions share one answer, in
  *   whichever parts they are.
@@ -45,13 +47,13 @@ export function mergeVisible(
   options: MergeOptions,
 ): Uint32Array {
   const instance = requireInstance();
-  const [x, y, z] = readViewpoint(viewpoint);
-  const radius = readRadius(options);
+  const [x, y, z] = readViewpoint(viewpoint, 3) as [number, number, number];
+  const settings = readSettings(options);
   const { positions, ids } = joined(readParts(parts));
   return instance.call((bindings) =>
     positions.BYTES_PER_ELEMENT === 4
-      ? bindings.mergeVisibleF32(positions as Float32Array, ids, x, y, z, radius)
-      : bindings.mergeVisibleF64(positions as Float64Array, ids, x, y, z, radius),
+      ? bindings.mergeVisibleF32(positions as Float32Array, ids, x, y, z, settings)
+      : bindings.mergeVisibleF64(positions as Float64Array, ids, x, y, z, settings),
   );
 }
 
@@ -60,16 +62,21 @@ interface ReadPart {
   ids: Uint32Array;
 }
 
-function readRadius(options: unknown): number {
+function readSettings(options: unknown): ViewSettings {
   const given = givenOptions(options, ["radius", "inversion"]);
-  const { radius } = viewSettings(given);
-  if (radius === undefined) {
+  const settings = viewSettings(given, 3);
+  if (settings.kernel === Kernel.automaticExponential) {
+    throw new HprError("option", `inversion exponential must be the number that all parts were seen with, got "auto"`);
+  }
+  // With a radius, too: the core says that the two exclude each other.
+  const needsRadius = settings.kernel !== Kernel.exponential || given["radius"] !== undefined;
+  if (needsRadius && settings.rule !== Rule.radius) {
     throw new HprError(
       "option",
       `radius must be the number that all parts were seen with, got ${describe(given["radius"])}`,
     );
   }
-  return radius;
+  return settings;
 }
 
 function readParts(parts: unknown): ReadPart[] {

@@ -2,11 +2,14 @@ import { describe, HprError, typeTag } from "./errors.js";
 
 /** How a cloud's positions are to be read. */
 export interface PointCloudOptions {
-  /** Coordinates of a point; 3 is the only dimension supported. Default 3. */
+  /**
+   * Coordinates of a point: 3; 2, for clouds in a plane, whose answers are as exact; or
+   * from 4 to 64, in double precision and with a tolerance of 10⁻¹⁰. Default 3.
+   */
   dimension?: number | undefined;
   /**
-   * Numbers from the start of one point to the start of the next, at least 3;
-   * the first three are x, y and z, the others are skipped. Default 3.
+   * Numbers from the start of one point to the start of the next, at least the
+   * dimension; those after a point's coordinates are skipped. Default: the dimension.
    */
   stride?: number | undefined;
   /**
@@ -17,43 +20,18 @@ export interface PointCloudOptions {
   nonFinite?: "error" | "skip" | undefined;
 }
 
-/**
- * How one view is computed. At most one of `radius` and `exponent` may be given.
- */
-export interface VisibilityOptions {
-  /**
-   * R, the radius of the sphere that points are flipped about (paper, §3.1,
-   * eq. 1), in the cloud's units: finite, and at least the distance of the
-   * farthest point. `"auto"`, the default, derives it from the cloud's spacing
-   * and the viewpoint.
-   */
-  radius?: number | "auto" | undefined;
-  /** R = farthest distance · 10^exponent, the paper's own parameter; at least 0. */
-  exponent?: number | undefined;
-  /** The kernel that flips the points; spherical flipping is the only one supported. */
-  inversion?: "spherical" | undefined;
-}
-
 /** Options of a cloud, checked and complete. */
 export interface CloudSettings {
+  dimension: number;
   stride: number;
   skipNonFinite: boolean;
 }
 
-/**
- * Options of a view, checked; neither field means the automatic radius. Both are
- * always there, or the core would look for them in `Object.prototype`.
- */
-export interface ViewSettings {
-  radius: number | undefined;
-  exponent: number | undefined;
-}
-
 export const CLOUD_OPTIONS = ["dimension", "stride", "nonFinite"] as const;
-export const VIEW_OPTIONS = ["radius", "exponent", "inversion"] as const;
 
 /** A greater one would not fit into the core's memory. */
 const MAX_STRIDE = 2 ** 32 - 1;
+const MAX_DIMENSION = 64;
 
 /**
  * The options that were really given, those that are `undefined` left out.
@@ -124,53 +102,37 @@ export function pick(
 }
 
 export function cloudSettings(given: Record<string, unknown>): CloudSettings {
-  const { dimension = 3, stride = 3, nonFinite = "error" } = given;
-  if (dimension !== 3) {
-    throw new HprError("option", `dimension must be 3, the only one supported, got ${describe(dimension)}`);
-  }
-  if (!isStride(stride)) {
-    throw new HprError("option", `stride must be an integer from 3 to ${MAX_STRIDE}, got ${describe(stride)}`);
-  }
+  const dimension = integer(given, "dimension", 2, MAX_DIMENSION) ?? 3;
+  const stride = integer(given, "stride", dimension, MAX_STRIDE) ?? dimension;
+  const { nonFinite = "error" } = given;
   if (nonFinite !== "error" && nonFinite !== "skip") {
     throw new HprError("option", `nonFinite must be "error" or "skip", got ${describe(nonFinite)}`);
   }
-  return { stride, skipNonFinite: nonFinite === "skip" };
+  return { dimension, stride, skipNonFinite: nonFinite === "skip" };
 }
 
-/** Types only: ranges are the core's to check, which knows the distances. */
-export function viewSettings(given: Record<string, unknown>): ViewSettings {
-  const { radius, exponent, inversion = "spherical" } = given;
-  if (radius !== undefined && exponent !== undefined) {
-    throw new HprError("option", "radius and exponent exclude each other; give one of the two");
+/** An option that is an integer in a range, if it was given. */
+export function integer(
+  given: Record<string, unknown>,
+  name: string,
+  least: number,
+  most: number,
+): number | undefined {
+  const value = given[name];
+  if (value === undefined) {
+    return undefined;
   }
-  if (inversion !== "spherical") {
-    throw new HprError(
-      "option",
-      `inversion must be "spherical", the only one supported, got ${describe(inversion)}`,
-    );
+  if (!Number.isInteger(value) || (value as number) < least || (value as number) > most) {
+    throw new HprError("option", `${name} must be an integer from ${least} to ${most}, got ${describe(value)}`);
   }
-  if (typeof exponent === "number") {
-    return { radius: undefined, exponent };
-  }
-  if (exponent !== undefined) {
-    throw new HprError("option", `exponent must be a number, got ${describe(exponent)}`);
-  }
-  if (typeof radius === "number") {
-    return { radius, exponent: undefined };
-  }
-  if (radius !== undefined && radius !== "auto") {
-    throw new HprError("option", `radius must be a number or "auto", got ${describe(radius)}`);
-  }
-  return { radius: undefined, exponent: undefined };
+  return value as number;
 }
 
-/** The rule of `autoRadius`. */
-export function checkRule(rule: unknown): void {
-  if (rule !== undefined && rule !== "auto") {
-    throw new HprError("option", `the rule must be "auto", the only one supported, got ${describe(rule)}`);
+/** An option that is a number, if it was given. Its range is the core's to check. */
+export function number(given: Record<string, unknown>, name: string): number | undefined {
+  const value = given[name];
+  if (value !== undefined && typeof value !== "number") {
+    throw new HprError("option", `${name} must be a number, got ${describe(value)}`);
   }
-}
-
-function isStride(value: unknown): value is number {
-  return Number.isInteger(value) && (value as number) >= 3 && (value as number) <= MAX_STRIDE;
+  return value;
 }

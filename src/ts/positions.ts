@@ -31,41 +31,82 @@ export function readPositions(positions: unknown, stride: number): Float32Array 
   return numbers;
 }
 
-/** The first three of every `stride` numbers, which is all that the core reads. */
+/**
+ * Coordinates that a point has in the core: a cloud in the plane is one in space with
+ * z = 0, where the same operations round alike.
+ */
+export function coreDimension(dimension: number): number {
+  return Math.max(dimension, 3);
+}
+
+/**
+ * The coordinates of every `stride` numbers, which is all that the core reads, in the
+ * core's own dimension, beyond three in double precision.
+ */
 export function packed(
   numbers: Float32Array | Float64Array,
   stride: number,
+  dimension: number,
 ): Float32Array | Float64Array {
-  if (stride === 3) {
+  const Type = numbers.BYTES_PER_ELEMENT === 4 && dimension <= 3 ? Float32Array : Float64Array;
+  const width = coreDimension(dimension);
+  if (stride === dimension && width === dimension && Type.BYTES_PER_ELEMENT === numbers.BYTES_PER_ELEMENT) {
     return numbers;
   }
   const count = numbers.length / stride;
-  const Type = numbers.BYTES_PER_ELEMENT === 4 ? Float32Array : Float64Array;
-  const own = allocating(`${count} points`, () => new Type(3 * count));
+  if (count * width > MAX_LENGTH) {
+    throw new HprError("too-large", `${count * width} coordinates exceed the limit of ${MAX_LENGTH}`);
+  }
+  const own = allocating(`${count} points`, () => new Type(width * count));
   let to = 0;
   for (let from = 0; from < numbers.length; from += stride) {
-    own[to++] = numbers[from] as number;
-    own[to++] = numbers[from + 1] as number;
-    own[to++] = numbers[from + 2] as number;
+    for (let axis = 0; axis < dimension; axis++) {
+      own[to + axis] = numbers[from + axis] as number;
+    }
+    to += width;
   }
   return own;
 }
 
-/** A viewpoint's three coordinates. Whether they are finite is the core's to check. */
-export function readViewpoint(viewpoint: unknown): [number, number, number] {
+/**
+ * A viewpoint's coordinates, in the core's dimension. Whether they are finite is the
+ * core's to check, which does not know that a plane has two.
+ */
+export function readViewpoint(viewpoint: unknown, dimension: number, name = "viewpoint"): number[] {
   const length = lengthOf(viewpoint);
-  if (length !== 3) {
+  if (length !== dimension) {
     const got = length === undefined ? describe(viewpoint) : `${length} of them`;
-    throw new HprError("viewpoint", `the viewpoint must be 3 numbers, got ${got}`);
+    throw new HprError("viewpoint", `the ${name} must be ${dimension} numbers, got ${got}`);
   }
-  const { 0: x, 1: y, 2: z } = viewpoint as ArrayLike<unknown>;
-  if (typeof x !== "number" || typeof y !== "number" || typeof z !== "number") {
+  // Read once each: a getter may change its mind.
+  const coordinates = Array.from({ length }, (_, axis) => (viewpoint as ArrayLike<unknown>)[axis]);
+  if (!coordinates.every((x) => typeof x === "number")) {
     throw new HprError(
       "viewpoint",
-      `the viewpoint must be 3 numbers, got ${describe(x)}, ${describe(y)}, ${describe(z)}`,
+      `the ${name} must be ${dimension} numbers, got ${coordinates.map(describe).join(", ")}`,
     );
   }
-  return [x, y, z];
+  if (dimension === 2) {
+    if (!coordinates.every(Number.isFinite)) {
+      throw new HprError("viewpoint", `the ${name} must be finite, got ${coordinates.join(", ")}`);
+    }
+    coordinates.push(0);
+  }
+  return coordinates;
+}
+
+/** The coordinates of several viewpoints, one after another. Refusals say which one. */
+export function readViewpoints(viewpoints: unknown, dimension: number, name: string): Float64Array<ArrayBuffer> {
+  if (!Array.isArray(viewpoints)) {
+    throw new HprError(
+      "viewpoint",
+      `${name} must be an array of ${dimension} numbers each, got ${describe(viewpoints)}`,
+    );
+  }
+  const lists = Array.from(viewpoints, (viewpoint: unknown, i) =>
+    readViewpoint(viewpoint, dimension, `viewpoint ${name}[${i}]`),
+  );
+  return Float64Array.from(lists.flat());
 }
 
 /** Indices of points to remove, copied. Whether the cloud has them is the core's to check. */

@@ -1,22 +1,25 @@
 import { describe, HprError } from "./errors.js";
 import { allocating } from "./memory.js";
+import type { Answers, Found } from "./queries.js";
 import { plainView, typedArrayType } from "./typed-arrays.js";
+import type { ResolvedInversion } from "./view-options.js";
 
 /** How a radius was chosen. */
 export interface ChosenRadius {
   /**
    * R, the radius of the flipping sphere in the cloud's units; 0 where no point
-   * is away from the viewpoint.
+   * is away from the viewpoint. With an inversion by power its unit S, with an
+   * exponential one 0.
    */
   readonly radius: number;
-  /** log₁₀(R ÷ farthest distance), the paper's parameter. */
+  /** log₁₀(R ÷ farthest distance), the paper's parameter; 0 where there is no R. */
   readonly exponent: number;
   /** Hulls computed to choose R, the final one not counted. */
   readonly evaluations: number;
 }
 
 /**
- * Which points are visible from one viewpoint. The masks are made from `indices`
+ * Which points are visible, from one viewpoint or several. The masks are made from `indices`
  * when they are asked for: what is written there shows in them, and once its
  * buffer has been transferred away the methods throw an HprError `disposed`.
  */
@@ -25,8 +28,11 @@ export interface Visibility extends ChosenRadius {
   readonly indices: Uint32Array;
   /** How many points are visible. */
   readonly count: number;
-  /** The kernel that flipped the points. */
-  readonly inversion: "spherical";
+  /**
+   * How the points were flipped, with numbers only: asked with it (and with the radius,
+   * if it is not exponential), any part of the cloud is flipped alike.
+   */
+  readonly inversion: ResolvedInversion;
   /** One byte for each point of the cloud: 1 visible, 0 hidden. */
   mask(): Uint8Array;
   /**
@@ -45,6 +51,15 @@ export interface Visibility extends ChosenRadius {
   indicesInto(target: Uint32Array): number;
 }
 
+/** What is visible from a viewpoint, as a mesh. */
+export interface Reconstruction extends Visibility {
+  /**
+   * Three indices a triangle, counter-clockwise seen from the viewpoint; of equal points
+   * the lowest index. The caller's own copy.
+   */
+  readonly triangles: Uint32Array;
+}
+
 /** The answer to one query: numbers in JavaScript's own memory, with no tie to the wasm. */
 export class VisibilityAnswer implements Visibility {
   readonly indices: Uint32Array;
@@ -52,16 +67,17 @@ export class VisibilityAnswer implements Visibility {
   readonly radius: number;
   readonly exponent: number;
   readonly evaluations: number;
-  readonly inversion = "spherical";
+  readonly inversion: ResolvedInversion;
   readonly #cloudLength: number;
 
-  constructor(answer: ChosenRadius & { readonly indices: Uint32Array }, cloudLength: number) {
+  constructor(answer: Found) {
     this.indices = answer.indices;
     this.count = answer.indices.length;
     this.radius = answer.radius;
     this.exponent = answer.exponent;
     this.evaluations = answer.evaluations;
-    this.#cloudLength = cloudLength;
+    this.inversion = answer.inversion;
+    this.#cloudLength = answer.length;
   }
 
   mask(): Uint8Array {
@@ -97,6 +113,15 @@ export class VisibilityAnswer implements Visibility {
       throw new HprError("disposed", "the indices of this answer are gone: their buffer has been transferred away");
     }
     return indices;
+  }
+}
+
+export class ReconstructionAnswer extends VisibilityAnswer implements Reconstruction {
+  readonly triangles: Uint32Array;
+
+  constructor(answer: Answers["reconstruct"]) {
+    super(answer);
+    this.triangles = answer.triangles;
   }
 }
 

@@ -1,7 +1,9 @@
 export { HprError, type HprErrorCode } from "./errors.js";
-export type { PointCloudOptions, VisibilityOptions } from "./options.js";
+export type { PointCloudOptions } from "./options.js";
 export type { Positions } from "./positions.js";
-export type { ChosenRadius, Visibility } from "./visibility.js";
+export type { IlluminationOptions, ReconstructionOptions } from "./queries.js";
+export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./view-options.js";
+export type { ChosenRadius, Reconstruction, Visibility } from "./visibility.js";
 export {
   WorkerPointCloud,
   type WorkerPointCloudOptions,

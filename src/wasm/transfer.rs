@@ -26,9 +26,20 @@ pub(super) fn singles(positions: &Float32Array) -> Result<Points, Error> {
 }
 
 pub(super) fn doubles(positions: &Float64Array) -> Result<Points, Error> {
+    Ok(Points::Double(triples(positions)?))
+}
+
+/// Points of three doubles each.
+pub(super) fn triples(positions: &Float64Array) -> Result<Vec<[f64; 3]>, Error> {
     let mut own = zeros::<[f64; 3]>(positions.length() / 3)?;
     positions.copy_to(own.as_flattened_mut());
-    Ok(Points::Double(own))
+    Ok(own)
+}
+
+pub(super) fn numbers(numbers: &Float64Array) -> Result<Vec<f64>, Error> {
+    let mut own = zeros(numbers.length())?;
+    numbers.copy_to(&mut own);
+    Ok(own)
 }
 
 pub(super) fn copy_in_integers(integers: &Uint32Array) -> Result<Vec<u32>, Error> {

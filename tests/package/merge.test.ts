@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 
-import { bumpySphere, bunny, freshPackage, problemOf, randomNumbers, readyPackage } from "./support";
+import { bumpySphere, bunny, freshPackage, pointsAt, problemOf, randomNumbers, readyPackage } from "./support";
 
 const { mergeVisible, PointCloud, HprError } = await readyPackage();
 
@@ -40,6 +40,22 @@ describe("parts that were seen with one radius", () => {
     expect(mergeVisible([everything], viewpoint, { radius, inversion: "spherical" })).toEqual(indices);
   });
 
+  it.each<[string, object]>([
+    ["a power", { inversion: { power: 3 } }],
+    ["a power of a given unit", { radius: 50, inversion: { power: 1.2 } }],
+    ["an exponential", { inversion: { exponential: 0.004 } }],
+    ["an exponential of its own scale", { inversion: { exponential: "auto" } }],
+  ])("merge with the inversion that the answer tells: %s", (_, options) => {
+    const whole = new PointCloud(sphere).visibleFrom(farAway, options);
+    const together = whole.radius > 0 ? { radius: whole.radius, inversion: whole.inversion } : { inversion: whole.inversion };
+    const parts = [0, 1500].map((first) => {
+      const own = sphere.subarray(3 * first, 3 * first + 4500);
+      const { indices } = new PointCloud(own).visibleFrom(farAway, together);
+      return { positions: pointsAt(own, [...indices]), ids: indices.map((i) => first + i) };
+    });
+    expect(mergeVisible(parts, farAway, together)).toEqual(whole.indices);
+  });
+
   it("share the answer of equal points, and give an id once", () => {
     const parts = [
       { positions: [0, 0, 1, 0, 0, 0], ids: Uint32Array.of(9, 8) },
@@ -63,7 +79,11 @@ describe("what is refused", () => {
     ["option", /"exponent"/, [part], { exponent: 2 }],
     ["option", /"exponent"/, [part], { radius: 100, exponent: 2 }],
     ["option", /"denoise"/, [part], { radius: 100, denoise: 8 }],
-    ["option", /inversion/, [part], { radius: 100, inversion: { power: 2 } }],
+    ["option", /radius.*undefined/, [part], { inversion: { power: 2 } }],
+    ["option", /inversion power.*17/, [part], { radius: 100, inversion: { power: 17 } }],
+    ["option", /inversion exponential.*"auto"/, [part], { inversion: { exponential: "auto" } }],
+    ["option", /radius.*inversion exponential/, [part], { radius: 100, inversion: { exponential: 1 } }],
+    ["option", /inversion.*"cubic"/, [part], { radius: 100, inversion: "cubic" }],
     ["option", /parts.*undefined/, undefined, radius],
     ["option", /parts.*Object/, part, radius],
     ["option", /parts\[1\].*null/, [part, null], radius],

@@ -185,7 +185,7 @@ describe("what is refused", () => {
     ["positions-length", /got 4\b/, [1, 2, 3, 4]],
     ["non-finite", /index 0/, [NaN, 2, 3]],
     ["option", /stride/, sphere, { stride: 1 }],
-    ["option", /dimension/, sphere, { dimension: 2 }],
+    ["option", /dimension/, sphere, { dimension: 1 }],
     ["option", /workers .* got 0$/, sphere, { workers: 0 }],
     ["option", /workers .* got 1.5$/, sphere, { workers: 1.5 }],
     ["option", /workers .* got 65$/, sphere, { workers: 65 }],
@@ -212,7 +212,9 @@ describe("what is refused", () => {
       ["radius", farAway, { radius: 1 }],
       ["option", farAway, { radius: 1, exponent: 1 }],
       ["option", farAway, { exponent: -1 }],
-      ["option", farAway, { denoise: 3 }],
+      ["option", farAway, { denoise: 0 }],
+      ["option", farAway, { vote: 3000 }],
+      ["option", farAway, { inversion: { power: 20 } }],
       ["option", farAway, { latest: "yes" }],
       ["option", farAway, { signal: {} }],
     ];
@@ -223,7 +225,7 @@ describe("what is refused", () => {
       const direct = await problemOf(() => new PointCloud(sphere).visibleFrom(loose(viewpoint), loose(options)));
       expect(direct.code).toBe(code);
     }
-    expect((await problemOf(() => cloud.autoRadius(farAway, loose("search")))).code).toBe("option");
+    expect((await problemOf(() => cloud.autoRadius(farAway, loose("best")))).code).toBe("option");
     expect((await problemOf(() => cloud.autoRadius([1, 2, Infinity]))).code).toBe("viewpoint");
     expect((await cloud.visibleFrom(farAway)).count).toBeGreaterThan(10);
   });

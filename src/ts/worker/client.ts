@@ -3,20 +3,26 @@ import { addDisposeSymbol } from "../dispose-symbol.js";
 import { describe, HprError } from "../errors.js";
 import { moduleForWorker } from "../loader.js";
 import { allocating } from "../memory.js";
+import { CLOUD_OPTIONS, type CloudSettings, cloudSettings, givenOptions, pick, type PointCloudOptions } from "../options.js";
+import { isFloatArray, type Positions, readIndices, readPositions } from "../positions.js";
 import {
-  checkRule,
-  CLOUD_OPTIONS,
-  type CloudSettings,
-  cloudSettings,
-  givenOptions,
-  pick,
-  type PointCloudOptions,
-  VIEW_OPTIONS,
-  viewSettings,
-  type VisibilityOptions,
-} from "../options.js";
-import { isFloatArray, type Positions, readIndices, readPositions, readViewpoint } from "../positions.js";
-import { type ChosenRadius, type Visibility, VisibilityAnswer } from "../visibility.js";
+  directionQuery,
+  type IlluminationOptions,
+  illuminationQuery,
+  radiusQuery,
+  type ReconstructionOptions,
+  reconstructionQuery,
+  severalQuery,
+  viewQuery,
+} from "../queries.js";
+import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../view-options.js";
+import {
+  type ChosenRadius,
+  type Reconstruction,
+  ReconstructionAnswer,
+  type Visibility,
+  VisibilityAnswer,
+} from "../visibility.js";
 import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
 import type { CloudSize } from "./protocol.js";
 import { RequestQueue } from "./request-queue.js";
@@ -69,16 +75,16 @@ export class WorkerPointCloud {
   declare readonly [Symbol.dispose]: () => void;
 
   readonly #queue: RequestQueue;
-  readonly #stride: number;
+  readonly #settings: CloudSettings;
   #size: CloudSize;
 
   static {
     addDisposeSymbol(this.prototype);
   }
 
-  private constructor(queue: RequestQueue, stride: number, size: CloudSize) {
+  private constructor(queue: RequestQueue, settings: CloudSettings, size: CloudSize) {
     this.#queue = queue;
-    this.#stride = stride;
+    this.#settings = settings;
     this.#size = size;
     unreachable.register(this, queue, this);
   }
@@ -134,7 +140,7 @@ export class WorkerPointCloud {
     const count = workers ?? (await defaultWorkers(positions.length / settings.stride));
     const [module] = await Promise.all([moduleForWorker(), queue.start(count)]);
     const size = await queue.ask({ kind: "create", module, positions, settings });
-    return new WorkerPointCloud(queue, settings.stride, size);
+    return new WorkerPointCloud(queue, settings, size);
   }
 
   /**
@@ -150,30 +156,85 @@ export class WorkerPointCloud {
     options?: WorkerVisibilityOptions,
   ): Promise<Visibility> {
     this.#queue.requireOpen();
-    const position = readViewpoint(viewpoint);
     const given = givenOptions(options, VIEW_OPTIONS, ["latest", "signal"]);
     const latest = readFlag(given, "latest");
     const signal = readSignal(given["signal"]);
-    const request = {
-      kind: "visibleFrom" as const,
-      viewpoint: position,
-      settings: viewSettings(pick(given, VIEW_OPTIONS)),
-    };
-    const asked = this.#queue.ask(request, { latest, signal, owner: this });
-    const answer = await untilAborted(signal, asked);
-    return new VisibilityAnswer(answer, answer.length);
+    const query = viewQuery(this.#settings.dimension, viewpoint, given);
+    const asked = this.#queue.ask(query, { latest, signal, owner: this });
+    return new VisibilityAnswer(await untilAborted(signal, asked));
   }
 
   /**
-   * The radius that {@link WorkerPointCloud.visibleFrom} chooses for a viewpoint by itself.
+   * Which points can be seen along a direction; see `PointCloud.visibleFromDirection`.
    *
-   * @throws HprError (as a rejection) `viewpoint`, `option`, `radius`, `disposed`, `internal`.
+   * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
    */
-  async autoRadius(viewpoint: ArrayLike<number>, rule?: "auto"): Promise<ChosenRadius> {
+  async visibleFromDirection(direction: ArrayLike<number>, options?: VisibilityOptions): Promise<Visibility> {
     this.#queue.requireOpen();
-    const request = { kind: "autoRadius" as const, viewpoint: readViewpoint(viewpoint) };
-    checkRule(rule);
-    return this.#queue.ask(request, { owner: this });
+    const query = directionQuery(this.#settings.dimension, direction, options);
+    return new VisibilityAnswer(await this.#queue.ask(query, { owner: this }));
+  }
+
+  /**
+   * Which points can be seen from one of several viewpoints; see `PointCloud.visibleFromAny`.
+   *
+   * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
+   */
+  async visibleFromAny(
+    viewpoints: readonly ArrayLike<number>[],
+    options?: VisibilityOptions,
+  ): Promise<Visibility> {
+    this.#queue.requireOpen();
+    const query = severalQuery(this.#settings.dimension, viewpoints, options);
+    return new VisibilityAnswer(await this.#queue.ask(query, { owner: this }));
+  }
+
+  /**
+   * Which points can be seen from at least `k` of several viewpoints; see
+   * `PointCloud.visibleFromAtLeast`.
+   *
+   * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
+   */
+  async visibleFromAtLeast(
+    k: number,
+    viewpoints: readonly ArrayLike<number>[],
+    options?: VisibilityOptions,
+  ): Promise<Visibility> {
+    this.#queue.requireOpen();
+    const query = severalQuery(this.#settings.dimension, viewpoints, options, { k });
+    return new VisibilityAnswer(await this.#queue.ask(query, { owner: this }));
+  }
+
+  /**
+   * The radius that a rule chooses for a viewpoint; see `PointCloud.autoRadius`.
+   *
+   * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
+   */
+  async autoRadius(viewpoint: ArrayLike<number>, rule?: RadiusRule): Promise<ChosenRadius> {
+    this.#queue.requireOpen();
+    return this.#queue.ask(radiusQuery(this.#settings.dimension, viewpoint, rule), { owner: this });
+  }
+
+  /**
+   * The surface that a viewpoint sees; see `PointCloud.reconstruct`.
+   *
+   * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
+   */
+  async reconstruct(viewpoint: ArrayLike<number>, options?: ReconstructionOptions): Promise<Reconstruction> {
+    this.#queue.requireOpen();
+    const query = reconstructionQuery(this.#settings.dimension, viewpoint, options);
+    return new ReconstructionAnswer(await this.#queue.ask(query, { owner: this }));
+  }
+
+  /**
+   * Light and shadow; see `PointCloud.illuminate`.
+   *
+   * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
+   */
+  async illuminate(lights: readonly ArrayLike<number>[], options?: IlluminationOptions): Promise<Float32Array> {
+    this.#queue.requireOpen();
+    const query = illuminationQuery(this.#settings.dimension, lights, options);
+    return (await this.#queue.ask(query, { owner: this })).brightness;
   }
 
   /**
@@ -186,7 +247,7 @@ export class WorkerPointCloud {
    */
   async append(positions: Positions): Promise<void> {
     this.#queue.requireOpen();
-    const own = toOwn(positions, this.#stride, false);
+    const own = toOwn(positions, this.#settings.stride, false);
     const request = { kind: "append" as const, positions: own };
     this.#size = await this.#queue.ask(request, { owner: this });
   }

@@ -1,6 +1,6 @@
 import { HprError, type HprErrorCode } from "../errors.js";
-import type { CloudSettings, ViewSettings } from "../options.js";
-import type { ChosenRadius } from "../visibility.js";
+import type { CloudSettings } from "../options.js";
+import type { Answers, Query } from "../queries.js";
 
 /**
  * What the page and its worker say to each other. The worker says `"ready"`
@@ -14,18 +14,9 @@ export type Request =
       positions: Float32Array | Float64Array;
       settings: CloudSettings;
     }
-  | { kind: "visibleFrom"; viewpoint: Viewpoint; settings: ViewSettings; sector?: Sector }
-  | { kind: "autoRadius"; viewpoint: Viewpoint }
   | { kind: "append"; positions: Float32Array | Float64Array }
-  | { kind: "remove"; indices: Uint32Array };
-
-export type Viewpoint = [x: number, y: number, z: number];
-
-/** Which part of a view is asked for, where several workers share it: number 0 to count − 1. */
-export interface Sector {
-  number: number;
-  count: number;
-}
+  | { kind: "remove"; indices: Uint32Array }
+  | Query;
 
 /** `length` and `skipped` of a cloud. */
 export interface CloudSize {
@@ -34,11 +25,8 @@ export interface CloudSize {
 }
 
 /** The value of a reply, by the kind of its request. */
-export interface Replies {
+export interface Replies extends Answers {
   create: CloudSize;
-  /** With the length of the cloud that was asked; it may grow while this is on its way. */
-  visibleFrom: ChosenRadius & { indices: Uint32Array; length: number };
-  autoRadius: ChosenRadius;
   append: CloudSize;
   remove: CloudSize;
 }

@@ -55,8 +55,7 @@ export class Team {
   /** Answered by one message, whoever is asked. The arrays in it are given away. */
   post(request: Request): void {
     let copies: { request: Request; transfer: ArrayBuffer[] }[];
-    // Which radius would be chosen, one can tell as well as all.
-    const asked = request.kind === "autoRadius" ? this.#members.slice(0, 1) : this.#members;
+    const asked = isForAll(request) ? this.#members : this.#members.slice(0, 1);
     try {
       copies = asked.map((_, number) => copyFor(request, number, asked.length));
     } catch (thrown) {
@@ -145,6 +144,20 @@ export class Team {
   }
 }
 
+/** Changes are, and views that can be divided; anything else one can tell as well as all. */
+function isForAll(request: Request): boolean {
+  switch (request.kind) {
+    case "create":
+    case "append":
+    case "remove":
+      return true;
+    case "visibleFrom":
+      return request.divisible;
+    default:
+      return false;
+  }
+}
+
 /** What one member is asked: with arrays of its own, and with its sector of a view. */
 function copyFor(
   request: Request,
@@ -163,7 +176,7 @@ function copyFor(
     }
     case "visibleFrom":
       return { request: count === 1 ? request : { ...request, sector: { number, count } }, transfer: [] };
-    case "autoRadius":
+    default:
       return { request, transfer: [] };
   }
 }
@@ -191,7 +204,7 @@ function joined(parts: Replies["visibleFrom"][]): Replies["visibleFrom"] {
 }
 
 /** All of these indices, ascending, by one bit for each index below `length`. */
-function merged(lists: Uint32Array[], length: number, count: number): Uint32Array {
+function merged(lists: Uint32Array[], length: number, count: number): Uint32Array<ArrayBuffer> {
   const bits = new Int32Array(Math.ceil(length / 32));
   for (const list of lists) {
     for (const index of list) {

@@ -1,4 +1,4 @@
-import { PointCloud, visibleInSector } from "../cloud.js";
+import { ask, PointCloud } from "../cloud.js";
 import { initSync } from "../loader.js";
 import { importNodeModule } from "../node.js";
 import { type CloudSize, failedReply, READY, type Replies, type Reply, type Request } from "./protocol.js";
@@ -10,31 +10,23 @@ let cloud: PointCloud | undefined;
 function answer(request: Request): Replies[Request["kind"]] {
   if (request.kind === "create") {
     initSync(request.module);
-    const { stride, skipNonFinite } = request.settings;
+    const { dimension, stride, skipNonFinite } = request.settings;
     const nonFinite = skipNonFinite ? "skip" : "error";
-    cloud = new PointCloud(request.positions, { stride, nonFinite });
+    cloud = new PointCloud(request.positions, { dimension, stride, nonFinite });
     return sizeOf(cloud);
   }
   if (cloud === undefined) {
     throw new Error(`${request.kind} came before create`);
   }
   switch (request.kind) {
-    case "visibleFrom": {
-      const { viewpoint, settings, sector } = request;
-      const { indices, radius, exponent, evaluations } =
-        sector === undefined
-          ? cloud.visibleFrom(viewpoint, settings)
-          : visibleInSector(cloud, viewpoint, settings, sector);
-      return { indices, radius, exponent, evaluations, length: cloud.length };
-    }
-    case "autoRadius":
-      return cloud.autoRadius(request.viewpoint);
     case "append":
       cloud.append(request.positions);
       return sizeOf(cloud);
     case "remove":
       cloud.remove(request.indices);
       return sizeOf(cloud);
+    default:
+      return ask(cloud, request);
   }
 }
 
@@ -50,9 +42,14 @@ function serve(request: Request, post: Post): void {
   } catch (thrown) {
     reply = failedReply(thrown);
   }
-  const moved =
-    "value" in reply && "indices" in reply.value ? [reply.value.indices.buffer as ArrayBuffer] : [];
-  post(reply, moved);
+  post(reply, "value" in reply ? buffersIn(reply.value) : []);
+}
+
+/** What is moved rather than copied. */
+function buffersIn(value: Replies[Request["kind"]]): ArrayBuffer[] {
+  return Object.values(value).flatMap((field: unknown) =>
+    ArrayBuffer.isView(field) ? [field.buffer as ArrayBuffer] : [],
+  );
 }
 
 async function serveNode(): Promise<void> {

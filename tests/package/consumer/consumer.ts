@@ -5,11 +5,21 @@ import {
   type HprErrorCode,
   init,
   type InitInput,
+  type IlluminationOptions,
   initSync,
+  type Inversion,
   type MergeOptions,
   mergeVisible,
+  permissibleCurvature,
   PointCloud,
   type PointCloudOptions,
+  radiusBound,
+  type RadiusRule,
+  type Reconstruction,
+  type ReconstructionOptions,
+  type ResolvedInversion,
+  ringOfViewpoints,
+  simdEnabled,
   type Visibility,
   type VisibilityOptions,
   type VisiblePart,
@@ -46,16 +56,40 @@ export async function everything(): Promise<HprErrorCode | undefined> {
     const ids: Uint32Array = mergeVisible(parts, [0, 0, 5], together);
     console.log(ids);
 
+    const inversions: Inversion[] = ["spherical", { power: 2 }, { exponential: 0.1 }, { exponential: "auto" }];
+    const rules: RadiusRule[] = ["auto", "search", "opposite"];
+    const ring: number[][] = ringOfViewpoints([0, 0, 5], new Float32Array(3), { count: 5, fraction: perhaps });
+    const seen = cloud.visibleFromAtLeast(2, [...ring, new Float64Array(3)], { inversion: inversions[1], vote: 3 });
+    const inversion: ResolvedInversion = cloud.visibleFromAny(ring, { radius: rules[1], denoise: perhaps }).inversion;
+    mergeVisible(parts, [0, 0, 5], { radius: seen.radius, inversion });
+    const meshing: ReconstructionOptions = { maxEdge: Infinity };
+    const mesh: Reconstruction = cloud.reconstruct([0, 0, 5], meshing);
+    const lighting: IlluminationOptions = { triangles: mesh.triangles, smoothing: 2, ambient: 0.1, exponent: 3 };
+    const brightness: Float32Array = cloud.illuminate([[0, 0, 5]], lighting);
+    console.log(brightness, cloud.visibleFromDirection([0, 0, -1]).count, cloud.autoRadius([0, 0, 5], "opposite").radius);
+    console.log(permissibleCurvature(100, 5, 1), radiusBound(1, 2, 0.1), simdEnabled());
+    new PointCloud(new Float32Array(4), { dimension: 2 }).dispose();
+
     const controller = new AbortController();
     const remote = await WorkerPointCloud.create([1, 2, 3], { transfer: false, signal: controller.signal });
     await remote.visibleFrom([0, 0, 5], { latest: true, signal: controller.signal, radius: "auto" });
     await remote.visibleFrom([0, 0, 5], { latest: undefined, signal: undefined });
     await remote.append([4, 5, 6]);
     await remote.remove([0]);
+    const far: Float32Array = await remote.illuminate([[0, 0, 5]], lighting);
+    const remoteMesh: Reconstruction = await remote.reconstruct([0, 0, 5], meshing);
+    await remote.visibleFromAny(ring);
+    await remote.visibleFromAtLeast(1, ring, { radius: "search" });
+    await remote.visibleFromDirection([0, 0, 1]);
+    console.log(far, remoteMesh.triangles, (await remote.autoRadius([0, 0, 5], "search")).evaluations);
     await remote.dispose();
 
     // @ts-expect-error -- a cloud keeps its length
     cloud.length = 3;
+    // @ts-expect-error -- there is no such rule
+    cloud.visibleFrom([0, 0, 5], { radius: "best" });
+    // @ts-expect-error -- merging needs numbers
+    mergeVisible(parts, [0, 0, 5], { inversion: { exponential: "auto" } });
     // @ts-expect-error -- there is no such option
     cloud.visibleFrom([0, 0, 5], { farness: 3 });
     // @ts-expect-error -- a string is no list of numbers

@@ -1,0 +1,92 @@
+import { HprError } from "./errors.js";
+import { requireInstance } from "./instance.js";
+import { allocating } from "./memory.js";
+import { givenOptions, integer, number } from "./options.js";
+import { readViewpoint } from "./positions.js";
+
+/** How viewpoints are added around one. */
+export interface RingOptions {
+  /** How many: an integer from 1 to 10,000. Default 4. */
+  count?: number | undefined;
+  /** The ring's radius as a part of the distance to the target, at least 0. Default 0.05. */
+  fraction?: number | undefined;
+}
+
+const MOST_VIEWPOINTS = 10_000;
+
+/**
+ * Viewpoints evenly around one (paper, §5), on a circle across its line to a target. The
+ * viewpoint itself is not among them. For `PointCloud.visibleFromAny` and
+ * `PointCloud.visibleFromAtLeast`.
+ *
+ * @param viewpoint x, y, z.
+ * @param target x, y, z of what is looked at, in the same units.
+ * @throws HprError `not-initialised`, `viewpoint` (for the target, too), `option`.
+ */
+export function ringOfViewpoints(
+  viewpoint: ArrayLike<number>,
+  target: ArrayLike<number>,
+  options?: RingOptions,
+): number[][] {
+  const instance = requireInstance();
+  const from = Float64Array.from(readViewpoint(viewpoint, 3));
+  const to = Float64Array.from(readViewpoint(target, 3, "target"));
+  const given = givenOptions(options, ["count", "fraction"]);
+  const count = integer(given, "count", 1, MOST_VIEWPOINTS) ?? 4;
+  const fraction = number(given, "fraction") ?? 0.05;
+  const ring = allocating(`${count} viewpoints`, () => new Float64Array(3 * count));
+  instance.call((bindings) => {
+    bindings.ringOfViewpoints(from, to, fraction, ring);
+  });
+  return Array.from({ length: count }, (_, i) => [...ring.subarray(3 * i, 3 * i + 3)]);
+}
+
+/**
+ * The curvature up to which a pit's bottom is still found visible (paper, Lemma 4.3), in
+ * one over the units of lengths:
+ *
+ * k < [4R(2R − r)·cot²β + 2Rr] / (4Rr − 4R² + (r − 2R)²/sin²β)^(3/2)
+ *
+ * @param R the radius of the flipping sphere.
+ * @param r the point's distance from the viewpoint: 0 < r ≤ R.
+ * @param beta the angle between the ray and the hull's plane at the *flipped* point, from
+ *   0 to π; π/2 faces the viewer.
+ * @throws HprError `not-initialised`, `option`.
+ */
+export function permissibleCurvature(R: number, r: number, beta: number): number {
+  const instance = requireInstance();
+  checkNumbers({ R, r, beta });
+  return instance.call((bindings) => bindings.permissibleCurvature(R, r, beta));
+}
+
+/**
+ * The radius R below which the back of a body stays hidden (paper, §4): thickness ·
+ * distance² / spacing², for a back at that `distance` from the viewpoint and samples of
+ * the front twice the `spacing` apart. A larger R sees the back between them.
+ *
+ * @throws HprError `not-initialised`; `option` for what is not positive and finite.
+ */
+export function radiusBound(thickness: number, distance: number, spacing: number): number {
+  const instance = requireInstance();
+  checkNumbers({ thickness, distance, spacing });
+  return instance.call((bindings) => bindings.radiusBound(thickness, distance, spacing));
+}
+
+/**
+ * Whether the wasm that is running uses 128-bit SIMD instructions. Answers are the same
+ * either way.
+ *
+ * @throws HprError `not-initialised`.
+ */
+export function simdEnabled(): boolean {
+  return requireInstance().call((bindings) => bindings.simdEnabled());
+}
+
+function checkNumbers(values: Record<string, unknown>): void {
+  for (const [name, value] of Object.entries(values)) {
+    if (value === undefined) {
+      throw new HprError("option", `${name} must be a number, got undefined`);
+    }
+    number(values, name);
+  }
+}

@@ -1,0 +1,91 @@
+import { HprError } from "./errors.js";
+import type { Bindings, Instance } from "./instance.js";
+import { allocating } from "./memory.js";
+import type { Answers, Found, Query, QueryKind } from "./queries.js";
+import { resolvedInversion, type ViewSettings } from "./view-options.js";
+
+/** A cloud in the memory of an instance. */
+interface Target {
+  instance: Instance;
+  handle: number;
+  dimension: number;
+  length: number;
+}
+
+type CoreAnswer = ReturnType<Bindings["visibleFrom"]>;
+
+const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answers[K] } = {
+  visibleFrom: (target, { viewpoint, settings, sector }) => {
+    const { instance, handle, dimension } = target;
+    const [x, y, z] = viewpoint as [number, number, number];
+    const answer = instance.call((bindings) => {
+      if (dimension > 3) {
+        return bindings.hyperVisibleFrom(handle, Float64Array.from(viewpoint), 1, settings);
+      }
+      return sector === undefined
+        ? bindings.visibleFrom(handle, x, y, z, settings)
+        : bindings.visibleInSector(handle, x, y, z, settings, sector.number, sector.count);
+    });
+    return found(target, settings, answer);
+  },
+
+  visibleFromDirection: (target, { direction, settings }) => {
+    const [x, y, z] = direction as [number, number, number];
+    const answer = target.instance.call((bindings) =>
+      bindings.visibleFromDirection(target.handle, x, y, z, settings),
+    );
+    return found(target, settings, answer);
+  },
+
+  visibleFromSeveral: (target, { viewpoints, k, settings }) => {
+    const { instance, handle, dimension } = target;
+    const answer = instance.call((bindings) =>
+      dimension > 3
+        ? bindings.hyperVisibleFrom(handle, viewpoints, k, settings)
+        : bindings.visibleFromSeveral(handle, viewpoints, k, settings),
+    );
+    return found(target, settings, answer);
+  },
+
+  autoRadius: ({ instance, handle, dimension }, { viewpoint, settings }) => {
+    const [x, y, z] = viewpoint as [number, number, number];
+    return instance.call((bindings) =>
+      dimension > 3
+        ? bindings.hyperAutoRadius(handle, Float64Array.from(viewpoint), settings)
+        : bindings.autoRadius(handle, x, y, z, settings),
+    );
+  },
+
+  reconstruct: (target, { viewpoint, settings, maxEdge }) => {
+    const [x, y, z] = viewpoint as [number, number, number];
+    const answer = target.instance.call((bindings) =>
+      bindings.reconstruct(target.handle, x, y, z, settings, maxEdge),
+    );
+    return { ...found(target, settings, answer), triangles: answer.triangles };
+  },
+
+  illuminate: ({ instance, handle, length }, { lights, settings, triangles, smoothing, ambient }) => {
+    const stray = triangles?.findIndex((index) => index >= length) ?? -1;
+    if (stray >= 0) {
+      throw new HprError(
+        "option",
+        `triangles[${stray}] must be the index of a point, below ${length}, got ${triangles![stray]!}`,
+      );
+    }
+    const brightness = allocating(`${length} numbers`, () => new Float32Array(length));
+    instance.call((bindings) => {
+      bindings.illuminate(handle, lights, settings, triangles, smoothing, ambient, brightness);
+    });
+    return { brightness };
+  },
+};
+
+/** Asks the core. */
+export function perform<K extends QueryKind>(target: Target, query: Query<K>): Answers[K] {
+  return performers[query.kind](target, query);
+}
+
+function found({ length }: Target, settings: ViewSettings, answer: CoreAnswer): Found {
+  const { indices, radius, exponent, evaluations, scale } = answer;
+  return { indices, radius, exponent, evaluations, inversion: resolvedInversion(settings, scale), length };
+}

@@ -1,0 +1,185 @@
+import { describe, HprError } from "./errors.js";
+import { allocating } from "./memory.js";
+import { givenOptions, integer, number } from "./options.js";
+import { coreDimension, readViewpoint, readViewpoints } from "./positions.js";
+import { plainView, typedArrayType } from "./typed-arrays.js";
+import {
+  requireSpace,
+  type ResolvedInversion,
+  ruleSettings,
+  VIEW_OPTIONS,
+  type ViewSettings,
+  viewSettings,
+  type VisibilityOptions,
+} from "./view-options.js";
+import type { ChosenRadius } from "./visibility.js";
+
+/** How a mesh is made of one view. */
+export interface ReconstructionOptions extends VisibilityOptions {
+  /**
+   * The longest edge that a triangle may have, in the cloud's units, between its points
+   * where they are; `Infinity` keeps all. Default: 5 times the cloud's spacing.
+   */
+  maxEdge?: number | undefined;
+}
+
+/** How light is spread. */
+export interface IlluminationOptions extends VisibilityOptions {
+  /**
+   * The mesh whose vertices the points are, three indices a triangle: shadows are
+   * softened along its edges. Without it among the 6 nearest points.
+   */
+  triangles?: Uint32Array | undefined;
+  /**
+   * So many times every point takes the mean of itself and its neighbors: an integer
+   * from 0 to 1000. Default 1.
+   */
+  smoothing?: number | undefined;
+  /** The brightness that no shadow takes away, from 0 to 1. Default 0. */
+  ambient?: number | undefined;
+}
+
+/** Which part of a view is asked for, where several workers share it: number 0 to count − 1. */
+export interface Sector {
+  number: number;
+  count: number;
+}
+
+/**
+ * What can be asked of a cloud, by kind: arguments read, copied and checked for type.
+ * Points have as many coordinates as the core's own (see `coreDimension`).
+ */
+export interface Questions {
+  /** `divisible`: worth being divided into sectors. */
+  visibleFrom: { viewpoint: number[]; settings: ViewSettings; divisible: boolean; sector?: Sector };
+  visibleFromDirection: { direction: number[]; settings: ViewSettings };
+  /** From at least `k` of the viewpoints, one after another. */
+  visibleFromSeveral: { viewpoints: Float64Array<ArrayBuffer>; k: number; settings: ViewSettings };
+  autoRadius: { viewpoint: number[]; settings: ViewSettings };
+  reconstruct: { viewpoint: number[]; settings: ViewSettings; maxEdge: number | undefined };
+  illuminate: {
+    lights: Float64Array<ArrayBuffer>;
+    settings: ViewSettings;
+    triangles: Uint32Array<ArrayBuffer> | undefined;
+    smoothing: number;
+    ambient: number;
+  };
+}
+
+export type QueryKind = keyof Questions;
+export type Query<K extends QueryKind = QueryKind> = { [P in K]: { kind: P } & Questions[P] }[K];
+
+/** What is visible, with the length of the cloud that was asked. */
+export interface Found extends ChosenRadius {
+  indices: Uint32Array<ArrayBuffer>;
+  inversion: ResolvedInversion;
+  length: number;
+}
+
+/** The answers, by kind of query. */
+export interface Answers {
+  visibleFrom: Found;
+  visibleFromDirection: Found;
+  visibleFromSeveral: Found;
+  autoRadius: ChosenRadius;
+  reconstruct: Found & { triangles: Uint32Array<ArrayBuffer> };
+  illuminate: { brightness: Float32Array<ArrayBuffer> };
+}
+
+/** `given` are the options, already gathered: a worker has some of its own. */
+export function viewQuery(
+  dimension: number,
+  viewpoint: unknown,
+  given: Record<string, unknown>,
+): Query<"visibleFrom"> {
+  const position = readViewpoint(viewpoint, dimension);
+  const settings = viewSettings(given, dimension);
+  // Votes, moved points and other inversions have no bounds that hold from far away.
+  const { kernel, denoise, vote } = settings;
+  const divisible = dimension === 3 && kernel === 0 && denoise === 0 && vote === 0;
+  return { kind: "visibleFrom", viewpoint: position, settings, divisible };
+}
+
+export function directionQuery(
+  dimension: number,
+  direction: unknown,
+  options: unknown,
+): Query<"visibleFromDirection"> {
+  requireSpace("visibleFromDirection", dimension);
+  const ahead = readViewpoint(direction, 3, "direction");
+  const settings = viewSettings(givenOptions(options, VIEW_OPTIONS), dimension);
+  return { kind: "visibleFromDirection", direction: ahead, settings };
+}
+
+/** From at least `k` of the viewpoints; without `k` from any. */
+export function severalQuery(
+  dimension: number,
+  viewpoints: unknown,
+  options: unknown,
+  least?: { k: unknown },
+): Query<"visibleFromSeveral"> {
+  const positions = readViewpoints(viewpoints, dimension, "viewpoints");
+  let k = 1;
+  if (least !== undefined) {
+    const count = positions.length / coreDimension(dimension);
+    const isCount = Number.isInteger(least.k) && (least.k as number) >= 1 && (least.k as number) <= count;
+    if (!isCount) {
+      throw new HprError(
+        "option",
+        `k must be an integer from 1 to the number of viewpoints, ${count}, got ${describe(least.k)}`,
+      );
+    }
+    k = least.k as number;
+  }
+  const settings = viewSettings(givenOptions(options, VIEW_OPTIONS), dimension);
+  return { kind: "visibleFromSeveral", viewpoints: positions, k, settings };
+}
+
+export function radiusQuery(dimension: number, viewpoint: unknown, rule: unknown): Query<"autoRadius"> {
+  return { kind: "autoRadius", viewpoint: readViewpoint(viewpoint, dimension), settings: ruleSettings(rule) };
+}
+
+export function reconstructionQuery(
+  dimension: number,
+  viewpoint: unknown,
+  options: unknown,
+): Query<"reconstruct"> {
+  requireSpace("reconstruct", dimension);
+  const position = readViewpoint(viewpoint, dimension);
+  const given = givenOptions(options, VIEW_OPTIONS, ["maxEdge"]);
+  const maxEdge = number(given, "maxEdge");
+  return { kind: "reconstruct", viewpoint: position, settings: viewSettings(given, dimension), maxEdge };
+}
+
+export function illuminationQuery(dimension: number, lights: unknown, options: unknown): Query<"illuminate"> {
+  requireSpace("illuminate", dimension);
+  const positions = readViewpoints(lights, dimension, "lights");
+  const given = givenOptions(options, VIEW_OPTIONS, ["triangles", "smoothing", "ambient"]);
+  return {
+    kind: "illuminate",
+    lights: positions,
+    settings: viewSettings(given, dimension),
+    triangles: readTriangles(given["triangles"]),
+    smoothing: integer(given, "smoothing", 0, MOST_ROUNDS) ?? 1,
+    ambient: number(given, "ambient") ?? 0,
+  };
+}
+
+/** The core's limit. */
+const MOST_ROUNDS = 1000;
+
+/** Copied. Whether the cloud has such indices is checked when it is asked. */
+function readTriangles(triangles: unknown): Uint32Array<ArrayBuffer> | undefined {
+  if (triangles === undefined) {
+    return undefined;
+  }
+  const corners =
+    typedArrayType(triangles) === "Uint32Array" ? plainView(triangles as Uint32Array, Uint32Array) : undefined;
+  if (corners === undefined) {
+    throw new HprError("option", `triangles must be a Uint32Array, not transferred away, got ${describe(triangles)}`);
+  }
+  if (corners.length % 3 !== 0) {
+    throw new HprError("option", `triangles must be three indices each, got ${corners.length}`);
+  }
+  return allocating(`${corners.length / 3} triangles`, () => corners.slice());
+}

@@ -1,0 +1,183 @@
+import { describe, HprError } from "./errors.js";
+import { givenOptions, number } from "./options.js";
+
+/** How the radius R is chosen where it is not given. */
+export type RadiusRule = "auto" | "search" | "opposite";
+
+/**
+ * How points are flipped (paper, §3): `"spherical"`, 2R − d; `{ power: γ }`, with
+ * 1 < γ ≤ 16, d·(d/S)^−γ, where S is `radius` or else the farthest distance and fixes
+ * the rounding only; `{ exponential: c }`, exp(c/d), c in the cloud's units and positive,
+ * which is 0.07 of the cloud's spacing for `"auto"`.
+ */
+export type Inversion = "spherical" | { power: number } | { exponential: number | "auto" };
+
+/** An inversion with numbers only, as an answer tells it. */
+export type ResolvedInversion =
+  | "spherical"
+  | { readonly power: number }
+  | { readonly exponential: number };
+
+/**
+ * How one view is computed. At most one of `radius` and `exponent` may be given. With an
+ * inversion by `power`, `radius` may be a number, with `exponential` neither is allowed.
+ */
+export interface VisibilityOptions {
+  /**
+   * R, the radius of the sphere that points are flipped about (paper, §3.1, eq. 1), in
+   * the cloud's units: finite, and at least the distance of the farthest point. Or how it
+   * is chosen: `"auto"`, the default, from the cloud's spacing and the viewpoint;
+   * `"search"` by antipodal search, which takes six hulls; `"opposite"` by the paper's own
+   * rule (§4), some 40 hulls, mostly far too large in perspective.
+   */
+  radius?: number | RadiusRule | undefined;
+  /** R = farthest distance · 10^exponent, the paper's own parameter; at least 0. */
+  exponent?: number | undefined;
+  /** How points are flipped; default `"spherical"`. */
+  inversion?: Inversion | undefined;
+  /**
+   * For noisy clouds: before everything else, each point is projected on the
+   * least-squares plane of itself and so many nearest others, at least 1 and less than
+   * the number of points. Indices and the caller's positions stay.
+   */
+  denoise?: number | undefined;
+  /**
+   * For noisy clouds: a point is visible when more than 0.4 of it and so many nearest
+   * others are; at least 1 and less than the number of points.
+   */
+  vote?: number | undefined;
+}
+
+/** {@link VisibilityOptions}, checked for type, as the core reads them (src/wasm/options.rs). */
+export interface ViewSettings {
+  /** A number of {@link Rule}. */
+  rule: number;
+  /** R or the exponent, where one is given. */
+  size: number;
+  /** A number of {@link Kernel}. */
+  kernel: number;
+  /** γ or c, where one is given. */
+  parameter: number;
+  /** Neighbors; 0 for none. */
+  denoise: number;
+  vote: number;
+}
+
+export const Rule = { auto: 0, search: 1, opposite: 2, radius: 3, exponent: 4 } as const;
+export const Kernel = { spherical: 0, power: 1, automaticExponential: 2, exponential: 3 } as const;
+
+export const VIEW_OPTIONS = ["radius", "exponent", "inversion", "denoise", "vote"] as const;
+
+/** Types only: ranges are the core's to check, which knows the distances. */
+export function viewSettings(given: Record<string, unknown>, dimension: number): ViewSettings {
+  return {
+    ...chosenRadius(given),
+    ...chosenInversion(given["inversion"]),
+    denoise: neighbors(given, "denoise", dimension),
+    vote: neighbors(given, "vote", dimension),
+  };
+}
+
+/** The rule of `autoRadius`, as settings. */
+export function ruleSettings(rule: unknown): ViewSettings {
+  if (rule !== undefined && !isRule(rule)) {
+    throw new HprError("option", `the rule must be "auto", "search" or "opposite", got ${describe(rule)}`);
+  }
+  return { rule: Rule[rule ?? "auto"], size: 0, kernel: Kernel.spherical, parameter: 0, denoise: 0, vote: 0 };
+}
+
+/** What an answer to such a view says of its inversion; `scale` is the c that was used. */
+export function resolvedInversion({ kernel, parameter }: ViewSettings, scale: number): ResolvedInversion {
+  switch (kernel) {
+    case Kernel.power:
+      return { power: parameter };
+    case Kernel.automaticExponential:
+    case Kernel.exponential:
+      return { exponential: scale };
+    default:
+      return "spherical";
+  }
+}
+
+/** Refuses what makes sense in three dimensions alone. In the crate's words. */
+export function requireSpace(what: string, dimension: number): void {
+  if (dimension !== 3) {
+    throw new HprError("option", `${what} needs a cloud of dimension 3, not ${dimension}`);
+  }
+}
+
+function chosenRadius(given: Record<string, unknown>): Pick<ViewSettings, "rule" | "size"> {
+  const { radius } = given;
+  const exponent = number(given, "exponent");
+  if (radius !== undefined && exponent !== undefined) {
+    throw new HprError("option", "radius and exponent exclude each other; give one of the two");
+  }
+  if (exponent !== undefined) {
+    return { rule: Rule.exponent, size: exponent };
+  }
+  if (typeof radius === "number") {
+    return { rule: Rule.radius, size: radius };
+  }
+  if (radius !== undefined && !isRule(radius)) {
+    throw new HprError(
+      "option",
+      `radius must be a number, "auto", "search" or "opposite", got ${describe(radius)}`,
+    );
+  }
+  return { rule: Rule[radius ?? "auto"], size: 0 };
+}
+
+function chosenInversion(inversion: unknown): Pick<ViewSettings, "kernel" | "parameter"> {
+  if (inversion === undefined || inversion === "spherical") {
+    return { kernel: Kernel.spherical, parameter: 0 };
+  }
+  if (typeof inversion !== "object") {
+    throw new HprError(
+      "option",
+      `inversion must be "spherical", { power } or { exponential }, got ${describe(inversion)}`,
+    );
+  }
+  const { power, exponential } = givenInversion(inversion);
+  if ((power === undefined) === (exponential === undefined)) {
+    throw new HprError("option", "inversion must have one of power and exponential");
+  }
+  if (typeof power === "number") {
+    return { kernel: Kernel.power, parameter: power };
+  }
+  if (power !== undefined) {
+    throw new HprError("option", `inversion power must be a number, got ${describe(power)}`);
+  }
+  if (exponential === "auto") {
+    return { kernel: Kernel.automaticExponential, parameter: 0 };
+  }
+  if (typeof exponential !== "number") {
+    throw new HprError("option", `inversion exponential must be a number or "auto", got ${describe(exponential)}`);
+  }
+  return { kernel: Kernel.exponential, parameter: exponential };
+}
+
+/** Refusals say which option they are about. */
+function givenInversion(inversion: unknown): Record<string, unknown> {
+  try {
+    return givenOptions(inversion, ["power", "exponential"]);
+  } catch (cause) {
+    throw cause instanceof HprError ? new HprError(cause.code, `inversion: ${cause.message}`, { cause }) : cause;
+  }
+}
+
+/** The upper bound is the core's to check, which knows how many points are present. */
+function neighbors(given: Record<string, unknown>, name: "denoise" | "vote", dimension: number): number {
+  const count = given[name];
+  if (count === undefined) {
+    return 0;
+  }
+  requireSpace(name, dimension);
+  if (!Number.isInteger(count) || (count as number) < 1) {
+    throw new HprError("option", `${name} must be an integer of at least 1, got ${describe(count)}`);
+  }
+  return count as number;
+}
+
+function isRule(value: unknown): value is RadiusRule {
+  return value === "auto" || value === "search" || value === "opposite";
+}

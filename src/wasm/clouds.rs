@@ -1,0 +1,144 @@
+//! The clouds that JavaScript holds numbers of, and what the last view left behind.
+
+use alloc::vec::Vec;
+use core::cell::RefCell;
+use std::thread_local;
+
+use serde::Serialize;
+use wasm_bindgen::prelude::*;
+
+use super::failure::Failure;
+use super::to_js;
+use crate::hull::Memory;
+use crate::{Error, PointCloud, PointCloudNd};
+
+thread_local! {
+    static CLOUDS: RefCell<Vec<Option<Cloud>>> = const { RefCell::new(Vec::new()) };
+    static LAST_VIEW: RefCell<Option<LastView>> = const { RefCell::new(None) };
+}
+
+/// A cloud of three dimensions (or two, with z = 0), or of more.
+pub(super) enum Cloud {
+    Space(PointCloud),
+    Hyper(PointCloudNd),
+}
+
+/// What the next view may start from: the last one's hull, and its room. One for all
+/// clouds, so that many clouds need no more than one.
+struct LastView {
+    handle: u32,
+    memory: Memory,
+}
+
+#[derive(Serialize)]
+pub(super) struct CloudInfo {
+    handle: f64,
+    length: f64,
+    skipped: f64,
+}
+
+impl CloudInfo {
+    fn new(handle: u32, cloud: &Cloud) -> Self {
+        let (length, skipped) = match cloud {
+            Cloud::Space(cloud) => (cloud.len(), cloud.skipped()),
+            Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped()),
+        };
+        Self {
+            handle: f64::from(handle),
+            length: length as f64,
+            skipped: skipped as f64,
+        }
+    }
+}
+
+/// Keeps a cloud that was not refused.
+pub(super) fn created(made: Result<Cloud, Error>) -> Result<JsValue, JsValue> {
+    let kept = made.and_then(|cloud| {
+        CLOUDS.with_borrow_mut(|clouds| {
+            let free = clouds.iter().position(Option::is_none);
+            let slot = free.unwrap_or(clouds.len());
+            if free.is_none() {
+                clouds.try_reserve(1)?;
+                clouds.push(None);
+            }
+            let info = CloudInfo::new(slot as u32, &cloud);
+            clouds[slot] = Some(cloud);
+            Ok(info)
+        })
+    });
+    Ok(to_js(&kept.map_err(Failure::from)?))
+}
+
+/// The size of a cloud whose change was not refused.
+pub(super) fn resized(changed: Result<CloudInfo, Failure>) -> Result<JsValue, JsValue> {
+    Ok(to_js(&changed?))
+}
+
+/// Frees a cloud; its number may be given to another one afterwards.
+#[wasm_bindgen(js_name = freeCloud)]
+pub fn free_cloud(handle: u32) {
+    forget(handle);
+    CLOUDS.with_borrow_mut(|clouds| {
+        if let Some(slot) = clouds.get_mut(handle as usize) {
+            *slot = None;
+        }
+    });
+}
+
+pub(super) fn with_cloud<T>(
+    handle: u32,
+    query: impl FnOnce(&PointCloud) -> Result<T, Error>,
+) -> Result<T, Failure> {
+    CLOUDS.with_borrow(|clouds| match clouds.get(handle as usize) {
+        Some(Some(Cloud::Space(cloud))) => query(cloud).map_err(Failure::from),
+        _ => Err(Failure::DISPOSED),
+    })
+}
+
+pub(super) fn with_hyper<T>(
+    handle: u32,
+    query: impl FnOnce(&PointCloudNd) -> Result<T, Error>,
+) -> Result<T, Failure> {
+    CLOUDS.with_borrow(|clouds| match clouds.get(handle as usize) {
+        Some(Some(Cloud::Hyper(cloud))) => query(cloud).map_err(Failure::from),
+        _ => Err(Failure::DISPOSED),
+    })
+}
+
+/// Runs `view` with the last view's memory, which knows nothing of other clouds.
+pub(super) fn with_memory<T>(handle: u32, view: impl FnOnce(&mut Memory) -> T) -> T {
+    LAST_VIEW.with_borrow_mut(|last| {
+        let last = last.get_or_insert_with(|| LastView {
+            handle,
+            memory: Memory::default(),
+        });
+        if last.handle != handle {
+            last.memory.forget();
+            last.handle = handle;
+        }
+        view(&mut last.memory)
+    })
+}
+
+/// Gives back what is kept of the cloud's last view.
+fn forget(handle: u32) {
+    LAST_VIEW.with_borrow_mut(|last| {
+        if last.as_ref().is_some_and(|last| last.handle == handle) {
+            *last = None;
+        }
+    });
+}
+
+/// Changes a cloud of any dimension.
+pub(super) fn change_any(
+    handle: u32,
+    change: impl FnOnce(&mut Cloud) -> Result<(), Error>,
+) -> Result<CloudInfo, Failure> {
+    forget(handle);
+    CLOUDS.with_borrow_mut(|clouds| {
+        let cloud = clouds.get_mut(handle as usize).and_then(Option::as_mut);
+        let cloud = cloud.ok_or(Failure::DISPOSED)?;
+        change(cloud)?;
+        Ok(CloudInfo::new(handle, cloud))
+    })
+}

@@ -1,0 +1,43 @@
+//! What needs no cloud.
+
+use js_sys::Float64Array;
+use wasm_bindgen::prelude::*;
+
+use super::answer::refused;
+use crate::{permissible_curvature, radius_bound, ring_of_viewpoints};
+
+/// Fills `ring`, three numbers a viewpoint, with viewpoints around `viewpoint`, across its
+/// line to `target`.
+#[wasm_bindgen(js_name = ringOfViewpoints)]
+pub fn ring(
+    viewpoint: &Float64Array,
+    target: &Float64Array,
+    fraction: f64,
+    ring: &Float64Array,
+) -> Result<(), JsValue> {
+    let [mut from, mut to] = [[0.0; 3]; 2];
+    viewpoint.copy_to(&mut from);
+    target.copy_to(&mut to);
+    let count = ring.length() as usize / 3;
+    let places = ring_of_viewpoints(from, to, count, fraction).map_err(refused)?;
+    ring.copy_from(places.as_flattened());
+    Ok(())
+}
+
+/// The bound of Lemma 4.3.
+#[wasm_bindgen(js_name = permissibleCurvature)]
+pub fn curvature(radius: f64, r: f64, beta: f64) -> Result<f64, JsValue> {
+    permissible_curvature(radius, r, beta).map_err(refused)
+}
+
+/// The radius from which on the back of a body shows through its front.
+#[wasm_bindgen(js_name = radiusBound)]
+pub fn bound(thickness: f64, distance: f64, spacing: f64) -> Result<f64, JsValue> {
+    radius_bound(thickness, distance, spacing).map_err(refused)
+}
+
+/// Whether this build uses the 128-bit instructions.
+#[wasm_bindgen(js_name = simdEnabled)]
+pub fn simd_enabled() -> bool {
+    cfg!(target_feature = "simd128")
+}

@@ -1,0 +1,53 @@
+//! Options of a view as JavaScript hands them over: checked for type there, for range here.
+
+use wasm_bindgen::prelude::*;
+
+use crate::{Exponential, Inversion, Options, Radius};
+
+#[wasm_bindgen]
+extern "C" {
+    /// Read field by field: what serde says about a field of the wrong type brings the
+    /// formatting of floats along, 30 kB. Numbers stand for the choices (src/ts/options.ts).
+    #[wasm_bindgen(typescript_type = "ViewOptions")]
+    pub type ViewOptions;
+    #[wasm_bindgen(method, getter)]
+    fn rule(this: &ViewOptions) -> f64;
+    #[wasm_bindgen(method, getter)]
+    fn size(this: &ViewOptions) -> f64;
+    #[wasm_bindgen(method, getter)]
+    fn kernel(this: &ViewOptions) -> f64;
+    #[wasm_bindgen(method, getter)]
+    fn parameter(this: &ViewOptions) -> f64;
+    #[wasm_bindgen(method, getter)]
+    fn denoise(this: &ViewOptions) -> f64;
+    #[wasm_bindgen(method, getter)]
+    fn vote(this: &ViewOptions) -> f64;
+}
+
+impl ViewOptions {
+    pub(super) fn read(&self) -> Options {
+        // Conversions of integers saturate; 0 is none, which JavaScript refuses itself.
+        let neighbors = |k: f64| (k > 0.0).then_some(k as usize);
+        Options {
+            radius: self.read_radius(),
+            inversion: match self.kernel() as u32 {
+                1 => Inversion::Power(self.parameter()),
+                2 => Inversion::Exponential(Exponential::Auto),
+                3 => Inversion::Exponential(Exponential::Scale(self.parameter())),
+                _ => Inversion::Spherical,
+            },
+            denoise: neighbors(self.denoise()),
+            vote: neighbors(self.vote()),
+        }
+    }
+
+    pub(super) fn read_radius(&self) -> Radius {
+        match self.rule() as u32 {
+            1 => Radius::Search,
+            2 => Radius::Opposite,
+            3 => Radius::Absolute(self.size()),
+            4 => Radius::Exponent(self.size()),
+            _ => Radius::Auto,
+        }
+    }
+}

@@ -1,0 +1,94 @@
+//! Views from one viewpoint, whole or divided among workers, from several, and along a
+//! direction.
+
+use js_sys::Float64Array;
+use wasm_bindgen::prelude::*;
+
+use super::answer::{answered, chosen};
+use super::clouds::{with_cloud, with_memory};
+use super::options::ViewOptions;
+use super::transfer::triples;
+use crate::Sector;
+
+/// Which points are visible from (x, y, z)?
+#[wasm_bindgen(js_name = visibleFrom, unchecked_return_type = "Answer")]
+pub fn visible_from(
+    handle: u32,
+    x: f64,
+    y: f64,
+    z: f64,
+    options: &ViewOptions,
+) -> Result<JsValue, JsValue> {
+    visible_in_sector(handle, x, y, z, options, 0, 1)
+}
+
+/// Which of the points that fall to sector `number` of `count` are visible from (x, y, z)?
+#[wasm_bindgen(js_name = visibleInSector, unchecked_return_type = "Answer")]
+pub fn visible_in_sector(
+    handle: u32,
+    x: f64,
+    y: f64,
+    z: f64,
+    options: &ViewOptions,
+    number: u32,
+    count: u32,
+) -> Result<JsValue, JsValue> {
+    let sector = Sector::new(number, count).unwrap_or(Sector::WHOLE);
+    let options = options.read();
+    answered(with_cloud(handle, |cloud| {
+        with_memory(handle, |memory| {
+            cloud.visible_in_sector_with(memory, [x, y, z], &options, sector)
+        })
+    }))
+}
+
+/// Which points are visible from at least `k` of the viewpoints, x, y, z of one after
+/// another?
+#[wasm_bindgen(js_name = visibleFromSeveral, unchecked_return_type = "Answer")]
+pub fn visible_from_several(
+    handle: u32,
+    viewpoints: &Float64Array,
+    k: u32,
+    options: &ViewOptions,
+) -> Result<JsValue, JsValue> {
+    let options = options.read();
+    answered(with_cloud(handle, |cloud| {
+        let viewpoints = triples(viewpoints)?;
+        // Any of none is an answer, one of none a refusal.
+        if viewpoints.is_empty() {
+            cloud.visible_from_any(&viewpoints, &options)
+        } else {
+            cloud.visible_from_at_least(k as usize, &viewpoints, &options)
+        }
+    }))
+}
+
+/// Which points are visible along (x, y, z) from infinitely far away?
+#[wasm_bindgen(js_name = visibleFromDirection, unchecked_return_type = "Answer")]
+pub fn visible_from_direction(
+    handle: u32,
+    x: f64,
+    y: f64,
+    z: f64,
+    options: &ViewOptions,
+) -> Result<JsValue, JsValue> {
+    let options = options.read();
+    answered(with_cloud(handle, |cloud| {
+        cloud.visible_from_direction([x, y, z], &options)
+    }))
+}
+
+/// The radius that the rule of `options` chooses for (x, y, z).
+#[wasm_bindgen(js_name = autoRadius, unchecked_return_type = "ChosenRadius")]
+pub fn auto_radius(
+    handle: u32,
+    x: f64,
+    y: f64,
+    z: f64,
+    options: &ViewOptions,
+) -> Result<JsValue, JsValue> {
+    let rule = options.read_radius();
+    chosen(with_cloud(handle, |cloud| {
+        cloud.auto_radius([x, y, z], rule)
+    }))
+}

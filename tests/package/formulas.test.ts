@@ -1,0 +1,56 @@
+import { describe, expect, it } from "vitest";
+
+import { freshPackage, problemOf, readyPackage, wasmBytes } from "./support";
+
+const { permissibleCurvature, radiusBound, simdEnabled, HprError } = await readyPackage();
+const loose = (value: unknown) => value as never;
+
+describe("the paper's bounds", () => {
+  it("on curvature are those of Lemma 4.3", () => {
+    for (const [R, r, beta] of [[100, 5, Math.PI / 2], [100, 5, 1], [3, 3, 0.4], [1e4, 20, 2.5]] as const) {
+      const cot = 1 / Math.tan(beta);
+      const above = 4 * R * (2 * R - r) * cot ** 2 + 2 * R * r;
+      const below = (4 * R * r - 4 * R * R + (r - 2 * R) ** 2 / Math.sin(beta) ** 2) ** 1.5;
+      expect(permissibleCurvature(R, r, beta) / (above / below)).toBeCloseTo(1, 6);
+    }
+    expect(permissibleCurvature(100, 5, Math.PI / 2)).toBeCloseTo((2 * 100) / 25, 12);
+  });
+
+  it("on the radius are d·r²/ρ²", () => {
+    expect(radiusBound(0.5, 4, 0.1)).toBeCloseTo(800, 9);
+  });
+
+  const refusals: [names: RegExp, call: () => unknown][] = [
+    [/\br\b.*\b0$/, () => permissibleCurvature(1, 0, 1)],
+    [/\bR\b.*got 1$/, () => permissibleCurvature(1, 2, 1)],
+    [/beta.*got 4/, () => permissibleCurvature(2, 1, 4)],
+    [/beta.*NaN/, () => permissibleCurvature(2, 1, NaN)],
+    [/beta.*undefined/, () => permissibleCurvature(2, 1, loose(undefined))],
+    [/\bR\b.*"2"/, () => permissibleCurvature(loose("2"), 1, 1)],
+    [/thickness.*-1/, () => radiusBound(-1, 1, 1)],
+    [/distance.*Infinity|distance.*infinity/, () => radiusBound(1, Infinity, 1)],
+    [/spacing.*null/, () => radiusBound(1, 1, loose(null))],
+  ];
+  it.each(refusals)("refuse with an option error that names %s", async (names, call) => {
+    const problem = await problemOf(call);
+    expect(problem).toBeInstanceOf(HprError);
+    expect(problem.code).toBe("option");
+    expect(problem.message).toMatch(names);
+  });
+});
+
+describe("simdEnabled", () => {
+  it("is what the binary says of itself", () => {
+    const features = Buffer.from(wasmBytes()).includes("simd128");
+    expect(simdEnabled()).toBe(features);
+  });
+});
+
+it("nothing answers before init() has resolved", async () => {
+  const fresh = await freshPackage();
+  const calls = [
+    () => fresh.simdEnabled(), () => fresh.radiusBound(1, 1, 1), () => fresh.permissibleCurvature(1, 1, 1),
+    () => fresh.ringOfViewpoints([0, 0, 5], [0, 0, 0]),
+  ];
+  for (const call of calls) expect((await problemOf(call)).code).toBe("not-initialised");
+});

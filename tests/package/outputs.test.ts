@@ -1,0 +1,201 @@
+// What is made of views: meshes and light.
+import { describe, expect, it } from "vitest";
+
+import { bumpySphere, bunny, problemOf, readyPackage } from "./support";
+
+const { PointCloud, HprError } = await readyPackage();
+
+const points = bunny();
+const cloud = new PointCloud(points);
+const viewpoint = [0, 5, 20];
+const loose = (value: unknown) => value as never;
+
+const at = (index: number) => [...points.subarray(3 * index, 3 * index + 3)] as [number, number, number];
+type Vector = [number, number, number];
+const minus = ([a, b, c]: Vector, [x, y, z]: Vector): Vector => [a - x, b - y, c - z];
+const cross = ([a, b, c]: Vector, [x, y, z]: Vector): Vector => [b * z - c * y, c * x - a * z, a * y - b * x];
+const dot = ([a, b, c]: Vector, [x, y, z]: Vector) => a * x + b * y + c * z;
+/** The triangles of a mesh, as lists of three. */
+const listed = (triangles: Uint32Array) =>
+  Array.from({ length: triangles.length / 3 }, (_, i) => [...triangles.subarray(3 * i, 3 * i + 3)] as Vector);
+const longest = (corners: Vector) =>
+  Math.max(...corners.map((a, i) => Math.hypot(...minus(at(a), at(corners[(i + 1) % 3]!)))));
+
+describe("a reconstruction", () => {
+  const whole = cloud.reconstruct(viewpoint, { maxEdge: Infinity });
+  const triangles = listed(whole.triangles);
+
+  it("answers what is visible, too", () => {
+    const visible = cloud.visibleFrom(viewpoint);
+    expect(whole.indices).toEqual(visible.indices);
+    expect(whole.mask()).toEqual(visible.mask());
+    expect(whole).toMatchObject({
+      count: visible.count, radius: visible.radius, exponent: visible.exponent, evaluations: 0, inversion: "spherical",
+    });
+    expect(whole.triangles).toBeInstanceOf(Uint32Array);
+    expect(whole.triangles.buffer.byteLength).toBe(whole.triangles.byteLength);
+  });
+
+  it("is a mesh of what is visible, counter-clockwise seen from the viewpoint", () => {
+    expect(triangles.length).toBeGreaterThan(500);
+    const corners = [...new Set(whole.triangles)].sort((a, b) => a - b);
+    expect(corners).toEqual([...whole.indices]);
+    const eye = viewpoint as Vector;
+    for (const [a, b, c] of triangles) {
+      const normal = cross(minus(at(b), at(a)), minus(at(c), at(a)));
+      expect(dot(normal, minus(eye, at(a)))).toBeGreaterThan(0);
+    }
+    // No edge is used twice in one direction.
+    const edges = triangles.flatMap(([a, b, c]) => [`${a} ${b}`, `${b} ${c}`, `${c} ${a}`]);
+    expect(new Set(edges).size).toBe(edges.length);
+  });
+
+  it("leaves out triangles with a longer edge than maxEdge, by default 5 spacings", () => {
+    for (const maxEdge of [0, 0.3, 1, 3]) {
+      const { triangles: kept, indices } = cloud.reconstruct(viewpoint, { maxEdge });
+      expect(listed(kept)).toEqual(triangles.filter((corners) => longest(corners) <= maxEdge));
+      expect(indices).toEqual(whole.indices);
+    }
+    // The automatic c is 0.07 spacings.
+    const { exponential } = cloud.visibleFrom(viewpoint, { inversion: { exponential: "auto" } }).inversion as { exponential: number };
+    const spacing = exponential / 0.07;
+    const usual = listed(cloud.reconstruct(viewpoint).triangles).map(longest);
+    expect(usual).toHaveLength(triangles.filter((corners) => longest(corners) <= 5 * spacing).length);
+    expect(usual.length).toBeLessThan(triangles.length);
+  });
+
+  it("takes the options of a view", () => {
+    for (const options of [{ exponent: 3 }, { radius: "search" }, { inversion: { power: 1.5 } }, { vote: 6 }, { denoise: 8 }] as const) {
+      const mesh = cloud.reconstruct(viewpoint, options);
+      expect(mesh.indices).toEqual(cloud.visibleFrom(viewpoint, options).indices);
+      const visible = mesh.mask();
+      expect(mesh.triangles.length).toBeGreaterThan(300);
+      expect(mesh.triangles.every((index) => visible[index] === 1)).toBe(true);
+    }
+  });
+
+  it("names the lowest of equal points", () => {
+    const twice = new PointCloud([0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0]);
+    expect([...twice.reconstruct([0.2, 0.2, 5], { maxEdge: Infinity }).triangles]).toEqual([0, 1, 2]);
+    expect([...twice.reconstruct([0.2, 0.2, -5], { maxEdge: Infinity }).triangles]).toEqual([0, 2, 1]);
+  });
+
+  it("is empty where there is nothing to see", () => {
+    expect(new PointCloud([]).reconstruct(viewpoint)).toMatchObject({ count: 0, triangles: new Uint32Array(0) });
+    expect(new PointCloud([1, 2, 3]).reconstruct(viewpoint).triangles).toHaveLength(0);
+  });
+});
+
+describe("light", () => {
+  const lights = [viewpoint, [20, 5, 0], Float64Array.of(-20, 10, 3)];
+  const masks = lights.map((light) => cloud.visibleFrom(light).mask());
+
+  it("is ambient + (1 − ambient)·(lights that see the point ÷ lights)", () => {
+    for (const ambient of [0, 0.25, 1]) {
+      const brightness = cloud.illuminate(lights, { smoothing: 0, ambient });
+      expect(brightness).toBeInstanceOf(Float32Array);
+      expect(brightness).toHaveLength(cloud.length);
+      brightness.forEach((light, i) => {
+        const seen = masks.filter((mask) => mask[i] === 1).length;
+        expect(light).toBeCloseTo(ambient + ((1 - ambient) * seen) / 3, 6);
+      });
+    }
+    expect(cloud.illuminate(lights, { smoothing: 0 })).toEqual(cloud.illuminate(lights, { smoothing: 0, ambient: 0 }));
+  });
+
+  it("is ambient everywhere without lights", () => {
+    expect(cloud.illuminate([], { ambient: 0.5 })).toEqual(new Float32Array(cloud.length).fill(0.5));
+    expect(cloud.illuminate([])).toEqual(new Float32Array(cloud.length));
+    expect(new PointCloud([]).illuminate(lights)).toHaveLength(0);
+  });
+
+  it("does not reach points that were skipped or removed", () => {
+    const gone = new PointCloud([0, 0, 1, NaN, 0, 0, 1, 0, 0], { nonFinite: "skip" });
+    gone.remove([2]);
+    expect([...gone.illuminate([[0, 0, 5]], { smoothing: 0, ambient: 0.25 })]).toEqual([1, 0.25, 0.25]);
+  });
+
+  it("is softened by means over a mesh", () => {
+    // A strip 0-1-2-3, of which 3 is alone after two triangles; 4 is in no triangle.
+    const strip = new PointCloud([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, -1]);
+    const triangles = Uint32Array.of(0, 1, 2, 1, 3, 2);
+    const light = [[0, 0, 5]];
+    const hard = [...strip.illuminate(light, { smoothing: 0 })];
+    expect(hard).toEqual([1, 1, 1, 1, 0]);
+    const others = [[1, 2], [0, 2, 3], [0, 1, 3], [1, 2], []];
+    const lit = new PointCloud([0, 0, 0, 0, 0, -1, 0, 1, 0, 1, 1, 0, 5, 5, 0]);
+    let expected = [...lit.illuminate(light, { smoothing: 0 })];
+    expect(new Set(expected)).toEqual(new Set([0, 1]));
+    for (const smoothing of [1, 2, 3]) {
+      expected = expected.map((own, i) => (own + others[i]!.reduce((sum, j) => sum + expected[j]!, 0)) / (others[i]!.length + 1));
+      const soft = lit.illuminate(light, { smoothing, triangles });
+      soft.forEach((value, i) => { expect(value).toBeCloseTo(expected[i]!, 6); });
+    }
+    expect(lit.illuminate(light, { triangles })).toEqual(lit.illuminate(light, { smoothing: 1, triangles }));
+    expect(triangles).toEqual(Uint32Array.of(0, 1, 2, 1, 3, 2));
+  });
+
+  it("is softened over the 6 nearest without a mesh, once unless told otherwise", () => {
+    const hard = cloud.illuminate(lights, { smoothing: 0 });
+    const soft = cloud.illuminate(lights);
+    for (const i of [0, 100, 777, 1838]) {
+      const distance = (j: number) => Math.hypot(...minus(at(i), at(j)));
+      const nearest = [...hard.keys()].filter((j) => j !== i).sort((a, b) => distance(a) - distance(b)).slice(0, 6);
+      expect(soft[i]).toBeCloseTo([i, ...nearest].reduce((sum, j) => sum + hard[j]!, 0) / 7, 5);
+    }
+    expect(cloud.illuminate(lights, { smoothing: 1 })).toEqual(soft);
+  });
+
+  it("takes the options of a view", () => {
+    for (const options of [{ exponent: 2.5 }, { inversion: { exponential: "auto" } }, { vote: 6 }, { denoise: 6 }] as const) {
+      const brightness = cloud.illuminate([viewpoint], { ...options, smoothing: 0 });
+      expect([...brightness]).toEqual([...cloud.visibleFrom(viewpoint, options).mask()]);
+    }
+  });
+});
+
+describe("what is refused", () => {
+  const small = new PointCloud(bumpySphere(1, 100));
+  const lights = [[0, 0, 5]];
+  const light = (options: unknown) => () => small.illuminate(lights, loose(options));
+  const refusals: [code: string, names: RegExp, call: () => unknown][] = [
+    ["option", /maxEdge.*-1/, () => small.reconstruct([0, 0, 5], { maxEdge: -1 })],
+    ["option", /maxEdge.*NaN/, () => small.reconstruct([0, 0, 5], { maxEdge: NaN })],
+    ["option", /maxEdge.*"5"/, () => small.reconstruct([0, 0, 5], loose({ maxEdge: "5" }))],
+    ["option", /"ambient"/, () => small.reconstruct([0, 0, 5], loose({ ambient: 1 }))],
+    ["option", /radius and exponent/, () => small.reconstruct([0, 0, 5], { radius: 10, exponent: 2 })],
+    ["radius", /farthest/, () => small.reconstruct([0, 0, 5], { radius: 1 })],
+    ["viewpoint", /NaN/, () => small.reconstruct([0, 0, NaN])],
+    ["viewpoint", /lights.*undefined/, () => small.illuminate(loose(undefined))],
+    ["viewpoint", /lights\[0\].*\b4 of them/, () => small.illuminate([[1, 2, 3, 4]])],
+    ["viewpoint", /infinity/, () => small.illuminate([[1, 2, Infinity]])],
+    ["option", /ambient.*1\.5/, light({ ambient: 1.5 })],
+    ["option", /ambient.*-0\.5/, light({ ambient: -0.5 })],
+    ["option", /ambient.*NaN/, light({ ambient: NaN })],
+    ["option", /ambient.*"0"/, light({ ambient: "0" })],
+    ["option", /smoothing.*-1/, light({ smoothing: -1 })],
+    ["option", /smoothing.*0\.5/, light({ smoothing: 0.5 })],
+    ["option", /smoothing.*1001/, light({ smoothing: 1001 })],
+    ["option", /triangles.*Array/, light({ triangles: [0, 1, 2] })],
+    ["option", /triangles.*got 4/, light({ triangles: new Uint32Array(4) })],
+    ["option", /triangles\[2\].*100\b.*got 100/, light({ triangles: Uint32Array.of(0, 1, 100) })],
+    ["option", /"maxEdge"/, light({ maxEdge: 1 })],
+    ["option", /denoise.*99/, light({ denoise: 100 })],
+  ];
+  it.each(refusals)("%s, naming %s: case %#", async (code, names, call) => {
+    const problem = await problemOf(call);
+    expect(problem).toBeInstanceOf(HprError);
+    expect(problem.code).toBe(code);
+    expect(problem.message).toMatch(names);
+  });
+
+  it("everything, by a cloud that was disposed of", async () => {
+    const gone = new PointCloud([1, 2, 3]);
+    gone.dispose();
+    const calls = [
+      () => gone.reconstruct([0, 0, 5]), () => gone.illuminate([]), () => gone.visibleFromAny([]),
+      () => gone.visibleFromAtLeast(1, [[0, 0, 5]]), () => gone.visibleFromDirection([0, 0, 1]), () => gone.autoRadius([0, 0, 5], "search"),
+    ];
+    for (const call of calls) expect((await problemOf(call)).code).toBe("disposed");
+  });
+});
