@@ -7,6 +7,7 @@ use crate::cloud::PointCloud;
 use crate::error::{Error, in_range};
 use crate::neighbors::{Nearest, Neighbors};
 use crate::options::Options;
+use crate::sort::sort_keyed;
 
 /// Neighbors of a point where there is no mesh.
 const NEIGHBORS: usize = 6;
@@ -146,14 +147,19 @@ impl Links {
     }
 
     fn along_edges(triangles: &[[u32; 3]], count: usize) -> Result<Self, Error> {
-        let mut edges: Vec<(u32, u32)> = Vec::new();
+        // Each with a number that sorts it by its ends.
+        let mut edges: Vec<(u64, u32)> = Vec::new();
         edges.try_reserve_exact(triangles.len() * 6)?;
+        let edge = |from: u32, to: u32| (u64::from(from) << 32 | u64::from(to), to);
         for &[a, b, c] in triangles {
-            edges.extend([(a, b), (b, a), (b, c), (c, b), (c, a), (a, c)]);
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                if from != to {
+                    edges.extend([edge(from, to), edge(to, from)]);
+                }
+            }
         }
-        edges.sort_unstable();
+        sort_keyed(&mut edges);
         edges.dedup();
-        edges.retain(|(from, to)| from != to);
         let mut starts: Vec<usize> = Vec::new();
         starts.try_reserve_exact(count + 1)?;
         let mut others: Vec<u32> = Vec::new();
@@ -161,7 +167,7 @@ impl Links {
         for vertex in 0..count {
             starts.push(others.len());
             let own = edges[others.len()..].iter();
-            let own = own.take_while(|(from, _)| *from as usize == vertex);
+            let own = own.take_while(|(ends, _)| (ends >> 32) as usize == vertex);
             others.extend(own.map(|(_, to)| to));
         }
         starts.push(others.len());

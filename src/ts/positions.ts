@@ -106,7 +106,7 @@ export function readViewpoints(viewpoints: unknown, dimension: number, name: str
   const lists = Array.from(viewpoints, (viewpoint: unknown, i) =>
     readViewpoint(viewpoint, dimension, `viewpoint ${name}[${i}]`),
   );
-  return Float64Array.from(lists.flat());
+  return allocating(`${lists.length} viewpoints`, () => Float64Array.from(lists.flat()));
 }
 
 /** Indices of points to remove, copied. Whether the cloud has them is the core's to check. */

@@ -1,14 +1,12 @@
 //! What is made of views: meshes and light.
 
-use alloc::vec::Vec;
-
 use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use super::answer::answer;
 use super::clouds::with_cloud;
 use super::options::ViewOptions;
-use super::transfer::{copy_in_integers, triples};
+use super::transfer::{corners, triples};
 use crate::Lighting;
 
 /// What is visible from (x, y, z), and the triangles between it.
@@ -43,15 +41,9 @@ pub fn illuminate(
     let options = options.read();
     let brightness = with_cloud(handle, |cloud| {
         let lights = triples(lights)?;
-        let corners = triangles.as_ref().map(copy_in_integers).transpose()?;
-        let mut triangles: Vec<[u32; 3]> = Vec::new();
-        if let Some(corners) = &corners {
-            triangles.try_reserve_exact(corners.len() / 3)?;
-            let three = corners.chunks_exact(3).map(|t| [t[0], t[1], t[2]]);
-            triangles.extend(three);
-        }
+        let triangles = triangles.as_ref().map(corners).transpose()?;
         let lighting = Lighting {
-            triangles: corners.is_some().then_some(&triangles[..]),
+            triangles: triangles.as_deref(),
             smoothing: smoothing as usize,
             ambient,
         };

@@ -48,6 +48,13 @@ pub(super) fn copy_in_integers(integers: &Uint32Array) -> Result<Vec<u32>, Error
     Ok(own)
 }
 
+/// Triangles of three indices each.
+pub(super) fn corners(triangles: &Uint32Array) -> Result<Vec<[u32; 3]>, Error> {
+    let mut own = zeros::<[u32; 3]>(triangles.length() / 3)?;
+    triangles.copy_to(own.as_flattened_mut());
+    Ok(own)
+}
+
 fn zeros<T: Copy + Default>(count: u32) -> Result<Vec<T>, Error> {
     let mut zeros = Vec::new();
     zeros.try_reserve_exact(count as usize)?;

@@ -8,11 +8,11 @@ import { wasmBytes } from "./support";
 // compilation for another type of number, or a library for one operation each cost 10
 // to 40 kB unnoticed.
 //
-// Of 281 kB (120 kB gzipped), views and changes of clouds in space are 169 kB. The others
+// Of 272 kB (116 kB gzipped), views and changes of clouds in space are 169 kB. The others
 // are the rest of the paper: inversions with their pow, exp and logarithms, both searches,
 // noise, several viewpoints, directions, meshes, light, and four and more dimensions.
 it("the wasm stays small", () => {
   const bytes = wasmBytes();
-  expect(bytes.length).toBeLessThanOrEqual(285_000);
-  expect(gzipSync(bytes, { level: 9 }).length).toBeLessThanOrEqual(122_000);
+  expect(bytes.length).toBeLessThanOrEqual(275_000);
+  expect(gzipSync(bytes, { level: 9 }).length).toBeLessThanOrEqual(118_000);
 });

@@ -40,7 +40,7 @@ export interface WorkerPointCloudOptions extends PointCloudOptions {
   /**
    * How many workers share every view, from 1 to 64; answers are the same, to the
    * bit. Each keeps the whole cloud in a memory of its own. By default 1 for a cloud
-   * that has fewer than 200,000 points when it is created; otherwise as many as there
+   * of another dimension than 3, or of fewer than 200,000 points when it is created; otherwise as many as there
    * are cores, but at most 4, and no more than hold 16 million points together.
    */
   workers?: number | undefined;
@@ -137,7 +137,9 @@ export class WorkerPointCloud {
     settings: CloudSettings,
     workers: number | undefined,
   ): Promise<WorkerPointCloud> {
-    const count = workers ?? (await defaultWorkers(positions.length / settings.stride));
+    // Only views in space are divided.
+    const points = settings.dimension === 3 ? positions.length / settings.stride : 0;
+    const count = workers ?? (await defaultWorkers(points));
     const [module] = await Promise.all([moduleForWorker(), queue.start(count)]);
     const size = await queue.ask({ kind: "create", module, positions, settings });
     return new WorkerPointCloud(queue, settings, size);
