@@ -48,7 +48,7 @@ impl PointCloud {
     /// whole. Clouds below some 200,000 points gain little.
     ///
     /// ```
-    /// use hidden_point_removal::{Options, PointCloud, Sector};
+    /// use hidden_point_removal::{Error, Options, PointCloud, Sector};
     ///
     /// let cloud = PointCloud::new(&[[0.0, 0.0, 1.0], [0.0, 0.0, -1.0], [1.0, 0.0, 0.0]])?;
     /// let (viewpoint, options) = ([0.0, 0.0, 5.0], Options::default());
@@ -58,13 +58,13 @@ impl PointCloud {
     ///     let threads: Vec<_> = sectors.map(|sector| scope.spawn(move || ask(sector))).collect();
     ///     threads
     ///         .into_iter()
-    ///         .map(|thread| Ok(thread.join().unwrap()?.into_indices()))
+    ///         .map(|thread| Ok::<_, Error>(thread.join().unwrap()?.into_indices()))
     ///         .collect::<Result<Vec<_>, _>>()
     /// })?
     /// .concat();
     /// indices.sort_unstable();
     /// assert_eq!(indices, [0, 2]);
-    /// # Ok::<(), hidden_point_removal::Error>(())
+    /// # Ok::<(), Error>(())
     /// ```
     ///
     /// # Errors
