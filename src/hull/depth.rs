@@ -114,8 +114,10 @@ impl DepthMap {
             && (row as usize) < window.rows
             && INNER.contains(&dx)
             && INNER.contains(&dy);
-        let cell = window.first + row as usize * window.columns + column as usize;
-        known && v.dot(v) >= self.hidden_from[cell]
+        // Only where it is known is the product in range.
+        known
+            && v.dot(v)
+                >= self.hidden_from[window.first + row as usize * window.columns + column as usize]
     }
 
     /// The thresholds of one side's cells.
