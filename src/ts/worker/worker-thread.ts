@@ -1,6 +1,6 @@
 import { ask, PointCloud } from "../cloud.js";
-import { initSync } from "../loader.js";
 import { importNodeModule } from "../node.js";
+import { initSync } from "../start.js";
 import { type CloudSize, failedReply, READY, type Replies, type Reply, type Request } from "./protocol.js";
 
 type Post = (message: unknown, transfer: ArrayBuffer[]) => void;
