@@ -21,6 +21,15 @@ export const packagingChecks: Check[] = [
     run: npmPackage,
   },
   {
+    title: "Packaging: what package.json promises, and the types as every resolver finds them",
+    needs: [BUILD],
+    run: async () =>
+      sum([
+        await checkCommand("publint", ["run", ".", "--strict"]),
+        await checkCommand("attw", ["--pack", ".", "--profile", "esm-only", "--quiet"]),
+      ]),
+  },
+  {
     title: "Packaging: the npm package in its users' projects",
     needs: [BUILD],
     run: async () => vitest("tests/consumers", { HPR_CHROMIUM: await setUpBrowser() }),
