@@ -8,11 +8,13 @@ import { packed, type Positions, readIndices, readPositions } from "./positions.
 import {
   type Answers,
   directionQuery,
+  ILLUMINATION_OPTIONS,
   type IlluminationOptions,
   illuminationQuery,
   type Query,
   type QueryKind,
   radiusQuery,
+  RECONSTRUCTION_OPTIONS,
   type ReconstructionOptions,
   reconstructionQuery,
   severalQuery,
@@ -126,7 +128,8 @@ export class PointCloud {
    */
   visibleFromDirection(direction: ArrayLike<number>, options?: VisibilityOptions): Visibility {
     this.#requireHandle();
-    return new VisibilityAnswer(this.#ask(directionQuery(this.#settings.dimension, direction, options)));
+    const given = givenOptions(options, VIEW_OPTIONS);
+    return new VisibilityAnswer(this.#ask(directionQuery(this.#settings.dimension, direction, given)));
   }
 
   /**
@@ -138,7 +141,8 @@ export class PointCloud {
    */
   visibleFromAny(viewpoints: readonly ArrayLike<number>[], options?: VisibilityOptions): Visibility {
     this.#requireHandle();
-    return new VisibilityAnswer(this.#ask(severalQuery(this.#settings.dimension, viewpoints, options)));
+    const given = givenOptions(options, VIEW_OPTIONS);
+    return new VisibilityAnswer(this.#ask(severalQuery(this.#settings.dimension, viewpoints, given)));
   }
 
   /**
@@ -154,7 +158,8 @@ export class PointCloud {
     options?: VisibilityOptions,
   ): Visibility {
     this.#requireHandle();
-    return new VisibilityAnswer(this.#ask(severalQuery(this.#settings.dimension, viewpoints, options, { k })));
+    const given = givenOptions(options, VIEW_OPTIONS);
+    return new VisibilityAnswer(this.#ask(severalQuery(this.#settings.dimension, viewpoints, given, { k })));
   }
 
   /**
@@ -179,7 +184,8 @@ export class PointCloud {
    */
   reconstruct(viewpoint: ArrayLike<number>, options?: ReconstructionOptions): Reconstruction {
     this.#requireHandle();
-    return new ReconstructionAnswer(this.#ask(reconstructionQuery(this.#settings.dimension, viewpoint, options)));
+    const given = givenOptions(options, RECONSTRUCTION_OPTIONS);
+    return new ReconstructionAnswer(this.#ask(reconstructionQuery(this.#settings.dimension, viewpoint, given)));
   }
 
   /**
@@ -193,7 +199,8 @@ export class PointCloud {
    */
   illuminate(lights: readonly ArrayLike<number>[], options?: IlluminationOptions): Float32Array {
     this.#requireHandle();
-    return this.#ask(illuminationQuery(this.#settings.dimension, lights, options)).brightness;
+    const given = givenOptions(options, ILLUMINATION_OPTIONS);
+    return this.#ask(illuminationQuery(this.#settings.dimension, lights, given)).brightness;
   }
 
   /**
