@@ -1,6 +1,7 @@
 //! Noise: points moved on to the plane of their neighbors before a view, and a vote
 //! among neighbors after it.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 use glam::{DMat3, DVec3};
 
@@ -33,6 +34,20 @@ impl PointCloud {
         self.moved(&moved)
     }
 
+    /// Keeps [`PointCloud::denoised`] for the views that ask for it by
+    /// [`Options::denoise`], in the place of another kept before, until points are
+    /// appended or removed. Answers are the same as without, but each view is spared the
+    /// search for neighbors.
+    ///
+    /// # Errors
+    /// As [`PointCloud::denoised`]; what was kept before is kept then.
+    pub fn keep_denoised(&mut self, k: usize) -> Result<(), Error> {
+        if self.denoised.as_ref().is_none_or(|&(kept, _)| kept != k) {
+            self.denoised = Some((k, Box::new(self.denoised(k)?)));
+        }
+        Ok(())
+    }
+
     /// Asks a cloud that is denoised already, if it is to be.
     pub(crate) fn after_denoising<T>(
         &self,
@@ -46,7 +61,10 @@ impl PointCloud {
             denoise: None,
             ..*options
         };
-        query(&self.denoised(k)?, &options)
+        match &self.denoised {
+            Some((kept, denoised)) if *kept == k => query(denoised, &options),
+            _ => query(&self.denoised(k)?, &options),
+        }
     }
 
     /// Lets every distinct point and its `k` nearest others vote whether it is visible.

@@ -29,6 +29,13 @@ import {
   VisibilityAnswer,
 } from "./visibility.js";
 
+/** A cloud whose building is followed: `progress` is told which share of it is done, and must not throw. */
+export let build: (
+  positions: Positions,
+  options: PointCloudOptions,
+  progress: (share: number) => void,
+) => PointCloud;
+
 /** Asks what was read before, maybe in another thread. */
 export let ask: <K extends QueryKind>(cloud: PointCloud, query: Query<K>) => Answers[K];
 
@@ -51,8 +58,18 @@ export class PointCloud {
   #length: number;
   #skipped: number;
 
+  static #progress: ((share: number) => void) | undefined;
+
   static {
     addDisposeSymbol(this.prototype);
+    build = (positions, options, progress) => {
+      try {
+        PointCloud.#progress = progress;
+        return new PointCloud(positions, options);
+      } finally {
+        PointCloud.#progress = undefined;
+      }
+    };
     ask = (cloud, query) => cloud.#ask(query);
   }
 
@@ -69,13 +86,14 @@ export class PointCloud {
     this.#instance = requireInstance();
     const settings = cloudSettings(givenOptions(options, CLOUD_OPTIONS));
     const numbers = readPacked(positions, settings);
+    const choices = { skipNonFinite: settings.skipNonFinite, progress: PointCloud.#progress };
     const { handle, length, skipped } = this.#instance.call((bindings) => {
       if (settings.dimension > 3) {
-        return bindings.createHyperCloud(numbers as Float64Array, settings.dimension, settings);
+        return bindings.createHyperCloud(numbers as Float64Array, settings.dimension, choices);
       }
       return numbers.BYTES_PER_ELEMENT === 4
-        ? bindings.createCloudF32(numbers as Float32Array, settings)
-        : bindings.createCloudF64(numbers as Float64Array, settings);
+        ? bindings.createCloudF32(numbers as Float32Array, choices)
+        : bindings.createCloudF64(numbers as Float64Array, choices);
     });
     this.#settings = settings;
     this.#handle = handle;

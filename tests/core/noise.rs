@@ -128,6 +128,47 @@ fn a_denoised_cloud_is_asked_like_any_other() {
 }
 
 #[test]
+fn a_kept_denoised_cloud_answers_like_one_made_anew() {
+    let (points, _) = noisy_sphere(700, 0.05);
+    let mut keeping = PointCloud::new(&points[..600]).unwrap();
+    let mut plain = PointCloud::new(&points[..600]).unwrap();
+    let views = [FRONT, [0.5, 3.0, 0.0]];
+    for round in 0..4 {
+        for k in [9, 14] {
+            keeping.keep_denoised(9 + 2 * round).unwrap();
+            let options = Options {
+                vote: Some(5),
+                ..denoising(k)
+            };
+            let [kept, anew] = [&keeping, &plain].map(|cloud| {
+                (
+                    cloud.visible_from(FRONT, &options).unwrap(),
+                    cloud.visible_from_at_least(2, &views, &options).unwrap(),
+                    cloud.reconstruct(FRONT, &options, None).unwrap(),
+                )
+            });
+            assert_eq!(kept, anew);
+        }
+        for cloud in [&mut keeping, &mut plain] {
+            match round {
+                0 => cloud.append(&points[600..]).unwrap(),
+                1 => cloud.remove(&[3, 77, 650]).unwrap(),
+                // One of two equal points: every position stays, not so the indices.
+                _ => {
+                    cloud.append(&points[5..6]).unwrap();
+                    cloud.keep_denoised(9).unwrap();
+                    cloud.remove(&[5]).unwrap();
+                }
+            }
+        }
+    }
+    // What is refused leaves what was kept.
+    assert!(keeping.keep_denoised(10_000).is_err());
+    let kept = keeping.visible_from(FRONT, &denoising(9)).unwrap();
+    assert_eq!(kept, plain.visible_from(FRONT, &denoising(9)).unwrap());
+}
+
+#[test]
 fn points_on_planes_and_lines_stay_where_they_are() {
     let mut rng = Rng::new(9);
     for flat in [1, 2] {

@@ -29,6 +29,7 @@ import {
   VisibilityAnswer,
 } from "../visibility.js";
 import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
+import { type Progress, readProgress } from "./progress.js";
 import type { CloudSize } from "./protocol.js";
 import { RequestQueue } from "./request-queue.js";
 import { defaultWorkers, readWorkers } from "./workers.js";
@@ -51,6 +52,12 @@ export interface WorkerPointCloudOptions extends PointCloudOptions {
   workers?: number | undefined;
   /** Gives up, with an `AbortError`, when it aborts before the cloud is ready. */
   signal?: AbortSignal | undefined;
+  /**
+   * Told which share of the building is done: once 0 when it is asked for, then
+   * numbers that grow, and 1 before the promise resolves. What it throws is reported as
+   * an uncaught error; the cloud is built all the same.
+   */
+  onProgress?: ((fraction: number) => void) | undefined;
 }
 
 /** When what was asked need not be answered. Every query takes these beside its own options. */
@@ -123,18 +130,19 @@ export class WorkerPointCloud {
     positions: Positions,
     options?: WorkerPointCloudOptions,
   ): Promise<WorkerPointCloud> {
-    const given = givenOptions(options, CLOUD_OPTIONS, ["transfer", "workers", "signal"]);
+    const given = givenOptions(options, CLOUD_OPTIONS, ["transfer", "workers", "signal", "onProgress"]);
     const settings = cloudSettings(pick(given, CLOUD_OPTIONS));
     const transfer = readFlag(given, "transfer");
     const workers = readWorkers(given["workers"]);
     const signal = readSignal(given["signal"]);
+    const progress = readProgress(given["onProgress"]);
     if (signal?.aborted === true) {
       throw abortError(BY_SIGNAL);
     }
     const own = toOwn(positions, settings.stride, transfer);
     const queue = new RequestQueue();
     try {
-      return await untilAborted(signal, WorkerPointCloud.#build(queue, own, settings, workers));
+      return await untilAborted(signal, WorkerPointCloud.#build(queue, own, settings, workers, progress));
     } catch (error) {
       void queue.close(abortError("the cloud was not created"));
       throw error;
@@ -146,12 +154,16 @@ export class WorkerPointCloud {
     positions: Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>,
     settings: CloudSettings,
     workers: number | undefined,
+    progress: Progress | undefined,
   ): Promise<WorkerPointCloud> {
+    progress?.at(0);
     // Only views in space are divided.
     const points = settings.dimension === 3 ? positions.length / settings.stride : 0;
     const count = workers ?? (await defaultWorkers(points));
     const [module] = await Promise.all([moduleForWorker(), queue.start(count)]);
-    const size = await queue.ask({ kind: "create", module, positions, settings });
+    const request = { kind: "create" as const, module, positions, settings, reporting: progress !== undefined };
+    const size = await queue.ask(request, { onProgress: (share) => progress?.at(share) });
+    progress?.at(1);
     return new WorkerPointCloud(queue, settings, size);
   }
 

@@ -1,7 +1,7 @@
 import { HprError } from "../errors.js";
 import type { Answers, Query, QueryKind } from "../queries.js";
 import { abortError, BY_SIGNAL } from "./abort.js";
-import { READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 import { Team } from "./team.js";
 import type { ThreadEvents } from "./thread.js";
 
@@ -11,6 +11,8 @@ interface AskOptions {
   /** May be dropped when a newer request of this kind and sort comes before it has started. */
   latest?: boolean;
   signal?: AbortSignal | undefined;
+  /** Told which share of the request is done. */
+  onProgress?: ((share: number) => void) | undefined;
   /** Kept from being collected while the request is pending. */
   owner?: object;
 }
@@ -95,6 +97,10 @@ export class RequestQueue implements ThreadEvents {
   }
 
   message(message: unknown): void {
+    if (isProgress(message)) {
+      this.#running?.onProgress?.(message.progress);
+      return;
+    }
     if (message === READY) {
       this.#ready = true;
     } else {

@@ -1,18 +1,21 @@
-import { ask, PointCloud } from "../cloud.js";
+import { ask, build, type PointCloud } from "../cloud.js";
 import { initSync } from "../loader.js";
 import { importNodeModule } from "../node.js";
-import { type CloudSize, failedReply, READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { type CloudSize, failedReply, type Progress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 
 type Post = (message: unknown, transfer: ArrayBuffer[]) => void;
 
 let cloud: PointCloud | undefined;
 
-function answer(request: Request): Replies[Request["kind"]] {
+function answer(request: Request, post: Post): Replies[Request["kind"]] {
   if (request.kind === "create") {
     initSync(request.module);
     const { dimension, stride, skipNonFinite } = request.settings;
     const nonFinite = skipNonFinite ? "skip" : "error";
-    cloud = new PointCloud(request.positions, { dimension, stride, nonFinite });
+    const report = (progress: number) => {
+      if (request.reporting) post({ progress } satisfies Progress, []);
+    };
+    cloud = build(request.positions, { dimension, stride, nonFinite }, report);
     return sizeOf(cloud);
   }
   if (cloud === undefined) {
@@ -38,7 +41,7 @@ function sizeOf({ length, skipped }: PointCloud): CloudSize {
 function serve(request: Request, post: Post): void {
   let reply: Reply<Replies[Request["kind"]]>;
   try {
-    reply = { value: answer(request) };
+    reply = { value: answer(request, post) };
   } catch (thrown) {
     reply = failedReply(thrown);
   }
