@@ -1,11 +1,11 @@
 //! The cloud: checked positions in spatial order, duplicates grouped, and what
 //! does not depend on the viewpoint. Built once, asked many times, changed at will.
 
-use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::fmt;
 
 use crate::blocks::Blocks;
+use crate::denoise::Kept;
 use crate::error::Error;
 use crate::points::{Given, Position, is_finite};
 use crate::sequence::Sequence;
@@ -47,8 +47,7 @@ pub struct PointCloud {
     pub(crate) bounds: Bounds,
     pub(crate) statistics: Statistics,
     pub(crate) blocks: Blocks,
-    /// What [`PointCloud::keep_denoised`] keeps, with its number of neighbors.
-    pub(crate) denoised: Option<(usize, Box<PointCloud>)>,
+    pub(crate) kept: Kept,
     non_finite: NonFinite,
     len: usize,
     skipped: usize,
@@ -95,7 +94,7 @@ impl PointCloud {
             bounds,
             statistics,
             blocks,
-            denoised: None,
+            kept: Kept::default(),
             non_finite,
             len,
             skipped,
@@ -178,7 +177,7 @@ impl PointCloud {
         if rest.points.len() == self.sequence.points.len() {
             // Every position is still there.
             self.sequence = rest;
-            self.denoised = None;
+            self.kept = Kept::default();
             return Ok(());
         }
         let (bounds, _) = survey(rest.points.as_given(), NonFinite::Error)?;
@@ -223,7 +222,7 @@ impl PointCloud {
             bounds,
             statistics,
             blocks,
-            denoised: None,
+            kept: Kept::default(),
             ..*self
         })
     }
@@ -236,7 +235,7 @@ impl PointCloud {
         self.statistics = statistics;
         self.sequence = sequence;
         self.bounds = bounds;
-        self.denoised = None;
+        self.kept = Kept::default();
         Ok(())
     }
 }

@@ -14,6 +14,24 @@ use crate::options::Options;
 /// neighbors are: 0.4, because the operator misses more than it invents.
 const FIFTHS: usize = 2;
 
+/// The most neighbors a point may have for them to be kept.
+const MOST_KEPT: usize = 64;
+
+/// What [`PointCloud::prepare_for`] keeps.
+#[derive(Default)]
+pub(crate) struct Kept {
+    /// With the number of neighbors whose planes they are on.
+    denoised: Option<(usize, Box<PointCloud>)>,
+    voters: Option<Voters>,
+}
+
+/// Everybody's `k` nearest others, or as many as there are: `each`.
+struct Voters {
+    k: usize,
+    each: usize,
+    others: Vec<u32>,
+}
+
 impl PointCloud {
     /// The same cloud with every point projected on the least-squares plane of itself
     /// and its `k` nearest others: what [`Options::denoise`] asks, kept for many views.
@@ -34,18 +52,42 @@ impl PointCloud {
         self.moved(&moved)
     }
 
-    /// Keeps [`PointCloud::denoised`] for the views that ask for it by
-    /// [`Options::denoise`], in the place of another kept before, until points are
-    /// appended or removed. Answers are the same as without, but each view is spared the
-    /// search for neighbors.
+    /// Keeps, for later views with the same `denoise` and `vote`, what does not depend on
+    /// the viewpoint: the denoised points (in the place of others), and who votes (up to 64
+    /// neighbors, 4 bytes each). Answers are the same as without, but a view is spared the
+    /// search for neighbors, some microseconds a point. Kept until points are appended or
+    /// removed.
     ///
     /// # Errors
-    /// As [`PointCloud::denoised`]; what was kept before is kept then.
-    pub fn keep_denoised(&mut self, k: usize) -> Result<(), Error> {
-        if self.denoised.as_ref().is_none_or(|&(kept, _)| kept != k) {
-            self.denoised = Some((k, Box::new(self.denoised(k)?)));
+    /// [`Error::OutOfRange`] as for the view; [`Error::OutOfMemory`]. The cloud answers as
+    /// before then.
+    pub fn prepare_for(&mut self, options: &Options) -> Result<(), Error> {
+        if let Some(k) = options.denoise {
+            if self
+                .kept
+                .denoised
+                .as_ref()
+                .is_none_or(|&(kept, _)| kept != k)
+            {
+                self.kept.denoised = Some((k, Box::new(self.denoised(k)?)));
+            }
+            let denoised = self.kept.denoised.as_mut();
+            return denoised.map_or(Ok(()), |(_, cloud)| {
+                cloud.prepare_for(&Options {
+                    denoise: None,
+                    ..*options
+                })
+            });
         }
-        Ok(())
+        match options.vote {
+            Some(k) if k <= MOST_KEPT => {
+                if self.kept.voters.as_ref().is_none_or(|voters| voters.k != k) {
+                    self.kept.voters = Some(self.voters(k)?);
+                }
+                Ok(())
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Asks a cloud that is denoised already, if it is to be.
@@ -61,7 +103,7 @@ impl PointCloud {
             denoise: None,
             ..*options
         };
-        match &self.denoised {
+        match &self.kept.denoised {
             Some((kept, denoised)) if *kept == k => query(denoised, &options),
             _ => query(&self.denoised(k)?, &options),
         }
@@ -71,12 +113,29 @@ impl PointCloud {
     pub(crate) fn vote(&self, k: usize, visible: &[bool]) -> Result<Vec<bool>, Error> {
         let mut voted: Vec<bool> = Vec::new();
         voted.try_reserve_exact(visible.len())?;
-        self.for_each_neighborhood("vote", k, |point, nearest| {
-            let others = nearest.found().iter().map(|other| other.index as usize);
-            let seen = others.chain([point]).filter(|&i| visible[i]).count();
-            voted.push(5 * seen > FIFTHS * (nearest.found().len() + 1));
-        })?;
+        if let Some(voters) = self.kept.voters.as_ref().filter(|voters| voters.k == k) {
+            voted.extend((0..visible.len()).map(|point| {
+                let others = &voters.others[point * voters.each..][..voters.each];
+                is_voted(point, others.iter().copied(), visible)
+            }));
+        } else {
+            self.for_each_neighborhood("vote", k, |point, nearest| {
+                let others = nearest.found().iter().map(|other| other.index);
+                voted.push(is_voted(point, others, visible));
+            })?;
+        }
         Ok(voted)
+    }
+
+    fn voters(&self, k: usize) -> Result<Voters, Error> {
+        let points = self.sequence.points.len();
+        let each = k.min(points.saturating_sub(1));
+        let mut others: Vec<u32> = Vec::new();
+        others.try_reserve_exact(points * each)?;
+        self.for_each_neighborhood("vote", k, |_, nearest| {
+            others.extend(nearest.found().iter().map(|other| other.index));
+        })?;
+        Ok(Voters { k, each, others })
     }
 
     /// The distinct points in their order, each with its `k` nearest others.
@@ -98,6 +157,13 @@ impl PointCloud {
         }
         Ok(())
     }
+}
+
+fn is_voted(point: usize, others: impl ExactSizeIterator<Item = u32>, visible: &[bool]) -> bool {
+    let voters = others.len() + 1;
+    let seen =
+        others.filter(|&other| visible[other as usize]).count() + usize::from(visible[point]);
+    5 * seen > FIFTHS * voters
 }
 
 /// `p` on the least-squares plane of it and `nearest`, as far as numbers reach.

@@ -95,16 +95,15 @@ pub(super) fn with_cloud<T>(
     })
 }
 
-/// Asks a cloud what it sees. Where the options denoise it, it keeps the denoised points
-/// for the next view.
+/// Asks a cloud what it sees. What noise handling needs is kept for the next view.
 pub(super) fn with_view<T>(
     handle: u32,
     options: &Options,
     query: impl FnOnce(&PointCloud) -> Result<T, Error>,
 ) -> Result<T, Failure> {
-    if let Some(k) = options.denoise {
+    if options.denoise.or(options.vote).is_some() {
         CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {
-            Some(Some(Cloud::Space(cloud))) => cloud.keep_denoised(k).map_err(Failure::from),
+            Some(Some(Cloud::Space(cloud))) => cloud.prepare_for(options).map_err(Failure::from),
             _ => Err(Failure::DISPOSED),
         })?;
     }
