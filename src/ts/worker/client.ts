@@ -44,6 +44,13 @@ export interface WorkerPointCloudOptions extends PointCloudOptions {
    * are cores, but at most 4, and no more than hold 16 million points together.
    */
   workers?: number | undefined;
+  /**
+   * Puts the cloud into one worker that it shares with all others created with `shared`,
+   * for pages with many clouds: their requests are answered in turn. Excludes `workers`.
+   * The worker ends with the last of its clouds; one that dies takes all of them along.
+   * Default false.
+   */
+  shared?: boolean | undefined;
   /** Gives up, with an `AbortError`, when it aborts before the cloud is ready. */
   signal?: AbortSignal | undefined;
 }
@@ -113,10 +120,10 @@ export class WorkerPointCloud {
     positions: Positions,
     options?: WorkerPointCloudOptions,
   ): Promise<WorkerPointCloud> {
-    const given = givenOptions(options, CLOUD_OPTIONS, ["transfer", "workers", "signal"]);
+    const given = givenOptions(options, CLOUD_OPTIONS, ["transfer", "workers", "shared", "signal"]);
     const settings = cloudSettings(pick(given, CLOUD_OPTIONS));
     const transfer = readFlag(given, "transfer");
-    const workers = readWorkers(given["workers"]);
+    const workers = readPlacement(given);
     const signal = readSignal(given["signal"]);
     if (signal?.aborted === true) {
       throw abortError(BY_SIGNAL);
@@ -135,7 +142,7 @@ export class WorkerPointCloud {
     queue: RequestQueue,
     positions: Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>,
     settings: CloudSettings,
-    workers: number | undefined,
+    workers: number | "shared" | undefined,
   ): Promise<WorkerPointCloud> {
     // Only views in space are divided.
     const points = settings.dimension === 3 ? positions.length / settings.stride : 0;
@@ -317,6 +324,18 @@ function giveAway(
       cause,
     });
   }
+}
+
+/** How many workers of its own, or the shared one. */
+function readPlacement(given: Record<string, unknown>): number | "shared" | undefined {
+  const workers = readWorkers(given["workers"]);
+  if (!readFlag(given, "shared")) {
+    return workers;
+  }
+  if (workers !== undefined) {
+    throw new HprError("option", "shared and workers exclude each other; give one of the two");
+  }
+  return "shared";
 }
 
 function readFlag(given: Record<string, unknown>, name: string): boolean {
