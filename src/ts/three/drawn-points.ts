@@ -207,10 +207,15 @@ function drawnIds(
 
 /** Lists what is not visible after what is. */
 function listHidden(order: Uint32Array, visible: Uint32Array, ids: Uint32Array | undefined): void {
-  let [at, next] = [visible.length, 0];
-  for (let i = 0; i <= visible.length; i++) {
-    const end = i < visible.length ? visible[i]! : order.length;
-    for (; next < end; next++) order[at++] = ids === undefined ? next : ids[next]!;
-    next = end + 1;
+  const [shown, total] = [visible.length, order.length];
+  let at = shown;
+  let next = 0;
+  for (let i = 0; i <= shown; i++) {
+    const end = i < shown ? visible[i]! : total;
+    while (next < end) order[at++] = next++;
+    next++;
+  }
+  if (ids !== undefined) {
+    for (let i = shown; i < total; i++) order[i] = ids[order[i]!]!;
   }
 }
