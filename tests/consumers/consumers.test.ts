@@ -10,6 +10,7 @@ import { installPacked } from "./install";
 import { nodeScripts } from "./node";
 import { pages } from "./pages";
 import { points, viewpoint } from "./question";
+import { visitWith } from "./visit";
 
 const browser = await launchBrowser();
 const table: string[] = [];
@@ -26,22 +27,7 @@ afterAll(async () => {
   console.log(table.join("\n"));
 });
 
-const visit: Visit = async (address) => {
-  const page = await browser.newPage();
-  const complaints: string[] = [];
-  page.on("console", (message) => complaints.push(message.text()));
-  page.on("pageerror", (error) => complaints.push(String(error)));
-  try {
-    await page.goto(address);
-    const output = page.locator("output[data-done]");
-    await output.waitFor({ state: "attached", timeout: 30_000 }).catch(() => {
-      throw new Error(`no answer: ${complaints.join("; ")}`);
-    });
-    return JSON.parse((await output.textContent())!) as Answered;
-  } finally {
-    await page.close();
-  }
-};
+const visit: Visit = (address) => visitWith(browser, address);
 
 const all: Consumer[] = [...bundlers(visit), ...pages(visit, `Chromium ${browser.version()}`), ...nodeScripts];
 

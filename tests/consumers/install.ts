@@ -4,8 +4,8 @@ import { join } from "node:path";
 
 const root = join(import.meta.dirname, "../..");
 
-/** Where the projects are, with the package installed beside them. */
-export const consumers = join(root, "target", "consumers");
+/** Where the projects are, with the package installed beside them; other test files may run at the same time. */
+export const consumers = join(root, "target", "consumers", process.env["VITEST_POOL_ID"] ?? "0");
 export const project = (...parts: string[]): string => join(consumers, "projects", ...parts);
 export const installed = join(consumers, "node_modules", "hidden-point-removal");
 

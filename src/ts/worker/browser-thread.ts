@@ -2,7 +2,7 @@ import type { Thread, ThreadEvents } from "./thread.js";
 
 /** A thread that the browser's own workers run. */
 export function startBrowserWorker(events: ThreadEvents): Thread {
-  const { worker, started } = newWorker();
+  const { worker, script, started } = newWorker();
   worker.onmessage = (event) => {
     started();
     events.message(event.data);
@@ -11,7 +11,7 @@ export function startBrowserWorker(events: ThreadEvents): Thread {
     started();
     // Reported here, so that the page does not report it again.
     event.preventDefault();
-    events.died(event.message || "its script could not be loaded");
+    events.died(event.message || `its script${script === undefined ? "" : ` ${script.href}`} could not be loaded`);
   };
   worker.onmessageerror = () => {
     events.died("a message could not be read");
@@ -32,6 +32,7 @@ export function startBrowserWorker(events: ThreadEvents): Thread {
 /** A worker, and what to call once its script has been read. */
 interface NewWorker {
   worker: Worker;
+  script: URL | undefined;
   started: () => void;
 }
 
@@ -42,12 +43,13 @@ interface NewWorker {
 function newWorker(): NewWorker {
   const script = scriptAddress();
   if (script === undefined || script.origin === location.origin) {
-    return { worker: create(), started: () => undefined };
+    return { worker: create(), script, started: () => undefined };
   }
   const source = `import ${JSON.stringify(script.href)};`;
   const address = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
   return {
     worker: new Worker(address, { type: "module" }),
+    script,
     started: () => {
       URL.revokeObjectURL(address);
     },
