@@ -22,6 +22,12 @@ export const typescriptChecks: Check[] = [
     run: () => checkCommand("eslint", ["--max-warnings", "0", "."]),
   },
   {
+    title: "TypeScript: documentation",
+    needs: [BUILD],
+    // Every name a user can write has to be explained, and every link to lead somewhere.
+    run: () => checkCommand("typedoc", ["--logLevel", "Warn"]),
+  },
+  {
     title: "npm package, under Node",
     needs: [BUILD],
     run: () => vitest("tests/package"),
