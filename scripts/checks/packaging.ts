@@ -48,7 +48,16 @@ async function npmPackage(): Promise<Outcome> {
   if (unwanted.length > 0) console.log(`Would be published, but should not: ${unwanted.join(", ")}`);
   if (missing.length > 0) console.log(`Would not be published, but should: ${missing.join(", ")}`);
   console.log(`${files.length} files`);
-  return sum([unwanted.length === 0 ? PASS : FAIL, missing.length === 0 ? PASS : FAIL]);
+  return sum([unwanted.length === 0 ? PASS : FAIL, missing.length === 0 ? PASS : FAIL, await rehearsal()]);
+}
+
+/** Publishing, up to the point where something would be sent; npm says there what it would have to put right. */
+async function rehearsal(): Promise<Outcome> {
+  const { ok, output } = await run("npm", ["publish", "--dry-run", "--offline"], { show: "nothing" });
+  const corrected = output.split("\n").filter((line) => /auto-corrected|errors corrected|npm warn publish "/.test(line));
+  if (ok && corrected.length === 0) return PASS;
+  console.log(ok ? corrected.join("\n") : output);
+  return FAIL;
 }
 
 function filesIn(output: string): string[] {

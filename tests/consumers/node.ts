@@ -5,12 +5,14 @@ import type { Answered, Consumer } from "./consumer";
 import { project } from "./install";
 import { points, viewpoint } from "./question";
 
-/** Scripts under Node. */
+/** Scripts without a page. */
 export const nodeScripts: Consumer[] = [
   script("Node, import", "esm.mjs"),
   script("Node, ./inline", "inline.mjs"),
   { ...script("Node, require of an ES module", "required.cjs"), ...(canRequire() ? {} : { lacking: "this Node cannot require ES modules" }) },
   script("a server that renders pages", "server-side.mjs"),
+  elsewhere("Deno", ["deno", "run", "--allow-all", "--node-modules-dir=manual"]),
+  elsewhere("Bun", ["bun"]),
   {
     name: "npx hidden-point-removal",
     version: process.version,
@@ -26,16 +28,24 @@ export const nodeScripts: Consumer[] = [
   },
 ];
 
-function script(name: string, file: string): Consumer {
+function script(name: string, file: string, command = [process.execPath, "--no-warnings"], version = process.version): Consumer {
   return {
     name,
-    version: process.version,
+    version,
     run: () => {
-      const { stdout, stderr, status } = spawnSync(process.execPath, ["--no-warnings", project("node", file)], { encoding: "utf8" });
+      const [program = "", ...args] = command;
+      const { stdout, stderr, status } = spawnSync(program, [...args, project("node", file)], { encoding: "utf8" });
       if (status !== 0) throw new Error(stderr);
       return Promise.resolve(JSON.parse(stdout) as Answered);
     },
   };
+}
+
+/** The same script where another runtime is installed. */
+function elsewhere(name: string, command: string[]): Consumer {
+  const { stdout, status } = spawnSync(command[0]!, ["--version"], { encoding: "utf8", shell: process.platform === "win32" });
+  if (status !== 0) return { ...script(name, "esm.mjs", command, ""), lacking: `there is no ${command[0]!} on the PATH` };
+  return script(name, "esm.mjs", command, /\d+\.\d+\.\d+/.exec(stdout)?.[0]);
 }
 
 function canRequire(): boolean {

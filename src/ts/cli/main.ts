@@ -45,10 +45,7 @@ async function filter({ input, output, viewpoint, exponent }: Settings, progress
   });
   progress.show(0.2, "understanding");
   const file = FORMATS[extname(input).toLowerCase()]!(bytes);
-  progress.show(0.4, "preparing");
-  const { visible, length, skipped } = await ask(file, viewpoint, exponent, () => {
-    progress.show(0.7, "looking");
-  });
+  const { visible, length, skipped } = await ask(file, viewpoint, exponent, progress);
   progress.show(0.9, "writing");
   await writeWhole(output, written(file, visible));
   const notes = [
@@ -59,10 +56,13 @@ async function filter({ input, output, viewpoint, exponent }: Settings, progress
 }
 
 /** In workers: this thread is free to draw, and large clouds take several cores. */
-async function ask({ positions }: PointFile, viewpoint: number[], exponent: number | undefined, onReady: () => void) {
-  const cloud = await WorkerPointCloud.create(positions, { nonFinite: "skip", transfer: true });
+async function ask({ positions }: PointFile, viewpoint: number[], exponent: number | undefined, progress: Progress) {
+  const onProgress = (share: number) => {
+    progress.show(0.4 + 0.3 * share, "preparing");
+  };
+  const cloud = await WorkerPointCloud.create(positions, { nonFinite: "skip", transfer: true, onProgress });
   try {
-    onReady();
+    progress.show(0.7, "looking");
     const { indices } = await cloud.visibleFrom(viewpoint, { exponent });
     return { visible: indices, length: cloud.length, skipped: cloud.skipped };
   } finally {
