@@ -1,6 +1,6 @@
 import { ask, build, type PointCloud } from "../cloud.js";
-import { initSync } from "../loader.js";
 import { importNodeModule } from "../node.js";
+import { initSync } from "../start.js";
 import {
   type CloudSize,
   failedReply,
