@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use crate::blocks::Blocks;
+use crate::denoise::Kept;
 use crate::error::Error;
 use crate::points::{Given, Position, is_finite};
 use crate::sequence::Sequence;
@@ -15,6 +16,11 @@ use crate::spatial::{Bounds, HilbertCurve};
 /// bits, and a hull has up to two faces a point. Removed points count too, since
 /// their indices are never given again.
 pub const MAX_POINTS: usize = 1 << 28;
+
+/// Shares of the time that building a cloud takes: up to where its points are checked,
+/// and where they are sorted.
+const SURVEYED: f64 = 0.05;
+const SORTED: f64 = 0.85;
 
 /// What becomes of points with a NaN or infinite coordinate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,6 +47,7 @@ pub struct PointCloud {
     pub(crate) bounds: Bounds,
     pub(crate) statistics: Statistics,
     pub(crate) blocks: Blocks,
+    pub(crate) kept: Kept,
     non_finite: NonFinite,
     len: usize,
     skipped: usize,
@@ -64,21 +71,30 @@ impl PointCloud {
         positions: &[P],
         non_finite: NonFinite,
     ) -> Result<Self, Error> {
-        Self::prepare(P::given(positions), non_finite)
+        Self::prepare(P::given(positions), non_finite, &mut |_| ())
     }
 
-    pub(crate) fn prepare(positions: Given, non_finite: NonFinite) -> Result<Self, Error> {
+    /// Tells `progress` which share of the work, about, is done.
+    pub(crate) fn prepare(
+        positions: Given,
+        non_finite: NonFinite,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Self, Error> {
         let len = checked_len(positions.len())?;
         let (bounds, skipped) = survey(positions, non_finite)?;
+        progress(SURVEYED);
         let curve = HilbertCurve::new(&bounds);
         let sequence = Sequence::sorted(positions, 0, len - skipped, &curve)?;
+        progress(SORTED);
         let statistics = Statistics::measure(&sequence.points, &bounds)?;
         let blocks = Blocks::around(&sequence.points)?;
+        progress(1.0);
         Ok(Self {
             sequence,
             bounds,
             statistics,
             blocks,
+            kept: Kept::default(),
             non_finite,
             len,
             skipped,
@@ -161,6 +177,7 @@ impl PointCloud {
         if rest.points.len() == self.sequence.points.len() {
             // Every position is still there.
             self.sequence = rest;
+            self.kept = Kept::default();
             return Ok(());
         }
         let (bounds, _) = survey(rest.points.as_given(), NonFinite::Error)?;
@@ -205,6 +222,7 @@ impl PointCloud {
             bounds,
             statistics,
             blocks,
+            kept: Kept::default(),
             ..*self
         })
     }
@@ -217,6 +235,7 @@ impl PointCloud {
         self.statistics = statistics;
         self.sequence = sequence;
         self.bounds = bounds;
+        self.kept = Kept::default();
         Ok(())
     }
 }

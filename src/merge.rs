@@ -106,7 +106,7 @@ pub(crate) fn merge<'a>(
         let (given, _) = part(number);
         positions.extend(given, 0..given.len());
     }
-    let cloud = PointCloud::prepare(positions.as_given(), NonFinite::Error)?;
+    let cloud = PointCloud::prepare(positions.as_given(), NonFinite::Error, &mut |_| ())?;
     drop(positions);
     let visible = cloud.visible_from(viewpoint, options)?;
 

@@ -1,7 +1,9 @@
 import { run } from "../lib/run.js";
+import { setUpBrowser } from "../setup/browser.js";
 import { BUILD } from "./build.js";
 import type { Check, Outcome } from "./check.js";
 import { FAIL, PASS, checkCommand, sum } from "./check.js";
+import { vitest } from "./vitest.js";
 
 /** Everything a user of the npm package gets. */
 const WANTED = /^(dist\/.+\.(js|d\.ts|wasm)|README\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
@@ -17,6 +19,20 @@ export const packagingChecks: Check[] = [
     title: "Packaging: npm package",
     needs: [BUILD],
     run: npmPackage,
+  },
+  {
+    title: "Packaging: what package.json promises, and the types as every resolver finds them",
+    needs: [BUILD],
+    run: async () =>
+      sum([
+        await checkCommand("publint", ["run", ".", "--strict"]),
+        await checkCommand("attw", ["--pack", ".", "--profile", "esm-only", "--quiet"]),
+      ]),
+  },
+  {
+    title: "Packaging: the npm package in its users' projects",
+    needs: [BUILD],
+    run: async () => vitest("tests/consumers", { HPR_CHROMIUM: await setUpBrowser() }),
   },
 ];
 

@@ -10,7 +10,7 @@ use wasm_bindgen::prelude::*;
 use super::failure::Failure;
 use super::to_js;
 use crate::hull::Memory;
-use crate::{Error, PointCloud, PointCloudNd};
+use crate::{Error, Options, PointCloud, PointCloudNd};
 
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<Cloud>>> = const { RefCell::new(Vec::new()) };
@@ -93,6 +93,21 @@ pub(super) fn with_cloud<T>(
         Some(Some(Cloud::Space(cloud))) => query(cloud).map_err(Failure::from),
         _ => Err(Failure::DISPOSED),
     })
+}
+
+/// Asks a cloud what it sees. What noise handling needs is kept for the next view.
+pub(super) fn with_view<T>(
+    handle: u32,
+    options: &Options,
+    query: impl FnOnce(&PointCloud) -> Result<T, Error>,
+) -> Result<T, Failure> {
+    if options.denoise.or(options.vote).is_some() {
+        CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {
+            Some(Some(Cloud::Space(cloud))) => cloud.prepare_for(options).map_err(Failure::from),
+            _ => Err(Failure::DISPOSED),
+        })?;
+    }
+    with_cloud(handle, query)
 }
 
 pub(super) fn with_hyper<T>(

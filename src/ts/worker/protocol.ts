@@ -13,6 +13,8 @@ export type Request =
       module: WebAssembly.Module;
       positions: Float32Array | Float64Array;
       settings: CloudSettings;
+      /** Whether `Progress` is wanted before the reply. */
+      reporting: boolean;
     }
   | { kind: "append"; positions: Float32Array | Float64Array }
   | { kind: "remove"; indices: Uint32Array }
@@ -44,6 +46,15 @@ export interface Letter<Content = unknown> {
 }
 
 export const READY = "ready";
+
+/** Which share of a request is done, from 0 to 1. */
+export interface Progress {
+  progress: number;
+}
+
+export function isProgress(message: unknown): message is Progress {
+  return typeof message === "object" && message !== null && "progress" in message;
+}
 
 /** An error as it crosses the border, where its class would be lost. */
 export function failedReply(thrown: unknown): Reply<never> {

@@ -1,6 +1,6 @@
 import { HprError } from "../errors.js";
 import { allocating } from "../memory.js";
-import { failedReply, READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { failedReply, isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 import { joinThread } from "./shared-thread.js";
 import type { Thread, ThreadEvents } from "./thread.js";
 
@@ -18,6 +18,8 @@ export class Team {
   /** By member; those not asked, or not answered yet, have none. */
   #replies: (Reply | undefined)[] = [];
   #missing = 0;
+  /** Which share of what was asked is done, by member. */
+  #progress: number[] = [];
   #over = false;
 
   private constructor(events: ThreadEvents) {
@@ -70,6 +72,7 @@ export class Team {
     this.#asked = request;
     this.#replies = [];
     this.#missing = asked.length;
+    this.#progress = asked.map(() => 0);
     asked.forEach((thread, number) => {
       const { request, transfer } = copies[number]!;
       thread.post(request, transfer);
@@ -100,7 +103,14 @@ export class Team {
       }
       return;
     }
-    this.#replies[this.#members.findIndex((thread) => thread === from)] = message as Reply;
+    const number = this.#members.findIndex((thread) => thread === from);
+    if (isProgress(message)) {
+      this.#progress[number] = message.progress;
+      const sum = this.#progress.reduce((sum, share) => sum + share, 0);
+      this.#events.message({ progress: sum / this.#progress.length });
+      return;
+    }
+    this.#replies[number] = message as Reply;
     this.#missing -= 1;
     if (this.#missing === 0) {
       this.#events.message(this.#combined());

@@ -1,19 +1,34 @@
-import { ask, PointCloud } from "../cloud.js";
-import { initSync } from "../loader.js";
+import { ask, build, type PointCloud } from "../cloud.js";
 import { importNodeModule } from "../node.js";
-import { type CloudSize, failedReply, type Letter, READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { initSync } from "../start.js";
+import {
+  type CloudSize,
+  failedReply,
+  type Letter,
+  type Progress,
+  READY,
+  type Replies,
+  type Reply,
+  type Request,
+} from "./protocol.js";
 
 type Post = (message: unknown, transfer: ArrayBuffer[]) => void;
 
 /** By the numbers they are given outside. */
 const clouds = new Map<number, PointCloud>();
 
-function answer({ cloud: number, content: request }: Letter<Request>): Replies[Request["kind"]] {
+function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
+  const { cloud: number, content: request } = letter;
   if (request.kind === "create") {
     initSync(request.module);
     const { dimension, stride, skipNonFinite } = request.settings;
     const nonFinite = skipNonFinite ? "skip" : "error";
-    const created = new PointCloud(request.positions, { dimension, stride, nonFinite });
+    const report = (progress: number) => {
+      if (request.reporting) {
+        post({ cloud: number, content: { progress } satisfies Progress } satisfies Letter, []);
+      }
+    };
+    const created = build(request.positions, { dimension, stride, nonFinite }, report);
     clouds.set(number, created);
     return sizeOf(created);
   }
@@ -46,7 +61,7 @@ function sizeOf({ length, skipped }: PointCloud): CloudSize {
 function serve(letter: Letter<Request>, post: Post): void {
   let reply: Reply<Replies[Request["kind"]]>;
   try {
-    reply = { value: answer(letter) };
+    reply = { value: answer(letter, post) };
   } catch (thrown) {
     reply = failedReply(thrown);
   }

@@ -1,0 +1,61 @@
+// What would be published, installed and used as a user does. The answers have to be those
+// that the repository's own package gives.
+import { init, PointCloud } from "hidden-point-removal";
+import { afterAll, beforeAll, expect, it } from "vitest";
+
+import { launchBrowser } from "../browser/site";
+import { bundlers } from "./bundlers";
+import type { Answered, Consumer, Visit } from "./consumer";
+import { installPacked } from "./install";
+import { nodeScripts } from "./node";
+import { pages } from "./pages";
+// @ts-expect-error -- a project's own JavaScript
+import { positions as untyped, viewpoint } from "./projects/app/answer.js";
+
+const browser = await launchBrowser();
+const table: string[] = [];
+let expected: number[];
+
+beforeAll(async () => {
+  installPacked();
+  await init();
+  expected = [...new PointCloud((untyped as () => Float32Array)()).visibleFrom(viewpoint as number[]).indices];
+});
+
+afterAll(async () => {
+  await browser.close();
+  console.log(table.join("\n"));
+});
+
+const visit: Visit = async (address) => {
+  const page = await browser.newPage();
+  const complaints: string[] = [];
+  page.on("console", (message) => complaints.push(message.text()));
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  try {
+    await page.goto(address);
+    const output = page.locator("output[data-done]");
+    await output.waitFor({ state: "attached", timeout: 30_000 }).catch(() => {
+      throw new Error(`no answer: ${complaints.join("; ")}`);
+    });
+    return JSON.parse((await output.textContent())!) as Answered;
+  } finally {
+    await page.close();
+  }
+};
+
+const all: Consumer[] = [...bundlers(visit), ...pages(visit, `Chromium ${browser.version()}`), ...nodeScripts];
+
+it.each(all)("$name ($version)", async ({ name, version, lacking, run }) => {
+  const row = (result: string) => table.push(`${name.padEnd(48)} ${version.padEnd(26)} ${result}`);
+  if (lacking !== undefined) {
+    row(`not run: ${lacking}`);
+    return;
+  }
+  const { error, here, there } = await run().catch((thrown: unknown): Answered => ({ error: String(thrown) }));
+  const right = error === undefined && String(here) === String(expected) && String(there) === String(expected);
+  row(right ? "same answer" : "FAILED");
+  expect(error).toBeUndefined();
+  // Not the lists themselves, whose difference would fill the screen.
+  expect(right, `answered ${here?.length} and ${there?.length} points, not ${expected.length}`).toBe(true);
+});
