@@ -9,8 +9,7 @@ import type { Answered, Consumer, Visit } from "./consumer";
 import { installPacked } from "./install";
 import { nodeScripts } from "./node";
 import { pages } from "./pages";
-// @ts-expect-error -- a project's own JavaScript
-import { positions as untyped, viewpoint } from "./projects/app/answer.js";
+import { points, viewpoint } from "./question";
 
 const browser = await launchBrowser();
 const table: string[] = [];
@@ -19,7 +18,7 @@ let expected: number[];
 beforeAll(async () => {
   installPacked();
   await init();
-  expected = [...new PointCloud((untyped as () => Float32Array)()).visibleFrom(viewpoint as number[]).indices];
+  expected = [...new PointCloud(points).visibleFrom(viewpoint).indices];
 });
 
 afterAll(async () => {

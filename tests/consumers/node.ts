@@ -1,7 +1,9 @@
-import { spawnSync } from "node:child_process";
+import { execFileSync, spawnSync } from "node:child_process";
+import { writeFileSync } from "node:fs";
 
 import type { Answered, Consumer } from "./consumer";
 import { project } from "./install";
+import { points, viewpoint } from "./question";
 
 /** Scripts under Node. */
 export const nodeScripts: Consumer[] = [
@@ -9,6 +11,19 @@ export const nodeScripts: Consumer[] = [
   script("Node, ./inline", "inline.mjs"),
   { ...script("Node, require of an ES module", "required.cjs"), ...(canRequire() ? {} : { lacking: "this Node cannot require ES modules" }) },
   script("a server that renders pages", "server-side.mjs"),
+  {
+    name: "npx hidden-point-removal",
+    version: process.version,
+    run: () => {
+      // One number a line beside the position: which line it is.
+      const lines = Array.from({ length: points.length / 3 }, (_, i) => [...points.subarray(3 * i, 3 * i + 3), i].join(" "));
+      writeFileSync(project("cloud.xyz"), `${lines.join("\n")}\n`);
+      const args = ["--offline", "hidden-point-removal", "cloud.xyz", "--from", viewpoint.join(","), "-o", "-"];
+      const printed = execFileSync("npx", args, { cwd: project(), encoding: "utf8", stdio: "pipe", shell: process.platform === "win32" });
+      const visible = printed.trim().split("\n").map((line) => Number(line.split(" ")[3]));
+      return Promise.resolve({ here: visible, there: visible });
+    },
+  },
 ];
 
 function script(name: string, file: string): Consumer {
