@@ -135,6 +135,8 @@ export class Viewer {
     this.placeMarker(this.store.current.freeze);
     this.setUp(this.store.current.up);
     inquiry.onView(answer);
+    // What is wrong with the worker shows in the next answer.
+    inquiry.findAutomatic().catch(() => undefined);
     this.inquire();
   }
 

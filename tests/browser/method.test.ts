@@ -56,6 +56,10 @@ test("while the camera moves the automatic radius stands in for a slow rule", as
 test("a radius in the cloud's units is used as it is; one that is too small is said, and the automatic one used", async () => {
   const page = await openReady(`${SAMPLE}&view=0.1,0.2,0.3&radius=25`);
   expect(await upToDate(page)).toMatchObject(await expected(await status(page), { radius: 25 }));
+  // Also where the first answer is by hand, the mark is at the automatic exponent.
+  const { exponent } = await inNode(positions, (cloud) => cloud.autoRadius([0.1, 0.2, 0.3]));
+  const mark = () => page.locator(".slider:has(#exponent)").evaluate((slider) => Number(getComputedStyle(slider).getPropertyValue("--mark")));
+  await expect.poll(mark).toBeCloseTo(exponent / 6, 6);
   const small = await openReady(`${SAMPLE}&view=0.1,0.2,0.3&radius=0.01`);
   const now = await upToDate(small);
   expect(now).toMatchObject(await expected(now, {}));
