@@ -2,6 +2,7 @@ import type { Settings, Viewpoint } from "../settings.ts";
 import { askLight, type LightAnswer } from "./lights.ts";
 import { Newest } from "./newest.ts";
 import {
+  isAutomatic,
   isSameLight,
   isSamePlace,
   isSameView,
@@ -65,10 +66,10 @@ export class Inquiry {
     return this.ask(question);
   }
 
-  /** Tells the automatic exponent, unless a newer question waits. */
+  /** Tells the automatic exponent where the answer itself does not, unless a newer question waits. */
   async findAutomatic(): Promise<void> {
     const question = this.wanted.view;
-    if (!question?.method.radius) return;
+    if (!question?.method.radius || isAutomatic(question.method)) return;
     const { exponent } = await this.cloud.points.autoRadius(question.viewpoint);
     if (question === this.wanted.view) this.onAutomatic(exponent);
   }
