@@ -8,6 +8,8 @@ use crate::cloud::PointCloud;
 use crate::error::{Error, in_range};
 use crate::neighbors::{Nearest, Neighbors};
 use crate::options::Options;
+use crate::real::square_root;
+use crate::room::with_room;
 
 /// A point is voted visible when more than this share (in fifths) of it and its
 /// neighbors are: 0.4, because the operator misses more than it invents.
@@ -25,12 +27,11 @@ impl PointCloud {
     /// [`Error::OutOfRange`] unless 1 ≤ `k` < the number of present points;
     /// [`Error::OutOfMemory`].
     pub fn denoised(&self, k: usize) -> Result<Self, Error> {
-        let mut moved: Vec<[f64; 3]> = Vec::new();
-        moved.try_reserve_exact(self.sequence.points.len())?;
-        self.for_each_neighborhood("denoise", k, |point, nearest| {
+        let mut moved: Vec<[f64; 3]> = with_room(self.sequence.points.len())?;
+        self.for_each_neighborhood("denoise", k, &mut |point, nearest| {
             moved.push(on_plane(self.sequence.points.get(point), nearest));
         })?;
-        self.moved(&moved)
+        Ok(self.moved(&moved)?)
     }
 
     /// Asks a cloud that is denoised already, if it is to be.
@@ -39,21 +40,20 @@ impl PointCloud {
         options: &Options,
         query: impl FnOnce(&Self, &Options) -> Result<T, Error>,
     ) -> Result<T, Error> {
-        let Some(k) = options.denoise else {
-            return query(self, options);
-        };
-        let options = Options {
-            denoise: None,
-            ..*options
-        };
-        query(&self.denoised(k)?, &options)
+        let mut options = *options;
+        let denoised = options
+            .denoise
+            .take()
+            .map(|k| self.denoised(k))
+            .transpose()?;
+        // One call, because each is a copy of the query.
+        query(denoised.as_ref().unwrap_or(self), &options)
     }
 
     /// Lets every distinct point and its `k` nearest others vote whether it is visible.
     pub(crate) fn vote(&self, k: usize, visible: &[bool]) -> Result<Vec<bool>, Error> {
-        let mut voted: Vec<bool> = Vec::new();
-        voted.try_reserve_exact(visible.len())?;
-        self.for_each_neighborhood("vote", k, |point, nearest| {
+        let mut voted: Vec<bool> = with_room(visible.len())?;
+        self.for_each_neighborhood("vote", k, &mut |point, nearest| {
             let others = nearest.found().iter().map(|other| other.index as usize);
             let seen = others.chain([point]).filter(|&i| visible[i]).count();
             voted.push(5 * seen > FIFTHS * (nearest.found().len() + 1));
@@ -66,7 +66,7 @@ impl PointCloud {
         &self,
         option: &'static str,
         k: usize,
-        mut visit: impl FnMut(usize, &Nearest),
+        visit: &mut dyn FnMut(usize, &Nearest),
     ) -> Result<(), Error> {
         let present = self.sequence.present();
         let most = present.saturating_sub(1);
@@ -125,8 +125,8 @@ fn least_axis(mut matrix: DMat3) -> DVec3 {
             done = false;
             let theta = (matrix.col(j)[j] - matrix.col(i)[i]) / (2.0 * off);
             let sign = if theta < 0.0 { -1.0 } else { 1.0 };
-            let tangent = sign / (theta.abs() + libm::sqrt(theta * theta + 1.0));
-            let cos = 1.0 / libm::sqrt(tangent * tangent + 1.0);
+            let tangent = sign / (theta.abs() + square_root(theta * theta + 1.0));
+            let cos = 1.0 / square_root(tangent * tangent + 1.0);
             let sin = tangent * cos;
             let mut rotation = DMat3::IDENTITY;
             rotation.col_mut(i)[i] = cos;
@@ -155,7 +155,7 @@ mod tests {
     fn a_point_above_a_lattice_moves_most_of_the_way_down() {
         for tilt in [0.0, 0.75] {
             // A slope, and one point a little above it along its normal.
-            let length = libm::sqrt(1.0 + tilt * tilt);
+            let length = square_root(1.0 + tilt * tilt);
             let mut points = alloc::vec![[-0.5 * tilt / length, 0.0, 0.5 / length]];
             for i in 0..49 {
                 let [x, y] = [i % 7, i / 7].map(|x| f64::from(x as u8) - 3.0);
