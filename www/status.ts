@@ -21,8 +21,6 @@ export class Status {
   private announcing: ReturnType<typeof setTimeout> | undefined;
   private refilters = 0;
   private last: (TimedView & { total: number }) | null = null;
-  private lights = 0;
-  private frozen = false;
   /** Answers to what was asked before this moment do not end a "loading" or an "error". */
   private since = Infinity;
 
@@ -81,28 +79,21 @@ export class Status {
     this.describe(frozen);
   }
 
-  /** How many lights the picture is lit by; none is no light and no shadow. */
+  /** How many lights the picture is lit by; without any there is no shadow. */
   lit(lights: number): void {
-    this.lights = lights;
     if (lights > 0) this.element.dataset["lights"] = String(lights);
     else delete this.element.dataset["lights"];
-    this.describe(this.frozen);
   }
 
   /** The sentence about the last answer, once more with what has become of the viewpoint. */
   describe(frozen: boolean): void {
-    this.frozen = frozen;
     if (!this.last || this.element.dataset["state"] !== "ready") return;
-    const { visibility, triangles, quick, milliseconds, total } = this.last;
+    const { visibility, quick, milliseconds, total } = this.last;
     const where = frozen ? "were visible from the frozen viewpoint" : "are visible from here";
     const time = milliseconds < 10 ? milliseconds.toFixed(1) : number.format(Math.round(milliseconds));
     const share = percent(visibility.count, total);
-    const more = [
-      triangles ? `${number.format(triangles.length / 3)} triangles.` : "",
-      this.lights > 0 ? `Lit by ${this.lights === 1 ? "one light" : `${this.lights} lights`}.` : "",
-      quick ? "Automatic while moving." : "",
-    ].filter((sentence) => sentence !== "");
-    this.say([`${number.format(visibility.count)} of ${number.format(total)} points (${share}) ${where}, found in ${time}\u00a0ms.`, ...more].join(" "));
+    const standIn = quick ? ", with the automatic radius while moving" : "";
+    this.say(`${number.format(visibility.count)} of ${number.format(total)} points (${share}) ${where}, found in ${time}\u00a0ms${standIn}.`);
   }
 
   /** Lets the next sentence be read at once. */

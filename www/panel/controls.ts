@@ -1,5 +1,5 @@
 import type { ViewAnswer } from "../ask/views.ts";
-import type { Inversion, Settings, Store } from "../settings.ts";
+import { type Inversion, type Settings, type Store, USUAL_SETTINGS } from "../settings.ts";
 import type { Viewer } from "../viewer.ts";
 import { byId } from "./dom.ts";
 import { bindInversion } from "./inversion.ts";
@@ -18,6 +18,9 @@ const FIELD_OF_VIEW = { least: 5, most: 100 };
 export class Controls {
   private readonly radius: RadiusControl;
   private readonly followInversion: (resolved: Inversion) => void;
+  private readonly followSurface: (answer: ViewAnswer) => void;
+  /** What a reset goes back to. */
+  usual: Pick<Settings, "fieldOfView"> = USUAL_SETTINGS;
 
   /** `opened`: the settings whose sections are open from the beginning. */
   constructor(viewer: Viewer, store: Store, opened: Settings) {
@@ -25,14 +28,14 @@ export class Controls {
     this.followInversion = bindInversion(store);
     bindViewpoints(store);
     bindNoise(store);
-    bindSurface(store);
+    this.followSurface = bindSurface(store);
     bindShadows(store, viewer);
     const { nextHidden } = bindLook(store);
     const toggleFreeze = bindFreeze(store, viewer);
     bindSections(opened);
 
     const reset = () => {
-      store.change({ fieldOfView: this.usual?.fieldOfView ?? store.current.fieldOfView });
+      store.change({ fieldOfView: this.usual.fieldOfView });
       viewer.reset();
     };
     byId("reset").addEventListener("click", reset);
@@ -46,12 +49,10 @@ export class Controls {
     });
   }
 
-  /** What a reset goes back to. */
-  usual: Pick<Settings, "fieldOfView"> | null = null;
-
   /** Shows what the answer was found with. */
   follow(answer: ViewAnswer): void {
     this.radius.follow(answer);
+    this.followSurface(answer);
     this.followInversion(answer.visibility.inversion);
   }
 

@@ -6,9 +6,9 @@ import { Slider } from "./slider.ts";
 type Choice = "auto" | "search" | "opposite" | "hand";
 
 const NOTES: Record<Choice, string> = {
-  auto: "From the spacing of the points and their distance.",
-  search: "By looking back along the same rays: 6 hulls.",
-  opposite: "The paper’s rule, seen by one of two opposite sides: some 40 hulls, so only when the view rests.",
+  auto: "",
+  search: "Looking back along the same rays: 6 hulls, when the view rests.",
+  opposite: "The paper’s own rule, from the opposite side: some 40 hulls, when the view rests.",
   hand: "Exponent: log₁₀ of radius ÷ farthest distance. The mark is the automatic one.",
 };
 
@@ -38,6 +38,7 @@ export class RadiusControl {
       for (const button of buttons) button.setAttribute("aria-pressed", String(button.value === choice));
       group.disabled = inversion !== "spherical";
       note.textContent = inversion === "spherical" ? NOTES[choice] : "Only the spherical flip has a radius.";
+      note.hidden = note.textContent === "";
       if ("exponent" in radius) this.slider.value = radius.exponent;
     });
   }

@@ -1,10 +1,13 @@
+import type { ViewAnswer } from "../ask/views.ts";
 import type { Settings, Store } from "../settings.ts";
 import { byId } from "./dom.ts";
 import { Segmented } from "./segmented.ts";
 import { Slider } from "./slider.ts";
 
-/** Points or the surface between them, and how long that one's edges may be. */
-export function bindSurface(store: Store): void {
+const number = new Intl.NumberFormat("en-US");
+
+/** Points or the surface between them, and how long that one's edges may be. The returned function tells how many triangles there are. */
+export function bindSurface(store: Store): (answer: ViewAnswer) => void {
   const show = new Segmented<Settings["show"]>("show", (value) => {
     store.change({ show: value });
   });
@@ -19,4 +22,10 @@ export function bindSurface(store: Store): void {
     edge.value = now.edge === Infinity ? all : now.edge;
     input.disabled = now.show === "points";
   });
+  const note = byId("surface-note");
+  return ({ triangles }) => {
+    note.textContent = triangles
+      ? `${number.format(triangles.length / 3)} triangles between the visible points.`
+      : "Triangles between the visible points, from the same hull.";
+  };
 }

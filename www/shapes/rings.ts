@@ -13,21 +13,21 @@ type Ring = (turn: number) => Vector;
 
 /** Along the fuselage: x, how far its middle is above 0, half its height and half its width. */
 const FUSELAGE: [x: number, y: number, height: number, width: number][] = [
-  [7.6, -0.1, 0.06, 0.06],
-  [6.6, -0.05, 0.3, 0.28],
-  [5.4, 0.0, 0.48, 0.44],
-  [4.1, 0.1, 0.66, 0.56],
-  [2.8, 0.28, 0.88, 0.62],
-  [1.5, 0.25, 0.86, 0.72],
-  [0.2, 0.12, 0.74, 0.86],
-  [-1.2, 0.08, 0.7, 0.92],
-  [-2.6, 0.06, 0.68, 0.9],
-  [-4.0, 0.05, 0.64, 0.82],
-  [-5.4, 0.05, 0.6, 0.68],
-  [-6.8, 0.05, 0.5, 0.5],
+  [7.0, -0.15, 0.12, 0.12],
+  [6.2, -0.12, 0.42, 0.4],
+  [5.2, -0.05, 0.68, 0.62],
+  [4.1, 0.12, 0.98, 0.78],
+  [2.8, 0.3, 1.24, 0.9],
+  [1.5, 0.26, 1.2, 1.04],
+  [0.2, 0.14, 1.06, 1.2],
+  [-1.2, 0.1, 1.0, 1.26],
+  [-2.6, 0.08, 0.98, 1.22],
+  [-4.0, 0.06, 0.94, 1.1],
+  [-5.4, 0.05, 0.88, 0.94],
+  [-6.8, 0.05, 0.78, 0.78],
 ];
-const FUSELAGE_RINGS = 24;
-const FUSELAGE_POINTS = 44;
+const FUSELAGE_RINGS = 40;
+const FUSELAGE_POINTS = 26;
 
 /** A wing from its root to its tip: the leading edge, the chord backwards along x, and the thickness as a part of it. */
 interface Wing {
@@ -39,9 +39,9 @@ interface Wing {
   points: number;
 }
 
-const MAIN: Wing = { root: [2.2, -0.1, 0.7], tip: [-2.6, -0.25, 4.9], chords: [5.2, 1.3], thickness: 0.07, rings: 12, points: 34 };
-const TAILPLANE: Wing = { root: [-4.9, 0.05, 0.55], tip: [-6.9, 0.0, 2.5], chords: [2.1, 0.8], thickness: 0.06, rings: 6, points: 24 };
-const FIN: Wing = { root: [-4.3, 0.55, 0], tip: [-6.7, 2.6, 0], chords: [2.7, 1.0], thickness: 0.07, rings: 8, points: 30 };
+const MAIN: Wing = { root: [2.4, -0.1, 1.1], tip: [-2.4, -0.25, 5.4], chords: [5.4, 1.6], thickness: 0.11, rings: 13, points: 32 };
+const TAILPLANE: Wing = { root: [-4.6, 0.05, 0.9], tip: [-6.6, 0.0, 3.0], chords: [2.4, 1.1], thickness: 0.1, rings: 8, points: 20 };
+const FIN: Wing = { root: [-3.9, 0.8, 0], tip: [-6.4, 3.2, 0], chords: [3.1, 1.3], thickness: 0.1, rings: 10, points: 22 };
 
 export function makeRings(): LoadedCloud {
   const sections: [Ring, number][] = [
