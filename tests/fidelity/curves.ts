@@ -21,7 +21,7 @@ export interface Curve {
   rules: (AtRadius & { rule: string })[];
 }
 
-export const EXPONENTS = Array.from({ length: 33 }, (_, i) => 1 + i / 8);
+export const EXPONENTS = Array.from({ length: 37 }, (_, i) => 1 + i / 8);
 
 /** One for each view. */
 export function curves({ name, positions, views }: Labelled, exponents = EXPONENTS): Curve[] {

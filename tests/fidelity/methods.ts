@@ -16,7 +16,7 @@ export interface Method {
   name: string;
   /** How many viewpoints it asks from. */
   viewpoints: number;
-  ask(subject: Subject): Visibility;
+  ask: (subject: Subject) => Visibility;
 }
 
 const AROUND = 4;

@@ -1,4 +1,5 @@
 // Surfaces made here, as meshes, and points scattered over their faces.
+import { roomSurfaces } from "../../www/shapes/room.js";
 import { bumpyRadius, direction, seeded } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";
 import type { Mesh, MeshPoints } from "./rays.js";
@@ -20,6 +21,11 @@ export function bumpySphere(): Mesh {
     const along = direction(-Math.cos(Math.PI * v), u);
     return along.map((x) => x * radius(along)) as Point;
   });
+}
+
+/** The page's living room: open surfaces and thin things, to be looked at from inside. */
+export function room(): Mesh {
+  return joined(roomSurfaces(seeded(20070802)).map((surface) => grid(12, 8, (u, v) => surface.at(u, v).point)));
 }
 
 /** A patch of surface for 0 … 1 twice, as so many by so many rectangles cut in two. */

@@ -8,7 +8,7 @@ import { direction, seeded } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";
 import { bounds } from "../bench/views.js";
 import { type Mesh, type MeshPoints, RayTracer } from "./rays.js";
-import { bumpySphere, scatter, torus } from "./shapes.js";
+import { bumpySphere, room, scatter, torus } from "./shapes.js";
 
 export interface Labelled {
   name: string;
@@ -78,7 +78,12 @@ export function* generated(): Generator<Labelled> {
   const bumpy = bumpySphere();
   for (const count of [10_000, 40_000]) yield fromOutside("bumpy sphere", bumpy, scatter(bumpy, count, 13));
   yield fromOutside("bumpy sphere, uneven 20:1", bumpy, scatter(bumpy, 40_000, 14, ([x]) => 20 ** (x / 2)));
+  const furnished = room();
+  for (const count of [20_000, 100_000]) yield traced("room, from inside", furnished, scatter(furnished, count, 15), INSIDE);
 }
+
+/** Standing between the furniture, in meters. */
+const INSIDE = [-2.2, -0.5, 0.6, 1.9].flatMap((x) => [-1.6, 1.6].map((z): Point => [x, 1.6, z]));
 
 const DISTANCES = [2.5, 1.3];
 const DIRECTIONS = 4;

@@ -19,15 +19,15 @@ export const beforeAfter: Maker = async (studio) => [
     name: "dragon",
     title: "Dense: the dragon (paper: Figs. 1 and 9)",
     look: "Before, the coils behind shine through those in front; afterwards each stands before the next.",
-    query: { sample: "dragon_res2" },
+    query: { sample: "dragon_res2", view: "0.07,0.194,0.21" },
     sizes: [0.3, 2],
   }),
   await pair(studio, {
     name: "rings",
     title: "Sparse and uneven: an airplane of rings (paper: Fig. 11)",
     look: "Of every ring the arc towards the viewer stays, although between two rings there is nothing that could hide anything.",
-    query: { sample: "rings" },
-    sizes: [0.7, 1.4],
+    query: { sample: "rings", view: "8.4,5.8,11.2" },
+    sizes: [0.55, 0.55],
   }),
   await pair(studio, {
     name: "room",
@@ -46,7 +46,7 @@ async function bunny(studio: Studio): Promise<Figure[]> {
       name: "bunny",
       title: "A closed surface: the bunny (paper: Fig. 2)",
       look: "Before, it cannot be told whether it looks at the viewer or away; afterwards it can.",
-      query: cloud === undefined ? { sample: "bunny" } : { src: "bunny-36k.ply" },
+      query: cloud === undefined ? { sample: "bunny" } : { src: "bunny-36k.ply", view: "0.1,0.195,0.215" },
       sizes: [0.4, 1.4],
     }),
   ];

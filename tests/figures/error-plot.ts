@@ -12,8 +12,8 @@ declare const Plot: typeof PlotLibrary;
 
 const LIBRARIES = ["d3/dist/d3.min.js", "@observablehq/plot/dist/plot.umd.min.js"];
 const STYLE = `
-  body { margin: 0; padding: 12px; width: 936px; background: white; color: #1b1f24; font: 15px system-ui, sans-serif;
-         display: grid; grid-template-columns: 468px 468px; row-gap: 6px; }
+  body { margin: 0; padding: 12px 12px 18px; width: 936px; background: white; color: #1b1f24; font: 15px system-ui, sans-serif;
+         display: grid; grid-template-columns: 468px 468px; row-gap: 18px; }
   body > :first-child { grid-column: span 2; margin-left: 46px; }
   h2 { font-size: 15px; margin: 0 0 0 46px; }
 `;
@@ -73,12 +73,12 @@ function draw(panels: Panel[]): void {
     const rules = curve.rules.toSorted((a, b) => a.exponent - b.exponent);
     const plot = Plot.plot({
       width: 460,
-      height: 270,
+      height: 276,
       marginLeft: 46,
       marginTop: 8,
-      marginBottom: 42,
+      marginBottom: 48,
       style: { fontSize: "13px", background: "white" },
-      x: { domain: [1, 5], label: "log₁₀ (R ÷ farthest distance)", labelAnchor: "center", labelArrow: "none", ticks: 8 },
+      x: { domain: [1, 5.5], label: "log₁₀ (R ÷ farthest distance)", labelAnchor: "center", labelArrow: "none", ticks: 9 },
       y: { domain: [0, 30], label: "% of all points", labelAnchor: "center", labelArrow: "none", grid: true, ticks: 6 },
       color,
       marks: [
@@ -89,7 +89,7 @@ function draw(panels: Panel[]): void {
           Plot.text([chosen], {
             x: "exponent",
             y: i === 1 ? 26.5 : 28.8,
-            text: "rule",
+            text: () => chosen.rule.replace("the ", ""),
             fill: colors[chosen.rule]!,
             stroke: "white",
             strokeWidth: 4,

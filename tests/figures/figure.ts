@@ -21,7 +21,7 @@ export interface Panel {
 }
 
 /** A panel of a sheet with two columns, in CSS pixels. */
-export const PANEL: Size = { width: 480, height: 400 };
+export const PANEL: Size = { width: 480, height: 360 };
 /** Of three. */
 export const NARROW: Size = { width: 320, height: 300 };
 

@@ -56,7 +56,7 @@ export class Studio {
       const message = page.locator("#message");
       if (await message.isVisible()) throw new Error(`The page says of ${address}: ${await message.innerText()}`);
       await twoFrames(page);
-      const status = await page.locator("#status").evaluate((element: HTMLElement) => ({ ...element.dataset }));
+      const status = await page.locator("#status").evaluate((element: HTMLElement) => Object.fromEntries(Object.entries(element.dataset)));
       return { png: await page.locator("#view").screenshot({ timeout: PATIENCE }), status };
     });
   }
