@@ -26,7 +26,7 @@ export const beforeAfter: Maker = async (studio) => [
     name: "rings",
     title: "Sparse and uneven: an airplane of rings (paper: Fig. 11)",
     look: "Of every ring the arc towards the viewer stays, although between two rings there is nothing that could hide anything.",
-    query: { sample: "rings", view: "8.4,5.8,11.2" },
+    query: { sample: "rings", view: "9,6.2,12" },
     sizes: [0.55, 0.55],
   }),
   await pair(studio, {

@@ -6,7 +6,7 @@ import type * as PlotLibrary from "@observablehq/plot";
 import { type Curve, curves, meanCurve } from "../fidelity/curves.js";
 import { scanned } from "../fidelity/truth.js";
 import { root } from "../root.js";
-import { count, type Maker, small } from "./figure.js";
+import { count, digits, type Maker, small } from "./figure.js";
 
 declare const Plot: typeof PlotLibrary;
 
@@ -21,15 +21,18 @@ const STYLE = `
 interface Panel {
   title: string;
   curve: Curve;
+  /** The numbers behind the picture. */
+  words: string;
 }
 
 export const errorPlot: Maker = async (studio) => {
   const panels = [...scanned()].flatMap((labelled): Panel[] => {
     const all = curves(labelled);
+    const mean = meanCurve(all);
     const name = `${labelled.name}, ${count(labelled.positions.length / 3)} points`;
     return [
-      { title: `${name}: one view`, curve: all[0]! },
-      { title: `${name}: mean of ${all.length} views`, curve: meanCurve(all) },
+      { title: `${name}: one view`, curve: all[0]!, words: `from (${labelled.views[0]!.viewpoint.map(digits).join(", ")}) ${chosen(all[0]!)}` },
+      { title: `${name}: mean of ${all.length} views`, curve: mean, words: `on average ${chosen(mean)}, the best exponent for all views ${least(mean)}` },
     ];
   });
   if (panels.length === 0) return [];
@@ -37,7 +40,7 @@ export const errorPlot: Maker = async (studio) => {
     for (const library of LIBRARIES) await page.addScriptTag({ path: join(root, "node_modules", library) });
     await page.evaluate(draw, panels);
   });
-  const chosen = panels.filter(({ curve }) => curve.views > 1).map(({ curve }) => `${curve.name} ${inWords(curve)}`);
+  const totals = panels.map(({ title, words }) => `- ${title.split(",")[0]!} ${words}`);
   return [
     {
       name: "error-against-radius",
@@ -46,15 +49,19 @@ export const errorPlot: Maker = async (studio) => {
         "False positives, false negatives and their sum in % of all points, against ray-traced visibility. Small spheres hide what is " +
         "visible, large ones let through what is hidden, and the sum has a narrow valley between. A dot is what a rule chose and got; " +
         "in the means it may lie below the curve, since a rule chooses anew for each view. The paper's rule ends far to the right of " +
-        `the valley. Mean totals: ${chosen.join("; ")}.`,
+        `the valley. Exponents, and totals:\n\n${totals.join("\n")}`,
       png: await small(png),
     },
   ];
 };
 
-function inWords({ rules, errors }: Curve): string {
-  const best = Math.min(...errors.map(({ total }) => total));
-  return `${rules.map(({ rule, total }) => `${rule} ${total.toFixed(1)} %`).join(", ")}, best one exponent for all views ${best.toFixed(1)} %`;
+function chosen({ rules }: Curve): string {
+  return rules.map(({ rule, exponent, total }) => `${rule} ${exponent.toFixed(2)} (${total.toFixed(1)} %)`).join(", ");
+}
+
+function least({ errors }: Curve): string {
+  const { exponent, total } = errors.reduce((best, at) => (at.total < best.total ? at : best));
+  return `${exponent.toFixed(2)} (${total.toFixed(1)} %)`;
 }
 
 /** Runs in the page. */
@@ -78,7 +85,7 @@ function draw(panels: Panel[]): void {
       marginTop: 8,
       marginBottom: 48,
       style: { fontSize: "13px", background: "white" },
-      x: { domain: [1, 5.5], label: "log₁₀ (R ÷ farthest distance)", labelAnchor: "center", labelArrow: "none", ticks: 9 },
+      x: { domain: [1, 5.5], label: "log₁₀ (R ÷ farthest distance)", labelAnchor: "center", labelOffset: 38, labelArrow: "none", ticks: 9 },
       y: { domain: [0, 30], label: "% of all points", labelAnchor: "center", labelArrow: "none", grid: true, ticks: 6 },
       color,
       marks: [

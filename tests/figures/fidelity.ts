@@ -17,12 +17,12 @@ How often the library is wrong about what a viewpoint sees, by every way of aski
 - power as curved as automatic: 1/d^γ with γ such that a surface facing the viewer may be as curved as with the automatic R
 `;
 
-export function fidelityText(say: (message: string) => void): string {
+/** Undefined where the labels are missing, which are most of it. */
+export function fidelityText(say: (message: string) => void): string | undefined {
   const agreement = traceAgain(say);
+  if (agreement === undefined) return undefined;
   const checked =
-    agreement === undefined
-      ? ""
-      : `- the ray tracer that made the generated surfaces' labels gives ${agreement.same.toLocaleString("en-US")} of ` +
-        `${agreement.labels.toLocaleString("en-US")} labels of ${agreement.name} as they are in \`HPR_SHARED\`\n`;
+    `- the ray tracer that made the generated surfaces' labels gives ${agreement.same.toLocaleString("en-US")} of ` +
+    `${agreement.labels.toLocaleString("en-US")} labels of ${agreement.name} as they are in \`HPR_SHARED\`\n`;
   return [INTRODUCTION + checked, ...fidelityTables(say).map(markdown)].join("\n");
 }
