@@ -1,6 +1,6 @@
 import type { Up } from "./cloud.ts";
 import { type Settings, USUAL_SETTINGS } from "./settings.ts";
-import type { ShapeName } from "./shapes/index.ts";
+import type { ShapeName } from "./shapes.ts";
 
 /** A cloud the page brings along. */
 export interface Sample {

@@ -1,4 +1,4 @@
-import type { LoadedCloud } from "../cloud.ts";
+import type { LoadedCloud } from "./cloud.ts";
 import { makeRings } from "./rings.ts";
 import { makeRoom } from "./room.ts";
 
