@@ -1,5 +1,5 @@
 // Surfaces made here, as meshes, and points scattered over their faces.
-import { roomSurfaces } from "../../www/shapes/room.js";
+import { roomSurfaces } from "../../www/room.js";
 import { bumpyRadius, direction, seeded } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";
 import type { Mesh, MeshPoints } from "./rays.js";

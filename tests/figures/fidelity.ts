@@ -13,6 +13,8 @@ How often the library is wrong about what a viewpoint sees, by every way of aski
   \`reference.json\` holds, and only views that are in it count
 - generated surfaces: random points on the faces of meshes made here, ray-traced here; the best R of each view is found by scanning
   exponents 0.05 apart; 4 viewpoints from 2.5 and 4 from 1.3 radii of the box's corner sphere, 8 between the furniture of the room
+- the room has surfaces millimeters apart, a rug on the floor and books on a shelf, which points centimeters apart cannot tell
+  from one another; hence its false positives, even with the best R
 - 5 viewpoints: the viewpoint and a ring of 4 around it at 5 % of its distance from the middle of the box
 - power as curved as automatic: 1/d^γ with γ such that a surface facing the viewer may be as curved as with the automatic R
 `;
