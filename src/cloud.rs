@@ -5,8 +5,10 @@ use alloc::vec::Vec;
 use core::fmt;
 
 use crate::blocks::Blocks;
+use crate::denoise::Kept;
 use crate::error::Error;
 use crate::points::{Given, Position, is_finite};
+use crate::room::{OutOfMemory, filled};
 use crate::sequence::Sequence;
 use crate::spacing::Statistics;
 use crate::spatial::{Bounds, HilbertCurve};
@@ -15,6 +17,11 @@ use crate::spatial::{Bounds, HilbertCurve};
 /// bits, and a hull has up to two faces a point. Removed points count too, since
 /// their indices are never given again.
 pub const MAX_POINTS: usize = 1 << 28;
+
+/// Shares of the time that building a cloud takes: up to where its points are checked,
+/// and where they are sorted.
+const SURVEYED: f64 = 0.05;
+const SORTED: f64 = 0.85;
 
 /// What becomes of points with a NaN or infinite coordinate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -41,6 +48,7 @@ pub struct PointCloud {
     pub(crate) bounds: Bounds,
     pub(crate) statistics: Statistics,
     pub(crate) blocks: Blocks,
+    pub(crate) kept: Kept,
     non_finite: NonFinite,
     len: usize,
     skipped: usize,
@@ -64,21 +72,30 @@ impl PointCloud {
         positions: &[P],
         non_finite: NonFinite,
     ) -> Result<Self, Error> {
-        Self::prepare(P::given(positions), non_finite)
+        Self::prepare(P::given(positions), non_finite, &mut |_| ())
     }
 
-    pub(crate) fn prepare(positions: Given, non_finite: NonFinite) -> Result<Self, Error> {
+    /// Tells `progress` which share of the work, about, is done.
+    pub(crate) fn prepare(
+        positions: Given,
+        non_finite: NonFinite,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Self, Error> {
         let len = checked_len(positions.len())?;
         let (bounds, skipped) = survey(positions, non_finite)?;
+        progress(SURVEYED);
         let curve = HilbertCurve::new(&bounds);
         let sequence = Sequence::sorted(positions, 0, len - skipped, &curve)?;
+        progress(SORTED);
         let statistics = Statistics::measure(&sequence.points, &bounds)?;
         let blocks = Blocks::around(&sequence.points)?;
+        progress(1.0);
         Ok(Self {
             sequence,
             bounds,
             statistics,
             blocks,
+            kept: Kept::default(),
             non_finite,
             len,
             skipped,
@@ -151,9 +168,7 @@ impl PointCloud {
         if let Some(&index) = indices.iter().find(|&&index| index as usize >= len) {
             return Err(Error::IndexOutOfRange { index, len });
         }
-        let mut removed: Vec<bool> = Vec::new();
-        removed.try_reserve_exact(len)?;
-        removed.resize(len, false);
+        let mut removed: Vec<bool> = filled(len, false)?;
         for &index in indices {
             removed[index as usize] = true;
         }
@@ -161,15 +176,17 @@ impl PointCloud {
         if rest.points.len() == self.sequence.points.len() {
             // Every position is still there.
             self.sequence = rest;
+            self.kept = Kept::default();
             return Ok(());
         }
         let (bounds, _) = survey(rest.points.as_given(), NonFinite::Error)?;
         let curve = HilbertCurve::new(&bounds);
         if curve == HilbertCurve::new(&self.bounds) {
-            self.replace(rest, bounds)
+            self.replace(rest, bounds)?;
         } else {
-            self.replace(rest.resorted(&curve)?, bounds)
+            self.replace(rest.resorted(&curve)?, bounds)?;
         }
+        Ok(())
     }
 
     /// How many points were given, skipped and removed ones included: one more
@@ -192,7 +209,7 @@ impl PointCloud {
     }
 
     /// The same indices at other, finite `positions`, one for each distinct point.
-    pub(crate) fn moved(&self, positions: &[[f64; 3]]) -> Result<Self, Error> {
+    pub(crate) fn moved(&self, positions: &[[f64; 3]]) -> Result<Self, OutOfMemory> {
         let mut bounds = Bounds::EMPTY;
         positions.iter().for_each(|&p| bounds.include(p));
         let sequence = self
@@ -205,18 +222,20 @@ impl PointCloud {
             bounds,
             statistics,
             blocks,
+            kept: Kept::default(),
             ..*self
         })
     }
 
     /// The points of `bounds` take the place of those present, unless their
     /// statistics or blocks cannot be measured.
-    fn replace(&mut self, sequence: Sequence, bounds: Bounds) -> Result<(), Error> {
+    fn replace(&mut self, sequence: Sequence, bounds: Bounds) -> Result<(), OutOfMemory> {
         let statistics = Statistics::measure(&sequence.points, &bounds)?;
         self.blocks = Blocks::around(&sequence.points)?;
         self.statistics = statistics;
         self.sequence = sequence;
         self.bounds = bounds;
+        self.kept = Kept::default();
         Ok(())
     }
 }

@@ -1,6 +1,7 @@
 //! Noise: points moved on to the plane of their neighbors before a view, and a vote
 //! among neighbors after it.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 use glam::{DMat3, DVec3};
 
@@ -8,10 +9,30 @@ use crate::cloud::PointCloud;
 use crate::error::{Error, in_range};
 use crate::neighbors::{Nearest, Neighbors};
 use crate::options::Options;
+use crate::real::square_root;
+use crate::room::with_room;
 
 /// A point is voted visible when more than this share (in fifths) of it and its
 /// neighbors are: 0.4, because the operator misses more than it invents.
 const FIFTHS: usize = 2;
+
+/// The most neighbors a point may have for them to be kept.
+const MOST_KEPT: usize = 64;
+
+/// What [`PointCloud::prepare_for`] keeps.
+#[derive(Default)]
+pub(crate) struct Kept {
+    /// With the number of neighbors whose planes they are on.
+    denoised: Option<(usize, Box<PointCloud>)>,
+    voters: Option<Voters>,
+}
+
+/// Everybody's `k` nearest others, or as many as there are: `each`.
+struct Voters {
+    k: usize,
+    each: usize,
+    others: Vec<u32>,
+}
 
 impl PointCloud {
     /// The same cloud with every point projected on the least-squares plane of itself
@@ -25,12 +46,49 @@ impl PointCloud {
     /// [`Error::OutOfRange`] unless 1 ≤ `k` < the number of present points;
     /// [`Error::OutOfMemory`].
     pub fn denoised(&self, k: usize) -> Result<Self, Error> {
-        let mut moved: Vec<[f64; 3]> = Vec::new();
-        moved.try_reserve_exact(self.sequence.points.len())?;
-        self.for_each_neighborhood("denoise", k, |point, nearest| {
+        let mut moved: Vec<[f64; 3]> = with_room(self.sequence.points.len())?;
+        self.for_each_neighborhood("denoise", k, &mut |point, nearest| {
             moved.push(on_plane(self.sequence.points.get(point), nearest));
         })?;
-        self.moved(&moved)
+        Ok(self.moved(&moved)?)
+    }
+
+    /// Keeps, for later views with the same `denoise` and `vote`, what does not depend on
+    /// the viewpoint: the denoised points (in the place of others), and who votes (up to 64
+    /// neighbors, 4 bytes each). Answers are the same as without, but a view is spared the
+    /// search for neighbors, some microseconds a point. Kept until points are appended or
+    /// removed.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] as for the view; [`Error::OutOfMemory`]. The cloud answers as
+    /// before then.
+    pub fn prepare_for(&mut self, options: &Options) -> Result<(), Error> {
+        if let Some(k) = options.denoise {
+            if self
+                .kept
+                .denoised
+                .as_ref()
+                .is_none_or(|&(kept, _)| kept != k)
+            {
+                self.kept.denoised = Some((k, Box::new(self.denoised(k)?)));
+            }
+            let denoised = self.kept.denoised.as_mut();
+            return denoised.map_or(Ok(()), |(_, cloud)| {
+                cloud.prepare_for(&Options {
+                    denoise: None,
+                    ..*options
+                })
+            });
+        }
+        match options.vote {
+            Some(k) if k <= MOST_KEPT => {
+                if self.kept.voters.as_ref().is_none_or(|voters| voters.k != k) {
+                    self.kept.voters = Some(self.voters(k)?);
+                }
+                Ok(())
+            }
+            _ => Ok(()),
+        }
     }
 
     /// Asks a cloud that is denoised already, if it is to be.
@@ -39,26 +97,47 @@ impl PointCloud {
         options: &Options,
         query: impl FnOnce(&Self, &Options) -> Result<T, Error>,
     ) -> Result<T, Error> {
-        let Some(k) = options.denoise else {
-            return query(self, options);
+        let mut options = *options;
+        let made;
+        let cloud = match options.denoise.take() {
+            None => self,
+            Some(k) => match &self.kept.denoised {
+                Some((kept, denoised)) if *kept == k => denoised,
+                _ => {
+                    made = self.denoised(k)?;
+                    &made
+                }
+            },
         };
-        let options = Options {
-            denoise: None,
-            ..*options
-        };
-        query(&self.denoised(k)?, &options)
+        // One call, because each is a copy of the query.
+        query(cloud, &options)
     }
 
     /// Lets every distinct point and its `k` nearest others vote whether it is visible.
     pub(crate) fn vote(&self, k: usize, visible: &[bool]) -> Result<Vec<bool>, Error> {
-        let mut voted: Vec<bool> = Vec::new();
-        voted.try_reserve_exact(visible.len())?;
-        self.for_each_neighborhood("vote", k, |point, nearest| {
-            let others = nearest.found().iter().map(|other| other.index as usize);
-            let seen = others.chain([point]).filter(|&i| visible[i]).count();
-            voted.push(5 * seen > FIFTHS * (nearest.found().len() + 1));
-        })?;
+        let mut voted: Vec<bool> = with_room(visible.len())?;
+        if let Some(voters) = self.kept.voters.as_ref().filter(|voters| voters.k == k) {
+            voted.extend((0..visible.len()).map(|point| {
+                let others = &voters.others[point * voters.each..][..voters.each];
+                is_voted(point, others.iter().copied(), visible)
+            }));
+        } else {
+            self.for_each_neighborhood("vote", k, &mut |point, nearest| {
+                let others = nearest.found().iter().map(|other| other.index);
+                voted.push(is_voted(point, others, visible));
+            })?;
+        }
         Ok(voted)
+    }
+
+    fn voters(&self, k: usize) -> Result<Voters, Error> {
+        let points = self.sequence.points.len();
+        let each = k.min(points.saturating_sub(1));
+        let mut others: Vec<u32> = with_room(points * each)?;
+        self.for_each_neighborhood("vote", k, &mut |_, nearest| {
+            others.extend(nearest.found().iter().map(|other| other.index));
+        })?;
+        Ok(Voters { k, each, others })
     }
 
     /// The distinct points in their order, each with its `k` nearest others.
@@ -66,7 +145,7 @@ impl PointCloud {
         &self,
         option: &'static str,
         k: usize,
-        mut visit: impl FnMut(usize, &Nearest),
+        visit: &mut dyn FnMut(usize, &Nearest),
     ) -> Result<(), Error> {
         let present = self.sequence.present();
         let most = present.saturating_sub(1);
@@ -80,6 +159,13 @@ impl PointCloud {
         }
         Ok(())
     }
+}
+
+fn is_voted(point: usize, others: impl ExactSizeIterator<Item = u32>, visible: &[bool]) -> bool {
+    let voters = others.len() + 1;
+    let seen =
+        others.filter(|&other| visible[other as usize]).count() + usize::from(visible[point]);
+    5 * seen > FIFTHS * voters
 }
 
 /// `p` on the least-squares plane of it and `nearest`, as far as numbers reach.
@@ -125,8 +211,8 @@ fn least_axis(mut matrix: DMat3) -> DVec3 {
             done = false;
             let theta = (matrix.col(j)[j] - matrix.col(i)[i]) / (2.0 * off);
             let sign = if theta < 0.0 { -1.0 } else { 1.0 };
-            let tangent = sign / (theta.abs() + libm::sqrt(theta * theta + 1.0));
-            let cos = 1.0 / libm::sqrt(tangent * tangent + 1.0);
+            let tangent = sign / (theta.abs() + square_root(theta * theta + 1.0));
+            let cos = 1.0 / square_root(tangent * tangent + 1.0);
             let sin = tangent * cos;
             let mut rotation = DMat3::IDENTITY;
             rotation.col_mut(i)[i] = cos;
@@ -155,7 +241,7 @@ mod tests {
     fn a_point_above_a_lattice_moves_most_of_the_way_down() {
         for tilt in [0.0, 0.75] {
             // A slope, and one point a little above it along its normal.
-            let length = libm::sqrt(1.0 + tilt * tilt);
+            let length = square_root(1.0 + tilt * tilt);
             let mut points = alloc::vec![[-0.5 * tilt / length, 0.0, 0.5 / length]];
             for i in 0..49 {
                 let [x, y] = [i % 7, i / 7].map(|x| f64::from(x as u8) - 3.0);

@@ -19,7 +19,7 @@ use alloc::boxed::Box;
 use alloc::string::ToString;
 use std::panic;
 
-use js_sys::{Float32Array, Float64Array, Uint32Array};
+use js_sys::{Float32Array, Float64Array, Function, Uint32Array};
 use serde::Serialize;
 use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
@@ -39,6 +39,9 @@ extern "C" {
     pub type CloudOptions;
     #[wasm_bindgen(method, getter, js_name = skipNonFinite)]
     fn skip_non_finite(this: &CloudOptions) -> bool;
+    /// Told which share of the building is done.
+    #[wasm_bindgen(method, getter)]
+    fn progress(this: &CloudOptions) -> Option<Function>;
 }
 
 /// Runs once for each instance: a panic says what happened before it traps.
@@ -120,7 +123,7 @@ pub fn merge_visible_f64(
 const TYPES: &str = r#"
 /** Makes all of the functions below call into this instance. */
 export function __wbg_set_wasm(exports: WebAssembly.Exports): void;
-interface CloudOptions { skipNonFinite: boolean }
+interface CloudOptions { skipNonFinite: boolean; progress?: ((share: number) => void) | undefined }
 interface CloudSize { length: number; skipped: number }
 interface CloudInfo extends CloudSize { handle: number }
 /** ViewSettings of options.ts. */
@@ -153,8 +156,15 @@ fn create_cloud(
     options: &CloudOptions,
 ) -> Result<JsValue, JsValue> {
     let non_finite = non_finite(options);
+    let listener = options.progress();
+    let mut progress = |share: f64| {
+        if let Some(listener) = &listener {
+            // It posts a message, which does not throw.
+            let _ = listener.call1(&JsValue::UNDEFINED, &share.into());
+        }
+    };
     created(positions.and_then(|positions| {
-        let cloud = PointCloud::prepare(positions.as_given(), non_finite)?;
+        let cloud = PointCloud::prepare(positions.as_given(), non_finite, &mut progress)?;
         Ok(Cloud::Space(cloud))
     }))
 }

@@ -8,11 +8,13 @@ import { packed, type Positions, readIndices, readPositions } from "./positions.
 import {
   type Answers,
   directionQuery,
+  ILLUMINATION_OPTIONS,
   type IlluminationOptions,
   illuminationQuery,
   type Query,
   type QueryKind,
   radiusQuery,
+  RECONSTRUCTION_OPTIONS,
   type ReconstructionOptions,
   reconstructionQuery,
   severalQuery,
@@ -26,6 +28,13 @@ import {
   type Visibility,
   VisibilityAnswer,
 } from "./visibility.js";
+
+/** A cloud whose building is followed: `progress` is told which share of it is done, and must not throw. */
+export let build: (
+  positions: Positions,
+  options: PointCloudOptions,
+  progress: (share: number) => void,
+) => PointCloud;
 
 /** Asks what was read before, maybe in another thread. */
 export let ask: <K extends QueryKind>(cloud: PointCloud, query: Query<K>) => Answers[K];
@@ -49,8 +58,18 @@ export class PointCloud {
   #length: number;
   #skipped: number;
 
+  static #progress: ((share: number) => void) | undefined;
+
   static {
     addDisposeSymbol(this.prototype);
+    build = (positions, options, progress) => {
+      try {
+        PointCloud.#progress = progress;
+        return new PointCloud(positions, options);
+      } finally {
+        PointCloud.#progress = undefined;
+      }
+    };
     ask = (cloud, query) => cloud.#ask(query);
   }
 
@@ -67,13 +86,14 @@ export class PointCloud {
     this.#instance = requireInstance();
     const settings = cloudSettings(givenOptions(options, CLOUD_OPTIONS));
     const numbers = readPacked(positions, settings);
+    const choices = { skipNonFinite: settings.skipNonFinite, progress: PointCloud.#progress };
     const { handle, length, skipped } = this.#instance.call((bindings) => {
       if (settings.dimension > 3) {
-        return bindings.createHyperCloud(numbers as Float64Array, settings.dimension, settings);
+        return bindings.createHyperCloud(numbers as Float64Array, settings.dimension, choices);
       }
       return numbers.BYTES_PER_ELEMENT === 4
-        ? bindings.createCloudF32(numbers as Float32Array, settings)
-        : bindings.createCloudF64(numbers as Float64Array, settings);
+        ? bindings.createCloudF32(numbers as Float32Array, choices)
+        : bindings.createCloudF64(numbers as Float64Array, choices);
     });
     this.#settings = settings;
     this.#handle = handle;
@@ -126,7 +146,8 @@ export class PointCloud {
    */
   visibleFromDirection(direction: ArrayLike<number>, options?: VisibilityOptions): Visibility {
     this.#requireHandle();
-    return new VisibilityAnswer(this.#ask(directionQuery(this.#settings.dimension, direction, options)));
+    const given = givenOptions(options, VIEW_OPTIONS);
+    return new VisibilityAnswer(this.#ask(directionQuery(this.#settings.dimension, direction, given)));
   }
 
   /**
@@ -138,7 +159,8 @@ export class PointCloud {
    */
   visibleFromAny(viewpoints: readonly ArrayLike<number>[], options?: VisibilityOptions): Visibility {
     this.#requireHandle();
-    return new VisibilityAnswer(this.#ask(severalQuery(this.#settings.dimension, viewpoints, options)));
+    const given = givenOptions(options, VIEW_OPTIONS);
+    return new VisibilityAnswer(this.#ask(severalQuery(this.#settings.dimension, viewpoints, given)));
   }
 
   /**
@@ -154,7 +176,8 @@ export class PointCloud {
     options?: VisibilityOptions,
   ): Visibility {
     this.#requireHandle();
-    return new VisibilityAnswer(this.#ask(severalQuery(this.#settings.dimension, viewpoints, options, { k })));
+    const given = givenOptions(options, VIEW_OPTIONS);
+    return new VisibilityAnswer(this.#ask(severalQuery(this.#settings.dimension, viewpoints, given, { k })));
   }
 
   /**
@@ -179,7 +202,8 @@ export class PointCloud {
    */
   reconstruct(viewpoint: ArrayLike<number>, options?: ReconstructionOptions): Reconstruction {
     this.#requireHandle();
-    return new ReconstructionAnswer(this.#ask(reconstructionQuery(this.#settings.dimension, viewpoint, options)));
+    const given = givenOptions(options, RECONSTRUCTION_OPTIONS);
+    return new ReconstructionAnswer(this.#ask(reconstructionQuery(this.#settings.dimension, viewpoint, given)));
   }
 
   /**
@@ -193,7 +217,8 @@ export class PointCloud {
    */
   illuminate(lights: readonly ArrayLike<number>[], options?: IlluminationOptions): Float32Array {
     this.#requireHandle();
-    return this.#ask(illuminationQuery(this.#settings.dimension, lights, options)).brightness;
+    const given = givenOptions(options, ILLUMINATION_OPTIONS);
+    return this.#ask(illuminationQuery(this.#settings.dimension, lights, given)).brightness;
   }
 
   /**

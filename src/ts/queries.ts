@@ -1,6 +1,6 @@
 import { describe, HprError } from "./errors.js";
 import { allocating } from "./memory.js";
-import { givenOptions, integer, number } from "./options.js";
+import { integer, number } from "./options.js";
 import { coreDimension, readViewpoint, readViewpoints } from "./positions.js";
 import { plainView, typedArrayType } from "./typed-arrays.js";
 import {
@@ -86,11 +86,17 @@ export interface Answers {
   illuminate: { brightness: Float32Array<ArrayBuffer> };
 }
 
-/** `given` are the options, already gathered: a worker has some of its own. */
+// `given` are options already gathered, under the names of these lists: a worker has more.
+
+export const RECONSTRUCTION_OPTIONS = [...VIEW_OPTIONS, "maxEdge"] as const;
+export const ILLUMINATION_OPTIONS = [...VIEW_OPTIONS, "triangles", "smoothing", "ambient"] as const;
+
+type GivenOptions = Record<string, unknown>;
+
 export function viewQuery(
   dimension: number,
   viewpoint: unknown,
-  given: Record<string, unknown>,
+  given: GivenOptions,
 ): Query<"visibleFrom"> {
   const position = readViewpoint(viewpoint, dimension);
   const settings = viewSettings(given, dimension);
@@ -103,19 +109,18 @@ export function viewQuery(
 export function directionQuery(
   dimension: number,
   direction: unknown,
-  options: unknown,
+  given: GivenOptions,
 ): Query<"visibleFromDirection"> {
   requireSpace("visibleFromDirection", dimension);
   const ahead = readViewpoint(direction, 3, "direction");
-  const settings = viewSettings(givenOptions(options, VIEW_OPTIONS), dimension);
-  return { kind: "visibleFromDirection", direction: ahead, settings };
+  return { kind: "visibleFromDirection", direction: ahead, settings: viewSettings(given, dimension) };
 }
 
 /** From at least `k` of the viewpoints; without `k` from any. */
 export function severalQuery(
   dimension: number,
   viewpoints: unknown,
-  options: unknown,
+  given: GivenOptions,
   least?: { k: unknown },
 ): Query<"visibleFromSeveral"> {
   const positions = readViewpoints(viewpoints, dimension, "viewpoints");
@@ -131,8 +136,7 @@ export function severalQuery(
     }
     k = least.k as number;
   }
-  const settings = viewSettings(givenOptions(options, VIEW_OPTIONS), dimension);
-  return { kind: "visibleFromSeveral", viewpoints: positions, k, settings };
+  return { kind: "visibleFromSeveral", viewpoints: positions, k, settings: viewSettings(given, dimension) };
 }
 
 export function radiusQuery(dimension: number, viewpoint: unknown, rule: unknown): Query<"autoRadius"> {
@@ -142,19 +146,21 @@ export function radiusQuery(dimension: number, viewpoint: unknown, rule: unknown
 export function reconstructionQuery(
   dimension: number,
   viewpoint: unknown,
-  options: unknown,
+  given: GivenOptions,
 ): Query<"reconstruct"> {
   requireSpace("reconstruct", dimension);
   const position = readViewpoint(viewpoint, dimension);
-  const given = givenOptions(options, VIEW_OPTIONS, ["maxEdge"]);
   const maxEdge = number(given, "maxEdge");
   return { kind: "reconstruct", viewpoint: position, settings: viewSettings(given, dimension), maxEdge };
 }
 
-export function illuminationQuery(dimension: number, lights: unknown, options: unknown): Query<"illuminate"> {
+export function illuminationQuery(
+  dimension: number,
+  lights: unknown,
+  given: GivenOptions,
+): Query<"illuminate"> {
   requireSpace("illuminate", dimension);
   const positions = readViewpoints(lights, dimension, "lights");
-  const given = givenOptions(options, VIEW_OPTIONS, ["triangles", "smoothing", "ambient"]);
   return {
     kind: "illuminate",
     lights: positions,

@@ -5,6 +5,7 @@ export type { IlluminationOptions, ReconstructionOptions } from "./queries.js";
 export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./view-options.js";
 export type { ChosenRadius, Reconstruction, Visibility } from "./visibility.js";
 export {
+  type RequestOptions,
   WorkerPointCloud,
   type WorkerPointCloudOptions,
   type WorkerVisibilityOptions,

@@ -10,7 +10,8 @@ use wasm_bindgen::prelude::*;
 use super::failure::Failure;
 use super::to_js;
 use crate::hull::Memory;
-use crate::{Error, PointCloud, PointCloudNd};
+use crate::room::push;
+use crate::{Error, Options, PointCloud, PointCloudNd};
 
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<Cloud>>> = const { RefCell::new(Vec::new()) };
@@ -58,8 +59,7 @@ pub(super) fn created(made: Result<Cloud, Error>) -> Result<JsValue, JsValue> {
             let free = clouds.iter().position(Option::is_none);
             let slot = free.unwrap_or(clouds.len());
             if free.is_none() {
-                clouds.try_reserve(1)?;
-                clouds.push(None);
+                push(clouds, None)?;
             }
             let info = CloudInfo::new(slot as u32, &cloud);
             clouds[slot] = Some(cloud);
@@ -93,6 +93,21 @@ pub(super) fn with_cloud<T>(
         Some(Some(Cloud::Space(cloud))) => query(cloud).map_err(Failure::from),
         _ => Err(Failure::DISPOSED),
     })
+}
+
+/// Asks a cloud what it sees. What noise handling needs is kept for the next view.
+pub(super) fn with_view<T>(
+    handle: u32,
+    options: &Options,
+    query: impl FnOnce(&PointCloud) -> Result<T, Error>,
+) -> Result<T, Failure> {
+    if options.denoise.or(options.vote).is_some() {
+        CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {
+            Some(Some(Cloud::Space(cloud))) => cloud.prepare_for(options).map_err(Failure::from),
+            _ => Err(Failure::DISPOSED),
+        })?;
+    }
+    with_cloud(handle, query)
 }
 
 pub(super) fn with_hyper<T>(

@@ -4,7 +4,7 @@ use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use super::answer::answer;
-use super::clouds::with_cloud;
+use super::clouds::with_view;
 use super::options::ViewOptions;
 use super::transfer::{corners, triples};
 use crate::Lighting;
@@ -20,7 +20,7 @@ pub fn reconstruct(
     max_edge: Option<f64>,
 ) -> Result<JsValue, JsValue> {
     let options = options.read();
-    let mesh = with_cloud(handle, |cloud| {
+    let mesh = with_view(handle, &options, |cloud| {
         cloud.reconstruct([x, y, z], &options, max_edge)
     })?;
     Ok(answer(&mesh.visibility, &mesh.triangles)?)
@@ -39,7 +39,7 @@ pub fn illuminate(
     target: &Float32Array,
 ) -> Result<(), JsValue> {
     let options = options.read();
-    let brightness = with_cloud(handle, |cloud| {
+    let brightness = with_view(handle, &options, |cloud| {
         let lights = triples(lights)?;
         let triangles = triangles.as_ref().map(corners).transpose()?;
         let lighting = Lighting {

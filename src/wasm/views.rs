@@ -5,7 +5,7 @@ use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
 use super::answer::{answered, chosen};
-use super::clouds::{with_cloud, with_memory};
+use super::clouds::{with_cloud, with_memory, with_view};
 use super::options::ViewOptions;
 use super::transfer::triples;
 use crate::Sector;
@@ -35,7 +35,7 @@ pub fn visible_in_sector(
 ) -> Result<JsValue, JsValue> {
     let sector = Sector::new(number, count).unwrap_or(Sector::WHOLE);
     let options = options.read();
-    answered(with_cloud(handle, |cloud| {
+    answered(with_view(handle, &options, |cloud| {
         with_memory(handle, |memory| {
             cloud.visible_in_sector_with(memory, [x, y, z], &options, sector)
         })
@@ -52,7 +52,7 @@ pub fn visible_from_several(
     options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
     let options = options.read();
-    answered(with_cloud(handle, |cloud| {
+    answered(with_view(handle, &options, |cloud| {
         let viewpoints = triples(viewpoints)?;
         // Any of none is an answer, one of none a refusal.
         if viewpoints.is_empty() {
@@ -73,7 +73,7 @@ pub fn visible_from_direction(
     options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
     let options = options.read();
-    answered(with_cloud(handle, |cloud| {
+    answered(with_view(handle, &options, |cloud| {
         cloud.visible_from_direction([x, y, z], &options)
     }))
 }

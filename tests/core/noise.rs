@@ -49,6 +49,10 @@ fn votes_are_counted_among_the_nearest_distinct_points() {
             };
             let voted = ask(&scene.points, scene.viewpoint, &options);
             assert_eq!(voted.radius(), plain.radius());
+            let mut cloud = PointCloud::new(&scene.points).unwrap();
+            cloud.prepare_for(&options).unwrap();
+            let prepared = cloud.visible_from(scene.viewpoint, &options).unwrap();
+            assert_eq!(prepared, voted);
             let mask = plain.mask();
             let is_seen =
                 |p: &[f64; 3]| mask[scene.points.iter().position(|q| q == p).unwrap()] == 1;
@@ -125,6 +129,55 @@ fn a_denoised_cloud_is_asked_like_any_other() {
     let plain = cloud.visible_from(FRONT, &Options::default()).unwrap();
     assert_eq!(plain, ask(&points, FRONT, &Options::default()));
     assert_ne!(plain.radius(), once.radius());
+}
+
+#[test]
+fn a_prepared_cloud_answers_like_one_made_anew() {
+    let (points, _) = noisy_sphere(700, 0.05);
+    let mut keeping = PointCloud::new(&points[..600]).unwrap();
+    let mut plain = PointCloud::new(&points[..600]).unwrap();
+    let views = [FRONT, [0.5, 3.0, 0.0]];
+    for round in 0..4 {
+        for k in [9, 14] {
+            let [voting, both] = [None, Some(k)].map(|denoise| Options {
+                denoise,
+                vote: Some(5 + round % 2),
+                ..Options::default()
+            });
+            keeping.prepare_for(&voting).unwrap();
+            let other = denoising(9 + 2 * round);
+            keeping
+                .prepare_for(if k == 9 { &other } else { &both })
+                .unwrap();
+            let kept = keeping.visible_from(FRONT, &voting).unwrap();
+            assert_eq!(kept, plain.visible_from(FRONT, &voting).unwrap());
+            let options = both;
+            let [kept, anew] = [&keeping, &plain].map(|cloud| {
+                (
+                    cloud.visible_from(FRONT, &options).unwrap(),
+                    cloud.visible_from_at_least(2, &views, &options).unwrap(),
+                    cloud.reconstruct(FRONT, &options, None).unwrap(),
+                )
+            });
+            assert_eq!(kept, anew);
+        }
+        for cloud in [&mut keeping, &mut plain] {
+            match round {
+                0 => cloud.append(&points[600..]).unwrap(),
+                1 => cloud.remove(&[3, 77, 650]).unwrap(),
+                // One of two equal points: every position stays, not so the indices.
+                _ => {
+                    cloud.append(&points[5..6]).unwrap();
+                    cloud.prepare_for(&denoising(9)).unwrap();
+                    cloud.remove(&[5]).unwrap();
+                }
+            }
+        }
+    }
+    // What is refused leaves what was kept.
+    assert!(keeping.prepare_for(&denoising(10_000)).is_err());
+    let kept = keeping.visible_from(FRONT, &denoising(9)).unwrap();
+    assert_eq!(kept, plain.visible_from(FRONT, &denoising(9)).unwrap());
 }
 
 #[test]

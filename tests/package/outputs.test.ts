@@ -3,7 +3,7 @@ import { describe, expect, it } from "vitest";
 
 import { bumpySphere, bunny, problemOf, readyPackage } from "./support";
 
-const { PointCloud, HprError } = await readyPackage();
+const { PointCloud, HprError, ringOfViewpoints } = await readyPackage();
 
 const points = bunny();
 const cloud = new PointCloud(points);
@@ -144,6 +144,26 @@ describe("light", () => {
       expect(soft[i]).toBeCloseTo([i, ...nearest].reduce((sum, j) => sum + hard[j]!, 0) / 7, 5);
     }
     expect(cloud.illuminate(lights, { smoothing: 1 })).toEqual(soft);
+  });
+
+  it("is soft under an area light, which is a ring of lights", () => {
+    // A plate 8 wide at a third of the light's height: its shadow is 12 wide, and a ring of
+    // radius 3 blurs its edge by 1.5 to either side.
+    const floor = Array.from({ length: 41 * 41 }, (_, i) => [(i % 41) - 20, Math.floor(i / 41) - 20, 0]);
+    const plate = Array.from({ length: 17 * 17 }, (_, i) => [((i % 17) - 8) / 2, (Math.floor(i / 17) - 8) / 2, 10]);
+    const scene = new PointCloud([...floor, ...plate].flat());
+    const light = [0.13, 0.07, 30];
+    const alongX = (brightness: Float32Array) => [...brightness.subarray(20 * 41 + 20, 21 * 41)];
+    const sharp = alongX(scene.illuminate([light], { smoothing: 0 }));
+    expect(sharp.map((_, x) => (x > 6 ? 1 : 0))).toEqual(sharp);
+    const ring = ringOfViewpoints(light, [0, 0, 0], { count: 16, fraction: 0.1 });
+    const soft = alongX(scene.illuminate(ring, { smoothing: 0 }));
+    expect(soft.slice(0, 5)).toEqual(new Array(5).fill(0));
+    expect(soft.slice(9)).toEqual(new Array(12).fill(1));
+    const blurred = soft.slice(5, 9);
+    expect(blurred).toEqual([...blurred].sort((a, b) => a - b));
+    expect(blurred.filter((value) => value > 0 && value < 1).length).toBeGreaterThanOrEqual(2);
+    scene.dispose();
   });
 
   it("takes the options of a view", () => {

@@ -148,6 +148,22 @@ describe("a cloud in a worker", () => {
     expect((await cloud.visibleFrom(farAway)).indices).toEqual(new PointCloud(sphere).visibleFrom(farAway).indices);
   });
 
+  it.each([1, 3])("says how far %d workers have come", async (workers) => {
+    for (const positions of [sphere, [], [0, 0, 1]]) {
+      const told: number[] = [];
+      const onProgress = (fraction: number) => told.push(fraction);
+      const cloud = await WorkerPointCloud.create(positions, { workers, onProgress });
+      expect([told[0], told.at(-1)]).toEqual([0, 1]);
+      // Checked and sorted, in each of them.
+      expect(told.length).toBeGreaterThan(2 * workers);
+      expect(told).toEqual([...new Set(told)].sort((a, b) => a - b));
+      await cloud.visibleFrom(farAway);
+      await cloud.append([1, 2, 3]);
+      expect(told.at(-1)).toBe(1);
+      await cloud.dispose();
+    }
+  });
+
   it("lets the process end while nothing is pending", async () => {
     const script = `
       const { WorkerPointCloud } = await import("hidden-point-removal/worker");
@@ -191,7 +207,8 @@ describe("what is refused", () => {
     ["option", /workers .* got 65$/, sphere, { workers: 65 }],
     ["option", /workers .* got "2"$/, sphere, { workers: "2" }],
     ["option", /workers .* got NaN$/, sphere, { workers: NaN }],
-    ["option", /"onProgress"/, sphere, { onProgress: () => undefined }],
+    ["option", /onProgress .* got 1$/, sphere, { onProgress: 1 }],
+    ["option", /"progress"/, sphere, { progress: () => undefined }],
     ["option", /transfer/, sphere, { transfer: 1 }],
     ["option", /transfer/, [1, 2, 3], { transfer: true }],
     ["option", /transfer/, new Float32Array(new SharedArrayBuffer(12)), { transfer: true }],
@@ -251,6 +268,35 @@ describe("requests given up", () => {
     const flags = [true, false, true, false, true];
     const asked = flags.map((latest) => cloud.visibleFrom(farAway, { latest }));
     expect(await settled(asked)).toEqual(["answered", "answered", "aborted", "answered", "answered"]);
+  });
+
+  it("are overtaken only by what asks the same", async () => {
+    const cloud = await WorkerPointCloud.create(sphere);
+    const [late, options] = [AbortSignal.abort(), { latest: true }];
+    const frame = () => [
+      cloud.visibleFrom(farAway, options),
+      cloud.visibleFromDirection([0, 0, -1], options),
+      cloud.visibleFromAny([farAway], options),
+      cloud.autoRadius(farAway, "search", options),
+      cloud.reconstruct(farAway, options),
+      cloud.illuminate([farAway], options),
+    ];
+    const [first, second, third] = [frame(), frame(), frame()].map(settled) as [Promise<string[]>, Promise<string[]>, Promise<string[]>];
+    const none = new Array<string>(6).fill("aborted");
+    const all = new Array<string>(6).fill("answered");
+    // The very first had begun.
+    expect(await first).toEqual(["answered", ...none.slice(1)]);
+    expect(await second).toEqual(none);
+    expect(await third).toEqual(all);
+    const given = { signal: late };
+    const aborted = [
+      cloud.visibleFromDirection([0, 0, -1], given),
+      cloud.visibleFromAtLeast(1, [farAway], given),
+      cloud.autoRadius(farAway, "auto", given),
+      cloud.reconstruct(farAway, given),
+      cloud.illuminate([farAway], given),
+    ];
+    expect(await settled(aborted)).toEqual(none.slice(1));
   });
 
   it("are those whose signal aborts: waiting, running, or not yet asked", async () => {

@@ -6,10 +6,15 @@ import { allocating } from "../memory.js";
 import { CLOUD_OPTIONS, type CloudSettings, cloudSettings, givenOptions, pick, type PointCloudOptions } from "../options.js";
 import { isFloatArray, type Positions, readIndices, readPositions } from "../positions.js";
 import {
+  type Answers,
   directionQuery,
+  ILLUMINATION_OPTIONS,
   type IlluminationOptions,
   illuminationQuery,
+  type Query,
+  type QueryKind,
   radiusQuery,
+  RECONSTRUCTION_OPTIONS,
   type ReconstructionOptions,
   reconstructionQuery,
   severalQuery,
@@ -24,6 +29,7 @@ import {
   VisibilityAnswer,
 } from "../visibility.js";
 import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
+import { type Progress, readProgress } from "./progress.js";
 import type { CloudSize } from "./protocol.js";
 import { RequestQueue } from "./request-queue.js";
 import { defaultWorkers, readWorkers } from "./workers.js";
@@ -44,21 +50,40 @@ export interface WorkerPointCloudOptions extends PointCloudOptions {
    * are cores, but at most 4, and no more than hold 16 million points together.
    */
   workers?: number | undefined;
+  /**
+   * Puts the cloud into one worker that it shares with all others created with `shared`,
+   * for pages with many clouds: their requests are answered in turn. Excludes `workers`.
+   * The worker ends with the last of its clouds; one that dies takes all of them along.
+   * Default false.
+   */
+  shared?: boolean | undefined;
   /** Gives up, with an `AbortError`, when it aborts before the cloud is ready. */
   signal?: AbortSignal | undefined;
+  /**
+   * Told which share of the building is done: once 0 when it is asked for, then
+   * numbers that grow, and 1 before the promise resolves. What it throws is reported as
+   * an uncaught error; the cloud is built all the same.
+   */
+  onProgress?: ((fraction: number) => void) | undefined;
 }
 
-/** How one view is computed, and when it need not be. */
-export interface WorkerVisibilityOptions extends VisibilityOptions {
+/** When what was asked need not be answered. Every query takes these beside its own options. */
+export interface RequestOptions {
   /**
    * For a viewpoint that moves: while the request still waits for its turn, a
-   * newer one with `latest` takes its place, and it is rejected with an
+   * newer one of the same method with `latest` takes its place, and it is rejected with an
    * `AbortError`. One that is being computed is finished. Default false.
    */
   latest?: boolean | undefined;
   /** Rejects with an `AbortError` when it aborts before the answer is there. */
   signal?: AbortSignal | undefined;
 }
+
+/** How one view is computed, and when it need not be. */
+export interface WorkerVisibilityOptions extends VisibilityOptions, RequestOptions {}
+
+const CREATE_OPTIONS = ["transfer", "workers", "shared", "signal", "onProgress"] as const;
+const REQUEST_OPTIONS = ["latest", "signal"] as const;
 
 /**
  * A point cloud in workers of its own, with the methods and the answers of
@@ -113,18 +138,19 @@ export class WorkerPointCloud {
     positions: Positions,
     options?: WorkerPointCloudOptions,
   ): Promise<WorkerPointCloud> {
-    const given = givenOptions(options, CLOUD_OPTIONS, ["transfer", "workers", "signal"]);
+    const given = givenOptions(options, CLOUD_OPTIONS, CREATE_OPTIONS);
     const settings = cloudSettings(pick(given, CLOUD_OPTIONS));
     const transfer = readFlag(given, "transfer");
-    const workers = readWorkers(given["workers"]);
+    const workers = readPlacement(given);
     const signal = readSignal(given["signal"]);
+    const progress = readProgress(given["onProgress"]);
     if (signal?.aborted === true) {
       throw abortError(BY_SIGNAL);
     }
     const own = toOwn(positions, settings.stride, transfer);
     const queue = new RequestQueue();
     try {
-      return await untilAborted(signal, WorkerPointCloud.#build(queue, own, settings, workers));
+      return await untilAborted(signal, WorkerPointCloud.#build(queue, own, settings, workers, progress));
     } catch (error) {
       void queue.close(abortError("the cloud was not created"));
       throw error;
@@ -135,13 +161,17 @@ export class WorkerPointCloud {
     queue: RequestQueue,
     positions: Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>,
     settings: CloudSettings,
-    workers: number | undefined,
+    workers: number | "shared" | undefined,
+    progress: Progress | undefined,
   ): Promise<WorkerPointCloud> {
+    progress?.at(0);
     // Only views in space are divided.
     const points = settings.dimension === 3 ? positions.length / settings.stride : 0;
     const count = workers ?? (await defaultWorkers(points));
     const [module] = await Promise.all([moduleForWorker(), queue.start(count)]);
-    const size = await queue.ask({ kind: "create", module, positions, settings });
+    const request = { kind: "create" as const, module, positions, settings, reporting: progress !== undefined };
+    const size = await queue.ask(request, { onProgress: (share) => progress?.at(share) });
+    progress?.at(1);
     return new WorkerPointCloud(queue, settings, size);
   }
 
@@ -157,13 +187,10 @@ export class WorkerPointCloud {
     viewpoint: ArrayLike<number>,
     options?: WorkerVisibilityOptions,
   ): Promise<Visibility> {
-    this.#queue.requireOpen();
-    const given = givenOptions(options, VIEW_OPTIONS, ["latest", "signal"]);
-    const latest = readFlag(given, "latest");
-    const signal = readSignal(given["signal"]);
-    const query = viewQuery(this.#settings.dimension, viewpoint, given);
-    const asked = this.#queue.ask(query, { latest, signal, owner: this });
-    return new VisibilityAnswer(await untilAborted(signal, asked));
+    const answer = await this.#ask(options, VIEW_OPTIONS, (dimension, given) =>
+      viewQuery(dimension, viewpoint, given),
+    );
+    return new VisibilityAnswer(answer);
   }
 
   /**
@@ -171,10 +198,14 @@ export class WorkerPointCloud {
    *
    * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
    */
-  async visibleFromDirection(direction: ArrayLike<number>, options?: VisibilityOptions): Promise<Visibility> {
-    this.#queue.requireOpen();
-    const query = directionQuery(this.#settings.dimension, direction, options);
-    return new VisibilityAnswer(await this.#queue.ask(query, { owner: this }));
+  async visibleFromDirection(
+    direction: ArrayLike<number>,
+    options?: WorkerVisibilityOptions,
+  ): Promise<Visibility> {
+    const answer = await this.#ask(options, VIEW_OPTIONS, (dimension, given) =>
+      directionQuery(dimension, direction, given),
+    );
+    return new VisibilityAnswer(answer);
   }
 
   /**
@@ -184,11 +215,12 @@ export class WorkerPointCloud {
    */
   async visibleFromAny(
     viewpoints: readonly ArrayLike<number>[],
-    options?: VisibilityOptions,
+    options?: WorkerVisibilityOptions,
   ): Promise<Visibility> {
-    this.#queue.requireOpen();
-    const query = severalQuery(this.#settings.dimension, viewpoints, options);
-    return new VisibilityAnswer(await this.#queue.ask(query, { owner: this }));
+    const answer = await this.#ask(options, VIEW_OPTIONS, (dimension, given) =>
+      severalQuery(dimension, viewpoints, given),
+    );
+    return new VisibilityAnswer(answer);
   }
 
   /**
@@ -200,11 +232,12 @@ export class WorkerPointCloud {
   async visibleFromAtLeast(
     k: number,
     viewpoints: readonly ArrayLike<number>[],
-    options?: VisibilityOptions,
+    options?: WorkerVisibilityOptions,
   ): Promise<Visibility> {
-    this.#queue.requireOpen();
-    const query = severalQuery(this.#settings.dimension, viewpoints, options, { k });
-    return new VisibilityAnswer(await this.#queue.ask(query, { owner: this }));
+    const answer = await this.#ask(options, VIEW_OPTIONS, (dimension, given) =>
+      severalQuery(dimension, viewpoints, given, { k }),
+    );
+    return new VisibilityAnswer(answer);
   }
 
   /**
@@ -212,9 +245,12 @@ export class WorkerPointCloud {
    *
    * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
    */
-  async autoRadius(viewpoint: ArrayLike<number>, rule?: RadiusRule): Promise<ChosenRadius> {
-    this.#queue.requireOpen();
-    return this.#queue.ask(radiusQuery(this.#settings.dimension, viewpoint, rule), { owner: this });
+  async autoRadius(
+    viewpoint: ArrayLike<number>,
+    rule?: RadiusRule,
+    options?: RequestOptions,
+  ): Promise<ChosenRadius> {
+    return this.#ask(options, [], (dimension) => radiusQuery(dimension, viewpoint, rule));
   }
 
   /**
@@ -222,10 +258,14 @@ export class WorkerPointCloud {
    *
    * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
    */
-  async reconstruct(viewpoint: ArrayLike<number>, options?: ReconstructionOptions): Promise<Reconstruction> {
-    this.#queue.requireOpen();
-    const query = reconstructionQuery(this.#settings.dimension, viewpoint, options);
-    return new ReconstructionAnswer(await this.#queue.ask(query, { owner: this }));
+  async reconstruct(
+    viewpoint: ArrayLike<number>,
+    options?: ReconstructionOptions & RequestOptions,
+  ): Promise<Reconstruction> {
+    const answer = await this.#ask(options, RECONSTRUCTION_OPTIONS, (dimension, given) =>
+      reconstructionQuery(dimension, viewpoint, given),
+    );
+    return new ReconstructionAnswer(answer);
   }
 
   /**
@@ -233,10 +273,14 @@ export class WorkerPointCloud {
    *
    * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
    */
-  async illuminate(lights: readonly ArrayLike<number>[], options?: IlluminationOptions): Promise<Float32Array> {
-    this.#queue.requireOpen();
-    const query = illuminationQuery(this.#settings.dimension, lights, options);
-    return (await this.#queue.ask(query, { owner: this })).brightness;
+  async illuminate(
+    lights: readonly ArrayLike<number>[],
+    options?: IlluminationOptions & RequestOptions,
+  ): Promise<Float32Array> {
+    const { brightness } = await this.#ask(options, ILLUMINATION_OPTIONS, (dimension, given) =>
+      illuminationQuery(dimension, lights, given),
+    );
+    return brightness;
   }
 
   /**
@@ -276,6 +320,20 @@ export class WorkerPointCloud {
   async dispose(): Promise<void> {
     unreachable.unregister(this);
     await this.#queue.close(new HprError("disposed", "this cloud has been disposed of"));
+  }
+
+  /** Asks what `read` makes of the options of that query, and heeds those of the request. */
+  async #ask<K extends QueryKind>(
+    options: unknown,
+    names: readonly string[],
+    read: (dimension: number, given: Record<string, unknown>) => Query<K>,
+  ): Promise<Answers[K]> {
+    this.#queue.requireOpen();
+    const given = givenOptions(options, names, REQUEST_OPTIONS);
+    const latest = readFlag(given, "latest");
+    const signal = readSignal(given["signal"]);
+    const query = read(this.#settings.dimension, given);
+    return untilAborted(signal, this.#queue.query(query, { latest, signal, owner: this }));
   }
 }
 
@@ -317,6 +375,18 @@ function giveAway(
       cause,
     });
   }
+}
+
+/** How many workers of its own, or the shared one. */
+function readPlacement(given: Record<string, unknown>): number | "shared" | undefined {
+  const workers = readWorkers(given["workers"]);
+  if (!readFlag(given, "shared")) {
+    return workers;
+  }
+  if (workers !== undefined) {
+    throw new HprError("option", "shared and workers exclude each other; give one of the two");
+  }
+  return "shared";
 }
 
 function readFlag(given: Record<string, unknown>, name: string): boolean {

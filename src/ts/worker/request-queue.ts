@@ -1,15 +1,18 @@
 import { HprError } from "../errors.js";
+import type { Answers, Query, QueryKind } from "../queries.js";
 import { abortError, BY_SIGNAL } from "./abort.js";
-import { READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 import { Team } from "./team.js";
 import type { ThreadEvents } from "./thread.js";
 
 type Kind = Request["kind"];
 
 interface AskOptions {
-  /** May be dropped when a newer request of this sort comes before it has started. */
+  /** May be dropped when a newer request of this kind and sort comes before it has started. */
   latest?: boolean;
   signal?: AbortSignal | undefined;
+  /** Told which share of the request is done. */
+  onProgress?: ((share: number) => void) | undefined;
   /** Kept from being collected while the request is pending. */
   owner?: object;
 }
@@ -31,8 +34,8 @@ export class RequestQueue implements ThreadEvents {
   #waiting: Pending[] = [];
   #closed: Error | undefined;
 
-  /** Starts so many workers, which act as one. */
-  async start(workers: number): Promise<void> {
+  /** Starts so many workers, which act as one, or takes part in the shared one. */
+  async start(workers: number | "shared"): Promise<void> {
     const team = await Team.start(workers, this);
     if (this.#closed !== undefined) {
       await team.end();
@@ -46,6 +49,14 @@ export class RequestQueue implements ThreadEvents {
     request: Extract<Request, { kind: K }>,
     options: AskOptions = {},
   ): Promise<Replies[K]> {
+    return this.#send(request, options) as Promise<Replies[K]>;
+  }
+
+  query<K extends QueryKind>(query: Query<K>, options: AskOptions): Promise<Answers[K]> {
+    return this.#send(query as Request, options) as Promise<Answers[K]>;
+  }
+
+  #send(request: Request, options: AskOptions): Promise<unknown> {
     return new Promise<unknown>((resolve, reject) => {
       if (this.#closed !== undefined) {
         reject(this.#closed);
@@ -57,11 +68,11 @@ export class RequestQueue implements ThreadEvents {
         return;
       }
       if (options.latest === true) {
-        this.#dropOvertaken();
+        this.#dropOvertaken(request.kind);
       }
       this.#waiting.push({ ...options, request, resolve, reject });
       this.#sendNext();
-    }) as Promise<Replies[K]>;
+    });
   }
 
   /** Throws what `close` was given, if it was called. */
@@ -86,6 +97,10 @@ export class RequestQueue implements ThreadEvents {
   }
 
   message(message: unknown): void {
+    if (isProgress(message)) {
+      this.#running?.onProgress?.(message.progress);
+      return;
+    }
     if (message === READY) {
       this.#ready = true;
     } else {
@@ -138,9 +153,10 @@ export class RequestQueue implements ThreadEvents {
     }
   }
 
-  #dropOvertaken(): void {
-    const overtaken = this.#waiting.filter(({ latest }) => latest === true);
-    this.#waiting = this.#waiting.filter(({ latest }) => latest !== true);
+  #dropOvertaken(kind: Kind): void {
+    const isOvertaken = ({ latest, request }: Pending) => latest === true && request.kind === kind;
+    const overtaken = this.#waiting.filter(isOvertaken);
+    this.#waiting = this.#waiting.filter((pending) => !isOvertaken(pending));
     for (const { reject } of overtaken) {
       reject(abortError("overtaken by a newer request"));
     }
