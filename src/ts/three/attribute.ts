@@ -41,16 +41,21 @@ export function versionOf(attribute: PositionAttribute): number {
 
 /**
  * The positions of the points with these numbers, or of all: as three itself reads them,
- * that is with integers that are `normalized` divided, in double precision then.
+ * that is with integers that are `normalized` divided, in double precision then. With a
+ * `place`, the elements of a matrix, they are taken there, in double precision, too.
  */
-export function readPositions(attribute: PositionAttribute, ids: Uint32Array | undefined): ReadPositions {
+export function readPositions(
+  attribute: PositionAttribute,
+  ids: Uint32Array | undefined,
+  place?: readonly number[],
+): ReadPositions {
   const { array, normalized, itemSize, count } = attribute;
   const packed = !("data" in attribute) && itemSize === 3 && !normalized;
-  if (packed && ids === undefined && isFloatArray(array)) {
+  if (packed && ids === undefined && place === undefined && isFloatArray(array)) {
     return { numbers: array.subarray(0, 3 * count), own: false };
   }
   const length = ids?.length ?? count;
-  const single = !normalized && EXACT_IN_SINGLE.includes(typedArrayType(array)!);
+  const single = !normalized && place === undefined && EXACT_IN_SINGLE.includes(typedArrayType(array)!);
   const numbers = allocating(`${length} points`, () => new (single ? Float32Array : Float64Array)(3 * length));
   for (let i = 0, to = 0; i < length; i++, to += 3) {
     const id = ids === undefined ? i : ids[i]!;
@@ -58,7 +63,22 @@ export function readPositions(attribute: PositionAttribute, ids: Uint32Array | u
     numbers[to + 1] = attribute.getY(id);
     numbers[to + 2] = attribute.getZ(id);
   }
+  if (place !== undefined) {
+    movePoints(numbers, place);
+  }
   return { numbers, own: true };
+}
+
+/** A translation alone is one addition a coordinate, exactly. */
+function movePoints(numbers: Float32Array | Float64Array, m: readonly number[]): void {
+  for (let i = 0; i < numbers.length; i += 3) {
+    const x = numbers[i]!;
+    const y = numbers[i + 1]!;
+    const z = numbers[i + 2]!;
+    for (let axis = 0; axis < 3; axis++) {
+      numbers[i + axis] = m[axis]! * x + m[4 + axis]! * y + m[8 + axis]! * z + m[12 + axis]!;
+    }
+  }
 }
 
 /** The longest side of the box around the points that are finite. */

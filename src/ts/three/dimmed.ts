@@ -6,6 +6,13 @@ import type { DrawnPoints } from "./drawn-points.js";
 /** What is left of the opacity of hidden points. */
 const OPACITY = 0.15;
 
+const dimmed = new WeakSet<Points>();
+
+/** Whether points are only the hidden ones of others. */
+export function isDimmed(points: Points): boolean {
+  return dimmed.has(points);
+}
+
 /**
  * The hidden points, drawn as well: a child of the points with the same attributes and the
  * rest of the index. Rays pass through it.
@@ -21,6 +28,7 @@ export class DimmedPoints {
     this.#points = points;
     this.#given = material;
     this.#child = new Points(new BufferGeometry(), material ?? this.#copy());
+    dimmed.add(this.#child);
     this.#child.name = "hidden points";
     this.#child.raycast = () => undefined;
     this.#child.visible = false;

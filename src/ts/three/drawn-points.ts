@@ -78,12 +78,13 @@ export class DrawnPoints {
   }
 
   /**
-   * Takes the points up as they are now, and tells where they are. What is visible of
-   * them stays drawn where they are the same.
+   * Takes the points up as they are now, and tells where they are: in their own space, or
+   * where the elements of a matrix take them. What is visible of them stays drawn where
+   * they are the same.
    *
    * @throws HprError `positions-type`, `option`, `too-large`; nothing is taken up then.
    */
-  take(): ReadPositions {
+  take(place?: readonly number[]): ReadPositions {
     const same = this.isSame;
     if (!same) {
       this.release();
@@ -100,7 +101,13 @@ export class DrawnPoints {
       taken.add(geometry);
     }
     this.#taken!.positionVersion = versionOf(position);
-    return readPositions(position, this.#ids);
+    return readPositions(position, this.#ids, place);
+  }
+
+  /** Where some of them are: indices into what `take` told. */
+  positionsOf(indices: Uint32Array, place?: readonly number[]): Float32Array | Float64Array {
+    const ids = this.#ids === undefined ? indices : indices.map((i) => this.#ids![i]!);
+    return readPositions(this.#taken!.position, ids, place).numbers;
   }
 
   /** Notes what is visible: indices into what `take` told, ascending. */
