@@ -1,12 +1,27 @@
+import type { Values } from "./loaders/numbers.ts";
+
 /** Which way is up in a file's coordinates. */
 export type Up = "y" | "z" | "-y";
+
+/** A number for each point: how strongly it sent the light back, what it is part of, when it was seen. */
+export interface Attribute {
+  name: string;
+  /** Categories are whole numbers, few of them, whose order means nothing. */
+  kind: "scalar" | "category";
+  values: Values;
+  /** What a category's numbers stand for, where that is known. */
+  labels?: Readonly<Record<number, string>>;
+}
 
 /** What a loader hands over: the file's own coordinates, and colors as the file shows them (sRGB bytes), or none. */
 export interface LoadedCloud {
   positions: Float32Array | Float64Array;
   colors: Uint8Array | null;
-  /** What the file says of how it was taken: which way was up, and from where. */
-  taken?: { up: Up; from: [number, number, number] };
+  attributes?: Attribute[];
+  /** What the user has to know about it, in plain sentences. */
+  notes?: string[];
+  /** What the file says of how it was taken: which way was up, and from where where it knows. */
+  taken?: { up: Up; from?: [number, number, number] };
 }
 
 /** A cloud ready to draw: recentered in f32 for the graphics card. The file's own coordinates go to the hull's worker. */
