@@ -7,12 +7,14 @@ import { startSession } from "./session.ts";
 import { Status } from "./status.ts";
 import { canDraw } from "./view/stage.ts";
 
+const params = readParams(location.search, SAMPLES.map((sample) => sample.name));
+document.body.classList.toggle("embedded", params.embed);
 const status = new Status(byId("status"));
 const message = new Message();
 bindSheet();
 
 if (canDraw()) {
-  startSession(readParams(location.search, SAMPLES.map((sample) => sample.name)), status, message);
+  startSession(params, status, message);
 } else {
   const sentence = "This page draws with WebGL 2, which this browser does not offer or has switched off.";
   status.error(sentence);

@@ -1,8 +1,11 @@
 import { HprError } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
+import { Address, type CloudName } from "./address.ts";
+import { Inquiry } from "./ask/inquiry.ts";
+import { WorkerCloud } from "./ask/worker-cloud.ts";
 import { prepareCloud, type Up } from "./cloud.ts";
 import { loadCloud, LoadProblem, type LoadRequest } from "./loaders/index.ts";
-import { Controls, usualFieldOfView, usualPointSize } from "./panel/controls.ts";
+import { Controls } from "./panel/controls.ts";
 import { byId } from "./panel/dom.ts";
 import { FirstLoad } from "./panel/first-load.ts";
 import { onFile } from "./panel/files.ts";
@@ -10,17 +13,22 @@ import type { Message } from "./panel/message.ts";
 import { Progress } from "./panel/progress.ts";
 import { SamplePicker } from "./panel/sample-picker.ts";
 import type { Params } from "./params.ts";
-import { Refilter, type Viewpoint } from "./refilter.ts";
-import { type Sample, sampleNamed } from "./samples.ts";
+import { type Sample, sampleNamed, usualLook } from "./samples.ts";
+import { type Settings, Store, USUAL_SETTINGS } from "./settings.ts";
 import type { Status } from "./status.ts";
-import { findHome, isInReach } from "./view/framing.ts";
+import { type AskedView, findHome, isInReach } from "./view/framing.ts";
+import { LightHandles } from "./view/light-handles.ts";
 import { Viewer } from "./viewer.ts";
 
 /** What is to be opened, and how it is to be seen. */
 interface Source {
   request: LoadRequest;
   sample: Sample | null;
-  view: Viewpoint | null;
+  /** How an address calls it. */
+  name: CloudName | null;
+  view: AskedView | null;
+  /** Settings that belong to this cloud alone. */
+  settings: Partial<Settings>;
   /** What the user has to know about it besides. */
   notes: string[];
   /** What could not be opened, so that this one is in its place. */
@@ -29,35 +37,68 @@ interface Source {
 
 /** From the address of the page to a cloud on screen, and from there to every other cloud the user opens. */
 export function startSession(params: Params, status: Status, message: Message): void {
-  const viewer = new Viewer(byId("view", HTMLCanvasElement));
-  const controls = new Controls(viewer, params.exponent);
+  const store = new Store({ ...USUAL_SETTINGS, ...params.settings, freeze: null, lights: USUAL_SETTINGS.lights });
+  const viewer = new Viewer(byId("view", HTMLCanvasElement), store);
+  const controls = new Controls(viewer, store, { ...USUAL_SETTINGS, ...params.settings });
+  const handles = new LightHandles(byId("lights"), viewer, store);
   const progress = new Progress();
   const firstLoad = new FirstLoad();
   let loading = new AbortController();
+  /** A view that was asked for stays in the address also where it is the first one. */
+  let askedView: AskedView | null = null;
+  const address = new Address(store, () => {
+    if (viewer.isHome && viewer.isTargetHome) return askedView && { view: askedView.at, target: askedView.target };
+    return { view: viewer.viewpoint, target: viewer.target };
+  });
 
   const picker = new SamplePicker((sample) => {
-    rememberInAddress(sample);
-    void open(fromSample(sample, null));
+    const source = fromSample(sample, null);
+    if (source.name) address.choose(source.name);
+    void open(source);
   });
   onFile({
-    open: (file, notes) => void open({ request: { kind: "file", name: file.name, file, skipNonFinite: false }, sample: null, view: null, notes }),
+    open: (file, notes) => void open({ request: { kind: "file", name: file.name, file, skipNonFinite: false }, sample: null, name: null, view: null, settings: {}, notes }),
     refuse: (sentence) => {
       message.show(sentence);
     },
   });
 
-  controls.onFreeze = (frozen) => {
-    status.describe(frozen);
+  viewer.onFrame = () => {
+    handles.place();
+  };
+  viewer.stage.onCamera = () => {
+    address.touch();
+  };
+  store.follow((now) => {
+    status.describe(now.freeze !== null);
+  });
+  let note: string | null = null;
+  const tell = (next: string | null) => {
+    if (next !== null && next !== note) message.show(next);
+    if (next === null && note !== null) message.hide();
+    note = next;
   };
   viewer.onAnswer = (answer, total) => {
     controls.follow(answer);
-    status.answer(answer, total, controls.frozen);
+    status.answer(answer, total, store.current.freeze !== null);
+    tell(answer.note);
+  };
+  viewer.onLight = (light) => {
+    status.lit(light?.question.lights.length ?? 0);
+    if (light?.note) tell(light.note);
+  };
+  viewer.onAutomatic = (exponent) => {
+    controls.markAutomatic(exponent);
+  };
+  viewer.onBusy = (busy) => {
+    status.busy(busy);
   };
   viewer.onError = (error) => {
     refuse(error, "The visible points could not be found");
   };
-  const first = params.src === null ? fromSample(sampleNamed(params.sample), params.view) : fromAddress(params.src, params.view);
-  void open({ ...first, notes: params.notes });
+  const view = params.view && { at: params.view, target: params.target };
+  const first = params.src === null ? fromSample(sampleNamed(params.sample), view) : fromAddress(params.src, view);
+  void open({ ...first, settings: params.settings, notes: params.notes });
 
   /** Loads a cloud beside the one on screen; it takes that one's place once the first answer is there. */
   async function open(source: Source): Promise<void> {
@@ -73,7 +114,7 @@ export function startSession(params: Params, status: Status, message: Message): 
     else if (insteadOf === undefined) message.hide();
     say(`Loading ${request.name}.`);
     progress.show(null);
-    let refilter: Refilter | null = null;
+    let inquiry: Inquiry | null = null;
     try {
       const loaded = await loadCloud(request, signal, (step, fraction) => {
         say(`${step} ${request.name}.`);
@@ -81,30 +122,37 @@ export function startSession(params: Params, status: Status, message: Message): 
       });
       say(`Finding the visible points of ${request.name}.`);
       progress.show(null);
-      const up = sample?.up ?? loaded.taken?.up ?? usualUp(request.name);
       const cloud = prepareCloud(loaded);
-      const fov = usualFieldOfView(sample);
-      const tooFar = source.view !== null && !isInReach(cloud, source.view);
+      const usual = usualLook(sample, request.name, cloud.count, loaded.taken?.up);
+      const own: Partial<Settings> = { ...usual, freeze: null, lights: [], ...radiusFor(store.current), ...source.settings };
+      const { fieldOfView: fov, up } = { ...usual, ...source.settings };
+      const tooFar = source.view !== null && !isInReach(cloud, source.view.at);
       if (tooFar) message.show([...notes, "The view in the address is too far away to see anything, so the usual view is used."].join(" "));
-      const view = (tooFar ? null : source.view) ?? loaded.taken?.from ?? null;
+      const asked = tooFar ? null : source.view;
+      const taken = loaded.taken ? { at: loaded.taken.from, target: null } : null;
       const homeWith = (upward: Up) => {
         const lens = { fov, aspect: viewer.stage.camera.aspect };
-        return upward === up ? findHome(cloud, up, sample, view, lens) : findHome(cloud, upward, null, null, lens);
+        const sameUp = upward === up;
+        return findHome(cloud, upward, sameUp ? sample : null, sameUp ? (asked ?? taken) : null, lens);
       };
       const home = homeWith(up);
       const worker = await WorkerPointCloud.create(loaded.positions, { transfer: true, signal });
-      refilter = new Refilter(worker, cloud.radius);
-      const answer = await refilter.ask({ viewpoint: home.viewpoint, exponent: viewer.exponent });
+      inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), cloud.radius);
+      const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...store.current, ...own });
       signal.throwIfAborted();
       status.loaded();
-      controls.prepare({ fieldOfView: fov, pointSize: usualPointSize(sample, cloud.count), up });
-      viewer.show({ cloud, refilter, home, up, answer, findHome: homeWith });
+      viewer.clear();
+      store.change(own);
+      askedView = asked;
+      viewer.show({ cloud, inquiry, home, answer, findHome: homeWith });
+      controls.usual = usual;
+      address.begin(insteadOf === undefined ? source.name : null, usual);
       firstLoad.hide();
       if (insteadOf !== undefined) status.error(insteadOf);
       if (sample) picker.showSample(sample);
       else picker.showOwn(request.name);
     } catch (error) {
-      refilter?.dispose();
+      inquiry?.dispose();
       if (signal.aborted) return;
       progress.hide();
       refuse(error, `${request.name} could not be opened`, source);
@@ -121,7 +169,7 @@ export function startSession(params: Params, status: Status, message: Message): 
     picker.restore();
     // Not to leave the page empty where nothing has been opened before.
     const usual = sampleNamed(params.sample);
-    if (viewer.isEmpty && source && source.sample !== usual) {
+    if (viewer.cloud === null && source && source.sample !== usual) {
       void open({ ...fromSample(usual, null), insteadOf: sentence });
     } else {
       firstLoad.hide();
@@ -129,19 +177,20 @@ export function startSession(params: Params, status: Status, message: Message): 
   }
 }
 
-function fromSample(sample: Sample, view: Viewpoint | null): Source {
+function fromSample(sample: Sample, view: AskedView | null): Source {
   const request: LoadRequest =
-    sample.file === null
-      ? { kind: "room", name: sample.label }
-      : { kind: "sample", name: sample.label, url: new URL(sample.file, document.baseURI).href };
-  return { request, sample, view, notes: [] };
+    "file" in sample.from
+      ? { kind: "sample", name: sample.label, url: new URL(sample.from.file, document.baseURI).href }
+      : { kind: "shape", name: sample.label, shape: sample.from.shape };
+  return { request, sample, name: ["sample", sample.name], view, settings: {}, notes: [] };
 }
 
-function fromAddress(address: string, view: Viewpoint | null): Source {
+function fromAddress(address: string, view: AskedView | null): Source {
   // What is no address is left as it is: downloading it fails in plain words.
   const url = URL.canParse(address, document.baseURI) ? new URL(address, document.baseURI) : null;
   const name = url?.pathname.split("/").pop() || address;
-  return { request: { kind: "url", name, url: url?.href ?? address, skipNonFinite: false }, sample: null, view, notes: [] };
+  const request: LoadRequest = { kind: "url", name, url: url?.href ?? address, skipNonFinite: false };
+  return { request, sample: null, name: ["src", address], view, settings: {}, notes: [] };
 }
 
 /** The same once more, where the points without a position were all that was wrong. */
@@ -151,18 +200,9 @@ function withoutNonFinite(error: unknown, source: Source): Source | null {
   return possible ? { ...source, request: { ...request, skipNonFinite: true } } : null;
 }
 
-/** Scanners and surveyors have z up, modelers y. */
-function usualUp(name: string): Up {
-  return /\.(ply|obj)$/i.test(name) ? "y" : "z";
-}
-
-/** Reloading the page opens the same sample again. */
-function rememberInAddress(sample: Sample): void {
-  const address = new URL(location.href);
-  address.searchParams.set("sample", sample.name);
-  address.searchParams.delete("src");
-  address.searchParams.delete("view");
-  history.replaceState(null, "", address);
+/** A radius in units of the cloud before means nothing to the next one. */
+function radiusFor({ radius }: Settings): Partial<Settings> {
+  return "length" in radius ? { radius: { rule: "auto" } } : {};
 }
 
 function plain(error: unknown): string {

@@ -1,5 +1,7 @@
+import { inversionText } from "./address.ts";
+import type { TimedView } from "./ask/inquiry.ts";
 import { byId } from "./panel/dom.ts";
-import type { Answer } from "./refilter.ts";
+import type { Inversion } from "./settings.ts";
 
 /** The sentence changes not more often than this, in milliseconds, and is announced when it has stood for this long. */
 const CALM = 800;
@@ -18,7 +20,7 @@ export class Status {
   private timer: ReturnType<typeof setTimeout> | undefined;
   private announcing: ReturnType<typeof setTimeout> | undefined;
   private refilters = 0;
-  private last: (Pick<Answer, "visibility" | "milliseconds"> & { total: number }) | null = null;
+  private last: (TimedView & { total: number }) | null = null;
   /** Answers to what was asked before this moment do not end a "loading" or an "error". */
   private since = Infinity;
 
@@ -30,6 +32,7 @@ export class Status {
   loading(sentence: string): void {
     this.since = Infinity;
     this.element.dataset["state"] = "loading";
+    this.busy(true);
     this.say(sentence);
   }
 
@@ -42,36 +45,55 @@ export class Status {
   error(sentence: string): void {
     this.since = performance.now();
     this.element.dataset["state"] = "error";
+    this.busy(false);
     this.interrupt();
     this.say(sentence);
   }
 
+  /** Whether an answer for the present settings and place is still to come. */
+  busy(busy: boolean): void {
+    this.element.dataset["busy"] = busy ? "1" : "0";
+  }
+
   /** All attributes are those of this one answer. */
-  answer({ question, visibility, asked, milliseconds }: Answer, total: number, frozen: boolean): void {
+  answer(answer: TimedView, total: number, frozen: boolean): void {
+    const { question, visibility, triangles, asked, milliseconds } = answer;
     this.refilters++;
     Object.assign(this.element.dataset, {
       total: String(total),
       visible: String(visibility.count),
-      viewpoint: question.viewpoint.map(String).join(","),
+      viewpoint: String(question.viewpoint),
       radius: String(visibility.radius),
       exponent: String(visibility.exponent),
+      evaluations: String(visibility.evaluations),
+      inversion: inversionText(visibility.inversion as Inversion),
+      show: question.shape.kind,
       milliseconds: String(milliseconds),
       refilters: String(this.refilters),
     });
+    if (triangles) this.element.dataset["triangles"] = String(triangles.length / 3);
+    else delete this.element.dataset["triangles"];
     if (asked < this.since) return;
     this.element.dataset["state"] = "ready";
-    this.last = { visibility, milliseconds, total };
+    this.last = { ...answer, total };
     this.describe(frozen);
+  }
+
+  /** How many lights the picture is lit by; without any there is no shadow. */
+  lit(lights: number): void {
+    if (lights > 0) this.element.dataset["lights"] = String(lights);
+    else delete this.element.dataset["lights"];
   }
 
   /** The sentence about the last answer, once more with what has become of the viewpoint. */
   describe(frozen: boolean): void {
     if (!this.last || this.element.dataset["state"] !== "ready") return;
-    const { visibility, milliseconds, total } = this.last;
+    const { visibility, quick, milliseconds, total } = this.last;
     const where = frozen ? "were visible from the frozen viewpoint" : "are visible from here";
     const time = milliseconds < 10 ? milliseconds.toFixed(1) : number.format(Math.round(milliseconds));
     const share = percent(visibility.count, total);
-    this.say(`${number.format(visibility.count)} of ${number.format(total)} points (${share}) ${where}, found in ${time}\u00a0ms.`);
+    const standIn = quick ? ", with the automatic radius while moving" : "";
+    this.say(`${number.format(visibility.count)} of ${number.format(total)} points (${share}) ${where}, found in ${time}\u00a0ms${standIn}.`);
   }
 
   /** Lets the next sentence be read at once. */

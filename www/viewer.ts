@@ -1,145 +1,238 @@
+import { Matrix4, Quaternion, Vector3 } from "three";
+import type { LightAnswer } from "./ask/lights.ts";
+import { isSamePlace } from "./ask/question.ts";
+import type { Inquiry, TimedView } from "./ask/inquiry.ts";
 import type { Cloud, Up } from "./cloud.ts";
-import type { Answer, Refilter, Viewpoint } from "./refilter.ts";
-import { type Home, inFile } from "./view/framing.ts";
+import type { Settings, Store, Viewpoint } from "./settings.ts";
+import { CloudAttributes } from "./view/attributes.ts";
+import { type Home, inFile, inLocal } from "./view/framing.ts";
 import { ViewpointMarker } from "./view/marker.ts";
 import { Navigation } from "./view/navigation.ts";
-import { CloudPoints, type HiddenMode, THROUGH_OPACITY } from "./view/points.ts";
+import { CloudPoints, THROUGH_OPACITY } from "./view/points.ts";
 import { Stage } from "./view/stage.ts";
+import { Surface } from "./view/surface.ts";
 
 /** A cloud that is ready to be shown, with the first answer about it. */
 export interface Opened {
   cloud: Cloud;
-  refilter: Refilter;
+  inquiry: Inquiry;
   home: Home;
-  up: Up;
-  answer: Answer;
+  answer: TimedView;
   /** Where to look at it from with that side up, in a picture of the shape it has now. */
   findHome: (up: Up) => Home;
 }
+
+type Shown = Opened & { attributes: CloudAttributes; points: CloudPoints; surface: Surface };
 
 /** What is on screen: one cloud, the camera before it, and the viewpoint its points are filtered for. */
 export class Viewer {
   readonly stage: Stage;
   readonly navigation: Navigation;
-  /** `null`: the automatic radius. */
-  exponent: number | null = null;
-  onAnswer: (answer: Answer, total: number) => void = () => undefined;
+  onAnswer: (answer: TimedView, total: number) => void = () => undefined;
+  onLight: (answer: LightAnswer | null) => void = () => undefined;
+  onAutomatic: (exponent: number) => void = () => undefined;
   onError: (error: unknown) => void = () => undefined;
+  /** Whether the picture lags behind the camera and the settings; told whenever it may have changed. */
+  onBusy: (busy: boolean) => void = () => undefined;
+  /** Called before each frame. */
+  onFrame: () => void = () => undefined;
 
+  private readonly store: Store;
   private readonly marker: ViewpointMarker;
-  private shown: (Opened & { points: CloudPoints }) | null = null;
-  private frozenAt: Viewpoint | null = null;
-  private mode: HiddenMode = "off";
-  private pointSize = 1;
+  private shown: Shown | null = null;
+  private lit = false;
+  private surfaceShown = false;
 
-  constructor(canvas: HTMLCanvasElement) {
+  constructor(canvas: HTMLCanvasElement, store: Store) {
+    this.store = store;
     this.stage = new Stage(canvas);
     this.navigation = new Navigation(this.stage.camera, canvas);
     this.marker = new ViewpointMarker(this.stage.overlay);
     this.stage.onFrame = () => {
       this.marker.follow(this.stage.camera);
-      this.shown?.refilter.want({ viewpoint: this.frozenAt ?? this.viewpoint(), exponent: this.exponent });
+      this.inquire();
+      this.onFrame();
+    };
+    this.navigation.onMove = () => {
+      this.inquire();
     };
     // Who has not moved yet goes on seeing the whole cloud; who has stays there.
     this.stage.onResize = () => {
       if (this.isHome) this.reset();
     };
+    store.follow((now, before) => {
+      this.apply(now, before);
+    });
   }
 
-  get isEmpty(): boolean {
-    return this.shown === null;
+  /** The cloud on screen. */
+  get cloud(): Cloud | null {
+    return this.shown?.cloud ?? null;
   }
 
-  /** Puts a cloud in the place of the one before. */
+  /** Whether the camera stands where it stood at first. */
+  get isHome(): boolean {
+    return this.shown !== null && this.stage.camera.position.equals(this.shown.home.pose.at);
+  }
+
+  get isTargetHome(): boolean {
+    return this.shown !== null && this.navigation.target.equals(this.shown.home.pose.target);
+  }
+
+  /** The camera's place in the file's coordinates: at home exactly the numbers that were asked for. */
+  get viewpoint(): Viewpoint {
+    const { cloud, home } = this.shown!;
+    return this.isHome ? home.viewpoint : inFile(cloud, this.stage.camera.position);
+  }
+
+  /** What the camera looks at, in the file's coordinates; `null` for the middle of the cloud. */
+  get target(): Viewpoint | null {
+    const { target } = this.navigation;
+    return target.lengthSq() === 0 ? null : inFile(this.shown!.cloud, target);
+  }
+
+  /** Takes the cloud away, so that settings can be made for the next. */
+  clear(): void {
+    if (!this.shown) return;
+    this.shown.inquiry.dispose();
+    this.shown.points.solid.removeFromParent();
+    this.shown.points.ghost.removeFromParent();
+    this.shown.surface.mesh.removeFromParent();
+    this.shown.points.dispose();
+    this.shown.surface.dispose();
+    this.shown = null;
+  }
+
+  /** Shows a cloud, after `clear`. */
   show(opened: Opened): void {
-    if (this.shown) {
-      this.shown.refilter.dispose();
-      this.shown.points.solid.removeFromParent();
-      this.shown.points.ghost.removeFromParent();
-      this.shown.points.dispose();
-    }
-    const { cloud, refilter, answer, home, up } = opened;
-    const points = new CloudPoints(cloud);
-    this.shown = { ...opened, points };
-    refilter.onAnswer = (next) => {
-      points.setVisible(next.visibility.indices);
-      this.stage.invalidate();
+    const { cloud, inquiry, answer, home } = opened;
+    const attributes = new CloudAttributes(cloud);
+    const points = new CloudPoints(cloud, attributes);
+    const surface = new Surface(attributes);
+    this.shown = { ...opened, attributes, points, surface };
+    inquiry.onView = (next) => {
+      this.showAnswer(next);
       this.onAnswer(next, cloud.count);
     };
-    refilter.onError = (error) => {
+    inquiry.onLight = (light) => {
+      attributes.setBrightness(light?.brightness ?? null);
+      this.lit = light !== null;
+      this.setShading();
+      this.onLight(light);
+    };
+    inquiry.onAutomatic = (exponent) => {
+      this.onAutomatic(exponent);
+    };
+    inquiry.onError = (error) => {
       this.onError(error);
     };
-    this.stage.points.add(points.solid);
-    points.setUp(up);
-    this.showHidden();
-    this.setPointSize(this.pointSize);
-    this.stage.setExtent(cloud.radius);
+    this.lit = false;
+    this.stage.points.add(points.solid, surface.mesh);
     this.navigation.setHome(home.pose);
-    refilter.onAnswer(answer);
-  }
-
-  setHiddenMode(mode: HiddenMode): void {
-    this.mode = mode;
-    this.showHidden();
-  }
-
-  /** In multiples of the points' rough distance from one another. */
-  setPointSize(size: number): void {
-    this.pointSize = size;
-    if (this.shown) this.stage.setPointWidth(this.shown.points.setPointSize(size));
-  }
-
-  /** Turns the cloud upright another way, and looks at it as for the first time. */
-  setUp(up: Up): void {
-    if (!this.shown) return;
-    this.shown.up = up;
-    this.shown.points.setUp(up);
-    this.reset();
+    this.applyLook(this.store.current);
+    this.placeMarker(this.store.current.freeze);
+    this.setUp(this.store.current.up);
+    inquiry.onView(answer);
+    this.inquire();
   }
 
   /** Looks at the cloud as for the first time. */
   reset(): void {
     if (!this.shown) return;
-    this.shown.home = this.shown.findHome(this.shown.up);
+    this.shown.home = this.shown.findHome(this.store.current.up);
     this.navigation.setHome(this.shown.home.pose);
     this.stage.invalidate();
+    this.inquire();
   }
 
-  /** Keeps the viewpoint where the camera is now, or lets it go with the camera again. */
-  setFrozen(frozen: boolean): void {
-    this.marker.remove();
-    this.frozenAt = null;
+  private apply(now: Settings, before: Settings): void {
     if (!this.shown) return;
-    const { radius } = this.shown.cloud;
-    // The marker has to be in the picture too, from wherever one looks back at it.
-    if (frozen) {
-      this.frozenAt = this.viewpoint();
-      this.marker.place(this.stage.camera, 0.18 * radius);
-    }
-    this.showHidden();
-    this.stage.setExtent(frozen ? Math.max(radius, this.stage.camera.position.length() + 0.2 * radius) : radius);
+    const turned = now.up !== before.up;
+    if (turned) this.setUp(now.up);
+    if (now.freeze !== before.freeze) this.placeMarker(now.freeze);
+    this.applyLook(now);
+    // Upright another way, the cloud is looked at as for the first time.
+    if (turned) this.reset();
+    this.inquire();
+  }
+
+  private inquire(): void {
+    if (!this.shown) return;
+    const { inquiry } = this.shown;
+    const settings = this.store.current;
+    inquiry.follow(settings.freeze ?? this.viewpoint, settings);
+    this.onBusy(inquiry.busy);
+  }
+
+  private showAnswer({ visibility, triangles }: TimedView): void {
+    const { points, surface } = this.shown!;
+    points.setVisible(visibility.indices);
+    surface.setTriangles(triangles);
+    this.surfaceShown = triangles !== null;
+    points.solid.visible = !this.surfaceShown;
+    this.setShading();
+  }
+
+  /** Points have no normals to shade by; a surface has, and light is not to be shaded once more. */
+  private setShading(): void {
+    this.stage.setEyeDome(!this.surfaceShown && !this.lit);
+  }
+
+  private setUp(up: Up): void {
+    this.shown!.attributes.setUp(up);
+    this.stage.invalidate();
   }
 
   /**
    * Points have no size of their own, so nothing of a cloud really covers anything: as long as the viewpoint goes with the
    * camera, hidden points are drawn through the visible ones. Seen from elsewhere, they stand where they are.
    */
-  private showHidden(): void {
-    if (!this.shown) return;
-    const { points } = this.shown;
-    const frozen = this.frozenAt !== null;
-    points.show(this.mode, frozen);
+  private applyLook({ hidden, freeze, size, fieldOfView }: Settings): void {
+    const { points } = this.shown!;
+    const frozen = freeze !== null;
+    points.show(hidden, frozen);
     (frozen ? this.stage.points : this.stage.through).add(points.ghost);
-    this.stage.setThroughOpacity(THROUGH_OPACITY[this.mode]);
+    this.stage.setThroughOpacity(THROUGH_OPACITY[hidden]);
+    this.stage.setPointWidth(points.setPointSize(size));
+    this.stage.setFieldOfView(fieldOfView);
   }
 
-  private get isHome(): boolean {
-    return this.shown !== null && this.stage.camera.position.equals(this.shown.home.pose.at);
+  /** Marks where the viewpoint stays, in the direction of the camera if that is there, else of what it looks at. */
+  private placeMarker(freeze: Viewpoint | null): void {
+    this.marker.remove();
+    const { cloud } = this.shown!;
+    const { camera } = this.stage;
+    if (!freeze) {
+      this.stage.setExtent(cloud.radius);
+      return;
+    }
+    const here = isSamePlace(freeze, this.viewpoint, cloud.radius);
+    const at = here ? camera.position : inLocal(cloud, freeze);
+    const toTarget = new Quaternion().setFromRotationMatrix(new Matrix4().lookAt(at, this.navigation.target, camera.up));
+    this.marker.place(at, here ? camera.quaternion : toTarget, 0.18 * cloud.radius);
+    // The marker has to be in the picture too, from wherever one looks back at it.
+    this.stage.setExtent(Math.max(cloud.radius, at.length() + 0.2 * cloud.radius));
   }
 
-  /** The camera's place in the file's coordinates: at home exactly the numbers that were asked for. */
-  private viewpoint(): Viewpoint {
-    const { cloud, home } = this.shown!;
-    return this.isHome ? home.viewpoint : inFile(cloud, this.stage.camera.position);
+  /** Where a place is in the picture, in CSS pixels from its left and top; `null` behind the camera. */
+  project(place: Viewpoint): { x: number; y: number } | null {
+    const { camera } = this.stage;
+    const seen = inLocal(this.shown!.cloud, place).applyMatrix4(camera.matrixWorldInverse);
+    if (seen.z >= 0) return null;
+    const { x, y } = seen.applyMatrix4(camera.projectionMatrix);
+    const { width, height } = this.stage.size;
+    return { x: (0.5 + x / 2) * width, y: (0.5 - y / 2) * height };
+  }
+
+  /** The place at that point of the picture that is as far ahead of the camera as `like`. */
+  placeAt(x: number, y: number, like: Viewpoint): Viewpoint {
+    const { cloud } = this.shown!;
+    const { camera } = this.stage;
+    const depth = -inLocal(cloud, like).applyMatrix4(camera.matrixWorldInverse).z;
+    const { width, height } = this.stage.size;
+    const tangent = Math.tan((camera.fov * Math.PI) / 360);
+    const place = new Vector3((2 * x) / width - 1, 1 - (2 * y) / height, -1);
+    place.multiply(new Vector3(tangent * camera.aspect, tangent, 1)).multiplyScalar(depth);
+    return inFile(cloud, place.applyMatrix4(camera.matrixWorld));
   }
 }

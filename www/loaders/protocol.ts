@@ -1,9 +1,10 @@
 import type { LoadedCloud } from "../cloud.ts";
+import type { ShapeName } from "../shapes/index.ts";
 
 /** What the page asks of the loading worker; one request each. */
 export type LoadRequest =
   | { kind: "sample"; name: string; url: string }
-  | { kind: "room"; name: string }
+  | { kind: "shape"; name: string; shape: ShapeName }
   | { kind: "url"; name: string; url: string; skipNonFinite: boolean }
   | { kind: "file"; name: string; file: File; skipNonFinite: boolean };
 

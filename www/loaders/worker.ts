@@ -1,6 +1,6 @@
 /// <reference lib="webworker" />
 import type { LoadedCloud } from "../cloud.ts";
-import { makeRoom } from "../room.ts";
+import { SHAPES } from "../shapes/index.ts";
 import { download } from "./download.ts";
 import { checkByteLength, checkedCloud } from "./limits.ts";
 import { LoadProblem } from "./problem.ts";
@@ -22,9 +22,9 @@ self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
 };
 
 async function load(request: LoadRequest): Promise<LoadedCloud> {
-  if (request.kind === "room") {
+  if (request.kind === "shape") {
     progress("Making", null);
-    return makeRoom();
+    return SHAPES[request.shape]();
   }
   let data: ArrayBuffer;
   if (request.kind === "file") {

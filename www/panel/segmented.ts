@@ -17,6 +17,7 @@ export class Segmented<Value extends string> {
     return this.inputs.find((input) => input.checked)!.value as Value;
   }
 
+  /** A value that no button stands for leaves none chosen. */
   set value(value: Value) {
     for (const input of this.inputs) input.checked = input.value === value;
   }
@@ -26,4 +27,14 @@ export class Segmented<Value extends string> {
     const at = this.inputs.findIndex((input) => input.checked);
     return this.inputs[(at + 1) % this.inputs.length]!.value as Value;
   }
+}
+
+/** The same where the values are numbers. */
+export function bindNumbers(id: string, onChange: (value: number) => void): (value: number) => void {
+  const segmented = new Segmented(id, (value) => {
+    onChange(Number(value));
+  });
+  return (value) => {
+    segmented.value = String(value);
+  };
 }

@@ -1,6 +1,6 @@
 import { byId } from "./dom.ts";
 
-/** A range input with its value written beside its label. */
+/** A range input with its value written beside its label. `id`-value is the output, `id`-mark, if there is one, a mark on the track. */
 export class Slider {
   private readonly input: HTMLInputElement;
   private readonly output: HTMLOutputElement;
@@ -27,6 +27,13 @@ export class Slider {
     this.show(value);
   }
 
+  /** Marks a value on the track; the mark is the input's own background. */
+  mark(value: number): void {
+    const { min, max } = this.input;
+    const share = (value - Number(min)) / (Number(max) - Number(min));
+    this.input.parentElement!.style.setProperty("--mark", String(Math.min(1, Math.max(0, share))));
+  }
+
   /** Until there is a value to write. */
   clear(): void {
     this.output.textContent = "";
@@ -34,5 +41,6 @@ export class Slider {
 
   private show(value: number): void {
     this.output.textContent = this.format(value);
+    this.input.ariaValueText = this.output.textContent;
   }
 }

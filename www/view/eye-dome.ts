@@ -80,6 +80,8 @@ const fragmentShader = /* glsl */ `
 export class EyeDome {
   /** The width of a point in the scene's units. */
   pointWidth = 1;
+  /** Off where something else tells the shape: the picture is drawn as it is. */
+  enabled = true;
   private readonly target: WebGLRenderTarget;
   private readonly material: ShaderMaterial;
   private readonly screen = new Scene();
@@ -139,6 +141,7 @@ export class EyeDome {
     renderer.setRenderTarget(null);
     this.planes.set(camera.near, camera.far);
     this.material.uniforms["reach"]!.value = REACH * renderer.getPixelRatio();
+    this.material.uniforms["strength"]!.value = this.enabled ? STRENGTH : 0;
     // The distance at which a point is as wide as SOFT_FROM pixels; nearer ones are wider in proportion.
     const pixels = (camera.projectionMatrix.elements[5] * this.size.y) / 2;
     this.material.uniforms["softness"]!.value = (this.pointWidth * pixels) / SOFT_FROM;

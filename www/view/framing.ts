@@ -1,7 +1,7 @@
 import { Vector3 } from "three";
 import { type Cloud, type Up, upVector } from "../cloud.ts";
-import type { Viewpoint } from "../refilter.ts";
 import type { Sample } from "../samples.ts";
+import type { Viewpoint } from "../settings.ts";
 import type { Pose } from "./navigation.ts";
 
 /** Where a cloud is first looked at from: the camera's pose, and the same place in the file's coordinates. */
@@ -19,21 +19,27 @@ export interface Lens {
 /** From a little to the side and above, for files nobody has chosen a view for. */
 const FROM: Record<Up, [number, number, number]> = { y: [0.55, 0.4, 1], z: [0.55, -1, 0.5], "-y": [0.3, -0.25, -1] };
 
+/** A place to look from that was asked for, and what is looked at, if not the middle of the cloud. */
+export interface AskedView {
+  at: Viewpoint;
+  target: Viewpoint | null;
+}
+
 /** The view asked for, or the sample's own, or one from which the whole cloud is in the picture. */
-export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: Viewpoint | null, lens: Lens): Home {
+export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: AskedView | null, lens: Lens): Home {
   const upward = new Vector3(...upVector(up));
-  const inLocal = (point: readonly number[]) => new Vector3(...(point.map((value, axis) => value - cloud.center[axis]!) as Viewpoint));
-  const at = (viewpoint: Viewpoint, target: Vector3) => ({ pose: { at: inLocal(viewpoint), target, up: upward }, viewpoint });
+  const at = (viewpoint: Viewpoint, target: Vector3) => ({ pose: { at: inLocal(cloud, viewpoint), target, up: upward }, viewpoint });
 
   if (view) {
-    const center = new Vector3();
-    // From the very center there is nothing to turn to: look ahead.
-    const ahead = inLocal(view).length() > 1e-6 * cloud.radius;
-    return at(view, ahead ? center : new Vector3(...FROM[up]).setLength(-0.1 * cloud.radius));
+    const from = inLocal(cloud, view.at);
+    const target = view.target ? inLocal(cloud, view.target) : new Vector3();
+    // Where one stands there is nothing to turn to: look ahead.
+    const ahead = from.distanceTo(target) > 1e-6 * cloud.radius;
+    return at(view.at, ahead ? target : from.add(new Vector3(...FROM[up]).setLength(-0.1 * cloud.radius)));
   }
-  if (sample?.eye) return at(sample.eye.at, inLocal(sample.eye.target));
+  if (sample?.eye) return at(sample.eye.at, inLocal(cloud, sample.eye.target));
 
-  const from = new Vector3(...(sample?.from ?? FROM[up])).normalize();
+  const from = new Vector3(...(sample?.direction ?? FROM[up])).normalize();
   const local = from.clone().multiplyScalar(1.03 * fittingDistance(cloud, from, upward, lens));
   return {
     pose: { at: local, target: new Vector3(), up: upward },
@@ -44,6 +50,10 @@ export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: View
 /** Whether anything of the cloud could be seen from there: beyond, it is far below a pixel, and further out f32 gives up. */
 export function isInReach(cloud: Cloud, view: Viewpoint): boolean {
   return Math.hypot(...view.map((value, axis) => value - cloud.center[axis]!)) <= 1e6 * cloud.radius;
+}
+
+export function inLocal({ center }: Cloud, place: Viewpoint): Vector3 {
+  return new Vector3(place[0] - center[0], place[1] - center[1], place[2] - center[2]);
 }
 
 /** A place in the recentered coordinates in those of the file. */

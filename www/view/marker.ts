@@ -1,4 +1,4 @@
-import { CameraHelper, Color, type Object3D, PerspectiveCamera, Vector3 } from "three";
+import { CameraHelper, Color, type Object3D, PerspectiveCamera, type Quaternion, Vector3 } from "three";
 
 /** Where the frozen viewpoint is: a small camera in the accent color, of a fixed share of the cloud's size. */
 export class ViewpointMarker {
@@ -11,15 +11,14 @@ export class ViewpointMarker {
     this.parent = parent;
   }
 
-  /** Takes the place and direction of `camera`. */
-  place(camera: PerspectiveCamera, size: number): void {
+  place(at: Vector3, direction: Quaternion, size: number): void {
     this.remove();
     const accent = new Color(getComputedStyle(document.documentElement).getPropertyValue("--accent").trim());
     const standing = new PerspectiveCamera(40, 1.4, size * 0.02, size);
-    standing.position.copy(camera.position);
-    standing.quaternion.copy(camera.quaternion);
+    standing.position.copy(at);
+    standing.quaternion.copy(direction);
     standing.updateMatrixWorld();
-    this.at.copy(camera.position);
+    this.at.copy(at);
     this.size = size;
     this.helper = new CameraHelper(standing);
     this.helper.visible = false;

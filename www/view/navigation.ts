@@ -12,6 +12,8 @@ export interface Pose {
 export class Navigation {
   /** Asks for a field of view so many times as wide as now. */
   onFieldOfView: (factor: number) => void = () => undefined;
+  /** The camera has been moved. */
+  onMove: () => void = () => undefined;
   private readonly camera: PerspectiveCamera;
   private readonly canvas: HTMLCanvasElement;
   private controls: OrbitControls;
@@ -39,6 +41,10 @@ export class Navigation {
     this.controls = this.place(pose);
   }
 
+  /** What the camera looks at. */
+  get target(): Vector3 {
+    return this.controls.target;
+  }
 
   /** OrbitControls read the camera's up once, when they are made: a new home gets new ones. */
   private place({ at, target, up }: Pose): OrbitControls {
@@ -52,6 +58,7 @@ export class Navigation {
     controls.update();
     // The controls go by angles and come back a few bits off; the viewpoint asked for is the one to answer.
     this.camera.position.copy(at);
+    controls.addEventListener("change", () => { this.onMove(); });
     return controls;
   }
 

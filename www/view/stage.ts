@@ -9,6 +9,8 @@ export class Stage {
   readonly overlay = new Scene();
   /** Called before each frame is drawn or found unchanged. */
   onFrame: () => void = () => undefined;
+  /** Called before a frame from another place, or in another direction, than the last. */
+  onCamera: () => void = () => undefined;
   /** Called when the picture has got another shape, before it is drawn anew. */
   onResize: () => void = () => undefined;
 
@@ -33,6 +35,11 @@ export class Stage {
     this.renderer.setAnimationLoop(() => { this.frame(); });
   }
 
+  /** Of the picture in CSS pixels. */
+  get size(): { width: number; height: number } {
+    return { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
+
   setExtent(extent: number): void {
     this.extent = extent;
     this.invalidate();
@@ -41,6 +48,12 @@ export class Stage {
   /** In the cloud's units. */
   setPointWidth(width: number): void {
     this.eyeDome.pointWidth = width;
+    this.invalidate();
+  }
+
+  /** Whether points are shaded by how far their neighbors stand in front of them. */
+  setEyeDome(enabled: boolean): void {
+    this.eyeDome.enabled = enabled;
     this.invalidate();
   }
 
@@ -77,6 +90,7 @@ export class Stage {
     this.camera.updateMatrixWorld();
     const from = this.camera.matrixWorld.elements.join();
     if (!this.changed && from === this.drawnFrom) return;
+    if (from !== this.drawnFrom) this.onCamera();
     this.changed = false;
     this.drawnFrom = from;
 

@@ -1,0 +1,147 @@
+import type { Settings, Viewpoint } from "../settings.ts";
+import { askLight, type LightAnswer } from "./lights.ts";
+import { Newest } from "./newest.ts";
+import {
+  isSameLight,
+  isSamePlace,
+  isSameView,
+  type LightQuestion,
+  methodOf,
+  quickLight,
+  quickView,
+  shapeOf,
+  type ViewQuestion,
+} from "./question.ts";
+import { askView, type ViewAnswer } from "./views.ts";
+import type { WorkerCloud } from "./worker-cloud.ts";
+
+export interface TimedView extends ViewAnswer {
+  /** Whether it only stands in, while something moves, for a slower one. */
+  quick: boolean;
+  /** When it was asked (performance.now), and how long it took once it had its turn. */
+  asked: number;
+  milliseconds: number;
+}
+
+/** What has not moved for so many milliseconds is at rest. */
+const REST = 250;
+
+/** Keeps the answers up with the viewpoint and the settings: what is seen, and how it is lit. Each is asked anew only when something it depends on has changed. */
+export class Inquiry {
+  onView: (answer: TimedView) => void = () => undefined;
+  /** `null`: there are no lights. */
+  onLight: (answer: LightAnswer | null) => void = () => undefined;
+  /** The exponent that the automatic radius has where the viewpoint rests. */
+  onAutomatic: (exponent: number) => void = () => undefined;
+  onError: (error: unknown) => void = () => undefined;
+
+  private readonly cloud: WorkerCloud;
+  private readonly size: number;
+  private readonly views = new Newest<ViewQuestion>((question) => this.view(question));
+  private readonly lights = new Newest<LightQuestion>((question) => this.light(question));
+  private wanted: { view: ViewQuestion | null; light: LightQuestion | null } = { view: null, light: null };
+  private answered: { view: ViewQuestion | null; light: LightQuestion | null } = { view: null, light: null };
+  private mesh: Uint32Array | null = null;
+  private viewpoint: { at: Viewpoint; since: number } | null = null;
+  private lamps: { at: Settings["lights"]; since: number } | null = null;
+  private freeSince = 0;
+  private upToDate = false;
+
+  constructor(cloud: WorkerCloud, size: number) {
+    this.cloud = cloud;
+    this.size = size;
+  }
+
+  /** Whether an answer to what was last followed is still to come. */
+  get busy(): boolean {
+    return !this.upToDate;
+  }
+
+  /** The first answer, before anything is shown. */
+  async first(viewpoint: Viewpoint, settings: Settings): Promise<TimedView> {
+    const question = { viewpoint, method: methodOf(settings), shape: shapeOf(settings) };
+    this.wanted.view = question;
+    this.viewpoint = { at: viewpoint, since: -Infinity };
+    return this.ask(question);
+  }
+
+  /** Called every frame and after every change; does nothing while the questions stay the same. */
+  follow(viewpoint: Viewpoint, settings: Settings): void {
+    const now = performance.now();
+    if (!this.viewpoint || !isSamePlace(viewpoint, this.viewpoint.at, this.size)) this.viewpoint = { at: viewpoint, since: now };
+    if (this.lamps?.at !== settings.lights) this.lamps = { at: settings.lights, since: this.lamps ? now : -Infinity };
+    const moving = now - this.viewpoint.since < REST;
+
+    const view: ViewQuestion = { viewpoint, method: methodOf(settings), shape: shapeOf(settings) };
+    this.wantView(moving ? quickView(view) : view);
+    const { lights, soft, ambient, smoothing } = settings;
+    const light: LightQuestion = { lights, soft, ambient, smoothing, method: view.method, mesh: this.mesh };
+    this.wantLight(light, moving, now - this.lamps.since < REST);
+
+    this.upToDate =
+      this.answered.view !== null &&
+      isSameView(this.answered.view, view, this.size) &&
+      (lights.length === 0 || (this.answered.light !== null && isSameLight(this.answered.light, light)));
+  }
+
+  dispose(): void {
+    this.onView = this.onLight = this.onAutomatic = this.onError = () => undefined;
+    void this.cloud.points.dispose();
+  }
+
+  private wantView(question: ViewQuestion): void {
+    if (this.wanted.view && isSameView(question, this.wanted.view, this.size)) return;
+    this.wanted.view = question;
+    this.views.want(question);
+  }
+
+  private wantLight(question: LightQuestion, viewMoving: boolean, lightsMoving: boolean): void {
+    const { light: last } = this.wanted;
+    if (question.lights.length === 0) {
+      if (last) this.onLight(null);
+      this.wanted.light = this.answered.light = null;
+      return;
+    }
+    // Every point has its light, seen or not: while the surface moves under a light that does not, the last one serves.
+    const asked = viewMoving && last ? { ...question, mesh: last.mesh } : question;
+    const wanted = lightsMoving ? quickLight(asked) : asked;
+    if (last && isSameLight(wanted, last)) return;
+    this.wanted.light = wanted;
+    this.lights.want(wanted);
+  }
+
+  private async view(question: ViewQuestion): Promise<void> {
+    try {
+      this.onView(await this.ask(question));
+      // Not while a newer question waits.
+      if (question === this.wanted.view && question.method.radius) {
+        this.onAutomatic((await this.cloud.points.autoRadius(question.viewpoint)).exponent);
+      }
+    } catch (error) {
+      this.onError(error);
+    }
+    // Also what was refused is not to be waited for.
+    this.answered.view = question;
+  }
+
+  private async light(question: LightQuestion): Promise<void> {
+    try {
+      const answer = await askLight(this.cloud, question);
+      if (this.wanted.light) this.onLight(answer);
+    } catch (error) {
+      this.onError(error);
+    }
+    this.freeSince = performance.now();
+    if (this.wanted.light) this.answered.light = question;
+  }
+
+  private async ask(question: ViewQuestion): Promise<TimedView> {
+    const asked = performance.now();
+    const answer = await askView(this.cloud, question);
+    const begun = Math.max(asked, this.freeSince);
+    this.freeSince = performance.now();
+    this.mesh = answer.triangles;
+    this.answered.view = question;
+    return { ...answer, quick: question.quick === true, asked, milliseconds: this.freeSince - begun };
+  }
+}

@@ -1,0 +1,25 @@
+import type { LightQuestion } from "./question.ts";
+import { orUsual } from "./views.ts";
+import type { WorkerCloud } from "./worker-cloud.ts";
+
+export interface LightAnswer {
+  question: LightQuestion;
+  /** From 0 to 1, one for each index of the cloud. */
+  brightness: Float32Array;
+  note: string | null;
+}
+
+/** So many lights on the rim of a soft one, besides that in its middle. */
+const RIM = 8;
+
+/** How bright the lights make every point, whether the viewer sees it or not. */
+export async function askLight(cloud: WorkerCloud, question: LightQuestion): Promise<LightAnswer> {
+  const { lights, soft, ambient, smoothing, method, mesh } = question;
+  const rims = soft > 0 ? await Promise.all(lights.map((light) => cloud.ring(light, RIM, soft))) : [];
+  const all = [...lights, ...rims.flat()];
+  const { value, note } = await orUsual(
+    () => cloud.options(method, lights[0]!),
+    (options) => cloud.points.illuminate(all, { ...options, ambient, smoothing, ...(mesh ? { triangles: mesh } : {}) }),
+  );
+  return { question, brightness: value, note };
+}

@@ -1,0 +1,55 @@
+import { HprError, type Visibility, type VisibilityOptions } from "hidden-point-removal";
+import { USUAL_EDGE, type Viewpoint } from "../settings.ts";
+import type { Shape, ViewQuestion } from "./question.ts";
+import type { WorkerCloud } from "./worker-cloud.ts";
+
+/** What the worker found, with the question it belongs to. */
+export interface ViewAnswer {
+  question: ViewQuestion;
+  visibility: Visibility;
+  /** Of the surface, where that was asked for. */
+  triangles: Uint32Array | null;
+  /** What the library refused, so that its defaults answered instead. */
+  note: string | null;
+}
+
+/** How far the ring's viewpoints are from the one in its middle, as a share of the distance. */
+const RING = { count: 4, fraction: 0.05 };
+
+/** What is seen from a viewpoint. Where the settings do not suit the cloud or the place, the library's defaults answer. */
+export async function askView(cloud: WorkerCloud, question: ViewQuestion): Promise<ViewAnswer> {
+  const { viewpoint, method, shape } = question;
+  const { value, note } = await orUsual(() => cloud.options(method, viewpoint), (options) => see(cloud, viewpoint, shape, options));
+  return { question, ...value, note };
+}
+
+/** Runs `ask` with the options, or with none where these are refused, and says why. */
+export async function orUsual<T>(
+  options: () => Promise<VisibilityOptions>,
+  ask: (options: VisibilityOptions) => Promise<T>,
+): Promise<{ value: T; note: string | null }> {
+  try {
+    return { value: await ask(await options()), note: null };
+  } catch (error) {
+    if (!(error instanceof HprError) || (error.code !== "radius" && error.code !== "option")) throw error;
+    const note = `These settings do not suit this cloud or place, so the usual ones are used: ${error.message.replace(/\.$/, "")}.`;
+    return { value: await ask({}), note };
+  }
+}
+
+async function see(
+  cloud: WorkerCloud,
+  viewpoint: Viewpoint,
+  shape: Shape,
+  options: VisibilityOptions,
+): Promise<Pick<ViewAnswer, "visibility" | "triangles">> {
+  if (shape.kind === "surface") {
+    const maxEdge = shape.edge === USUAL_EDGE ? undefined : shape.edge === Infinity ? Infinity : shape.edge * (await cloud.spacing());
+    const surface = await cloud.points.reconstruct(viewpoint, { ...options, maxEdge });
+    return { visibility: surface, triangles: surface.triangles };
+  }
+  if (shape.viewpoints === "one") return { visibility: await cloud.points.visibleFrom(viewpoint, options), triangles: null };
+  const five = [viewpoint, ...(await cloud.ring(viewpoint, RING.count, RING.fraction))];
+  const visibility = shape.viewpoints === "any" ? cloud.points.visibleFromAny(five, options) : cloud.points.visibleFromAtLeast(2, five, options);
+  return { visibility: await visibility, triangles: null };
+}

@@ -1,0 +1,59 @@
+import { init, ringOfViewpoints, type Inversion as LibraryInversion, type VisibilityOptions } from "hidden-point-removal";
+import type { WorkerPointCloud } from "hidden-point-removal/worker";
+import type { Viewpoint } from "../settings.ts";
+import type { Method } from "./question.ts";
+
+/** The library's automatic c, in spacings: what tells the page the spacing. */
+const AUTOMATIC_C = 0.07;
+/** The library's limit. */
+const MOST_POWER = 16;
+
+/** The cloud in its worker, asked in the terms of the page. */
+export class WorkerCloud {
+  readonly points: WorkerPointCloud;
+  /** Of the bounding box, in the file's coordinates. */
+  readonly center: Viewpoint;
+  private known: Promise<number> | null = null;
+
+  constructor(points: WorkerPointCloud, center: Viewpoint) {
+    this.points = points;
+    this.center = center;
+  }
+
+  /** The cloud's spacing in its own units; 0 where it has none. */
+  spacing(): Promise<number> {
+    return (this.known ??= this.points.visibleFrom(this.center, { inversion: { exponential: "auto" } }).then(({ inversion }) => {
+      return typeof inversion === "object" && "exponential" in inversion ? inversion.exponential / AUTOMATIC_C : 0;
+    }));
+  }
+
+  async options({ radius, inversion, denoise, vote }: Method, viewpoint: Viewpoint): Promise<VisibilityOptions> {
+    return {
+      ...(radius === null ? {} : "rule" in radius ? { radius: radius.rule } : "length" in radius ? { radius: radius.length } : radius),
+      ...(inversion === "spherical" ? {} : { inversion: await this.inversion(inversion, viewpoint) }),
+      ...(denoise > 0 ? { denoise } : {}),
+      ...(vote > 0 ? { vote } : {}),
+    };
+  }
+
+  /** Viewpoints around one that looks at the middle of the cloud. */
+  async ring(viewpoint: Viewpoint, count: number, fraction: number): Promise<number[][]> {
+    await init();
+    return ringOfViewpoints(viewpoint, this.center, { count, fraction });
+  }
+
+  private async inversion(inversion: Exclude<Method["inversion"], "spherical">, viewpoint: Viewpoint): Promise<LibraryInversion> {
+    if ("power" in inversion) {
+      return { power: inversion.power === "auto" ? await this.automaticPower(viewpoint) : inversion.power };
+    }
+    const { exponential } = inversion;
+    return { exponential: exponential === "auto" ? "auto" : exponential * (await this.spacing()) };
+  }
+
+  /** The γ that, facing the viewer, lets pits be as deep as the automatic radius does: γ ÷ (γ − 1) = 2R ÷ r at the farthest distance r. */
+  private async automaticPower(viewpoint: Viewpoint): Promise<number> {
+    const { exponent } = await this.points.autoRadius(viewpoint, "auto");
+    const diameters = 2 * 10 ** exponent;
+    return Math.min(MOST_POWER, diameters / (diameters - 1));
+  }
+}

@@ -1,0 +1,54 @@
+import { Vector3 } from "three";
+import { upVector } from "./cloud.ts";
+import type { Store, Viewpoint } from "./settings.ts";
+import { inFile, inLocal } from "./view/framing.ts";
+import type { Viewer } from "./viewer.ts";
+
+/** Radians, and a share of the distance, for each press of a key. */
+const TURN = Math.PI / 36;
+const NEARER = 0.92;
+/** Where the first lights come, as parts of the picture's width and height: in sight, and not beside the camera. */
+const SPOTS = [[0.16, 0.16], [0.84, 0.2], [0.2, 0.84], [0.8, 0.84]] as const;
+/** How far away they are, as a share of the distance to what is looked at. */
+const AHEAD = 0.7;
+
+/** A light for the picture as it is now, in front of the cloud and to a side. */
+export function addLight(store: Store, viewer: Viewer): void {
+  const { cloud, viewpoint } = viewer;
+  if (!cloud) return;
+  const { lights } = store.current;
+  const target = viewer.target ?? cloud.center;
+  const like = viewpoint.map((value, axis) => value + AHEAD * (target[axis]! - value)) as Viewpoint;
+  const [x, y] = SPOTS[lights.length % SPOTS.length]!;
+  const { width, height } = viewer.stage.size;
+  store.change({ lights: [...lights, viewer.placeAt(x * width, y * height, like)] });
+}
+
+/** Arrow keys turn a light around the middle of the cloud, plus and minus bring it nearer and farther. */
+export function lightByKey(event: KeyboardEvent, i: number, store: Store, viewer: Viewer): void {
+  const { cloud } = viewer;
+  const step = STEPS[event.key];
+  if (!cloud || !step || event.ctrlKey || event.metaKey || event.altKey) return;
+  event.preventDefault();
+  event.stopPropagation();
+  const lights = [...store.current.lights];
+  const place = inLocal(cloud, lights[i]!);
+  const up = new Vector3(...upVector(store.current.up));
+  const around = up.clone().cross(place);
+  // Straight above there is no side to turn to but the camera's.
+  if (around.lengthSq() < 1e-9 * place.lengthSq()) around.setFromMatrixColumn(viewer.stage.camera.matrixWorld, 0);
+  const [sideways, upwards, farther] = step;
+  place.applyAxisAngle(up, sideways * TURN).applyAxisAngle(around.normalize(), upwards * TURN).multiplyScalar(farther);
+  lights[i] = inFile(cloud, place);
+  store.change({ lights });
+}
+
+const STEPS: Record<string, [sideways: number, upwards: number, farther: number]> = {
+  ArrowLeft: [-1, 0, 1],
+  ArrowRight: [1, 0, 1],
+  ArrowUp: [0, -1, 1],
+  ArrowDown: [0, 1, 1],
+  "+": [0, 0, NEARER],
+  "=": [0, 0, NEARER],
+  "-": [0, 0, 1 / NEARER],
+};

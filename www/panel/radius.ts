@@ -1,0 +1,59 @@
+import type { ViewAnswer } from "../ask/views.ts";
+import type { Store } from "../settings.ts";
+import { byId } from "./dom.ts";
+import { Slider } from "./slider.ts";
+
+type Choice = "auto" | "search" | "opposite" | "hand";
+
+const NOTES: Record<Choice, string> = {
+  auto: "",
+  search: "Looking back along the same rays: 6 hulls, when the view rests.",
+  opposite: "The paper’s own rule, from the opposite side: some 40 hulls, when the view rests.",
+  hand: "Exponent: log₁₀ of radius ÷ farthest distance. The mark is the automatic one.",
+};
+
+/** How the radius is chosen; moving the slider is choosing it by hand. */
+export class RadiusControl {
+  private readonly store: Store;
+  private readonly slider: Slider;
+
+  constructor(store: Store) {
+    this.store = store;
+    this.slider = new Slider("exponent", (value) => value.toFixed(2), (exponent) => {
+      store.change({ radius: { exponent } });
+    });
+    this.slider.clear();
+    const buttons = [...byId("radius").querySelectorAll("button")];
+    for (const button of buttons) {
+      button.addEventListener("click", () => {
+        const choice = button.value as Choice;
+        if (choice !== "hand") store.change({ radius: { rule: choice } });
+        else if (choiceOf(store) !== "hand") store.change({ radius: { exponent: this.slider.value } });
+      });
+    }
+    const group = byId("radius-choice", HTMLFieldSetElement);
+    const note = byId("radius-note");
+    store.follow(({ radius, inversion }) => {
+      const choice = choiceOf(store);
+      for (const button of buttons) button.setAttribute("aria-pressed", String(button.value === choice));
+      group.disabled = inversion !== "spherical";
+      note.textContent = inversion === "spherical" ? NOTES[choice] : "Only the spherical flip has a radius.";
+      note.hidden = note.textContent === "";
+      if ("exponent" in radius) this.slider.value = radius.exponent;
+    });
+  }
+
+  /** The exponent of an answer: unless it is set by hand the slider follows it. */
+  follow({ visibility }: ViewAnswer): void {
+    const { radius, inversion } = this.store.current;
+    if (inversion === "spherical" && !("exponent" in radius)) this.slider.value = visibility.exponent;
+  }
+
+  markAutomatic(exponent: number): void {
+    this.slider.mark(exponent);
+  }
+}
+
+function choiceOf({ current: { radius } }: Store): Choice {
+  return "rule" in radius ? radius.rule : "hand";
+}

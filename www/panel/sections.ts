@@ -1,0 +1,17 @@
+import { type Settings, USUAL_SETTINGS } from "../settings.ts";
+import { byId } from "./dom.ts";
+
+/** The settings of each folded section. */
+const SECTIONS: Record<string, (keyof Settings)[]> = {
+  "flip-section": ["inversion", "viewpoints"],
+  "noise-section": ["denoise", "vote"],
+  "surface-section": ["show", "edge"],
+  "shadow-section": ["lights", "soft", "ambient", "smoothing"],
+};
+
+/** Unfolds the sections in which the address has set something: what one sees must be found. */
+export function bindSections(settings: Settings): void {
+  for (const [id, names] of Object.entries(SECTIONS)) {
+    if (names.some((name) => settings[name] !== USUAL_SETTINGS[name])) byId(id, HTMLDetailsElement).open = true;
+  }
+}

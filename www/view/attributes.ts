@@ -1,0 +1,102 @@
+import { BufferAttribute, type BufferGeometry, Color, DynamicDrawUsage, Vector2, Vector3 } from "three";
+import { type Cloud, type Up, upVector } from "../cloud.ts";
+
+/** Where a file has no colors: from low to high, two calm tones that leave the shape to the shading. */
+const LOW = new Color("#6f8796");
+const HIGH = new Color("#efe6d6");
+/** The share of the points below and above which heights have the ramp's first and last color. */
+const RAMP_FROM = 0.01;
+const RAMP_SAMPLE = 20_000;
+
+/** Before a vertex shader's `main`: the color of a vertex, and how much of it the lights leave. */
+export const TINT_SHADER = /* glsl */ `
+  uniform vec3 up, low, high;
+  uniform vec2 heights;
+  uniform bool lit;
+  attribute float brightness;
+  #ifdef FILE_COLOR
+    attribute vec3 color;
+  #endif
+
+  vec3 ownTint() {
+    #ifdef FILE_COLOR
+      return color;
+    #else
+      return mix(low, high, clamp((dot(position, up) - heights.x) / (heights.y - heights.x), 0.0, 1.0));
+    #endif
+  }
+
+  float light() {
+    return lit ? brightness : 1.0;
+  }
+`;
+
+/** What points and surface of a cloud share: places, colors and light, once on the graphics card. */
+export class CloudAttributes {
+  /** For the materials of all that is drawn of the cloud. */
+  readonly defines: Record<string, string>;
+  readonly uniforms = {
+    up: { value: new Vector3(0, 1, 0) },
+    heights: { value: new Vector2(-1, 1) },
+    // Drawn as they are: the shading pass and the screen both take display colors.
+    low: { value: display(LOW) },
+    high: { value: display(HIGH) },
+    lit: { value: false },
+  };
+  private readonly local: Float32Array;
+  private readonly geometries: BufferGeometry[] = [];
+  private readonly position: BufferAttribute;
+  private readonly color: BufferAttribute | null;
+  private brightness: BufferAttribute | null = null;
+
+  constructor({ local, colors }: Cloud) {
+    this.local = local;
+    this.position = new BufferAttribute(local, 3);
+    this.color = colors && new BufferAttribute(colors, 3, true);
+    this.defines = colors ? { FILE_COLOR: "" } : {};
+  }
+
+  /** Gives a geometry the cloud's points as vertices. */
+  addTo(geometry: BufferGeometry): void {
+    geometry.setAttribute("position", this.position);
+    if (this.color) geometry.setAttribute("color", this.color);
+    if (this.brightness) geometry.setAttribute("brightness", this.brightness);
+    this.geometries.push(geometry);
+  }
+
+  setUp(up: Up): void {
+    this.uniforms.up.value.set(...upVector(up));
+    this.uniforms.heights.value.copy(rampHeights(this.local, this.uniforms.up.value));
+  }
+
+  /** One number from 0 to 1 a point; `null` for no lights. */
+  setBrightness(brightness: Float32Array | null): void {
+    this.uniforms.lit.value = brightness !== null;
+    if (!brightness) return;
+    if (this.brightness) {
+      (this.brightness.array as Float32Array).set(brightness);
+      this.brightness.needsUpdate = true;
+      return;
+    }
+    this.brightness = new BufferAttribute(brightness, 1).setUsage(DynamicDrawUsage);
+    for (const geometry of this.geometries) geometry.setAttribute("brightness", this.brightness);
+  }
+}
+
+/** As the shaders take colors: three.js' own are linear. */
+export function display(color: Color): Color {
+  return color.clone().convertLinearToSRGB();
+}
+
+/** The heights between which the colors run: not from the lowest to the highest point, or a few strays would take the ramp. */
+function rampHeights(local: Float32Array, direction: Vector3): Vector2 {
+  const step = 3 * Math.ceil(local.length / 3 / RAMP_SAMPLE);
+  const heights: number[] = [];
+  for (let i = 0; i < local.length; i += step) {
+    heights.push(local[i]! * direction.x + local[i + 1]! * direction.y + local[i + 2]! * direction.z);
+  }
+  heights.sort((a, b) => a - b);
+  const at = (share: number) => heights[Math.round(share * (heights.length - 1))]!;
+  const [low, high] = [at(RAMP_FROM), at(1 - RAMP_FROM)];
+  return high > low ? new Vector2(low, high) : new Vector2(low - 1, low + 1);
+}

@@ -1,0 +1,58 @@
+import { lightByKey } from "../light-moves.ts";
+import type { Store } from "../settings.ts";
+import type { Viewer } from "../viewer.ts";
+
+/** A handle over the picture for each light: dragged across the picture, or moved around the cloud by keys. */
+export class LightHandles {
+  private readonly container: HTMLElement;
+  private readonly viewer: Viewer;
+  private readonly store: Store;
+
+  constructor(container: HTMLElement, viewer: Viewer, store: Store) {
+    this.container = container;
+    this.viewer = viewer;
+    this.store = store;
+    store.follow(({ lights }) => {
+      while (this.handles.length > lights.length) this.handles.at(-1)!.remove();
+      for (let i = this.handles.length; i < lights.length; i++) container.append(this.handle(i));
+      this.place();
+    });
+  }
+
+  /** Puts the handles where their lights are in the picture; out of it there is none. */
+  place(): void {
+    const { lights } = this.store.current;
+    const { width, height } = this.viewer.stage.size;
+    for (const [i, handle] of this.handles.entries()) {
+      const at = this.viewer.cloud && this.viewer.project(lights[i]!);
+      const inPicture = at && at.x >= 0 && at.y >= 0 && at.x <= width && at.y <= height;
+      handle.hidden = !inPicture;
+      if (inPicture) handle.style.translate = `${at.x}px ${at.y}px`;
+    }
+  }
+
+  private get handles(): HTMLButtonElement[] {
+    return [...this.container.children] as HTMLButtonElement[];
+  }
+
+  private handle(i: number): HTMLButtonElement {
+    const handle = document.createElement("button");
+    handle.type = "button";
+    handle.textContent = String(i + 1);
+    handle.ariaLabel = `Light ${i + 1}: drag it, or move it with the arrow keys, plus and minus`;
+    handle.addEventListener("keydown", (event) => {
+      lightByKey(event, i, this.store, this.viewer);
+    });
+    handle.addEventListener("pointerdown", (event) => {
+      handle.setPointerCapture(event.pointerId);
+    });
+    handle.addEventListener("pointermove", (event) => {
+      if (!handle.hasPointerCapture(event.pointerId)) return;
+      const { left, top } = this.container.getBoundingClientRect();
+      const lights = [...this.store.current.lights];
+      lights[i] = this.viewer.placeAt(event.clientX - left, event.clientY - top, lights[i]!);
+      this.store.change({ lights });
+    });
+    return handle;
+  }
+}

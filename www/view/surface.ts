@@ -1,0 +1,78 @@
+import { BufferAttribute, BufferGeometry, Color, DoubleSide, DynamicDrawUsage, Mesh, ShaderMaterial } from "three";
+import { type CloudAttributes, display, TINT_SHADER } from "./attributes.ts";
+
+/** The inside of the surface, seen when the viewpoint is frozen and the camera behind it. */
+const INSIDE = new Color("#59616b");
+
+const vertexShader = /* glsl */ `
+  ${TINT_SHADER}
+  varying vec3 tint, place;
+  varying float bright;
+
+  void main() {
+    vec4 seen = modelViewMatrix * vec4(position, 1.0);
+    place = seen.xyz;
+    tint = ownTint();
+    bright = light();
+    gl_Position = projectionMatrix * seen;
+  }
+`;
+
+const fragmentShader = /* glsl */ `
+  uniform bool lit;
+  uniform vec3 inside;
+  varying vec3 tint, place;
+  varying float bright;
+
+  void main() {
+    vec3 base = gl_FrontFacing ? tint : inside;
+    // Where there are lights, nothing but them shades; else a lamp a little above the viewer.
+    float shade = bright;
+    if (!lit) {
+      vec3 across = normalize(cross(dFdx(place), dFdy(place)));
+      vec3 toLamp = normalize(normalize(-place) + vec3(-0.25, 0.45, 0.0));
+      shade = mix(0.22, 1.0, max(0.0, dot(across, toLamp)));
+    }
+    gl_FragColor = vec4(base * shade, 1.0);
+  }
+`;
+
+/** The reconstructed surface: triangles between the cloud's own points, flat between their edges. */
+export class Surface {
+  readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
+
+  constructor(attributes: CloudAttributes) {
+    const geometry = new BufferGeometry();
+    attributes.addTo(geometry);
+    geometry.setDrawRange(0, 0);
+    const material = new ShaderMaterial({
+      vertexShader,
+      fragmentShader,
+      defines: attributes.defines,
+      uniforms: { ...attributes.uniforms, inside: { value: display(INSIDE) } },
+      side: DoubleSide,
+    });
+    this.mesh = new Mesh(geometry, material);
+    this.mesh.frustumCulled = false;
+    this.mesh.visible = false;
+  }
+
+  /** `null` hides the surface. */
+  setTriangles(triangles: Uint32Array | null): void {
+    this.mesh.visible = triangles !== null;
+    if (!triangles) return;
+    const { geometry } = this.mesh;
+    const room = geometry.index?.array.length ?? 0;
+    // A little more than needed, so that not each answer of an orbit takes new memory on the graphics card.
+    const index = triangles.length > room ? new BufferAttribute(new Uint32Array(Math.ceil(1.3 * triangles.length)), 1) : geometry.index!;
+    (index.array as Uint32Array).set(triangles);
+    if (index !== geometry.index) geometry.setIndex(index.setUsage(DynamicDrawUsage));
+    index.needsUpdate = true;
+    geometry.setDrawRange(0, triangles.length);
+  }
+
+  dispose(): void {
+    this.mesh.geometry.dispose();
+    this.mesh.material.dispose();
+  }
+}
