@@ -89,5 +89,5 @@ export function usualLook(sample: Sample | null, name: string, count: number, ta
 
 /** Scanners and surveyors have z up, modelers y. */
 function usualUp(name: string): Up {
-  return /\.(ply|obj)$/i.test(name) ? "y" : "z";
+  return /\.(ply|obj|gltf|glb)$/i.test(name) ? "y" : "z";
 }

@@ -129,7 +129,7 @@ export function startSession(params: Params, status: Status, message: Message): 
       const tooFar = source.view !== null && !isInReach(cloud, source.view.at);
       if (tooFar) message.show([...notes, "The view in the address is too far away to see anything, so the usual view is used."].join(" "));
       const asked = tooFar ? null : source.view;
-      const taken = loaded.taken ? { at: loaded.taken.from, target: null } : null;
+      const taken = loaded.taken?.from ? { at: loaded.taken.from, target: null } : null;
       const homeWith = (upward: Up) => {
         const lens = { fov, aspect: viewer.stage.camera.aspect };
         const sameUp = upward === up;

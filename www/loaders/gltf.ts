@@ -1,4 +1,4 @@
-import { type BufferAttribute, Color, InstancedMesh, type InterleavedBufferAttribute, LoadingManager, Matrix4, type Mesh, MeshBasicMaterial, type Object3D, SRGBColorSpace, Vector3 } from "three";
+import { type BufferAttribute, type BufferGeometry, Color, type InstancedMesh, type InterleavedBufferAttribute, LoadingManager, Matrix4, type Mesh, MeshBasicMaterial, type Object3D, SRGBColorSpace, Vector3 } from "three";
 import { type GLTF, GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { MeshoptDecoder } from "three/addons/libs/meshopt_decoder.module.js";
 import type { LoadedCloud } from "../cloud.ts";
@@ -17,7 +17,7 @@ interface GltfJson {
 
 /** What has vertices in a scene, and where it stands: once for each of its instances. */
 interface Placed {
-  object: Mesh;
+  geometry: BufferGeometry;
   matrices: Matrix4[];
 }
 
@@ -31,21 +31,22 @@ export async function readGltf(reading: Reading, base: string | null): Promise<L
   const data = await bytes(name, blob, 0, blob.size);
   checkUse(name, jsonOf(name, data), base);
   const placed = verticesIn(await parse(name, data, base));
-  const total = placed.reduce((sum, { object, matrices }) => sum + matrices.length * position(object).count, 0);
+  const total = placed.reduce((sum, each) => sum + each.matrices.length * position(each).count, 0);
 
-  const colored = placed.length > 0 && placed.every(({ object }) => "color" in object.geometry.attributes);
+  const colored = placed.length > 0 && placed.every(({ geometry }) => "color" in geometry.attributes);
   const extras = extraColumns(placed);
   const columns: Column[] = [...(colored ? ["red", "green", "blue"].map((column): Column => ({ name: column, type: "uint8" })) : []), ...extras];
   const builder = new CloudBuilder("float64", columns, limit, total);
   const first = colored ? 3 : 0;
   const point = new Vector3();
   const shown = { r: 0, g: 0, b: 0 };
-  for (const { object, matrices } of placed) {
-    const { attributes } = object.geometry as { attributes: Record<string, Attribute> };
-    for (const matrix of matrices) {
-      for (let vertex = 0; vertex < position(object).count; vertex++) {
+  for (const each of placed) {
+    const attributes = each.geometry.attributes as Record<string, Attribute>;
+    const positions = position(each);
+    for (const matrix of each.matrices) {
+      for (let vertex = 0; vertex < positions.count; vertex++) {
         if (!builder.takes()) continue;
-        point.fromBufferAttribute(position(object), vertex).applyMatrix4(matrix);
+        point.fromBufferAttribute(positions, vertex).applyMatrix4(matrix);
         const i = builder.put(point.x, point.y, point.z);
         if (colored) {
           // A file's colors are linear light.
@@ -100,11 +101,16 @@ function verticesIn({ scene, scenes }: GLTF): Placed[] {
   const root = (scene as Object3D | undefined) ?? scenes[0];
   root?.updateMatrixWorld(true);
   root?.traverse((object) => {
-    const mesh = object as Mesh;
-    if (!("geometry" in mesh) || !("position" in mesh.geometry.attributes)) return;
-    placed.push({ object: mesh, matrices: mesh instanceof InstancedMesh ? instances(mesh) : [mesh.matrixWorld] });
+    // Points and lines have a geometry as well.
+    const { geometry } = object as Partial<Mesh>;
+    if (!geometry || !("position" in geometry.attributes)) return;
+    placed.push({ geometry, matrices: isInstanced(object) ? instances(object) : [object.matrixWorld] });
   });
   return placed;
+}
+
+function isInstanced(object: Object3D): object is InstancedMesh {
+  return "isInstancedMesh" in object;
 }
 
 function instances(mesh: InstancedMesh): Matrix4[] {
@@ -115,14 +121,14 @@ function instances(mesh: InstancedMesh): Matrix4[] {
   });
 }
 
-function position(object: Mesh): BufferAttribute {
-  return object.geometry.getAttribute("position") as BufferAttribute;
+function position({ geometry }: Placed): BufferAttribute {
+  return geometry.getAttribute("position") as BufferAttribute;
 }
 
 /** Numbers of the file's own, “_INTENSITY” and the like, where all its vertices have them. */
 function extraColumns(placed: readonly Placed[]): (Column & { attribute: string })[] {
-  const names = Object.keys(placed[0]?.object.geometry.attributes ?? {}).filter((name) => name.startsWith("_"));
+  const names = Object.keys(placed[0]?.geometry.attributes ?? {}).filter((name) => name.startsWith("_"));
   return names
-    .filter((name) => placed.every(({ object }) => (object.geometry.attributes as Record<string, Attribute | undefined>)[name]?.itemSize === 1))
+    .filter((name) => placed.every(({ geometry }) => (geometry.attributes as Record<string, Attribute | undefined>)[name]?.itemSize === 1))
     .map((attribute) => ({ name: attribute.slice(1), attribute, type: "float32" }));
 }

@@ -1,6 +1,6 @@
 import type { LoadedCloud } from "../cloud.ts";
 import { bytes, type Reading } from "./blocks.ts";
-import { LoadProblem } from "./problem.ts";
+import { LoadProblem, missingPart } from "./problem.ts";
 
 export const FORMATS = "LAS, LAZ, PLY, PCD, XYZ, TXT, CSV, OBJ, glTF and GLB";
 
@@ -11,6 +11,7 @@ export async function readFile(reading: Reading, base: string | null): Promise<L
     return await readBy(reading, base);
   } catch (error) {
     if (error instanceof LoadProblem) throw error;
+    if (error instanceof TypeError && error.message.includes("import")) throw missingPart(name);
     if (error instanceof RangeError) throw new LoadProblem(`${name} could not be read: it is broken, or there is too little memory for it.`);
     // Whatever a loader trips over, it was the file: a size, an offset or a number that cannot be.
     throw new LoadProblem(`${name} is broken and could not be read.`);

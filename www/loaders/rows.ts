@@ -48,6 +48,8 @@ export async function readTextRows(reading: Reading, rows: Rows): Promise<Loaded
   const builder = builderFor(reading, rows);
   const words = Math.max(...position.map((field) => field.word)) + 1;
   let toSkip = skip;
+  /** A line that is too short: the last one of a file that was cut may be. */
+  let short: string | null = null;
   reading: for await (const some of lines(reading, start)) {
     for (const line of some) {
       if (builder.rows === count) break reading;
@@ -55,12 +57,16 @@ export async function readTextRows(reading: Reading, rows: Rows): Promise<Loaded
       if (trimmed === "" || toSkip-- > 0 || !builder.takes()) continue;
       const row = trimmed.split(/\s+/);
       if (/\d,\d/.test(trimmed)) throw new LoadProblem(`${name} is broken: its numbers have commas (“${trimmed.slice(0, 40)}”), which such a file writes as points.`);
-      if (row.length < words) throw new LoadProblem(`${name} is broken: a line has fewer numbers than its header promises (“${trimmed.slice(0, 40)}”).`);
+      if (short !== null) throw new LoadProblem(`${name} is broken: a line has fewer numbers than its header promises (“${short}”).`);
+      if (row.length < words) {
+        short = trimmed.slice(0, 40);
+        continue;
+      }
       const i = builder.put(Number(row[position[0].word]), Number(row[position[1].word]), Number(row[position[2].word]));
       for (let k = 0; k < others.length; k++) builder.values[k]![i] = Number(row[others[k]!.word]);
     }
   }
-  if (builder.rows < count) throw endsEarly(name, count);
+  if (builder.rows < count || short !== null) throw endsEarly(name, count);
   return builder.finish();
 }
 

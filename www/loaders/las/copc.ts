@@ -30,7 +30,7 @@ export async function readCopc({ name, limit, onProgress }: Pick<Reading, "name"
   checkFormat(name, header);
   if (header.count === 0) throw new LoadProblem(`${name} holds no points.`);
   const { nodes, points } = await chooseNodes(name, read, limit);
-  const perf = await startLazPerf();
+  const perf = await startLazPerf(name);
   const taker = new RecordTaker(header, limit, points);
 
   const asked: Promise<Uint8Array>[] = [];

@@ -45,7 +45,7 @@ async function decompress(reading: Reading, header: LasHeader, taker: RecordTake
   checkFormat(name, header);
   checkByteLength(name, blob.size);
   await checkChunkTable(reading, header);
-  const perf = await startLazPerf();
+  const perf = await startLazPerf(name);
   const { count, rowBytes } = header;
   try {
     const file = perf._malloc(blob.size);

@@ -1,4 +1,5 @@
 import createLazPerf from "laz-perf/lib/worker/laz-perf.js";
+import { missingPart } from "../problem.ts";
 import wasm from "laz-perf/lib/worker/laz-perf.wasm?url";
 
 /** As much of laz-perf (the LAZ decoder of hobu, Apache 2.0) as is used here. */
@@ -14,6 +15,10 @@ export interface LazPerf {
 export const LAZ_FORMATS = [0, 1, 2, 3, 6, 7, 8];
 
 /** Its wasm is served by the page itself. */
-export function startLazPerf(): Promise<LazPerf> {
-  return createLazPerf({ locateFile: () => wasm, print: () => undefined, printErr: () => undefined }) as Promise<LazPerf>;
+export async function startLazPerf(name: string): Promise<LazPerf> {
+  try {
+    return (await createLazPerf({ locateFile: () => wasm, print: () => undefined, printErr: () => undefined })) as LazPerf;
+  } catch {
+    throw missingPart(name);
+  }
 }
