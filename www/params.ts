@@ -1,4 +1,5 @@
 import type { Up } from "./cloud.ts";
+import { MAX_POINTS } from "./loaders/limits.ts";
 import type { HiddenMode, Inversion, Radius, Settings, Viewpoint, Viewpoints } from "./settings.ts";
 
 /** What the address of the page asks for. Anything that cannot be used is named in `notes`, in plain words. */
@@ -8,6 +9,8 @@ export interface Params {
   /** Where the camera stands, in the file's own coordinates, and what it looks at. */
   view: Viewpoint | null;
   target: Viewpoint | null;
+  /** At most so many points of a file are to be shown; `null` for as many as the page can. */
+  points: number | null;
   /** Nothing but the picture. */
   embed: boolean;
   /** Of the settings those that are in the address. */
@@ -76,6 +79,7 @@ export function readParams(search: string, samples: readonly string[]): Params {
     src: src === "" ? null : src,
     view: read("view", parsePlace, "three numbers x,y,z, so the usual view is used") ?? null,
     target: read("target", parsePlace, "three numbers x,y,z, so the camera looks at the middle") ?? null,
+    points: read("points", (text) => whole(MAX_POINTS)(text) || undefined, `an integer from 1 to ${MAX_POINTS}, so it is the last`) ?? null,
     embed: read("embed", oneOf("0", "1"), "0 or 1, so the controls are shown") === "1",
     settings: Object.fromEntries(Object.entries(settings).filter(([, value]) => value !== undefined)),
     notes,
@@ -92,6 +96,7 @@ const WORDS: Record<string, string> = {
   size: "point size",
   soft: "softness of the lights",
   ambient: "ambient light",
+  points: "number of points",
   up: "side that is up",
   viewpoints: "number of viewpoints",
 };

@@ -44,6 +44,7 @@ export function startSession(params: Params, status: Status, message: Message): 
   const progress = new Progress();
   const firstLoad = new FirstLoad();
   let loading = new AbortController();
+  const limit = params.points === null ? {} : { limit: params.points };
   /** A view that was asked for stays in the address also where it is the first one. */
   let askedView: AskedView | null = null;
   const address = new Address(store, () => {
@@ -57,7 +58,7 @@ export function startSession(params: Params, status: Status, message: Message): 
     void open(source);
   });
   onFile({
-    open: (file, notes) => void open({ request: { kind: "file", name: file.name, file, skipNonFinite: false }, sample: null, name: null, view: null, settings: {}, notes }),
+    open: (file, notes) => void open({ request: { kind: "file", name: file.name, file, skipNonFinite: false, ...limit }, sample: null, name: null, view: null, settings: {}, notes }),
     refuse: (sentence) => {
       message.show(sentence);
     },
@@ -97,7 +98,7 @@ export function startSession(params: Params, status: Status, message: Message): 
     refuse(error, "The visible points could not be found");
   };
   const view = params.view && { at: params.view, target: params.target };
-  const first = params.src === null ? fromSample(sampleNamed(params.sample), view) : fromAddress(params.src, view);
+  const first = params.src === null ? fromSample(sampleNamed(params.sample), view) : fromAddress(params.src, view, limit);
   void open({ ...first, settings: params.settings, notes: params.notes });
 
   /** Loads a cloud beside the one on screen; it takes that one's place once the first answer is there. */
@@ -127,7 +128,9 @@ export function startSession(params: Params, status: Status, message: Message): 
       const own: Partial<Settings> = { ...usual, freeze: null, lights: [], ...radiusFor(store.current), ...source.settings };
       const { fieldOfView: fov, up } = { ...usual, ...source.settings };
       const tooFar = source.view !== null && !isInReach(cloud, source.view.at);
-      if (tooFar) message.show([...notes, "The view in the address is too far away to see anything, so the usual view is used."].join(" "));
+      const farNote = tooFar ? ["The view in the address is too far away to see anything, so the usual view is used."] : [];
+      const more = [...farNote, ...(loaded.notes ?? [])];
+      if (more.length > 0) message.show([...notes, ...more].join(" "));
       const asked = tooFar ? null : source.view;
       const taken = loaded.taken?.from ? { at: loaded.taken.from, target: null } : null;
       const homeWith = (upward: Up) => {
@@ -185,11 +188,11 @@ function fromSample(sample: Sample, view: AskedView | null): Source {
   return { request, sample, name: ["sample", sample.name], view, settings: {}, notes: [] };
 }
 
-function fromAddress(address: string, view: AskedView | null): Source {
+function fromAddress(address: string, view: AskedView | null, limit: { limit?: number }): Source {
   // What is no address is left as it is: downloading it fails in plain words.
   const url = URL.canParse(address, document.baseURI) ? new URL(address, document.baseURI) : null;
   const name = url?.pathname.split("/").pop() || address;
-  const request: LoadRequest = { kind: "url", name, url: url?.href ?? address, skipNonFinite: false };
+  const request: LoadRequest = { kind: "url", name, url: url?.href ?? address, skipNonFinite: false, ...limit };
   return { request, sample: null, name: ["src", address], view, settings: {}, notes: [] };
 }
 

@@ -1,6 +1,6 @@
-import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { asciiPly, ball, binaryPly, georeferencedBall, meshObj, meshPly, pcd, rows, text, utf16 } from "./clouds.js";
+import { choose, drop } from "./files.js";
 import { answered, answerInNode, openReady, status } from "./support.js";
 
 const COUNT = 600;
@@ -29,25 +29,6 @@ const FILES: [string, Uint8Array, Float32Array | Float64Array][] = [
   ["european.csv", text(lines(far, ";").replaceAll(".", ",")), far],
   ["mesh.obj", meshObj(far), far],
 ];
-
-async function choose(page: Page, name: string, content: Uint8Array): Promise<void> {
-  await page.locator("#file").setInputFiles({ name, mimeType: "", buffer: Buffer.from(content) });
-}
-
-async function drop(page: Page, name: string, content: Uint8Array): Promise<void> {
-  const transfer = await page.evaluateHandle(
-    ([fileName, bytes]) => {
-      const data = new DataTransfer();
-      data.items.add(new File([Uint8Array.from(bytes)], fileName));
-      return data;
-    },
-    [name, [...content]] as const,
-  );
-  await page.dispatchEvent("#view", "dragover", { dataTransfer: transfer });
-  expect(await page.locator("#drop").isVisible()).toBe(true);
-  await page.dispatchEvent("#view", "drop", { dataTransfer: transfer });
-  expect(await page.locator("#drop").isVisible()).toBe(false);
-}
 
 test("every format opens, chosen and dropped, with the file's own coordinates", async () => {
   const page = await openReady("?sample=bunny");

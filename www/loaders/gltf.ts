@@ -15,6 +15,9 @@ interface GltfJson {
   extensionsRequired?: string[];
 }
 
+/** What a file may need: three's loader brings it along, or it has nothing to do with where points are. */
+const UNDERSTOOD = /^(KHR_(mesh_quantization|meshopt_compression|materials_|texture_|lights_|animation_|xmp)|EXT_(meshopt_compression|mesh_gpu_instancing|texture_))/;
+
 /** What has vertices in a scene, and where it stands: once for each of its instances. */
 interface Placed {
   geometry: BufferGeometry;
@@ -79,6 +82,8 @@ function checkUse(name: string, json: GltfJson, base: string | null): void {
   if (used.includes("KHR_draco_mesh_compression")) {
     throw new LoadProblem(`${name} is compressed with Draco, which this page does not read. Export it without that compression.`);
   }
+  const unknown = json.extensionsRequired?.find((extension) => !UNDERSTOOD.test(extension));
+  if (unknown !== undefined) throw new LoadProblem(`${name} needs what this page does not know (${unknown}).`);
   const elsewhere = json.buffers?.find(({ uri }) => uri !== undefined && !uri.startsWith("data:"));
   if (elsewhere && base === null) {
     throw new LoadProblem(`${name} keeps its points in a file of its own (${elsewhere.uri}). Export it as one GLB file.`);

@@ -4,6 +4,8 @@ import type { LoadedCloud } from "../cloud.ts";
 export const SHAPES = {
   room: async () => (await import("./room.ts")).makeRoom(),
   rings: async () => (await import("./rings.ts")).makeRings(),
+  street: async () => (await import("./street.ts")).makeStreet(),
+  tile: async () => (await import("./tile.ts")).makeTile(),
 } satisfies Record<string, () => Promise<LoadedCloud>>;
 
 export type ShapeName = keyof typeof SHAPES;

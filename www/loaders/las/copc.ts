@@ -29,7 +29,7 @@ export async function readCopc({ name, limit, onProgress }: Pick<Reading, "name"
   const header = parseHeader(name, (await read(0, HEAD)).slice().buffer);
   checkFormat(name, header);
   if (header.count === 0) throw new LoadProblem(`${name} holds no points.`);
-  const { nodes, points } = await chooseNodes(name, read, limit);
+  const { nodes, points } = await chooseNodes(name, read, limit, header.count);
   const perf = await startLazPerf(name);
   const taker = new RecordTaker(header, limit, points);
 
@@ -58,7 +58,7 @@ export async function readCopc({ name, limit, onProgress }: Pick<Reading, "name"
 }
 
 /** The nodes of the coarsest levels, as far as the limit goes. */
-async function chooseNodes(name: string, read: ReadRange, limit: number): Promise<{ nodes: Node[]; points: number }> {
+async function chooseNodes(name: string, read: ReadRange, limit: number, total: number): Promise<{ nodes: Node[]; points: number }> {
   const chosen: Node[] = [];
   let points = 0;
   try {
@@ -81,6 +81,7 @@ async function chooseNodes(name: string, read: ReadRange, limit: number): Promis
       const level = levels[depth] ?? [];
       if (level.length === 0 && pages.length === 0 && levels.length <= depth + 1) break;
       const more = level.reduce((sum, node) => sum + node.pointCount, 0);
+      if (points + more > total) throw damaged(name);
       if (chosen.length > 0 && points + more > limit) break;
       chosen.push(...level);
       points += more;
