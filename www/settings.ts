@@ -57,7 +57,7 @@ export const USUAL_SETTINGS: Settings = {
   lights: [],
   soft: 0,
   // Where no light comes one still sees what is there.
-  ambient: 0.15,
+  ambient: 0.3,
   smoothing: 1,
   freeze: null,
   size: 1,

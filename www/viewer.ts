@@ -75,8 +75,9 @@ export class Viewer {
     return this.shown !== null && this.stage.camera.position.equals(this.shown.home.pose.at);
   }
 
+  /** Whether it looks at what it looked at first; orbit controls change that by a bit each time. */
   get isTargetHome(): boolean {
-    return this.shown !== null && this.navigation.target.equals(this.shown.home.pose.target);
+    return this.shown !== null && this.navigation.target.distanceTo(this.shown.home.pose.target) <= 1e-9 * this.shown.cloud.radius;
   }
 
   /** The camera's place in the file's coordinates: at home exactly the numbers that were asked for. */
@@ -127,12 +128,15 @@ export class Viewer {
       this.onError(error);
     };
     this.lit = false;
+    this.onLight(null);
     this.stage.points.add(points.solid, surface.mesh);
     this.navigation.setHome(home.pose);
     this.applyLook(this.store.current);
     this.placeMarker(this.store.current.freeze);
     this.setUp(this.store.current.up);
     inquiry.onView(answer);
+    // What is wrong with the worker shows in the next answer.
+    inquiry.findAutomatic().catch(() => undefined);
     this.inquire();
   }
 

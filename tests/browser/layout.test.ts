@@ -7,7 +7,7 @@ const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile:
 /** Controls and texts in sight that lie over one another, are cut off at the side, or have no name. */
 async function flaws(page: Page): Promise<string[]> {
   return page.evaluate(() => {
-    const shown = [...document.querySelectorAll<HTMLElement>("#view, #status, #panel button, #panel select, #panel legend, #panel output, .slider > label, .slider input, .segmented label, #panel h2, .note, #message")]
+    const shown = [...document.querySelectorAll<HTMLElement>("#view, #status, #panel button, #panel select, #panel legend, #panel output, .slider > label, .slider input, .segmented label, .choices button, summary, #lights-list li, #panel h2, .note, #message")]
       .filter((element) => element.checkVisibility())
       .map((element) => ({ element, box: element.getBoundingClientRect(), name: `${element.tagName} ${element.id || element.textContent.trim().slice(0, 24)}` }));
     const found: string[] = [];
@@ -31,6 +31,23 @@ async function flaws(page: Page): Promise<string[]> {
 
 test.for([1280, 1000, 761])("at %i px nothing overlaps and every control has a label", async (width) => {
   const page = await openReady("?sample=dragon_res4", { viewport: { width, height: 800 } });
+  expect(await flaws(page)).toEqual([]);
+});
+
+test.for([{ viewport: { width: 1280, height: 800 } }, { viewport: { width: 761, height: 700 } }, PHONE])("with every section unfolded and two lights nothing overlaps ($viewport.width px)", async (options) => {
+  const page = await openReady("?sample=dragon_res4&light=0,0.3,0.2&light=0.1,0.2,0.2&inversion=exponential&show=surface", options);
+  await page.evaluate(() => {
+    document.getElementById("panel")!.classList.add("open");
+    for (const section of document.querySelectorAll("details")) section.open = true;
+  });
+  expect(await flaws(page)).toEqual([]);
+  // The slider and its button are in one row.
+  const [slider, automatic] = await Promise.all(["#scale", "#scale-auto"].map((id) => page.locator(id).boundingBox()));
+  expect(automatic!.x).toBeGreaterThan(slider!.x + slider!.width);
+  await page.getByRole("radio", { name: "Power" }).check();
+  await page.locator("#panel").evaluate((panel) => {
+    panel.scrollTop = 0;
+  });
   expect(await flaws(page)).toEqual([]);
 });
 

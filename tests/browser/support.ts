@@ -62,19 +62,26 @@ export interface Status {
   exponent: number;
   milliseconds: number;
   refilters: number;
+  evaluations: number;
+  triangles?: number;
+  lights?: number;
+  show: string;
+  inversion: string;
+  /** 1 while an answer to the present settings is still to come. */
+  busy: number;
   sentence: string;
 }
 
 export async function status(page: Page): Promise<Status> {
   return page.locator("#status").evaluate((element: HTMLElement) => {
-    const { state, viewpoint, ...numbers } = element.dataset;
+    const { state, viewpoint, show, inversion, ...numbers } = element.dataset;
     const values = Object.fromEntries(Object.entries(numbers).map(([name, value]) => [name, Number(value)]));
-    return { ...values, state, viewpoint: viewpoint?.split(",").map(Number), sentence: element.textContent } as unknown as Status;
+    return { ...values, state, show, inversion, viewpoint: viewpoint?.split(",").map(Number), sentence: element.textContent } as unknown as Status;
   });
 }
 
 export async function reached(page: Page, state: "loading" | "ready" | "error"): Promise<Status> {
-  await page.locator(`#status[data-state="${state}"]`).waitFor({ timeout: 120_000 });
+  await page.locator(`#status[data-state="${state}"]`).waitFor({ state: "attached", timeout: 120_000 });
   return status(page);
 }
 
@@ -106,6 +113,17 @@ export async function settled(page: Page): Promise<Status> {
   return last;
 }
 
+/** The status once the picture is that of the present settings and camera. */
+export async function upToDate(page: Page): Promise<Status> {
+  await page.locator('#status[data-busy="0"]').waitFor({ state: "attached", timeout: 120_000 });
+  return status(page);
+}
+
+/** Unfolds a section of the panel. */
+export async function unfold(page: Page, title: string): Promise<void> {
+  await page.locator("summary", { hasText: title }).click();
+}
+
 /** A mouse drag over the middle of the cloud. */
 export async function drag(page: Page, dx: number, dy: number, button: "left" | "right" = "left"): Promise<void> {
   const box = (await page.locator("#view").boundingBox())!;
@@ -116,16 +134,22 @@ export async function drag(page: Page, dx: number, dy: number, button: "left" | 
   await page.mouse.up({ button });
 }
 
+/** Asks the package itself, in Node, for what the page must have found. */
+export async function inNode<T>(positions: Float32Array | Float64Array, ask: (cloud: PointCloud) => T): Promise<T> {
+  await init();
+  const cloud = new PointCloud(positions);
+  const answer = ask(cloud);
+  cloud.dispose();
+  return answer;
+}
+
 /** What the package answers in Node for the viewpoint the page says it used. */
 export async function answerInNode(
   positions: Float32Array | Float64Array,
   { viewpoint }: Status,
   options: { radius?: number; exponent?: number } = {},
 ) {
-  await init();
-  const cloud = new PointCloud(positions);
-  const { count, radius, exponent } = cloud.visibleFrom(viewpoint, options);
-  cloud.dispose();
+  const { count, radius, exponent } = await inNode(positions, (cloud) => cloud.visibleFrom(viewpoint, options));
   return { visible: count, radius, exponent };
 }
 
@@ -136,6 +160,31 @@ export function dragonPositions(resolution = ""): Float32Array {
   const count = Number(/element vertex (\d+)/.exec(text)![1]);
   const lines = text.slice(text.indexOf("end_header\n") + 11).split("\n", count);
   return Float32Array.from(lines.flatMap((line) => line.trim().split(" ").slice(0, 3).map(Number)));
+}
+
+/** The middle of a cloud's bounding box. */
+export function middleOf(positions: ArrayLike<number>): number[] {
+  return [0, 1, 2].map((axis) => {
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = axis; i < positions.length; i += 3) [low, high] = [Math.min(low, positions[i]!), Math.max(high, positions[i]!)];
+    return low / 2 + high / 2;
+  });
+}
+
+/** The mean of all channels in a square of a screenshot, from 0 to 255. */
+export async function brightness(page: Page, image: Buffer, x: number, y: number, side: number): Promise<number> {
+  return page.evaluate(
+    async ([data, left, top, size]) => {
+      const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
+      const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
+      context.drawImage(bitmap, 0, 0);
+      const pixels = context.getImageData(Math.round(left - size / 2), Math.round(top - size / 2), size, size).data;
+      let sum = 0;
+      for (let i = 0; i < pixels.length; i += 4) sum += pixels[i]! + pixels[i + 1]! + pixels[i + 2]!;
+      return sum / (0.75 * pixels.length);
+    },
+    [image.toString("base64"), x, y, side] as const,
+  );
 }
 
 /** How many pixels of two screenshots differ by more than a trace. */

@@ -2,6 +2,7 @@ import type { Settings, Viewpoint } from "../settings.ts";
 import { askLight, type LightAnswer } from "./lights.ts";
 import { Newest } from "./newest.ts";
 import {
+  isAutomatic,
   isSameLight,
   isSamePlace,
   isSameView,
@@ -65,6 +66,14 @@ export class Inquiry {
     return this.ask(question);
   }
 
+  /** Tells the automatic exponent where the answer itself does not, unless a newer question waits. */
+  async findAutomatic(): Promise<void> {
+    const question = this.wanted.view;
+    if (!question?.method.radius || isAutomatic(question.method)) return;
+    const { exponent } = await this.cloud.points.autoRadius(question.viewpoint);
+    if (question === this.wanted.view) this.onAutomatic(exponent);
+  }
+
   /** Called every frame and after every change; does nothing while the questions stay the same. */
   follow(viewpoint: Viewpoint, settings: Settings): void {
     const now = performance.now();
@@ -113,10 +122,7 @@ export class Inquiry {
   private async view(question: ViewQuestion): Promise<void> {
     try {
       this.onView(await this.ask(question));
-      // Not while a newer question waits.
-      if (question === this.wanted.view && question.method.radius) {
-        this.onAutomatic((await this.cloud.points.autoRadius(question.viewpoint)).exponent);
-      }
+      if (question === this.wanted.view) await this.findAutomatic();
     } catch (error) {
       this.onError(error);
     }

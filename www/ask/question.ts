@@ -55,8 +55,13 @@ export function quickLight(question: LightQuestion): LightQuestion {
 }
 
 function quickMethod(method: Method): Method {
-  const slow = method.radius && "rule" in method.radius && method.radius.rule !== "auto";
+  const slow = method.radius && "rule" in method.radius && !isAutomatic(method);
   return slow ? { ...method, radius: { rule: "auto" } } : method;
+}
+
+/** Whether the answer's own exponent is the automatic one. */
+export function isAutomatic({ radius }: Method): boolean {
+  return radius !== null && "rule" in radius && radius.rule === "auto";
 }
 
 /** Orbit controls come back some bits off when nothing has moved; so little of the cloud's size is no new viewpoint. */

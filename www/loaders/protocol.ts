@@ -1,5 +1,5 @@
 import type { LoadedCloud } from "../cloud.ts";
-import type { ShapeName } from "../shapes/index.ts";
+import type { ShapeName } from "../shapes.ts";
 
 /** What the page asks of the loading worker; one request each. */
 export type LoadRequest =

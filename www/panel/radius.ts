@@ -1,3 +1,4 @@
+import { isAutomatic } from "../ask/question.ts";
 import type { ViewAnswer } from "../ask/views.ts";
 import type { Store } from "../settings.ts";
 import { byId } from "./dom.ts";
@@ -44,8 +45,9 @@ export class RadiusControl {
   }
 
   /** The exponent of an answer: unless it is set by hand the slider follows it. */
-  follow({ visibility }: ViewAnswer): void {
+  follow({ question, visibility }: ViewAnswer): void {
     const { radius, inversion } = this.store.current;
+    if (isAutomatic(question.method)) this.slider.mark(visibility.exponent);
     if (inversion === "spherical" && !("exponent" in radius)) this.slider.value = visibility.exponent;
   }
 

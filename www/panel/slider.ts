@@ -1,6 +1,6 @@
 import { byId } from "./dom.ts";
 
-/** A range input with its value written beside its label. `id`-value is the output, `id`-mark, if there is one, a mark on the track. */
+/** A range input with its value written beside its label, in the output `id`-value. */
 export class Slider {
   private readonly input: HTMLInputElement;
   private readonly output: HTMLOutputElement;
@@ -27,7 +27,7 @@ export class Slider {
     this.show(value);
   }
 
-  /** Marks a value on the track; the mark is the input's own background. */
+  /** Marks a value under the track of a slider of the class `marked`. */
   mark(value: number): void {
     const { min, max } = this.input;
     const share = (value - Number(min)) / (Number(max) - Number(min));

@@ -48,11 +48,18 @@ export class LightHandles {
     });
     handle.addEventListener("pointermove", (event) => {
       if (!handle.hasPointerCapture(event.pointerId)) return;
-      const { left, top } = this.container.getBoundingClientRect();
+      const { left, top, width, height } = this.container.getBoundingClientRect();
       const lights = [...this.store.current.lights];
-      lights[i] = this.viewer.placeAt(event.clientX - left, event.clientY - top, lights[i]!);
+      // Not out of the picture, where nobody could take hold of it again.
+      const [x, y] = [clamp(event.clientX - left, width), clamp(event.clientY - top, height)];
+      lights[i] = this.viewer.placeAt(x, y, lights[i]!);
       this.store.change({ lights });
     });
     return handle;
   }
+}
+
+/** Within a length, a little off its ends. */
+function clamp(value: number, length: number): number {
+  return Math.min(length - 8, Math.max(8, value));
 }

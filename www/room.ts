@@ -1,5 +1,5 @@
-import type { LoadedCloud } from "../cloud.ts";
-import { mulberry32 } from "./random.ts";
+import type { LoadedCloud } from "./cloud.ts";
+import { mulberry32 } from "./samples/random.ts";
 
 /*
  * A living room of 6 × 2.7 × 4.6 meters as a scanner might leave it: points spread evenly over every surface, two

@@ -43,7 +43,7 @@ export function makeScene(random: () => number): Solid<Material> {
     for (let x = -31; x < 32; x += 9.4 + 2 * random()) solids.push(random() < 0.72 ? tree(x, side * 4.4, random) : lamp(x, side * 4.1));
     for (let x = -30; x < 30; x += 5.6 + 2.5 * random()) if (random() < 0.62) solids.push(car(x, side * 2.55, random));
   }
-  solids.push(...[[-9, 4.9], [7.5, -5.2], [16, 5.3], [-17, -5]].map(([x, y]) => person(x!, y!))); // prettier-ignore
+  solids.push(...[[-9, 4.9], [7.5, -5.2], [16, 5.3], [-13, -5.4]].map(([x, y]) => person(x!, y!))); // prettier-ignore
   return group(solids);
 }
 

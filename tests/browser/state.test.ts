@@ -1,0 +1,128 @@
+import { expect, test } from "vitest";
+import { drag, openReady, status, type Status, unfold, upToDate } from "./support.js";
+
+/** The address's query once it has been written for the last time. */
+async function written(page: Awaited<ReturnType<typeof openReady>>): Promise<string> {
+  await upToDate(page);
+  await page.waitForTimeout(800);
+  return new URL(page.url()).search;
+}
+
+function same({ visible, viewpoint, radius, inversion, show, triangles, lights }: Status) {
+  return { visible, viewpoint, radius, inversion, show, triangles, lights };
+}
+
+test("the address, copied, shows the same cloud, camera and settings again", async () => {
+  const page = await openReady("?sample=dragon_res4");
+  await unfold(page, "Surface");
+  await page.getByRole("radio", { name: "Surface" }).check();
+  await page.getByLabel("Longest edge").fill("8");
+  await unfold(page, "Light and shadow");
+  await page.getByRole("button", { name: "Add a light" }).click();
+  await page.getByLabel("Soft edges").fill("0.2");
+  await unfold(page, "Flip and viewpoints");
+  await page.getByRole("radio", { name: "Exponential" }).check();
+  await page.getByRole("radio", { name: "Dimmed" }).check();
+  await page.getByLabel("Point size").fill("2");
+  await page.getByLabel("Field of view", { exact: true }).fill("30");
+  await drag(page, 90, 40);
+  const query = await written(page);
+  expect(query).toMatch(/^\?sample=dragon_res4&/);
+  for (const part of ["show=surface", "edge=8", "soft=0.2", "inversion=exponential", "hidden=dimmed", "size=2", "fov=30", "light=", "view="]) {
+    expect(query).toContain(part);
+  }
+  const before = same(await upToDate(page));
+  const again = await openReady(query);
+  expect(same(await upToDate(again))).toEqual(before);
+  expect(await again.getByLabel("Point size").inputValue()).toBe("2");
+  expect(await again.getByLabel("Field of view", { exact: true }).inputValue()).toBe("30");
+  expect(await again.getByLabel("Longest edge").inputValue()).toBe("8");
+  expect(await again.getByRole("radio", { name: "Dimmed" }).isChecked()).toBe(true);
+  expect(await written(again)).toBe(query);
+});
+
+test("points, a rule, a ring, noise, a frozen viewpoint and a side that is up come back too", async () => {
+  const page = await openReady("?sample=bunny");
+  await page.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).check();
+  await page.getByRole("button", { name: "Search" }).click();
+  await unfold(page, "Flip and viewpoints");
+  await page.getByRole("radio", { name: "At least 2" }).check();
+  await unfold(page, "Noise");
+  await page.locator("#denoise").getByRole("radio", { name: "6", exact: true }).check();
+  await page.getByRole("button", { name: "Freeze viewpoint" }).click();
+  await drag(page, 120, 0);
+  const query = await written(page);
+  for (const part of ["radius=search", "viewpoints=two", "denoise=6", "up=z", "freeze=", "view="]) expect(query).toContain(part);
+  const again = await openReady(query);
+  expect(same(await upToDate(again))).toEqual(same(await upToDate(page)));
+  expect(await again.getByRole("button", { name: "Unfreeze viewpoint" }).isVisible()).toBe(true);
+  expect(await again.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).isChecked()).toBe(true);
+});
+
+test("a camera that was panned comes back looking at the same place", async () => {
+  const page = await openReady("?sample=dragon_res4");
+  await drag(page, 80, -50, "right");
+  const query = await written(page);
+  expect(query).toContain("target=");
+  const again = await openReady(query);
+  expect(await written(again)).toBe(query);
+});
+
+test("back at the first view and the usual settings nothing is left in the address", async () => {
+  const page = await openReady("?sample=dragon_res4");
+  await page.getByLabel("Exponent", { exact: true }).fill("2");
+  await drag(page, 50, 0);
+  expect(await written(page)).toMatch(/exponent=2.*view=/);
+  await page.getByRole("button", { name: "Automatic" }).click();
+  await page.getByRole("button", { name: "Reset view" }).click();
+  expect(await written(page)).toBe("?sample=dragon_res4");
+});
+
+test("everything the address cannot have is named", async () => {
+  const page = await openReady(
+    "?sample=bunny&radius=-1&inversion=power:17&viewpoints=six&denoise=1.5&vote=x&show=mesh&edge=0&light=1,2&soft=2&ambient=-1&smoothing=z&freeze=1&hidden=maybe&size=0&fov=400&up=x&target=1,2&embed=yes",
+  );
+  const message = (await page.locator("#message p").textContent())!;
+  const named = [/radius/, /inversion/, /viewpoints/, /denoise/, /vote/, /kind of picture/, /longest edge/, /light/, /softness/, /ambient/, /smoothing/, /frozen viewpoint/, /hidden points/, /point size/, /field of view/, /side that is up/, /target/, /embed/];
+  for (const name of named) expect(message).toMatch(name);
+  const usual = await openReady("?sample=bunny");
+  expect(same(await upToDate(page))).toEqual(same(await status(usual)));
+});
+
+test("a radius and an exponent exclude each other", async () => {
+  const page = await openReady("?sample=bunny&radius=search&exponent=2");
+  expect((await upToDate(page)).exponent).toBeCloseTo(2, 12);
+  expect(await page.locator("#message p").textContent()).toMatch(/exclude each other/);
+});
+
+test("what belongs to one cloud does not go to the next", async () => {
+  const page = await openReady("?sample=bunny&view=1,8,-12&light=0,20,0&freeze=1,8,-12&size=2&radius=40&denoise=6");
+  const before = await upToDate(page);
+  await page.locator("#sample").selectOption("dragon_res4");
+  await page.locator('#status[data-total="5205"]').waitFor();
+  expect(before.lights).toBe(1);
+  const query = await written(page);
+  expect(new URLSearchParams(query).get("denoise")).toBe("6");
+  for (const gone of ["view", "light", "freeze", "size", "radius"]) expect(query).not.toContain(`${gone}=`);
+  expect((await status(page)).lights).toBeUndefined();
+});
+
+test("?embed=1 is the picture alone", async () => {
+  const page = await openReady("?sample=dragon_res4&embed=1&light=0,0.3,0.2");
+  await upToDate(page);
+  const box = (await page.locator("#view").boundingBox())!;
+  expect(box).toMatchObject({ x: 0, y: 0, width: 1000, height: 700 });
+  for (const chrome of ["#panel", "#lights", "#progress"]) expect(await page.locator(chrome).isVisible()).toBe(false);
+  expect((await status(page)).total).toBe(5205);
+});
+
+test("data-busy is 1 from a change until its answer is there", async () => {
+  const page = await openReady("?sample=dragon_res4");
+  await upToDate(page);
+  const busy = await page.evaluate(() => {
+    document.querySelector<HTMLButtonElement>('#radius button[value="search"]')!.click();
+    return document.getElementById("status")!.dataset["busy"];
+  });
+  expect(busy).toBe("1");
+  expect((await upToDate(page)).evaluations).toBe(6);
+});
