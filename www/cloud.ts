@@ -28,6 +28,7 @@ export interface LoadedCloud {
 export interface Cloud {
   count: number;
   colors: Uint8Array | null;
+  attributes: readonly Attribute[];
   /** Center of the bounding box in the file's coordinates; local = file − center. */
   center: [number, number, number];
   local: Float32Array;
@@ -36,7 +37,7 @@ export interface Cloud {
   radius: number;
 }
 
-export function prepareCloud({ positions, colors }: LoadedCloud): Cloud {
+export function prepareCloud({ positions, colors, attributes = [] }: LoadedCloud): Cloud {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < positions.length; i += 3) {
@@ -55,7 +56,7 @@ export function prepareCloud({ positions, colors }: LoadedCloud): Cloud {
   const size = high.map((value, axis) => value - low[axis]!) as [number, number, number];
   const radius = Math.hypot(...size) / 2;
   // A single point, or many equal ones, still need a distance to be looked at from.
-  return { colors, count: positions.length / 3, center, local, size, radius: radius > 0 ? radius : 1 };
+  return { colors, attributes, count: positions.length / 3, center, local, size, radius: radius > 0 ? radius : 1 };
 }
 
 export function upVector(up: Up): [number, number, number] {

@@ -70,6 +70,8 @@ export function readParams(search: string, samples: readonly string[]): Params {
     smoothing: read("smoothing", whole(1000), "an integer from 0 to 1000, so it is 1"),
     freeze: read("freeze", parsePlace, "three numbers x,y,z, so the viewpoint goes with the camera"),
     hidden: read("hidden", oneOf<HiddenMode>("off", "dimmed", "shown"), "off, dimmed or shown, so they are off"),
+    // Whether the cloud has it, it will tell.
+    color: query.get("color") ?? undefined,
     size: read("size", within(0.05, 50), "a number from 0.05 to 50, so the usual one is used"),
     fieldOfView: read("fov", within(5, 100), "a number of degrees from 5 to 100, so the usual one is used"),
     up: read("up", oneOf<Up>("y", "z", "-y"), "y, z or -y, so the usual one is used"),
