@@ -148,3 +148,39 @@ function padded(bytes: Uint8Array, fill: number): Uint8Array {
   result.set(bytes);
   return result;
 }
+
+/** The positions, and an intensity, a class and a color for each, as a text with a line of names. */
+export function table(positions: ArrayLike<number>): Uint8Array {
+  const lines = rows(positions).map((point, i) => [...point, intensityOf(i), classOf(i), ...colorOf(i)].join(","));
+  return new TextEncoder().encode(`x,y,z,intensity,class,red,green,blue\n${lines.join("\n")}\n`);
+}
+
+/** The same as a PLY file. */
+export function attributedPly(positions: ArrayLike<number>): Uint8Array {
+  const properties = ["float x", "float y", "float z", "ushort scalar_intensity", "uchar class", "uchar red", "uchar green", "uchar blue"];
+  const header = ["ply", "format binary_little_endian 1.0", `element vertex ${positions.length / 3}`, ...properties.map((property) => `property ${property}`), "end_header", ""].join("\n");
+  const rowBytes = 18;
+  const view = new DataView(new ArrayBuffer(rowBytes * (positions.length / 3)));
+  rows(positions).forEach((point, i) => {
+    point.forEach((value, axis) => { view.setFloat32(rowBytes * i + 4 * axis, value, true); });
+    view.setUint16(rowBytes * i + 12, intensityOf(i), true);
+    [classOf(i), ...colorOf(i)].forEach((value, k) => { view.setUint8(rowBytes * i + 14 + k, value); });
+  });
+  return new Uint8Array(Buffer.concat([new TextEncoder().encode(header), new Uint8Array(view.buffer)]));
+}
+
+/** The same as a PCD file, whose colors are four bytes that call themselves a float. */
+export function attributedPcd(positions: ArrayLike<number>): Uint8Array {
+  const count = positions.length / 3;
+  const header = ["VERSION 0.7", "FIELDS x y z rgb intensity class", "SIZE 4 4 4 4 4 4", "TYPE F F F F F U", "COUNT 1 1 1 1 1 1", `WIDTH ${count}`, "HEIGHT 1", `POINTS ${count}`, "DATA binary", ""].join("\n");
+  const view = new DataView(new ArrayBuffer(24 * count));
+  rows(positions).forEach((point, i) => {
+    point.forEach((value, axis) => { view.setFloat32(24 * i + 4 * axis, value, true); });
+    const [red, green, blue] = colorOf(i);
+    // 255 above the colors makes a float of them that is not a number.
+    view.setUint32(24 * i + 12, ((255 << 24) | (red << 16) | (green << 8) | blue) >>> 0, true);
+    view.setFloat32(24 * i + 16, intensityOf(i), true);
+    view.setUint32(24 * i + 20, classOf(i), true);
+  });
+  return new Uint8Array(Buffer.concat([new TextEncoder().encode(header), new Uint8Array(view.buffer)]));
+}

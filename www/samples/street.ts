@@ -45,9 +45,10 @@ export function makeStreet(): LoadedCloud {
         if (!hit) continue;
         const distance = hit.distance + NOISE * gaussian(random);
         const { color, kind, gloss } = hit.material;
+        const light = shade(hit.normal, hit.material, random);
         for (let axis = 0; axis < 3; axis++) {
           positions[3 * count + axis] = from[axis]! + distance * along[axis]!;
-          colors[3 * count + axis] = Math.min(255, color[axis]! * shade(hit.normal, hit.material, random));
+          colors[3 * count + axis] = Math.min(255, color[axis]! * light);
         }
         const slant = Math.abs(along[0] * hit.normal[0] + along[1] * hit.normal[1] + along[2] * hit.normal[2]);
         intensity[count] = Math.min(255, gloss * (0.25 + 0.75 * slant) * (0.92 + 0.16 * random()) * Math.min(1, 22 / (10 + hit.distance)) * 255);
@@ -68,7 +69,7 @@ export function makeStreet(): LoadedCloud {
 
 /** Soft daylight from the south and above; rooms are darker. */
 function shade(normal: Vector, { kind }: Material, random: () => number): number {
-  const light = 0.7 + 0.18 * normal[2] + 0.14 * Math.max(0, 0.5 * normal[0] - 0.86 * normal[1]) + 0.06 * (random() - 0.5);
+  const light = 0.84 + 0.16 * normal[2] + 0.14 * Math.max(0, 0.5 * normal[0] - 0.86 * normal[1]) + 0.06 * (random() - 0.5);
   return kind === 66 ? 0.8 * light : light;
 }
 
