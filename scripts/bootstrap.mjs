@@ -1,4 +1,4 @@
-// Runs one of the project's commands: `node scripts/bootstrap.mjs start|test|build|bench`.
+// Runs one of the project's commands: `node scripts/bootstrap.mjs start|test|build|bench|docs|figures`.
 //
 // The commands are written in TypeScript, which nothing can run on a fresh
 // clone; this file, the only plain JavaScript among the scripts, gets them

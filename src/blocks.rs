@@ -5,8 +5,9 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::error::Error;
-use crate::inversion::square_root;
 use crate::points::Points;
+use crate::real::square_root;
+use crate::room::{OutOfMemory, reserve, with_room};
 use crate::spatial::Bounds;
 
 /// Points in a block.
@@ -35,7 +36,7 @@ pub(crate) struct Blocks {
 
 impl Blocks {
     /// Around `points`, which are in their spatial order.
-    pub(crate) fn around(points: &Points) -> Result<Self, Error> {
+    pub(crate) fn around(points: &Points) -> Result<Self, OutOfMemory> {
         let point = |index: usize| Sphere {
             center: points.get(index),
             radius: 0.0,
@@ -44,7 +45,7 @@ impl Blocks {
         let mut level = around_runs(points.len(), BLOCK, &point)?;
         while level.len() > FANOUT {
             let above = around_runs(level.len(), FANOUT, &|node| level[node])?;
-            levels.try_reserve(2)?;
+            reserve(&mut levels, 2)?;
             levels.push(level);
             level = above;
         }
@@ -109,9 +110,8 @@ fn around_runs(
     count: usize,
     run: usize,
     sphere: &dyn Fn(usize) -> Sphere,
-) -> Result<Vec<Sphere>, Error> {
-    let mut around: Vec<Sphere> = Vec::new();
-    around.try_reserve_exact(count.div_ceil(run))?;
+) -> Result<Vec<Sphere>, OutOfMemory> {
+    let mut around: Vec<Sphere> = with_room(count.div_ceil(run))?;
     for start in (0..count).step_by(run) {
         let mut bounds = Bounds::EMPTY;
         let end = count.min(start + run);

@@ -8,6 +8,7 @@ use crate::blocks::Blocks;
 use crate::denoise::Kept;
 use crate::error::Error;
 use crate::points::{Given, Position, is_finite};
+use crate::room::{OutOfMemory, filled};
 use crate::sequence::Sequence;
 use crate::spacing::Statistics;
 use crate::spatial::{Bounds, HilbertCurve};
@@ -167,9 +168,7 @@ impl PointCloud {
         if let Some(&index) = indices.iter().find(|&&index| index as usize >= len) {
             return Err(Error::IndexOutOfRange { index, len });
         }
-        let mut removed: Vec<bool> = Vec::new();
-        removed.try_reserve_exact(len)?;
-        removed.resize(len, false);
+        let mut removed: Vec<bool> = filled(len, false)?;
         for &index in indices {
             removed[index as usize] = true;
         }
@@ -183,10 +182,11 @@ impl PointCloud {
         let (bounds, _) = survey(rest.points.as_given(), NonFinite::Error)?;
         let curve = HilbertCurve::new(&bounds);
         if curve == HilbertCurve::new(&self.bounds) {
-            self.replace(rest, bounds)
+            self.replace(rest, bounds)?;
         } else {
-            self.replace(rest.resorted(&curve)?, bounds)
+            self.replace(rest.resorted(&curve)?, bounds)?;
         }
+        Ok(())
     }
 
     /// How many points were given, skipped and removed ones included: one more
@@ -209,7 +209,7 @@ impl PointCloud {
     }
 
     /// The same indices at other, finite `positions`, one for each distinct point.
-    pub(crate) fn moved(&self, positions: &[[f64; 3]]) -> Result<Self, Error> {
+    pub(crate) fn moved(&self, positions: &[[f64; 3]]) -> Result<Self, OutOfMemory> {
         let mut bounds = Bounds::EMPTY;
         positions.iter().for_each(|&p| bounds.include(p));
         let sequence = self
@@ -229,7 +229,7 @@ impl PointCloud {
 
     /// The points of `bounds` take the place of those present, unless their
     /// statistics or blocks cannot be measured.
-    fn replace(&mut self, sequence: Sequence, bounds: Bounds) -> Result<(), Error> {
+    fn replace(&mut self, sequence: Sequence, bounds: Bounds) -> Result<(), OutOfMemory> {
         let statistics = Statistics::measure(&sequence.points, &bounds)?;
         self.blocks = Blocks::around(&sequence.points)?;
         self.statistics = statistics;

@@ -9,6 +9,8 @@ use crate::cloud::PointCloud;
 use crate::error::{Error, in_range};
 use crate::neighbors::{Nearest, Neighbors};
 use crate::options::Options;
+use crate::real::square_root;
+use crate::room::with_room;
 
 /// A point is voted visible when more than this share (in fifths) of it and its
 /// neighbors are: 0.4, because the operator misses more than it invents.
@@ -44,12 +46,11 @@ impl PointCloud {
     /// [`Error::OutOfRange`] unless 1 ≤ `k` < the number of present points;
     /// [`Error::OutOfMemory`].
     pub fn denoised(&self, k: usize) -> Result<Self, Error> {
-        let mut moved: Vec<[f64; 3]> = Vec::new();
-        moved.try_reserve_exact(self.sequence.points.len())?;
-        self.for_each_neighborhood("denoise", k, |point, nearest| {
+        let mut moved: Vec<[f64; 3]> = with_room(self.sequence.points.len())?;
+        self.for_each_neighborhood("denoise", k, &mut |point, nearest| {
             moved.push(on_plane(self.sequence.points.get(point), nearest));
         })?;
-        self.moved(&moved)
+        Ok(self.moved(&moved)?)
     }
 
     /// Keeps, for later views with the same `denoise` and `vote`, what does not depend on
@@ -96,30 +97,32 @@ impl PointCloud {
         options: &Options,
         query: impl FnOnce(&Self, &Options) -> Result<T, Error>,
     ) -> Result<T, Error> {
-        let Some(k) = options.denoise else {
-            return query(self, options);
+        let mut options = *options;
+        let made;
+        let cloud = match options.denoise.take() {
+            None => self,
+            Some(k) => match &self.kept.denoised {
+                Some((kept, denoised)) if *kept == k => denoised,
+                _ => {
+                    made = self.denoised(k)?;
+                    &made
+                }
+            },
         };
-        let options = Options {
-            denoise: None,
-            ..*options
-        };
-        match &self.kept.denoised {
-            Some((kept, denoised)) if *kept == k => query(denoised, &options),
-            _ => query(&self.denoised(k)?, &options),
-        }
+        // One call, because each is a copy of the query.
+        query(cloud, &options)
     }
 
     /// Lets every distinct point and its `k` nearest others vote whether it is visible.
     pub(crate) fn vote(&self, k: usize, visible: &[bool]) -> Result<Vec<bool>, Error> {
-        let mut voted: Vec<bool> = Vec::new();
-        voted.try_reserve_exact(visible.len())?;
+        let mut voted: Vec<bool> = with_room(visible.len())?;
         if let Some(voters) = self.kept.voters.as_ref().filter(|voters| voters.k == k) {
             voted.extend((0..visible.len()).map(|point| {
                 let others = &voters.others[point * voters.each..][..voters.each];
                 is_voted(point, others.iter().copied(), visible)
             }));
         } else {
-            self.for_each_neighborhood("vote", k, |point, nearest| {
+            self.for_each_neighborhood("vote", k, &mut |point, nearest| {
                 let others = nearest.found().iter().map(|other| other.index);
                 voted.push(is_voted(point, others, visible));
             })?;
@@ -130,9 +133,8 @@ impl PointCloud {
     fn voters(&self, k: usize) -> Result<Voters, Error> {
         let points = self.sequence.points.len();
         let each = k.min(points.saturating_sub(1));
-        let mut others: Vec<u32> = Vec::new();
-        others.try_reserve_exact(points * each)?;
-        self.for_each_neighborhood("vote", k, |_, nearest| {
+        let mut others: Vec<u32> = with_room(points * each)?;
+        self.for_each_neighborhood("vote", k, &mut |_, nearest| {
             others.extend(nearest.found().iter().map(|other| other.index));
         })?;
         Ok(Voters { k, each, others })
@@ -143,7 +145,7 @@ impl PointCloud {
         &self,
         option: &'static str,
         k: usize,
-        mut visit: impl FnMut(usize, &Nearest),
+        visit: &mut dyn FnMut(usize, &Nearest),
     ) -> Result<(), Error> {
         let present = self.sequence.present();
         let most = present.saturating_sub(1);
@@ -209,8 +211,8 @@ fn least_axis(mut matrix: DMat3) -> DVec3 {
             done = false;
             let theta = (matrix.col(j)[j] - matrix.col(i)[i]) / (2.0 * off);
             let sign = if theta < 0.0 { -1.0 } else { 1.0 };
-            let tangent = sign / (theta.abs() + libm::sqrt(theta * theta + 1.0));
-            let cos = 1.0 / libm::sqrt(tangent * tangent + 1.0);
+            let tangent = sign / (theta.abs() + square_root(theta * theta + 1.0));
+            let cos = 1.0 / square_root(tangent * tangent + 1.0);
             let sin = tangent * cos;
             let mut rotation = DMat3::IDENTITY;
             rotation.col_mut(i)[i] = cos;
@@ -239,7 +241,7 @@ mod tests {
     fn a_point_above_a_lattice_moves_most_of_the_way_down() {
         for tilt in [0.0, 0.75] {
             // A slope, and one point a little above it along its normal.
-            let length = libm::sqrt(1.0 + tilt * tilt);
+            let length = square_root(1.0 + tilt * tilt);
             let mut points = alloc::vec![[-0.5 * tilt / length, 0.0, 0.5 / length]];
             for i in 0..49 {
                 let [x, y] = [i % 7, i / 7].map(|x| f64::from(x as u8) - 3.0);

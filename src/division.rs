@@ -14,8 +14,8 @@ use glam::DVec3;
 
 use self::fan::{Fan, sample_step};
 use crate::blocks::{BLOCK, Blocks, FANOUT, Sphere};
-use crate::error::Error;
-use crate::inversion::square_root;
+use crate::real::square_root;
+use crate::room::{OutOfMemory, filled, reserve, with_room};
 use crate::sector::Sector;
 
 /// More than any error of the roundings in a bound, relative to its largest term.
@@ -131,24 +131,21 @@ impl Division {
         radius: f64,
         seen: &[bool],
         sector: Sector,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, OutOfMemory> {
         let diameter = 2.0 * radius * (1.0 + MARGIN);
         let mut levels: Vec<Vec<Cone>> = Vec::new();
         let mut far: Vec<Vec<u32>> = Vec::new();
         levels.try_reserve_exact(blocks.levels.len())?;
         far.try_reserve_exact(blocks.levels.len())?;
         for spheres in &blocks.levels {
-            let mut cones = Vec::new();
-            cones.try_reserve_exact(spheres.len())?;
+            let mut cones = with_room(spheres.len())?;
             cones.extend(
                 spheres
                     .iter()
                     .map(|sphere| Cone::of(sphere, viewpoint, diameter)),
             );
             levels.push(cones);
-            let mut none = Vec::new();
-            none.try_reserve_exact(spheres.len())?;
-            none.resize(spheres.len(), 0);
+            let none = filled(spheres.len(), 0)?;
             far.push(none);
         }
         let fan = Fan::new(&levels[0], ahead - viewpoint, seen, sector.count as usize)?;
@@ -168,7 +165,7 @@ impl Division {
     }
 
     #[inline(never)]
-    fn assign(&mut self, fan: &Fan, sector: Sector) -> Result<(), Error> {
+    fn assign(&mut self, fan: &Fan, sector: Sector) -> Result<(), OutOfMemory> {
         let mut beyond = [true; 2];
         let count = self.levels[0].len();
         self.roles.try_reserve_exact(count)?;
@@ -253,12 +250,16 @@ impl Division {
     /// Of the far blocks in which m·q may not be below `limit`, the one that m·q may be
     /// largest in; `None` if it is below in all.
     #[inline(never)]
-    pub(crate) fn most_in_the_way(&self, m: DVec3, mut limit: f64) -> Result<Option<u32>, Error> {
+    pub(crate) fn most_in_the_way(
+        &self,
+        m: DVec3,
+        mut limit: f64,
+    ) -> Result<Option<u32>, OutOfMemory> {
         let length = square_root(m.dot(m));
         let mut most = None;
         let top = self.levels.len() - 1;
         let mut path: Vec<(usize, usize)> = Vec::new();
-        path.try_reserve(FANOUT * self.levels.len())?;
+        reserve(&mut path, FANOUT * self.levels.len())?;
         path.extend((0..self.levels[top].len()).map(|node| (top, node)));
         while let Some((level, node)) = path.pop() {
             if self.far[level][node] == 0 {

@@ -5,15 +5,17 @@ mod rows;
 
 use alloc::vec::Vec;
 
-use self::rows::{Rows, filled, squared};
+use self::rows::{Rows, squared};
 use crate::cloud::NonFinite;
 use crate::error::{Error, in_range};
-use crate::inversion::{Kernel, square_root};
+use crate::inversion::Kernel;
 use crate::options::{Inversion, Options, Radius};
 use crate::radius::search::{self, Seen};
 use crate::radius::{self, ChosenRadius};
+use crate::real::square_root;
+use crate::room::{filled, with_room};
 use crate::view::{resolved_inversion, resolved_kernel};
-use crate::visibility::Visibility;
+use crate::visibility::{Visibility, marked_indices};
 
 /// The largest dimension of a [`PointCloudNd`].
 pub const MAX_DIMENSION: usize = 64;
@@ -187,7 +189,7 @@ impl PointCloudNd {
         self.check_viewpoint(viewpoint)?;
         let inversion = self.check_options(options)?;
         let farthest = self.farthest(viewpoint)?;
-        let (kernel, chosen) = resolved_kernel(inversion, options.radius, farthest, |choice| {
+        let (kernel, chosen) = resolved_kernel(inversion, options.radius, farthest, &|choice| {
             self.resolve_radius(choice, viewpoint, farthest)
         })?;
         Ok((self.mark_visible(viewpoint, kernel)?, chosen, inversion))
@@ -218,7 +220,7 @@ impl PointCloudNd {
         let seen = |place: &[f64], kernel| self.mark_visible(place, kernel);
         match choice {
             Radius::Auto => Ok(radius::from_radius(automatic, farthest)),
-            Radius::Search => search::antipodal(automatic, farthest, |kernels| {
+            Radius::Search => search::antipodal(automatic, farthest, &mut |kernels| {
                 let [here, there] = kernels.map(|kernel| seen(viewpoint, kernel));
                 Ok(Seen::count(&here?, &there?))
             }),
@@ -231,7 +233,7 @@ impl PointCloudNd {
                 let opposite = if mirror == viewpoint {
                     None
                 } else {
-                    search::opposite(reach.max(farthest), farthest, |kernel| {
+                    search::opposite(reach.max(farthest), farthest, &mut |kernel| {
                         Ok(Seen::count(
                             &seen(viewpoint, kernel)?,
                             &seen(&mirror, kernel)?,
@@ -246,10 +248,8 @@ impl PointCloudNd {
 
     fn mark_visible(&self, viewpoint: &[f64], kernel: Kernel) -> Result<Vec<bool>, Error> {
         let mut visible = filled(self.rows.distinct(), true)?;
-        let mut flipped: Vec<f64> = Vec::new();
-        flipped.try_reserve_exact(self.rows.distinct() * self.rows.dimension)?;
-        let mut numbers: Vec<usize> = Vec::new();
-        numbers.try_reserve_exact(self.rows.distinct())?;
+        let mut flipped: Vec<f64> = with_room(self.rows.distinct() * self.rows.dimension)?;
+        let mut numbers: Vec<usize> = with_room(self.rows.distinct())?;
         for point in 0..self.rows.distinct() {
             let place = self.rows.at(point);
             let s = kernel.factor(square_root(squared(place, viewpoint)));
@@ -286,12 +286,7 @@ impl PointCloudNd {
         chosen: ChosenRadius,
         inversion: Inversion,
     ) -> Result<Visibility, Error> {
-        let mut indices = Vec::new();
-        indices.try_reserve_exact(self.rows.len())?;
-        for point in (0..visible.len()).filter(|&point| visible[point]) {
-            indices.extend_from_slice(self.rows.indices_of(point));
-        }
-        indices.sort_unstable();
+        let indices = marked_indices(self.len(), visible, &|k| self.rows.indices_of(k))?;
         Ok(Visibility::new(indices, self.len(), chosen, inversion))
     }
 }

@@ -7,6 +7,7 @@ use crate::cloud::PointCloud;
 use crate::error::{Error, in_range};
 use crate::neighbors::{Nearest, Neighbors};
 use crate::options::Options;
+use crate::room::{OutOfMemory, filled, with_room};
 use crate::sort::sort_keyed;
 
 /// Neighbors of a point where there is no mesh.
@@ -90,13 +91,12 @@ impl PointCloud {
             self.soften(&mut brightness, lighting)?;
         }
 
-        let mut rounded: Vec<f32> = Vec::new();
-        rounded.try_reserve_exact(len)?;
+        let mut rounded: Vec<f32> = with_room(len)?;
         rounded.extend(brightness.iter().map(|&light| light as f32));
         Ok(rounded)
     }
 
-    fn soften(&self, brightness: &mut Vec<f64>, lighting: &Lighting) -> Result<(), Error> {
+    fn soften(&self, brightness: &mut Vec<f64>, lighting: &Lighting) -> Result<(), OutOfMemory> {
         if let Some(triangles) = lighting.triangles {
             let links = Links::along_edges(triangles, brightness.len())?;
             return links.average(brightness, lighting.smoothing);
@@ -127,7 +127,7 @@ struct Links {
 }
 
 impl Links {
-    fn among_nearest(neighbors: &Neighbors, count: usize) -> Result<Self, Error> {
+    fn among_nearest(neighbors: &Neighbors, count: usize) -> Result<Self, OutOfMemory> {
         let mut links = Self {
             starts: Vec::new(),
             others: Vec::new(),
@@ -146,10 +146,9 @@ impl Links {
         Ok(links)
     }
 
-    fn along_edges(triangles: &[[u32; 3]], count: usize) -> Result<Self, Error> {
+    fn along_edges(triangles: &[[u32; 3]], count: usize) -> Result<Self, OutOfMemory> {
         // Each with a number that sorts it by its ends.
-        let mut edges: Vec<(u64, u32)> = Vec::new();
-        edges.try_reserve_exact(triangles.len() * 6)?;
+        let mut edges: Vec<(u64, u32)> = with_room(triangles.len() * 6)?;
         let edge = |from: u32, to: u32| (u64::from(from) << 32 | u64::from(to), to);
         for &[a, b, c] in triangles {
             for (from, to) in [(a, b), (b, c), (c, a)] {
@@ -160,10 +159,8 @@ impl Links {
         }
         sort_keyed(&mut edges);
         edges.dedup();
-        let mut starts: Vec<usize> = Vec::new();
-        starts.try_reserve_exact(count + 1)?;
-        let mut others: Vec<u32> = Vec::new();
-        others.try_reserve_exact(edges.len())?;
+        let mut starts: Vec<usize> = with_room(count + 1)?;
+        let mut others: Vec<u32> = with_room(edges.len())?;
         for vertex in 0..count {
             starts.push(others.len());
             let own = edges[others.len()..].iter();
@@ -175,7 +172,7 @@ impl Links {
     }
 
     /// Each value becomes the mean of itself and the linked ones, so many times.
-    fn average(&self, values: &mut Vec<f64>, rounds: usize) -> Result<(), Error> {
+    fn average(&self, values: &mut Vec<f64>, rounds: usize) -> Result<(), OutOfMemory> {
         let mut next = filled(values.len(), 0.0)?;
         for _ in 0..rounds {
             for (i, mean) in next.iter_mut().enumerate() {
@@ -187,11 +184,4 @@ impl Links {
         }
         Ok(())
     }
-}
-
-fn filled(len: usize, value: f64) -> Result<Vec<f64>, Error> {
-    let mut values = Vec::new();
-    values.try_reserve_exact(len)?;
-    values.resize(len, value);
-    Ok(values)
 }

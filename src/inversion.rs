@@ -13,6 +13,7 @@ mod kernel;
 use glam::DVec3;
 
 use crate::points::Points;
+use crate::real::square_root;
 
 pub(crate) use self::kernel::Kernel;
 
@@ -127,18 +128,6 @@ impl Flip {
     fn largest_coordinate(&self, points: &Points) -> f64 {
         let flipped = points.iter().filter_map(|p| self.apply(p));
         flipped.fold(0.0, |largest, q| largest.max(q.abs().max_element()))
-    }
-}
-
-/// The correctly rounded square root, from the platform where there is one.
-pub(crate) fn square_root(x: f64) -> f64 {
-    #[cfg(feature = "std")]
-    {
-        x.sqrt()
-    }
-    #[cfg(not(feature = "std"))]
-    {
-        libm::sqrt(x)
     }
 }
 

@@ -6,6 +6,7 @@ use crate::cloud::{NonFinite, PointCloud, checked_len};
 use crate::error::Error;
 use crate::options::{Exponential, Inversion, Options, Radius};
 use crate::points::{Given, Points, Position};
+use crate::room::with_room;
 use crate::sort::sort_keyed;
 
 /// Which points of a cloud are visible, from what is visible in its parts?
@@ -110,11 +111,9 @@ pub(crate) fn merge<'a>(
     drop(positions);
     let visible = cloud.visible_from(viewpoint, options)?;
 
-    let mut ids: Vec<u32> = Vec::new();
-    ids.try_reserve_exact(count)?;
+    let mut ids: Vec<u32> = with_room(count)?;
     (0..parts).for_each(|number| ids.extend(part(number).1));
-    let mut seen = Vec::new();
-    seen.try_reserve_exact(visible.count())?;
+    let mut seen = with_room(visible.count())?;
     seen.extend(
         visible
             .indices()

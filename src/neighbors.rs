@@ -7,8 +7,8 @@
 
 use alloc::vec::Vec;
 
-use crate::error::Error;
 use crate::points::Points;
+use crate::room::{OutOfMemory, with_room};
 use crate::spatial::Bounds;
 
 /// Points in a leaf box, and boxes in a box one level up.
@@ -28,9 +28,8 @@ pub(crate) struct Neighbors<'a> {
 
 impl<'a> Neighbors<'a> {
     /// For distinct `points` along the Hilbert curve.
-    pub(crate) fn new(points: &'a Points) -> Result<Self, Error> {
-        let mut level: Vec<Bounds> = Vec::new();
-        level.try_reserve_exact(points.len().div_ceil(LEAF))?;
+    pub(crate) fn new(points: &'a Points) -> Result<Self, OutOfMemory> {
+        let mut level: Vec<Bounds> = with_room(points.len().div_ceil(LEAF))?;
         for start in (0..points.len()).step_by(LEAF) {
             let mut bounds = Bounds::EMPTY;
             for index in start..points.len().min(start + LEAF) {
@@ -40,8 +39,7 @@ impl<'a> Neighbors<'a> {
         }
         let mut levels = Vec::new();
         while level.len() > FANOUT {
-            let mut above: Vec<Bounds> = Vec::new();
-            above.try_reserve_exact(level.len().div_ceil(FANOUT))?;
+            let mut above: Vec<Bounds> = with_room(level.len().div_ceil(FANOUT))?;
             for run in level.chunks(FANOUT) {
                 let mut bounds = Bounds::EMPTY;
                 for below in run {
@@ -131,9 +129,8 @@ pub(crate) struct Nearest {
 
 impl Nearest {
     /// With room for `most`, at least one.
-    pub(crate) fn with_room(most: usize) -> Result<Self, Error> {
-        let mut found = Vec::new();
-        found.try_reserve_exact(most)?;
+    pub(crate) fn with_room(most: usize) -> Result<Self, OutOfMemory> {
+        let found = with_room(most)?;
         Ok(Self { found, most })
     }
 

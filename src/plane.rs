@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::options::{Options, Radius};
 use crate::points::Position;
 use crate::radius::ChosenRadius;
+use crate::room::with_room;
 use crate::visibility::Visibility;
 
 /// A point cloud in the plane, with answers as exact as those of [`PointCloud`].
@@ -149,8 +150,7 @@ fn lift<X: Default>([x, y]: [X; 2]) -> [X; 3] {
 }
 
 fn in_space<X: Copy + Default>(positions: &[[X; 2]]) -> Result<Vec<[X; 3]>, Error> {
-    let mut lifted = Vec::new();
-    lifted.try_reserve_exact(positions.len())?;
+    let mut lifted = with_room(positions.len())?;
     lifted.extend(positions.iter().copied().map(lift));
     Ok(lifted)
 }

@@ -3,7 +3,7 @@
 use alloc::vec::Vec;
 use core::ops::Range;
 
-use crate::error::Error;
+use crate::room::{OutOfMemory, with_room};
 
 /// A point as three coordinates: `[f32; 3]` or `[f64; 3]`. Single precision is
 /// stored as it is and widened when it is used.
@@ -86,10 +86,9 @@ impl Points {
     /// None yet, with room for so many, in single precision only where `positions`
     /// are, so that no coordinate is rounded.
     #[inline(never)]
-    pub(crate) fn with_capacity(count: usize, positions: Given) -> Result<Self, Error> {
-        fn reserved<P>(count: usize) -> Result<Vec<P>, Error> {
-            let mut points = Vec::new();
-            points.try_reserve_exact(count)?;
+    pub(crate) fn with_capacity(count: usize, positions: Given) -> Result<Self, OutOfMemory> {
+        fn reserved<P>(count: usize) -> Result<Vec<P>, OutOfMemory> {
+            let points = with_room(count)?;
             Ok(points)
         }
         Ok(match positions {
@@ -138,7 +137,7 @@ impl Points {
     }
 
     /// The points with these indices, in their order.
-    pub(crate) fn gathered(&self, indices: &[u32]) -> Result<Self, Error> {
+    pub(crate) fn gathered(&self, indices: &[u32]) -> Result<Self, OutOfMemory> {
         let mut gathered = Self::with_capacity(indices.len(), self.as_given())?;
         for &index in indices {
             gathered.push(self.get(index as usize));
@@ -147,7 +146,7 @@ impl Points {
     }
 
     /// These and `new` ones, new one k in `places[k]`.
-    pub(crate) fn spliced(&self, new: &Self, places: &[Splice]) -> Result<Self, Error> {
+    pub(crate) fn spliced(&self, new: &Self, places: &[Splice]) -> Result<Self, OutOfMemory> {
         let (present, new) = (self.as_given(), new.as_given());
         let equal: usize = places.iter().map(|place| place.after - place.start).sum();
         let widest = match present {

@@ -66,7 +66,7 @@ pub(crate) fn resolve(
     let seen = |place, kernel| hull::visible_once(points, &Flip::new(place, kernel));
     match choice {
         Radius::Auto => Ok(from_radius(automatic(), farthest)),
-        Radius::Search => search::antipodal(automatic(), farthest, |kernels| {
+        Radius::Search => search::antipodal(automatic(), farthest, &mut |kernels| {
             let [here, there] = kernels.map(|kernel| seen(viewpoint, kernel));
             Ok(Seen::count(&here?, &there?))
         }),
@@ -81,7 +81,7 @@ pub(crate) fn resolve(
             let opposite = if mirror == viewpoint {
                 None
             } else {
-                search::opposite(reach.max(farthest), farthest, |kernel| {
+                search::opposite(reach.max(farthest), farthest, &mut |kernel| {
                     Ok(Seen::count(
                         &seen(viewpoint, kernel)?,
                         &seen(mirror, kernel)?,

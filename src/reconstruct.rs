@@ -8,6 +8,9 @@ use crate::error::{Error, in_range};
 use crate::hull;
 use crate::neighbors::distance_squared;
 use crate::options::Options;
+use crate::real::square_root;
+use crate::room::{OutOfMemory, filled, with_room};
+use crate::sort::sort_keyed;
 use crate::visibility::Visibility;
 
 /// The longest edge kept, in spacings, unless the caller says otherwise. The paper's
@@ -68,7 +71,7 @@ impl PointCloud {
                 let edges = [(a, b), (b, c), (c, a)];
                 edges
                     .into_iter()
-                    .all(|(a, b)| libm::sqrt(distance_squared(a, b)) <= longest)
+                    .all(|(a, b)| square_root(distance_squared(a, b)) <= longest)
             });
         }
         Ok(Reconstruction {
@@ -97,17 +100,15 @@ impl PointCloud {
             let first = (0..3).min_by_key(|&i| corners[i]).unwrap_or(0);
             corners.rotate_left(first);
         }
-        triangles.sort_unstable();
+        sort_by_corners(&mut triangles)?;
         let visibility = self.answer(&visible, view.chosen, view.inversion)?;
         Ok((visibility, triangles))
     }
 
     /// Which distinct point each index of the cloud belongs to; some number for those
     /// that belong to none.
-    pub(crate) fn places(&self) -> Result<Vec<u32>, Error> {
-        let mut places: Vec<u32> = Vec::new();
-        places.try_reserve_exact(self.len())?;
-        places.resize(self.len(), 0);
+    pub(crate) fn places(&self) -> Result<Vec<u32>, OutOfMemory> {
+        let mut places: Vec<u32> = filled(self.len(), 0)?;
         for k in 0..self.sequence.points.len() {
             for &index in self.sequence.indices_of(k) {
                 places[index as usize] = k as u32;
@@ -115,4 +116,18 @@ impl PointCloud {
         }
         Ok(places)
     }
+}
+
+/// Sorts triangles of a surface by their first two corners: an edge in one direction is
+/// that of one triangle alone.
+fn sort_by_corners(triangles: &mut [[u32; 3]]) -> Result<(), OutOfMemory> {
+    let mut edges: Vec<(u64, u32)> = with_room(triangles.len())?;
+    for &[a, b, c] in &*triangles {
+        edges.push((u64::from(a) << 32 | u64::from(b), c));
+    }
+    sort_keyed(&mut edges);
+    for (corners, (edge, c)) in triangles.iter_mut().zip(edges) {
+        *corners = [(edge >> 32) as u32, edge as u32, c];
+    }
+    Ok(())
 }

@@ -1,15 +1,16 @@
 //! A view divided among several threads or workers, each of which answers for its own
 //! points without knowing of the others.
 
-use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::cloud::PointCloud;
 use crate::division::Division;
 use crate::error::Error;
 use crate::hull::{self, Memory};
-use crate::inversion::{Flip, Kernel, square_root};
+use crate::inversion::{Flip, Kernel};
 use crate::options::{Inversion, Options};
+use crate::real::square_root;
+use crate::room::{OutOfMemory, with_room};
 use crate::view::View;
 use crate::visibility::Visibility;
 
@@ -119,9 +120,8 @@ impl PointCloud {
         viewpoint: [f64; 3],
         radius: f64,
         sector: Sector,
-    ) -> Result<Division, Error> {
-        let mut sample = Vec::new();
-        sample.try_reserve_exact(self.blocks.levels[0].len())?;
+    ) -> Result<Division, OutOfMemory> {
+        let mut sample = with_room(self.blocks.levels[0].len())?;
         sample.extend(Division::sample(&self.blocks));
         let points = self.sequence.points.gathered(&sample)?;
         let center = DVec3::from_array(viewpoint);

@@ -8,9 +8,9 @@
 
 use alloc::vec::Vec;
 
-use crate::error::Error;
 use crate::points::{Given, Points, Splice, is_finite};
-use crate::sort::{ordered, runs_of_equal, sort_keyed};
+use crate::room::{OutOfMemory, push, reserve, with_room};
+use crate::sort::{ordered, sort_by_numbers};
 use crate::spatial::{HilbertCurve, Place};
 
 pub(crate) struct Sequence {
@@ -28,7 +28,7 @@ impl Sequence {
         first_index: u32,
         finite: usize,
         curve: &HilbertCurve,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, OutOfMemory> {
         let keyed = sort_along_curve(positions, finite, curve)?;
         let mut points = Points::with_capacity(keyed.len(), positions)?;
         let mut indices = Groups::with_capacity(keyed.len())?;
@@ -49,9 +49,8 @@ impl Sequence {
     /// Both together, both along `curve`. Runs between new points are copied
     /// whole, and only O(log n) keys are computed for each new point.
     #[inline(never)]
-    pub(crate) fn merged(&self, new: &Self, curve: &HilbertCurve) -> Result<Self, Error> {
-        let mut places = Vec::new();
-        places.try_reserve_exact(new.points.len())?;
+    pub(crate) fn merged(&self, new: &Self, curve: &HilbertCurve) -> Result<Self, OutOfMemory> {
+        let mut places = with_room(new.points.len())?;
         let mut after = 0;
         for point in new.points.iter() {
             let start = self.first_not_before(&curve.place(point), after, curve);
@@ -86,9 +85,8 @@ impl Sequence {
 
     /// The same without the indices that `removed` names; a point goes with the
     /// last of its indices.
-    pub(crate) fn without(&self, removed: impl Fn(u32) -> bool) -> Result<Self, Error> {
-        let mut kept = Vec::new();
-        kept.try_reserve_exact(self.points.len())?;
+    pub(crate) fn without(&self, removed: impl Fn(u32) -> bool) -> Result<Self, OutOfMemory> {
+        let mut kept = with_room(self.points.len())?;
         let mut indices = Groups::with_capacity(self.indices.order.len())?;
         for k in 0..self.points.len() {
             let mut stays = false;
@@ -112,7 +110,7 @@ impl Sequence {
 
     /// The same along another curve.
     #[inline(never)]
-    pub(crate) fn resorted(&self, curve: &HilbertCurve) -> Result<Self, Error> {
+    pub(crate) fn resorted(&self, curve: &HilbertCurve) -> Result<Self, OutOfMemory> {
         let count = self.points.len();
         let sorted = Self::sorted(self.points.as_given(), 0, count, curve)?;
         // Distinct points: every group there is one place here.
@@ -138,7 +136,7 @@ impl Sequence {
         &self,
         positions: &[[f64; 3]],
         curve: &HilbertCurve,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, OutOfMemory> {
         let sorted = Self::sorted(Given::Double(positions), 0, positions.len(), curve)?;
         // Points may have come to lie on each other.
         let mut indices = Groups::with_capacity(self.indices.order.len())?;
@@ -198,9 +196,8 @@ struct Groups {
 impl Groups {
     /// None yet, with room for so many indices.
     #[inline(never)]
-    fn with_capacity(indices: usize) -> Result<Self, Error> {
-        let mut order = Vec::new();
-        order.try_reserve_exact(indices)?;
+    fn with_capacity(indices: usize) -> Result<Self, OutOfMemory> {
+        let order = with_room(indices)?;
         Ok(Self {
             order,
             starts: Vec::new(),
@@ -210,17 +207,17 @@ impl Groups {
 
     /// Begins the next list.
     #[inline(never)]
-    fn open(&mut self) -> Result<(), Error> {
+    fn open(&mut self) -> Result<(), OutOfMemory> {
         self.len += 1;
         self.mark()
     }
 
     /// Adds to the list that was begun last.
     #[inline(never)]
-    fn push(&mut self, index: u32) -> Result<(), Error> {
+    fn push(&mut self, index: u32) -> Result<(), OutOfMemory> {
         if self.starts.is_empty() && self.order.len() == self.len {
             // The first list of more than one: until here, each held one.
-            self.starts.try_reserve(self.len)?;
+            reserve(&mut self.starts, self.len)?;
             self.starts.extend(0..self.len as u32);
         }
         self.order.push(index);
@@ -228,21 +225,20 @@ impl Groups {
     }
 
     #[inline(never)]
-    fn copy(&mut self, list: &[u32]) -> Result<(), Error> {
+    fn copy(&mut self, list: &[u32]) -> Result<(), OutOfMemory> {
         self.open()?;
         list.iter().try_for_each(|&index| self.push(index))
     }
 
     /// Ends the last list.
-    fn close(&mut self) -> Result<(), Error> {
+    fn close(&mut self) -> Result<(), OutOfMemory> {
         self.mark()
     }
 
     #[inline(never)]
-    fn mark(&mut self) -> Result<(), Error> {
+    fn mark(&mut self) -> Result<(), OutOfMemory> {
         if !self.starts.is_empty() {
-            self.starts.try_reserve(1)?;
-            self.starts.push(self.order.len() as u32);
+            push(&mut self.starts, self.order.len() as u32)?;
         }
         Ok(())
     }
@@ -262,40 +258,20 @@ fn sort_along_curve(
     positions: Given,
     finite: usize,
     curve: &HilbertCurve,
-) -> Result<Vec<(u64, u32)>, Error> {
-    let mut keyed: Vec<(u64, u32)> = Vec::new();
-    keyed.try_reserve_exact(finite)?;
+) -> Result<Vec<(u64, u32)>, OutOfMemory> {
+    let mut keyed: Vec<(u64, u32)> = with_room(finite)?;
     for (index, position) in positions.iter().enumerate() {
         if is_finite(position) {
             keyed.push((curve.key(position), index as u32));
         }
     }
     let point = |index: u32| without_negative_zero(positions.get(index as usize));
-    sort_ties(
-        &mut keyed,
-        &[
-            &|index| curve.key_in_cell(point(index)),
-            &|index| ordered(point(index)[0]),
-            &|index| ordered(point(index)[1]),
-            &|index| ordered(point(index)[2]),
-            &u64::from,
-        ],
-    );
+    sort_by_numbers(&mut keyed, 6, &|number, index| match number {
+        1 => curve.key_in_cell(point(index)),
+        axis @ 2..=4 => ordered(point(index)[axis - 2]),
+        _ => u64::from(index),
+    });
     Ok(keyed)
-}
-
-/// Sorts by the keys that are there, then by the first of `keys` of the index, and so on.
-fn sort_ties(keyed: &mut [(u64, u32)], keys: &[&dyn Fn(u32) -> u64]) {
-    sort_keyed(keyed);
-    let Some((next, others)) = keys.split_first() else {
-        return;
-    };
-    for run in runs_of_equal(keyed, |&(key, _)| key) {
-        for (key, index) in &mut *run {
-            *key = next(*index);
-        }
-        sort_ties(run, others);
-    }
 }
 
 /// -0 becomes +0, so that equal points have equal bits.

@@ -4,28 +4,31 @@
 //! and McIlroy, "Engineering radix sort", 1993). Orders with ties are sorted by one
 //! number after another.
 
+use alloc::vec::Vec;
+
+use crate::room::{OutOfMemory, with_room};
+
 /// A digit's bits, and how many different digits there are.
 const BITS: u32 = 8;
 const BUCKETS: usize = 1 << BITS;
 /// Fewer items than this are sorted by insertion.
 const FEW: usize = 32;
 
-/// Sorts by the first number; in which order equal ones come is not said.
-pub(crate) fn sort_keyed(items: &mut [(u64, u32)]) {
-    sort_by_number(items, &|&(key, _)| key);
-}
+/// A number, and what is sorted by it: an index into anything. One type, so that this is
+/// compiled once.
+type Keyed = (u64, u32);
 
-/// Sorts by `key`; in which order equal keys come is not said.
+/// Sorts by the number; in which order equal ones come is not said.
 #[inline(never)]
-pub(crate) fn sort_by_number<T: Copy>(items: &mut [T], key: &impl Fn(&T) -> u64) {
+pub(crate) fn sort_keyed(items: &mut [Keyed]) {
     if items.len() < FEW {
-        return sort_few(items, key);
+        return sort_few(items);
     }
     // The first bits that are not the same in all keys make the digit.
-    let one = key(&items[0]);
-    let different = items.iter().fold(0, |bits, item| bits | key(item) ^ one);
+    let one = items[0].0;
+    let different = items.iter().fold(0, |bits, (key, _)| bits | key ^ one);
     let shift = (u64::BITS - different.leading_zeros()).saturating_sub(BITS);
-    let digit = |item: &T| (key(item) >> shift) as usize % BUCKETS;
+    let digit = |(key, _): &Keyed| (key >> shift) as usize % BUCKETS;
     if different == 0 {
         return;
     }
@@ -61,17 +64,17 @@ pub(crate) fn sort_by_number<T: Copy>(items: &mut [T], key: &impl Fn(&T) -> u64)
     }
     if shift > 0 {
         for (&start, &end) in starts.iter().zip(&ends) {
-            sort_by_number(&mut items[start as usize..end as usize], key);
+            sort_keyed(&mut items[start as usize..end as usize]);
         }
     }
 }
 
 #[inline(never)]
-fn sort_few<T: Copy>(items: &mut [T], key: &impl Fn(&T) -> u64) {
+fn sort_few(items: &mut [Keyed]) {
     for sorted in 1..items.len() {
         let item = items[sorted];
         let mut place = sorted;
-        while place > 0 && key(&items[place - 1]) > key(&item) {
+        while place > 0 && items[place - 1].0 > item.0 {
             items[place] = items[place - 1];
             place -= 1;
         }
@@ -86,20 +89,50 @@ pub(crate) fn ordered(x: f64) -> u64 {
     if bits & sign == 0 { bits | sign } else { !bits }
 }
 
-/// The runs of more than one item that have the same number.
-pub(crate) fn runs_of_equal<T>(
-    items: &mut [T],
-    key: impl Fn(&T) -> u64,
-) -> impl Iterator<Item = &mut [T]> {
-    items
-        .chunk_by_mut(move |a, b| key(a) == key(b))
-        .filter(|run| run.len() > 1)
+/// Sorts indices by `count` numbers each: by number 0, with which they come, equal ones
+/// by number 1, and so on. `number(k, index)` is number k of an index.
+pub(crate) fn sort_by_numbers(
+    keyed: &mut [Keyed],
+    count: usize,
+    number: &dyn Fn(usize, u32) -> u64,
+) {
+    sort_from(keyed, 1, count, number);
+}
+
+fn sort_from(keyed: &mut [Keyed], next: usize, count: usize, number: &dyn Fn(usize, u32) -> u64) {
+    sort_keyed(keyed);
+    if next == count {
+        return;
+    }
+    for run in keyed.chunk_by_mut(|a, b| a.0 == b.0) {
+        if run.len() > 1 {
+            for (key, index) in &mut *run {
+                *key = number(next, *index);
+            }
+            sort_from(run, next + 1, count, number);
+        }
+    }
+}
+
+/// The places of a plane, which hold no -0, sorted by their coordinates, as indices.
+pub(crate) fn sorted_places(places: &[[f64; 2]]) -> Result<Vec<u32>, OutOfMemory> {
+    let mut keyed: Vec<Keyed> = with_room(places.len())?;
+    keyed.extend(
+        (0..)
+            .zip(places)
+            .map(|(index, place)| (ordered(place[0]), index)),
+    );
+    sort_by_numbers(&mut keyed, 2, &|axis, index| {
+        ordered(places[index as usize][axis])
+    });
+    let mut sorted: Vec<u32> = with_room(places.len())?;
+    sorted.extend(keyed.iter().map(|&(_, index)| index));
+    Ok(sorted)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use alloc::vec::Vec;
 
     fn numbers(count: usize, mask: u64) -> Vec<(u64, u32)> {
         let mut seed = 3u64;
@@ -124,7 +157,7 @@ mod tests {
             for count in [0, 1, 2, 31, 32, 33, 1000, 20_000] {
                 let given = numbers(count, mask);
                 let mut sorted = given.clone();
-                sort_by_number(&mut sorted, &|&(number, _)| number);
+                sort_keyed(&mut sorted);
                 assert!(
                     sorted.is_sorted_by_key(|&(number, _)| number),
                     "{mask:x} {count}"

@@ -3,9 +3,10 @@
 //! All sums run over the distinct points in their canonical order (see
 //! `spatial`), so permuting or duplicating the input changes no bit.
 
-use crate::error::Error;
 use crate::neighbors::{Nearest, Neighbors, distance_squared};
 use crate::points::Points;
+use crate::real::square_root;
+use crate::room::OutOfMemory;
 use crate::spatial::Bounds;
 
 /// Neighbors whose mean distance is a point's spacing.
@@ -29,7 +30,7 @@ pub(crate) struct Statistics {
 
 impl Statistics {
     /// Measures `points`: distinct, finite, along the Hilbert curve.
-    pub(crate) fn measure(points: &Points, bounds: &Bounds) -> Result<Self, Error> {
+    pub(crate) fn measure(points: &Points, bounds: &Bounds) -> Result<Self, OutOfMemory> {
         if points.len() == 0 {
             return Ok(Self::default());
         }
@@ -56,7 +57,7 @@ impl Statistics {
     }
 }
 
-fn mean_spacing(points: &Points) -> Result<f64, Error> {
+fn mean_spacing(points: &Points) -> Result<f64, OutOfMemory> {
     let n = points.len();
     if n < 2 {
         return Ok(0.0);
@@ -71,7 +72,7 @@ fn mean_spacing(points: &Points) -> Result<f64, Error> {
         neighbors.find(index, &mut nearest);
         let mut distances = 0.0;
         for neighbor in nearest.found() {
-            distances += libm::sqrt(neighbor.squared);
+            distances += square_root(neighbor.squared);
         }
         sum += distances / nearest.found().len() as f64;
     }

@@ -6,7 +6,7 @@
 //! the input or on what was appended and removed before, so everything computed
 //! in it is reproducible to the bit.
 
-use crate::sort::{ordered, runs_of_equal, sort_by_number};
+use crate::real::floor;
 
 /// Bits per axis; three axes fill 63 bits of the key.
 const BITS: u32 = 21;
@@ -65,7 +65,7 @@ impl Bounds {
         let scale = (0.25 / unit).max(f64::MIN_POSITIVE);
         let middle = |axis: usize| {
             let sum = self.max[axis] * (0.5 * scale) + self.min[axis] * (0.5 * scale);
-            libm::floor(sum * 8.0 + 0.5) / 8.0
+            floor(sum * 8.0 + 0.5) / 8.0
         };
         let center = [0, 1, 2].map(middle);
         (center.map(|x| if x.is_finite() { x } else { 0.0 }), scale)
@@ -119,9 +119,7 @@ impl HilbertCurve {
         }
         let unit = power_of_two_above(extent);
         Self {
-            corner: bounds
-                .min
-                .map(|least| libm::floor(least * 0.25 / unit) * unit),
+            corner: bounds.min.map(|least| floor(least * 0.25 / unit) * unit),
             unit,
         }
     }
@@ -211,22 +209,6 @@ fn spread(x: u32) -> u64 {
     x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
     x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
     (x | x << 2) & 0x1249_2492_4924_9249
-}
-
-/// Sorts points by their coordinates, which hold no -0; in which order equal ones
-/// come is not said.
-pub(crate) fn sort_by_coordinates(points: &mut [([f64; 3], u32)]) {
-    sort_from(points, 0);
-}
-
-fn sort_from(points: &mut [([f64; 3], u32)], axis: usize) {
-    let key = |(point, _): &([f64; 3], u32)| ordered(point[axis]);
-    sort_by_number(points, &key);
-    if axis < 2 {
-        for run in runs_of_equal(points, key) {
-            sort_from(run, axis + 1);
-        }
-    }
 }
 
 #[cfg(test)]

@@ -9,6 +9,8 @@ use crate::error::{Error, in_range};
 use crate::hull;
 use crate::options::Options;
 use crate::radius::ChosenRadius;
+use crate::real::square_root;
+use crate::room::{filled, with_room};
 use crate::view::resolved_inversion;
 use crate::visibility::Visibility;
 
@@ -72,9 +74,7 @@ impl PointCloud {
         options: &Options,
     ) -> Result<Visibility, Error> {
         let inversion = resolved_inversion(options, self.statistics.spacing)?;
-        let mut views: Vec<u32> = Vec::new();
-        views.try_reserve_exact(self.sequence.points.len())?;
-        views.resize(self.sequence.points.len(), 0);
+        let mut views: Vec<u32> = filled(self.sequence.points.len(), 0)?;
         let mut chosen = ChosenRadius::unit(0.0);
         let mut memory = hull::Memory::default();
         for &viewpoint in viewpoints {
@@ -84,8 +84,7 @@ impl PointCloud {
             }
             chosen = chosen.joined(view.chosen);
         }
-        let mut visible: Vec<bool> = Vec::new();
-        visible.try_reserve_exact(views.len())?;
+        let mut visible: Vec<bool> = with_room(views.len())?;
         visible.extend(views.iter().map(|&views| views as usize >= k));
         self.answer(&visible, chosen, inversion)
     }
@@ -121,15 +120,14 @@ pub fn ring_of_viewpoints(
     let (mut right, mut up, mut radius) = (DVec3::ZERO, DVec3::ZERO, 0.0);
     if size > 0.0 {
         let direction = ahead / size;
-        let length = libm::sqrt(direction.dot(direction));
+        let length = square_root(direction.dot(direction));
         let direction = direction / length;
         let across = direction.cross(DVec3::AXES[direction.abs().min_position()]);
-        right = across / libm::sqrt(across.dot(across));
+        right = across / square_root(across.dot(across));
         up = right.cross(direction);
         radius = fraction * length * size;
     }
-    let mut ring = Vec::new();
-    ring.try_reserve_exact(count)?;
+    let mut ring = with_room(count)?;
     for k in 0..count {
         let turn = core::f64::consts::TAU * (k as f64 / count as f64);
         let (sin, cos) = libm::sincos(turn);

@@ -29,7 +29,7 @@ impl PointCloud {
         let inversion = resolved_inversion(options, spacing)?;
         let points = &self.sequence.points;
         let farthest = self.blocks.farthest_distance(points, viewpoint)?;
-        let (kernel, chosen) = resolved_kernel(inversion, options.radius, farthest, |choice| {
+        let (kernel, chosen) = resolved_kernel(inversion, options.radius, farthest, &|choice| {
             let Self {
                 blocks, statistics, ..
             } = self;
@@ -49,7 +49,7 @@ pub(crate) fn resolved_kernel(
     inversion: Inversion,
     choice: Radius,
     farthest: f64,
-    radius: impl Fn(Radius) -> Result<ChosenRadius, Error>,
+    radius: &dyn Fn(Radius) -> Result<ChosenRadius, Error>,
 ) -> Result<(Kernel, ChosenRadius), Error> {
     Ok(match inversion {
         Inversion::Spherical => {

@@ -7,6 +7,7 @@ use crate::error::Error;
 use crate::hull;
 use crate::options::{Inversion, Options, Radius};
 use crate::radius::ChosenRadius;
+use crate::room::{OutOfMemory, filled, with_room};
 use crate::view::View;
 
 /// Which points of a cloud are visible from one viewpoint, or from several.
@@ -175,8 +176,7 @@ impl PointCloud {
         options: &Options,
     ) -> Result<(Vec<bool>, View), Error> {
         let view = self.look(memory, viewpoint, options)?;
-        let mut visible = Vec::new();
-        visible.try_reserve_exact(memory.visible().len())?;
+        let mut visible = with_room(memory.visible().len())?;
         visible.extend_from_slice(memory.visible());
         Ok((self.voted(visible, options)?, view))
     }
@@ -196,7 +196,7 @@ impl PointCloud {
         chosen: ChosenRadius,
         inversion: Inversion,
     ) -> Result<Visibility, Error> {
-        let indices = self.callers_indices(visible)?;
+        let indices = marked_indices(self.len(), visible, &|k| self.sequence.indices_of(k))?;
         Ok(Visibility::new(indices, self.len(), chosen, inversion))
     }
 
@@ -212,27 +212,29 @@ impl PointCloud {
         };
         Ok(self.view(viewpoint, &options)?.chosen)
     }
+}
 
-    /// The caller's indices of the marked distinct points, ascending.
-    fn callers_indices(&self, visible: &[bool]) -> Result<Vec<u32>, Error> {
-        let mut count = 0;
-        let mut marked: Vec<bool> = Vec::new();
-        marked.try_reserve_exact(self.len())?;
-        marked.resize(self.len(), false);
-        for (k, _) in visible.iter().enumerate().filter(|(_, visible)| **visible) {
-            for &index in self.sequence.indices_of(k) {
-                marked[index as usize] = true;
-                count += 1;
-            }
+/// The caller's indices, ascending and all below `len`, of the distinct points marked as
+/// `visible`; `indices_of` lists those of one.
+pub(crate) fn marked_indices<'a>(
+    len: usize,
+    visible: &[bool],
+    indices_of: &dyn Fn(usize) -> &'a [u32],
+) -> Result<Vec<u32>, OutOfMemory> {
+    let mut count = 0;
+    let mut marked: Vec<bool> = filled(len, false)?;
+    for (k, _) in visible.iter().enumerate().filter(|(_, visible)| **visible) {
+        for &index in indices_of(k) {
+            marked[index as usize] = true;
+            count += 1;
         }
-        let mut indices = Vec::new();
-        indices.try_reserve_exact(count)?;
-        indices.extend(
-            (0..)
-                .zip(&marked)
-                .filter(|(_, marked)| **marked)
-                .map(|(i, _): (u32, _)| i),
-        );
-        Ok(indices)
     }
+    let mut indices = with_room(count)?;
+    indices.extend(
+        (0..)
+            .zip(&marked)
+            .filter(|(_, marked)| **marked)
+            .map(|(i, _): (u32, _)| i),
+    );
+    Ok(indices)
 }

@@ -11,7 +11,7 @@ type Vector = [number, number, number];
 type Color = [number, number, number];
 
 /** A piece of surface: how large it is, and a point on it with its normal for two numbers in 0 … 1. */
-interface Surface {
+export interface Surface {
   area: number;
   color: Color;
   at(u: number, v: number): { point: Vector; normal: Vector };
@@ -36,7 +36,7 @@ const BOOKS: Color[] = [[146, 74, 66], [72, 96, 128], [196, 172, 120], [86, 116,
 
 export function makeRoom(): LoadedCloud {
   const random = mulberry32(20070802);
-  const surfaces = [...shell(), ...furniture(random)];
+  const surfaces = roomSurfaces(random);
   const total = surfaces.reduce((sum, surface) => sum + surface.area, 0);
 
   const positions = new Float32Array(3 * POINTS);
@@ -63,6 +63,11 @@ export function makeRoom(): LoadedCloud {
     }
   }
   return { positions, colors };
+}
+
+/** All there is in the room; `random` decides about books and leaves. */
+export function roomSurfaces(random: () => number): Surface[] {
+  return [...shell(), ...furniture(random)];
 }
 
 function shell(): Surface[] {

@@ -3,22 +3,27 @@ import { copyFileSync, mkdirSync, rmSync } from "node:fs";
 import { inRoot } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
+import { EMBEDDED, embedWasm } from "./embed.js";
 import { GLUE } from "./wasm.js";
+
+const GENERATED = [...GLUE, ...EMBEDDED];
 
 /** TypeScript → the npm package's modules and types, in dist. */
 export async function buildPackage(): Promise<void> {
   const work = {
     name: "package",
     inputs: ["src/ts", "tsconfig.base.json", "tsconfig.build.json", "package-lock.json"],
-    outputs: ["dist/index.js", ...GLUE.map((file) => `dist/wasm/${file}`)],
+    ignore: EMBEDDED.map((file) => `src/ts/wasm/${file}`),
+    outputs: ["dist/index.js", ...GENERATED.map((file) => `dist/wasm/${file}`)],
   };
   const result = await unlessUnchanged(work, async () => {
     say("Compiling the npm package…");
     // Emptied first, so that no module outlives its source.
     rmSync(inRoot("dist"), { recursive: true, force: true });
+    embedWasm();
     await mustRun("tsc", ["-p", "tsconfig.build.json"], "The npm package does not compile");
     mkdirSync(inRoot("dist/wasm"), { recursive: true });
-    for (const file of GLUE) copyFileSync(inRoot("src/ts/wasm", file), inRoot("dist/wasm", file));
+    for (const file of GENERATED) copyFileSync(inRoot("src/ts/wasm", file), inRoot("dist/wasm", file));
   });
   say(`npm package: ${result}`);
 }

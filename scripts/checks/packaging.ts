@@ -1,7 +1,9 @@
 import { run } from "../lib/run.js";
+import { setUpBrowser } from "../setup/browser.js";
 import { BUILD } from "./build.js";
 import type { Check, Outcome } from "./check.js";
 import { FAIL, PASS, checkCommand, sum } from "./check.js";
+import { vitest } from "./vitest.js";
 
 /** Everything a user of the npm package gets. */
 const WANTED = /^(dist\/.+\.(js|d\.ts|wasm)|README\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
@@ -18,6 +20,20 @@ export const packagingChecks: Check[] = [
     needs: [BUILD],
     run: npmPackage,
   },
+  {
+    title: "Packaging: what package.json promises, and the types as every resolver finds them",
+    needs: [BUILD],
+    run: async () =>
+      sum([
+        await checkCommand("publint", ["run", ".", "--strict"]),
+        await checkCommand("attw", ["--pack", ".", "--profile", "esm-only", "--quiet"]),
+      ]),
+  },
+  {
+    title: "Packaging: the npm package in its users' projects",
+    needs: [BUILD],
+    run: async () => vitest("tests/consumers", { HPR_CHROMIUM: await setUpBrowser() }),
+  },
 ];
 
 async function npmPackage(): Promise<Outcome> {
@@ -32,7 +48,16 @@ async function npmPackage(): Promise<Outcome> {
   if (unwanted.length > 0) console.log(`Would be published, but should not: ${unwanted.join(", ")}`);
   if (missing.length > 0) console.log(`Would not be published, but should: ${missing.join(", ")}`);
   console.log(`${files.length} files`);
-  return sum([unwanted.length === 0 ? PASS : FAIL, missing.length === 0 ? PASS : FAIL]);
+  return sum([unwanted.length === 0 ? PASS : FAIL, missing.length === 0 ? PASS : FAIL, await rehearsal()]);
+}
+
+/** Publishing, up to the point where something would be sent; npm says there what it would have to put right. */
+async function rehearsal(): Promise<Outcome> {
+  const { ok, output } = await run("npm", ["publish", "--dry-run", "--offline"], { show: "nothing" });
+  const corrected = output.split("\n").filter((line) => /auto-corrected|errors corrected|npm warn publish "/.test(line));
+  if (ok && corrected.length === 0) return PASS;
+  console.log(ok ? corrected.join("\n") : output);
+  return FAIL;
 }
 
 function filesIn(output: string): string[] {

@@ -4,7 +4,8 @@ use alloc::vec::Vec;
 use glam::{DVec2, DVec3};
 
 use super::Cone;
-use crate::error::Error;
+use crate::room::{OutOfMemory, with_room};
+use crate::sort::sort_keyed;
 
 /// Blocks whose directions decide where the seams are.
 const SAMPLES: usize = 1024;
@@ -27,7 +28,7 @@ impl Fan {
         ahead: DVec3,
         seen: &[bool],
         count: usize,
-    ) -> Result<Self, Error> {
+    ) -> Result<Self, OutOfMemory> {
         let step = sample_step(blocks.len());
         let sample = || blocks.iter().step_by(step).map(|cone| cone.axis);
         // Angles begin behind: seen from outside, nothing is there.
@@ -50,17 +51,15 @@ impl Fan {
             clearance: 0.0,
         };
         // Each with the work that its block stands for. Sorted by their bits, which for
-        // numbers from 0 on are in their order, because such pairs are sorted elsewhere
-        // too: less code.
-        let mut angles: Vec<(u64, u32)> = Vec::new();
-        angles.try_reserve_exact(SAMPLES)?;
+        // numbers from 0 on are in their order.
+        let mut angles: Vec<(u64, u32)> = with_room(SAMPLES)?;
         let work = |&seen: &bool| if seen { SEEN } else { 1 };
         angles.extend(
             sample()
                 .map(|u| fan.angle(u).to_bits())
                 .zip(seen.iter().map(work)),
         );
-        angles.sort_unstable();
+        sort_keyed(&mut angles);
         let mut total = 0;
         for (_, work) in &mut angles {
             total += *work;

@@ -9,14 +9,14 @@
 //! ½ΣΣλᵢλⱼ is at most ⅜. A point that flips to less is hidden, now and for
 //! every larger K, and need not be flipped to know it.
 
-use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
 use glam::DVec3;
 
 use super::Flipped;
 use super::incremental::Hull;
 use super::topology::FaceId;
-use crate::inversion::square_root;
+use crate::real::square_root;
+use crate::room::{OutOfMemory, reserve};
 
 /// Fewer points are located faster than a map is made.
 const MIN_POINTS: usize = 2048;
@@ -62,7 +62,7 @@ impl DepthMap {
         flipped: &Flipped,
         count: usize,
         wanted: &dyn Fn(u32) -> bool,
-    ) -> Result<(), TryReserveError> {
+    ) -> Result<(), OutOfMemory> {
         self.hidden_from.clear();
         self.windows = Default::default();
         self.viewpoint = flipped.viewpoint();
@@ -127,7 +127,7 @@ impl DepthMap {
         hull: &Hull,
         mut face: FaceId,
         flipped: &Flipped,
-    ) -> Result<FaceId, TryReserveError> {
+    ) -> Result<FaceId, OutOfMemory> {
         let Window {
             x: left,
             y: bottom,
@@ -137,8 +137,8 @@ impl DepthMap {
         } = self.windows[side];
         let cell = 1.0 / self.cells_per_unit;
         self.corners.clear();
-        self.corners.try_reserve((columns + 1) * (rows + 1))?;
-        self.hidden_from.try_reserve(columns * rows)?;
+        reserve(&mut self.corners, (columns + 1) * (rows + 1))?;
+        reserve(&mut self.hidden_from, columns * rows)?;
         let mut row_start = face;
         for row in 0..=rows {
             face = row_start;

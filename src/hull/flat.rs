@@ -7,20 +7,19 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::error::Error;
 use crate::predicates::{Sign, orient2d};
-use crate::spatial::sort_by_coordinates;
+use crate::room::{OutOfMemory, filled, with_room};
+use crate::sort::sorted_places;
 
 const ORIGIN: [f64; 2] = [0.0; 2];
 
 /// Marks the visible points among `count`, which lie in one plane with the origin.
 pub(super) fn mark_visible(
     count: u32,
-    flipped: &impl Fn(u32) -> Option<DVec3>,
+    flipped: &dyn Fn(u32) -> Option<DVec3>,
     visible: &mut [bool],
-) -> Result<(), Error> {
-    let mut points: Vec<(DVec3, u32)> = Vec::new();
-    points.try_reserve_exact(count as usize)?;
+) -> Result<(), OutOfMemory> {
+    let mut points: Vec<(DVec3, u32)> = with_room(count as usize)?;
     for index in 0..count {
         match flipped(index) {
             Some(q) => points.push((q, index)),
@@ -77,21 +76,13 @@ fn mark_in_plane(
     points: &[(DVec3, u32)],
     [i, j]: [usize; 2],
     visible: &mut [bool],
-) -> Result<(), Error> {
-    let mut sorted: Vec<([f64; 3], u32)> = Vec::new();
-    sorted.try_reserve_exact(points.len() + 1)?;
-    sorted.push(([0.0; 3], u32::MAX));
+) -> Result<(), OutOfMemory> {
+    let mut places: Vec<[f64; 2]> = with_room(points.len() + 1)?;
+    places.push(ORIGIN);
     // Adding 0 makes -0 the same as 0.
-    sorted.extend(
-        points
-            .iter()
-            .map(|(q, index)| ([q[i] + 0.0, q[j] + 0.0, 0.0], *index)),
-    );
-    sort_by_coordinates(&mut sorted);
-    let at = |k: u32| {
-        let ([x, y, _], _) = sorted[k as usize];
-        [x, y]
-    };
+    places.extend(points.iter().map(|(q, _)| [q[i] + 0.0, q[j] + 0.0]));
+    let sorted = sorted_places(&places)?;
+    let at = |k: u32| places[sorted[k as usize] as usize];
 
     // One representative of equal points walks the hull.
     let mut distinct: Vec<u32> = Vec::new();
@@ -103,9 +94,7 @@ fn mark_in_plane(
             distinct.push(k);
         }
     }
-    let mut on_boundary = Vec::new();
-    on_boundary.try_reserve_exact(sorted.len())?;
-    on_boundary.resize(sorted.len(), false);
+    let mut on_boundary = filled(sorted.len(), false)?;
     let mut add_chain = |sorted: &mut dyn Iterator<Item = u32>| {
         convex_chain(sorted, &at, &mut chain);
         for edge in chain.windows(2) {
@@ -123,9 +112,9 @@ fn mark_in_plane(
         if at(k) != at(representative) {
             representative = k;
         }
-        let index = sorted[k as usize].1;
-        if on_boundary[representative as usize] && index != u32::MAX {
-            visible[index as usize] = true;
+        let place = sorted[k as usize] as usize;
+        if on_boundary[representative as usize] && place > 0 {
+            visible[points[place - 1].1 as usize] = true;
         }
     }
     Ok(())
@@ -136,7 +125,7 @@ fn mark_in_plane(
 /// neighbors are kept.
 fn convex_chain(
     sorted: &mut dyn Iterator<Item = u32>,
-    at: &impl Fn(u32) -> [f64; 2],
+    at: &dyn Fn(u32) -> [f64; 2],
     chain: &mut Vec<u32>,
 ) {
     chain.clear();

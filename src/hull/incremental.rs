@@ -10,14 +10,13 @@
 //! Every decision is a sign: first of a rounded dual plane with a proved bound
 //! of its error (`plane`), then exact (`predicates`).
 
-use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
 use glam::DVec3;
 
 use super::plane::Plane;
 use super::topology::{Face, FaceId, Surface, Vertex};
-use crate::error::Error;
 use crate::predicates::{Sign, side_of_face, side_of_origin};
+use crate::room::{OutOfMemory, reserve};
 
 /// The ghost vertex.
 pub(super) const ORIGIN: Vertex = 0;
@@ -44,13 +43,13 @@ pub(super) struct Vertices {
 }
 
 impl Vertices {
-    fn reserve(&mut self, more: usize) -> Result<(), TryReserveError> {
-        self.positions.try_reserve(more)?;
-        self.points.try_reserve(more)
+    fn reserve(&mut self, more: usize) -> Result<(), OutOfMemory> {
+        reserve(&mut self.positions, more)?;
+        reserve(&mut self.points, more)
     }
 
     /// A number for the point `point`, flipped to `q`.
-    pub(super) fn add(&mut self, point: u32, q: DVec3) -> Result<Vertex, TryReserveError> {
+    pub(super) fn add(&mut self, point: u32, q: DVec3) -> Result<Vertex, OutOfMemory> {
         if let Some(vertex) = self.free.pop() {
             self.positions[vertex as usize] = q;
             self.points[vertex as usize] = point;
@@ -127,7 +126,7 @@ impl Hull {
         corners: [(u32, DVec3); 3],
         reach: f64,
         count: usize,
-    ) -> Result<(), Error> {
+    ) -> Result<(), OutOfMemory> {
         let vertices = &mut self.vertices;
         vertices.positions.clear();
         vertices.points.clear();
@@ -148,15 +147,25 @@ impl Hull {
 
     /// Makes `q`, strictly outside face `start`, a vertex; returns one of its faces
     /// that is outer. There is one, because the ray of a new vertex ends at it.
-    pub(super) fn insert(&mut self, point: u32, q: DVec3, start: FaceId) -> Result<FaceId, Error> {
+    pub(super) fn insert(
+        &mut self,
+        point: u32,
+        q: DVec3,
+        start: FaceId,
+    ) -> Result<FaceId, OutOfMemory> {
         let vertex = self.vertices.add(point, q)?;
         let vertices = &self.vertices;
-        self.surface.insert(
-            vertex,
-            start,
-            |face| vertices.side(face, q) == Sign::Positive,
-            |corners| vertices.plane(corners),
-        )?;
+        self.surface
+            .find_cavity(start, |face| vertices.side(face, q) == Sign::Positive)?;
+        self.fill_cavity(vertex)
+    }
+
+    /// Joins a new vertex to the horizon of the open cavity; returns an outer face of it.
+    #[inline(never)]
+    pub(super) fn fill_cavity(&mut self, vertex: Vertex) -> Result<FaceId, OutOfMemory> {
+        let vertices = &self.vertices;
+        self.surface
+            .fill_cavity(vertex, |corners| vertices.plane(corners))?;
         let is_outer = |&id: &FaceId| self.vertices.is_outer(self.surface.face(id));
         let outer = self.surface.fan().iter().rev().copied().find(is_outer);
         Ok(outer.expect("a new vertex is on the outer boundary"))

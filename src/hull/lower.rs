@@ -14,26 +14,21 @@ use glam::DVec3;
 
 use super::order;
 use super::topology::{Face, FaceId, Surface, Vertex};
-use crate::error::Error;
 use crate::predicates::{Sign, orient2d, side_of_face};
-use crate::spatial::sort_by_coordinates;
+use crate::room::{OutOfMemory, filled, push, reserve, with_room};
+use crate::sort::sorted_places;
 
 /// The ghost vertex, infinitely far up.
 const ABOVE: Vertex = 0;
-/// Points looked at for a first triangle before all of them are.
-const SEED_SAMPLE: usize = 512;
 
 /// Marks the points on the lower boundary among `count`.
 pub(crate) fn mark_lower_boundary(
     count: u32,
-    lifted: &impl Fn(u32) -> DVec3,
-) -> Result<Vec<bool>, Error> {
-    let mut visible = Vec::new();
-    visible.try_reserve_exact(count as usize)?;
-    visible.resize(count as usize, false);
-    let sample = order::spatial_rounds().flat_map(|round| round.indices(count));
-    let sample = sample.take(SEED_SAMPLE);
-    let seed = first_triangle(sample, lifted).or_else(|| first_triangle(0..count, lifted));
+    lifted: &dyn Fn(u32) -> DVec3,
+) -> Result<Vec<bool>, OutOfMemory> {
+    let mut visible = filled(count as usize, false)?;
+    let seed = first_triangle(count, order::sample_step(count), lifted)
+        .or_else(|| first_triangle(count, 1, lifted));
     match seed {
         Some(corners) => mark_in_space(count, lifted, corners, &mut visible)?,
         None => mark_upright(count, lifted, &mut visible)?,
@@ -46,12 +41,11 @@ fn turn(a: DVec3, b: DVec3, c: DVec3) -> Sign {
     orient2d([b.x, b.y], [a.x, a.y], [c.x, c.y])
 }
 
-/// Three points that are not above one line, counter-clockwise seen from below.
-fn first_triangle(
-    candidates: impl Iterator<Item = u32> + Clone,
-    lifted: &impl Fn(u32) -> DVec3,
-) -> Option<[u32; 3]> {
-    let points = || candidates.clone().map(|i| (i, lifted(i)));
+/// Three among every `step`th point that are not above one line, counter-clockwise seen
+/// from below.
+#[inline(never)]
+fn first_triangle(count: u32, step: usize, lifted: &dyn Fn(u32) -> DVec3) -> Option<[u32; 3]> {
+    let points = || (0..count).step_by(step).map(|i| (i, lifted(i)));
     let largest = |measure: &dyn Fn(DVec3) -> f64| {
         points().max_by(|(_, p), (_, q)| measure(*p).total_cmp(&measure(*q)))
     };
@@ -75,26 +69,27 @@ fn first_triangle(
 
 fn mark_in_space(
     count: u32,
-    lifted: &impl Fn(u32) -> DVec3,
+    lifted: &dyn Fn(u32) -> DVec3,
     corners: [u32; 3],
     visible: &mut [bool],
-) -> Result<(), Error> {
+) -> Result<(), OutOfMemory> {
     let mut hull = LowerHull::new(corners, lifted)?;
     // On the boundary now; visible only if that is so at the end.
     let mut on_boundary: Vec<u32> = Vec::new();
     let mut hint = 0;
-    for index in order::spatial_rounds().flat_map(|round| round.indices(count)) {
-        let q = lifted(index);
-        let (face, side) = hull.locate(q, hint);
-        hint = match side {
-            Sign::Positive => hull.insert(index, q, face)?,
-            Sign::Zero => {
-                on_boundary.try_reserve(1)?;
-                on_boundary.push(index);
-                face
-            }
-            Sign::Negative => face,
-        };
+    for round in order::spatial_rounds() {
+        for index in round.indices(count) {
+            let q = lifted(index);
+            let (face, side) = hull.locate(q, hint);
+            hint = match side {
+                Sign::Positive => hull.insert(index, q, face)?,
+                Sign::Zero => {
+                    push(&mut on_boundary, index)?;
+                    face
+                }
+                Sign::Negative => face,
+            };
+        }
     }
     for (_, face) in hull.surface.alive() {
         if hull.vertices.is_outer(face) {
@@ -151,7 +146,7 @@ impl Vertices {
 }
 
 impl LowerHull {
-    fn new(corners: [u32; 3], lifted: &impl Fn(u32) -> DVec3) -> Result<Self, Error> {
+    fn new(corners: [u32; 3], lifted: &dyn Fn(u32) -> DVec3) -> Result<Self, OutOfMemory> {
         let [a, b, c] = corners;
         let mut surface = Surface::default();
         surface.start(ABOVE, [1, 2, 3], |_| ())?;
@@ -191,15 +186,16 @@ impl LowerHull {
     }
 
     /// Makes `q`, strictly outside face `start`, a vertex; returns one of its outer faces.
-    fn insert(&mut self, point: u32, q: DVec3, start: FaceId) -> Result<FaceId, Error> {
+    fn insert(&mut self, point: u32, q: DVec3, start: FaceId) -> Result<FaceId, OutOfMemory> {
         let vertex = self.vertices.positions.len() as Vertex;
-        self.vertices.positions.try_reserve(1)?;
-        self.vertices.points.try_reserve(1)?;
+        reserve(&mut self.vertices.positions, 1)?;
+        reserve(&mut self.vertices.points, 1)?;
         self.vertices.positions.push(q);
         self.vertices.points.push(point);
         let vertices = &self.vertices;
         let conflicts = |face: &Face<()>| vertices.side(face, q) == Sign::Positive;
-        self.surface.insert(vertex, start, conflicts, |_| ())?;
+        self.surface.find_cavity(start, conflicts)?;
+        self.surface.fill_cavity(vertex, |_| ())?;
         let is_outer = |&id: &FaceId| self.vertices.is_outer(self.surface.face(id));
         let outer = self.surface.fan().iter().rev().copied().find(is_outer);
         Ok(outer.expect("a new vertex is on the lower boundary"))
@@ -209,28 +205,26 @@ impl LowerHull {
 /// All points are above one line (or one point): the lower side of a polygon.
 fn mark_upright(
     count: u32,
-    lifted: &impl Fn(u32) -> DVec3,
+    lifted: &dyn Fn(u32) -> DVec3,
     visible: &mut [bool],
-) -> Result<(), Error> {
+) -> Result<(), OutOfMemory> {
     if count == 0 {
         return Ok(());
     }
     // A coordinate that tells apart what is not above each other.
     let first = lifted(0);
     let by_x = (0..count).any(|i| lifted(i).x != first.x);
-    let mut sorted: Vec<([f64; 3], u32)> = Vec::new();
-    sorted.try_reserve_exact(count as usize)?;
+    let mut places: Vec<[f64; 2]> = with_room(count as usize)?;
     // Adding 0 makes -0 the same as 0.
-    sorted.extend((0..count).map(|i| {
+    places.extend((0..count).map(|i| {
         let p = lifted(i);
         let along = if by_x { p.x } else { p.y };
-        ([along + 0.0, p.z + 0.0, 0.0], i)
+        [along + 0.0, p.z + 0.0]
     }));
-    sort_by_coordinates(&mut sorted);
-    let at = |k: usize| [sorted[k].0[0], sorted[k].0[1]];
+    let sorted = sorted_places(&places)?;
+    let at = |k: usize| places[sorted[k] as usize];
     // Andrew's monotone chain over the lowest of each place, points in line kept.
-    let mut chain: Vec<usize> = Vec::new();
-    chain.try_reserve_exact(sorted.len())?;
+    let mut chain: Vec<usize> = with_room(sorted.len())?;
     for next in 0..sorted.len() {
         if chain.last().is_some_and(|&last| at(last)[0] == at(next)[0]) {
             continue;
@@ -245,7 +239,7 @@ fn mark_upright(
     }
     for start in chain {
         let equal = (start..sorted.len()).take_while(|&k| at(k) == at(start));
-        equal.for_each(|k| visible[sorted[k].1 as usize] = true);
+        equal.for_each(|k| visible[sorted[k] as usize] = true);
     }
     Ok(())
 }

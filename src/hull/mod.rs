@@ -25,10 +25,10 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::division::Division;
-use crate::error::Error;
 use crate::inversion::Flip;
 use crate::points::Points;
 use crate::predicates::{Sign, side_of_origin};
+use crate::room::{OutOfMemory, push};
 use depth::DepthMap;
 use incremental::Hull;
 use locate::Location;
@@ -36,9 +36,6 @@ use repair::Repair;
 use topology::FaceId;
 
 pub(crate) use lower::mark_lower_boundary;
-
-/// Points looked at for a first tetrahedron before all of them are.
-const SEED_SAMPLE: usize = 512;
 
 /// The points of a cloud, as one view flips them.
 struct Flipped<'a> {
@@ -51,6 +48,7 @@ impl Flipped<'_> {
         self.points.len()
     }
 
+    #[inline]
     fn position(&self, index: u32) -> [f64; 3] {
         self.points.get(index as usize)
     }
@@ -131,7 +129,7 @@ pub(crate) fn mark_visible(
     flip: &Flip,
     division: Option<Division>,
     memory: &mut Memory,
-) -> Result<(), Error> {
+) -> Result<(), OutOfMemory> {
     let flipped = Flipped {
         points,
         flip: flip.rescaled_for(points),
@@ -146,12 +144,11 @@ pub(crate) fn mark_visible(
         return memory.finish(&flipped);
     }
     let count = points.len() as u32;
-    let sample = order::spatial_rounds().flat_map(|round| round.indices(count));
     let seed = if flipped.flip.keeps_in_plane(points) {
         None
     } else {
-        first_tetrahedron(sample.take(SEED_SAMPLE), &flipped)
-            .or_else(|| first_tetrahedron(0..count, &flipped))
+        first_tetrahedron(&flipped, order::sample_step(count))
+            .or_else(|| first_tetrahedron(&flipped, 1))
     };
     let room = division
         .as_ref()
@@ -178,7 +175,7 @@ pub(crate) fn mark_visible(
 }
 
 /// Which of `points` are visible, for a single view.
-pub(crate) fn visible_once(points: &Points, flip: &Flip) -> Result<Vec<bool>, Error> {
+pub(crate) fn visible_once(points: &Points, flip: &Flip) -> Result<Vec<bool>, OutOfMemory> {
     let mut memory = Memory::default();
     mark_visible(points, flip, None, &mut memory)?;
     Ok(memory.visible)
@@ -189,7 +186,7 @@ pub(crate) fn visible_once(points: &Points, flip: &Flip) -> Result<Vec<bool>, Er
 pub(crate) fn triangulate_visible(
     points: &Points,
     flip: &Flip,
-) -> Result<(Vec<bool>, Vec<[u32; 3]>), Error> {
+) -> Result<(Vec<bool>, Vec<[u32; 3]>), OutOfMemory> {
     let mut memory = Memory::default();
     mark_visible(points, flip, None, &mut memory)?;
     let mut triangles = Vec::new();
@@ -204,7 +201,7 @@ pub(crate) fn triangulate_visible(
 impl Memory {
     /// The last view's hull becomes that of the same vertices in this one, which are
     /// then marked as visible, if that is worth the while.
-    fn move_hull(&mut self, flipped: &Flipped) -> Result<bool, Error> {
+    fn move_hull(&mut self, flipped: &Flipped) -> Result<bool, OutOfMemory> {
         let moved = self
             .hull
             .move_to(flipped, &mut self.repair, &mut self.visible)?;
@@ -215,7 +212,7 @@ impl Memory {
     }
 
     /// Every point, to a hull that was just started.
-    fn add_in_rounds(&mut self, flipped: &Flipped) -> Result<(), Error> {
+    fn add_in_rounds(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
         self.on_boundary.clear();
         self.witnesses.clear();
         self.witnesses.try_reserve_exact(flipped.len())?;
@@ -244,7 +241,7 @@ impl Memory {
     }
 
     /// Every point that is no vertex, to a hull that has mostly the right ones.
-    fn add_to_moved_hull(&mut self, flipped: &Flipped) -> Result<(), Error> {
+    fn add_to_moved_hull(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
         self.on_boundary.clear();
         self.depth
             .make(&self.hull, flipped, flipped.len(), &|_| true)?;
@@ -271,18 +268,16 @@ impl Memory {
         index: u32,
         flipped: &Flipped,
         [hint, other]: [FaceId; 2],
-    ) -> Result<FaceId, Error> {
+    ) -> Result<FaceId, OutOfMemory> {
         let Some(q) = flipped.get(index) else {
-            self.on_boundary.try_reserve(1)?;
-            self.on_boundary.push(index);
+            push(&mut self.on_boundary, index)?;
             return Ok(hint);
         };
         let hint = self.hull.nearer_hint(q, hint, other);
         Ok(match self.hull.locate(q, hint) {
             Location::Outside(face) => self.hull.insert(index, q, face)?,
             Location::Boundary(face) => {
-                self.on_boundary.try_reserve(1)?;
-                self.on_boundary.push(index);
+                push(&mut self.on_boundary, index)?;
                 face
             }
             Location::Inside(face) => face,
@@ -291,7 +286,7 @@ impl Memory {
 
     /// Reads the complete hull. A point found exactly on the boundary is visible only if
     /// it still is; one at the viewpoint is in any case.
-    fn finish(&mut self, flipped: &Flipped) -> Result<(), Error> {
+    fn finish(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
         self.hull.mark_outer_vertices(&mut self.visible);
         self.holds_hull = true;
         let Some(mut hint) = self.hull.outer_face() else {
@@ -313,16 +308,14 @@ impl Memory {
     }
 }
 
-/// Three points that span space with the origin, of a large determinant, in
-/// the order that makes it positive; `None` if the candidates lie in one plane
+/// Three among every `step`th point that span space with the origin, of a large
+/// determinant, in the order that makes it positive; `None` if those lie in one plane
 /// with the origin.
-fn first_tetrahedron(
-    candidates: impl Iterator<Item = u32> + Clone,
-    flipped: &Flipped,
-) -> Option<[(u32, DVec3); 3]> {
+#[inline(never)]
+fn first_tetrahedron(flipped: &Flipped, step: usize) -> Option<[(u32, DVec3); 3]> {
     let points = || {
-        candidates
-            .clone()
+        (0..flipped.len() as u32)
+            .step_by(step)
             .filter_map(|i| flipped.get_out_of_line(i).map(|q| (i, q)))
     };
     let first = points().next()?;

@@ -12,7 +12,6 @@
 //!          it was found, so nothing here can make an answer wrong: where in doubt,
 //!          there is always the way of starting anew.
 
-use alloc::collections::TryReserveError;
 use glam::DVec3;
 
 use super::Flipped;
@@ -21,6 +20,7 @@ use super::locate::larger;
 use super::repair::Repair;
 use super::topology::{FaceId, HalfEdge, Vertex};
 use crate::predicates::{Sign, side_of_origin};
+use crate::room::{OutOfMemory, push, reserve};
 
 /// Faces looked at to tell whether the views are close.
 const SAMPLE: usize = 512;
@@ -40,7 +40,7 @@ impl Hull {
         flipped: &Flipped,
         repair: &mut Repair,
         is_vertex: &mut [bool],
-    ) -> Result<bool, TryReserveError> {
+    ) -> Result<bool, OutOfMemory> {
         if self.surface.slots() == 0 || !self.looks_alike(flipped) {
             return Ok(false);
         }
@@ -123,7 +123,7 @@ impl Hull {
     }
 
     /// Each face's plane in the new view; lists turned faces and reflex edges.
-    fn renew_planes(&mut self, repair: &mut Repair) -> Result<(), TryReserveError> {
+    fn renew_planes(&mut self, repair: &mut Repair) -> Result<(), OutOfMemory> {
         repair.turned.clear();
         repair.suspects.clear();
         for slot in 0..self.surface.slots() as FaceId {
@@ -145,16 +145,14 @@ impl Hull {
                 continue;
             }
             if self.vertices.is_turned(&face) {
-                repair.turned.try_reserve(1)?;
-                repair.turned.push(slot);
+                push(&mut repair.turned, slot)?;
                 continue;
             }
             for edge in (0..3).map(|edge| HalfEdge::new(slot, edge)) {
                 let twin = face.twins[edge.edge()];
                 let across = self.surface.face(twin.face());
                 if twin.face() < slot && !self.vertices.is_turned(across) && self.is_reflex(edge) {
-                    repair.suspects.try_reserve(1)?;
-                    repair.suspects.push(edge);
+                    push(&mut repair.suspects, edge)?;
                 }
             }
         }
@@ -167,11 +165,7 @@ impl Hull {
     ///
     /// Also marks the points that are vertices, and frees the numbers of vertices that
     /// no face has.
-    fn settle(
-        &mut self,
-        repair: &mut Repair,
-        is_vertex: &mut [bool],
-    ) -> Result<bool, TryReserveError> {
+    fn settle(&mut self, repair: &mut Repair, is_vertex: &mut [bool]) -> Result<bool, OutOfMemory> {
         let ray = self.vertices.inner;
         // On which sides of two planes through the ray a vertex is: a face that is all
         // on one side of either is not pierced. Roundings are far below the margin.
@@ -182,7 +176,7 @@ impl Hull {
         let (e, f) = axis.any_orthonormal_pair();
         let sides = &mut repair.sides;
         sides.clear();
-        sides.try_reserve(self.vertices.positions.len())?;
+        reserve(sides, self.vertices.positions.len())?;
         sides.extend(self.vertices.positions.iter().map(|q| {
             let (x, y) = (q.dot(e), q.dot(f));
             u8::from(x > margin)
@@ -208,8 +202,7 @@ impl Hull {
         free.clear();
         for (vertex, (&point, &sides)) in (0..).zip(points.iter().zip(&*sides)).skip(1) {
             if sides & USED == 0 {
-                free.try_reserve(1)?;
-                free.push(vertex);
+                push(free, vertex)?;
             } else {
                 is_vertex[point as usize] = true;
             }

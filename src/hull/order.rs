@@ -34,6 +34,13 @@ pub(super) fn spatial_rounds() -> impl Iterator<Item = Round> + Clone {
     })
 }
 
+/// The step from one to the next of the few points that are looked at for a start, before
+/// all are.
+pub(super) fn sample_step(count: u32) -> usize {
+    const SAMPLE: u32 = 512;
+    count.div_ceil(SAMPLE).max(1) as usize
+}
+
 #[cfg(test)]
 mod tests {
     use super::spatial_rounds;

@@ -1,13 +1,13 @@
 //! Making a surface of triangles the hull of its vertices again, face by face and
 //! edge by edge, after they moved.
 
-use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
 
 use super::incremental::{Hull, ORIGIN, Vertices};
 use super::plane::Plane;
 use super::topology::{Face, FaceId, HalfEdge, Rim, Vertex};
 use crate::predicates::{Sign, side_of_face, side_of_origin};
+use crate::room::{OutOfMemory, push, reserve};
 
 /// The largest link of a vertex that is taken out.
 const MAX_DEGREE: usize = 64;
@@ -39,7 +39,7 @@ impl Hull {
         id: FaceId,
         force: bool,
         repair: &mut Repair,
-    ) -> Result<bool, TryReserveError> {
+    ) -> Result<bool, OutOfMemory> {
         let face = *self.surface.face(id);
         if !face.is_alive() || !self.vertices.is_turned(&face) {
             return Ok(true);
@@ -85,11 +85,7 @@ impl Hull {
         Ok(false)
     }
 
-    fn unfold_across(
-        &mut self,
-        edge: HalfEdge,
-        repair: &mut Repair,
-    ) -> Result<bool, TryReserveError> {
+    fn unfold_across(&mut self, edge: HalfEdge, repair: &mut Repair) -> Result<bool, OutOfMemory> {
         let twin = self.surface.face(edge.face()).twins[edge.edge()];
         self.flip(edge);
         repair.suspect(edge.face())?;
@@ -134,12 +130,12 @@ impl Hull {
         &mut self,
         edge: HalfEdge,
         repair: &mut Repair,
-    ) -> Result<bool, TryReserveError> {
+    ) -> Result<bool, OutOfMemory> {
         if self.can_flip(edge) {
             let twin = self.surface.face(edge.face()).twins[edge.edge()];
             self.flip(edge);
             // The new edge is convex.
-            repair.suspects.try_reserve(4)?;
+            reserve(&mut repair.suspects, 4)?;
             for face in [edge.face(), twin.face()] {
                 repair
                     .suspects
@@ -170,17 +166,15 @@ impl Hull {
         vertex: Vertex,
         face: FaceId,
         repair: &mut Repair,
-    ) -> Result<bool, TryReserveError> {
+    ) -> Result<bool, OutOfMemory> {
         if vertex == ORIGIN {
             return Ok(false);
         }
         repair.rim.clear();
         repair.star.clear();
         for (id, rim) in self.surface.around(vertex, face) {
-            repair.rim.try_reserve(1)?;
-            repair.rim.push(rim);
-            repair.star.try_reserve(1)?;
-            repair.star.push(id);
+            push(&mut repair.rim, rim)?;
+            push(&mut repair.star, id)?;
         }
         if !(3..=MAX_DEGREE).contains(&repair.rim.len()) {
             return Ok(false);
@@ -192,10 +186,10 @@ impl Hull {
         repair.effort = rest;
         // First the plan, so that nothing has changed if there is none.
         repair.ring.clear();
-        repair.ring.try_reserve(repair.rim.len())?;
+        reserve(&mut repair.ring, repair.rim.len())?;
         repair.ring.extend_from_slice(&repair.rim);
         repair.ears.clear();
-        repair.ears.try_reserve(repair.rim.len())?;
+        reserve(&mut repair.ears, repair.rim.len())?;
         while repair.ring.len() > 2 {
             let Some(ear) = self.ear(&repair.ring) else {
                 return Ok(false);
@@ -283,8 +277,8 @@ impl Vertices {
 
 impl Repair {
     /// All edges of a face are to be looked at again.
-    fn suspect(&mut self, face: FaceId) -> Result<(), TryReserveError> {
-        self.suspects.try_reserve(3)?;
+    fn suspect(&mut self, face: FaceId) -> Result<(), OutOfMemory> {
+        reserve(&mut self.suspects, 3)?;
         self.suspects
             .extend((0..3).map(|edge| HalfEdge::new(face, edge)));
         Ok(())

@@ -20,7 +20,7 @@ use super::topology::{FaceId, Vertex};
 use super::{Flipped, Memory};
 use crate::blocks::BLOCK;
 use crate::division::{Division, Role};
-use crate::error::Error;
+use crate::room::{OutOfMemory, push, reserve};
 
 /// Of the spatial order, every point whose place is a multiple of this is in the sample of the far ones.
 const SAMPLE: u32 = 512;
@@ -31,7 +31,7 @@ pub(super) fn mark_visible(
     memory: &mut Memory,
     flipped: &Flipped,
     division: Division,
-) -> Result<(), Error> {
+) -> Result<(), OutOfMemory> {
     let Memory {
         hull,
         depth,
@@ -94,7 +94,7 @@ struct Share<'a> {
 impl Share<'_> {
     /// Adds a point to the hull; returns whether it became a vertex.
     #[inline(never)]
-    fn add(&mut self, index: u32) -> Result<bool, Error> {
+    fn add(&mut self, index: u32) -> Result<bool, OutOfMemory> {
         let own = self.division.owns(index);
         let Some(q) = self.flipped.get_out_of_line(index) else {
             self.visible[index as usize] |= own;
@@ -105,8 +105,7 @@ impl Share<'_> {
             Location::Outside(face) => self.hull.insert(index, q, face)?,
             Location::Boundary(face) => {
                 if own {
-                    self.on_boundary.try_reserve(1)?;
-                    self.on_boundary.push(index);
+                    push(&mut self.on_boundary, index)?;
                 }
                 face
             }
@@ -134,7 +133,7 @@ impl Share<'_> {
 
     /// Decides about all vertices of the hull that are the sector's own.
     #[inline(never)]
-    fn settle_vertices(&mut self) -> Result<(), Error> {
+    fn settle_vertices(&mut self) -> Result<(), OutOfMemory> {
         let count = self.hull.vertex_count();
         self.open_vertices.try_reserve_exact(count)?;
         // The origin is no point of the cloud.
@@ -148,8 +147,7 @@ impl Share<'_> {
                 if self.division.bound_of_all(m) < limit {
                     self.mark(face);
                 } else if self.hull.is_outer(face) {
-                    open.try_reserve(1)?;
-                    open.push(face);
+                    push(&mut open, face)?;
                 }
             }
         }
@@ -157,7 +155,7 @@ impl Share<'_> {
         let mut failed: Vec<(FaceId, u32)> = Vec::new();
         while !open.is_empty() {
             failed.clear();
-            failed.try_reserve(open.len())?;
+            reserve(&mut failed, open.len())?;
             for &face in &open {
                 if self.is_open(face) {
                     let (m, limit) = self.hull.support(face);
@@ -170,8 +168,7 @@ impl Share<'_> {
             open.clear();
             for &(face, block) in &failed {
                 if self.is_open(face) {
-                    open.try_reserve(1)?;
-                    open.push(face);
+                    push(&mut open, face)?;
                     self.hint = face;
                     self.enter(block, &mut open)?;
                 }
@@ -182,7 +179,7 @@ impl Share<'_> {
 
     #[cold]
     /// Adds a far block to the hull, and new faces of vertices not marked yet to `open`.
-    fn enter(&mut self, block: u32, open: &mut Vec<FaceId>) -> Result<(), Error> {
+    fn enter(&mut self, block: u32, open: &mut Vec<FaceId>) -> Result<(), OutOfMemory> {
         if self.division.roles[block as usize] != Role::Far {
             return Ok(());
         }
@@ -191,10 +188,9 @@ impl Share<'_> {
         let count = self.visible.len() as u32;
         for index in start..count.min(start + BLOCK as u32) {
             if index % SAMPLE != 0 && self.add(index)? {
-                self.open_vertices.try_reserve(1)?;
-                self.open_vertices.push(false);
+                push(&mut self.open_vertices, false)?;
                 let fan = self.hull.surface.fan();
-                open.try_reserve(fan.len())?;
+                reserve(open, fan.len())?;
                 let is_open = |&face: &FaceId| self.is_open(face) && self.hull.is_outer(face);
                 open.extend(fan.iter().copied().filter(is_open));
             }
@@ -204,7 +200,7 @@ impl Share<'_> {
 
     /// Decides about own points that were found exactly on the boundary.
     #[inline(never)]
-    fn settle_boundary(&mut self) -> Result<(), Error> {
+    fn settle_boundary(&mut self) -> Result<(), OutOfMemory> {
         let mut ignored = Vec::new();
         for index in core::mem::take(&mut self.on_boundary) {
             let Some(q) = self.flipped.get_out_of_line(index) else {

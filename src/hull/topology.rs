@@ -1,7 +1,7 @@
 //! A closed triangulated surface as indices. This file knows no coordinates:
 //! what a face carries besides its indices is the caller's business.
 
-use alloc::collections::TryReserveError;
+use crate::room::{OutOfMemory, push, reserve};
 use alloc::vec::Vec;
 
 /// A vertex number.
@@ -112,7 +112,7 @@ impl<T: Copy> Surface<T> {
         apex: Vertex,
         [a, b, c]: [Vertex; 3],
         data: impl Fn([Vertex; 3]) -> T,
-    ) -> Result<(), TryReserveError> {
+    ) -> Result<(), OutOfMemory> {
         let face = |vertices, twins: [(FaceId, u32); 3]| Face {
             vertices,
             twins: twins.map(|(face, edge)| HalfEdge::new(face, edge)),
@@ -120,7 +120,7 @@ impl<T: Copy> Surface<T> {
         };
         self.free.clear();
         self.faces.clear();
-        self.faces.try_reserve(4)?;
+        reserve(&mut self.faces, 4)?;
         self.faces.extend([
             face([a, b, c], [(1, 1), (2, 1), (3, 1)]),
             face([apex, b, a], [(2, 2), (0, 0), (3, 0)]),
@@ -161,28 +161,16 @@ impl<T: Copy> Surface<T> {
         (0..).zip(&self.faces).filter(|(_, face)| face.is_alive())
     }
 
-    /// Replaces the faces around `start` for which `conflicts` holds by a fan
-    /// from the new vertex `apex` to their horizon, which [`Surface::fan`] then lists.
+    /// Opens a cavity, to be filled: the faces around `start` for which `conflicts` holds.
     ///
-    /// The conflicting faces must form a disk that holds `start`. They are
+    /// They must form a disk that holds `start`, and are
     /// crossed depth-first and counter-clockwise, so that the horizon's edges
     /// come out in cyclic order: each starts where the last one ended.
-    pub(crate) fn insert(
-        &mut self,
-        apex: Vertex,
-        start: FaceId,
-        mut conflicts: impl FnMut(&Face<T>) -> bool,
-        data: impl Fn([Vertex; 3]) -> T,
-    ) -> Result<(), TryReserveError> {
-        self.find_cavity(start, &mut conflicts)?;
-        self.fill_cavity(apex, data)
-    }
-
-    fn find_cavity(
+    pub(crate) fn find_cavity(
         &mut self,
         start: FaceId,
-        conflicts: &mut impl FnMut(&Face<T>) -> bool,
-    ) -> Result<(), TryReserveError> {
+        conflicts: impl Fn(&Face<T>) -> bool,
+    ) -> Result<(), OutOfMemory> {
         self.cavity.clear();
         self.horizon.clear();
         self.crossings.clear();
@@ -207,40 +195,86 @@ impl<T: Copy> Surface<T> {
                 let edge = twin.edge();
                 let tail = across.vertices[(edge + 1) % 3];
                 let head = across.vertices[edge];
-                self.horizon.try_reserve(1)?;
-                self.horizon.push(Rim {
-                    tail,
-                    head,
-                    outside: twin,
-                });
+                push(
+                    &mut self.horizon,
+                    Rim {
+                        tail,
+                        head,
+                        outside: twin,
+                    },
+                )?;
             }
         }
         Ok(())
     }
 
     /// Moves a face from the surface to the cavity.
-    fn enter(&mut self, face: FaceId) -> Result<(), TryReserveError> {
-        self.cavity.try_reserve(1)?;
-        self.crossings.try_reserve(3)?;
+    #[inline]
+    fn enter(&mut self, face: FaceId) -> Result<(), OutOfMemory> {
+        reserve(&mut self.cavity, 1)?;
+        reserve(&mut self.crossings, 3)?;
         self.cavity.push(face);
         self.faces[face as usize].vertices[0] = NONE;
         Ok(())
     }
 
-    /// Builds the fan in the cavity's own slots, then in free ones, then in new ones.
-    fn fill_cavity(
+    /// Opens a cavity of face `id` alone or, where there is an `edge`, of the two at it.
+    pub(crate) fn open_at(
+        &mut self,
+        id: FaceId,
+        edge: Option<HalfEdge>,
+    ) -> Result<(), OutOfMemory> {
+        self.cavity.clear();
+        self.horizon.clear();
+        let first = edge.unwrap_or(HalfEdge::new(id, 0));
+        let (second, third) = (first.next(), first.next().next());
+        match edge {
+            None => self.add_to_horizon([first, second, third])?,
+            Some(_) => {
+                let twin = self.face(id).twins[first.edge()];
+                self.add_to_horizon([second, third, twin.next(), twin.next().next()])?;
+                self.enter(twin.face())?;
+            }
+        }
+        self.enter(id)
+    }
+
+    /// Adds edges, seen from inside, to the horizon.
+    fn add_to_horizon<const COUNT: usize>(
+        &mut self,
+        edges: [HalfEdge; COUNT],
+    ) -> Result<(), OutOfMemory> {
+        for edge in edges {
+            let [tail, head, _] = self.face(edge.face()).vertices_from(edge.edge());
+            let outside = self.face(edge.face()).twins[edge.edge()];
+            push(
+                &mut self.horizon,
+                Rim {
+                    tail,
+                    head,
+                    outside,
+                },
+            )?;
+        }
+        Ok(())
+    }
+
+    /// Replaces the faces of the cavity by a fan from the new vertex `apex` to their
+    /// horizon, which [`Surface::fan`] then lists: in the cavity's own slots, then in free
+    /// ones, then in new ones.
+    pub(crate) fn fill_cavity(
         &mut self,
         apex: Vertex,
         data: impl Fn([Vertex; 3]) -> T,
-    ) -> Result<(), TryReserveError> {
+    ) -> Result<(), OutOfMemory> {
         let count = self.horizon.len();
         debug_assert!(count >= 3);
         while self.cavity.len() < count {
             let slot = match self.free.pop() {
                 Some(slot) => slot,
                 None => {
-                    self.faces.try_reserve(1)?;
-                    self.cavity.try_reserve(1)?;
+                    reserve(&mut self.faces, 1)?;
+                    reserve(&mut self.cavity, 1)?;
                     // Any dead face will do; it is overwritten below.
                     self.faces.push(self.faces[self.cavity[0] as usize]);
                     (self.faces.len() - 1) as FaceId
@@ -267,7 +301,7 @@ impl<T: Copy> Surface<T> {
         }
         // Vertices vanished with the cavity: fewer faces are needed than were there.
         let spare = self.cavity.len() - count;
-        self.free.try_reserve(spare)?;
+        reserve(&mut self.free, spare)?;
         self.free.extend(self.cavity.drain(count..));
         Ok(())
     }
@@ -350,8 +384,8 @@ impl<T: Copy> Surface<T> {
     }
 
     /// Takes a face's slot out of the surface, for faces to come.
-    pub(crate) fn free(&mut self, slot: FaceId) -> Result<(), TryReserveError> {
-        self.free.try_reserve(1)?;
+    pub(crate) fn free(&mut self, slot: FaceId) -> Result<(), OutOfMemory> {
+        reserve(&mut self.free, 1)?;
         self.faces[slot as usize].vertices[0] = NONE;
         self.free.push(slot);
         Ok(())

@@ -7,9 +7,9 @@ use super::Flipped;
 use super::incremental::Hull;
 use super::locate::Location;
 use super::plane::Plane;
-use super::topology::{Face, FaceId};
-use crate::error::Error;
+use super::topology::{Face, FaceId, HalfEdge};
 use crate::predicates::{Sign, side_of_origin};
+use crate::room::OutOfMemory;
 
 impl Hull {
     /// The outer faces, counter-clockwise seen from the viewpoint, every vertex set
@@ -19,7 +19,7 @@ impl Hull {
         &mut self,
         on_boundary: &[u32],
         flipped: &Flipped,
-    ) -> Result<Vec<[u32; 3]>, Error> {
+    ) -> Result<Vec<[u32; 3]>, OutOfMemory> {
         let Some(mut hint) = self.outer_face() else {
             return Ok(Vec::new());
         };
@@ -47,25 +47,16 @@ impl Hull {
 
     /// Cuts the outer face that `q` is exactly on, and where `q` is on an edge, the face
     /// across, too; returns an outer face near `q`.
-    fn cut(&mut self, point: u32, q: DVec3, id: FaceId) -> Result<FaceId, Error> {
+    fn cut(&mut self, point: u32, q: DVec3, id: FaceId) -> Result<FaceId, OutOfMemory> {
         let face = self.surface.face(id);
         let mut edges = (0..3).filter(|&edge| self.is_on_edge(face, edge, q));
-        let across = edges.next().map(|edge| face.twins[edge].face());
+        let edge = edges.next().map(|edge| HalfEdge::new(id, edge as u32));
         if edges.next().is_some() {
             return Ok(id); // At a vertex.
         }
-        let cut = [
-            face.vertices,
-            self.surface.face(across.unwrap_or(id)).vertices,
-        ];
         let vertex = self.vertices.add(point, q)?;
-        let vertices = &self.vertices;
-        let conflicts = |face: &Face<Plane>| cut.contains(&face.vertices);
-        self.surface
-            .insert(vertex, id, conflicts, |corners| vertices.plane(corners))?;
-        let is_outer = |&id: &FaceId| self.vertices.is_outer(self.surface.face(id));
-        let outer = self.surface.fan().iter().copied().find(is_outer);
-        Ok(outer.expect("parts of an outer face are outer"))
+        self.surface.open_at(id, edge)?;
+        self.fill_cavity(vertex)
     }
 
     fn is_on_edge(&self, face: &Face<Plane>, edge: usize, q: DVec3) -> bool {

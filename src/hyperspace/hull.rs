@@ -11,8 +11,7 @@
 
 use alloc::vec::Vec;
 
-use super::rows::filled;
-use crate::error::Error;
+use crate::room::{OutOfMemory, filled, push, reserve, with_room};
 
 /// Of the distance to the plane that decides, relative to that of the plane itself.
 pub(super) const TOLERANCE: f64 = 1e-10;
@@ -22,7 +21,7 @@ const NOTHING: f64 = 1e-12;
 const MOST_STEPS: usize = 10_000;
 
 /// Marks the visible ones among flipped points, given as rows of `dimension` numbers.
-pub(super) fn mark_visible(q: &[f64], dimension: usize) -> Result<Vec<bool>, Error> {
+pub(super) fn mark_visible(q: &[f64], dimension: usize) -> Result<Vec<bool>, OutOfMemory> {
     let count = q.len() / dimension;
     let mut visible = filled(count, false)?;
     let frame = Frame::new(q, dimension)?;
@@ -47,17 +46,15 @@ struct Frame {
 
 impl Frame {
     /// By elimination with the largest pivot among all points and coordinates.
-    fn new(q: &[f64], dimension: usize) -> Result<Self, Error> {
+    fn new(q: &[f64], dimension: usize) -> Result<Self, OutOfMemory> {
         let largest = q.iter().fold(0.0f64, |most, x| most.max(x.abs()));
-        let mut scaled: Vec<f64> = Vec::new();
-        scaled.try_reserve_exact(q.len())?;
+        let mut scaled: Vec<f64> = with_room(q.len())?;
         scaled.extend(q.iter().map(|x| x / largest));
-        let mut rest: Vec<f64> = Vec::new();
-        rest.try_reserve_exact(q.len())?;
+        let mut rest: Vec<f64> = with_room(q.len())?;
         rest.extend_from_slice(&scaled);
 
         let mut corners = Vec::new();
-        let mut kept: Vec<usize> = Vec::new();
+        let mut kept = filled(dimension, false)?;
         while corners.len() < dimension && largest > 0.0 {
             let mut at = 0;
             for i in 0..rest.len() {
@@ -70,7 +67,7 @@ impl Frame {
             }
             let (corner, axis) = (at / dimension, at % dimension);
             corners.push(corner);
-            kept.push(axis);
+            kept[axis] = true;
             let pivot: Vec<f64> = rest[corner * dimension..][..dimension].to_vec();
             for row in rest.chunks_exact_mut(dimension) {
                 let times = row[axis] / pivot[axis];
@@ -80,11 +77,10 @@ impl Frame {
                 row[axis] = 0.0;
             }
         }
-        kept.sort_unstable();
-        let mut points: Vec<f64> = Vec::new();
-        points.try_reserve_exact(q.len() / dimension * kept.len())?;
+        let mut points: Vec<f64> = with_room(q.len() / dimension * corners.len())?;
         for row in scaled.chunks_exact(dimension) {
-            points.extend(kept.iter().map(|&axis| row[axis]));
+            let kept = row.iter().zip(&kept).filter(|(_, kept)| **kept);
+            points.extend(kept.map(|(x, _)| x));
         }
         Ok(Self { points, corners })
     }
@@ -106,7 +102,7 @@ struct Solver<'a> {
 }
 
 impl<'a> Solver<'a> {
-    fn new(points: &'a [f64], corners: &'a [usize]) -> Result<Self, Error> {
+    fn new(points: &'a [f64], corners: &'a [usize]) -> Result<Self, OutOfMemory> {
         let rank = corners.len();
         let mut solver = Self {
             points,
@@ -118,7 +114,7 @@ impl<'a> Solver<'a> {
             plane: filled(rank, 0.0)?,
             direction: filled(rank, 0.0)?,
         };
-        solver.likely.try_reserve(rank)?;
+        reserve(&mut solver.likely, rank)?;
         solver.likely.extend_from_slice(corners);
         // From unit vectors to the corners, one by one, each where it fits best.
         for i in 0..rank {
@@ -143,7 +139,7 @@ impl<'a> Solver<'a> {
         &self.points[point * self.rank..][..self.rank]
     }
 
-    fn is_visible(&mut self, query: usize) -> Result<bool, Error> {
+    fn is_visible(&mut self, query: usize) -> Result<bool, OutOfMemory> {
         self.begin(query);
         if self.direction.iter().all(|x| x.abs() <= NOTHING) {
             return Ok(false); // At the viewpoint once flipped: no ray leaves there.
@@ -155,8 +151,7 @@ impl<'a> Solver<'a> {
                 None if self.height(query) < 1.0 - TOLERANCE => return Ok(false),
                 None => match self.farthest_beyond(0..self.points.len() / self.rank) {
                     Some(point) => {
-                        self.likely.try_reserve(1)?;
-                        self.likely.push(point);
+                        push(&mut self.likely, point)?;
                         point
                     }
                     None => return Ok(true),

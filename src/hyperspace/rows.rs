@@ -2,11 +2,12 @@
 //! coordinates, and what is measured in that order.
 
 use alloc::vec::Vec;
-use core::cmp::Ordering;
 
 use crate::cloud::{NonFinite, checked_len};
 use crate::error::Error;
-use crate::inversion::square_root;
+use crate::real::square_root;
+use crate::room::{OutOfMemory, filled, reserve, with_room};
+use crate::sort::{ordered, sort_by_numbers};
 
 /// Neighbors whose mean distance is a point's spacing, and points that are measured.
 const NEIGHBORS: usize = 6;
@@ -82,15 +83,15 @@ impl Rows {
             return Err(Error::NonFinite { count, first });
         }
         let before = self.present.len();
-        self.coordinates.try_reserve(len)?;
-        self.present.try_reserve(count)?;
+        reserve(&mut self.coordinates, len)?;
+        reserve(&mut self.present, count)?;
         // Adding 0 makes -0 the same as 0.
         self.coordinates.extend(coordinates.iter().map(|x| x + 0.0));
         self.present.extend(rows().map(is_finite));
         if let Err(error) = self.arrange() {
             self.coordinates.truncate(before * dimension);
             self.present.truncate(before);
-            return Err(error);
+            return Err(error.into());
         }
         Ok(count - finite)
     }
@@ -100,13 +101,12 @@ impl Rows {
         if let Some(&index) = indices.iter().find(|&&index| index as usize >= len) {
             return Err(Error::IndexOutOfRange { index, len });
         }
-        let mut before = Vec::new();
-        before.try_reserve_exact(len)?;
+        let mut before = with_room(len)?;
         before.extend_from_slice(&self.present);
         for &index in indices {
             self.present[index as usize] = false;
         }
-        self.arrange().inspect_err(|_| self.present = before)
+        Ok(self.arrange().inspect_err(|_| self.present = before)?)
     }
 
     fn row(&self, index: u32) -> &[f64] {
@@ -114,13 +114,17 @@ impl Rows {
     }
 
     /// Sorts what is present, and measures it in that order.
-    fn arrange(&mut self) -> Result<(), Error> {
-        let mut order: Vec<u32> = Vec::new();
-        order.try_reserve_exact(self.present.len())?;
-        order.extend((0..self.present.len() as u32).filter(|&i| self.present[i as usize]));
-        order.sort_unstable_by(|&i, &j| compare(self.row(i), self.row(j)).then(i.cmp(&j)));
-        let mut starts: Vec<u32> = Vec::new();
-        starts.try_reserve_exact(order.len())?;
+    fn arrange(&mut self) -> Result<(), OutOfMemory> {
+        let mut keyed: Vec<(u64, u32)> = with_room(self.present.len())?;
+        let present = (0..self.present.len() as u32).filter(|&i| self.present[i as usize]);
+        keyed.extend(present.map(|i| (ordered(self.row(i)[0]), i)));
+        sort_by_numbers(&mut keyed, self.dimension + 1, &|axis, i| {
+            self.row(i).get(axis).map_or(u64::from(i), |&x| ordered(x))
+        });
+        let mut order: Vec<u32> = with_room(keyed.len())?;
+        order.extend(keyed.iter().map(|&(_, i)| i));
+        drop(keyed);
+        let mut starts: Vec<u32> = with_room(order.len())?;
         for k in 0..order.len() {
             if k == 0 || self.row(order[k]) != self.row(order[k - 1]) {
                 starts.push(k as u32);
@@ -165,9 +169,10 @@ impl Rows {
         let mut nearest = [f64::INFINITY; NEIGHBORS];
         for other in (0..self.starts.len()).filter(|&other| other != point) {
             let squared = squared(self.at(point), self.at(other));
-            if squared < nearest[NEIGHBORS - 1] {
-                nearest[NEIGHBORS - 1] = squared;
-                nearest.sort_unstable_by(f64::total_cmp);
+            // The least ones, ascending.
+            if let Some(place) = nearest.iter().position(|&least| squared < least) {
+                nearest.copy_within(place..NEIGHBORS - 1, place + 1);
+                nearest[place] = squared;
             }
         }
         let found = nearest.iter().filter(|squared| squared.is_finite());
@@ -180,16 +185,4 @@ pub(super) fn squared(a: &[f64], b: &[f64]) -> f64 {
     a.iter()
         .zip(b)
         .fold(0.0, |sum, (a, b)| sum + (a - b) * (a - b))
-}
-
-fn compare(a: &[f64], b: &[f64]) -> Ordering {
-    let differ = a.iter().zip(b).map(|(a, b)| a.total_cmp(b));
-    differ.fold(Ordering::Equal, Ordering::then)
-}
-
-pub(super) fn filled<T: Clone>(len: usize, value: T) -> Result<Vec<T>, Error> {
-    let mut values = Vec::new();
-    values.try_reserve_exact(len)?;
-    values.resize(len, value);
-    Ok(values)
 }

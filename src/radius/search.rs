@@ -27,7 +27,7 @@ const BRACKET: f64 = 0.25;
 pub(crate) fn antipodal(
     start: f64,
     farthest: f64,
-    mut look: impl FnMut([Kernel; 2]) -> Result<Seen, Error>,
+    look: &mut dyn FnMut([Kernel; 2]) -> Result<Seen, Error>,
 ) -> Result<ChosenRadius, Error> {
     if !(farthest > 0.0 && start > 0.0) {
         return Ok(from_radius(start, farthest));
@@ -103,7 +103,7 @@ const FINE: [f64; 3] = [0.25, 0.125, 0.0625];
 pub(crate) fn opposite(
     least: f64,
     farthest: f64,
-    mut look: impl FnMut(Kernel) -> Result<Seen, Error>,
+    look: &mut dyn FnMut(Kernel) -> Result<Seen, Error>,
 ) -> Result<Option<ChosenRadius>, Error> {
     if !(least > 0.0 && least < LARGEST) {
         return Ok(None);

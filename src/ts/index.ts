@@ -1,10 +1,2 @@
-export { hiddenPointRemoval, PointCloud } from "./cloud.js";
-export { HprError, type HprErrorCode } from "./errors.js";
-export { permissibleCurvature, radiusBound, type RingOptions, ringOfViewpoints, simdEnabled } from "./formulas.js";
-export { init, type InitInput, initSync, type SyncInitInput, type WasmModule } from "./loader.js";
-export { type MergeOptions, mergeVisible, type VisiblePart } from "./merge.js";
-export type { PointCloudOptions } from "./options.js";
-export type { Positions } from "./positions.js";
-export type { IlluminationOptions, ReconstructionOptions } from "./queries.js";
-export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./view-options.js";
-export type { ChosenRadius, Reconstruction, Visibility } from "./visibility.js";
+export * from "./api.js";
+export { init } from "./loader.js";

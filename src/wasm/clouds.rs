@@ -10,6 +10,7 @@ use wasm_bindgen::prelude::*;
 use super::failure::Failure;
 use super::to_js;
 use crate::hull::Memory;
+use crate::room::push;
 use crate::{Error, Options, PointCloud, PointCloudNd};
 
 thread_local! {
@@ -58,8 +59,7 @@ pub(super) fn created(made: Result<Cloud, Error>) -> Result<JsValue, JsValue> {
             let free = clouds.iter().position(Option::is_none);
             let slot = free.unwrap_or(clouds.len());
             if free.is_none() {
-                clouds.try_reserve(1)?;
-                clouds.push(None);
+                push(clouds, None)?;
             }
             let info = CloudInfo::new(slot as u32, &cloud);
             clouds[slot] = Some(cloud);

@@ -11,6 +11,7 @@ use super::options::ViewOptions;
 use super::transfer::numbers;
 use super::{CloudOptions, non_finite};
 use crate::PointCloudNd;
+use crate::room::with_room;
 
 /// A cloud of `dimension` numbers a point.
 #[wasm_bindgen(js_name = createHyperCloud, unchecked_return_type = "CloudInfo")]
@@ -47,8 +48,7 @@ pub fn visible_from(
     let options = options.read();
     answered(with_hyper(handle, |cloud| {
         let viewpoints = numbers(viewpoints)?;
-        let mut rows: Vec<&[f64]> = Vec::new();
-        rows.try_reserve_exact(viewpoints.len() / cloud.dimension())?;
+        let mut rows: Vec<&[f64]> = with_room(viewpoints.len() / cloud.dimension())?;
         rows.extend(viewpoints.chunks_exact(cloud.dimension()));
         if rows.is_empty() {
             cloud.visible_from_any(&rows, &options)

@@ -8,6 +8,7 @@ use wasm_bindgen::prelude::*;
 
 use crate::Error;
 use crate::points::Points;
+use crate::room::filled;
 
 #[wasm_bindgen]
 extern "C" {
@@ -56,9 +57,7 @@ pub(super) fn corners(triangles: &Uint32Array) -> Result<Vec<[u32; 3]>, Error> {
 }
 
 fn zeros<T: Copy + Default>(count: u32) -> Result<Vec<T>, Error> {
-    let mut zeros = Vec::new();
-    zeros.try_reserve_exact(count as usize)?;
-    zeros.resize(count as usize, T::default());
+    let zeros = filled(count as usize, T::default())?;
     Ok(zeros)
 }
 

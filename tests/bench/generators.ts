@@ -1,7 +1,7 @@
 // Clouds made here: the same on every machine but for the last bits of its sines.
 
 /** Seeded numbers in 0 … 1 (mulberry32). */
-function seeded(seed: number): () => number {
+export function seeded(seed: number): () => number {
   let state = seed;
   return () => {
     state = (state + 0x6d2b79f5) | 0;
@@ -11,10 +11,10 @@ function seeded(seed: number): () => number {
   };
 }
 
-type Direction = [number, number, number];
+export type Direction = [number, number, number];
 
 /** The direction at height `z` (−1 … 1), turned by `turn` (0 … 1) around the z axis. */
-function direction(z: number, turn: number): Direction {
+export function direction(z: number, turn: number): Direction {
   const away = Math.sqrt(Math.max(0, 1 - z * z));
   return [away * Math.cos(2 * Math.PI * turn), away * Math.sin(2 * Math.PI * turn), z];
 }
@@ -26,7 +26,7 @@ const SHAPE_SEED = 2007;
  * The distance from the center to a closed surface with bumps and dents: 1, and up
  * to a third more or less. One shape, whichever points are taken on it.
  */
-function bumpyRadius(): (u: Direction) => number {
+export function bumpyRadius(): (u: Direction) => number {
   const random = seeded(SHAPE_SEED);
   const waves = Array.from({ length: WAVES }, () => {
     const along = direction(2 * random() - 1, random());

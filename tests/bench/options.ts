@@ -10,6 +10,7 @@ WHAT, by default --speed and --workers:
                three.js and quickhull3d on the same flipped points
   --workers    two workers against one, on a million points
   --linear     nanoseconds a point from 30,000 to 3 million points
+  --adapter    what the three.js adapter takes of the page's own thread
   --memory     the wasm memory: peaks, over 1,000 queries, and at 10 million points
   --fidelity   errors against ray-traced visibility, for each choice of the radius
   --all        all of it, and --peers
@@ -20,7 +21,7 @@ WHAT, by default --speed and --workers:
   --json       prints JSON instead of tables
   --write      writes the tables to tests/bench/RESULTS.md, too`;
 
-const SECTIONS = ["speed", "workers", "linear", "memory", "fidelity"] as const;
+const SECTIONS = ["speed", "workers", "linear", "adapter", "memory", "fidelity"] as const;
 type Section = (typeof SECTIONS)[number];
 
 export interface BenchOptions {
@@ -34,7 +35,7 @@ export interface BenchOptions {
 /** Throws an Error that says what is wrong with the arguments. */
 export function readOptions(args: string[]): BenchOptions {
   const flag = { type: "boolean", default: false } as const;
-  const flags = { speed: flag, workers: flag, linear: flag, memory: flag, fidelity: flag, all: flag };
+  const flags = { speed: flag, workers: flag, linear: flag, adapter: flag, memory: flag, fidelity: flag, all: flag };
   const options = { ...flags, peers: flag, json: flag, write: flag, clouds: { type: "string" } } as const;
   const { values } = parseArgs({ args, options });
   const asked = SECTIONS.filter((section) => values[section] || values.all);

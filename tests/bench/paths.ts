@@ -1,12 +1,12 @@
 // Where things are, and how other programs are asked.
 import { spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
-import { join, resolve } from "node:path";
+import { join } from "node:path";
 
+import { root } from "../root.js";
 import type { Cloud } from "./clouds.js";
 
-/** The repository: this file runs as target/bench/tests/bench/paths.js. */
-export const root = resolve(import.meta.dirname, "..", "..", "..", "..");
+export { root };
 
 /** A program of this directory that runs in a process of its own. */
 export function program(name: string): string {

@@ -3,7 +3,7 @@ export type Row = Record<string, string | number>;
 
 export interface Table {
   title: string;
-  /** What its columns mean. */
+  /** What its columns mean; empty where a table before it has said so. */
   note: string;
   rows: Row[];
 }
@@ -17,8 +17,7 @@ export function markdown({ title, note, rows }: Table): string {
   return [
     `## ${title}`,
     "",
-    note,
-    "",
+    ...(note === "" ? [] : [note, ""]),
     line(columns),
     line(columns.map((column) => (isNumber(column) ? "---:" : "---"))),
     ...rows.map((row) => line(columns.map((column) => format(row[column] ?? "")))),

@@ -43,7 +43,7 @@ export function orbit(cloud: Cloud): (degrees: number) => Point {
 }
 
 /** The box's center and the radius of its corner sphere. */
-export function bounds({ positions }: Cloud): { center: Point; radius: number } {
+export function bounds({ positions }: Pick<Cloud, "positions">): { center: Point; radius: number } {
   const low: Point = [Infinity, Infinity, Infinity];
   const high: Point = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < positions.length; i++) {

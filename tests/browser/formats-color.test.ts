@@ -62,7 +62,7 @@ async function mean(page: Page): Promise<[number, number, number]> {
     const sum: [number, number, number] = [0, 0, 0];
     for (let i = 0; i < pixels.length; i += 4) {
       if (Math.max(pixels[i]!, pixels[i + 1]!, pixels[i + 2]!) < 40) continue;
-      for (let channel = 0; channel < 3; channel++) sum[channel] += pixels[i + channel]!;
+      sum.forEach((before, channel) => (sum[channel] = before + pixels[i + channel]!));
     }
     return sum;
   }, image);

@@ -3,8 +3,9 @@ import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
 import { extname, join, normalize } from "node:path";
 import { type Browser, chromium } from "playwright-core";
+import { root } from "../root.js";
 
-const DIST = join(import.meta.dirname, "../../www/dist");
+const DIST = join(root, "www", "dist");
 /** The page is served from a folder, as on a project's site, so that any absolute address in it would fail. */
 const FOLDER = "/some/folder/";
 /** Extra files in this folder can be had in parts. */

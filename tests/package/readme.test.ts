@@ -1,45 +1,29 @@
 // Every snippet of the README is run: the JavaScript ones here, the Rust ones as
 // documentation tests of the crate; every command is one of the project's own.
-import { execFileSync, spawnSync } from "node:child_process";
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { spawnSync } from "node:child_process";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 import { describe, expect, test } from "vitest";
 
-const root = join(import.meta.dirname, "..", "..");
-const readme = readFileSync(join(root, "README.md"), "utf8");
-// Inside the repository, so that the package finds itself by its name.
-const scratch = join(root, "target", "readme");
+import { blocks, printed, promised, root, scratchFor } from "./snippets";
 
-function blocks(language: string): string[] {
-  return [...readme.matchAll(/^```(\w+)\n([^]*?)^```$/gm)].flatMap(([, name, code]) =>
-    name === language && code !== undefined ? [code] : [],
-  );
-}
-
-/** What a snippet says it prints: its comments `// → …`. */
-function promised(code: string): string[] {
-  return [...code.matchAll(/\/\/ → (.*)/g)].map(([, text]) => (text ?? "").trim());
-}
+const README = "README.md";
+const scratch = scratchFor("readme");
 
 describe("JavaScript snippets print what they say", () => {
-  test.each(blocks("js").map((code, i) => [i, code] as const))("snippet %i", (i, code) => {
+  test.each(blocks(README, "js").map((code, i) => [i, code] as const))("snippet %i", (i, code) => {
     expect(promised(code).length).toBeGreaterThan(0);
-    mkdirSync(scratch, { recursive: true });
-    const file = join(scratch, `snippet-${i}.mjs`);
-    writeFileSync(file, code);
-    const printed = execFileSync(process.execPath, [file], { cwd: scratch, encoding: "utf8" });
-    const lines = printed.trim().replaceAll("[ ", "[").replaceAll(" ]", "]").split("\n");
-    expect(lines).toEqual(promised(code));
+    expect(printed(scratch, i, code)).toEqual(promised(code));
   });
 });
 
 describe("commands", () => {
-  const commands = blocks("sh")
+  const commands = blocks(README, "sh")
     .flatMap((block) => block.split("\n"))
     .map((line) => line.replace(/#.*/, "").trim())
     .filter((line) => line !== "");
-  const inline = [...readme.matchAll(/`(npm [^`]+)`/g)].map(([, text]) => text ?? "");
+  const inline = [...readFileSync(join(root, README), "utf8").matchAll(/`(npm [^`]+)`/g)].map(([, text]) => text ?? "");
 
   test("npm commands are scripts of the project", () => {
     const { scripts } = JSON.parse(readFileSync(join(root, "package.json"), "utf8")) as {
@@ -59,7 +43,6 @@ describe("commands", () => {
   test("the Rust example filters a file", { timeout: 180_000 }, () => {
     const command = commands.find((line) => line.startsWith("cargo run"));
     const [, example = "", args = ""] = /--example (\w+) -- (.*) >/.exec(command ?? "") ?? [];
-    mkdirSync(scratch, { recursive: true });
     writeFileSync(join(scratch, "cloud.xyz"), "0 0 1 a\n0 0 2 b\n1 0 0 c\n");
     const { stdout, status } = spawnSync(
       "cargo",

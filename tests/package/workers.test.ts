@@ -165,9 +165,9 @@ describe("several workers", () => {
   it("go on without the one that was refused the memory for a change", async () => {
     replaceWorker(
       class extends ListedWorker {
-        override postMessage(message: { kind: string }, ...rest: never[]) {
-          if (message.kind === "append" && started[1] === this) {
-            this.emit("message", { error: { code: "too-large", message: "no memory" } });
+        override postMessage(message: { cloud: number; content: { kind: string } }, ...rest: never[]) {
+          if (message.content.kind === "append" && started[1] === this) {
+            this.emit("message", { ...message, content: { error: { code: "too-large", message: "no memory" } } });
           } else {
             super.postMessage(message, ...rest);
           }

@@ -50,6 +50,13 @@ export interface WorkerPointCloudOptions extends PointCloudOptions {
    * are cores, but at most 4, and no more than hold 16 million points together.
    */
   workers?: number | undefined;
+  /**
+   * Puts the cloud into one worker that it shares with all others created with `shared`,
+   * for pages with many clouds: their requests are answered in turn. Excludes `workers`.
+   * The worker ends with the last of its clouds; one that dies takes all of them along.
+   * Default false.
+   */
+  shared?: boolean | undefined;
   /** Gives up, with an `AbortError`, when it aborts before the cloud is ready. */
   signal?: AbortSignal | undefined;
   /**
@@ -75,6 +82,7 @@ export interface RequestOptions {
 /** How one view is computed, and when it need not be. */
 export interface WorkerVisibilityOptions extends VisibilityOptions, RequestOptions {}
 
+const CREATE_OPTIONS = ["transfer", "workers", "shared", "signal", "onProgress"] as const;
 const REQUEST_OPTIONS = ["latest", "signal"] as const;
 
 /**
@@ -130,10 +138,10 @@ export class WorkerPointCloud {
     positions: Positions,
     options?: WorkerPointCloudOptions,
   ): Promise<WorkerPointCloud> {
-    const given = givenOptions(options, CLOUD_OPTIONS, ["transfer", "workers", "signal", "onProgress"]);
+    const given = givenOptions(options, CLOUD_OPTIONS, CREATE_OPTIONS);
     const settings = cloudSettings(pick(given, CLOUD_OPTIONS));
     const transfer = readFlag(given, "transfer");
-    const workers = readWorkers(given["workers"]);
+    const workers = readPlacement(given);
     const signal = readSignal(given["signal"]);
     const progress = readProgress(given["onProgress"]);
     if (signal?.aborted === true) {
@@ -153,7 +161,7 @@ export class WorkerPointCloud {
     queue: RequestQueue,
     positions: Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>,
     settings: CloudSettings,
-    workers: number | undefined,
+    workers: number | "shared" | undefined,
     progress: Progress | undefined,
   ): Promise<WorkerPointCloud> {
     progress?.at(0);
@@ -367,6 +375,18 @@ function giveAway(
       cause,
     });
   }
+}
+
+/** How many workers of its own, or the shared one. */
+function readPlacement(given: Record<string, unknown>): number | "shared" | undefined {
+  const workers = readWorkers(given["workers"]);
+  if (!readFlag(given, "shared")) {
+    return workers;
+  }
+  if (workers !== undefined) {
+    throw new HprError("option", "shared and workers exclude each other; give one of the two");
+  }
+  return "shared";
 }
 
 function readFlag(given: Record<string, unknown>, name: string): boolean {

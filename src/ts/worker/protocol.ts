@@ -1,11 +1,12 @@
 import { HprError, type HprErrorCode } from "../errors.js";
+import type { Merge } from "../merge.js";
 import type { CloudSettings } from "../options.js";
 import type { Answers, Query } from "../queries.js";
 
 /**
- * What the page and its worker say to each other. The worker says `"ready"`
- * once; after that, every request gets one reply before the next is sent. The
- * first request is `create`: a worker holds one cloud.
+ * What the page and its worker say to each other. The worker says `"ready"` once. After
+ * that, every request about a cloud gets one reply before the next about it is sent; the
+ * first is `create`, and `forget` the last, whose reply nobody awaits. `merge` needs no cloud.
  */
 export type Request =
   | {
@@ -18,6 +19,8 @@ export type Request =
     }
   | { kind: "append"; positions: Float32Array | Float64Array }
   | { kind: "remove"; indices: Uint32Array }
+  | { kind: "forget" }
+  | ({ kind: "merge"; module: WebAssembly.Module } & Merge)
   | Query;
 
 /** `length` and `skipped` of a cloud. */
@@ -31,11 +34,19 @@ export interface Replies extends Answers {
   create: CloudSize;
   append: CloudSize;
   remove: CloudSize;
+  forget: object;
+  merge: { ids: Uint32Array<ArrayBuffer> };
 }
 
 export type Reply<Value = unknown> =
   | { value: Value }
   | { error: { code: HprErrorCode; message: string } };
+
+/** A request or a reply, with the cloud that it is about: several may share a worker. */
+export interface Letter<Content = unknown> {
+  cloud: number;
+  content: Content;
+}
 
 export const READY = "ready";
 

@@ -34,8 +34,8 @@ export class RequestQueue implements ThreadEvents {
   #waiting: Pending[] = [];
   #closed: Error | undefined;
 
-  /** Starts so many workers, which act as one. */
-  async start(workers: number): Promise<void> {
+  /** Starts so many workers, which act as one, or takes part in the shared one. */
+  async start(workers: number | "shared"): Promise<void> {
     const team = await Team.start(workers, this);
     if (this.#closed !== undefined) {
       await team.end();

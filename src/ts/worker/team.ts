@@ -1,7 +1,8 @@
 import { HprError } from "../errors.js";
 import { allocating } from "../memory.js";
 import { failedReply, isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
-import { startThread, type Thread, type ThreadEvents } from "./thread.js";
+import { joinThread } from "./shared-thread.js";
+import type { Thread, ThreadEvents } from "./thread.js";
 
 /**
  * Threads that hold the same cloud, each in a wasm instance of its own, and act as
@@ -25,17 +26,18 @@ export class Team {
     this.#events = events;
   }
 
-  static async start(size: number, events: ThreadEvents): Promise<Team> {
+  /** In threads of its own, or else one thread that is shared with other teams. */
+  static async start(size: number | "shared", events: ThreadEvents): Promise<Team> {
     const team = new Team(events);
-    await team.#start(size);
+    await team.#start(size === "shared" ? 1 : size, size === "shared");
     return team;
   }
 
-  async #start(size: number): Promise<void> {
+  async #start(size: number, shared: boolean): Promise<void> {
     this.#starting = size;
     const starts = Array.from({ length: size }, async () => {
       const own: { thread?: Thread } = {};
-      own.thread = await startThread({
+      own.thread = await joinThread(shared, {
         message: (message) => {
           this.#message(own.thread, message);
         },
@@ -183,6 +185,10 @@ function copyFor(
     case "remove": {
       const indices = ownCopy(request.indices, number);
       return { request: { ...request, indices }, transfer: [indices.buffer as ArrayBuffer] };
+    }
+    case "merge": {
+      const { positions, ids } = request;
+      return { request, transfer: [positions.buffer as ArrayBuffer, ids.buffer as ArrayBuffer] };
     }
     case "visibleFrom":
       return { request: count === 1 ? request : { ...request, sector: { number, count } }, transfer: [] };

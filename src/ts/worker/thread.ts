@@ -1,5 +1,6 @@
 import { HprError } from "../errors.js";
 import { importNodeModule } from "../node.js";
+import { startBrowserWorker } from "./browser-thread.js";
 
 /** What a thread reports. After `died` it reports nothing more. */
 export interface ThreadEvents {
@@ -21,36 +22,9 @@ export async function startThread(events: ThreadEvents): Promise<Thread> {
   try {
     return typeof Worker === "function" ? startBrowserWorker(events) : await startNodeWorker(events);
   } catch (cause) {
-    // For instance a script from another origin, which browsers refuse to run.
+    // For instance a security policy of the page.
     throw new HprError("load", `the worker could not be started: ${String(cause)}`, { cause });
   }
-}
-
-function startBrowserWorker(events: ThreadEvents): Thread {
-  // One literal expression: bundlers look for exactly this form.
-  const worker = new Worker(new URL("./worker-thread.js", import.meta.url), { type: "module" });
-  worker.onmessage = (event) => {
-    events.message(event.data);
-  };
-  worker.onerror = (event) => {
-    // Reported here, so that the page does not report it again.
-    event.preventDefault();
-    events.died(event.message || "its script could not be loaded");
-  };
-  worker.onmessageerror = () => {
-    events.died("a message could not be read");
-  };
-  return {
-    post: (message, transfer) => {
-      worker.postMessage(message, transfer);
-    },
-    setBusy: () => undefined,
-    end: () => {
-      worker.onmessage = worker.onerror = worker.onmessageerror = null;
-      worker.terminate();
-      return Promise.resolve();
-    },
-  };
 }
 
 async function startNodeWorker(events: ThreadEvents): Promise<Thread> {

@@ -1,22 +1,47 @@
 import { ask, build, type PointCloud } from "../cloud.js";
-import { initSync } from "../loader.js";
+import { performMerge } from "../merge.js";
 import { importNodeModule } from "../node.js";
-import { type CloudSize, failedReply, type Progress, READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { initSync } from "../start.js";
+import {
+  type CloudSize,
+  failedReply,
+  type Letter,
+  type Progress,
+  READY,
+  type Replies,
+  type Reply,
+  type Request,
+} from "./protocol.js";
 
 type Post = (message: unknown, transfer: ArrayBuffer[]) => void;
 
-let cloud: PointCloud | undefined;
+/** By the numbers they are given outside. */
+const clouds = new Map<number, PointCloud>();
 
-function answer(request: Request, post: Post): Replies[Request["kind"]] {
+function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
+  const { cloud: number, content: request } = letter;
   if (request.kind === "create") {
     initSync(request.module);
     const { dimension, stride, skipNonFinite } = request.settings;
     const nonFinite = skipNonFinite ? "skip" : "error";
     const report = (progress: number) => {
-      if (request.reporting) post({ progress } satisfies Progress, []);
+      if (request.reporting) {
+        post({ cloud: number, content: { progress } satisfies Progress } satisfies Letter, []);
+      }
     };
-    cloud = build(request.positions, { dimension, stride, nonFinite }, report);
-    return sizeOf(cloud);
+    const created = build(request.positions, { dimension, stride, nonFinite }, report);
+    clouds.set(number, created);
+    return sizeOf(created);
+  }
+  if (request.kind === "merge") {
+    initSync(request.module);
+    return { ids: performMerge(request) };
+  }
+  const cloud = clouds.get(number);
+  if (request.kind === "forget") {
+    clouds.delete(number);
+    cloud?.dispose();
+    return {};
   }
   if (cloud === undefined) {
     throw new Error(`${request.kind} came before create`);
@@ -38,14 +63,15 @@ function sizeOf({ length, skipped }: PointCloud): CloudSize {
 }
 
 /** Every request gets a reply, whatever is thrown. */
-function serve(request: Request, post: Post): void {
+function serve(letter: Letter<Request>, post: Post): void {
   let reply: Reply<Replies[Request["kind"]]>;
   try {
-    reply = { value: answer(request, post) };
+    reply = { value: answer(letter, post) };
   } catch (thrown) {
     reply = failedReply(thrown);
   }
-  post(reply, "value" in reply ? buffersIn(reply.value) : []);
+  const content: Letter = { cloud: letter.cloud, content: reply };
+  post(content, "value" in reply ? buffersIn(reply.value) : []);
 }
 
 /** What is moved rather than copied. */
@@ -59,8 +85,8 @@ async function serveNode(): Promise<void> {
   const { parentPort } =
     await importNodeModule<typeof import("node:worker_threads")>("node:worker_threads");
   const post: Post = (message, transfer) => parentPort?.postMessage(message, transfer);
-  parentPort?.on("message", (request: Request) => {
-    serve(request, post);
+  parentPort?.on("message", (letter: Letter<Request>) => {
+    serve(letter, post);
   });
   post(READY, []);
 }
@@ -70,7 +96,7 @@ if (scope.postMessage === undefined) {
   void serveNode();
 } else {
   const post: Post = scope.postMessage.bind(globalThis);
-  addEventListener("message", (event: MessageEvent<Request>) => {
+  addEventListener("message", (event: MessageEvent<Letter<Request>>) => {
     serve(event.data, post);
   });
   post(READY, []);

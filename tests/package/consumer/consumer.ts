@@ -24,6 +24,7 @@ import {
   type VisibilityOptions,
   type VisiblePart,
 } from "hidden-point-removal";
+import { init as initInline } from "hidden-point-removal/inline";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 
 const inputs: InitInput[] = ["hpr.wasm", new URL("https://example.org/hpr.wasm"), new Uint8Array(8), new ArrayBuffer(8)];
@@ -35,6 +36,7 @@ export async function everything(): Promise<HprErrorCode | undefined> {
   await init();
   await init(inputs[0]);
   initSync(new Uint8Array(8));
+  await initInline();
   try {
     using cloud = new PointCloud(new Float32Array(12), reading);
     const visible: Visibility = cloud.visibleFrom([0, 0, 5], options);

@@ -1,0 +1,94 @@
+import { extname } from "node:path";
+import { parseArgs } from "node:util";
+
+import { FORMATS } from "./formats/formats.js";
+
+export const HELP = `Usage: hidden-point-removal IN --from X,Y,Z -o OUT [--exponent E|auto]
+
+Writes those points of a file that can be seen from a viewpoint.
+
+  IN                 a PLY, PCD, XYZ, TXT, CSV or PTS file
+  --from X,Y,Z       the viewpoint, in the coordinates of the file
+  -o, --output OUT   the file to write, in the format of IN; - is standard output
+  --exponent E       R is the farthest distance times 10^E (0 or more); the larger, the
+                     more points; auto, the default, chooses it by the points' spacing
+  -h, --help         shows this
+  --version          shows the version
+
+Everything a file says about a point (color, normal, any property) is copied as it
+is. Of a PLY file only the vertices are kept; compressed PCD data is written
+uncompressed. Points without a position (NaN) are never visible.
+
+Exit codes: 0 done, 1 a file could not be read, written or understood, 2 wrong usage
+`;
+
+export interface Settings {
+  input: string;
+  /** "-" for standard output. */
+  output: string;
+  viewpoint: number[];
+  /** Undefined for the automatic one. */
+  exponent: number | undefined;
+}
+
+/** Wrong usage: the message says what is wrong. */
+export class UsageProblem extends Error {}
+
+export function readArguments(args: string[]): Settings | "help" | "version" {
+  const { values, positionals } = parsed(args);
+  if (values.help === true) return "help";
+  if (values.version === true) return "version";
+  const [input, ...others] = positionals;
+  if (input === undefined) throw new UsageProblem("which file?");
+  if (others.length > 0) throw new UsageProblem(`one file at a time, not also ${others.join(", ")}`);
+  if (values.from === undefined) throw new UsageProblem("--from X,Y,Z is needed: the viewpoint");
+  if (values.output === undefined) throw new UsageProblem("-o OUT is needed: the file to write");
+  const [is, wanted] = [input, values.output].map((name) => extname(name).toLowerCase());
+  if (!Object.hasOwn(FORMATS, is!)) throw new UsageProblem(`${input} is none of ${Object.keys(FORMATS).join(", ")}`);
+  if (values.output !== "-" && FORMATS[wanted!] !== FORMATS[is!]) {
+    throw new UsageProblem(`${values.output} has to be a ${is!} file, as ${input} is: formats are not converted`);
+  }
+  return { input, output: values.output, viewpoint: viewpoint(values.from), exponent: exponent(values.exponent ?? "auto") };
+}
+
+function parsed(args: string[]) {
+  try {
+    return parseArgs({
+      args: args.flatMap(joinedToNegative(args)),
+      allowPositionals: true,
+      options: {
+        from: { type: "string" },
+        output: { type: "string", short: "o" },
+        exponent: { type: "string" },
+        help: { type: "boolean", short: "h" },
+        version: { type: "boolean" },
+      },
+    });
+  } catch (error) {
+    throw new UsageProblem((error as Error).message);
+  }
+}
+
+/** `--from -1,2,3` is meant as `--from=-1,2,3`, which parseArgs insists on. */
+function joinedToNegative(args: string[]) {
+  const isValue = (i: number) => /^--(from|exponent)$/.test(args[i - 1] ?? "") && /^-[\d.]/.test(args[i] ?? "");
+  return (word: string, i: number): string[] => {
+    if (isValue(i)) return [];
+    return [isValue(i + 1) ? `${word}=${args[i + 1]!}` : word];
+  };
+}
+
+function viewpoint(text: string): number[] {
+  const numbers = text.split(",").map((word) => (word.trim() === "" ? NaN : Number(word)));
+  if (numbers.length !== 3 || !numbers.every(Number.isFinite)) {
+    throw new UsageProblem(`--from needs three numbers, as in --from 1,2.5,-3, not ${text}`);
+  }
+  return numbers;
+}
+
+function exponent(text: string): number | undefined {
+  if (text === "auto") return undefined;
+  const value = text.trim() === "" ? NaN : Number(text);
+  if (!(value >= 0 && Number.isFinite(value))) throw new UsageProblem(`--exponent needs a number of 0 or more, or auto, not ${text}`);
+  return value;
+}

@@ -1,0 +1,14 @@
+import { readPcd } from "./pcd.js";
+import { readPly } from "./ply.js";
+import type { PointFile } from "./point-file.js";
+import { readTable } from "./table.js";
+
+/** What is read, by the end of a file's name. */
+export const FORMATS: Record<string, (file: Buffer) => PointFile> = {
+  ".ply": readPly,
+  ".pcd": readPcd,
+  ".xyz": readTable,
+  ".txt": readTable,
+  ".csv": readTable,
+  ".pts": readTable,
+};

@@ -1,0 +1,64 @@
+import { FileProblem, type Records } from "./point-file.js";
+
+/** A line of a text file: without its end, and where it is with its end. */
+export interface Line {
+  text: string;
+  number: number;
+  start: number;
+  end: number;
+}
+
+/** The lines from a place on, in Latin-1, which keeps one character a byte. */
+export function* linesOf(file: Buffer, from = 0, firstNumber = 1): Generator<Line> {
+  let start = from;
+  for (let number = firstNumber; start < file.length; number++) {
+    const found = file.indexOf(0x0a, start);
+    const end = found < 0 ? file.length : found + 1;
+    yield { text: file.toString("latin1", start, end).trim(), number, start, end };
+    start = end;
+  }
+}
+
+const NOT_FINITE = /^[-+]?(nan|inf|infinity)(\(.*\))?$/i;
+
+/** A coordinate as it is written, NaN for one that is missing; undefined for what is no number. */
+export function coordinate(word: string | undefined): number | undefined {
+  if (word === undefined || word === "") return undefined;
+  const value = Number(word);
+  return Number.isFinite(value) ? value : NOT_FINITE.test(word) || !Number.isNaN(value) ? NaN : undefined;
+}
+
+/** Collects points that are one line each. */
+export class LinePoints {
+  readonly #file: Buffer;
+  readonly #numbers: number[] = [];
+  readonly #starts: number[] = [];
+  readonly #ends: number[] = [];
+
+  constructor(file: Buffer) {
+    this.#file = file;
+  }
+
+  get count(): number {
+    return this.#starts.length;
+  }
+
+  get numbers(): readonly number[] {
+    return this.#numbers;
+  }
+
+  get records(): Records {
+    return { bytes: this.#file, start: (i) => this.#starts[i]!, end: (i) => this.#ends[i]! };
+  }
+
+  /** @param words the words of the line that are its x, y and z */
+  add(line: Line, words: (string | undefined)[]): void {
+    for (const word of words) {
+      const value = coordinate(word);
+      if (value === undefined) throw new FileProblem(`line ${line.number} is not a point: "${line.text.slice(0, 60)}"`);
+      this.#numbers.push(value);
+    }
+    this.#starts.push(line.start);
+    this.#ends.push(line.end);
+  }
+}

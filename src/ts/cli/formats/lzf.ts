@@ -1,0 +1,32 @@
+import { FileProblem } from "./point-file.js";
+
+/** Unpacks LZF: literal runs, and copies from up to 8 kB back. */
+export function unpackLzf(packed: Uint8Array, length: number): Uint8Array {
+  // Three bytes stand for 264 at most.
+  if (length > 88 * packed.length) throw damaged();
+  const unpacked = new Uint8Array(length);
+  let [from, to] = [0, 0];
+  while (from < packed.length) {
+    const control = packed[from++]!;
+    if (control < 32) {
+      const run = packed.subarray(from, from + control + 1);
+      if (run.length <= control || to + run.length > length) throw damaged();
+      unpacked.set(run, to);
+      from += run.length;
+      to += run.length;
+      continue;
+    }
+    let count = (control >> 5) + 2;
+    if (count === 9) count += packed[from++] ?? NaN;
+    const back = ((control & 31) << 8) + (packed[from++] ?? NaN) + 1;
+    if (!(back <= to && to + count <= length)) throw damaged();
+    // One by one: a copy may repeat what it has just written.
+    for (let i = 0; i < count; i++, to++) unpacked[to] = unpacked[to - back]!;
+  }
+  if (to !== length) throw damaged();
+  return unpacked;
+}
+
+function damaged(): FileProblem {
+  return new FileProblem("its compressed data is damaged");
+}

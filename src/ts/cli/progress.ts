@@ -1,0 +1,51 @@
+/** Where the bar is drawn: a terminal, or nothing at all. */
+export interface Screen {
+  isTTY?: boolean;
+  columns?: number;
+  write: (text: string) => unknown;
+}
+
+const WIDTH = 24;
+
+/** A bar on a terminal, gone when it is done; on anything else there is none. */
+export class Progress {
+  readonly #screen: Screen | undefined;
+  readonly #started = Date.now();
+  #share = 0;
+  #doing = "";
+  #timer: ReturnType<typeof setInterval> | undefined;
+
+  constructor(screen: Screen) {
+    this.#screen = screen.isTTY === true ? screen : undefined;
+  }
+
+  /** @param share of the whole that is done, from 0 to 1 */
+  show(share: number, doing: string): void {
+    if (this.#screen === undefined) return;
+    const percent = Math.floor(100 * share);
+    if (percent === Math.floor(100 * this.#share) && doing === this.#doing) return;
+    [this.#share, this.#doing] = [share, doing];
+    this.#draw();
+    // The seconds go on where the share stands still.
+    this.#timer ??= setInterval(() => {
+      this.#draw();
+    }, 500).unref();
+  }
+
+  done(): void {
+    clearInterval(this.#timer);
+    if (this.#timer !== undefined) this.#screen?.write("\r\x1b[K");
+    this.#timer = undefined;
+  }
+
+  #draw(): void {
+    const full = Math.round(WIDTH * this.#share);
+    const bar = "█".repeat(full) + "░".repeat(WIDTH - full);
+    const percent = `${Math.floor(100 * this.#share)} %`.padStart(5);
+    const seconds = ((Date.now() - this.#started) / 1000).toFixed(0);
+    const line = `${bar} ${percent}  ${this.#doing}, ${seconds} s`;
+    // Some terminals do not know how wide they are and say 0.
+    const columns = this.#screen?.columns ?? 0;
+    this.#screen?.write(`\r${line.slice(0, (columns > 0 ? columns : 80) - 1)}\x1b[K`);
+  }
+}

@@ -1,0 +1,120 @@
+import { describe, HprError, typeTag } from "./errors.js";
+import { hasNodeModules, importNodeModule } from "./node.js";
+
+/**
+ * `WebAssembly.Module`, written so that these types also compile where the
+ * platform's own do not know it (Node's do not).
+ */
+export type WasmModule = typeof globalThis extends {
+  WebAssembly: { Module: { prototype: infer Module } };
+}
+  ? Module
+  : object;
+
+/** The bytes of the wasm, or the compiled module. */
+export type SyncInitInput = ArrayBuffer | ArrayBufferView | WasmModule;
+
+/**
+ * Where the wasm comes from: an address (in Node also a path), a response that
+ * has arrived, its bytes, or the compiled module.
+ */
+export type InitInput = string | URL | Response | SyncInitInput;
+
+const WAY_OUT =
+  "Serve hpr_bg.wasm (the package exports it as hidden-point-removal/hpr.wasm) and pass its address to init(), " +
+  "or pass its bytes, or import hidden-point-removal/inline, which carries it along";
+
+export async function compile(input: InitInput): Promise<WasmModule> {
+  const source = nameOf(input);
+  try {
+    if (isModule(input)) {
+      return input;
+    }
+    if (isResponse(input)) {
+      return await compileResponse(input);
+    }
+    if (isAddress(input)) {
+      return await compileAddress(input);
+    }
+    return await WebAssembly.compile(bytesOf(input));
+  } catch (cause) {
+    throw loadError(source, cause);
+  }
+}
+
+async function compileAddress(address: string | URL): Promise<WebAssembly.Module> {
+  const file = hasNodeModules() ? fileOf(address) : undefined;
+  if (file === undefined) {
+    return compileResponse(await fetch(address));
+  }
+  const { readFile } =
+    await importNodeModule<typeof import("node:fs/promises")>("node:fs/promises");
+  return WebAssembly.compile(await readFile(file));
+}
+
+async function compileResponse(response: Response): Promise<WebAssembly.Module> {
+  if (!response.ok) {
+    throw new Error(`the server answered ${response.status} ${response.statusText}`.trimEnd());
+  }
+  // Browsers refuse to compile while streaming under any other type.
+  if (response.headers.get("Content-Type") === "application/wasm") {
+    return WebAssembly.compileStreaming(response);
+  }
+  return WebAssembly.compile(await response.arrayBuffer());
+}
+
+/** The file that an address means, unless it is one to fetch. */
+function fileOf(address: string | URL): string | URL | undefined {
+  let url: URL;
+  try {
+    url = new URL(address);
+  } catch {
+    return address;
+  }
+  if (url.protocol === "file:") {
+    return url;
+  }
+  // C:\hpr.wasm parses as a URL too.
+  return /^[a-z]:$/.test(url.protocol) ? address : undefined;
+}
+
+export function bytesOf(input: unknown): ArrayBuffer | Uint8Array<ArrayBuffer> {
+  if (ArrayBuffer.isView(input)) {
+    const bytes = new Uint8Array(input.buffer, input.byteOffset, input.byteLength);
+    // Compilers refuse shared memory, which could change under them.
+    return typeTag(input.buffer) === "ArrayBuffer" ? (bytes as Uint8Array<ArrayBuffer>) : bytes.slice();
+  }
+  if (typeTag(input) === "ArrayBuffer") {
+    return input as ArrayBuffer;
+  }
+  throw new TypeError(
+    `expected a URL, a Response, the bytes or a WebAssembly.Module, got ${describe(input)}`,
+  );
+}
+
+export function isModule(input: unknown): input is WasmModule {
+  return typeTag(input) === "WebAssembly.Module";
+}
+
+function isResponse(input: unknown): input is Response {
+  return typeTag(input) === "Response";
+}
+
+function isAddress(input: unknown): input is string | URL {
+  return typeof input === "string" || typeTag(input) === "URL";
+}
+
+export function nameOf(input: InitInput): string {
+  if (isResponse(input)) {
+    return input.url === "" ? "the wasm from the given Response" : `the wasm from ${input.url}`;
+  }
+  if (input === "") {
+    return "the wasm from an empty address";
+  }
+  return isAddress(input) ? `the wasm from ${String(input)}` : "the given wasm";
+}
+
+export function loadError(source: string, cause: unknown): HprError {
+  const reason = cause instanceof Error ? cause.message : String(cause);
+  return new HprError("load", `could not load ${source}: ${reason}. ${WAY_OUT}.`, { cause });
+}

@@ -1,0 +1,448 @@
+import { type Camera, EventDispatcher, type EventListener, type Object3D, type Points } from "three";
+
+import { describe, HprError } from "../errors.js";
+import type { MergeOptions } from "../merge.js";
+import { isDimmed } from "../three/dimmed.js";
+import { Eye, requireUniformScale } from "../three/eye.js";
+import { extent } from "./measure.js";
+import { type Merger, startMerger } from "./merger.js";
+import { CloudNode } from "./node.js";
+import { type HiddenPointNodesFilterOptions, type NodesSettings, readNodesOptions } from "./options.js";
+import { CommonRadius } from "./radius.js";
+import { spacingOf } from "./spacing.js";
+
+/** What a filter of nodes tells its listeners. */
+export interface HiddenPointNodesFilterEvents {
+  /**
+   * Another answer is drawn: how many points of how many nodes are visible, how long it took
+   * to get, and from where and with which radius (0 where the inversion has none) all were
+   * asked, in the root's space.
+   */
+  change: { count: number; nodes: number; milliseconds: number; viewpoint: number[]; radius: number };
+  /**
+   * What a node (`points`) or a view (null) is refused for: told once for each node until it
+   * changes, and once for views until there is an answer again.
+   */
+  error: { error: Error; points: Points | null };
+}
+
+/** A set of nodes that were there and ready together. */
+interface Round {
+  nodes: CloudNode[];
+  viewpoint: number[];
+  settled: boolean;
+}
+
+/**
+ * Draws, of many `THREE.Points` that are one cloud together, only what can be seen from the
+ * camera, as tiled viewers need it: potree-core's octrees, point tiles of 3d-tiles-renderer.
+ * Nodes may come and go, lie in one another, and have offsets of their own.
+ *
+ * All nodes are asked from one viewpoint with one radius, each as a cloud of its own, and
+ * what they see is merged (`mergeVisible`): exactly as if the cloud had never been split.
+ * A node that comes is asked alone, then merged; what was asked before is kept.
+ *
+ * ```js
+ * const filter = new HiddenPointNodesFilter(octree); // or tiles.group
+ * renderer.setAnimationLoop(() => {
+ *   viewer.update(camera); // whatever chooses the nodes
+ *   filter.update(camera);
+ *   renderer.render(scene, camera);
+ * });
+ * ```
+ *
+ * Nodes may move with the root as much as they like; moved within it, they are prepared
+ * anew. Nodes that have gone are kept for a while, no more points than are there.
+ *
+ * Orthographic cameras are refused (`option`).
+ */
+export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilterEvents> {
+  /** While true, what is drawn stays, wherever the camera goes; new nodes are drawn whole. */
+  frozen = false;
+
+  readonly #root: Object3D;
+  readonly #settings: NodesSettings;
+  readonly #radius: CommonRadius;
+  readonly #eye = new Eye();
+  readonly #nodes = new Map<Points, CloudNode>();
+  readonly #refusedPoints = new WeakSet<Points>();
+  #frame = 0;
+  /** Counts what changes the set of nodes that can be asked. */
+  #version = 0;
+  #askedVersion = 0;
+  #settledVersion = 0;
+  #asked: MergeOptions | undefined;
+  #merger: Promise<Merger> | undefined;
+  #enabled = true;
+  #busy = false;
+  /** Clouds of nodes that are being prepared. */
+  #building = 0;
+  #visible = 0;
+  #refused = false;
+  #recovering = false;
+  /** Counts the workers that were lost: what they still say is of no interest. */
+  #epoch = 0;
+  #disposed = false;
+  #isHeard = false;
+
+  /**
+   * @param root in whose space the nodes are one cloud, and radii are given: an object
+   *   that they are all below.
+   * @throws HprError `option`.
+   */
+  constructor(root: Object3D, options?: HiddenPointNodesFilterOptions) {
+    super();
+    if (typeof root !== "object" || !("isObject3D" in root)) {
+      throw new HprError("option", `root must be a THREE.Object3D, got ${describe(root)}`);
+    }
+    this.#root = root;
+    this.#settings = readNodesOptions(options);
+    this.#radius = new CommonRadius(this.#settings.view);
+    requireUniformScale(root);
+  }
+
+  /** While false, everything is drawn and nothing is asked. Default true. */
+  get enabled(): boolean {
+    return this.#enabled;
+  }
+
+  set enabled(enabled: boolean) {
+    this.#enabled = enabled;
+    for (const node of this.#nodes.values()) {
+      if (!enabled) {
+        node.showAll();
+      } else if (node.seen === this.#frame) {
+        node.show();
+      }
+    }
+  }
+
+  /** How many points are visible, of all nodes together, in the answer that came last. */
+  get visibleCount(): number {
+    return this.#visible;
+  }
+
+  /** Whether what is drawn is the answer for the nodes and the camera of the last `update`. */
+  get settled(): boolean {
+    return !this.#busy && this.#building === 0 && !this.#wantsAnswer();
+  }
+
+  /**
+   * To be called each frame, when the nodes have been chosen and before rendering: asks for
+   * an answer if the view or the nodes are new. Never waits.
+   */
+  update(camera: Camera): void {
+    if (this.#disposed) {
+      return;
+    }
+    for (const node of this.#nodes.values()) {
+      node.dimmed?.follow();
+    }
+    if (!this.#enabled || this.frozen) {
+      return;
+    }
+    try {
+      this.#eye.look(this.#root, camera);
+      if (this.#eye.isDirection) {
+        throw new HprError("option", "camera: nodes cannot be merged along a direction, as an orthographic camera sees them");
+      }
+    } catch (error) {
+      this.#refuse(error);
+      return;
+    }
+    this.#takeUp();
+    this.#next();
+  }
+
+  /** `"change"`: another answer is drawn. `"error"`: without a listener, it is an unhandled rejection. */
+  override addEventListener<T extends keyof HiddenPointNodesFilterEvents>(
+    type: T,
+    listener: EventListener<HiddenPointNodesFilterEvents[T], T, this>,
+  ): void {
+    this.#isHeard ||= type === "error";
+    super.addEventListener(type, listener);
+  }
+
+  /** Draws all nodes as they were, and gives the memory of their clouds back. May be called twice. */
+  dispose(): void {
+    if (this.#disposed) {
+      return;
+    }
+    this.#disposed = true;
+    for (const node of [...this.#nodes.values()]) {
+      this.#forget(node);
+    }
+    this.#dropMerger();
+  }
+
+  /** Notes which nodes are there now. */
+  #takeUp(): void {
+    this.#frame += 1;
+    const { nodes } = this.#settings;
+    if (nodes === undefined) {
+      this.#takeUpBelow(this.#root);
+    } else {
+      for (const points of nodes()) this.#takeUpOne(points);
+    }
+    let isNew = false;
+    for (const node of this.#nodes.values()) {
+      if (node.seen === this.#frame - 1) {
+        node.showAll();
+        isNew = true;
+      }
+    }
+    if (isNew) {
+      this.#version += 1;
+      this.#forgetOld();
+    }
+  }
+
+  #takeUpBelow(object: Object3D): void {
+    if (!object.visible) {
+      return;
+    }
+    if ("isPoints" in object && !isDimmed(object as Points)) {
+      this.#takeUpOne(object as Points);
+    }
+    for (const child of object.children) {
+      this.#takeUpBelow(child);
+    }
+  }
+
+  #takeUpOne(points: Points): void {
+    let node = this.#nodes.get(points);
+    if (node === undefined) {
+      if (this.#refusedPoints.has(points)) {
+        return;
+      }
+      try {
+        node = new CloudNode(points, this.#root, this.#settings, this.#forgetGone);
+      } catch (error) {
+        this.#refusedPoints.add(points);
+        this.#tell(error as Error, points);
+        return;
+      }
+      this.#nodes.set(points, node);
+    }
+    const isBack = node.seen !== this.#frame - 1;
+    node.seen = this.#frame;
+    if (node.state === "building") {
+      return;
+    }
+    if (node.state === "new" || !node.isUnchanged) {
+      this.#build(node);
+    } else if (isBack && node.state === "ready") {
+      this.#version += 1;
+    }
+  }
+
+  #build(node: CloudNode): void {
+    const epoch = this.#epoch;
+    if (!node.drawn.isSame) {
+      node.showAll();
+    }
+    this.#building += 1;
+    this.#version += 1;
+    node.build().then(
+      () => {
+        this.#building -= 1;
+        this.#version += 1;
+        this.#next();
+      },
+      (error: unknown) => {
+        this.#building -= 1;
+        this.#version += 1;
+        if (epoch === this.#epoch) {
+          this.#refuseNode(error as Error, node);
+        }
+      },
+    );
+  }
+
+  #present(): CloudNode[] {
+    return [...this.#nodes.values()].filter(({ seen }) => seen === this.#frame);
+  }
+
+  #wantsAnswer(): boolean {
+    return (
+      this.#enabled &&
+      !this.frozen &&
+      !this.#disposed &&
+      this.#frame > 0 &&
+      (this.#eye.isNew || this.#askedVersion !== this.#version || this.#settledVersion !== this.#version)
+    );
+  }
+
+  #next(): void {
+    if (this.#busy || !this.#wantsAnswer()) {
+      return;
+    }
+    const nodes = this.#present().filter(({ state }) => state === "ready");
+    // The same nodes as last time, and none to come.
+    const settled = this.#askedVersion === this.#version && this.#building === 0;
+    if (!settled && !this.#eye.isNew && this.#askedVersion === this.#version) {
+      return;
+    }
+    this.#eye.extent = extent(nodes.map(({ measure }) => measure!));
+    const isNewView = this.#eye.isNew || this.#askedVersion !== this.#version;
+    const viewpoint = this.#eye.ask();
+    this.#askedVersion = this.#version;
+    if (settled || nodes.length === 0) {
+      this.#settledVersion = this.#version;
+    }
+    if (nodes.length === 0) {
+      this.#visible = 0;
+      return;
+    }
+    this.#busy = true;
+    const epoch = this.#epoch;
+    this.#answer({ nodes, viewpoint, settled }, isNewView).then(
+      () => {
+        this.#busy = false;
+        this.#next();
+      },
+      (error: unknown) => {
+        this.#busy = false;
+        if (epoch === this.#epoch && !isDisposed(error)) {
+          this.#refuse(error);
+        }
+        this.#next();
+      },
+    );
+  }
+
+  async #answer(round: Round, isNewView: boolean): Promise<void> {
+    const begun = performance.now();
+    const { nodes, viewpoint, settled } = round;
+    if (this.#radius.needsSpacing && (settled || this.#radius.spacing === undefined)) {
+      this.#radius.spacing = await spacingOf(nodes, this.#settings);
+    }
+    const options = this.#radius.choose(nodes.map(({ measure }) => measure!), viewpoint, settled);
+    if (!isNewView && JSON.stringify(options) === JSON.stringify(this.#asked)) {
+      return;
+    }
+    const seen = await Promise.all(nodes.map((node) => node.visibleFrom(viewpoint, options)));
+    let first = 0;
+    const parts = nodes.map((node, i) => {
+      const part = node.part(seen[i]!, first);
+      first += node.drawn.total;
+      return part;
+    });
+    const ids = await (await this.#startedMerger()).merge(parts, viewpoint, options);
+    this.#asked = options;
+    if (!this.#disposed) {
+      this.#draw(nodes, ids);
+      const milliseconds = performance.now() - begun;
+      const { radius = 0 } = options;
+      this.dispatchEvent({ type: "change", count: ids.length, nodes: nodes.length, milliseconds, viewpoint, radius });
+    }
+  }
+
+  #draw(nodes: CloudNode[], ids: Uint32Array): void {
+    this.#refused = this.#recovering = false;
+    this.#visible = ids.length;
+    let [first, from] = [0, 0];
+    for (const node of nodes) {
+      const next = first + node.drawn.total;
+      let to = from;
+      while (to < ids.length && ids[to]! < next) to++;
+      if (node.state === "ready" && node.drawn.isSame && node.seen === this.#frame) {
+        const base = first;
+        node.drawn.setVisible(ids.slice(from, to).map((id) => id - base));
+        if (this.#enabled) {
+          node.show();
+        }
+      }
+      [first, from] = [next, to];
+    }
+  }
+
+  /** Those that have been gone for longest, beyond as many points as are there. */
+  #forgetOld(): void {
+    const gone = [...this.#nodes.values()].filter(({ seen }) => seen !== this.#frame);
+    if (gone.length === 0) {
+      return;
+    }
+    let room = this.#present().reduce((sum, { drawn }) => sum + drawn.total, 0);
+    for (const node of gone.sort((a, b) => b.seen - a.seen)) {
+      room -= node.drawn.total;
+      if (room < 0) {
+        this.#forget(node);
+      }
+    }
+  }
+
+  readonly #forgetGone = (node: CloudNode): void => {
+    if (node.seen !== this.#frame) {
+      this.#forget(node);
+    }
+  };
+
+  #forget(node: CloudNode): void {
+    this.#nodes.delete(node.points);
+    node.dispose();
+  }
+
+  #refuseNode(error: Error, node: CloudNode): void {
+    if (this.#disposed || this.#recover(error)) {
+      return;
+    }
+    this.#tell(error, node.points);
+    this.#next();
+  }
+
+  #refuse(thrown: unknown): void {
+    const error = thrown instanceof Error ? thrown : new Error(String(thrown));
+    if (this.#disposed || this.#recover(error) || this.#refused) {
+      return;
+    }
+    this.#refused = true;
+    this.#tell(error, null);
+  }
+
+  /** Once in a row: with the worker, all clouds are lost. */
+  #recover(error: Error): boolean {
+    if (!(error instanceof HprError) || error.code !== "internal" || this.#recovering) {
+      return false;
+    }
+    this.#recovering = true;
+    this.#epoch += 1;
+    this.#dropMerger();
+    for (const node of this.#nodes.values()) {
+      if (node.seen === this.#frame) {
+        this.#build(node);
+      } else {
+        node.state = "new";
+      }
+    }
+    return true;
+  }
+
+  /** What nobody listens to is reported as any other promise that nobody awaits. */
+  #tell(error: Error, points: Points | null): void {
+    if (!this.#isHeard) {
+      void Promise.reject(error);
+    }
+    this.dispatchEvent({ type: "error", error, points });
+  }
+
+  #startedMerger(): Promise<Merger> {
+    this.#merger ??= startMerger(this.#settings.inWorker).catch((error: unknown) => {
+      this.#merger = undefined;
+      throw error;
+    });
+    return this.#merger;
+  }
+
+  #dropMerger(): void {
+    const merger = this.#merger;
+    this.#merger = undefined;
+    // One that could not be started has nothing to give back.
+    merger?.then((started) => started.dispose()).catch(() => undefined);
+  }
+}
+
+/** Of a node that changed while it was asked: it is asked again. */
+function isDisposed(error: unknown): boolean {
+  return error instanceof HprError && error.code === "disposed";
+}

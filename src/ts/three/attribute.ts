@@ -1,0 +1,97 @@
+import type { BufferAttribute, GLBufferAttribute, InterleavedBufferAttribute } from "three";
+
+import { describe, HprError } from "../errors.js";
+import { allocating } from "../memory.js";
+import { isFloatArray } from "../positions.js";
+import { typedArrayType } from "../typed-arrays.js";
+
+export type PositionAttribute = BufferAttribute | InterleavedBufferAttribute;
+
+/** Positions of a geometry's points, x, y, z one after another. */
+export interface ReadPositions {
+  numbers: Float32Array | Float64Array;
+  /** Not the attribute's own memory: it may be given away. */
+  own: boolean;
+}
+
+/** Whole numbers of 32 bits and quotients of them are not, in single precision. */
+const EXACT_IN_SINGLE = ["Float32Array", "Int8Array", "Uint8Array", "Uint8ClampedArray", "Int16Array", "Uint16Array"];
+
+/** Refuses what has no positions that can be read here. */
+export function requirePositions(attribute: PositionAttribute | GLBufferAttribute | undefined): PositionAttribute {
+  if (attribute === undefined) {
+    throw new HprError("positions-type", "the geometry has no attribute named position");
+  }
+  if ("isGLBufferAttribute" in attribute) {
+    throw new HprError("positions-type", "position is a GLBufferAttribute: its numbers are on the graphics card alone");
+  }
+  if (typedArrayType(attribute.array) === undefined) {
+    throw new HprError("positions-type", `position has no array any more, but ${describe(attribute.array)}`);
+  }
+  if (attribute.itemSize < 3) {
+    throw new HprError("positions-type", `position must have an itemSize of 3, got ${attribute.itemSize}`);
+  }
+  return attribute;
+}
+
+/** Grows with every `needsUpdate = true`. */
+export function versionOf(attribute: PositionAttribute): number {
+  return "data" in attribute ? attribute.data.version : attribute.version;
+}
+
+/**
+ * The positions of the points with these numbers, or of all: as three itself reads them,
+ * that is with integers that are `normalized` divided, in double precision then. With a
+ * `place`, the elements of a matrix, they are taken there, in double precision, too.
+ */
+export function readPositions(
+  attribute: PositionAttribute,
+  ids: Uint32Array | undefined,
+  place?: readonly number[],
+): ReadPositions {
+  const { array, normalized, itemSize, count } = attribute;
+  const packed = !("data" in attribute) && itemSize === 3 && !normalized;
+  if (packed && ids === undefined && place === undefined && isFloatArray(array)) {
+    return { numbers: array.subarray(0, 3 * count), own: false };
+  }
+  const length = ids?.length ?? count;
+  const single = !normalized && place === undefined && EXACT_IN_SINGLE.includes(typedArrayType(array)!);
+  const numbers = allocating(`${length} points`, () => new (single ? Float32Array : Float64Array)(3 * length));
+  for (let i = 0, to = 0; i < length; i++, to += 3) {
+    const id = ids === undefined ? i : ids[i]!;
+    numbers[to] = attribute.getX(id);
+    numbers[to + 1] = attribute.getY(id);
+    numbers[to + 2] = attribute.getZ(id);
+  }
+  if (place !== undefined) {
+    movePoints(numbers, place);
+  }
+  return { numbers, own: true };
+}
+
+/** A translation alone is one addition a coordinate, exactly. */
+function movePoints(numbers: Float32Array | Float64Array, m: readonly number[]): void {
+  for (let i = 0; i < numbers.length; i += 3) {
+    const x = numbers[i]!;
+    const y = numbers[i + 1]!;
+    const z = numbers[i + 2]!;
+    for (let axis = 0; axis < 3; axis++) {
+      numbers[i + axis] = m[axis]! * x + m[4 + axis]! * y + m[8 + axis]! * z + m[12 + axis]!;
+    }
+  }
+}
+
+/** The longest side of the box around the points that are finite. */
+export function extentOf(numbers: Float32Array | Float64Array): number {
+  let extent = 0;
+  for (let axis = 0; axis < 3; axis++) {
+    let [low, high] = [Infinity, -Infinity];
+    for (let i = axis; i < numbers.length; i += 3) {
+      const number = numbers[i]!;
+      if (number < low) low = number;
+      if (number > high) high = number;
+    }
+    extent = Math.max(extent, high - low);
+  }
+  return Number.isFinite(extent) ? extent : 0;
+}

@@ -1,0 +1,21 @@
+import { PointCloud } from "../cloud.js";
+import { runningInstance } from "../instance.js";
+import { init } from "../loader.js";
+import { WorkerPointCloud } from "../worker/client.js";
+import type { ReadPositions } from "./attribute.js";
+
+/** Both answer alike, one of them with promises. */
+export type Cloud = PointCloud | WorkerPointCloud;
+
+/** A cloud in the worker that all filters share, or else here: at once where the wasm is running. */
+export function prepareCloud(
+  { numbers, own }: ReadPositions,
+  options: { inWorker: boolean; nonFinite: "error" | "skip" },
+): Cloud | Promise<Cloud> {
+  const { inWorker, nonFinite } = options;
+  if (inWorker) {
+    return WorkerPointCloud.create(numbers, { nonFinite, shared: true, transfer: own });
+  }
+  const build = () => new PointCloud(numbers, { nonFinite });
+  return runningInstance() === undefined ? init().then(build) : build();
+}

@@ -1,0 +1,123 @@
+import { BufferGeometry, type Material, Points, type PointsMaterial } from "three";
+
+import { HprError } from "../errors.js";
+import type { DrawnPoints } from "./drawn-points.js";
+
+/** What is left of the opacity of hidden points. */
+const OPACITY = 0.15;
+
+const dimmed = new WeakSet<Points>();
+
+/** Whether points are only the hidden ones of others. */
+export function isDimmed(points: Points): boolean {
+  return dimmed.has(points);
+}
+
+/**
+ * The hidden points, drawn as well: a child of the points with the same attributes and the
+ * rest of the index. Rays pass through it.
+ */
+export class DimmedPoints {
+  readonly #points: Points;
+  readonly #child: Points;
+  readonly #given: Material | undefined;
+  #copied: { from: Material; version: number } | undefined;
+
+  /** @throws HprError `option` for a material that cannot be dimmed. */
+  constructor(points: Points, material: Material | undefined) {
+    this.#points = points;
+    this.#given = material;
+    this.#child = new Points(new BufferGeometry(), material ?? this.#copy());
+    dimmed.add(this.#child);
+    this.#child.name = "hidden points";
+    this.#child.raycast = () => undefined;
+    this.#child.visible = false;
+  }
+
+  /** Draws what the order lists after the visible points. */
+  show(drawn: DrawnPoints): void {
+    const { geometry } = this.#child;
+    if (geometry.index !== drawn.order) {
+      geometry.setIndex(drawn.order ?? null);
+    }
+    geometry.setDrawRange(drawn.visible, drawn.total - drawn.visible);
+    this.#child.visible = true;
+    if (this.#child.parent !== this.#points) {
+      this.#points.add(this.#child);
+    }
+    this.follow();
+  }
+
+  hide(): void {
+    this.#child.visible = false;
+  }
+
+  /** Does after the points whatever was done to them since the last frame. */
+  follow(): void {
+    if (!this.#child.visible) {
+      return;
+    }
+    const [points, child] = [this.#points, this.#child];
+    child.layers.mask = points.layers.mask;
+    child.renderOrder = points.renderOrder;
+    child.frustumCulled = points.frustumCulled;
+    this.#share();
+    if (this.#given !== undefined) {
+      return;
+    }
+    const material = points.material as PointsMaterial;
+    if (this.#copied?.from !== material || this.#copied.version !== material.version) {
+      (child.material as Material).dispose();
+      child.material = this.#copy();
+      return;
+    }
+    const copy = child.material as PointsMaterial;
+    copy.opacity = OPACITY * material.opacity;
+    copy.size = material.size;
+    copy.color.copy(material.color);
+  }
+
+  dispose(): void {
+    this.#child.removeFromParent();
+    const { geometry, material } = this.#child;
+    // What is shared must stay on the graphics card.
+    for (const name of Object.keys(geometry.attributes)) {
+      geometry.deleteAttribute(name);
+    }
+    geometry.dispose();
+    if (this.#given === undefined) {
+      (material as Material).dispose();
+    }
+  }
+
+  #share(): void {
+    const [{ attributes, boundingSphere }, own] = [this.#points.geometry, this.#child.geometry];
+    for (const name in attributes) {
+      if (own.attributes[name] !== attributes[name]) own.setAttribute(name, attributes[name]!);
+    }
+    for (const name in own.attributes) {
+      if (!(name in attributes)) own.deleteAttribute(name);
+    }
+    own.boundingSphere = boundingSphere;
+  }
+
+  /** Hidden points cover nothing, and shine through each other. */
+  #copy(): Material {
+    const material = requireDimmable(this.#points.material);
+    this.#copied = { from: material, version: material.version };
+    const copy = material.clone();
+    copy.transparent = true;
+    copy.depthWrite = false;
+    copy.opacity = OPACITY * material.opacity;
+    return copy;
+  }
+}
+
+/** Only three's own materials for points are known to draw what `opacity` and `size` say. */
+function requireDimmable(material: Material | Material[]): PointsMaterial {
+  if (Array.isArray(material) || !("isPointsMaterial" in material || "isPointsNodeMaterial" in material)) {
+    const type = Array.isArray(material) ? "an array of materials" : material.type;
+    throw new HprError("option", `mode "dim" needs dimMaterial for points with ${type}, which it does not know how to dim`);
+  }
+  return material as PointsMaterial;
+}

@@ -1,0 +1,228 @@
+import { BufferAttribute, type BufferGeometry, DynamicDrawUsage, type Points } from "three";
+
+import { describe, HprError } from "../errors.js";
+import { allocating } from "../memory.js";
+import { type PositionAttribute, readPositions, type ReadPositions, requirePositions, versionOf } from "./attribute.js";
+
+/** A geometry as its user left it. */
+interface Taken {
+  geometry: BufferGeometry;
+  position: PositionAttribute;
+  positionVersion: number;
+  index: BufferAttribute | null;
+  indexVersion: number;
+  start: number;
+  count: number;
+}
+
+/** Geometries that have a filter: a second one would take the first one's index for the user's. */
+const taken = new WeakSet<BufferGeometry>();
+
+/**
+ * The points that a geometry draws, and the index and draw range that make it draw fewer.
+ *
+ *      order   [ visible …… | hidden …… ]     numbers of points, in the user's own order
+ *                draw range ──
+ *
+ * Hidden ones are listed only where they are drawn, too (see `dimmed.ts`).
+ */
+export class DrawnPoints {
+  readonly #points: Points;
+  readonly #withHidden: boolean;
+  #taken: Taken | undefined;
+  /** The numbers of the points that were drawn; undefined for all, in their order. */
+  #ids: Uint32Array | undefined;
+  #order: BufferAttribute | undefined;
+  #total = 0;
+  #visible = 0;
+  #shown = false;
+
+  constructor(points: Points, withHidden: boolean) {
+    this.#points = points;
+    this.#withHidden = withHidden;
+  }
+
+  /** How many points are drawn without a filter. */
+  get total(): number {
+    return this.#total;
+  }
+
+  get visible(): number {
+    return this.#visible;
+  }
+
+  get order(): BufferAttribute | undefined {
+    return this.#order;
+  }
+
+  /** Whether the points are still the ones that were taken up last, wherever they are now. */
+  get isSame(): boolean {
+    const last = this.#taken;
+    if (last === undefined || this.#points.geometry !== last.geometry) {
+      return false;
+    }
+    const { index, drawRange } = last.geometry;
+    const own = this.#shown;
+    return (
+      last.geometry.attributes["position"] === last.position &&
+      index === (own ? this.#order : last.index) &&
+      (last.index === null || last.index.version === last.indexVersion) &&
+      drawRange.start === (own ? 0 : last.start) &&
+      drawRange.count === (own ? this.#visible : last.count)
+    );
+  }
+
+  /** Whether nothing has been said to have changed since they were taken up. */
+  get isUnchanged(): boolean {
+    return this.isSame && versionOf(this.#taken!.position) === this.#taken!.positionVersion;
+  }
+
+  /**
+   * Takes the points up as they are now, and tells where they are: in their own space, or
+   * where the elements of a matrix take them. What is visible of them stays drawn where
+   * they are the same.
+   *
+   * @throws HprError `positions-type`, `option`, `too-large`; nothing is taken up then.
+   */
+  take(place?: readonly number[]): ReadPositions {
+    const same = this.isSame;
+    if (!same) {
+      this.release();
+    }
+    const { geometry } = this.#points;
+    const position = requireFilterable(geometry);
+    if (!same) {
+      const { index, drawRange } = geometry;
+      this.#ids = drawnIds(position.count, index, drawRange);
+      this.#total = this.#ids?.length ?? position.count;
+      const { start, count } = drawRange;
+      const indexVersion = index?.version ?? 0;
+      this.#taken = { geometry, position, positionVersion: 0, index, indexVersion, start, count };
+      taken.add(geometry);
+    }
+    this.#taken!.positionVersion = versionOf(position);
+    return readPositions(position, this.#ids, place);
+  }
+
+  /** Where some of them are: indices into what `take` told. */
+  positionsOf(indices: Uint32Array, place?: readonly number[]): Float32Array | Float64Array {
+    const ids = this.#ids === undefined ? indices : indices.map((i) => this.#ids![i]!);
+    return readPositions(this.#taken!.position, ids, place).numbers;
+  }
+
+  /** Notes what is visible: indices into what `take` told, ascending. */
+  setVisible(indices: Uint32Array): void {
+    this.#order ??= allocating(`${this.#total} indices`, () => {
+      return new BufferAttribute(new Uint32Array(this.#total), 1).setUsage(DynamicDrawUsage);
+    });
+    const order = this.#order.array as Uint32Array;
+    const ids = this.#ids;
+    if (ids === undefined) {
+      order.set(indices);
+    } else {
+      for (let i = 0; i < indices.length; i++) order[i] = ids[indices[i]!]!;
+    }
+    if (this.#withHidden) {
+      listHidden(order, indices, ids);
+    }
+    this.#visible = indices.length;
+    this.#order.clearUpdateRanges();
+    this.#order.addUpdateRange(0, this.#withHidden ? this.#total : indices.length);
+    this.#order.needsUpdate = true;
+    if (this.#shown) {
+      this.#taken?.geometry.setDrawRange(0, this.#visible);
+    }
+  }
+
+  /** Draws what is visible. */
+  show(): void {
+    if (!this.#shown && this.#taken !== undefined && this.#order !== undefined) {
+      this.#shown = true;
+      this.#taken.geometry.setIndex(this.#order);
+      this.#taken.geometry.setDrawRange(0, this.#visible);
+    }
+  }
+
+  /** Draws what was drawn without a filter, except where that was changed by others. */
+  showAll(): void {
+    if (!this.#shown) {
+      return;
+    }
+    this.#shown = false;
+    const { geometry, index, start, count } = this.#taken!;
+    if (geometry.index === this.#order) {
+      geometry.setIndex(index);
+    }
+    if (geometry.drawRange.start === 0 && geometry.drawRange.count === this.#visible) {
+      geometry.setDrawRange(start, count);
+    }
+  }
+
+  /** Leaves the geometry as if there had been no filter. */
+  release(): void {
+    this.showAll();
+    if (this.#taken !== undefined) {
+      taken.delete(this.#taken.geometry);
+    }
+    this.#taken = this.#ids = this.#order = undefined;
+    this.#total = this.#visible = 0;
+  }
+}
+
+/** Refuses geometries whose points are not where their positions say, or have a filter. */
+export function requireUnfiltered(geometry: BufferGeometry): void {
+  if (taken.has(geometry)) {
+    throw new HprError("option", "points: this geometry has a HiddenPointFilter already");
+  }
+}
+
+function requireFilterable(geometry: BufferGeometry): PositionAttribute {
+  const { attributes, morphAttributes } = geometry;
+  if (Object.values(morphAttributes).some((list) => (list as unknown[] | undefined)?.length)) {
+    throw new HprError("option", "points: morphAttributes are not supported: only the graphics card knows where such points are");
+  }
+  const instanced = Object.keys(attributes).find((name) => "isInstancedBufferAttribute" in attributes[name]!);
+  if ("isInstancedBufferGeometry" in geometry || instanced !== undefined) {
+    const what = instanced === undefined ? "an InstancedBufferGeometry" : `the instanced attribute ${describe(instanced)}`;
+    throw new HprError("option", `points: ${what} is not supported: an index cannot leave out single instances`);
+  }
+  return requirePositions(attributes["position"]);
+}
+
+/** What an index and a draw range have drawn, in their order; undefined for everything. */
+function drawnIds(
+  length: number,
+  index: BufferAttribute | null,
+  range: { start: number; count: number },
+): Uint32Array | undefined {
+  const start = Math.max(0, range.start);
+  const end = Math.min(index?.count ?? length, range.start + range.count);
+  const count = Math.max(0, end - start);
+  if (index === null && count === length) {
+    return undefined;
+  }
+  const ids = allocating(`${count} indices`, () => new Uint32Array(count));
+  for (let i = 0; i < count; i++) {
+    const id = index?.getX(start + i) ?? start + i;
+    if (id >= length) {
+      throw new HprError("option", `points: index[${start + i}] is ${id}, but there are ${length} positions`);
+    }
+    ids[i] = id;
+  }
+  return ids;
+}
+
+/** Lists what is not visible after what is. */
+function listHidden(order: Uint32Array, visible: Uint32Array, ids: Uint32Array | undefined): void {
+  const [shown, total] = [visible.length, order.length];
+  let at = shown;
+  let next = 0;
+  for (let i = 0; i <= shown; i++) {
+    const end = i < shown ? visible[i]! : total;
+    while (next < end) order[at++] = next++;
+    next++;
+  }
+  if (ids !== undefined) {
+    for (let i = shown; i < total; i++) order[i] = ids[order[i]!]!;
+  }
+}

@@ -1,0 +1,128 @@
+import type { Camera, Object3D } from "three";
+
+import { describe, HprError } from "../errors.js";
+
+/** How far from a similarity a matrix may be: those written in single precision are, by rounding. */
+const DISTORTION = 1e-5;
+/** A view is the same as another within so much of the cloud's extent, or of a unit direction. */
+const SAME = 1e-9;
+/** How far world coordinates are off after some matrices, of their size. */
+const ROUNDING = 1e-14;
+
+/**
+ * Where a camera looks from, or along which direction, in the space of the points: what an
+ * answer depends on. Asked every frame, so that nothing is allocated.
+ */
+export class Eye {
+  /** The longest side of the cloud's box. */
+  extent = 0;
+  readonly #now = { known: false, direction: false, x: 0, y: 0, z: 0, blur: 0 };
+  readonly #asked = { known: false, direction: false, x: 0, y: 0, z: 0 };
+
+  /** @throws HprError `option` for what is no camera, or a scale that is not uniform. */
+  look(points: Object3D, camera: Camera): void {
+    requireCamera(camera);
+    points.updateWorldMatrix(true, false);
+    camera.updateWorldMatrix(true, false);
+    const [m, c] = [points.matrixWorld.elements, camera.matrixWorld.elements];
+    const scale = uniformScale(m);
+    const direction = isOrthographic(camera);
+    // The third axis of a camera points backwards.
+    const x = direction ? -c[8] : c[12] - m[12];
+    const y = direction ? -c[9] : c[13] - m[13];
+    const z = direction ? -c[10] : c[14] - m[14];
+
+    // Cramer's rule: with the translation taken off first, far-away places lose nothing.
+    const [ax, ay, az] = [m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8]];
+    const [bx, by, bz] = [m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0]];
+    const [cx, cy, cz] = [m[1] * m[6] - m[2] * m[5], m[2] * m[4] - m[0] * m[6], m[0] * m[5] - m[1] * m[4]];
+    const determinant = m[0] * ax + m[1] * ay + m[2] * az;
+    const now = this.#now;
+    now.x = (x * ax + y * ay + z * az) / determinant;
+    now.y = (x * bx + y * by + z * bz) / determinant;
+    now.z = (x * cx + y * cy + z * cz) / determinant;
+    now.known = true;
+    now.direction = direction;
+    if (direction) {
+      const length = Math.hypot(now.x, now.y, now.z);
+      now.x /= length;
+      now.y /= length;
+      now.z /= length;
+      now.blur = SAME;
+    } else {
+      const reach = Math.abs(c[12]) + Math.abs(c[13]) + Math.abs(c[14]) + Math.abs(m[12]) + Math.abs(m[13]) + Math.abs(m[14]);
+      now.blur = SAME * this.extent + (ROUNDING * reach) / scale;
+    }
+  }
+
+  /** Whether what is seen now was not asked for yet. */
+  get isNew(): boolean {
+    const [now, asked] = [this.#now, this.#asked];
+    if (!now.known) {
+      return false;
+    }
+    const isSame =
+      asked.known &&
+      asked.direction === now.direction &&
+      isNear(asked.x, now.x, now.blur) &&
+      isNear(asked.y, now.y, now.blur) &&
+      isNear(asked.z, now.z, now.blur);
+    return !isSame;
+  }
+
+  get isDirection(): boolean {
+    return this.#now.direction;
+  }
+
+  /** The viewpoint or the direction, noted as asked for. */
+  ask(): [x: number, y: number, z: number] {
+    const { direction, x, y, z } = this.#now;
+    Object.assign(this.#asked, { known: true, direction, x, y, z });
+    return [x, y, z];
+  }
+
+  /** Whatever was asked for was asked of another cloud. */
+  forget(): void {
+    this.#asked.known = false;
+  }
+}
+
+/** NaN is as good as itself: it is refused once. */
+function isNear(a: number, b: number, blur: number): boolean {
+  return Math.abs(a - b) <= blur || Object.is(a, b);
+}
+
+/** @throws HprError `option` where distances in the world depend on their direction. */
+export function requireUniformScale(points: Object3D): void {
+  points.updateWorldMatrix(true, false);
+  uniformScale(points.matrixWorld.elements);
+}
+
+function requireCamera(camera: unknown): void {
+  if (typeof camera !== "object" || camera === null || !("isCamera" in camera)) {
+    throw new HprError("option", `camera must be a THREE.Camera, got ${describe(camera)}`);
+  }
+}
+
+/** Cameras of other classes are told by what they do to distances. */
+function isOrthographic(camera: Camera): boolean {
+  return camera.projectionMatrix.elements[15] !== 0 && !("isPerspectiveCamera" in camera);
+}
+
+/** How much longer things are in the world. Mirrored things see the same. */
+function uniformScale(m: readonly number[]): number {
+  const a = Math.hypot(m[0]!, m[1]!, m[2]!);
+  const b = Math.hypot(m[4]!, m[5]!, m[6]!);
+  const c = Math.hypot(m[8]!, m[9]!, m[10]!);
+  const ab = m[0]! * m[4]! + m[1]! * m[5]! + m[2]! * m[6]!;
+  const bc = m[4]! * m[8]! + m[5]! * m[9]! + m[6]! * m[10]!;
+  const ca = m[8]! * m[0]! + m[9]! * m[1]! + m[10]! * m[2]!;
+  const most = Math.max(a, b, c);
+  const skew = Math.max(Math.abs(ab), Math.abs(bc), Math.abs(ca)) / most;
+  const isUniform = most - Math.min(a, b, c) <= DISTORTION * most && skew <= DISTORTION * most && most > 0;
+  if (!isUniform || !Number.isFinite(most)) {
+    const scales = [a, b, c].map((length) => Number(length.toPrecision(6))).join(", ");
+    throw new HprError("option", `scale must be the same along all axes (and not zero), in all parents together, got ${scales}`);
+  }
+  return most;
+}

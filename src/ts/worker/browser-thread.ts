@@ -1,0 +1,88 @@
+import type { Thread, ThreadEvents } from "./thread.js";
+
+/** A thread that the browser's own workers run. */
+export function startBrowserWorker(events: ThreadEvents): Thread {
+  const { worker, script, started } = newWorker();
+  worker.onmessage = (event) => {
+    started();
+    events.message(event.data);
+  };
+  worker.onerror = (event) => {
+    started();
+    // Reported here, so that the page does not report it again.
+    event.preventDefault();
+    events.died(event.message || `its script${script === undefined ? "" : ` ${script.href}`} could not be loaded`);
+  };
+  worker.onmessageerror = () => {
+    events.died("a message could not be read");
+  };
+  return {
+    post: (message, transfer) => {
+      worker.postMessage(message, transfer);
+    },
+    setBusy: () => undefined,
+    end: () => {
+      worker.onmessage = worker.onerror = worker.onmessageerror = null;
+      worker.terminate();
+      return Promise.resolve();
+    },
+  };
+}
+
+/** A worker, and what to call once its script has been read. */
+interface NewWorker {
+  worker: Worker;
+  script: URL | undefined;
+  started: () => void;
+}
+
+/**
+ * Browsers run no worker whose script comes from another origin, as it does where the
+ * page takes this package from a CDN. A script of the page's own origin may import it, though.
+ */
+function newWorker(): NewWorker {
+  const script = scriptAddress();
+  if (script === undefined || script.origin === location.origin) {
+    return { worker: create(), script, started: () => undefined };
+  }
+  const source = `import ${JSON.stringify(script.href)};`;
+  const address = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
+  return {
+    worker: new Worker(address, { type: "module" }),
+    script,
+    started: () => {
+      URL.revokeObjectURL(address);
+    },
+  };
+}
+
+function create(): Worker {
+  // One literal expression: bundlers look for exactly this form.
+  return new Worker(new URL("./worker-thread.js", import.meta.url), { type: "module" });
+}
+
+/**
+ * Where a bundler has put the worker's script is told by nothing but the call it has
+ * rewritten: that is made once with a constructor which only takes the address down.
+ * Undefined where `Worker` cannot be replaced.
+ */
+function scriptAddress(): URL | undefined {
+  const scope = globalThis as { Worker: unknown };
+  const original = scope.Worker;
+  let address: string | URL | undefined;
+  try {
+    scope.Worker = function (given: string | URL) {
+      address = given;
+    };
+  } catch {
+    return undefined;
+  }
+  try {
+    create();
+    return new URL(String(address), location.href);
+  } catch {
+    return undefined;
+  } finally {
+    scope.Worker = original;
+  }
+}

@@ -1,0 +1,141 @@
+// The hook and the component for React, in a canvas that draws on demand.
+import { join } from "node:path";
+import type { Browser, Page } from "playwright-core";
+import { build } from "vite";
+import { afterAll, beforeAll, beforeEach, expect, it, vi } from "vitest";
+import { serveModules } from "./modules.js";
+import type { App } from "./react/page.js";
+import { launchBrowser } from "./site.js";
+
+vi.setConfig({ testTimeout: 120_000, hookTimeout: 120_000 });
+
+const ROOT = join(import.meta.dirname, "../..");
+const OUT = "target/tests/react";
+let browser: Browser;
+let site: Awaited<ReturnType<typeof serveModules>>;
+let page: Page;
+let failures: string[];
+
+beforeAll(async () => {
+  await build({
+    root: join(ROOT, "tests/browser/react"),
+    base: "./",
+    logLevel: "warn",
+    build: { outDir: join(ROOT, OUT), emptyOutDir: true, target: "es2022", chunkSizeWarningLimit: 5000 },
+    worker: { format: "es" },
+  });
+  browser = await launchBrowser();
+  site = await serveModules({});
+});
+
+afterAll(async () => {
+  await browser.close();
+  site.close();
+});
+
+beforeEach(async () => {
+  failures = [];
+  page = await browser.newPage();
+  page.on("pageerror", (error) => failures.push(String(error)));
+  await page.goto(`${site.address}${OUT}/index.html`);
+  await reached(({ points, changes }) => points !== null && changes.length > 0);
+});
+
+type Test = (app: App) => boolean;
+
+/** Waits until the page says so. */
+async function reached(test: Test): Promise<void> {
+  await page.waitForFunction(`(${test.toString()})(globalThis.app)`, undefined, { timeout: 30_000 });
+}
+
+function inPage<T>(look: (app: App) => T): Promise<T> {
+  return page.evaluate(`(${look.toString()})(globalThis.app)`);
+}
+
+const shown = () => inPage(({ points }) => points!.geometry.drawRange.count);
+
+it("draws what is visible, in a frame that it asked for", async () => {
+  expect(await shown()).toBe(await inPage(({ changes }) => changes.at(-1)!));
+  expect(await shown()).toBeGreaterThanOrEqual(2000);
+  expect(await shown()).toBeLessThan(2300);
+  // Once there is nothing new, no more frames are drawn.
+  await reached((app) => {
+    const known = app as App & { last?: number; since?: number };
+    if (known.last !== app.frames) Object.assign(known, { last: app.frames, since: performance.now() });
+    return performance.now() - known.since! > 500;
+  });
+  const before = await inPage(({ frames, changes }) => [frames, changes.length]);
+  await inPage(({ state }) => {
+    state.camera.position.set(0, 0, -6);
+    state.camera.lookAt(0, 0, 0);
+    state.invalidate();
+  });
+  // One frame to ask, another to draw the answer.
+  await page.waitForFunction(
+    ([frames, changes]) => {
+      const { app } = globalThis as unknown as { app: App };
+      return app.frames >= frames! + 2 && app.changes.length === changes! + 1;
+    },
+    before,
+  );
+  expect(await inPage(({ points }) => [...(points!.geometry.index!.array as Uint32Array).subarray(0, 1000)].filter((i) => i % 2 === 0).length)).toBeLessThan(200);
+  expect(failures).toEqual([]);
+});
+
+it("is frozen, turned off and made anew as its options say", async () => {
+  const first = await inPage(({ changes }) => changes.length);
+  // Written anew, but the same.
+  await inPage(({ set }) => {
+    set({ exponent: 3, frozen: true });
+  });
+  await inPage(({ state }) => {
+    state.camera.position.set(0, 0, -6);
+    state.invalidate();
+  });
+  await inPage(({ set }) => {
+    set({ exponent: 3, frozen: true, enabled: false });
+  });
+  await reached(({ points }) => points!.geometry.index === null);
+  expect(await inPage(({ changes }) => changes.length)).toBe(first);
+  await inPage(({ set }) => {
+    set({ exponent: 3 });
+  });
+  await reached(({ points }) => points!.geometry.index !== null);
+  await page.waitForFunction((count) => (globalThis as unknown as { app: App }).app.changes.length > count, first);
+
+  await inPage(({ set }) => {
+    set({ exponent: 6, mode: "dim" });
+  });
+  await reached(({ points, changes }) => points!.children.length === 1 && changes.at(-1)! > 3000);
+  expect(await shown()).toBeGreaterThan(3000);
+  expect(failures).toEqual([]);
+});
+
+it("takes up other geometries, and leaves with its points", async () => {
+  await inPage(({ setCloud }) => {
+    setCloud([0, 0, 1, 0, 0, 0.5, 1, 0, 0]);
+  });
+  await reached(({ changes }) => changes.at(-1) === 2);
+  expect(await shown()).toBe(2);
+  await inPage(({ setCloud }) => {
+    setCloud(null);
+  });
+  await reached(({ points }) => points === null);
+  await inPage(({ setCloud }) => {
+    setCloud([0, 0, 1, 0, 0, 0.5]);
+  });
+  await reached(({ changes }) => changes.at(-1) === 1);
+  expect(failures).toEqual([]);
+});
+
+it("tells refusals: those that take an answer to onError, others to the error boundary", async () => {
+  await inPage(({ set }) => {
+    set({ radius: 0.1 });
+  });
+  await reached(({ errors }) => errors.length > 0);
+  expect(await inPage(({ errors }) => errors)).toEqual(["radius"]);
+  await inPage(({ set }) => {
+    set({ mode: "fade" as never });
+  });
+  await reached(({ errors }) => errors.some((error) => error.startsWith("caught: mode")));
+});

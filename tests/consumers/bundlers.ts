@@ -1,0 +1,145 @@
+import { readdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import * as esbuild from "esbuild";
+import * as vite from "vite";
+import webpack from "webpack";
+
+import type { Consumer, Visit } from "./consumer";
+import { installed, project } from "./install";
+import { html, serve, STRICT } from "./serve";
+
+/** Built by nobody's configuration but what is said here. */
+const BARE: vite.InlineConfig = { configFile: false, logLevel: "warn" };
+const CORS = { "access-control-allow-origin": "*" };
+
+export const bundlers = (visit: Visit): Consumer[] => [
+  {
+    name: "Vite, development server",
+    version: vite.version,
+    run: async () => {
+      const server = await vite.createServer({ ...BARE, root: project("vite"), server: { host: "127.0.0.1", port: 0, ws: false } });
+      try {
+        await server.listen();
+        return await visit(server.resolvedUrls!.local[0]!);
+      } finally {
+        await server.close();
+      }
+    },
+  },
+  {
+    name: "Vite, built",
+    version: vite.version,
+    run: async () => {
+      await buildWithVite("built", "./");
+      await using site = await serve(project("vite", "built"));
+      return await visit(`${site.address}index.html`);
+    },
+  },
+  {
+    name: "Vite, built, under a strict security policy",
+    version: vite.version,
+    run: async () => {
+      await buildWithVite("strict", "./");
+      await using site = await serve(project("vite", "strict"), { headers: STRICT });
+      return await visit(`${site.address}index.html`);
+    },
+  },
+  {
+    name: "Vite, built, scripts on another origin",
+    version: vite.version,
+    run: async () => {
+      await using cdn = await serve(project("vite", "cdn"), { headers: CORS });
+      await buildWithVite("cdn", cdn.address);
+      await using site = await serve(project("vite", "cdn"), { refused: /assets/ });
+      return await visit(`${site.address}index.html`);
+    },
+  },
+  {
+    name: "Vite, ./inline, built",
+    version: vite.version,
+    run: async () => {
+      await buildWithVite("built", "./", "vite-inline");
+      const files = readdirSync(project("vite-inline", "built"), { recursive: true, encoding: "utf8" });
+      if (files.some((file) => file.endsWith(".wasm"))) throw new Error("a .wasm file was emitted");
+      await using site = await serve(project("vite-inline", "built"));
+      return await visit(`${site.address}index.html`);
+    },
+  },
+  {
+    name: "webpack, built",
+    version: webpack.version,
+    run: async () => {
+      await buildWithWebpack("built", "auto");
+      const pages = { "index.html": html('<script src="main.js"></script>') };
+      await using site = await serve(project("webpack", "built"), { pages });
+      return await visit(`${site.address}index.html`);
+    },
+  },
+  {
+    name: "webpack, built, scripts on another origin",
+    version: webpack.version,
+    run: async () => {
+      await using cdn = await serve(project("webpack", "cdn"), { headers: CORS });
+      await buildWithWebpack("cdn", cdn.address);
+      const pages = { "index.html": html(`<script src="${cdn.address}main.js"></script>`) };
+      await using site = await serve(project("webpack", "nothing"), { pages });
+      return await visit(`${site.address}index.html`);
+    },
+  },
+  {
+    name: "esbuild, wasm address given",
+    version: esbuild.version,
+    run: async () => {
+      await buildWithEsbuild({ entryPoints: { main: "explicit.js", "worker-thread": WORKER }, format: "esm", outdir: "built" });
+      const pages = { "index.html": html('<script type="module" src="main.js"></script>') };
+      await using site = await serve(project("esbuild", "built"), { pages });
+      return await visit(`${site.address}index.html`);
+    },
+  },
+  {
+    name: "esbuild, ./inline, a classic script in a file",
+    version: esbuild.version,
+    run: async () => {
+      await buildWithEsbuild({ entryPoints: ["classic.js"], format: "iife", outdir: "built" });
+      writeFileSync(project("esbuild", "built", "classic.html"), html('<script src="classic.js"></script>'));
+      return await visit(pathToFileURL(project("esbuild", "built", "classic.html")).href);
+    },
+  },
+];
+
+/** esbuild leaves `new URL("…", import.meta.url)` alone: the worker's script is an entry of its own. */
+const WORKER = join(installed, "dist/worker/worker-thread.js");
+
+async function buildWithVite(outDir: string, base: string, root = "vite"): Promise<void> {
+  await vite.build({ ...BARE, root: project(root), base, build: { outDir, target: "es2022" } });
+}
+
+async function buildWithWebpack(directory: string, publicPath: string): Promise<void> {
+  const compiler = webpack({
+    mode: "production",
+    context: project("app"),
+    entry: "./main.js",
+    output: { path: project("webpack", directory), publicPath },
+    performance: false,
+  });
+  const stats = await new Promise<webpack.Stats>((resolve, reject) => {
+    compiler.run((error, result) => {
+      compiler.close(() => undefined);
+      if (result === undefined) reject(error!);
+      else resolve(result);
+    });
+  });
+  const complaints = stats.toString({ all: false, errors: true, warnings: true });
+  if (complaints !== "") throw new Error(complaints);
+}
+
+async function buildWithEsbuild(options: esbuild.BuildOptions): Promise<void> {
+  await esbuild.build({
+    bundle: true,
+    loader: { ".wasm": "file" },
+    logLevel: "warning",
+    absWorkingDir: project("esbuild"),
+    ...options,
+  });
+}

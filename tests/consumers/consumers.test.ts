@@ -1,0 +1,46 @@
+// What would be published, installed and used as a user does. The answers have to be those
+// that the repository's own package gives.
+import { init, PointCloud } from "hidden-point-removal";
+import { afterAll, beforeAll, expect, it } from "vitest";
+
+import { launchBrowser } from "../browser/site";
+import { bundlers } from "./bundlers";
+import type { Answered, Consumer, Visit } from "./consumer";
+import { installPacked } from "./install";
+import { nodeScripts } from "./node";
+import { pages } from "./pages";
+import { points, viewpoint } from "./question";
+import { visitWith } from "./visit";
+
+const browser = await launchBrowser();
+const table: string[] = [];
+let expected: number[];
+
+beforeAll(async () => {
+  installPacked();
+  await init();
+  expected = [...new PointCloud(points).visibleFrom(viewpoint).indices];
+});
+
+afterAll(async () => {
+  await browser.close();
+  console.log(table.join("\n"));
+});
+
+const visit: Visit = (address) => visitWith(browser, address);
+
+const all: Consumer[] = [...bundlers(visit), ...pages(visit, `Chromium ${browser.version()}`), ...nodeScripts];
+
+it.for(all)("$name ($version)", async ({ name, version, lacking, run }, { skip }) => {
+  const row = (result: string) => table.push(`${name.padEnd(48)} ${version.padEnd(26)} ${result}`);
+  if (lacking !== undefined) {
+    row(`not run: ${lacking}`);
+    skip(lacking);
+  }
+  const { error, here, there } = await run().catch((thrown: unknown): Answered => ({ error: String(thrown) }));
+  const right = error === undefined && String(here) === String(expected) && String(there) === String(expected);
+  row(right ? "same answer" : "FAILED");
+  expect(error).toBeUndefined();
+  // Not the lists themselves, whose difference would fill the screen.
+  expect(right, `answered ${here?.length} and ${there?.length} points, not ${expected.length}`).toBe(true);
+});

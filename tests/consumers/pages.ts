@@ -1,0 +1,45 @@
+import type { Consumer, Visit } from "./consumer";
+import { consumers } from "./install";
+import { html, serve, STRICT } from "./serve";
+
+const DIST = "node_modules/hidden-point-removal/dist";
+
+/** Pages that nothing was built for: modules as they are in the package. */
+export const pages = (visit: Visit, browser: string): Consumer[] => {
+  const page = (name: string, script: string, options: Parameters<typeof serve>[1] = {}): Consumer => ({
+    name,
+    version: browser,
+    run: async () => {
+      await using site = await serve(consumers, { ...options, pages: { "index.html": html(script) } });
+      return await visit(`${site.address}index.html`);
+    },
+  });
+  return [
+    page("<script type=module>", importMap("/") + module("app/main.js")),
+    page("<script type=module>, strict security policy", module("pages/relative.js"), { headers: STRICT }),
+    page("./inline, no .wasm file served", module("pages/inline.js"), { refused: /\.wasm$/ }),
+    page("./inline, strict security policy", module("pages/inline.js"), { headers: STRICT, refused: /\.wasm$/ }),
+    page("a module worker of the page's own", module("pages/starts-worker.js")),
+    {
+      name: "a CDN: the package on another origin",
+      version: browser,
+      run: async () => {
+        await using cdn = await serve(consumers, { headers: { "access-control-allow-origin": "*" } });
+        const index = html(importMap(cdn.address) + module("app/main.js"));
+        await using site = await serve(consumers, { refused: /node_modules/, pages: { "index.html": index } });
+        return await visit(`${site.address}index.html`);
+      },
+    },
+  ];
+};
+
+const module = (file: string) => `<script type="module" src="projects/${file}"></script>`;
+
+/** So that the package's names mean something without a bundler. */
+function importMap(origin: string): string {
+  const imports = {
+    "hidden-point-removal": `${origin}${DIST}/index.js`,
+    "hidden-point-removal/worker": `${origin}${DIST}/worker.js`,
+  };
+  return `<script type="importmap">${JSON.stringify({ imports })}</script>`;
+}

@@ -1,0 +1,10 @@
+// Writes what was answered, or what went wrong, where the test reads it.
+export async function show(asking) {
+  const output = document.querySelector("output");
+  try {
+    output.textContent = JSON.stringify(await asking);
+  } catch (error) {
+    output.textContent = JSON.stringify({ error: `${error.code ?? error.name}: ${error.message}` });
+  }
+  output.dataset.done = "";
+}

@@ -1,0 +1,22 @@
+import type { Browser, Page } from "playwright-core";
+
+import type { Answered } from "./consumer";
+
+/** Opens a page and waits for what it writes into its `<output>`. */
+export async function visitWith(browser: Browser, address: string, prepare?: (page: Page) => Promise<unknown>): Promise<Answered> {
+  const page = await browser.newPage();
+  const complaints: string[] = [];
+  page.on("console", (message) => complaints.push(message.text()));
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  try {
+    await prepare?.(page);
+    await page.goto(address);
+    const output = page.locator("output[data-done]");
+    await output.waitFor({ state: "attached", timeout: 30_000 }).catch(() => {
+      throw new Error(`no answer: ${complaints.join("; ")}`);
+    });
+    return JSON.parse((await output.textContent())!) as Answered;
+  } finally {
+    await page.close();
+  }
+}

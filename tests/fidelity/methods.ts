@@ -1,0 +1,76 @@
+// The ways of asking that are compared: of choosing R, other inversions, several viewpoints.
+import { type PointCloud, ringOfViewpoints, type Visibility, type VisibilityOptions } from "hidden-point-removal";
+
+import type { Point } from "../bench/measure.js";
+
+export interface Subject {
+  cloud: PointCloud;
+  viewpoint: Point;
+  /** What a ring of viewpoints looks at: the middle of the cloud. */
+  middle: Point;
+  /** Of the cloud's box. */
+  diagonal: number;
+}
+
+export interface Method {
+  name: string;
+  /** How many viewpoints it asks from. */
+  viewpoints: number;
+  ask: (subject: Subject) => Visibility;
+}
+
+const AROUND = 4;
+const exponential: VisibilityOptions = { inversion: { exponential: "auto" } };
+
+export const AUTOMATIC = one("automatic", {});
+export const SEARCH = one("antipodal search", { radius: "search" });
+export const PAPERS_RULE = one("the paper's rule", { radius: "opposite" });
+
+export const METHODS: Method[] = [
+  AUTOMATIC,
+  SEARCH,
+  PAPERS_RULE,
+  one("exp(c/d), automatic c", exponential),
+  { name: "power as curved as automatic", viewpoints: 1, ask: asCurved },
+  one("power 1.01", { inversion: { power: 1.01 } }),
+  one("power 2", { inversion: { power: 2 } }),
+  several("any of 5, exp(c/d)", ({ cloud }, ring) => cloud.visibleFromAny(ring, exponential)),
+  several("at least 2 of 5, exp(c/d)", ({ cloud }, ring) => cloud.visibleFromAtLeast(2, ring, exponential)),
+  several("at least 2 of 5, automatic", ({ cloud }, ring) => cloud.visibleFromAtLeast(2, ring)),
+  ...[2, 3, 4].map((exponent) => one(`exponent ${exponent}`, { exponent })),
+  { name: "R = 100 × box diagonal", viewpoints: 1, ask: ({ cloud, viewpoint, diagonal }) => cloud.visibleFrom(viewpoint, { radius: 100 * diagonal }) },
+];
+
+const DENOISED: VisibilityOptions = { denoise: 32, vote: 16 };
+
+/** For a noisy cloud: the best rules as they are, and with what is there against noise. */
+export const AGAINST_NOISE: Method[] = [
+  AUTOMATIC,
+  SEARCH,
+  one("exp(c/d), automatic c", exponential),
+  one("automatic, denoise 32, vote 16", DENOISED),
+  one("antipodal search, denoise 32, vote 16", { radius: "search", ...DENOISED }),
+  one("exp(c/d), denoise 32, vote 16", { ...exponential, ...DENOISED }),
+  several("at least 2 of 5, exp(c/d), denoise 32, vote 16", ({ cloud }, ring) =>
+    cloud.visibleFromAtLeast(2, ring, { ...exponential, ...DENOISED }),
+  ),
+];
+
+export function one(name: string, options: VisibilityOptions): Method {
+  return { name, viewpoints: 1, ask: ({ cloud, viewpoint }) => cloud.visibleFrom(viewpoint, options) };
+}
+
+function several(name: string, ask: (subject: Subject, ring: number[][]) => Visibility): Method {
+  const ring = ({ viewpoint, middle }: Subject) => [viewpoint, ...ringOfViewpoints(viewpoint, middle, { count: AROUND })];
+  return { name, viewpoints: AROUND + 1, ask: (subject) => ask(subject, ring(subject)) };
+}
+
+/**
+ * The paper's other kernel, its power such that a surface facing the viewer at distance r may be as curved as with
+ * the automatic R: γ/((γ − 1)·r) = 2R/r².
+ */
+function asCurved({ cloud, viewpoint, middle }: Subject): Visibility {
+  const r = Math.hypot(...viewpoint.map((x, axis) => x - middle[axis]!));
+  const { radius } = cloud.autoRadius(viewpoint);
+  return cloud.visibleFrom(viewpoint, { inversion: { power: 1 + r / (2 * radius - r) } });
+}

@@ -1,0 +1,70 @@
+// Answers against the truth.
+import { PointCloud } from "hidden-point-removal";
+
+import { bounds } from "../bench/views.js";
+import type { Method, Subject } from "./methods.js";
+import type { Labelled, View } from "./truth.js";
+
+/** In % of all points. */
+export interface Errors {
+  /** Said to be visible, and are not. */
+  falsePositives: number;
+  /** Visible, and said not to be. */
+  falseNegatives: number;
+  total: number;
+}
+
+/** What one method made of one view. */
+export interface Score extends Errors {
+  method: string;
+  /** How many times the error of the best R that is. */
+  ratio?: number;
+  hulls: number;
+}
+
+/** `mask` and `seen` have one byte a point: 1 visible, 0 hidden. */
+export function errorsOf(mask: Uint8Array, seen: Uint8Array): Errors {
+  let [falsePositives, falseNegatives] = [0, 0];
+  for (let i = 0; i < mask.length; i++) {
+    if (mask[i]! > seen[i]!) falsePositives++;
+    else if (mask[i]! < seen[i]!) falseNegatives++;
+  }
+  const percent = 100 / Math.max(mask.length, 1);
+  return {
+    falsePositives: percent * falsePositives,
+    falseNegatives: percent * falseNegatives,
+    total: percent * (falsePositives + falseNegatives),
+  };
+}
+
+/** Every view by every method. `compared` with the best R: known with the view, or else found by scanning. */
+export function score({ positions, views }: Labelled, methods: Method[], compared = true): Score[] {
+  const { center, radius } = bounds({ positions });
+  const cloud = new PointCloud(positions);
+  try {
+    return views.flatMap((view) => {
+      const subject: Subject = { cloud, viewpoint: view.viewpoint, middle: center, diagonal: 2 * radius };
+      const best = compared ? (view.best ?? bestError(cloud, view)) : undefined;
+      return methods.map((method) => {
+        const visibility = method.ask(subject);
+        const errors = errorsOf(visibility.mask(), view.seen);
+        const ratio = best === undefined ? {} : { ratio: errors.total / best };
+        return { method: method.name, ...errors, ...ratio, hulls: method.viewpoints + visibility.evaluations };
+      });
+    });
+  } finally {
+    cloud.dispose();
+  }
+}
+
+const COARSE = Array.from({ length: 21 }, (_, i) => 1 + 0.2 * i);
+const FINE = [-0.15, -0.1, -0.05, 0.05, 0.1, 0.15];
+
+/** The least error of all R, first at exponents 0.2 apart, then 0.05. */
+function bestError(cloud: PointCloud, { viewpoint, seen }: View): number {
+  const error = (exponent: number): number => errorsOf(cloud.visibleFrom(viewpoint, { exponent }).mask(), seen).total;
+  const errors = COARSE.map(error);
+  const least = Math.min(...errors);
+  const around = COARSE[errors.indexOf(least)]!;
+  return Math.min(least, ...FINE.map((step) => error(around + step)));
+}

@@ -1,0 +1,67 @@
+// Figures 2, 9, 10 and 11 of the paper: all points, and those that can be seen.
+import { bunny36k } from "../bench/clouds.js";
+import { count, type Figure, from, type Maker, PANEL, radiusOf, sheet, small } from "./figure.js";
+import { pointPly } from "./ply.js";
+import type { Query, Studio } from "./studio.js";
+
+interface Pair {
+  name: string;
+  title: string;
+  look: string;
+  query: Query;
+  /** Point sizes before and after: thin enough for the far side to show through, and wide enough to close the surface. */
+  sizes: [number, number];
+}
+
+export const beforeAfter: Maker = async (studio) => [
+  ...(await bunny(studio)),
+  await pair(studio, {
+    name: "dragon",
+    title: "Dense: the dragon (paper: Figs. 1 and 9)",
+    look: "Before, the coils behind shine through those in front; afterwards each stands before the next.",
+    query: { sample: "dragon_res2", view: "0.07,0.194,0.21" },
+    sizes: [0.3, 2],
+  }),
+  await pair(studio, {
+    name: "rings",
+    title: "Sparse and uneven: an airplane of rings (paper: Fig. 11)",
+    look: "Of every ring the arc towards the viewer stays, although between two rings there is nothing that could hide anything.",
+    query: { sample: "rings", view: "9,6.2,12" },
+    sizes: [0.55, 0.55],
+  }),
+  await pair(studio, {
+    name: "room",
+    title: "From inside: a furnished room (paper: Fig. 10, several objects)",
+    look: "Before, one sees through walls and furniture; afterwards what is behind the table, the sofa and the chairs is gone.",
+    query: { sample: "room" },
+    sizes: [0.6, 2.5],
+  }),
+];
+
+async function bunny(studio: Studio): Promise<Figure[]> {
+  const cloud = bunny36k();
+  if (cloud !== undefined) studio.serve("bunny-36k.ply", pointPly(cloud.positions));
+  return [
+    await pair(studio, {
+      name: "bunny",
+      title: "A closed surface: the bunny (paper: Fig. 2)",
+      look: "Before, it cannot be told whether it looks at the viewer or away; afterwards it can.",
+      query: cloud === undefined ? { sample: "bunny" } : { src: "bunny-36k.ply", view: "0.1,0.195,0.215" },
+      sizes: [0.4, 1.4],
+    }),
+  ];
+}
+
+async function pair(studio: Studio, { name, title, look, query, sizes }: Pair): Promise<Figure> {
+  const [before, after] = [
+    await studio.shoot({ ...query, hidden: "shown", size: sizes[0] }, PANEL),
+    await studio.shoot({ ...query, size: sizes[1] }, PANEL),
+  ];
+  const [total, visible] = [count(after.status["total"]), count(after.status["visible"])];
+  const panels = [
+    { label: `all ${total} points, the hidden ones in violet`, png: before.png },
+    { label: `the ${visible} that can be seen from here`, png: after.png },
+  ];
+  const caption = `${look} ${visible} of ${total} points are visible from ${from(after)}, automatic ${radiusOf(after)}.`;
+  return { name, title, caption, png: await small(await sheet(studio, panels, 2, PANEL)) };
+}

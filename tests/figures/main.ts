@@ -1,0 +1,59 @@
+// npm run figures: the paper's figures, drawn by the demo page, and the fidelity tables.
+// Names after `--` choose some of them.
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+import { init } from "hidden-point-removal";
+
+import { root } from "../root.js";
+import { beforeAfter } from "./before-after.js";
+import { errorPlot } from "./error-plot.js";
+import { fidelityText } from "./fidelity.js";
+import type { Figure, Maker } from "./figure.js";
+import { radius } from "./radius.js";
+import { withFigures } from "./readme.js";
+import { reconstruction } from "./reconstruction.js";
+import { shadows } from "./shadows.js";
+import { Studio } from "./studio.js";
+
+const MAKERS: Record<string, Maker> = { "before-after": beforeAfter, errors: errorPlot, radius, reconstruction, shadows };
+const FIDELITY = "fidelity";
+const FOLDER = join(root, "tests", "figures");
+
+const names = process.argv.length > 2 ? process.argv.slice(2) : [...Object.keys(MAKERS), FIDELITY];
+const unknown = names.find((name) => name !== FIDELITY && !(name in MAKERS));
+if (unknown !== undefined) {
+  console.error(`There is no figure named ${unknown}. There are: ${[...Object.keys(MAKERS), FIDELITY].join(", ")}.`);
+  process.exit(2);
+}
+await init();
+await draw(names.filter((name) => name !== FIDELITY));
+if (names.includes(FIDELITY)) measureFidelity();
+
+function measureFidelity(): void {
+  const text = fidelityText(console.error);
+  if (text === undefined) console.error("FIDELITY.md is left as it is. `npm run bench -- --fidelity` scores what is there.");
+  else write("FIDELITY.md", text);
+}
+
+async function draw(chosen: string[]): Promise<void> {
+  if (chosen.length === 0) return;
+  const studio = await Studio.open();
+  try {
+    const made: Figure[] = [];
+    for (const name of chosen) {
+      console.error(`Drawing ${name}…`);
+      made.push(...(await MAKERS[name]!(studio)));
+    }
+    for (const { name, png } of made) write(`${name}.png`, png);
+    const readme = join(FOLDER, "README.md");
+    write("README.md", withFigures(existsSync(readme) ? readFileSync(readme, "utf8") : "", made));
+  } finally {
+    await studio.close();
+  }
+}
+
+function write(name: string, content: string | Buffer): void {
+  writeFileSync(join(FOLDER, name), content);
+  console.log(join("tests", "figures", name));
+}

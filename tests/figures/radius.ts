@@ -1,0 +1,36 @@
+// Figure 8 of the paper: R too small, as chosen, too large.
+import { count, type Maker, NARROW, radiusOf, sheet, small } from "./figure.js";
+import type { Query } from "./studio.js";
+
+const VIEWPOINT = "0.077,0.2,0.232";
+const BEHIND = "-0.04,0.225,-0.24";
+const CHOICES: [label: string, query: Query][] = [
+  ["too small", { exponent: 1.8 }],
+  ["automatic", {}],
+  ["too large", { exponent: 4.4 }],
+];
+
+export const radius: Maker = async (studio) => {
+  const front = [];
+  const behind = [];
+  const words = [];
+  for (const [label, choice] of CHOICES) {
+    const query = { sample: "dragon_res2", size: 1.4, ...choice };
+    const shot = await studio.shoot({ ...query, view: VIEWPOINT }, NARROW);
+    const back = await studio.shoot({ ...query, freeze: VIEWPOINT, view: BEHIND }, NARROW);
+    front.push({ label: `${label}: ${count(shot.status["visible"])} visible`, png: shot.png });
+    behind.push({ label: "the same from behind", png: back.png });
+    words.push(`${label} ${radiusOf(shot)}, ${count(shot.status["visible"])} visible`);
+  }
+  return [
+    {
+      name: "radius",
+      title: "Too small, automatic, too large (paper: Fig. 8)",
+      caption:
+        "With too small a sphere whatever lies deep is missing: the neck behind the jaw, the far side of the coils. With too large a one all of " +
+        "that is there, but from behind one sees that points of the back are taken for visible, too, through the gaps between those in front. " +
+        `${count(100_250)} points of the dragon from (${VIEWPOINT.replaceAll(",", ", ")}), marked in the lower row: ${words.join("; ")}.`,
+      png: await small(await sheet(studio, [...front, ...behind], CHOICES.length, NARROW)),
+    },
+  ];
+};

@@ -1,0 +1,90 @@
+// The demo page as a camera: opened by its address, photographed when its picture is up to date.
+import type { Browser, Page } from "playwright-core";
+
+import { launchBrowser, servePage, type Site } from "../browser/site.js";
+
+/** What the page is asked to show, as its address says it; several values are given one after another. */
+export type Query = Record<string, string | number | readonly string[]>;
+
+export interface Shot {
+  png: Buffer;
+  /** The data-* attributes of the page's status line. */
+  status: Partial<Record<string, string>>;
+}
+
+export interface Size {
+  width: number;
+  height: number;
+}
+
+/** Software rendering of large clouds on a busy machine is slow; this only ends what hangs. */
+const PATIENCE = 240_000;
+
+export class Studio {
+  private readonly site: Site;
+  private readonly browser: Browser;
+  private readonly files: Map<string, Uint8Array>;
+
+  private constructor(site: Site, browser: Browser, files: Map<string, Uint8Array>) {
+    this.site = site;
+    this.browser = browser;
+    this.files = files;
+  }
+
+  static async open(): Promise<Studio> {
+    const files = new Map<string, Uint8Array>();
+    return new Studio(await servePage(files), await launchBrowser(), files);
+  }
+
+  async close(): Promise<void> {
+    await this.browser.close();
+    this.site.close();
+  }
+
+  /** Puts a file beside the page, for `src`. */
+  serve(name: string, bytes: Uint8Array): void {
+    this.files.set(name, bytes);
+  }
+
+  /** The page's canvas. Anything that the page has to complain about is an error. */
+  async shoot(query: Query, size: Size): Promise<Shot> {
+    const entries = Object.entries(query).flatMap(([name, value]) => [value].flat().map((one) => [name, String(one)]));
+    const address = `?${new URLSearchParams([...entries, ["embed", "1"]]).toString()}`;
+    return this.withPage(size, async (page) => {
+      await page.goto(this.site.address + address);
+      await page.locator('#status:is([data-state="ready"][data-busy="0"], [data-state="error"])').waitFor({ state: "attached", timeout: PATIENCE });
+      const message = page.locator("#message");
+      if (await message.isVisible()) throw new Error(`The page says of ${address}: ${await message.innerText()}`);
+      await twoFrames(page);
+      const status = await page.locator("#status").evaluate((element: HTMLElement) => Object.fromEntries(Object.entries(element.dataset)));
+      return { png: await page.locator("#view").screenshot({ timeout: PATIENCE }), status };
+    });
+  }
+
+  /** A page of its own that holds `html`, once `prepare` has finished it: a picture of its body. */
+  async print(html: string, width: number, prepare: (page: Page) => Promise<void> = () => Promise.resolve()): Promise<Buffer> {
+    return this.withPage({ width, height: 100 }, async (page) => {
+      await page.setContent(html);
+      await prepare(page);
+      return page.locator("body").screenshot();
+    });
+  }
+
+  private async withPage<T>(viewport: Size, use: (page: Page) => Promise<T>): Promise<T> {
+    const page = await this.browser.newPage({ viewport });
+    const errors: string[] = [];
+    page.on("pageerror", (error) => errors.push(String(error)));
+    try {
+      const result = await use(page);
+      if (errors.length > 0) throw new Error(errors.join("\n"));
+      return result;
+    } finally {
+      await page.close();
+    }
+  }
+}
+
+/** The first one may still be that of before. */
+async function twoFrames(page: Page): Promise<void> {
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+}

@@ -1,0 +1,314 @@
+// Many nodes that are one cloud: exactly what the cloud would be if it had not been split.
+import { syncBuiltinESMExports } from "node:module";
+import threads from "node:worker_threads";
+import * as THREE from "three";
+import { init, PointCloud } from "hidden-point-removal";
+import { HiddenPointNodesFilter, type HiddenPointNodesFilterOptions } from "hidden-point-removal/nodes";
+import { HiddenPointFilter } from "hidden-point-removal/three";
+import { afterEach, beforeAll, describe, expect, it } from "vitest";
+
+import { dragon, drawnOf, nodeOf, split, whole } from "./nodes-support";
+import { bumpySphere, problemOf } from "./support";
+
+const filters: HiddenPointNodesFilter[] = [];
+
+beforeAll(() => init());
+
+afterEach(() => {
+  for (const filter of filters.splice(0)) filter.dispose();
+});
+
+/** Nodes below a root that is turned and far away, and a camera in the root's space. */
+function sceneOf(nodes: THREE.Points[], options?: HiddenPointNodesFilterOptions) {
+  const root = new THREE.Group().add(...nodes);
+  root.position.set(1000, 200, -300);
+  root.rotation.set(0.1, 0.2, 0.3);
+  const camera = new THREE.PerspectiveCamera();
+  const scene = new THREE.Scene().add(root, camera);
+  scene.updateMatrixWorld(true);
+  const filter = new HiddenPointNodesFilter(root, options);
+  filters.push(filter);
+  const changes: { count: number; nodes: number; viewpoint: number[]; radius: number }[] = [];
+  filter.addEventListener("change", (change) => changes.push(change));
+  return { root, camera, scene, filter, changes };
+}
+
+type Scene = ReturnType<typeof sceneOf>;
+
+/** Updates as an animation does until everything is there. */
+async function settle({ filter, camera }: Pick<Scene, "filter" | "camera">): Promise<void> {
+  filter.update(camera);
+  await expect.poll(() => filter.settled, { timeout: 60_000, interval: 5 }).toBe(true);
+}
+
+/** What the unsplit cloud answers from where the nodes were asked, with their radius or the given options. */
+function answerOf(nodes: THREE.Points[], { root, camera, changes }: Scene, options?: object): number[] {
+  const { viewpoint, radius } = changes.at(-1)!;
+  root.worldToLocal(camera.position.clone()).toArray().forEach((x, axis) => {
+    expect(viewpoint[axis]).toBeCloseTo(x, 9);
+  });
+  return [...new PointCloud(whole(nodes)).visibleFrom(viewpoint, options ?? { radius }).indices];
+}
+
+describe("a cloud split into nodes", () => {
+  it.each([true, false])("is seen exactly as if it were one, with worker: %s", async (worker) => {
+    const nodes = split(dragon(), 10);
+    expect(nodes.length).toBeGreaterThan(50);
+    const scene = sceneOf(nodes, { worker });
+    const { camera, root, changes } = scene;
+    const unsplit = new PointCloud(whole(nodes));
+    for (const place of [[0.3, 0.4, 0.5], [-0.05, 0.12, 0.1], [-0.02, 0.13, 0.0]]) {
+      camera.position.fromArray(root.localToWorld(new THREE.Vector3().fromArray(place)).toArray());
+      await settle(scene);
+      const { count, radius, nodes: asked, viewpoint } = changes.at(-1)!;
+      expect(asked).toBe(nodes.length);
+      expect(count).toBe(scene.filter.visibleCount);
+      expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene));
+      const automatic = unsplit.autoRadius(viewpoint).radius;
+      expect(Math.abs(Math.log10(radius / automatic))).toBeLessThan(0.1);
+    }
+  });
+
+  it("is that also when nodes have gone and come", async () => {
+    const nodes = split(dragon(), 10);
+    const [early, late] = [nodes.slice(0, 40), nodes.slice(40)];
+    const scene = sceneOf(early);
+    const { root, camera, changes } = scene;
+    camera.position.fromArray(root.localToWorld(new THREE.Vector3(0.3, 0.4, 0.5)).toArray());
+    const expectWhole = async (present: THREE.Points[]) => {
+      await settle(scene);
+      expect(changes.at(-1)!.nodes).toBe(present.length);
+      expect(drawnOf(present)).toEqual(answerOf(present, scene));
+    };
+    await expectWhole(early);
+    root.add(...late);
+    await expectWhole(nodes);
+    // Some leave, one is hidden, and they come back.
+    const left = nodes.filter((_, i) => i % 3 === 0);
+    root.remove(...left);
+    nodes[1]!.visible = false;
+    const present = nodes.filter((_, i) => i % 3 !== 0 && i !== 1);
+    await expectWhole(present);
+    expect(left.every(({ geometry }) => geometry.index === null)).toBe(true);
+    root.add(...left);
+    nodes[1]!.visible = true;
+    await expectWhole(nodes);
+  });
+
+  it("may consist of levels of detail that lie in one another", async () => {
+    const positions = bumpySphere(3, 9000);
+    const levels = [0, 1, 2].flatMap((level) => {
+      const part = Float32Array.from(positions.filter((_, i) => [0, 1, 1, 2, 2, 2, 2, 2, 2][Math.floor(i / 3) % 9] === level));
+      return split(part, [1, 3, 6][level]!);
+    });
+    // As octrees nest them: each node below another one.
+    const [first, ...others] = levels;
+    const scene = sceneOf([first!]);
+    for (const node of others) {
+      node.position.sub(first!.position);
+      first!.add(node);
+    }
+    scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(1, 2, 4)).toArray());
+    await settle(scene);
+    const nested = levels.map((node) => {
+      const at = node.clone(false);
+      if (node !== first) at.position.add(first!.position);
+      return at;
+    });
+    expect(drawnOf(levels)).toEqual(answerOf(nested, scene));
+    expect(drawnOf(levels).length).toBeLessThan(5000);
+  });
+
+  it.each<[name: string, options: HiddenPointNodesFilterOptions, alike: (radius: number) => object]>([
+    ["a radius", { radius: 20 }, () => ({ radius: 20 })],
+    ["an exponent", { exponent: 2.5 }, (radius) => ({ radius })],
+    ["a power", { inversion: { power: 2 } }, (radius) => ({ radius, inversion: { power: 2 } })],
+    ["an exponential", { inversion: { exponential: 0.001 } }, () => ({ inversion: { exponential: 0.001 } })],
+  ])("is seen with %s as one cloud is", async (_, options, alike) => {
+    const nodes = split(bumpySphere(5, 4000), 5);
+    const scene = sceneOf(nodes, options);
+    scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(2, 3, 4)).toArray());
+    await settle(scene);
+    const how = alike(scene.changes.at(-1)!.radius);
+    expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene, how));
+  });
+
+  it("has about the automatic exponential scale of one", async () => {
+    const nodes = split(bumpySphere(5, 4000), 5);
+    const scene = sceneOf(nodes, { inversion: { exponential: "auto" } });
+    scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(2, 3, 4)).toArray());
+    await settle(scene);
+    const expected = answerOf(nodes, scene, { inversion: { exponential: "auto" } });
+    expect(Math.abs(scene.filter.visibleCount - expected.length)).toBeLessThan(0.01 * expected.length);
+  });
+
+  it("keeps its radius while that serves, and asks again only what is new", async () => {
+    const nodes = split(dragon(), 10);
+    const scene = sceneOf(nodes);
+    const { root, camera, changes, filter } = scene;
+    const look = async (z: number) => {
+      camera.position.fromArray(root.localToWorld(new THREE.Vector3(0, 0.1, z)).toArray());
+      await settle(scene);
+      return changes.at(-1)!.radius;
+    };
+    const first = await look(0.5);
+    expect(await look(0.52)).toBe(first);
+    expect(await look(0.8)).not.toBe(first);
+    // Turning the camera, or moving all of it, asks nothing.
+    const answers = changes.length;
+    camera.rotation.set(1, 2, 3);
+    await settle(scene);
+    new THREE.Group().translateX(17).add(root, camera);
+    await settle(scene);
+    expect(changes).toHaveLength(answers);
+    filter.frozen = true;
+    camera.position.x += 1;
+    filter.update(camera);
+    expect(changes).toHaveLength(answers);
+  });
+
+  it("is drawn and picked as a whole again after dispose(), and while not enabled", async () => {
+    const nodes = split(bumpySphere(1, 3000), 3);
+    const scene = sceneOf(nodes, { mode: "dim" });
+    scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, 5)).toArray());
+    await settle(scene);
+    const total = drawnOf(nodes).length;
+    expect(total).toBe(scene.filter.visibleCount);
+    expect(total).toBeLessThan(2000);
+    expect(nodes.some(({ children }) => children.length === 1)).toBe(true);
+    scene.filter.enabled = false;
+    expect(drawnOf(nodes)).toHaveLength(3000);
+    scene.filter.enabled = true;
+    expect(drawnOf(nodes)).toHaveLength(total);
+    scene.filter.dispose();
+    scene.filter.dispose();
+    expect(drawnOf(nodes)).toHaveLength(3000);
+    expect(nodes.every(({ children, geometry }) => children.length === 0 && geometry.index === null)).toBe(true);
+    scene.filter.update(scene.camera);
+    expect(drawnOf(nodes)).toHaveLength(3000);
+  });
+
+  it("may be listed by its viewer, and edited or moved", async () => {
+    const nodes = split(bumpySphere(1, 3000), 3);
+    let listed = nodes.slice(0, 10);
+    const scene = sceneOf(nodes, { nodes: () => listed });
+    const { root, camera } = scene;
+    camera.position.fromArray(root.localToWorld(new THREE.Vector3(0, 0, 5)).toArray());
+    const expectWhole = async () => {
+      await settle(scene);
+      expect(drawnOf(listed)).toEqual(answerOf(listed, scene));
+    };
+    await expectWhole();
+    listed = nodes;
+    await expectWhole();
+    const position = nodes[3]!.geometry.attributes["position"]!;
+    position.array.fill(0.01, 0, 30);
+    position.needsUpdate = true;
+    await expectWhole();
+    nodes[4]!.position.x += 0.25;
+    await expectWhole();
+    listed = [];
+    await settle(scene);
+    expect(drawnOf(nodes)).toHaveLength(3000);
+    expect(scene.filter.visibleCount).toBe(0);
+  });
+});
+
+it("gets over the death of the worker", async () => {
+  const started: threads.Worker[] = [];
+  const Original = threads.Worker;
+  const replace = (replacement: typeof threads.Worker) => {
+    threads.Worker = replacement;
+    syncBuiltinESMExports();
+  };
+  replace(
+    class extends Original {
+      constructor(...args: ConstructorParameters<typeof Original>) {
+        super(...args);
+        started.push(this);
+      }
+    },
+  );
+  try {
+    const nodes = split(bumpySphere(1, 3000), 3);
+    const scene = sceneOf(nodes);
+    const errors: unknown[] = [];
+    scene.filter.addEventListener("error", ({ error }) => errors.push(error));
+    for (const z of [5, 4, 3]) {
+      scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, z)).toArray());
+      scene.filter.update(scene.camera);
+      await started.at(-1)?.terminate();
+      await settle(scene);
+      expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene));
+    }
+    expect(errors).toEqual([]);
+    expect(started.length).toBeGreaterThan(1);
+  } finally {
+    replace(Original);
+  }
+});
+
+describe("refuses", () => {
+  const codes = (filter: HiddenPointNodesFilter) => {
+    const told: string[] = [];
+    filter.addEventListener("error", ({ error, points }) => told.push(`${(error as { code?: string }).code ?? error.message} ${points?.name ?? "view"}`));
+    return told;
+  };
+
+  it.each<[options: object, words: string]>([
+    [{ denoise: 6 }, "denoise"],
+    [{ radius: "search" }, "radius"],
+    [{ nodes: [] }, "nodes"],
+    [{ settle: 1 }, "settle"],
+    [{ exponent: 2, radius: 3 }, "exclude"],
+  ])("the options %o", async (options, words) => {
+    const problem = await problemOf(() => new HiddenPointNodesFilter(new THREE.Group(), options));
+    expect(problem).toMatchObject({ code: "option", message: expect.stringContaining(words) as string });
+  });
+
+  it("what is no root, or stretched", () => {
+    expect(() => new HiddenPointNodesFilter({} as never)).toThrow(/root/);
+    const root = new THREE.Group();
+    root.scale.x = 2;
+    expect(() => new HiddenPointNodesFilter(root)).toThrow(/scale/);
+  });
+
+  it("a node, once, and goes on with the others", async () => {
+    const nodes = split(bumpySphere(1, 3000), 3);
+    const broken = nodeOf([[0, 0, 0], [NaN, 0, 0]], [0, 0, 0]);
+    broken.name = "broken";
+    const morphing = nodeOf([[0, 0, 0]], [0, 0, 0]);
+    morphing.name = "morphing";
+    morphing.geometry.morphAttributes["position"] = [morphing.geometry.attributes["position"] as THREE.BufferAttribute];
+    const filtered = nodeOf([[0, 0, 0]], [0, 0, 0]);
+    filtered.name = "filtered";
+    const other = new HiddenPointFilter(filtered, { worker: false });
+    const scene = sceneOf([...nodes, broken, morphing, filtered]);
+    const told = codes(scene.filter);
+    scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, 5)).toArray());
+    await settle(scene);
+    for (let i = 0; i < 5; i++) await settle(scene);
+    expect(told.sort()).toEqual(["non-finite broken", "option filtered", "option morphing"]);
+    expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene));
+    broken.geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(6), 3));
+    await settle(scene);
+    expect(scene.changes.at(-1)!.nodes).toBe(nodes.length + 1);
+    other.dispose();
+  });
+
+  it("a radius that is too small and an orthographic camera, once each", async () => {
+    const nodes = split(bumpySphere(1, 3000), 3);
+    const scene = sceneOf(nodes, { radius: 3 });
+    const told = codes(scene.filter);
+    for (let i = 0; i < 5; i++) {
+      scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, 5 + i)).toArray());
+      await settle(scene);
+    }
+    expect(told).toEqual(["radius view"]);
+    scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, 1.5)).toArray());
+    await settle(scene);
+    expect(scene.filter.visibleCount).toBeGreaterThan(100);
+    for (let i = 0; i < 3; i++) scene.filter.update(new THREE.OrthographicCamera());
+    expect(told).toEqual(["radius view", "option view"]);
+  });
+});

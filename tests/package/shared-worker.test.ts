@@ -1,0 +1,118 @@
+// Many clouds in one worker.
+import { syncBuiltinESMExports } from "node:module";
+import threads from "node:worker_threads";
+import { afterEach, beforeEach, expect, it } from "vitest";
+
+import { bumpySphere, cappedWasm, freshPackage, problemOf, readyPackage, trappingWasm } from "./support";
+
+const { WorkerPointCloud, PointCloud } = await readyPackage();
+
+const farAway = [0, 0, 5];
+const running = new Set<threads.Worker>();
+let started = 0;
+const OriginalWorker = threads.Worker;
+
+class CountedWorker extends OriginalWorker {
+  constructor(...args: ConstructorParameters<typeof OriginalWorker>) {
+    super(...args);
+    started += 1;
+    running.add(this);
+    this.on("exit", () => running.delete(this));
+  }
+}
+
+function replaceWorker(replacement: typeof threads.Worker) {
+  threads.Worker = replacement;
+  syncBuiltinESMExports();
+}
+
+beforeEach(() => {
+  started = 0;
+  replaceWorker(CountedWorker);
+});
+
+afterEach(async () => {
+  replaceWorker(OriginalWorker);
+  await Promise.all([...running].map((worker) => worker.terminate()));
+});
+
+it("each cloud answers as if it were alone, and the worker ends with the last", async () => {
+  const spheres = [1, 2, 3, 4, 5, 6].map((seed) => bumpySphere(seed, 500 * seed));
+  const clouds = await Promise.all(spheres.map((positions) => WorkerPointCloud.create(positions, { shared: true })));
+  expect(started).toBe(1);
+  const expected = spheres.map((positions) => new PointCloud(positions).visibleFrom(farAway));
+  expect(await Promise.all(clouds.map((cloud) => cloud.visibleFrom(farAway)))).toEqual(expected);
+
+  await Promise.all(clouds.slice(1).map((cloud) => cloud.dispose()));
+  expect(running.size).toBe(1);
+  expect((await problemOf(() => clouds[1]!.visibleFrom(farAway))).code).toBe("disposed");
+  expect(await clouds[0]!.visibleFrom(farAway)).toEqual(expected[0]);
+  const late = await WorkerPointCloud.create(spheres[1]!, { shared: true });
+  expect(await late.visibleFrom(farAway)).toEqual(expected[1]);
+  expect(started).toBe(1);
+
+  await Promise.all([late.dispose(), clouds[0]!.dispose(), clouds[0]!.dispose()]);
+  expect(running.size).toBe(0);
+  const anew = await WorkerPointCloud.create(spheres[2]!, { shared: true });
+  expect(await anew.visibleFrom(farAway)).toEqual(expected[2]);
+  expect(started).toBe(2);
+  await anew.dispose();
+});
+
+it("gives a cloud's memory back when it leaves", async () => {
+  const fresh = await freshPackage();
+  // 20 MB: enough for one cloud of 200,000 points at a time, not for the 3.4 MB of each of them.
+  await fresh.init(cappedWasm(300));
+  const create = (positions: Float32Array) => fresh.WorkerPointCloud.create(positions, { shared: true });
+  const stays = await create(bumpySphere(1, 100));
+  const large = bumpySphere(2, 200_000);
+  for (let i = 0; i < 12; i++) {
+    const cloud = await create(large);
+    expect(cloud).toHaveLength(200_000);
+    await cloud.dispose();
+  }
+  expect((await stays.visibleFrom(farAway)).count).toBeGreaterThan(10);
+  await stays.dispose();
+});
+
+it("a worker that dies takes all of its clouds along, and the next gets a new one", async () => {
+  const [first, second] = await Promise.all([1, 2].map((seed) => WorkerPointCloud.create(bumpySphere(seed, 900), { shared: true })));
+  const pending = problemOf(() => first!.visibleFrom(farAway));
+  await [...running][0]!.terminate();
+  expect((await pending).code).toBe("internal");
+  expect((await problemOf(() => second!.visibleFrom(farAway))).code).toBe("internal");
+  const next = await WorkerPointCloud.create(bumpySphere(1, 900), { shared: true });
+  expect((await next.visibleFrom(farAway)).count).toBeGreaterThan(100);
+  await Promise.all([first, second, next].map((cloud) => cloud!.dispose()));
+  expect(running.size).toBe(0);
+});
+
+it("after a trap the worker goes on with new clouds", async () => {
+  const fresh = await freshPackage();
+  await fresh.init(trappingWasm("autoRadius"));
+  const create = () => fresh.WorkerPointCloud.create(bumpySphere(1, 900), { shared: true });
+  const [one, other] = await Promise.all([create(), create()]);
+  expect((await problemOf(() => one.autoRadius(farAway))).code).toBe("internal");
+  expect((await problemOf(() => other.visibleFrom(farAway))).code).toBe("internal");
+  const next = await create();
+  expect((await next.visibleFrom(farAway)).count).toBeGreaterThan(100);
+  await next.dispose();
+});
+
+it("a cloud that is refused or given up leaves the others alone", async () => {
+  const stays = await WorkerPointCloud.create(bumpySphere(1, 900), { shared: true });
+  expect((await problemOf(() => WorkerPointCloud.create([1, 2, NaN], { shared: true }))).code).toBe("non-finite");
+  const control = new AbortController();
+  const given = problemOf(() => WorkerPointCloud.create(bumpySphere(2, 900), { shared: true, signal: control.signal }));
+  control.abort();
+  expect((await given).name).toBe("AbortError");
+  expect((await stays.visibleFrom(farAway)).count).toBeGreaterThan(100);
+  expect(started).toBe(1);
+  await stays.dispose();
+  expect(running.size).toBe(0);
+});
+
+it("excludes a number of workers", async () => {
+  const problem = await problemOf(() => WorkerPointCloud.create([0, 0, 1], { shared: true, workers: 1 }));
+  expect(problem).toMatchObject({ code: "option", message: expect.stringContaining("shared and workers") as string });
+});

@@ -1,0 +1,413 @@
+// The adapter for three.js: what is refused, what is changed under it, and many filters on one page.
+import { syncBuiltinESMExports } from "node:module";
+import threads from "node:worker_threads";
+import { afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
+
+import { bumpySphere, problemOf } from "./support";
+import { type Adapter, adapterFor, drawn, type Filter, nextChange, type Scene, sceneOf, VERSIONS } from "./three-support";
+
+const sphere = bumpySphere(1, 3000);
+const other = bumpySphere(2, 2000);
+const loose = (value: unknown) => value as never;
+
+const running = new Set<threads.Worker>();
+const OriginalWorker = threads.Worker;
+
+class CountedWorker extends OriginalWorker {
+  constructor(...args: ConstructorParameters<typeof OriginalWorker>) {
+    super(...args);
+    running.add(this);
+    this.on("exit", () => running.delete(this));
+  }
+}
+
+function replaceWorker(replacement: typeof threads.Worker) {
+  threads.Worker = replacement;
+  syncBuiltinESMExports();
+}
+
+beforeEach(() => {
+  replaceWorker(CountedWorker);
+});
+
+afterEach(() => {
+  replaceWorker(OriginalWorker);
+});
+
+describe.each(VERSIONS)("with %s", (_, load) => {
+  let adapter: Adapter;
+  const filters: Filter[] = [];
+
+  beforeAll(async () => {
+    adapter = await adapterFor(load);
+    await adapter.init();
+  });
+
+  afterEach(async () => {
+    for (const filter of filters.splice(0)) filter.dispose();
+    await expect.poll(() => running.size).toBe(0);
+  });
+
+  function filterFor(points: Scene["points"], options?: object): Filter {
+    const filter = new adapter.HiddenPointFilter(points, options);
+    filters.push(filter);
+    return filter;
+  }
+
+  const visibleFrom = (viewpoint: ArrayLike<number>, positions: Float32Array | Float64Array = sphere) => [
+    ...new adapter.PointCloud(positions).visibleFrom(viewpoint).indices,
+  ];
+
+  describe("refuses when it is made", () => {
+    const attribute = (array: Float32Array, size = 3) => new adapter.THREE.BufferAttribute(array, size);
+    it.each<[what: string, code: string, words: string, spoil: (scene: Scene) => unknown]>([
+      ["a mesh", "option", "THREE.Points", () => new adapter.THREE.Mesh()],
+      ["nothing", "option", "THREE.Points", () => undefined],
+      ["morph targets", "option", "morphAttributes", ({ geometry }) => void (geometry.morphAttributes["position"] = [attribute(sphere)])],
+      [
+        "an instanced geometry",
+        "option",
+        "InstancedBufferGeometry",
+        ({ points, geometry }) => void (points.geometry = new adapter.THREE.InstancedBufferGeometry().copy(loose(geometry))),
+      ],
+      [
+        "an instanced attribute",
+        "option",
+        '"offset"',
+        ({ geometry }) => void geometry.setAttribute("offset", new adapter.THREE.InstancedBufferAttribute(sphere, 3)),
+      ],
+      ["a scale that is not uniform", "option", "scale", ({ points }) => void points.scale.set(1, 1, 1.01)],
+      [
+        "a shear",
+        "option",
+        "scale",
+        ({ points, scene }) => {
+          const parent = new adapter.THREE.Group();
+          parent.scale.set(1, 2, 1);
+          points.rotation.z = 0.5;
+          scene.add(parent.add(points));
+        },
+      ],
+      ["a scale of zero", "option", "scale", ({ points }) => void points.scale.setScalar(0)],
+      ["no positions", "positions-type", "position", ({ geometry }) => void geometry.deleteAttribute("position")],
+      ["positions of two numbers", "positions-type", "itemSize", ({ geometry }) => void geometry.setAttribute("position", attribute(sphere, 2))],
+      [
+        "positions that were given away",
+        "positions-type",
+        "array",
+        ({ geometry }) => void ((geometry.attributes["position"] as { array: unknown }).array = null),
+      ],
+      ["an index beyond the points", "option", "index[1] is 3000", ({ geometry }) => void geometry.setIndex([1, 3000])],
+    ])("%s", async (_, code, words, spoil) => {
+      const scene = sceneOf(adapter, sphere);
+      const points = (spoil(scene) as Scene["points"] | undefined) ?? scene.points;
+      const target = words === "THREE.Points" ? spoil(scene) : points;
+      for (const worker of [true, false]) {
+        const problem = await problemOf(() => new adapter.HiddenPointFilter(loose(target), { worker }));
+        expect(problem).toBeInstanceOf(adapter.HprError);
+        expect(problem).toMatchObject({ code, message: expect.stringContaining(words) as string });
+      }
+    });
+
+    it.each<[options: object, words: string]>([
+      [{ mode: "fade" }, "mode"],
+      [{ worker: 1 }, "worker"],
+      [{ nonFinite: "keep" }, "nonFinite"],
+      [{ exponents: 2 }, "exponents"],
+      [{ exponent: "2" }, "exponent"],
+      [{ radius: 5, exponent: 2 }, "exclude"],
+      [{ mode: "dim", dimMaterial: {} }, "dimMaterial"],
+    ])("the options %o", async (options, words) => {
+      const { points, geometry } = sceneOf(adapter, sphere);
+      const problem = await problemOf(() => new adapter.HiddenPointFilter(points, loose(options)));
+      expect(problem).toMatchObject({ code: "option", message: expect.stringContaining(words) as string });
+      // Nothing is left behind.
+      filterFor(points, { worker: false });
+      expect(geometry.index).toBeNull();
+    });
+
+    it("a material that it cannot dim, but not one to dim with", () => {
+      const { points, camera } = sceneOf(adapter, sphere);
+      points.material = loose(new adapter.THREE.ShaderMaterial());
+      expect(() => filterFor(points, { mode: "dim" })).toThrow(/dimMaterial.*ShaderMaterial/);
+      filterFor(points, { mode: "dim", dimMaterial: new adapter.THREE.PointsMaterial(), worker: false }).update(camera);
+      expect(points.children).toHaveLength(1);
+    });
+
+    it("a second filter of one geometry, as long as there is the first", () => {
+      const { points } = sceneOf(adapter, sphere);
+      const filter = filterFor(points, { worker: false });
+      expect(() => filterFor(points)).toThrow(/already/);
+      filter.dispose();
+      filterFor(points, { worker: false });
+    });
+  });
+
+  describe("says once", () => {
+    function heard(filter: Filter): string[] {
+      const codes: string[] = [];
+      filter.addEventListener("error", ({ error }) => codes.push((error as { code?: string }).code ?? error.name));
+      return codes;
+    }
+
+    it.each([true, false])("that a radius is too small, and goes on where it is not, with worker: %s", async (worker) => {
+      const { points, camera, geometry } = sceneOf(adapter, sphere);
+      const filter = filterFor(points, { radius: 5, worker });
+      const codes = heard(filter);
+      filter.update(camera);
+      expect((await problemOf(() => filter.ready)).code).toBe("radius");
+      for (let i = 0; i < 20; i++) {
+        camera.position.z += 1;
+        filter.update(camera);
+        await new Promise((resolve) => setTimeout(resolve));
+      }
+      camera.position.z = 2;
+      filter.update(camera);
+      await expect.poll(() => drawn(geometry).length).toBeLessThan(2000);
+      expect(codes).toEqual(["radius"]);
+      camera.position.z = 6;
+      filter.update(camera);
+      await expect.poll(() => codes).toEqual(["radius", "radius"]);
+      expect(filter.visibleCount).toBeLessThan(2000);
+    });
+
+    it("that a scale has become uneven", async () => {
+      const { points, camera } = sceneOf(adapter, sphere);
+      const filter = filterFor(points);
+      const codes = heard(filter);
+      points.scale.x = 2;
+      for (let i = 0; i < 5; i++) filter.update(camera);
+      expect((await problemOf(() => filter.ready)).code).toBe("option");
+      expect(codes).toEqual(["option"]);
+    });
+
+    it("what the core refuses", async () => {
+      const broken = sphere.slice().fill(NaN, 30, 31);
+      const scene = sceneOf(adapter, broken);
+      const filter = filterFor(scene.points);
+      const codes = heard(filter);
+      filter.update(scene.camera);
+      expect((await problemOf(() => filter.ready)).code).toBe("non-finite");
+      for (let i = 0; i < 5; i++) filter.update(scene.camera);
+      expect(codes).toEqual(["non-finite"]);
+      expect(drawn(scene.geometry)).toHaveLength(3000);
+      filter.dispose();
+
+      expect(() => filterFor(scene.points, { worker: false })).toThrow(/NaN/);
+      const skipping = filterFor(scene.points, { nonFinite: "skip", worker: false });
+      skipping.update(scene.camera);
+      const visible = [...new adapter.PointCloud(broken, { nonFinite: "skip" }).visibleFrom([0, 0, 5]).indices];
+      expect(drawn(scene.geometry)).toEqual(visible);
+
+      const far = sceneOf(adapter, sphere);
+      const sighted = filterFor(far.points, { exponent: -1 });
+      const said = heard(sighted);
+      sighted.update(far.camera);
+      expect((await problemOf(() => sighted.ready)).code).toBe("option");
+      expect(said).toEqual(["option"]);
+      sighted.update(loose({}));
+      expect(said).toEqual(["option"]);
+    });
+  });
+
+  it("is disposed of before it is ready without a fuss", async () => {
+    const { points, camera, geometry } = sceneOf(adapter, sphere);
+    const filter = filterFor(points);
+    filter.update(camera);
+    filter.dispose();
+    expect((await problemOf(() => filter.ready)).code).toBe("disposed");
+    expect(geometry.index).toBeNull();
+  });
+
+  describe("takes up what is changed:", () => {
+    it.each([true, false])("positions, with worker: %s", async (worker) => {
+      const { points, camera, geometry } = sceneOf(adapter, sphere.slice());
+      const filter = filterFor(points, { worker });
+      filter.update(camera);
+      await filter.ready;
+      const position = geometry.attributes["position"]!;
+      for (const factor of [-0.5, 2]) {
+        position.array.forEach((_, i, array) => {
+          array[i]! *= factor;
+        });
+        const before = drawn(geometry);
+        filter.update(camera);
+        expect(drawn(geometry)).toEqual(before);
+        position.needsUpdate = true;
+        filter.update(camera);
+        const expected = visibleFrom([0, 0, 5], position.array as Float32Array);
+        await expect.poll(() => drawn(geometry)).toEqual(expected);
+      }
+      filter.dispose();
+      expect(geometry.index).toBeNull();
+    });
+
+    const changes: [what: string, change: (scene: Scene) => void][] = [
+      ["another attribute", ({ geometry }) => void geometry.setAttribute("position", new adapter.THREE.BufferAttribute(other, 3))],
+      [
+        "another geometry",
+        (scene) => {
+          scene.points.geometry = new adapter.THREE.BufferGeometry();
+          scene.points.geometry.setAttribute("position", new adapter.THREE.BufferAttribute(other, 3));
+        },
+      ],
+      [
+        "a draw range",
+        ({ geometry }) => {
+          geometry.setDrawRange(100, 1900);
+        },
+      ],
+      ["an index", ({ geometry }) => void geometry.setIndex(Array.from({ length: 1500 }, (_, i) => 2 * i))],
+    ];
+
+    it.each(changes)("%s, as a filter that is new", async (_, change) => {
+      const [scene, fresh] = [sceneOf(adapter, sphere), sceneOf(adapter, sphere)];
+      const filter = filterFor(scene.points);
+      filter.update(scene.camera);
+      await filter.ready;
+      const old = scene.geometry;
+      change(scene);
+      change(fresh);
+      const expected = filterFor(fresh.points, { worker: false });
+      expected.update(fresh.camera);
+      filter.update(scene.camera);
+      await expect.poll(() => drawn(scene.points.geometry)).toEqual(drawn(fresh.points.geometry));
+      expect(filter.visibleCount).toBe(expected.visibleCount);
+      if (old !== scene.points.geometry) {
+        expect([old.index, old.drawRange]).toEqual([null, { start: 0, count: Infinity }]);
+      }
+      filter.dispose();
+      expected.dispose();
+      expect(scene.points.geometry.index?.count).toBe(fresh.points.geometry.index?.count);
+      expect(scene.points.geometry.drawRange).toEqual(fresh.points.geometry.drawRange);
+      expect(drawn(scene.points.geometry)).toEqual(drawn(fresh.points.geometry));
+    });
+
+    it.each(changes)("%s, while an answer is awaited", async (_, change) => {
+      const [scene, fresh] = [sceneOf(adapter, sphere), sceneOf(adapter, sphere)];
+      const filter = filterFor(scene.points);
+      filter.update(scene.camera);
+      change(scene);
+      change(fresh);
+      const expected = filterFor(fresh.points, { worker: false });
+      expected.update(fresh.camera);
+      await expect
+        .poll(() => {
+          filter.update(scene.camera);
+          return drawn(scene.points.geometry);
+        })
+        .toEqual(drawn(fresh.points.geometry));
+    });
+
+    it("moving positions, every frame, without starving", async () => {
+      const { points, camera, geometry } = sceneOf(adapter, sphere.slice());
+      const filter = filterFor(points);
+      let answers = 0;
+      filter.addEventListener("change", () => answers++);
+      for (let frame = 0; answers < 5; frame++) {
+        const position = geometry.attributes["position"]!;
+        position.array[frame % 9000]! += 0.01;
+        position.needsUpdate = true;
+        filter.update(camera);
+        await new Promise((resolve) => setTimeout(resolve, 1));
+      }
+      await expect
+        .poll(() => {
+          filter.update(camera);
+          return drawn(geometry);
+        })
+        .toEqual(visibleFrom([0, 0, 5], geometry.attributes["position"]!.array as Float32Array));
+    });
+  });
+
+  describe("with mode dim", () => {
+    it("draws hidden points as a child that rays do not meet", async () => {
+      const { THREE } = adapter;
+      const { points, camera, geometry } = sceneOf(adapter, sphere);
+      const filter = filterFor(points, { mode: "dim" });
+      expect(points.children).toHaveLength(0);
+      filter.update(camera);
+      await filter.ready;
+      const child = points.children[0] as Scene["points"];
+      const visible = drawn(geometry);
+      expect(visible).toEqual(visibleFrom([0, 0, 5]));
+      const hidden = drawn(child.geometry);
+      expect([...visible, ...hidden].sort((a, b) => a - b)).toEqual(Array.from({ length: 3000 }, (_, i) => i));
+      expect(child.geometry.attributes["position"]).toBe(geometry.attributes["position"]);
+      expect(child.material).toMatchObject({ transparent: true, depthWrite: false, size: points.material.size });
+
+      // It follows the points.
+      points.material.size = 3;
+      points.material.color.set("red");
+      points.renderOrder = 7;
+      geometry.setAttribute("color", new THREE.BufferAttribute(sphere, 3));
+      filter.update(camera);
+      expect(child.material).toMatchObject({ size: 3, color: new THREE.Color("red") });
+      expect(child.renderOrder).toBe(7);
+      expect(child.geometry.attributes["color"]).toBe(geometry.attributes["color"]);
+      Object.assign(points, { material: new THREE.PointsMaterial({ opacity: 0.5 }) });
+      filter.update(camera);
+      expect(child.material.opacity).toBeCloseTo(0.075);
+
+      filter.enabled = false;
+      expect(child.visible).toBe(false);
+      filter.enabled = true;
+      expect(child.visible).toBe(true);
+      filter.dispose();
+      expect(points.children).toHaveLength(0);
+      expect(Object.keys(child.geometry.attributes)).toEqual([]);
+    });
+
+    it("lists the hidden points of an index in its order", () => {
+      const { points, camera, geometry } = sceneOf(adapter, sphere);
+      const ids = Array.from({ length: 1000 }, (_, i) => (i * 7919) % 3000);
+      geometry.setIndex(ids);
+      filterFor(points, { mode: "dim", worker: false }).update(camera);
+      const visible = new Set(drawn(geometry));
+      expect(drawn(geometry)).toEqual(ids.filter((id) => visible.has(id)));
+      expect(drawn((points.children[0] as Scene["points"]).geometry)).toEqual(ids.filter((id) => !visible.has(id)));
+    });
+  });
+
+  describe("many filters", () => {
+    it("share one worker, which ends with the last of them", async () => {
+      const scenes = Array.from({ length: 8 }, (_, i) => sceneOf(adapter, bumpySphere(i, 500 + 100 * i)));
+      const all = scenes.map(({ points }) => filterFor(points));
+      all.forEach((filter, i) => {
+        filter.update(scenes[i]!.camera);
+      });
+      await Promise.all(all.map((filter) => filter.ready));
+      expect(running.size).toBe(1);
+      scenes.forEach(({ geometry }, i) => {
+        expect(drawn(geometry)).toEqual(visibleFrom([0, 0, 5], bumpySphere(i, 500 + 100 * i)));
+      });
+      for (const filter of all.slice(1)) filter.dispose();
+      scenes[0]!.camera.position.x = 3;
+      const change = nextChange(all[0]!);
+      all[0]!.update(scenes[0]!.camera);
+      await change;
+      expect(drawn(scenes[0]!.geometry)).toEqual(visibleFrom([3, 0, 5], bumpySphere(0, 500)));
+      expect(running.size).toBe(1);
+    });
+
+    it("get over the death of their worker", async () => {
+      const scenes = [sceneOf(adapter, sphere), sceneOf(adapter, other)];
+      const all = scenes.map(({ points }) => filterFor(points));
+      const errors: unknown[] = [];
+      all.forEach((filter, i) => {
+        filter.addEventListener("error", (event) => errors.push(event));
+        filter.update(scenes[i]!.camera);
+      });
+      await Promise.all(all.map((filter) => filter.ready));
+      for (const [i, x] of [1, 2, 3].entries()) {
+        await [...running][0]!.terminate();
+        for (const scene of scenes) scene.camera.position.x = x;
+        all.forEach((filter, j) => {
+          filter.update(scenes[j]!.camera);
+        });
+        await expect.poll(() => drawn(scenes[i % 2]!.geometry)).toEqual(visibleFrom([x, 0, 5], i % 2 === 0 ? sphere : other));
+      }
+      expect(errors).toEqual([]);
+    });
+  });
+});
