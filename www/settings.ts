@@ -35,12 +35,17 @@ export interface Settings {
   smoothing: number;
   /** Where the viewpoint stays while the camera moves on. */
   freeze: Viewpoint | null;
+  /** "own" for the file's own colors (without any, two calm tones from low to high), "plain", "height", or the name of an attribute. */
+  color: string;
   /** Of a point, in multiples of the points' rough distance from one another. */
   size: number;
   /** Vertical, in degrees. */
   fieldOfView: number;
   up: Up;
 }
+
+/** The file's own colors. */
+export const OWN_COLORS = "own";
 
 /** The library's own default. */
 export const USUAL_EDGE = 5;
@@ -60,6 +65,7 @@ export const USUAL_SETTINGS: Settings = {
   ambient: 0.3,
   smoothing: 1,
   freeze: null,
+  color: OWN_COLORS,
   size: 1,
   fieldOfView: 45,
   up: "y",
