@@ -4,10 +4,16 @@ import { build } from "vite";
 const ROOT = join(import.meta.dirname, "../..");
 
 /** Bundles the page in a folder beside this file, as users do; returns its path in the repository. */
-export async function builtPage(name: string): Promise<string> {
+export function builtPage(name: string): Promise<string> {
+  return builtFrom(join(ROOT, "tests/browser", name), name);
+}
+
+/** The same of the page in any folder of the repository. */
+export async function builtFrom(source: string, name: string): Promise<string> {
   const out = `target/tests/${name}`;
   await build({
-    root: join(ROOT, "tests/browser", name),
+    root: source,
+    configFile: false,
     base: "./",
     logLevel: "error",
     build: { outDir: join(ROOT, out), emptyOutDir: true, target: "es2022", chunkSizeWarningLimit: 5000 },
