@@ -35,6 +35,8 @@ export interface Settings {
   smoothing: number;
   /** Where the viewpoint stays while the camera moves on. */
   freeze: Viewpoint | null;
+  /** Where the picture is divided, as a share of its width: all points to the left, visible ones to the right. */
+  compare: number | null;
   /** Of a point, in multiples of the points' rough distance from one another. */
   size: number;
   /** Vertical, in degrees. */
@@ -60,6 +62,7 @@ export const USUAL_SETTINGS: Settings = {
   ambient: 0.3,
   smoothing: 1,
   freeze: null,
+  compare: null,
   size: 1,
   fieldOfView: 45,
   up: "y",
