@@ -6,7 +6,7 @@ const LOW = new Color("#6f8796");
 const HIGH = new Color("#efe6d6");
 /** Selected points, and how much of that covers their own color. */
 const CHOSEN = new Color("#4fb3ff");
-const CHOSEN_COVERAGE = 0.8;
+const CHOSEN_COVERAGE = 0.65;
 /** The share of the points below and above which heights have the ramp's first and last color. */
 const RAMP_FROM = 0.01;
 const RAMP_SAMPLE = 20_000;

@@ -15,6 +15,9 @@ const THROUGH_WIDTH = 0.45;
 
 /** Device pixels: above, one near point covers the view. */
 const MOST_PIXELS = 160;
+/** Device pixels: further to the right than any picture goes. */
+const EVERYWHERE = 1e9;
+
 const vertexShader = /* glsl */ `
   ${TINT_SHADER}
   /* The width of a point in the cloud's units, and how many pixels a unit has at distance 1. */
@@ -88,7 +91,7 @@ export class CloudPoints {
           least: { value: 1 },
           cover: { value: display(HIDDEN) },
           coverage: { value: 0 },
-          until: { value: 0 },
+          until: { value: EVERYWHERE },
         },
       });
       const points = new Points(geometry, material);
