@@ -1,59 +1,10 @@
-import { readFileSync } from "node:fs";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { binaryPly, georeferencedBall } from "./clouds.js";
-import { differentPixels, drag, inNode, openReady, picture, served, settled, status, upToDate } from "./support.js";
+import { at, clickPoint, everything, lonely, MIDDLE, openBall, place, tool, visible, within } from "./ball.js";
+import { differentPixels, drag, openReady, picture, settled, status, upToDate } from "./support.js";
 
-/*
- * The ball of 600 points stands in UTM coordinates: f32 would be half a meter off. It is looked at from straight ahead,
- * so that the tests can tell for themselves where its points are in the picture.
- */
-const COUNT = 600;
-const positions = georeferencedBall(COUNT);
-const [X, Y, Z] = [512_345.5, 5_403_210.25, 431.75];
-const FROM = `view=${X},${Y},${Z + 9}&target=${X},${Y},${Z}`;
-const DISTANCE = 9;
+const [X, Y, Z] = MIDDLE;
 
-async function openBall(query = "", options = {}): Promise<Page> {
-  served.set("clouds/utm.ply", binaryPly(positions, "double", true));
-  const page = await openReady(`?src=clouds/utm.ply&up=y&${FROM}${query}`, options);
-  await upToDate(page);
-  return page;
-}
-
-const at = (index: number): [number, number, number] => [positions[3 * index]!, positions[3 * index + 1]!, positions[3 * index + 2]!];
-
-/** Where a point is on the screen, seen from the camera of FROM, and how far ahead. */
-async function place(page: Page, index: number): Promise<{ x: number; y: number; ahead: number }> {
-  const box = (await page.locator("#view").boundingBox())!;
-  const [x, y, z] = at(index);
-  const ahead = DISTANCE - (z - Z);
-  const pixels = box.height / 2 / Math.tan(Math.PI / 8) / ahead;
-  return { x: box.x + box.width / 2 + (x - X) * pixels, y: box.y + box.height / 2 - (y - Y) * pixels, ahead };
-}
-
-async function clickPoint(page: Page, index: number): Promise<void> {
-  const { x, y } = await place(page, index);
-  await page.mouse.click(x, y);
-}
-
-/** What is visible from the camera of the page, ascending. */
-async function visible(page: Page): Promise<number[]> {
-  const { viewpoint } = await status(page);
-  return inNode(positions, (cloud) => [...cloud.visibleFrom(viewpoint).indices]);
-}
-
-/** Points well apart from every other in the picture, of those in `among`. */
-async function lonely(page: Page, among: number[], rivals: number[]): Promise<number[]> {
-  const places = new Map(await Promise.all(rivals.map(async (i) => [i, await place(page, i)] as const)));
-  return among.filter((i) => {
-    const own = places.get(i)!;
-    return rivals.every((j) => j === i || Math.hypot(own.x - places.get(j)!.x, own.y - places.get(j)!.y) > 12);
-  });
-}
-
-const everything = Array.from({ length: COUNT }, (_, i) => i);
-const tool = (page: Page, name: string) => page.locator("#tool-bar").getByRole("button", { name });
 
 test("a click tells a visible point's index and its place in full precision", async () => {
   const page = await openBall();
@@ -98,11 +49,10 @@ test("hidden points are picked only through the surface", async () => {
 
 test("by keyboard: P, Enter for the middle, Escape once for the point and once for the tool", async () => {
   const target = 300;
-  served.set("clouds/utm.ply", binaryPly(positions, "double", true));
   const [x, y, z] = at(target);
   // From straight outside that point, which is therefore seen.
   const from = [x + 3 * (x - X), y + 3 * (y - Y), z + 3 * (z - Z)];
-  const page = await openReady(`?src=clouds/utm.ply&up=y&view=${from.join()}&target=${X},${Y},${Z}`);
+  const page = await openBall({}, from);
   await page.locator("#view").focus();
   await page.keyboard.press("p");
   expect(await tool(page, "Pick").getAttribute("aria-pressed")).toBe("true");
@@ -142,15 +92,6 @@ test("two clicks measure a distance in the file's units, as often as one likes",
   await page.getByRole("button", { name: "Clear all" }).click();
   expect(await page.locator("#marks .measure").count()).toBe(0);
 });
-
-/** The points of `among` within a box on the screen. */
-async function within(page: Page, among: number[], box: { left: number; top: number; right: number; bottom: number }): Promise<number[]> {
-  const inside = await Promise.all(among.map(async (i) => {
-    const { x, y } = await place(page, i);
-    return x > box.left && x < box.right && y > box.top && y < box.bottom;
-  }));
-  return among.filter((_, i) => inside[i]);
-}
 
 async function dragBox(page: Page, { left, top, right, bottom }: { left: number; top: number; right: number; bottom: number }): Promise<void> {
   await page.mouse.move(left, top);
@@ -231,7 +172,6 @@ test("a label is there as long as its point is seen", async () => {
   // To the other side of the ball and back.
   await page.locator("#view").focus();
   for (let i = 0; i < 36; i++) await page.keyboard.press("ArrowLeft");
-  expect(await visible(page).then(async () => (await upToDate(page)).state)).toBe("ready");
   await settled(page);
   expect((await visible(page)).includes(index!)).toBe(false);
   expect(await label.isVisible()).toBe(false);
