@@ -1,7 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { at, clickPoint, everything, lonely, MIDDLE, openBall, place, tool, visible, within } from "./ball.js";
-import { differentPixels, drag, openReady, picture, settled, status, upToDate } from "./support.js";
+import { differentPixels, drag, picture, settled, status, upToDate } from "./support.js";
 
 const [X, Y, Z] = MIDDLE;
 

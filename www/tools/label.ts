@@ -47,6 +47,10 @@ export class Label implements Tool {
     return begun;
   }
 
+  leave(): void {
+    this.drop();
+  }
+
   clear(): void {
     this.drop();
     for (const label of this.labels.splice(0)) label.remove();

@@ -48,6 +48,10 @@ export class Measure implements Tool {
     return begun;
   }
 
+  leave(): void {
+    this.cancel();
+  }
+
   clear(): void {
     this.drop();
     for (const line of this.lines.splice(0)) line.remove();

@@ -45,6 +45,10 @@ export class Pick implements Tool {
     return picked;
   }
 
+  leave(): void {
+    this.clear();
+  }
+
   clear(): void {
     this.mark?.remove();
     this.mark = null;

@@ -51,6 +51,11 @@ export class Select implements Tool {
     return this.chosen;
   }
 
+  leave(): void {
+    this.drags.cancel();
+    this.draw([]);
+  }
+
   cancel(): boolean {
     this.draw([]);
     if (this.drags.cancel()) return true;
@@ -60,8 +65,7 @@ export class Select implements Tool {
   }
 
   clear(): void {
-    this.drags.cancel();
-    this.draw([]);
+    this.leave();
     this.choose(new Uint32Array());
   }
 

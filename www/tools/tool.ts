@@ -19,6 +19,8 @@ export interface Tool {
   click?(spot: Spot): void;
   /** Gives up what has been begun; `false` where nothing has. */
   cancel?(): boolean;
+  /** Another tool takes its place, or none: what has been begun is given up, what is done stays. */
+  leave?(): void;
   /** The card is about to be seen. */
   open?(): void;
   /** Forgets everything: the cloud is another one. */

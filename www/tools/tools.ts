@@ -58,11 +58,11 @@ export class Tools {
   }
 
   private toggle(tool: Tool): void {
-    this.active?.cancel?.();
     this.show(this.active === tool ? null : tool);
   }
 
   private show(active: Tool | null): void {
+    this.active?.leave?.();
     this.active = active;
     if (active) this.stage.dataset["uses"] = active.uses;
     else delete this.stage.dataset["uses"];
