@@ -42,7 +42,7 @@ export class Address {
   choose([parameter, value]: CloudName): void {
     this.cloud = null;
     const address = new URL(location.href);
-    for (const name of ["src", "view", "target", "freeze", "light", "size", "fov", "up"]) address.searchParams.delete(name);
+    for (const name of ["src", "view", "target", "freeze", "light", "color", "size", "fov", "up"]) address.searchParams.delete(name);
     address.searchParams.set(parameter, value);
     replace(address);
   }
@@ -97,6 +97,7 @@ function settingsInAddress(now: Settings, usual: Usual): Record<string, string[]
     freeze: now.freeze ? [String(now.freeze)] : [],
     compare: now.compare === null ? [] : [String(now.compare)],
     hidden: unless("off", now.hidden),
+    color: unless(USUAL_SETTINGS.color, now.color),
     size: unless(usual.size, now.size),
     fov: unless(usual.fieldOfView, now.fieldOfView),
     up: unless(usual.up, now.up),

@@ -1,18 +1,34 @@
+import type { Values } from "./loaders/numbers.ts";
+
 /** Which way is up in a file's coordinates. */
 export type Up = "y" | "z" | "-y";
+
+/** A number for each point: how strongly it sent the light back, what it is part of, when it was seen. */
+export interface Attribute {
+  name: string;
+  /** Categories are whole numbers, few of them, whose order means nothing. */
+  kind: "scalar" | "category";
+  values: Values;
+  /** What a category's numbers stand for, where that is known. */
+  labels?: Readonly<Record<number, string>>;
+}
 
 /** What a loader hands over: the file's own coordinates, and colors as the file shows them (sRGB bytes), or none. */
 export interface LoadedCloud {
   positions: Float32Array | Float64Array;
   colors: Uint8Array | null;
-  /** What the file says of how it was taken: which way was up, and from where. */
-  taken?: { up: Up; from: [number, number, number] };
+  attributes?: Attribute[];
+  /** What the user has to know about it, in plain sentences. */
+  notes?: string[];
+  /** What the file says of how it was taken: which way was up, and from where where it knows. */
+  taken?: { up: Up; from?: [number, number, number] };
 }
 
 /** A cloud ready to draw: recentered in f32 for the graphics card. The file's own coordinates go to the hull's worker. */
 export interface Cloud {
   count: number;
   colors: Uint8Array | null;
+  attributes: readonly Attribute[];
   /** Center of the bounding box in the file's coordinates; local = file − center. */
   center: [number, number, number];
   local: Float32Array;
@@ -21,7 +37,7 @@ export interface Cloud {
   radius: number;
 }
 
-export function prepareCloud({ positions, colors }: LoadedCloud): Cloud {
+export function prepareCloud({ positions, colors, attributes = [] }: LoadedCloud): Cloud {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < positions.length; i += 3) {
@@ -40,7 +56,7 @@ export function prepareCloud({ positions, colors }: LoadedCloud): Cloud {
   const size = high.map((value, axis) => value - low[axis]!) as [number, number, number];
   const radius = Math.hypot(...size) / 2;
   // A single point, or many equal ones, still need a distance to be looked at from.
-  return { colors, count: positions.length / 3, center, local, size, radius: radius > 0 ? radius : 1 };
+  return { colors, attributes, count: positions.length / 3, center, local, size, radius: radius > 0 ? radius : 1 };
 }
 
 export function upVector(up: Up): [number, number, number] {

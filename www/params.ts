@@ -1,4 +1,5 @@
 import type { Up } from "./cloud.ts";
+import { MAX_POINTS } from "./loaders/limits.ts";
 import type { HiddenMode, Inversion, Radius, Settings, Viewpoint, Viewpoints } from "./settings.ts";
 
 /** What the address of the page asks for. Anything that cannot be used is named in `notes`, in plain words. */
@@ -8,6 +9,8 @@ export interface Params {
   /** Where the camera stands, in the file's own coordinates, and what it looks at. */
   view: Viewpoint | null;
   target: Viewpoint | null;
+  /** At most so many points of a file are to be shown; `null` for as many as the page can. */
+  points: number | null;
   /** Nothing but the picture. */
   embed: boolean;
   /** Of the settings those that are in the address. */
@@ -68,6 +71,8 @@ export function readParams(search: string, samples: readonly string[]): Params {
     freeze: read("freeze", parsePlace, "three numbers x,y,z, so the viewpoint goes with the camera"),
     hidden: read("hidden", oneOf<HiddenMode>("off", "dimmed", "shown"), "off, dimmed or shown, so they are off"),
     compare: read("compare", within(0, 1), "a number from 0 to 1, so the picture is not divided"),
+    // Whether the cloud has it, it will tell.
+    color: query.get("color") ?? undefined,
     size: read("size", within(0.05, 50), "a number from 0.05 to 50, so the usual one is used"),
     fieldOfView: read("fov", within(5, 100), "a number of degrees from 5 to 100, so the usual one is used"),
     up: read("up", oneOf<Up>("y", "z", "-y"), "y, z or -y, so the usual one is used"),
@@ -77,6 +82,7 @@ export function readParams(search: string, samples: readonly string[]): Params {
     src: src === "" ? null : src,
     view: read("view", parsePlace, "three numbers x,y,z, so the usual view is used") ?? null,
     target: read("target", parsePlace, "three numbers x,y,z, so the camera looks at the middle") ?? null,
+    points: read("points", (text) => whole(MAX_POINTS)(text) || undefined, `an integer from 1 to ${MAX_POINTS}, so it is the last`) ?? null,
     embed: read("embed", oneOf("0", "1"), "0 or 1, so the controls are shown") === "1",
     settings: Object.fromEntries(Object.entries(settings).filter(([, value]) => value !== undefined)),
     notes,
@@ -94,6 +100,7 @@ const WORDS: Record<string, string> = {
   size: "point size",
   soft: "softness of the lights",
   ambient: "ambient light",
+  points: "number of points",
   up: "side that is up",
   viewpoints: "number of viewpoints",
 };

@@ -3,7 +3,7 @@ import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { Address, type CloudName } from "./address.ts";
 import { Inquiry } from "./ask/inquiry.ts";
 import { WorkerCloud } from "./ask/worker-cloud.ts";
-import { prepareCloud, type Up } from "./cloud.ts";
+import { type Cloud, prepareCloud, type Up } from "./cloud.ts";
 import { loadCloud, LoadProblem, type LoadRequest } from "./loaders/index.ts";
 import { Controls } from "./panel/controls.ts";
 import { byId } from "./panel/dom.ts";
@@ -14,8 +14,9 @@ import { Progress } from "./panel/progress.ts";
 import { SamplePicker } from "./panel/sample-picker.ts";
 import type { Params } from "./params.ts";
 import { type Sample, sampleNamed, usualLook } from "./samples.ts";
-import { type Settings, Store, USUAL_SETTINGS } from "./settings.ts";
+import { OWN_COLORS, type Settings, Store, USUAL_SETTINGS } from "./settings.ts";
 import type { Status } from "./status.ts";
+import { colorChoices } from "./view/colors.ts";
 import { type AskedView, findHome, isInReach } from "./view/framing.ts";
 import { Plot } from "./tools/plot.ts";
 import { Tools } from "./tools/tools.ts";
@@ -43,9 +44,14 @@ export function startSession(params: Params, status: Status, message: Message): 
   const viewer = new Viewer(byId("view", HTMLCanvasElement), store);
   const controls = new Controls(viewer, store, { ...USUAL_SETTINGS, ...params.settings });
   const handles = new LightHandles(byId("lights"), viewer, store);
-  const progress = new Progress();
+  const progress = new Progress(() => {
+    stop();
+  });
   const firstLoad = new FirstLoad();
   let loading = new AbortController();
+  /** What is being loaded now. */
+  let opening: Source | null = null;
+  const limit = params.points === null ? {} : { limit: params.points };
   /** A view that was asked for stays in the address also where it is the first one. */
   let askedView: AskedView | null = null;
   const address = new Address(store, () => {
@@ -59,7 +65,7 @@ export function startSession(params: Params, status: Status, message: Message): 
     void open(source);
   });
   onFile({
-    open: (file, notes) => void open({ request: { kind: "file", name: file.name, file, skipNonFinite: false }, sample: null, name: null, view: null, settings: {}, notes }),
+    open: (file, notes) => void open({ request: { kind: "file", name: file.name, file, skipNonFinite: false, ...limit }, sample: null, name: null, view: null, settings: {}, notes }),
     refuse: (sentence) => {
       message.show(sentence);
     },
@@ -108,7 +114,7 @@ export function startSession(params: Params, status: Status, message: Message): 
     refuse(error, "The visible points could not be found");
   };
   const view = params.view && { at: params.view, target: params.target };
-  const first = params.src === null ? fromSample(sampleNamed(params.sample), view) : fromAddress(params.src, view);
+  const first = params.src === null ? fromSample(sampleNamed(params.sample), view) : fromAddress(params.src, view, limit);
   void open({ ...first, settings: params.settings, notes: params.notes });
 
   /** Loads a cloud beside the one on screen; it takes that one's place once the first answer is there. */
@@ -123,6 +129,7 @@ export function startSession(params: Params, status: Status, message: Message): 
     };
     if (notes.length > 0) message.show(notes.join(" "));
     else if (insteadOf === undefined) message.hide();
+    opening = source;
     say(`Loading ${request.name}.`);
     progress.show(null);
     let inquiry: Inquiry | null = null;
@@ -138,9 +145,13 @@ export function startSession(params: Params, status: Status, message: Message): 
       const own: Partial<Settings> = { ...usual, freeze: null, lights: [], ...radiusFor(store.current), ...source.settings };
       const { fieldOfView: fov, up } = { ...usual, ...source.settings };
       const tooFar = source.view !== null && !isInReach(cloud, source.view.at);
-      if (tooFar) message.show([...notes, "The view in the address is too far away to see anything, so the usual view is used."].join(" "));
+      const farNote = tooFar ? ["The view in the address is too far away to see anything, so the usual view is used."] : [];
+      const { color, notes: colorNote } = usableColor(own.color ?? store.current.color, cloud, source.settings.color !== undefined);
+      own.color = color;
+      const more = [...farNote, ...colorNote, ...(loaded.notes ?? [])];
+      if (more.length > 0) message.show([...notes, ...more].join(" "));
       const asked = tooFar ? null : source.view;
-      const taken = loaded.taken ? { at: loaded.taken.from, target: null } : null;
+      const taken = loaded.taken?.from ? { at: loaded.taken.from, target: null } : null;
       const homeWith = (upward: Up) => {
         const lens = { fov, aspect: viewer.stage.camera.aspect };
         const sameUp = upward === up;
@@ -156,6 +167,7 @@ export function startSession(params: Params, status: Status, message: Message): 
       viewer.clear();
       store.change(own);
       askedView = asked;
+      controls.prepare(cloud);
       tools.clear();
       viewer.show({ cloud, positions: loaded.positions, inquiry, home, answer, findHome: homeWith });
       shownName = sample?.name ?? request.name;
@@ -169,11 +181,23 @@ export function startSession(params: Params, status: Status, message: Message): 
     } catch (error) {
       inquiry?.dispose();
       if (signal.aborted) return;
+      opening = null;
       progress.hide();
       refuse(error, `${request.name} could not be opened`, source);
       return;
     }
+    opening = null;
     progress.hide();
+  }
+
+  /** Leaves what is being loaded; the cloud on screen stays. */
+  function stop(): void {
+    if (!opening) return;
+    const source = opening;
+    opening = null;
+    loading.abort();
+    progress.hide();
+    refuse(new LoadProblem(`${source.request.name} was not opened: its loading was stopped.`), "", source);
   }
 
   function refuse(error: unknown, what: string, source?: Source): void {
@@ -200,11 +224,11 @@ function fromSample(sample: Sample, view: AskedView | null): Source {
   return { request, sample, name: ["sample", sample.name], view, settings: {}, notes: [] };
 }
 
-function fromAddress(address: string, view: AskedView | null): Source {
+function fromAddress(address: string, view: AskedView | null, limit: { limit?: number }): Source {
   // What is no address is left as it is: downloading it fails in plain words.
   const url = URL.canParse(address, document.baseURI) ? new URL(address, document.baseURI) : null;
   const name = url?.pathname.split("/").pop() || address;
-  const request: LoadRequest = { kind: "url", name, url: url?.href ?? address, skipNonFinite: false };
+  const request: LoadRequest = { kind: "url", name, url: url?.href ?? address, skipNonFinite: false, ...limit };
   return { request, sample: null, name: ["src", address], view, settings: {}, notes: [] };
 }
 
@@ -213,6 +237,13 @@ function withoutNonFinite(error: unknown, source: Source): Source | null {
   const { request } = source;
   const possible = error instanceof LoadProblem && error.nonFinite > 0 && (request.kind === "file" || request.kind === "url");
   return possible ? { ...source, request: { ...request, skipNonFinite: true } } : null;
+}
+
+/** What the cloud before, or the address, was colored by may be something that this one does not have. */
+function usableColor(color: string, cloud: Cloud, asked: boolean): { color: string; notes: string[] } {
+  if (colorChoices(cloud).some(({ value }) => value === color)) return { color, notes: [] };
+  const notes = asked ? [`It has nothing called “${color}” to be colored by, so it has its usual colors.`] : [];
+  return { color: OWN_COLORS, notes };
 }
 
 /** A radius in units of the cloud before means nothing to the next one. */

@@ -37,12 +37,17 @@ export interface Settings {
   freeze: Viewpoint | null;
   /** Where the picture is divided, as a share of its width: all points to the left, visible ones to the right. */
   compare: number | null;
+  /** "own" for the file's own colors (without any, two calm tones from low to high), "plain", "height", or the name of an attribute. */
+  color: string;
   /** Of a point, in multiples of the points' rough distance from one another. */
   size: number;
   /** Vertical, in degrees. */
   fieldOfView: number;
   up: Up;
 }
+
+/** The file's own colors. */
+export const OWN_COLORS = "own";
 
 /** The library's own default. */
 export const USUAL_EDGE = 5;
@@ -63,6 +68,7 @@ export const USUAL_SETTINGS: Settings = {
   smoothing: 1,
   freeze: null,
   compare: null,
+  color: OWN_COLORS,
   size: 1,
   fieldOfView: 45,
   up: "y",

@@ -1,8 +1,11 @@
 import type { LoadedCloud } from "./cloud.ts";
-import { makeRings } from "./rings.ts";
-import { makeRoom } from "./room.ts";
 
-/** The clouds that the page generates. */
-export const SHAPES = { room: makeRoom, rings: makeRings } satisfies Record<string, () => LoadedCloud>;
+/** The clouds that the page generates, each downloaded when it is wanted. */
+export const SHAPES = {
+  room: async () => (await import("./room.ts")).makeRoom(),
+  rings: async () => (await import("./rings.ts")).makeRings(),
+  street: async () => (await import("./samples/street.ts")).makeStreet(),
+  tile: async () => (await import("./samples/tile.ts")).makeTile(),
+} satisfies Record<string, () => Promise<LoadedCloud>>;
 
 export type ShapeName = keyof typeof SHAPES;

@@ -5,6 +5,7 @@ import type { Inquiry, TimedView } from "./ask/inquiry.ts";
 import type { Cloud, Up } from "./cloud.ts";
 import type { Settings, Store, Viewpoint } from "./settings.ts";
 import { CloudAttributes } from "./view/attributes.ts";
+import { colorBy, type Legend } from "./view/colors.ts";
 import { type Home, inFile, inLocal } from "./view/framing.ts";
 import { ViewpointMarker } from "./view/marker.ts";
 import { Navigation } from "./view/navigation.ts";
@@ -36,6 +37,8 @@ export class Viewer {
   onError: (error: unknown) => void = () => undefined;
   /** Whether the picture lags behind the camera and the settings; told whenever it may have changed. */
   onBusy: (busy: boolean) => void = () => undefined;
+  /** What the colors mean, whenever they are others. */
+  onLegend: (legend: Legend | null) => void = () => undefined;
   /** Called before each frame. */
   onFrame: () => void = () => undefined;
 
@@ -141,6 +144,7 @@ export class Viewer {
     this.applyLook(this.store.current);
     this.placeMarker(this.store.current.freeze);
     this.setUp(this.store.current.up);
+    this.paint(this.store.current);
     inquiry.onView(answer);
     // What is wrong with the worker shows in the next answer.
     inquiry.findAutomatic().catch(() => undefined);
@@ -166,6 +170,7 @@ export class Viewer {
     if (!this.shown) return;
     const turned = now.up !== before.up;
     if (turned) this.setUp(now.up);
+    if (now.color !== before.color || turned) this.paint(now);
     if (now.freeze !== before.freeze) this.placeMarker(now.freeze);
     this.applyLook(now);
     // Upright another way, the cloud is looked at as for the first time.
@@ -195,6 +200,14 @@ export class Viewer {
   /** Points have no normals to shade by; a surface has, and light is not to be shaded once more. */
   private setShading(): void {
     this.stage.setEyeDome(!this.surfaceShown && !this.lit);
+  }
+
+  private paint({ color, up }: Settings): void {
+    const { cloud, attributes } = this.shown!;
+    const { tints, legend } = colorBy(color, cloud, up);
+    attributes.setTints(tints);
+    this.stage.invalidate();
+    this.onLegend(legend);
   }
 
   private setUp(up: Up): void {

@@ -1,7 +1,6 @@
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
 import { samples } from "./build/samples-plugin.ts";
-import { threeForLoaders } from "./build/three-for-loaders-plugin.ts";
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
@@ -11,7 +10,9 @@ export default defineConfig({
   base: "./",
   build: { outDir: here("dist"), emptyOutDir: true, target: "es2022", chunkSizeWarningLimit: 900 },
   plugins: [samples()],
-  worker: { format: "es", plugins: () => [threeForLoaders()] },
-  // Bundling three ahead of time would hide from the plugin above which loader asks for it.
-  optimizeDeps: { exclude: ["three", "hidden-point-removal"] },
+  // Of the decoder's builds the one for workers; the copc package would bring another.
+  resolve: { alias: [{ find: /^laz-perf$/, replacement: "laz-perf/lib/worker/index.js" }] },
+  worker: { format: "es" },
+  // Its worker and its wasm are found beside its files.
+  optimizeDeps: { exclude: ["hidden-point-removal"] },
 });

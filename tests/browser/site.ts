@@ -8,6 +8,8 @@ import { root } from "../root.js";
 const DIST = join(root, "www", "dist");
 /** The page is served from a folder, as on a project's site, so that any absolute address in it would fail. */
 const FOLDER = "/some/folder/";
+/** Extra files in this folder can be had in parts. */
+const RANGED = "ranged/";
 const TYPES: Record<string, string> = {
   ".html": "text/html",
   ".js": "text/javascript",
@@ -30,6 +32,12 @@ export async function servePage(extra: ReadonlyMap<string, Uint8Array> = new Map
     const file = join(DIST, normalize(name));
     const own = name !== "" && file.startsWith(DIST) && existsSync(file);
     const body = extra.get(name) ?? (own ? readFileSync(file) : null);
+    const range = /^bytes=(\d+)-(\d+)$/.exec(request.headers.range ?? "");
+    if (body && range && name.startsWith(RANGED)) {
+      response.writeHead(206, { "content-type": "application/octet-stream" });
+      response.end(body.subarray(Number(range[1]), Number(range[2]) + 1));
+      return;
+    }
     response.writeHead(body ? 200 : 404, { "content-type": TYPES[extname(file)] ?? "application/octet-stream" });
     response.end(body);
   });

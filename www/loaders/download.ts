@@ -1,11 +1,47 @@
-import { checkByteLength } from "./limits.ts";
 import { LoadProblem } from "./problem.ts";
 
+/** The pieces of a download are kept by the browser, on disk where they are large; an address cannot be trusted to end. */
+const MAX_DOWNLOAD = 4_000_000_000;
+
 /** Fetches a file whole, telling how far it is where the server says how long it is. */
-export async function download(name: string, url: string, onProgress: (fraction: number | null) => void): Promise<ArrayBuffer> {
+export async function download(name: string, url: string, onProgress: (fraction: number | null) => void): Promise<Blob> {
+  return receive(name, await ask(name, url), onProgress);
+}
+
+/**
+ * Reads a file by its ranges, or where the server has none, whole. Which of the two, the first answer tells.
+ */
+export async function downloadRanges(
+  name: string,
+  url: string,
+  onProgress: (fraction: number | null) => void,
+): Promise<{ read: (from: number, to: number) => Promise<Uint8Array> } | { blob: Blob }> {
+  let first: Response;
+  try {
+    first = await ask(name, url, [0, FIRST]);
+  } catch {
+    // Some servers refuse the question to other sites' pages, but not the file.
+    return { blob: await download(name, url, onProgress) };
+  }
+  if (first.status !== 206) return { blob: await receive(name, first, onProgress) };
+  const head = await bodyOf(name, first);
+  return {
+    read: async (from, to) => {
+      if (to <= head.length) return head.subarray(from, to);
+      const response = await ask(name, url, [from, to]);
+      if (response.status !== 206) throw new LoadProblem(`${name} could not be downloaded: the server no longer sends parts of it.`);
+      return bodyOf(name, response);
+    },
+  };
+}
+
+/** Enough for a header and what it lists. */
+const FIRST = 1 << 16;
+
+async function ask(name: string, url: string, range?: [number, number]): Promise<Response> {
   let response: Response;
   try {
-    response = await fetch(url);
+    response = await fetch(url, range ? { headers: { Range: `bytes=${range[0]}-${range[1] - 1}` } } : {});
   } catch {
     const why =
       new URL(url, location.href).origin === location.origin
@@ -14,11 +50,22 @@ export async function download(name: string, url: string, onProgress: (fraction:
     throw new LoadProblem(`${name} could not be downloaded: ${why}.`);
   }
   if (!response.ok) throw new LoadProblem(`${name} could not be downloaded: the server answered ${response.status}.`);
+  return response;
+}
 
+async function bodyOf(name: string, response: Response): Promise<Uint8Array> {
+  try {
+    return new Uint8Array(await response.arrayBuffer());
+  } catch {
+    throw brokeOff(name);
+  }
+}
+
+async function receive(name: string, response: Response, onProgress: (fraction: number | null) => void): Promise<Blob> {
   // With a compressed transfer the length is that of the wire, not of what arrives: no fraction then.
   const compressed = response.headers.get("content-encoding") !== null;
   const total = compressed ? 0 : Number(response.headers.get("content-length") ?? 0);
-  if (total > 0) checkByteLength(name, total);
+  checkSize(name, total);
   onProgress(total > 0 ? 0 : null);
 
   const chunks: Uint8Array<ArrayBuffer>[] = [];
@@ -28,13 +75,20 @@ export async function download(name: string, url: string, onProgress: (fraction:
     for (let part = await reader.read(); !part.done; part = await reader.read()) {
       chunks.push(part.value);
       received += part.value.length;
-      checkByteLength(name, received);
+      checkSize(name, received);
       onProgress(total > 0 ? Math.min(1, received / total) : null);
     }
   } catch (error) {
     void reader.cancel().catch(() => undefined);
-    throw error instanceof LoadProblem ? error : new LoadProblem(`${name} could not be downloaded: the connection broke off.`);
+    throw error instanceof LoadProblem ? error : brokeOff(name);
   }
-  checkByteLength(name, received);
-  return new Blob(chunks).arrayBuffer();
+  return new Blob(chunks);
+}
+
+function brokeOff(name: string): LoadProblem {
+  return new LoadProblem(`${name} could not be downloaded: the connection broke off.`);
+}
+
+function checkSize(name: string, bytes: number): void {
+  if (bytes > MAX_DOWNLOAD) throw new LoadProblem(`${name} is too large to be downloaded: more than ${MAX_DOWNLOAD / 1e9} GB.`);
 }

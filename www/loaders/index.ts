@@ -1,5 +1,5 @@
 import type { LoadedCloud } from "../cloud.ts";
-import { LoadProblem } from "./problem.ts";
+import { LoadProblem, missingPart } from "./problem.ts";
 import type { LoadReply, LoadRequest } from "./protocol.ts";
 
 export { LoadProblem } from "./problem.ts";
@@ -24,8 +24,8 @@ export function loadCloud(
     worker.onerror = (event) => {
       event.preventDefault();
       // Only an error of a worker that runs says where it happened.
-      const why = event instanceof ErrorEvent ? "the browser ran out of memory or stopped the loader" : "a part of this page could not be downloaded";
-      reject(new LoadProblem(`${request.name} could not be read: ${why}.`));
+      const running = event instanceof ErrorEvent;
+      reject(running ? new LoadProblem(`${request.name} could not be read: the browser ran out of memory or stopped the loader.`) : missingPart(request.name));
     };
     worker.postMessage(request);
   }).finally(() => { worker.terminate(); });

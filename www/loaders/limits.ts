@@ -1,9 +1,11 @@
+import type { Values } from "./numbers.ts";
 import type { LoadedCloud } from "../cloud.ts";
 import { LoadProblem } from "./problem.ts";
 
-/** Three's loaders build plain arrays and, for text, one string: above these sizes a tab runs out of memory or of string. */
+/** Of more points every so manyth is shown: beyond, finding the visible ones takes many seconds and gigabytes. */
 export const MAX_POINTS = 10_000_000;
-export const MAX_BYTES = 500_000_000;
+/** Of files that have to be in memory as a whole: LAZ, compressed PCD, GLB. Others are read a piece at a time. */
+export const MAX_BYTES = 1_000_000_000;
 
 /** Beyond this, squared distances no longer fit the f32 arithmetic of the graphics card. */
 const MAX_EXTENT = 1e18;
@@ -11,18 +13,9 @@ const MAX_EXTENT = 1e18;
 const number = new Intl.NumberFormat("en-US");
 
 export function checkByteLength(name: string, bytes: number): void {
-  if (bytes === 0) throw new LoadProblem(`${name} is empty.`);
   if (bytes > MAX_BYTES) {
     throw new LoadProblem(
-      `${name} is too large: ${number.format(Math.round(bytes / 1e6))} MB, and this page opens files up to ${MAX_BYTES / 1e6} MB.`,
-    );
-  }
-}
-
-export function checkPointCount(name: string, points: number): void {
-  if (points > MAX_POINTS) {
-    throw new LoadProblem(
-      `${name} is too large: ${number.format(points)} points, and this page opens clouds up to ${number.format(MAX_POINTS)}.`,
+      `${name} is too large: ${number.format(Math.round(bytes / 1e6))} MB, and this page opens such files up to ${number.format(MAX_BYTES / 1e6)} MB.`,
     );
   }
 }
@@ -31,7 +24,6 @@ export function checkPointCount(name: string, points: number): void {
 export function checkedCloud(name: string, cloud: LoadedCloud, skipNonFinite: boolean): LoadedCloud {
   const total = cloud.positions.length / 3;
   if (total === 0) throw new LoadProblem(`${name} holds no points.`);
-  checkPointCount(name, total);
 
   const bad = countNonFinite(cloud.positions);
   if (bad === total) throw new LoadProblem(`${name} holds no points: none of its coordinates are numbers.`);
@@ -45,7 +37,7 @@ export function checkedCloud(name: string, cloud: LoadedCloud, skipNonFinite: bo
   if (finite.positions.some((value) => Math.abs(value) > MAX_EXTENT)) {
     throw new LoadProblem(`${name} has coordinates above 10¹⁸, too far out to be drawn.`);
   }
-  return { ...cloud, positions: narrowed(finite.positions), colors: finite.colors };
+  return { ...finite, positions: narrowed(finite.positions) };
 }
 
 function isFiniteAt(positions: LoadedCloud["positions"], i: number): boolean {
@@ -58,17 +50,22 @@ function countNonFinite(positions: LoadedCloud["positions"]): number {
   return bad;
 }
 
-function withoutNonFinite({ positions, colors }: LoadedCloud, count: number): LoadedCloud {
-  const kept = new Float64Array(3 * count);
-  const keptColors = colors && new Uint8Array(3 * count);
-  let at = 0;
-  for (let i = 0; i < positions.length / 3; i++) {
-    if (!isFiniteAt(positions, i)) continue;
-    kept.set(positions.subarray(3 * i, 3 * i + 3), at);
-    keptColors?.set(colors!.subarray(3 * i, 3 * i + 3), at);
-    at += 3;
-  }
-  return { positions: kept, colors: keptColors };
+function withoutNonFinite(cloud: LoadedCloud, count: number): LoadedCloud {
+  const { positions, colors, attributes = [] } = cloud;
+  const kept = new Uint32Array(count);
+  for (let i = 0, at = 0; at < count; i++) if (isFiniteAt(positions, i)) kept[at++] = i;
+  return {
+    ...cloud,
+    positions: picked(positions, kept, 3),
+    colors: colors && picked(colors, kept, 3),
+    attributes: attributes.map((attribute) => ({ ...attribute, values: picked(attribute.values, kept, 1) })),
+  };
+}
+
+function picked<T extends Values>(values: T, kept: Uint32Array, width: number): T {
+  const result = new (values.constructor as new (length: number) => T)(width * kept.length);
+  for (let i = 0; i < kept.length; i++) for (let k = 0; k < width; k++) result[width * i + k] = values[width * kept[i]! + k]!;
+  return result;
 }
 
 /** Half the memory where f32 holds every coordinate exactly. */

@@ -1,17 +1,23 @@
-import type { Points } from "three";
-import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import type { LoadedCloud } from "../cloud.ts";
-import { pointsOf } from "./geometry.ts";
-import { checkPointCount } from "./limits.ts";
+import { lines, type Reading } from "./blocks.ts";
+import { CloudBuilder } from "./builder.ts";
 import { LoadProblem } from "./problem.ts";
 
-/** OBJLoader, given the vertex lines alone: with faces it would repeat a vertex in every face and drop the ones in none. */
-export function readObj(name: string, text: string): LoadedCloud {
-  const vertices = text.match(/^[ \t]*v[ \t].*$/gm) ?? [];
-  if (vertices.length === 0) throw new LoadProblem(`${name} holds no points: it has no vertex lines (“v x y z”).`);
-  checkPointCount(name, vertices.length);
-  const short = vertices.find((line) => line.trim().split(/\s+/).length < 4);
-  if (short !== undefined) throw new LoadProblem(`${name} is broken: a vertex line has fewer than three numbers (“${short.trim().slice(0, 40)}”).`);
-  const points = new OBJLoader().parse(vertices.join("\n")).children[0] as Points;
-  return pointsOf(points.geometry, "double");
+/** The vertices of an OBJ file (“v x y z”, with a color behind in some), whatever faces it has. */
+export async function readObj(reading: Reading, encoding: string): Promise<LoadedCloud> {
+  const { name, limit } = reading;
+  const builder = new CloudBuilder("float64", ["red", "green", "blue"].map((column) => ({ name: column, type: "float32" })), limit, null);
+  for await (const some of lines(reading, 0, encoding)) {
+    for (const text of some) {
+      if (!/^\s*v\s/.test(text) || !builder.takes()) continue;
+      const line = text.trim();
+      const words = line.split(/\s+/);
+      if (words.length < 4) throw new LoadProblem(`${name} is broken: a vertex line has fewer than three numbers (“${line.slice(0, 40)}”).`);
+      const i = builder.put(Number(words[1]), Number(words[2]), Number(words[3]));
+      // An OBJ file may color some vertices and not others: NaN there, and no color for the whole.
+      for (let channel = 0; channel < 3; channel++) builder.values[channel]![i] = words.length >= 7 ? Number(words[4 + channel]) : NaN;
+    }
+  }
+  if (builder.rows === 0) throw new LoadProblem(`${name} holds no points: it has no vertex lines (“v x y z”).`);
+  return builder.finish();
 }

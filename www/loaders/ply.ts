@@ -1,105 +1,125 @@
-import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
 import type { LoadedCloud } from "../cloud.ts";
-import { pointsOf } from "./geometry.ts";
-import { checkPointCount } from "./limits.ts";
+import { bytes, type Reading } from "./blocks.ts";
+import { bytesOf, numberReader, type NumberType } from "./numbers.ts";
 import { LoadProblem } from "./problem.ts";
+import { endsEarly, type Field, readBinaryRows, readTextRows } from "./rows.ts";
 
-const BYTES: Record<string, number> = {
-  char: 1, uchar: 1, int8: 1, uint8: 1,
-  short: 2, ushort: 2, int16: 2, uint16: 2,
-  int: 4, uint: 4, int32: 4, uint32: 4, float: 4, float32: 4,
-  double: 8, float64: 8,
+const TYPES: Record<string, NumberType> = {
+  char: "int8", int8: "int8", uchar: "uint8", uint8: "uint8",
+  short: "int16", int16: "int16", ushort: "uint16", uint16: "uint16",
+  int: "int32", int32: "int32", uint: "uint32", uint32: "uint32",
+  float: "float32", float32: "float32", double: "float64", float64: "float64",
 }; // prettier-ignore
+
+/** What is called otherwise in some files. */
+const NAMES: Record<string, string> = {
+  px: "x", posx: "x", py: "y", posy: "y", pz: "z", posz: "z",
+  r: "red", diffuse_red: "red", g: "green", diffuse_green: "green", b: "blue", diffuse_blue: "blue",
+}; // prettier-ignore
+
+const LONGEST_HEADER = 1 << 20;
+
+interface Property {
+  name: string;
+  type: NumberType;
+  /** The type of the number that says how long the list is, or null for a single number. */
+  list: NumberType | null;
+}
 
 interface PlyElement {
   name: string;
   count: number;
-  /** The header's own lines, and the bytes one takes in a binary file (NaN with a list, whose length varies). */
-  lines: string[];
-  bytes: number;
+  properties: Property[];
 }
 
-/**
- * PLYLoader, with a look at the header first. It reads what is missing as nothing and takes a mesh apart by its faces, so
- * the header it gets to see ends with the vertices, and the number it finds must be the number promised.
- */
-export function readPly(name: string, data: ArrayBuffer): LoadedCloud {
-  const { text, end } = headerText(name, data);
-  const lines = text.split(/\r\n|\r|\n/).map((line) => line.trim());
-  const format = lines.find((line) => line.startsWith("format "))?.split(/\s+/)[1];
+/** The vertices of a PLY file, whatever faces it has. */
+export async function readPly(reading: Reading): Promise<LoadedCloud> {
+  const { name, blob } = reading;
+  const { headerLines, end } = headerOf(name, await bytes(name, blob, 0, LONGEST_HEADER));
+  const format = headerLines.find((line) => line.startsWith("format "))?.split(/\s+/)[1];
   if (format !== "ascii" && format !== "binary_little_endian" && format !== "binary_big_endian") {
     throw new LoadProblem(`${name} is a PLY file of an unknown format (${format ?? "none given"}).`);
   }
-
-  const elements = readElements(name, lines);
+  const elements = elementsOf(name, headerLines);
   const at = elements.findIndex((element) => element.name === "vertex");
   if (at < 0) throw new LoadProblem(`${name} is a PLY file without vertices.`);
-  if (format === "ascii" && /\d,\d/.test(new TextDecoder().decode(new Uint8Array(data, end, Math.min(4096, data.byteLength - end))))) {
-    throw new LoadProblem(`${name} is broken: its numbers have commas, which a PLY file writes as points.`);
+  const before = elements.slice(0, at);
+  const { count, properties } = elements[at]!;
+  if (properties.some(({ list }) => list)) {
+    throw new LoadProblem(`${name} is a PLY file whose vertices have lists, which this page cannot read.`);
   }
-  const wanted = elements.slice(0, at + 1);
-  const vertex = elements[at]!;
-  checkPointCount(name, vertex.count);
 
-  const body = data.byteLength - end;
-  const needed = wanted.reduce((sum, element) => sum + element.count * element.bytes, 0);
-  if (format !== "ascii" && needed > body) throw endsEarly(name, vertex.count);
-
-  const header = ["ply", `format ${format} 1.0`, ...wanted.flatMap((element) => element.lines), "end_header", ""].join("\n");
-  const loader = new PLYLoader();
-  const geometry =
-    format === "ascii"
-      ? loader.parse(header + new TextDecoder().decode(new Uint8Array(data, end)))
-      : loader.parse(joined(new TextEncoder().encode(header), new Uint8Array(data, end)));
-
-  // An ASCII float is a float: the type the header declares decides, as it does in a binary file.
-  const double = !vertex.lines.some((line) => /^property\s+float(32)?\s+(x|px|posx)$/.test(line));
-  const cloud = pointsOf(geometry, double ? "double" : "single");
-  if (cloud.positions.length === 0 && vertex.count > 0) {
-    throw new LoadProblem(`${name} is a PLY file whose vertices have no x, y and z.`);
+  const { position, others, rowBytes } = fieldsOf(name, count, properties);
+  const littleEndian = format === "binary_little_endian";
+  if (format === "ascii") {
+    const skip = before.reduce((sum, element) => sum + element.count, 0);
+    return readTextRows(reading, { start: end, count, position, others, skip });
   }
-  if (cloud.positions.length !== 3 * vertex.count) throw endsEarly(name, vertex.count);
-  return cloud;
+  const start = await passOver(reading, end, before, littleEndian, count);
+  return readBinaryRows(reading, { start, count, position, others }, rowBytes, littleEndian);
 }
 
-function headerText(name: string, data: ArrayBuffer): { text: string; end: number } {
+function headerOf(name: string, start: ArrayBuffer): { headerLines: string[]; end: number } {
   // Latin-1 keeps one character a byte, so that a position in the text is a position in the file.
-  const start = new TextDecoder("latin1").decode(new Uint8Array(data, 0, Math.min(data.byteLength, 1 << 20)));
-  const match = /^ply[\s\S]*?[\r\n]end_header[ \t]*(\r\n|\r|\n|$)/.exec(start);
+  const match = /^ply[\s\S]*?[\r\n]end_header[ \t]*(\r\n|\r|\n|$)/.exec(new TextDecoder("latin1").decode(start));
   if (!match) throw new LoadProblem(`${name} is broken: its PLY header has no end.`);
-  return { text: match[0], end: match[0].length };
+  return { headerLines: match[0].split(/\r\n|\r|\n/).map((line) => line.trim()), end: match[0].length };
 }
 
-function readElements(name: string, lines: string[]): PlyElement[] {
+function elementsOf(name: string, headerLines: readonly string[]): PlyElement[] {
   const elements: PlyElement[] = [];
-  for (const line of lines) {
+  const typeOf = (word: string | undefined): NumberType => {
+    const type = TYPES[word ?? ""];
+    if (!type) throw new LoadProblem(`${name} is broken: its PLY header has a property of unknown type (${word ?? "none"}).`);
+    return type;
+  };
+  for (const line of headerLines) {
     const words = line.split(/\s+/);
     if (words[0] === "element") {
       const count = Number(words[2]);
-      if (!Number.isInteger(count) || count < 0) {
+      if (!Number.isSafeInteger(count) || count < 0) {
         throw new LoadProblem(`${name} is broken: its PLY header does not say how many points there are.`);
       }
-      elements.push({ name: words[1] ?? "", count, lines: [line], bytes: 0 });
+      elements.push({ name: words[1] ?? "", count, properties: [] });
     } else if (words[0] === "property" && elements.length > 0) {
-      const element = elements[elements.length - 1]!;
-      // Some programs write X, Y and Z; the loader knows x, y and z.
-      element.lines.push(words[1] === "list" ? line : line.toLowerCase());
-      if (words[1] !== "list" && BYTES[words[1] ?? ""] === undefined) {
-        throw new LoadProblem(`${name} is broken: its PLY header has a property of unknown type (${words[1] ?? "none"}).`);
-      }
-      element.bytes += BYTES[words[1] ?? ""] ?? NaN;
+      const isList = words[1] === "list";
+      const property = { name: words[isList ? 4 : 2] ?? "", type: typeOf(words[isList ? 3 : 1]), list: isList ? typeOf(words[2]) : null };
+      elements[elements.length - 1]!.properties.push(property);
     }
   }
   return elements;
 }
 
-function endsEarly(name: string, promised: number): LoadProblem {
-  return new LoadProblem(`${name} is broken: it ends before the ${promised.toLocaleString("en-US")} points its header promises.`);
+function fieldsOf(name: string, count: number, properties: readonly Property[]) {
+  let rowBytes = 0;
+  const fields = properties.map((property, word): Field => {
+    const offset = rowBytes;
+    rowBytes += bytesOf(property.type);
+    const lower = property.name.toLowerCase();
+    const called = NAMES[lower] ?? (/^(x|y|z|red|green|blue)$/.test(lower) ? lower : property.name.replace(/^scalar_/, ""));
+    return { name: called, type: property.type, offset, word };
+  });
+  const position = ["x", "y", "z"].map((axis) => fields.find((field) => field.name === axis));
+  if (position.includes(undefined)) {
+    throw new LoadProblem(count === 0 ? `${name} holds no points.` : `${name} is a PLY file whose vertices have no x, y and z.`);
+  }
+  const others = fields.filter((field) => !position.includes(field));
+  return { position: position as [Field, Field, Field], others, rowBytes };
 }
 
-function joined(head: Uint8Array, body: Uint8Array): ArrayBuffer {
-  const all = new Uint8Array(head.length + body.length);
-  all.set(head);
-  all.set(body, head.length);
-  return all.buffer;
+/** Where the vertices of a binary file begin, behind elements whose lists may have any length. */
+async function passOver({ name, blob }: Reading, start: number, before: readonly PlyElement[], littleEndian: boolean, promised: number): Promise<number> {
+  if (before.length === 0) return start;
+  const view = new DataView(await bytes(name, blob, start, blob.size));
+  let at = 0;
+  for (const { count, properties } of before) {
+    for (let row = 0; row < count; row++) {
+      for (const { type, list } of properties) {
+        if (at + (list ? bytesOf(list) : 0) > view.byteLength) throw endsEarly(name, promised);
+        const length = list ? numberReader(list, 0, littleEndian)(view, at) : 1;
+        at += (list ? bytesOf(list) : 0) + Math.max(0, length) * bytesOf(type);
+      }
+    }
+  }
+  return start + at;
 }

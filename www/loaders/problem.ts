@@ -10,3 +10,8 @@ export class LoadProblem extends Error {
     this.nonFinite = nonFinite;
   }
 }
+
+/** Formats are downloaded when they are needed, which may be long after the page. */
+export function missingPart(name: string): LoadProblem {
+  return new LoadProblem(`${name} could not be read: a part of this page could not be downloaded.`);
+}

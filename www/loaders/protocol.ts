@@ -5,8 +5,14 @@ import type { ShapeName } from "../shapes.ts";
 export type LoadRequest =
   | { kind: "sample"; name: string; url: string }
   | { kind: "shape"; name: string; shape: ShapeName }
-  | { kind: "url"; name: string; url: string; skipNonFinite: boolean }
-  | { kind: "file"; name: string; file: File; skipNonFinite: boolean };
+  | ({ kind: "url"; name: string; url: string } & ReadOptions)
+  | ({ kind: "file"; name: string; file: File } & ReadOptions);
+
+interface ReadOptions {
+  skipNonFinite: boolean;
+  /** Of more points than these, only every so manyth is to be shown. */
+  limit?: number;
+}
 
 /** What comes back: any number of steps, then the cloud or what was wrong. `fraction` is null where it cannot be known. */
 export type LoadReply =

@@ -1,31 +1,41 @@
 import type { LoadedCloud } from "../cloud.ts";
-import { readObj } from "./obj.ts";
-import { readPcd } from "./pcd.ts";
-import { readPly } from "./ply.ts";
-import { LoadProblem } from "./problem.ts";
-import { readXyz } from "./xyz.ts";
+import { bytes, type Reading } from "./blocks.ts";
+import { LoadProblem, missingPart } from "./problem.ts";
 
-export const FORMATS = "PLY, PCD, XYZ, TXT, CSV and OBJ";
+export const FORMATS = "LAS, LAZ, PLY, PCD, XYZ, TXT, CSV, OBJ, glTF and GLB";
 
 /** Reads a file by what it begins with, and by the ending of its name where its beginning says nothing. */
-export function readFile(name: string, data: ArrayBuffer): LoadedCloud {
-  const start = new TextDecoder("latin1").decode(new Uint8Array(data, 0, Math.min(data.byteLength, 4096)));
-  const ending = /\.([a-z0-9]+)$/i.exec(name)?.[1]?.toLowerCase() ?? "";
+export async function readFile(reading: Reading, base: string | null): Promise<LoadedCloud> {
+  const { name } = reading;
   try {
-    if (/^ply\s/.test(start)) return readPly(name, data);
-    if (/^(#.*\.PCD|VERSION\s|FIELDS\s)/m.test(start) && ending !== "obj") return readPcd(name, data);
-    if (ending === "ply" || ending === "pcd") {
-      throw new LoadProblem(`${name} is not a point cloud: it does not begin like a ${ending.toUpperCase()} file.`);
-    }
-    const encoding = encodingOf(data);
-    if (encoding === "utf-8" && looksBinary(start)) throw new LoadProblem(`${name} is not a point cloud this page knows. It opens ${FORMATS} files.`);
-    const text = new TextDecoder(encoding).decode(data);
-    return ending === "obj" || /^v[ \t]+[-+.\d]/m.test(start) ? readObj(name, text) : readXyz(name, text);
+    return await readBy(reading, base);
   } catch (error) {
     if (error instanceof LoadProblem) throw error;
+    if (error instanceof TypeError && error.message.includes("import")) throw missingPart(name);
+    if (error instanceof RangeError) throw new LoadProblem(`${name} could not be read: it is broken, or there is too little memory for it.`);
     // Whatever a loader trips over, it was the file: a size, an offset or a number that cannot be.
     throw new LoadProblem(`${name} is broken and could not be read.`);
   }
+}
+
+/** Each format is downloaded when it is needed. */
+async function readBy(reading: Reading, base: string | null): Promise<LoadedCloud> {
+  const { name, blob } = reading;
+  const data = await bytes(name, blob, 0, 4096);
+  const start = new TextDecoder("latin1").decode(data);
+  const ending = /\.([a-z0-9]+)$/i.exec(name)?.[1]?.toLowerCase() ?? "";
+  if (start.startsWith("LASF")) return (await import("./las/las.ts")).readLas(reading);
+  if (start.startsWith("glTF") || (ending === "gltf" && /^\s*(ï»¿)?\{/.test(start))) return (await import("./gltf.ts")).readGltf(reading, base);
+  if (/^ply\s/.test(start)) return (await import("./ply.ts")).readPly(reading);
+  if (/^(#.*\.PCD|VERSION\s|FIELDS\s)/m.test(start) && ending !== "obj") return (await import("./pcd.ts")).readPcd(reading);
+  if (/^(ply|pcd|las|laz|gltf|glb)$/.test(ending)) {
+    const format = { gltf: "glTF", glb: "GLB" }[ending] ?? ending.toUpperCase();
+    throw new LoadProblem(`${name} is not a point cloud: it does not begin like a ${format} file.`);
+  }
+  const encoding = encodingOf(data);
+  if (encoding === "utf-8" && looksBinary(start)) throw new LoadProblem(`${name} is not a point cloud this page knows. It opens ${FORMATS} files.`);
+  const isObj = ending === "obj" || /^v[ \t]+[-+.\d]/m.test(start);
+  return isObj ? (await import("./obj.ts")).readObj(reading, encoding) : (await import("./xyz.ts")).readXyz(reading, encoding);
 }
 
 /** By the mark at its beginning: some spreadsheets export text of two bytes a character. */
@@ -37,6 +47,5 @@ function encodingOf(data: ArrayBuffer): "utf-8" | "utf-16le" | "utf-16be" {
 
 /** Text has no control characters but tabs and line ends. */
 function looksBinary(start: string): boolean {
-   
   return /[\u0000-\u0008\u000e-\u001f]/.test(start);
 }

@@ -1,44 +1,66 @@
 /// <reference lib="webworker" />
 import type { LoadedCloud } from "../cloud.ts";
 import { SHAPES } from "../shapes.ts";
-import { download } from "./download.ts";
-import { checkByteLength, checkedCloud } from "./limits.ts";
+import { download, downloadRanges } from "./download.ts";
+import { checkedCloud, MAX_POINTS } from "./limits.ts";
 import { LoadProblem } from "./problem.ts";
-import { readFile } from "./read.ts";
 import type { LoadReply, LoadRequest } from "./protocol.ts";
+import { readFile } from "./read.ts";
 
 const post = (reply: LoadReply, transfer: Transferable[] = []) => { self.postMessage(reply, { transfer }); };
-const progress = (step: string, fraction: number | null) => { post({ kind: "progress", step, fraction }); };
+
+/** Not more often than the eye can follow. */
+const EVERY = 50;
+let last = { step: "", at: 0 };
+const progress = (step: string, fraction: number | null) => {
+  const now = performance.now();
+  if (step === last.step && now < last.at + EVERY) return;
+  last = { step, at: now };
+  post({ kind: "progress", step, fraction });
+};
 
 self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
   try {
     const cloud = await load(request);
-    const buffers = [cloud.positions.buffer, ...(cloud.colors ? [cloud.colors.buffer] : [])];
-    post({ kind: "cloud", cloud }, buffers as ArrayBuffer[]);
+    const arrays = [cloud.positions, cloud.colors, ...(cloud.attributes ?? []).map(({ values }) => values)];
+    post({ kind: "cloud", cloud }, arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : [])));
   } catch (error) {
-    const problem = error instanceof LoadProblem ? error : new LoadProblem(`${request.name} could not be read: ${String(error)}`);
+    const problem = error instanceof LoadProblem ? error : new LoadProblem(`${request.name} could not be read: ${String(error)}.`);
     post({ kind: "problem", sentence: problem.message, nonFinite: problem.nonFinite });
   }
 };
 
 async function load(request: LoadRequest): Promise<LoadedCloud> {
+  const { name } = request;
+  const downloading = (fraction: number | null) => { progress("Downloading", fraction); };
   if (request.kind === "shape") {
     progress("Making", null);
     return SHAPES[request.shape]();
   }
-  let data: ArrayBuffer;
-  if (request.kind === "file") {
-    checkByteLength(request.name, request.file.size);
-    progress("Reading", null);
-    data = await request.file.arrayBuffer();
-  } else {
-    data = await download(request.name, request.url, (fraction) => { progress("Downloading", fraction); });
-  }
   if (request.kind === "sample") {
+    const data = await (await download(name, request.url, downloading)).arrayBuffer();
     // A server that answers with a page for what it does not have.
-    if (data.byteLength % 12 !== 0) throw new LoadProblem(`${request.name} could not be downloaded: the server sent something else.`);
+    if (data.byteLength % 12 !== 0) throw new LoadProblem(`${name} could not be downloaded: the server sent something else.`);
     return { positions: new Float32Array(data), colors: null };
   }
+
+  const { limit = MAX_POINTS, skipNonFinite } = request;
+  const check = (cloud: LoadedCloud) => checkedCloud(name, cloud, skipNonFinite);
+  let blob: Blob;
+  if (request.kind === "file") {
+    blob = request.file;
+  } else if (/\.copc\.laz$/i.test(new URL(request.url, location.href).pathname)) {
+    const remote = await downloadRanges(name, request.url, downloading);
+    if ("read" in remote) {
+      const { readCopc } = await import("./las/copc.ts");
+      return check(await readCopc({ name, limit, onProgress: downloading }, remote.read));
+    }
+    blob = remote.blob;
+  } else {
+    blob = await download(name, request.url, downloading);
+  }
+  if (blob.size === 0) throw new LoadProblem(`${name} is empty.`);
   progress("Reading", null);
-  return checkedCloud(request.name, readFile(request.name, data), request.skipNonFinite);
+  const onProgress = (fraction: number) => { progress("Reading", fraction); };
+  return check(await readFile({ name, blob, limit, onProgress }, request.kind === "url" ? new URL(".", request.url).href : null));
 }

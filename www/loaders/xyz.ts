@@ -1,8 +1,6 @@
-import type { BufferGeometry } from "three";
-import { XYZLoader } from "three/addons/loaders/XYZLoader.js";
 import type { LoadedCloud } from "../cloud.ts";
-import { pointsOf } from "./geometry.ts";
-import { checkPointCount } from "./limits.ts";
+import { lines, type Reading } from "./blocks.ts";
+import { CloudBuilder } from "./builder.ts";
 import { LoadProblem } from "./problem.ts";
 
 /** How the lines of a table are to be read. */
@@ -10,9 +8,7 @@ interface Layout {
   separator: RegExp;
   decimalComma: boolean;
   position: number[];
-  color: number[] | null;
-  /** What turns a color into 0 … 255. */
-  colorScale: number;
+  others: { name: string; column: number }[];
 }
 
 const NUMBER = /^[-+]?(\d+([.,]\d*)?|[.,]\d+)(e[-+]?\d+)?$/i;
@@ -25,40 +21,42 @@ const COLUMN_NAMES: RegExp[][] = [
 const LOOK_AT = 200;
 
 /**
- * XYZLoader, behind a pass that makes "x y z" or "x y z r g b" of what is found out there: commas and semicolons, decimal
- * commas, a header line, a line with the number of points, comments, more columns than these.
+ * A table of numbers as it is found out there: spaces, tabs, commas or semicolons, decimal commas, a line of names, a line
+ * with the number of points, comments, any number of columns.
  */
-export function readXyz(name: string, text: string): LoadedCloud {
-  const lines = text.split(/\r\n|\r|\n/);
-  const { layout, first } = findLayout(name, lines);
-  checkPointCount(name, lines.length - first);
-
-  const rows: string[] = [];
-  for (let i = first; i < lines.length; i++) {
-    const line = lines[i]!.trim();
-    if (line === "" || isComment(line)) continue;
-    const words = split(line, layout);
-    const row = layout.position.map((column) => coordinate(words[column]));
-    if (row.includes(null)) {
-      throw new LoadProblem(`${name} does not look like a point cloud: line ${i + 1} is not a point (“${line.slice(0, 40)}”).`);
+export async function readXyz(reading: Reading, encoding: string): Promise<LoadedCloud> {
+  const { name, limit } = reading;
+  let found: { layout: Layout; first: number } | null = null;
+  let builder: CloudBuilder | null = null;
+  let number = 0;
+  for await (const some of lines(reading, 0, encoding)) {
+    found ??= findLayout(name, some);
+    const { layout, first } = found;
+    builder ??= new CloudBuilder("float64", layout.others.map((column) => ({ name: column.name, type: "float32" })), limit, null);
+    for (const text of some) {
+      const line = text.trim();
+      if (number++ < first || line === "" || isComment(line) || !builder.takes()) continue;
+      const words = split(line, layout);
+      const [x, y, z] = layout.position.map((column) => coordinate(words[column]));
+      if (x === null || y === null || z === null) {
+        throw new LoadProblem(`${name} does not look like a point cloud: line ${number} is not a point (“${line.slice(0, 40)}”).`);
+      }
+      const i = builder.put(x!, y!, z!);
+      for (let k = 0; k < layout.others.length; k++) builder.values[k]![i] = coordinate(words[layout.others[k]!.column]) ?? NaN;
     }
-    if (layout.color) row.push(...layout.color.map((column) => String(Number(words[column]) * layout.colorScale)));
-    rows.push(row.join(" "));
   }
-  // The published types of this loader are of an older one, which had a callback.
-  const loader = new XYZLoader() as unknown as { parse(text: string): BufferGeometry };
-  return pointsOf(loader.parse(rows.join("\n")), "double");
+  return builder!.finish();
 }
 
 function isComment(line: string): boolean {
   return line.startsWith("#") || line.startsWith("//");
 }
 
-/** The coordinate as XYZLoader reads it: a number, "nan" for one that is missing, or null for something else altogether. */
-function coordinate(word: string | undefined): string | null {
+/** A number, NaN for one that is missing, or null for something else altogether. */
+function coordinate(word: string | undefined): number | null {
   if (word === undefined) return null;
-  if (NUMBER.test(word)) return word;
-  return NO_NUMBER.test(word) ? "nan" : null;
+  if (NUMBER.test(word)) return Number(word);
+  return NO_NUMBER.test(word) ? NaN : null;
 }
 
 function split(line: string, { separator, decimalComma }: Pick<Layout, "separator" | "decimalComma">): string[] {
@@ -102,17 +100,24 @@ function columns(name: string, header: string, lines: string[], writing: Pick<La
     throw new LoadProblem(`${name} does not say which columns are x, y and z: its header is “${header.slice(0, 80)}”.`);
   }
   const position = unnamed ? [0, 1, 2] : named[0]!;
+  return { ...writing, position, others: otherColumns(rows, position, unnamed ? [] : names, named[1]!) };
+}
 
-  let color = named[1]!.includes(-1) ? null : named[1]!;
-  if (!color && !rows.some((row) => row.length !== rows[0]!.length)) {
-    // Without names, the last three of 6 columns (x y z r g b) or 7 (with an intensity between) are colors if all are bytes.
-    const width = rows[0]!.length;
-    const last = [width - 3, width - 2, width - 1];
-    if ((width === 6 || width === 7) && rows.every((row) => last.every((column) => isByte(row[column]!)))) color = last;
+/** Colors by their names, or the last three of 6 columns (x y z r g b) or 7 (with an intensity between) if all are bytes; and what is named besides. */
+function otherColumns(rows: string[][], position: number[], names: string[], color: number[]): Layout["others"] {
+  const width = rows[0]!.length;
+  const colored = !color.includes(-1);
+  const last = [width - 3, width - 2, width - 1];
+  const unnamed = names.length === 0 && !colored && (width === 6 || width === 7);
+  const bytes = unnamed && rows.every((row) => row.length === width && last.every((column) => isByte(row[column]!)));
+  const colors = colored ? color : bytes ? last : [];
+  const others = colors.map((column, channel) => ({ name: ["red", "green", "blue"][channel]!, column }));
+  for (let column = 0; column < width; column++) {
+    if (position.includes(column) || colors.includes(column)) continue;
+    const isNumber = rows.every((row) => NUMBER.test(row[column] ?? "") || NO_NUMBER.test(row[column] ?? ""));
+    if (isNumber) others.push({ name: names[column] ?? `column ${column + 1}`, column });
   }
-  const largest = color ? Math.max(...rows.flatMap((row) => color.map((column) => Number(row[column])))) : 0;
-  const colorScale = largest <= 1 ? 255 : largest > 255 ? 255 / 65535 : 1;
-  return { ...writing, position, color: Number.isFinite(largest) ? color : null, colorScale };
+  return others;
 }
 
 /** The names in a header line, in lower case and without their units: “X [m]” and “x_m” are x. */

@@ -1,6 +1,8 @@
 import type { ViewAnswer } from "../ask/views.ts";
 import { type Inversion, type Settings, type Store, USUAL_SETTINGS } from "../settings.ts";
 import type { Viewer } from "../viewer.ts";
+import type { Cloud } from "../cloud.ts";
+import { bindColor, type ColorControl } from "./color.ts";
 import { byId } from "./dom.ts";
 import { bindInversion } from "./inversion.ts";
 import { bindLook } from "./look.ts";
@@ -19,6 +21,7 @@ export class Controls {
   private readonly radius: RadiusControl;
   private readonly followInversion: (resolved: Inversion) => void;
   private readonly followSurface: (answer: ViewAnswer) => void;
+  private readonly color: ColorControl;
   /** What a reset goes back to. */
   usual: Pick<Settings, "fieldOfView"> = USUAL_SETTINGS;
 
@@ -31,6 +34,8 @@ export class Controls {
     this.followSurface = bindSurface(store);
     bindShadows(store, viewer);
     const { nextHidden } = bindLook(store);
+    this.color = bindColor(store);
+    viewer.onLegend = this.color.explain;
     const toggleFreeze = bindFreeze(store, viewer);
     bindSections(opened);
 
@@ -47,6 +52,11 @@ export class Controls {
     byId("view").addEventListener("keydown", (event) => {
       if (!event.ctrlKey && !event.metaKey && !event.altKey) keys[event.key.toLowerCase()]?.();
     });
+  }
+
+  /** For a cloud that is about to be shown. */
+  prepare(cloud: Cloud): void {
+    this.color.offer(cloud);
   }
 
   /** Shows what the answer was found with. */

@@ -1,15 +1,20 @@
 import { SAMPLES, type Sample, sampleNamed } from "../samples.ts";
 import { byId } from "./dom.ts";
 
-/** The list of samples, and the line under it that says where the current cloud is from. */
+/** In CSS pixels; made twice as large by tests/browser/thumbnails.ts. */
+const THUMBNAIL = { width: 84, height: 56 };
+
+/** Small pictures of some samples, the list of all, and the line under it that says where the current cloud is from. */
 export class SamplePicker {
   private readonly select = byId("sample", HTMLSelectElement);
   private readonly credit = byId("credit");
+  private readonly thumbnails = byId("thumbnails");
   /** The value of the entry that is on screen. */
   private shown: string | null = null;
 
   constructor(onPick: (sample: Sample) => void) {
     this.select.append(...SAMPLES.map(({ name, label }) => new Option(label, name)));
+    this.thumbnails.append(...SAMPLES.filter((sample) => sample.picture).map((sample) => thumbnail(sample, () => { onPick(sample); })));
     this.select.addEventListener("change", () => {
       // The entry for one's own file stands for what is shown already.
       if (this.select.value !== "") onPick(sampleNamed(this.select.value));
@@ -19,6 +24,7 @@ export class SamplePicker {
   showSample(sample: Sample): void {
     this.removeOwn();
     this.select.value = this.shown = sample.name;
+    this.mark(sample.name);
     this.credit.replaceChildren(`${sample.credit.text} `);
     if (!sample.credit.link) return;
     const link = document.createElement("a");
@@ -31,6 +37,7 @@ export class SamplePicker {
     this.removeOwn();
     this.select.prepend(new Option(name, "", true, true));
     this.shown = "";
+    this.mark(null);
     this.credit.textContent = "";
   }
 
@@ -39,7 +46,28 @@ export class SamplePicker {
     this.select.value = this.shown ?? "";
   }
 
+  /** Presses the picture of the sample that is on screen. */
+  private mark(name: string | null): void {
+    for (const button of this.thumbnails.children) button.setAttribute("aria-pressed", String((button as HTMLElement).dataset["sample"] === name));
+  }
+
   private removeOwn(): void {
     this.select.querySelector('option[value=""]')?.remove();
   }
+}
+
+function thumbnail({ name, label, picture }: Sample, pick: () => void): HTMLButtonElement {
+  const button = document.createElement("button");
+  button.type = "button";
+  button.dataset["sample"] = name;
+  button.title = label;
+  const image = document.createElement("img");
+  image.src = `thumbnails/${name}.webp`;
+  image.width = THUMBNAIL.width;
+  image.height = THUMBNAIL.height;
+  image.alt = "";
+  image.loading = "lazy";
+  button.append(image, picture!);
+  button.addEventListener("click", pick);
+  return button;
 }

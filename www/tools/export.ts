@@ -76,7 +76,7 @@ export class Export implements Tool {
     const { cloud, positions, answer } = this.bench.viewer.scene;
     const { what, indices } = this;
     const comments = [`${what.value === "visible" ? "Visible" : "Selected"} points: ${indices.length} of ${cloud.count}`, ...seenFrom(answer)];
-    return plyParts({ positions, colors: cloud.colors, fields: [], indices, comments });
+    return plyParts({ positions, colors: cloud.colors, fields: cloud.attributes, indices, comments });
   }
 
   private *json(): Iterable<BlobPart> {

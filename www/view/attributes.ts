@@ -15,19 +15,14 @@ const RAMP_SAMPLE = 20_000;
 export const TINT_SHADER = /* glsl */ `
   uniform vec3 up, low, high;
   uniform vec2 heights;
-  uniform bool lit;
+  uniform bool lit, colored;
   uniform vec3 chosenColor;
   attribute float brightness, chosen;
-  #ifdef FILE_COLOR
-    attribute vec3 color;
-  #endif
+  attribute vec3 color;
 
   vec3 ownTint() {
-    #ifdef FILE_COLOR
-      return color;
-    #else
-      return mix(low, high, clamp((dot(position, up) - heights.x) / (heights.y - heights.x), 0.0, 1.0));
-    #endif
+    if (colored) return color;
+    return mix(low, high, clamp((dot(position, up) - heights.x) / (heights.y - heights.x), 0.0, 1.0));
   }
 
   float light() {
@@ -42,7 +37,6 @@ export const TINT_SHADER = /* glsl */ `
 /** What points and surface of a cloud share: places, colors and light, once on the graphics card. */
 export class CloudAttributes {
   /** For the materials of all that is drawn of the cloud. */
-  readonly defines: Record<string, string>;
   readonly uniforms = {
     up: { value: new Vector3(0, 1, 0) },
     heights: { value: new Vector2(-1, 1) },
@@ -51,19 +45,21 @@ export class CloudAttributes {
     high: { value: display(HIGH) },
     lit: { value: false },
     chosenColor: { value: display(CHOSEN) },
+    colored: { value: false },
   };
   private readonly local: Float32Array;
   private readonly geometries: BufferGeometry[] = [];
   private readonly position: BufferAttribute;
-  private readonly color: BufferAttribute | null;
+  private readonly ownColors: Uint8Array | null;
+  private color: BufferAttribute | null = null;
   private brightness: BufferAttribute | null = null;
   private chosen: BufferAttribute | null = null;
 
   constructor({ local, colors }: Cloud) {
     this.local = local;
     this.position = new BufferAttribute(local, 3);
-    this.color = colors && new BufferAttribute(colors, 3, true);
-    this.defines = colors ? { FILE_COLOR: "" } : {};
+    this.ownColors = colors;
+    this.setTints(null);
   }
 
   /** Gives a geometry the cloud's points as vertices. */
@@ -91,6 +87,21 @@ export class CloudAttributes {
   setUp(up: Up): void {
     this.uniforms.up.value.set(...upVector(up));
     this.uniforms.heights.value.copy(rampHeights(this.local, this.uniforms.up.value));
+  }
+
+  /** Three bytes a point; `null` for the file's own colors, or two tones where it has none. */
+  setTints(tints: Uint8Array | null): void {
+    const colors = tints ?? this.ownColors;
+    this.uniforms.colored.value = colors !== null;
+    if (!colors) return;
+    if (this.color) {
+      (this.color.array as Uint8Array).set(colors);
+      this.color.needsUpdate = true;
+      return;
+    }
+    // A copy: what is written here must not change the file's own.
+    this.color = new BufferAttribute(colors.slice(), 3, true).setUsage(DynamicDrawUsage);
+    for (const geometry of this.geometries) geometry.setAttribute("color", this.color);
   }
 
   /** One number from 0 to 1 a point; `null` for no lights. */

@@ -83,7 +83,6 @@ export class CloudPoints {
       const material = new ShaderMaterial({
         vertexShader,
         fragmentShader,
-        defines: attributes.defines,
         uniforms: {
           ...attributes.uniforms,
           width: { value: 0 },

@@ -48,7 +48,6 @@ export class Surface {
     const material = new ShaderMaterial({
       vertexShader,
       fragmentShader,
-      defines: attributes.defines,
       uniforms: { ...attributes.uniforms, inside: { value: display(INSIDE) } },
       side: DoubleSide,
     });

@@ -1,0 +1,165 @@
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { ball, georeferencedBall, text } from "./clouds.js";
+import { choose } from "./files.js";
+import { attributedPcd, attributedPly, colorOf, glb, inMillimeters, las, table } from "./formats.js";
+import { answered, openReady, picture, differentPixels, reached, served, status } from "./support.js";
+
+const COUNT = 600;
+const near = ball(COUNT);
+const far = inMillimeters(georeferencedBall(COUNT));
+const laz = new Uint8Array(readFileSync(join(import.meta.dirname, "fixtures/ball-12.laz")));
+
+async function open(page: Page, name: string, content: Uint8Array): Promise<void> {
+  const before = await status(page);
+  await choose(page, name, content);
+  await answered(page, before);
+}
+
+const choices = (page: Page) => page.locator("#color option").allTextContents();
+
+test("intensity, classes and what else a file has can be colored by, in every format", async () => {
+  const page = await openReady("?sample=bunny");
+  expect(await choices(page)).toEqual(["Two tones", "One color", "Height"]);
+  for (const [name, content, extra] of [
+    ["usual.las", las(far), ["Intensity", "Classification"]],
+    ["extra.las", las(far, { minor: 4, format: 7, extra: "height_above_ground" }), ["Intensity", "Classification", "Height above ground"]],
+    ["ball.laz", laz, ["Intensity", "Classification"]],
+    ["table.csv", table(near), ["Intensity", "Class"]],
+    ["cloud.ply", attributedPly(near), ["Intensity", "Class"]],
+    ["cloud.pcd", attributedPcd(near), ["Intensity", "Class"]],
+    ["colors.glb", glb(near, { colors: true }), []],
+  ] as const) {
+    await open(page, name, content);
+    expect(await choices(page), name).toEqual(["Its own colors", "One color", "Height", ...extra]);
+    if (extra.length === 0) continue;
+
+    await page.locator("#color").selectOption({ label: extra[1] });
+    const entries = await page.locator("#legend li").allInnerTexts();
+    const words = entries.map((entry) => entry.split(/\s*\n\s*/));
+    const named = extra[1] === "Classification";
+    expect(words, name).toEqual([[named ? "ground" : "2", "200"], [named ? "high vegetation" : "5", "200"], [named ? "building" : "6", "200"]]);
+    await page.locator("#color").selectOption({ label: "Intensity" });
+    const ends = (await page.locator("#legend").innerText()).split(/\s*\n\s*/).map((number) => Number(number.replace(",", "")));
+    // From the least but one in a hundred to the largest but one in a hundred of 0 … 4095.
+    expect(ends[0], name).toBeGreaterThanOrEqual(0);
+    expect(ends[0], name).toBeLessThan(100);
+    expect(ends[1], name).toBeGreaterThan(4000);
+    expect(ends[1], name).toBeLessThanOrEqual(4095);
+  }
+});
+
+/** How much red, green and blue there is in a picture, above its background. */
+async function mean(page: Page): Promise<[number, number, number]> {
+  const image = (await picture(page)).toString("base64");
+  return page.evaluate(async (data) => {
+    const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
+    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
+    context.drawImage(bitmap, 0, 0);
+    const pixels = context.getImageData(0, 0, bitmap.width, bitmap.height).data;
+    const sum: [number, number, number] = [0, 0, 0];
+    for (let i = 0; i < pixels.length; i += 4) {
+      if (Math.max(pixels[i]!, pixels[i + 1]!, pixels[i + 2]!) < 40) continue;
+      sum.forEach((before, channel) => (sum[channel] = before + pixels[i + channel]!));
+    }
+    return sum;
+  }, image);
+}
+
+test("a file's own colors are drawn as they are, also 8-bit ones in 16 bits, and other choices are others", async () => {
+  const page = await openReady("?sample=bunny");
+  // All points are red: whatever is drawn is red.
+  const red = text([...near].map((value, i) => `${value}${i % 3 === 2 ? " 250 20 30\n" : " "}`).join(""));
+  await open(page, "red.xyz", red);
+  const [r, g, b] = await mean(page);
+  expect(r).toBeGreaterThan(6 * g);
+  expect(r).toBeGreaterThan(6 * b);
+  const own = await picture(page);
+  for (const label of ["One color", "Height"]) {
+    await page.locator("#color").selectOption({ label });
+    expect(await differentPixels(page, own, await picture(page)), label).toBeGreaterThan(500);
+  }
+  await page.locator("#color").selectOption({ label: "Its own colors" });
+  expect(await differentPixels(page, own, await picture(page))).toBeLessThan(20);
+
+  await open(page, "wide.las", las(far));
+  const wide = await picture(page);
+  await open(page, "small.las", las(far, { smallColors: true }));
+  expect(await differentPixels(page, wide, await picture(page))).toBeLessThan(20);
+  await open(page, "white.las", las(far, { format: 0 }));
+  expect(await differentPixels(page, wide, await picture(page))).toBeGreaterThan(500);
+  expect(colorOf(1)).toEqual([1, 2, 254]);
+});
+
+test("the address says what a cloud is colored by, and is told when it cannot be", async () => {
+  served.set("usual.las", las(far));
+  const page = await openReady("?src=usual.las&color=intensity");
+  expect(await page.locator("#color").inputValue()).toBe("intensity");
+  await page.locator("#color").selectOption("classification");
+  await page.waitForFunction(() => new URL(location.href).searchParams.get("color") === "classification");
+  await page.reload();
+  await reached(page, "ready");
+  expect(await page.locator("#color").inputValue()).toBe("classification");
+  expect(await page.locator("#legend li").count()).toBe(3);
+
+  // The next cloud has no classes: it comes in its own colors, without a word.
+  await open(page, "plain.xyz", text("0 0 0\n1 0 0\n0 1 0\n0 0 1\n"));
+  expect(await page.locator("#color").inputValue()).toBe("own");
+  expect(await page.locator("#legend").isVisible()).toBe(false);
+  expect(await page.locator("#message").isVisible()).toBe(false);
+
+  const asked = await openReady("?src=usual.las&color=mood");
+  expect(await asked.locator("#message p").textContent()).toBe("It has nothing called “mood” to be colored by, so it has its usual colors.");
+});
+
+test("heights are those of the file's own coordinates, with the side up that is up", async () => {
+  const page = await openReady("?sample=tile&color=height");
+  const ends = async () => (await page.locator("#legend").innerText()).split(/\s*\n\s*/).map((number) => Number(number.replaceAll(",", "")));
+  const [low, high] = await ends();
+  expect(low).toBeGreaterThan(420);
+  expect(high).toBeLessThan(490);
+  expect(high! - low!).toBeGreaterThan(20);
+  await page.locator("#up-axis").getByRole("radio", { name: "Y", exact: true }).check();
+  await page.waitForFunction(() => document.querySelector("#legend .low")!.textContent.startsWith("5,403,0"));
+});
+
+test("the samples street and tile have classes and intensity, and tile's coordinates are those of a map", async () => {
+  for (const [sample, least, label] of [["street", 150_000, "behind glass"], ["tile", 200_000, "high vegetation"]] as const) {
+    const page = await openReady("?sample=bunny");
+    const before = await status(page);
+    await page.locator("#thumbnails").getByRole("button", { name: sample === "tile" ? "Map tile" : "Street" }).click();
+    const now = await answered(page, before);
+    expect(now.total).toBeGreaterThan(least);
+    expect(await choices(page)).toEqual(expect.arrayContaining(["Intensity", "Classification"]));
+    await page.locator("#color").selectOption("classification");
+    expect(await page.locator("#legend").innerText()).toContain(label);
+    expect(await page.locator(`#thumbnails [aria-pressed="true"]`).textContent()).toBe(sample === "tile" ? "Map tile" : "Street");
+    expect(new URL(page.url()).searchParams.get("sample")).toBe(sample);
+    if (sample === "tile") expect(now.viewpoint[1]).toBeGreaterThan(5_400_000);
+    else expect(now.viewpoint[2]).toBeCloseTo(1.65, 6);
+  }
+});
+
+test("loading can be stopped, and the cloud that was there stays", async () => {
+  const page = await openReady("?sample=bunny");
+  const before = await status(page);
+  // So many points take long enough to be stopped.
+  const content = las(far, { format: 0, claimed: 30_000_000 });
+  await page.evaluate((bytes) => {
+    const points = Uint8Array.from(bytes.slice(227));
+    const many = new Blob(Array.from({ length: 1000 }, () => points));
+    const data = new DataTransfer();
+    data.items.add(new File([Uint8Array.from(bytes.slice(0, 227)), ...Array.from({ length: 50 }, () => many)], "large.las"));
+    document.getElementById("view")!.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true }));
+  }, [...content]);
+  await page.getByRole("button", { name: "Stop loading" }).click();
+  const after = await reached(page, "error");
+  expect(after).toEqual({ ...before, state: "error", sentence: "large.las was not opened: its loading was stopped." });
+  expect(await page.locator("#progress").isVisible()).toBe(false);
+  await page.keyboard.press("Escape");
+  await page.locator("#view").focus();
+  await page.keyboard.press("ArrowLeft");
+  expect(await answered(page, after)).toMatchObject({ state: "ready", total: 1839 });
+});

@@ -1,0 +1,46 @@
+/*
+ * Makes the small pictures of the samples, www/public/thumbnails, from the built page. Run in the project's folder after
+ * `npm run build`, then build again:
+ *
+ *   node -e "import('vite').then(({ runnerImport }) => runnerImport('tests/browser/thumbnails.ts'))"
+ */
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { launchBrowser, servePage } from "./site.js";
+
+/** Twice the size on the page, for screens of two device pixels. */
+const WIDTH = 168;
+const HEIGHT = 112;
+/** Drawn larger, and made smaller smoothly. */
+const SCALE = 4;
+const SAMPLES = ["dragon", "bunny", "room", "rings", "street", "tile"];
+const FOLDER = join(import.meta.dirname, "../../www/public/thumbnails");
+
+mkdirSync(FOLDER, { recursive: true });
+const site = await servePage();
+const browser = await launchBrowser();
+for (const sample of SAMPLES) {
+  const page = await browser.newPage({ viewport: { width: SCALE * WIDTH, height: SCALE * HEIGHT } });
+  await page.goto(`${site.address}?sample=${sample}&embed=1`);
+  await page.locator('#status[data-state="ready"][data-busy="0"]').waitFor({ state: "attached", timeout: 120_000 });
+  await page.waitForTimeout(1000);
+  const picture = (await page.locator("#view").screenshot()).toString("base64");
+  const webp = await page.evaluate(
+    async ({ picture, width, height }) => {
+      const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${picture}`)).blob());
+      const canvas = document.createElement("canvas");
+      [canvas.width, canvas.height] = [width, height];
+      const context = canvas.getContext("2d")!;
+      context.imageSmoothingQuality = "high";
+      context.drawImage(bitmap, 0, 0, width, height);
+      return canvas.toDataURL("image/webp", 0.78).split(",")[1]!;
+    },
+    { picture, width: WIDTH, height: HEIGHT },
+  );
+  const bytes = Buffer.from(webp, "base64");
+  writeFileSync(join(FOLDER, `${sample}.webp`), bytes);
+  console.log(`${sample}: ${bytes.length} bytes`);
+  await page.close();
+}
+await browser.close();
+site.close();

@@ -1,0 +1,62 @@
+import type { Attribute, LoadedCloud } from "../cloud.ts";
+import { isWhole, type Values } from "./numbers.ts";
+
+/** More than these are not worth the memory they take. */
+const MOST_ATTRIBUTES = 8;
+const MOST_CATEGORIES = 64;
+
+/** Directions, opacities and what describes splats say nothing as a color. */
+const NOT_FOR_EYES = /^(n[xyz]|normal_?[xyz]|scalar_n[xyz]|a|alpha|opacity|f_(dc|rest)_\d+|rot_\d+|scale_\d+|padding|_)$/i;
+const CATEGORY = /class|label|segment|cluster|category|return|source|ring|object|instance/i;
+
+/** Of the columns a file has: its colors, and what else its points can be colored by. */
+export function attributesOf(columns: readonly { name: string; values: Values }[]): Pick<LoadedCloud, "colors" | "attributes"> {
+  const named = (name: string) => columns.find((column) => column.name === name)?.values;
+  const [red, green, blue] = [named("red"), named("green"), named("blue")];
+  const attributes: Attribute[] = [];
+  for (const { name, values } of columns) {
+    if (attributes.length === MOST_ATTRIBUTES) break;
+    if (/^(red|green|blue)$/.test(name) || NOT_FOR_EYES.test(name) || isConstant(values)) continue;
+    attributes.push({ name, kind: isCategory(name, values) ? "category" : "scalar", values });
+  }
+  return { colors: red && green && blue ? displayColors([red, green, blue]) : null, attributes };
+}
+
+/**
+ * Bytes as a screen shows them, of whatever a file has: bytes, shares of 1, or 16 bits, in which many programs write bytes.
+ * No colors at all if some are missing or all are black: the file has room for them, but nobody has filled it in.
+ */
+export function displayColors(channels: readonly [Values, Values, Values]): Uint8Array | null {
+  let largest = 0;
+  for (const values of channels) {
+    for (const value of values) {
+      if (!Number.isFinite(value)) return null;
+      if (value > largest) largest = value;
+    }
+  }
+  if (largest === 0) return null;
+  const scale = channels[0] instanceof Uint8Array ? 1 : largest <= 1 ? 255 : largest > 255 ? 255 / 65535 : 1;
+  const colors = new Uint8ClampedArray(3 * channels[0].length);
+  channels.forEach((values, channel) => {
+    for (let i = 0; i < values.length; i++) colors[3 * i + channel] = values[i]! * scale;
+  });
+  return new Uint8Array(colors.buffer);
+}
+
+function isConstant(values: Values): boolean {
+  for (const value of values) if (value !== values[0]) return false;
+  return true;
+}
+
+/** Whole numbers, few of them, under a name that says so. */
+function isCategory(name: string, values: Values): boolean {
+  if (!CATEGORY.test(name)) return false;
+  const seen = new Set<number>();
+  const whole = isWhole(values);
+  for (const value of values) {
+    if (!whole && !Number.isInteger(value)) return false;
+    seen.add(value);
+    if (seen.size > MOST_CATEGORIES) return false;
+  }
+  return true;
+}

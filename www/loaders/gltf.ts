@@ -1,0 +1,139 @@
+import { type BufferAttribute, type BufferGeometry, Color, type InstancedMesh, type InterleavedBufferAttribute, LoadingManager, Matrix4, type Mesh, MeshBasicMaterial, type Object3D, SRGBColorSpace, Vector3 } from "three";
+import { type GLTF, GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { MeshoptDecoder } from "three/addons/libs/meshopt_decoder.module.js";
+import type { LoadedCloud } from "../cloud.ts";
+import { bytes, type Reading } from "./blocks.ts";
+import { CloudBuilder, type Column } from "./builder.ts";
+import { checkByteLength } from "./limits.ts";
+import { LoadProblem } from "./problem.ts";
+
+type Attribute = BufferAttribute | InterleavedBufferAttribute;
+
+interface GltfJson {
+  buffers?: { uri?: string }[];
+  extensionsUsed?: string[];
+  extensionsRequired?: string[];
+}
+
+/** What a file may need: three's loader brings it along, or it has nothing to do with where points are. */
+const UNDERSTOOD = /^(KHR_(mesh_quantization|meshopt_compression|materials_|texture_|lights_|animation_|xmp)|EXT_(meshopt_compression|mesh_gpu_instancing|texture_))/;
+
+/** What has vertices in a scene, and where it stands: once for each of its instances. */
+interface Placed {
+  geometry: BufferGeometry;
+  matrices: Matrix4[];
+}
+
+/**
+ * The vertices of a glTF scene, points and meshes alike, where its nodes put them. `base` is the address other files of it
+ * are named from, or null where they cannot be had.
+ */
+export async function readGltf(reading: Reading, base: string | null): Promise<LoadedCloud> {
+  const { name, blob, limit } = reading;
+  checkByteLength(name, blob.size);
+  const data = await bytes(name, blob, 0, blob.size);
+  checkUse(name, jsonOf(name, data), base);
+  const placed = verticesIn(await parse(name, data, base));
+  const total = placed.reduce((sum, each) => sum + each.matrices.length * position(each).count, 0);
+
+  const colored = placed.length > 0 && placed.every(({ geometry }) => "color" in geometry.attributes);
+  const extras = extraColumns(placed);
+  const columns: Column[] = [...(colored ? ["red", "green", "blue"].map((column): Column => ({ name: column, type: "uint8" })) : []), ...extras];
+  const builder = new CloudBuilder("float64", columns, limit, total);
+  const first = colored ? 3 : 0;
+  const point = new Vector3();
+  const shown = { r: 0, g: 0, b: 0 };
+  for (const each of placed) {
+    const attributes = each.geometry.attributes as Record<string, Attribute>;
+    const positions = position(each);
+    for (const matrix of each.matrices) {
+      for (let vertex = 0; vertex < positions.count; vertex++) {
+        if (!builder.takes()) continue;
+        point.fromBufferAttribute(positions, vertex).applyMatrix4(matrix);
+        const i = builder.put(point.x, point.y, point.z);
+        if (colored) {
+          // A file's colors are linear light.
+          new Color().fromBufferAttribute(attributes["color"] as BufferAttribute, vertex).getRGB(shown, SRGBColorSpace);
+          [shown.r, shown.g, shown.b].forEach((value, channel) => (builder.values[channel]![i] = Math.round(255 * Math.min(1, Math.max(0, value)))));
+        }
+        extras.forEach((extra, k) => (builder.values[first + k]![i] = attributes[extra.attribute]!.getX(vertex)));
+      }
+    }
+  }
+  return { ...builder.finish(), taken: { up: "y" } };
+}
+
+/** The description of the scene: the file itself, or the first part of a binary one. */
+function jsonOf(name: string, data: ArrayBuffer): GltfJson {
+  const view = new DataView(data);
+  const binary = view.byteLength >= 20 && view.getUint32(0, true) === 0x46546c67;
+  if (binary && view.getUint32(4, true) !== 2) throw new LoadProblem(`${name} is of glTF version ${view.getUint32(4, true)}, and this page knows 2.`);
+  if (binary && view.getUint32(8, true) > view.byteLength) throw new LoadProblem(`${name} is broken: it ends before the length its header promises.`);
+  try {
+    const text = binary ? new Uint8Array(data, 20, view.getUint32(12, true)) : new Uint8Array(data);
+    return JSON.parse(new TextDecoder().decode(text)) as GltfJson;
+  } catch {
+    throw new LoadProblem(`${name} is broken: the description of its scene cannot be read.`);
+  }
+}
+
+function checkUse(name: string, json: GltfJson, base: string | null): void {
+  const used = [...(json.extensionsUsed ?? []), ...(json.extensionsRequired ?? [])];
+  if (used.includes("KHR_draco_mesh_compression")) {
+    throw new LoadProblem(`${name} is compressed with Draco, which this page does not read. Export it without that compression.`);
+  }
+  const unknown = json.extensionsRequired?.find((extension) => !UNDERSTOOD.test(extension));
+  if (unknown !== undefined) throw new LoadProblem(`${name} needs what this page does not know (${unknown}).`);
+  const elsewhere = json.buffers?.find(({ uri }) => uri !== undefined && !uri.startsWith("data:"));
+  if (elsewhere && base === null) {
+    throw new LoadProblem(`${name} keeps its points in a file of its own (${elsewhere.uri}). Export it as one GLB file.`);
+  }
+}
+
+async function parse(name: string, data: ArrayBuffer, base: string | null): Promise<GLTF> {
+  const loader = new GLTFLoader(new LoadingManager()).setMeshoptDecoder(MeshoptDecoder);
+  // Vertices alone are wanted: no picture is loaded, nor anything else a material would need.
+  loader.register(() => ({ name: "no_materials", loadMaterial: () => Promise.resolve(new MeshBasicMaterial()) }));
+  try {
+    return await loader.parseAsync(data, base ?? "");
+  } catch (error) {
+    throw new LoadProblem(`${name} is broken or uses what this page does not know: ${error instanceof Error ? error.message.replace(/^THREE\.\w+: |\.$/g, "") : "it could not be read"}.`);
+  }
+}
+
+function verticesIn({ scene, scenes }: GLTF): Placed[] {
+  const placed: Placed[] = [];
+  const root = (scene as Object3D | undefined) ?? scenes[0];
+  root?.updateMatrixWorld(true);
+  root?.traverse((object) => {
+    // Points and lines have a geometry as well.
+    const { geometry } = object as Partial<Mesh>;
+    if (!geometry || !("position" in geometry.attributes)) return;
+    placed.push({ geometry, matrices: isInstanced(object) ? instances(object) : [object.matrixWorld] });
+  });
+  return placed;
+}
+
+function isInstanced(object: Object3D): object is InstancedMesh {
+  return "isInstancedMesh" in object;
+}
+
+function instances(mesh: InstancedMesh): Matrix4[] {
+  return Array.from({ length: mesh.count }, (_, i) => {
+    const matrix = new Matrix4();
+    mesh.getMatrixAt(i, matrix);
+    return matrix.premultiply(mesh.matrixWorld);
+  });
+}
+
+function position({ geometry }: Placed): BufferAttribute {
+  return geometry.getAttribute("position") as BufferAttribute;
+}
+
+/** Numbers of the file's own, “_INTENSITY” and the like, where all its vertices have them. */
+function extraColumns(placed: readonly Placed[]): (Column & { attribute: string })[] {
+  const names = Object.keys(placed[0]?.geometry.attributes ?? {}).filter((name) => name.startsWith("_"));
+  return names
+    .filter((name) => placed.every(({ geometry }) => (geometry.attributes as Record<string, Attribute | undefined>)[name]?.itemSize === 1))
+    .map((attribute) => ({ name: attribute.slice(1), attribute, type: "float32" }));
+}

@@ -1,0 +1,125 @@
+import { Copc, type Hierarchy } from "copc";
+import type { LoadedCloud } from "../../cloud.ts";
+import type { Reading } from "../blocks.ts";
+import { LoadProblem } from "../problem.ts";
+import { checkFormat, damaged } from "./las.ts";
+import { type LasHeader, parseHeader } from "./header.ts";
+import { type LazPerf, startLazPerf } from "./perf.ts";
+import { RecordTaker } from "./records.ts";
+
+/** Bytes of the file, wherever it is. */
+export type ReadRange = (from: number, to: number) => Promise<Uint8Array>;
+
+type Node = Hierarchy.Node;
+
+const HEAD = 1 << 16;
+const DEEPEST = 40;
+const LARGEST_PART = 1 << 28;
+/** Nodes asked for ahead of the one that is decompressed. */
+const AHEAD = 6;
+
+const number = new Intl.NumberFormat("en-US");
+
+/**
+ * A cloud-optimized point cloud: an octree whose nodes hold ever finer samples. Its levels are read from the coarsest on,
+ * as many whole ones as the limit allows, so that what is shown is even; of a first level beyond the limit, every so manyth
+ * point.
+ */
+export async function readCopc({ name, limit, onProgress }: Pick<Reading, "name" | "limit" | "onProgress">, read: ReadRange): Promise<LoadedCloud> {
+  const header = parseHeader(name, (await read(0, HEAD)).slice().buffer);
+  checkFormat(name, header);
+  if (header.count === 0) throw new LoadProblem(`${name} holds no points.`);
+  const { nodes, points } = await chooseNodes(name, read, limit, header.count);
+  const perf = await startLazPerf(name);
+  const taker = new RecordTaker(header, limit, points);
+
+  const asked: Promise<Uint8Array>[] = [];
+  const ask = (i: number) => {
+    const node = nodes[i];
+    if (!node) return;
+    const part = read(node.pointDataOffset, node.pointDataOffset + node.pointDataLength);
+    // Its turn comes later, and with it the word about what went wrong.
+    part.catch(() => undefined);
+    asked.push(part);
+  };
+  for (let i = 0; i < AHEAD; i++) ask(i);
+  for (const [i, node] of nodes.entries()) {
+    onProgress(i / nodes.length);
+    const compressed = await asked[i]!;
+    asked[i] = Promise.resolve(compressed.subarray(0, 0));
+    ask(i + AHEAD);
+    if (compressed.length < node.pointDataLength) throw new LoadProblem(`${name} is broken: it ends before its points do.`);
+    decodeNode(name, perf, header, node, compressed, taker);
+  }
+  const cloud = taker.finish();
+  if (points >= header.count) return cloud;
+  const shown = number.format(cloud.positions.length / 3);
+  return { ...cloud, notes: [`${shown} of its ${number.format(header.count)} points are shown, those of its coarser levels.`, ...cloud.notes!.slice(points > limit ? 1 : 0)] };
+}
+
+/** The nodes of the coarsest levels, as far as the limit goes. */
+async function chooseNodes(name: string, read: ReadRange, limit: number, total: number): Promise<{ nodes: Node[]; points: number }> {
+  const chosen: Node[] = [];
+  let points = 0;
+  try {
+    const { info } = await Copc.create(read);
+    const levels: Node[][] = [];
+    const pages = [{ depth: 0, page: info.rootHierarchyPage }];
+    const known = new Set<number>();
+    for (let depth = 0; depth < DEEPEST; depth++) {
+      // What lies below a level may be listed in pages of their own.
+      for (let i = 0; i < pages.length; i++) {
+        const { depth: from, page } = pages[i]!;
+        if (from > depth) continue;
+        pages.splice(i--, 1);
+        if (!isPart(page.pageOffset, page.pageLength) || known.has(page.pageOffset)) throw damaged(name);
+        known.add(page.pageOffset);
+        const listed = await Copc.loadHierarchyPage(read, page);
+        for (const [key, node] of Object.entries(listed.nodes)) if (node && node.pointCount > 0) (levels[depthOf(key)] ??= []).push(node);
+        for (const [key, next] of Object.entries(listed.pages)) if (next) pages.push({ depth: Math.max(depthOf(key), depth), page: next });
+      }
+      const level = levels[depth] ?? [];
+      if (level.length === 0 && pages.length === 0 && levels.length <= depth + 1) break;
+      const more = level.reduce((sum, node) => sum + node.pointCount, 0);
+      if (points + more > total) throw damaged(name);
+      if (chosen.length > 0 && points + more > limit) break;
+      chosen.push(...level);
+      points += more;
+    }
+  } catch (error) {
+    if (error instanceof LoadProblem) throw error;
+    throw new LoadProblem(`${name} is broken: the list of its octree's nodes cannot be read.`);
+  }
+  if (chosen.length === 0) throw new LoadProblem(`${name} holds no points.`);
+  if (!chosen.every((node) => isPart(node.pointDataOffset, node.pointDataLength))) throw damaged(name);
+  return { nodes: chosen, points };
+}
+
+function depthOf(key: string): number {
+  return Number(key.split("-")[0]);
+}
+
+function isPart(offset: number, length: number): boolean {
+  return offset > 0 && length > 0 && length <= LARGEST_PART;
+}
+
+function decodeNode(name: string, perf: LazPerf, header: LasHeader, node: Node, compressed: Uint8Array, taker: RecordTaker): void {
+  const { format, rowBytes } = header;
+  try {
+    const from = perf._malloc(compressed.length);
+    const to = perf._malloc(rowBytes);
+    perf.HEAPU8.set(compressed, from);
+    const decoder = new perf.ChunkDecoder();
+    decoder.open(format, rowBytes, from);
+    for (let i = 0; i < node.pointCount; i++) {
+      decoder.getPoint(to);
+      // The memory may have grown, and with it the buffer been replaced.
+      taker.take(new DataView(perf.HEAPU8.buffer, to, rowBytes), 0);
+    }
+    decoder.delete();
+    perf._free(from);
+    perf._free(to);
+  } catch {
+    throw damaged(name);
+  }
+}

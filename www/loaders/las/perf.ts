@@ -1,0 +1,24 @@
+import createLazPerf from "laz-perf/lib/worker/laz-perf.js";
+import { missingPart } from "../problem.ts";
+import wasm from "laz-perf/lib/worker/laz-perf.wasm?url";
+
+/** As much of laz-perf (the LAZ decoder of hobu, Apache 2.0) as is used here. */
+export interface LazPerf {
+  HEAPU8: Uint8Array;
+  _malloc(bytes: number): number;
+  _free(pointer: number): void;
+  LASZip: new () => { open(pointer: number, length: number): void; getPoint(to: number): void; delete(): void };
+  ChunkDecoder: new () => { open(format: number, rowBytes: number, pointer: number): void; getPoint(to: number): void; delete(): void };
+}
+
+/** The formats of points it knows. */
+export const LAZ_FORMATS = [0, 1, 2, 3, 6, 7, 8];
+
+/** Its wasm is served by the page itself. */
+export async function startLazPerf(name: string): Promise<LazPerf> {
+  try {
+    return (await createLazPerf({ locateFile: () => wasm, print: () => undefined, printErr: () => undefined })) as LazPerf;
+  } catch {
+    throw missingPart(name);
+  }
+}

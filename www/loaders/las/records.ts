@@ -1,0 +1,48 @@
+import type { LoadedCloud } from "../../cloud.ts";
+import { CloudBuilder } from "../builder.ts";
+import type { LasHeader } from "./header.ts";
+
+/** The classes of the LAS specification (1.4 R15, table 17). */
+const CLASSES: Readonly<Record<number, string>> = {
+  0: "never classified", 1: "unclassified", 2: "ground", 3: "low vegetation", 4: "medium vegetation", 5: "high vegetation",
+  6: "building", 7: "low noise", 8: "key point", 9: "water", 10: "rail", 11: "road", 12: "overlap", 13: "wire guard",
+  14: "wire", 15: "transmission tower", 16: "wire connector", 17: "bridge deck", 18: "high noise", 19: "overhead structure",
+  20: "ignored ground", 21: "snow", 22: "temporal exclusion",
+}; // prettier-ignore
+
+const number = new Intl.NumberFormat("en-US");
+
+/** Takes the points of a LAS file as its records come, from wherever they come. */
+export class RecordTaker {
+  private readonly header: LasHeader;
+  private readonly builder: CloudBuilder;
+  private outside = 0;
+
+  constructor(header: LasHeader, limit: number, expected = header.count) {
+    this.header = header;
+    this.builder = new CloudBuilder("float64", header.columns, limit, expected);
+  }
+
+  take(view: DataView, at: number): void {
+    if (!this.builder.takes()) return;
+    const { scale, offset, low, high, columns } = this.header;
+    const x = view.getInt32(at, true) * scale[0] + offset[0];
+    const y = view.getInt32(at + 4, true) * scale[1] + offset[1];
+    const z = view.getInt32(at + 8, true) * scale[2] + offset[2];
+    // By a step of the scale more: the header's bounds are rounded, too.
+    const isOutside = (value: number, axis: 0 | 1 | 2) => value < low[axis] - scale[axis] || value > high[axis] + scale[axis];
+    if (isOutside(x, 0) || isOutside(y, 1) || isOutside(z, 2)) this.outside++;
+    const i = this.builder.put(x, y, z);
+    for (let k = 0; k < columns.length; k++) this.builder.values[k]![i] = columns[k]!.read(view, at);
+  }
+
+  finish(): LoadedCloud {
+    const cloud = this.builder.finish();
+    const attributes = cloud.attributes!.map((attribute) => (attribute.name === "classification" ? { ...attribute, labels: CLASSES } : attribute));
+    const notes = [...cloud.notes!];
+    if (this.outside > 0) {
+      notes.push(`${number.format(this.outside)} of its points lie outside the bounds that its header gives: the header is wrong, or the points are damaged.`);
+    }
+    return { ...cloud, attributes, notes };
+  }
+}

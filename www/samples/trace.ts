@@ -1,0 +1,84 @@
+/** What a ray can hit: boxes along the axes, spheres and upright cylinders. */
+
+export type Vector = [number, number, number];
+
+export interface Hit<M> {
+  distance: number;
+  normal: Vector;
+  material: M;
+}
+
+/** Tells where a ray hits first, nearer than `reach`; `along` has length 1. */
+export type Solid<M> = (from: Vector, along: Vector, reach: number) => Hit<M> | null;
+
+/** A box from its lower corner to its upper one; from inside it is hit from within. */
+export function box<M>(low: Vector, high: Vector, material: M): Solid<M> {
+  return (from, along, reach) => {
+    let enter = -Infinity;
+    let leave = Infinity;
+    let enterAxis = 0;
+    let leaveAxis = 0;
+    for (let axis = 0; axis < 3; axis++) {
+      const a = (low[axis]! - from[axis]!) / along[axis]!;
+      const b = (high[axis]! - from[axis]!) / along[axis]!;
+      const [near, far] = a < b ? [a, b] : [b, a];
+      if (near > enter) [enter, enterAxis] = [near, axis];
+      if (far < leave) [leave, leaveAxis] = [far, axis];
+    }
+    if (!(enter < leave) || leave <= 0) return null;
+    const inside = enter <= 0;
+    const distance = inside ? leave : enter;
+    if (distance >= reach) return null;
+    const axis = inside ? leaveAxis : enterAxis;
+    const normal: Vector = [0, 0, 0];
+    normal[axis] = along[axis]! > 0 ? -1 : 1;
+    return { distance, normal, material };
+  };
+}
+
+export function sphere<M>(center: Vector, radius: number, material: M): Solid<M> {
+  return (from, along, reach) => {
+    const [x, y, z] = [from[0] - center[0], from[1] - center[1], from[2] - center[2]];
+    const half = x * along[0] + y * along[1] + z * along[2];
+    const root = half * half - (x * x + y * y + z * z - radius * radius);
+    const distance = -half - Math.sqrt(root);
+    if (!(root > 0) || distance <= 0 || distance >= reach) return null;
+    const normal = [0, 1, 2].map((axis) => (from[axis]! + distance * along[axis]! - center[axis]!) / radius) as Vector;
+    return { distance, normal, material };
+  };
+}
+
+/** Upright and open at both ends. */
+export function cylinder<M>([cx, cy, cz]: Vector, radius: number, height: number, material: M): Solid<M> {
+  return (from, along, reach) => {
+    const [x, y] = [from[0] - cx, from[1] - cy];
+    const a = along[0] ** 2 + along[1] ** 2;
+    const half = x * along[0] + y * along[1];
+    const root = half * half - a * (x * x + y * y - radius * radius);
+    const distance = (-half - Math.sqrt(root)) / a;
+    if (!(root > 0) || !(distance > 0) || distance >= reach) return null;
+    const z = from[2] + distance * along[2];
+    if (z < cz || z > cz + height) return null;
+    return { distance, normal: [(x + distance * along[0]) / radius, (y + distance * along[1]) / radius, 0], material };
+  };
+}
+
+/** Several as one, asked only when the ray comes near them. */
+export function group<M>(solids: readonly Solid<M>[], around?: { center: Vector; radius: number }): Solid<M> {
+  return (from, along, reach) => {
+    if (around) {
+      const [x, y, z] = [from[0] - around.center[0], from[1] - around.center[1], from[2] - around.center[2]];
+      const half = x * along[0] + y * along[1] + z * along[2];
+      if (half * half < x * x + y * y + z * z - around.radius ** 2) return null;
+    }
+    let first: Hit<M> | null = null;
+    let nearest = reach;
+    for (const solid of solids) {
+      const hit = solid(from, along, nearest);
+      if (!hit) continue;
+      first = hit;
+      nearest = hit.distance;
+    }
+    return first;
+  };
+}

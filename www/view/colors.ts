@@ -1,0 +1,126 @@
+import { type Attribute, type Cloud, type Up, upVector } from "../cloud.ts";
+import { OWN_COLORS } from "../settings.ts";
+
+const PLAIN = "plain";
+const HEIGHT = "height";
+
+export interface Coloring {
+  /** Three bytes a point; `null` for the file's own. */
+  tints: Uint8Array | null;
+  legend: Legend | null;
+}
+
+export type Legend =
+  | { kind: "ramp"; low: number; high: number; colors: readonly string[] }
+  | { kind: "categories"; entries: { label: string; color: string; count: number }[] };
+
+const PLAIN_COLOR: Rgb = [222, 216, 204];
+/** Between these shares of the values the map runs: from the least to the largest, a few strays would take it. */
+const FROM = 0.01;
+const SAMPLE = 20_000;
+const STEPS = 256;
+const MOST_ENTRIES = 12;
+
+/**
+ * Matplotlib's viridis (van der Walt and Smith, 2015; CC0) at 16 places, straight between them, at most 7 of 255 off the
+ * whole map: even to the eye, also to one that does not tell red from green, and readable without color.
+ */
+const VIRIDIS_STOPS = [
+  "#440154", "#481a6c", "#472f7d", "#414487", "#39568c", "#31688e", "#2a788e", "#23888e",
+  "#1f988b", "#22a884", "#35b779", "#54c568", "#7ad151", "#a5db36", "#d2e21b", "#fde725",
+]; // prettier-ignore
+const VIRIDIS = Array.from({ length: STEPS }, (_, i) => viridis(i / (STEPS - 1)));
+
+/** Tableau 10: for categories, well apart from one another. */
+const TABLEAU = ["#4e79a7", "#f28e2c", "#e15759", "#76b7b2", "#59a14f", "#edc949", "#af7aa1", "#ff9da7", "#9c755f", "#bab0ab"];
+/** Classes that have a color of their own in everybody's mind; others take those above in turn. */
+const CLASS_COLORS: Readonly<Record<string, string>> = {
+  "never classified": "#9aa0a6",
+  unclassified: "#b9bec4",
+  ground: "#b08d62",
+  "low vegetation": "#b5cf6b",
+  "medium vegetation": "#7fb24e",
+  "high vegetation": "#3f8f46",
+  building: "#d9694f",
+  "low noise": "#e377c2",
+  "high noise": "#c566c9",
+  water: "#4f94d4",
+  road: "#7f8794",
+};
+
+type Rgb = readonly [number, number, number];
+
+/** What a cloud can be colored by, with the words for it. */
+export function colorChoices({ colors, attributes }: Cloud): { value: string; label: string }[] {
+  return [
+    { value: OWN_COLORS, label: colors ? "Its own colors" : "Two tones" },
+    { value: PLAIN, label: "One color" },
+    { value: HEIGHT, label: "Height" },
+    ...attributes.map(({ name }) => ({ value: name, label: name.charAt(0).toUpperCase() + name.slice(1).replaceAll("_", " ") })),
+  ];
+}
+
+export function colorBy(choice: string, cloud: Cloud, up: Up): Coloring {
+  if (choice === PLAIN) return { tints: filled(cloud.count, () => PLAIN_COLOR), legend: null };
+  if (choice === HEIGHT) return ramp(cloud.count, heights(cloud, up));
+  const attribute = cloud.attributes.find(({ name }) => name === choice);
+  if (!attribute) return { tints: null, legend: null };
+  const { kind, values } = attribute;
+  return kind === "category" ? categories(attribute) : ramp(cloud.count, (i) => values[i]!);
+}
+
+/** In the file's coordinates. */
+function heights({ local, center }: Cloud, up: Up): (i: number) => number {
+  const axis = up === "z" ? 2 : 1;
+  const sign = upVector(up)[axis];
+  return (i) => sign * (local[3 * i + axis]! + center[axis]);
+}
+
+function ramp(count: number, value: (i: number) => number): Coloring {
+  const [low, high] = range(count, value);
+  const scale = high > low ? (STEPS - 1) / (high - low) : 0;
+  const tints = filled(count, (i) => {
+    const step = Math.round((value(i) - low) * scale);
+    // Not a number stands at the low end.
+    return VIRIDIS[step > 0 ? Math.min(STEPS - 1, step) : 0]!;
+  });
+  return { tints, legend: { kind: "ramp", low, high, colors: VIRIDIS_STOPS } };
+}
+
+function range(count: number, value: (i: number) => number): [number, number] {
+  const step = Math.ceil(count / SAMPLE);
+  const sample = Array.from({ length: Math.ceil(count / step) }, (_, i) => value(i * step)).filter(Number.isFinite);
+  sample.sort((a, b) => a - b);
+  const at = (share: number) => sample[Math.round(share * (sample.length - 1))] ?? 0;
+  return [at(FROM), at(1 - FROM)];
+}
+
+function categories({ values, labels = {} }: Attribute): Coloring {
+  const counts = new Map<number, number>();
+  for (const value of values) counts.set(value, (counts.get(value) ?? 0) + 1);
+  const known = [...counts.keys()].sort((a, b) => a - b);
+  const shown = new Map(known.map((value, i) => [value, CLASS_COLORS[labels[value] ?? ""] ?? TABLEAU[i % TABLEAU.length]!]));
+  const tint = new Map([...shown].map(([value, color]) => [value, rgb(color)]));
+  const entries = known.map((value) => ({ label: labels[value] ?? String(value), color: shown.get(value)!, count: counts.get(value)! }));
+  // The largest ones, where there are too many to be listed.
+  if (entries.length > MOST_ENTRIES) entries.sort((a, b) => b.count - a.count).splice(MOST_ENTRIES);
+  return { tints: filled(values.length, (i) => tint.get(values[i]!)!), legend: { kind: "categories", entries } };
+}
+
+function filled(count: number, color: (i: number) => Rgb): Uint8Array {
+  const tints = new Uint8Array(3 * count);
+  for (let i = 0; i < count; i++) tints.set(color(i), 3 * i);
+  return tints;
+}
+
+function viridis(share: number): Rgb {
+  const at = share * (VIRIDIS_STOPS.length - 1);
+  const i = Math.min(VIRIDIS_STOPS.length - 2, Math.floor(at));
+  const [from, to] = [rgb(VIRIDIS_STOPS[i]!), rgb(VIRIDIS_STOPS[i + 1]!)];
+  return [0, 1, 2].map((channel) => Math.round(from[channel]! + (at - i) * (to[channel]! - from[channel]!))) as [number, number, number];
+}
+
+function rgb(hex: string): Rgb {
+  const bits = Number.parseInt(hex.slice(1), 16);
+  return [bits >> 16, (bits >> 8) & 255, bits & 255];
+}
