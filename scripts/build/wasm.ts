@@ -10,7 +10,7 @@ export const GLUE = ["hpr_bg.js", "hpr_bg.d.ts", "hpr_bg.wasm", "hpr_bg.wasm.d.t
 export async function buildWasm(): Promise<void> {
   const work = {
     name: "wasm",
-    inputs: [".cargo", "Cargo.toml", "Cargo.lock", "src", "tools/wasm-bindgen", "package-lock.json"],
+    inputs: ["Cargo.toml", "Cargo.lock", "src", "tools/wasm-bindgen", "package-lock.json"],
     ignore: ["src/ts", "tools/wasm-bindgen/target"],
     outputs: GLUE.map((file) => `src/ts/wasm/${file}`),
   };

@@ -78,14 +78,14 @@ function scene(positions: Cloud["positions"]) {
   return { points, camera };
 }
 
-function meanMicroseconds(work: () => void): number {
+export function meanMicroseconds(work: () => void): number {
   for (let i = 0; i < FRAMES; i++) work();
   const start = performance.now();
   for (let i = 0; i < FRAMES; i++) work();
   return (1000 * (performance.now() - start)) / FRAMES;
 }
 
-function garbageOf(work: () => void): number {
+export function garbageOf(work: () => void): number {
   setFlagsFromString("--expose-gc");
   const collect = runInNewContext("gc") as () => void;
   let bytes = 0;

@@ -14,6 +14,7 @@ import { localEngines } from "./engines.js";
 import { timeSizes } from "./linear.js";
 import { describeMachine } from "./machine.js";
 import { measureMemory } from "./memory.js";
+import { timeNodes } from "./nodes.js";
 import { type BenchOptions, readOptions, USAGE } from "./options.js";
 import { root } from "./paths.js";
 import { peers } from "./peers.js";
@@ -32,7 +33,7 @@ try {
   if (options.sections.has("speed")) tables.push(...(await timeQueries(chosenClouds(), enginesWith(browser), others)));
   if (options.sections.has("workers")) tables.push(...[await timeWorkers()].filter((table) => table !== undefined));
   if (options.sections.has("linear")) tables.push(await timeSizes(localEngines()));
-  if (options.sections.has("adapter")) tables.push(await timeAdapter());
+  if (options.sections.has("adapter")) tables.push(await timeAdapter(), await timeNodes());
   if (options.sections.has("memory")) tables.push(measureMemory());
   if (options.sections.has("fidelity")) tables.push(...fidelityTables(console.error));
 } finally {

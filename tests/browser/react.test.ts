@@ -1,29 +1,21 @@
 // The hook and the component for React, in a canvas that draws on demand.
-import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
-import { build } from "vite";
 import { afterAll, beforeAll, beforeEach, expect, it, vi } from "vitest";
+import { builtPage } from "./built.js";
 import { serveModules } from "./modules.js";
 import type { App } from "./react/page.js";
 import { launchBrowser } from "./site.js";
 
 vi.setConfig({ testTimeout: 120_000, hookTimeout: 120_000 });
 
-const ROOT = join(import.meta.dirname, "../..");
-const OUT = "target/tests/react";
 let browser: Browser;
 let site: Awaited<ReturnType<typeof serveModules>>;
+let path: string;
 let page: Page;
 let failures: string[];
 
 beforeAll(async () => {
-  await build({
-    root: join(ROOT, "tests/browser/react"),
-    base: "./",
-    logLevel: "warn",
-    build: { outDir: join(ROOT, OUT), emptyOutDir: true, target: "es2022", chunkSizeWarningLimit: 5000 },
-    worker: { format: "es" },
-  });
+  path = await builtPage("react");
   browser = await launchBrowser();
   site = await serveModules({});
 });
@@ -37,7 +29,7 @@ beforeEach(async () => {
   failures = [];
   page = await browser.newPage();
   page.on("pageerror", (error) => failures.push(String(error)));
-  await page.goto(`${site.address}${OUT}/index.html`);
+  await page.goto(site.address + path);
   await reached(({ points, changes }) => points !== null && changes.length > 0);
 });
 

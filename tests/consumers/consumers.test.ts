@@ -8,6 +8,7 @@ import { bundlers } from "./bundlers";
 import type { Answered, Consumer, Visit } from "./consumer";
 import { installPacked } from "./install";
 import { nodeScripts } from "./node";
+import { otherBrowsers } from "./other-browsers";
 import { pages } from "./pages";
 import { points, viewpoint } from "./question";
 import { visitWith } from "./visit";
@@ -29,7 +30,7 @@ afterAll(async () => {
 
 const visit: Visit = (address) => visitWith(browser, address);
 
-const all: Consumer[] = [...bundlers(visit), ...pages(visit, `Chromium ${browser.version()}`), ...nodeScripts];
+const all: Consumer[] = [...bundlers(visit), ...pages(visit, `Chromium ${browser.version()}`), ...otherBrowsers, ...nodeScripts];
 
 it.for(all)("$name ($version)", async ({ name, version, lacking, run }, { skip }) => {
   const row = (result: string) => table.push(`${name.padEnd(48)} ${version.padEnd(26)} ${result}`);

@@ -33,10 +33,10 @@ export const pages = (visit: Visit, browser: string): Consumer[] => {
   ];
 };
 
-const module = (file: string) => `<script type="module" src="projects/${file}"></script>`;
+export const module = (file: string) => `<script type="module" src="projects/${file}"></script>`;
 
 /** So that the package's names mean something without a bundler. */
-function importMap(origin: string): string {
+export function importMap(origin: string): string {
   const imports = {
     "hidden-point-removal": `${origin}${DIST}/index.js`,
     "hidden-point-removal/worker": `${origin}${DIST}/worker.js`,

@@ -2,6 +2,7 @@ import { existsSync, readFileSync, statSync } from "node:fs";
 import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
 import { extname, join, normalize } from "node:path";
+import { text } from "node:stream/consumers";
 
 const TYPES: Record<string, string> = {
   ".html": "text/html",
@@ -15,7 +16,10 @@ export const STRICT = {
 };
 
 /** A page with a place for the answer. */
-export const html = (script: string): string => `<!doctype html><title>Consumer</title><output></output>${script}`;
+export const html = (script: string, sendTo?: string): string => {
+  const attribute = sendTo === undefined ? "" : ` data-send-to="${sendTo}"`;
+  return `<!doctype html><title>Consumer</title><output${attribute}></output>${script}`;
+};
 
 interface ServeOptions {
   headers?: Record<string, string>;
@@ -23,17 +27,24 @@ interface ServeOptions {
   refused?: RegExp;
   /** Pages that are no files, by name. */
   pages?: Record<string, string>;
+  /** Told what pages send. */
+  onSent?: (text: string) => void;
 }
 
 /** Serves a directory on a port of its own, which makes it an origin of its own. */
 export async function serve(
   directory: string,
-  { headers = {}, refused, pages = {} }: ServeOptions = {},
-): Promise<{ address: string; asked: string[]; [Symbol.asyncDispose](): Promise<void> }> {
-  const asked: string[] = [];
+  { headers = {}, refused, pages = {}, onSent }: ServeOptions = {},
+): Promise<{ address: string; [Symbol.asyncDispose](): Promise<void> }> {
   const server = createServer((request, response) => {
     const path = normalize(decodeURIComponent(new URL(request.url!, "http://localhost").pathname)).slice(1);
-    asked.push(path);
+    if (request.method === "POST") {
+      void text(request).then((sent) => {
+        response.end();
+        onSent?.(sent);
+      });
+      return;
+    }
     const file = join(directory, path);
     const isFile = refused?.test(path) !== true && existsSync(file) && statSync(file).isFile();
     const body = pages[path] ?? (isFile ? readFileSync(file) : undefined);
@@ -43,7 +54,6 @@ export async function serve(
   await new Promise<void>((listening) => server.listen(0, "127.0.0.1", listening));
   return {
     address: `http://127.0.0.1:${(server.address() as AddressInfo).port}/`,
-    asked,
     [Symbol.asyncDispose]: async () => {
       server.closeAllConnections();
       await new Promise((closed) => server.close(closed));

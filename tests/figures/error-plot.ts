@@ -31,8 +31,8 @@ export const errorPlot: Maker = async (studio) => {
     const mean = meanCurve(all);
     const name = `${labelled.name}, ${count(labelled.positions.length / 3)} points`;
     return [
-      { title: `${name}: one view`, curve: all[0]!, words: `from (${labelled.views[0]!.viewpoint.map(digits).join(", ")}) ${chosen(all[0]!)}` },
-      { title: `${name}: mean of ${all.length} views`, curve: mean, words: `on average ${chosen(mean)}, the best exponent for all views ${least(mean)}` },
+      { title: `${name}: one view`, curve: all[0]!, words: `from (${labelled.views[0]!.viewpoint.map(digits).join(", ")}): ${chosen(all[0]!)}` },
+      { title: `${name}: mean of ${all.length} views`, curve: mean, words: `on average: ${chosen(mean)}, the best exponent for all views ${least(mean)}` },
     ];
   });
   if (panels.length === 0) return [];

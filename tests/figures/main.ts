@@ -40,17 +40,19 @@ async function draw(chosen: string[]): Promise<void> {
   if (chosen.length === 0) return;
   const studio = await Studio.open();
   try {
-    const made: Figure[] = [];
     for (const name of chosen) {
       console.error(`Drawing ${name}…`);
-      made.push(...(await MAKERS[name]!(studio)));
+      keep(await MAKERS[name]!(studio));
     }
-    for (const { name, png } of made) write(`${name}.png`, png);
-    const readme = join(FOLDER, "README.md");
-    write("README.md", withFigures(existsSync(readme) ? readFileSync(readme, "utf8") : "", made));
   } finally {
     await studio.close();
   }
+}
+
+function keep(figures: Figure[]): void {
+  for (const { name, png } of figures) write(`${name}.png`, png);
+  const readme = join(FOLDER, "README.md");
+  write("README.md", withFigures(existsSync(readme) ? readFileSync(readme, "utf8") : "", figures));
 }
 
 function write(name: string, content: string | Buffer): void {

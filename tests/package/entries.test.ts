@@ -7,11 +7,14 @@ import { expect, it } from "vitest";
 
 import { wasmBytes } from "./support";
 
+/** What a page that uses an adapter has anyway. */
+const PEERS = ["three", "react", "react/*", "@react-three/fiber"];
+
 const gzipped = (bytes: Uint8Array) => gzipSync(bytes, { level: 9 }).length;
 
 async function sizeOf(file: string): Promise<number> {
   const entry = join(import.meta.dirname, "../../dist", file);
-  const { outputFiles } = await build({ entryPoints: [entry], bundle: true, minify: true, format: "esm", write: false });
+  const { outputFiles } = await build({ entryPoints: [entry], bundle: true, minify: true, format: "esm", write: false, external: PEERS });
   return gzipped(outputFiles[0]!.contents);
 }
 
@@ -19,6 +22,9 @@ it.each([
   ["index.js", 10_000],
   ["worker.js", 8500],
   ["worker/worker-thread.js", 9500],
+  ["three.js", 18_000],
+  ["react-three-fiber.js", 18_500],
+  ["nodes.js", 21_000],
 ])("%s stays below %i bytes, gzipped", async (file, limit) => {
   const size = await sizeOf(file);
   console.log(`${file}: ${size} bytes gzipped, ${size + gzipped(wasmBytes())} with the wasm`);

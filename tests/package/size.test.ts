@@ -8,11 +8,14 @@ import { wasmBytes } from "./support";
 // compilation for another type of number, or a library for one operation each cost 10
 // to 40 kB unnoticed.
 //
-// Of 272 kB (116 kB gzipped), views and changes of clouds in space are 169 kB. The others
-// are the rest of the paper: inversions with their pow, exp and logarithms, both searches,
-// noise, several viewpoints, directions, meshes, light, and four and more dimensions.
+// Of 232 kB (100 kB gzipped), views and changes of clouds in space are some 40 %, motion
+// and memory included. The others are the rest of the paper and its borders: four and more
+// dimensions 10 %, bindings 8 %, sectors of several workers 7 %, directions 6 %, meshes 5 %,
+// pow, exp, logarithms, sine and cosine 4 %; several viewpoints, light, searches and noise
+// 3 % each; panics and merging 2 % each. To inline less takes 4 to 6 kB (gzipped) off, and
+// makes views 5 to 9 % slower.
 it("the wasm stays small", () => {
   const bytes = wasmBytes();
-  expect(bytes.length).toBeLessThanOrEqual(278_000);
-  expect(gzipSync(bytes, { level: 9 }).length).toBeLessThanOrEqual(119_000);
+  expect(bytes.length).toBeLessThanOrEqual(234_000);
+  expect(gzipSync(bytes, { level: 9 }).length).toBeLessThanOrEqual(101_500);
 });

@@ -2,11 +2,11 @@ import { type Camera, EventDispatcher, type EventListener, type Object3D, type P
 
 import { describe, HprError } from "../errors.js";
 import type { MergeOptions } from "../merge.js";
-import { isDimmed } from "../three/dimmed.js";
 import { Eye, requireUniformScale } from "../three/eye.js";
 import { extent } from "./measure.js";
 import { type Merger, startMerger } from "./merger.js";
-import { CloudNode } from "./node.js";
+import type { CloudNode } from "./node.js";
+import { NodeSet } from "./node-set.js";
 import { type HiddenPointNodesFilterOptions, type NodesSettings, readNodesOptions } from "./options.js";
 import { CommonRadius } from "./radius.js";
 import { spacingOf } from "./spacing.js";
@@ -26,11 +26,14 @@ export interface HiddenPointNodesFilterEvents {
   error: { error: Error; points: Points | null };
 }
 
-/** A set of nodes that were there and ready together. */
+/** What is asked together. */
 interface Round {
   nodes: CloudNode[];
   viewpoint: number[];
+  /** No node is new since the last time, and none to come. */
   settled: boolean;
+  /** The nodes or the viewpoint are others than the last time. */
+  isNew: boolean;
 }
 
 /**
@@ -64,24 +67,18 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
   readonly #settings: NodesSettings;
   readonly #radius: CommonRadius;
   readonly #eye = new Eye();
-  readonly #nodes = new Map<Points, CloudNode>();
-  readonly #refusedPoints = new WeakSet<Points>();
-  #frame = 0;
-  /** Counts what changes the set of nodes that can be asked. */
-  #version = 0;
+  readonly #nodes: NodeSet;
+  /** Versions of the set of nodes: the last one that was asked, that had settled, whose spacing is known. */
   #askedVersion = 0;
   #settledVersion = 0;
+  #spacingVersion = -1;
   #asked: MergeOptions | undefined;
   #merger: Promise<Merger> | undefined;
   #enabled = true;
   #busy = false;
-  /** Clouds of nodes that are being prepared. */
-  #building = 0;
   #visible = 0;
   #refused = false;
   #recovering = false;
-  /** Counts the workers that were lost: what they still say is of no interest. */
-  #epoch = 0;
   #disposed = false;
   #isHeard = false;
 
@@ -98,6 +95,14 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
     this.#root = root;
     this.#settings = readNodesOptions(options);
     this.#radius = new CommonRadius(this.#settings.view);
+    this.#nodes = new NodeSet(root, this.#settings, {
+      ready: () => {
+        this.#next();
+      },
+      refused: (error, points) => {
+        this.#refuseNode(error, points);
+      },
+    });
     requireUniformScale(root);
   }
 
@@ -108,10 +113,10 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
 
   set enabled(enabled: boolean) {
     this.#enabled = enabled;
-    for (const node of this.#nodes.values()) {
+    for (const node of this.#nodes.all()) {
       if (!enabled) {
         node.showAll();
-      } else if (node.seen === this.#frame) {
+      } else if (this.#nodes.isPresent(node)) {
         node.show();
       }
     }
@@ -124,7 +129,7 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
 
   /** Whether what is drawn is the answer for the nodes and the camera of the last `update`. */
   get settled(): boolean {
-    return !this.#busy && this.#building === 0 && !this.#wantsAnswer();
+    return !this.#busy && !this.#nodes.isBuilding && !this.#wantsAnswer();
   }
 
   /**
@@ -135,7 +140,7 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
     if (this.#disposed) {
       return;
     }
-    for (const node of this.#nodes.values()) {
+    for (const node of this.#nodes.all()) {
       node.dimmed?.follow();
     }
     if (!this.#enabled || this.frozen) {
@@ -150,7 +155,7 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
       this.#refuse(error);
       return;
     }
-    this.#takeUp();
+    this.#nodes.takeUp();
     this.#next();
   }
 
@@ -169,141 +174,47 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
       return;
     }
     this.#disposed = true;
-    for (const node of [...this.#nodes.values()]) {
-      this.#forget(node);
-    }
+    this.#nodes.dispose();
     this.#dropMerger();
   }
 
-  /** Notes which nodes are there now. */
-  #takeUp(): void {
-    this.#frame += 1;
-    const { nodes } = this.#settings;
-    if (nodes === undefined) {
-      this.#takeUpBelow(this.#root);
-    } else {
-      for (const points of nodes()) this.#takeUpOne(points);
-    }
-    let isNew = false;
-    for (const node of this.#nodes.values()) {
-      if (node.seen === this.#frame - 1) {
-        node.showAll();
-        isNew = true;
-      }
-    }
-    if (isNew) {
-      this.#version += 1;
-      this.#forgetOld();
-    }
-  }
-
-  #takeUpBelow(object: Object3D): void {
-    if (!object.visible) {
-      return;
-    }
-    if ("isPoints" in object && !isDimmed(object as Points)) {
-      this.#takeUpOne(object as Points);
-    }
-    for (const child of object.children) {
-      this.#takeUpBelow(child);
-    }
-  }
-
-  #takeUpOne(points: Points): void {
-    let node = this.#nodes.get(points);
-    if (node === undefined) {
-      if (this.#refusedPoints.has(points)) {
-        return;
-      }
-      try {
-        node = new CloudNode(points, this.#root, this.#settings, this.#forgetGone);
-      } catch (error) {
-        this.#refusedPoints.add(points);
-        this.#tell(error as Error, points);
-        return;
-      }
-      this.#nodes.set(points, node);
-    }
-    const isBack = node.seen !== this.#frame - 1;
-    node.seen = this.#frame;
-    if (node.state === "building") {
-      return;
-    }
-    if (node.state === "new" || !node.isUnchanged) {
-      this.#build(node);
-    } else if (isBack && node.state === "ready") {
-      this.#version += 1;
-    }
-  }
-
-  #build(node: CloudNode): void {
-    const epoch = this.#epoch;
-    if (!node.drawn.isSame) {
-      node.showAll();
-    }
-    this.#building += 1;
-    this.#version += 1;
-    node.build().then(
-      () => {
-        this.#building -= 1;
-        this.#version += 1;
-        this.#next();
-      },
-      (error: unknown) => {
-        this.#building -= 1;
-        this.#version += 1;
-        if (epoch === this.#epoch) {
-          this.#refuseNode(error as Error, node);
-        }
-      },
-    );
-  }
-
-  #present(): CloudNode[] {
-    return [...this.#nodes.values()].filter(({ seen }) => seen === this.#frame);
-  }
-
   #wantsAnswer(): boolean {
-    return (
-      this.#enabled &&
-      !this.frozen &&
-      !this.#disposed &&
-      this.#frame > 0 &&
-      (this.#eye.isNew || this.#askedVersion !== this.#version || this.#settledVersion !== this.#version)
-    );
+    const { version, isKnown } = this.#nodes;
+    const isNew = this.#eye.isNew || this.#askedVersion !== version || this.#settledVersion !== version;
+    return isNew && isKnown && this.#enabled && !this.frozen && !this.#disposed;
   }
 
   #next(): void {
     if (this.#busy || !this.#wantsAnswer()) {
       return;
     }
-    const nodes = this.#present().filter(({ state }) => state === "ready");
-    // The same nodes as last time, and none to come.
-    const settled = this.#askedVersion === this.#version && this.#building === 0;
-    if (!settled && !this.#eye.isNew && this.#askedVersion === this.#version) {
+    const { version, isBuilding, epoch } = this.#nodes;
+    const isNewSet = this.#askedVersion !== version;
+    const isNew = isNewSet || this.#eye.isNew;
+    if (!isNew && isBuilding) {
       return;
     }
+    const nodes = this.#nodes.ready();
+    const settled = !isNewSet && !isBuilding;
     this.#eye.extent = extent(nodes.map(({ measure }) => measure!));
-    const isNewView = this.#eye.isNew || this.#askedVersion !== this.#version;
     const viewpoint = this.#eye.ask();
-    this.#askedVersion = this.#version;
+    this.#askedVersion = version;
     if (settled || nodes.length === 0) {
-      this.#settledVersion = this.#version;
+      this.#settledVersion = version;
     }
     if (nodes.length === 0) {
       this.#visible = 0;
       return;
     }
     this.#busy = true;
-    const epoch = this.#epoch;
-    this.#answer({ nodes, viewpoint, settled }, isNewView).then(
+    this.#answer({ nodes, viewpoint, settled, isNew }).then(
       () => {
         this.#busy = false;
         this.#next();
       },
       (error: unknown) => {
         this.#busy = false;
-        if (epoch === this.#epoch && !isDisposed(error)) {
+        if (epoch === this.#nodes.epoch && !isDisposed(error)) {
           this.#refuse(error);
         }
         this.#next();
@@ -311,14 +222,10 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
     );
   }
 
-  async #answer(round: Round, isNewView: boolean): Promise<void> {
+  async #answer({ nodes, viewpoint, settled, isNew }: Round): Promise<void> {
     const begun = performance.now();
-    const { nodes, viewpoint, settled } = round;
-    if (this.#radius.needsSpacing && (settled || this.#radius.spacing === undefined)) {
-      this.#radius.spacing = await spacingOf(nodes, this.#settings);
-    }
-    const options = this.#radius.choose(nodes.map(({ measure }) => measure!), viewpoint, settled);
-    if (!isNewView && JSON.stringify(options) === JSON.stringify(this.#asked)) {
+    const options = await this.#chooseRadius(nodes, viewpoint, settled);
+    if (!isNew && JSON.stringify(options) === JSON.stringify(this.#asked)) {
       return;
     }
     const seen = await Promise.all(nodes.map((node) => node.visibleFrom(viewpoint, options)));
@@ -338,6 +245,22 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
     }
   }
 
+  /** What all nodes are asked with. Their spacing is measured when they have settled. */
+  async #chooseRadius(nodes: CloudNode[], viewpoint: number[], settled: boolean): Promise<MergeOptions> {
+    const radius = this.#radius;
+    const isUnknown = radius.spacing === undefined || (settled && this.#spacingVersion !== this.#askedVersion);
+    if (radius.needsSpacing && isUnknown) {
+      const version = this.#askedVersion;
+      radius.spacing = await spacingOf(nodes, this.#settings);
+      this.#spacingVersion = settled ? version : -1;
+    }
+    return radius.choose(
+      nodes.map(({ measure }) => measure!),
+      viewpoint,
+      settled,
+    );
+  }
+
   #draw(nodes: CloudNode[], ids: Uint32Array): void {
     this.#refused = this.#recovering = false;
     this.#visible = ids.length;
@@ -346,7 +269,7 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
       const next = first + node.drawn.total;
       let to = from;
       while (to < ids.length && ids[to]! < next) to++;
-      if (node.state === "ready" && node.drawn.isSame && node.seen === this.#frame) {
+      if (node.state === "ready" && node.drawn.isSame && this.#nodes.isPresent(node)) {
         const base = first;
         node.drawn.setVisible(ids.slice(from, to).map((id) => id - base));
         if (this.#enabled) {
@@ -357,37 +280,11 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
     }
   }
 
-  /** Those that have been gone for longest, beyond as many points as are there. */
-  #forgetOld(): void {
-    const gone = [...this.#nodes.values()].filter(({ seen }) => seen !== this.#frame);
-    if (gone.length === 0) {
-      return;
-    }
-    let room = this.#present().reduce((sum, { drawn }) => sum + drawn.total, 0);
-    for (const node of gone.sort((a, b) => b.seen - a.seen)) {
-      room -= node.drawn.total;
-      if (room < 0) {
-        this.#forget(node);
-      }
-    }
-  }
-
-  readonly #forgetGone = (node: CloudNode): void => {
-    if (node.seen !== this.#frame) {
-      this.#forget(node);
-    }
-  };
-
-  #forget(node: CloudNode): void {
-    this.#nodes.delete(node.points);
-    node.dispose();
-  }
-
-  #refuseNode(error: Error, node: CloudNode): void {
+  #refuseNode(error: Error, points: Points): void {
     if (this.#disposed || this.#recover(error)) {
       return;
     }
-    this.#tell(error, node.points);
+    this.#tell(error, points);
     this.#next();
   }
 
@@ -406,15 +303,8 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
       return false;
     }
     this.#recovering = true;
-    this.#epoch += 1;
     this.#dropMerger();
-    for (const node of this.#nodes.values()) {
-      if (node.seen === this.#frame) {
-        this.#build(node);
-      } else {
-        node.state = "new";
-      }
-    }
+    this.#nodes.rebuild();
     return true;
   }
 

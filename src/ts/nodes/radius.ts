@@ -6,8 +6,11 @@ import { farthest, type Measure, meanSquare } from "./measure.js";
 /** As the core chooses: R = 5·r²/s, or c = 0.07·s, with s the spacing of the points. */
 const SPACINGS = 5;
 const SCALE = 0.07;
-/** A radius is kept while it is within so many decades of what would be chosen. */
-const KEPT = 0.1;
+/**
+ * A radius is kept while it is within so many decades of what would be chosen: with the
+ * error of a sample's spacing, that is a tenth.
+ */
+const KEPT = 0.06;
 
 /** One radius for all nodes, which does not change with every step and every node. */
 export class CommonRadius {

@@ -1,4 +1,5 @@
-// Writes what was answered, or what went wrong, where the test reads it.
+// Writes what was answered, or what went wrong, where the test reads it: into the page, or,
+// from a browser that nothing drives, to the server.
 export async function show(asking) {
   const output = document.querySelector("output");
   try {
@@ -7,4 +8,6 @@ export async function show(asking) {
     output.textContent = JSON.stringify({ error: `${error.code ?? error.name}: ${error.message}` });
   }
   output.dataset.done = "";
+  const { sendTo } = output.dataset;
+  if (sendTo !== undefined) await fetch(sendTo, { method: "POST", body: output.textContent });
 }

@@ -1,0 +1,153 @@
+import { CompositeLayer, type DefaultProps, type Layer, type UpdateParameters, type Viewport } from "@deck.gl/core";
+import { DataFilterExtension } from "@deck.gl/extensions";
+import { PointCloudLayer, type PointCloudLayerProps } from "@deck.gl/layers";
+
+import { HprError } from "../errors.js";
+import type { VisibilityOptions } from "../view-options.js";
+import type { Visibility } from "../visibility.js";
+import { isBinary, positionsOf } from "./data.js";
+import { Sight } from "./sight.js";
+
+/** Those of a `PointCloudLayer`, and from where its points are seen. */
+export type VisiblePointCloudLayerProps<DataT = unknown> = PointCloudLayerProps<DataT> & {
+  /**
+   * Where the points are seen from, x, y, z in the data's own coordinates. Default: where the
+   * view's camera is, or along its direction where that is orthographic, which needs
+   * Cartesian coordinates, and neither `modelMatrix` nor `coordinateOrigin`.
+   */
+  viewpoint?: readonly [number, number, number] | null;
+  /** How each view is computed. */
+  visibility?: VisibilityOptions;
+  /** Another answer is drawn. */
+  onVisible?: ((answer: { count: number; milliseconds: number }) => void) | null;
+};
+
+interface Own {
+  viewpoint: readonly number[] | null;
+  visibility: VisibilityOptions;
+  onVisible: ((answer: { count: number; milliseconds: number }) => void) | null;
+  getPosition: unknown;
+}
+
+// Not an interface, which has no index signature.
+type State = {
+  sight: Sight;
+  /** One number a point: 1 visible, 0 hidden. Undefined until there is an answer. */
+  mask: Float32Array | undefined;
+  /** The data with the mask as an attribute, where it is binary. */
+  data: unknown;
+};
+
+type Update = Pick<UpdateParameters<Layer>, "changeFlags">;
+
+const NO_OPTIONS: VisibilityOptions = {};
+const filter = new DataFilterExtension({ filterSize: 1 });
+const VISIBLE: [number, number] = [0.5, 1.5];
+
+/**
+ * A deck.gl `PointCloudLayer` of which only the points are drawn, and picked, that can be seen
+ * from the camera. The answer comes from a worker that all layers share; it reaches the
+ * graphics card as the value that a `DataFilterExtension` filters by. Until there is one,
+ * all points are drawn.
+ *
+ * ```js
+ * new VisiblePointCloudLayer({
+ *   id: "scan",
+ *   data: { length, attributes: { getPosition: { value: positions, size: 3 } } },
+ *   pointSize: 2,
+ *   visibility: { exponent: 3 },
+ * });
+ * ```
+ *
+ * What is refused is raised as any error of a layer (`onError`), as an `HprError`.
+ */
+export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<VisiblePointCloudLayerProps<DataT>> {
+  static override layerName = "VisiblePointCloudLayer";
+  static override defaultProps: DefaultProps<VisiblePointCloudLayerProps> = {
+    ...(PointCloudLayer.defaultProps as DefaultProps<VisiblePointCloudLayerProps>),
+    viewpoint: { type: "object", value: null, optional: true, compare: true },
+    visibility: { type: "object", value: NO_OPTIONS, compare: 2 },
+    onVisible: { type: "function", value: null, optional: true },
+  };
+
+  declare state: State;
+
+  override initializeState(): void {
+    const sight = new Sight({
+      answer: (answer, milliseconds) => {
+        (this.getCurrentLayer() as this | null)?.applyAnswer(answer, milliseconds);
+      },
+      error: (error) => {
+        this.getCurrentLayer()?.raiseError(error, "");
+      },
+    });
+    this.setState({ sight, mask: undefined, data: undefined });
+  }
+
+  /** Also when only the camera has moved. */
+  override shouldUpdateState({ changeFlags }: Update): boolean {
+    return changeFlags.somethingChanged;
+  }
+
+  override updateState({ changeFlags }: Update): void {
+    const { sight } = this.state;
+    const { data, getPosition, viewpoint, visibility } = this.props as unknown as Own & { data: unknown };
+    try {
+      const triggers = changeFlags.updateTriggersChanged;
+      const isMoved = typeof triggers === "object" && ("getPosition" in triggers || "all" in triggers);
+      if (changeFlags.dataChanged || isMoved) {
+        this.setState({ mask: undefined, data: undefined });
+        sight.setPositions(positionsOf(data, getPosition));
+      }
+      const seen = viewpoint === null ? eyeOf(this.context.viewport, this.props) : { from: viewpoint, isDirection: false };
+      sight.want({ ...seen, options: visibility });
+    } catch (error) {
+      this.raiseError(error as Error, "");
+    }
+  }
+
+  override finalizeState(): void {
+    this.state.sight.dispose();
+  }
+
+  override renderLayers(): Layer {
+    const { mask, data = this.props.data } = this.state;
+    const { extensions, updateTriggers } = this.props;
+    const own = Object.entries(this.props).filter(([name]) => name in PointCloudLayer.defaultProps);
+    const shared = this.getSubLayerProps({ id: "points", updateTriggers: { ...updateTriggers, getFilterValue: mask } }) as object;
+    return new PointCloudLayer({
+      ...Object.fromEntries(own),
+      ...shared,
+      data,
+      extensions: [...extensions, filter],
+      getFilterValue: (_: unknown, { index }: { index: number }) => mask?.[index] ?? 1,
+      filterRange: VISIBLE,
+      filterEnabled: mask !== undefined,
+    } as never);
+  }
+
+  /** @internal */
+  applyAnswer(answer: Visibility, milliseconds: number): void {
+    const mask = Float32Array.from(answer.mask());
+    const data: unknown = this.props.data;
+    const withMask = isBinary(data)
+      ? { ...data, attributes: { ...data.attributes, getFilterValue: { value: mask, size: 1 } } }
+      : undefined;
+    this.setState({ mask, data: withMask });
+    (this.props as unknown as Own).onVisible?.({ count: answer.count, milliseconds });
+  }
+}
+
+/** Of a camera whose space is the data's. */
+function eyeOf(viewport: Viewport, props: object): { from: number[]; isDirection: boolean } {
+  const { modelMatrix, coordinateOrigin } = props as { modelMatrix?: unknown; coordinateOrigin?: readonly number[] };
+  const isElsewhere = coordinateOrigin?.some((x) => x !== 0) ?? false;
+  if (viewport.isGeospatial || Boolean(modelMatrix) || isElsewhere) {
+    throw new HprError("option", "viewpoint must be given with geospatial views, modelMatrix or coordinateOrigin");
+  }
+  const [m, projection] = [viewport.viewMatrixInverse, viewport.projectionMatrix];
+  const isDirection = projection[15] !== 0;
+  // The third axis of a camera points backwards.
+  const from = isDirection ? [-m[8]!, -m[9]!, -m[10]!] : [m[12]!, m[13]!, m[14]!];
+  return { from, isDirection };
+}

@@ -1,0 +1,113 @@
+// The layer for deck.gl: what it is filtered by, and what is drawn and picked.
+import type { Browser, Page } from "playwright-core";
+import { afterAll, beforeAll, beforeEach, expect, it, vi } from "vitest";
+import { builtPage } from "./built.js";
+import type { DeckPage } from "./deck/page.js";
+import { serveModules } from "./modules.js";
+import { launchBrowser } from "./site.js";
+
+vi.setConfig({ testTimeout: 120_000, hookTimeout: 120_000 });
+
+let browser: Browser;
+let site: Awaited<ReturnType<typeof serveModules>>;
+let path: string;
+let page: Page;
+
+beforeAll(async () => {
+  path = await builtPage("deck");
+  browser = await launchBrowser();
+  site = await serveModules({});
+});
+
+afterAll(async () => {
+  await browser.close();
+  site.close();
+});
+
+beforeEach(async () => {
+  page = await browser.newPage({ viewport: { width: 300, height: 300 } });
+  await page.goto(site.address + path);
+  await reached(({ answers }) => answers.length > 0);
+});
+
+async function reached(test: (page: DeckPage) => boolean): Promise<void> {
+  await page.waitForFunction(`(${test.toString()})(globalThis.page)`, undefined, { timeout: 60_000 });
+}
+
+function inPage<T>(look: (page: DeckPage) => T | Promise<T>): Promise<T> {
+  return page.evaluate(`(${look.toString()})(globalThis.page)`);
+}
+
+/** Once the values are those of the newest answer, what they say and what the package says. */
+async function compared() {
+  await reached(({ answers, values }) => values().reduce((sum, value) => sum + value, 0) === answers.at(-1)!.count);
+  return inPage(async ({ values, camera, visibleFrom }) => ({
+    visible: values().flatMap((value, i) => (value === 1 ? [i] : [])),
+    expected: await visibleFrom(camera()),
+  }));
+}
+
+it("is filtered by the mask of what the camera sees, wherever it goes", async () => {
+  const before = await compared();
+  expect(before.visible).toEqual(before.expected);
+  expect(before.visible.length).toBeLessThan(2400);
+  await inPage(({ set }) => {
+    set({}, { rotationX: -60, rotationOrbit: 20 });
+  });
+  await reached(({ answers }) => answers.length === 2);
+  const after = await compared();
+  expect(after.visible).toEqual(after.expected);
+  expect(after.visible).not.toEqual(before.visible);
+  // The same view again asks nothing.
+  await inPage(({ set }) => {
+    set({ pointSize: 3 });
+  });
+  await inPage(({ set }) => {
+    set({}, { rotationX: 90, rotationOrbit: 0 });
+  });
+  await reached(({ answers }) => answers.length === 3);
+  expect((await compared()).visible).toEqual(before.visible);
+  expect(await inPage(({ errors }) => errors)).toEqual([]);
+});
+
+it("lets visible points be picked alone", async () => {
+  const picks = () =>
+    inPage(async ({ pick }) => {
+      const picked: number[] = [];
+      for (let i = 0; i < 30; i++) {
+        const index = await pick(120 + (i % 6) * 9, 120 + Math.floor(i / 6) * 11);
+        if (index !== undefined) picked.push(index);
+      }
+      return picked;
+    });
+  const [visible, front] = [new Set((await compared()).visible), await picks()];
+  expect(front.length).toBeGreaterThan(10);
+  expect(front.every((index) => visible.has(index))).toBe(true);
+  expect(front.filter((index) => index % 2 === 1).length).toBeLessThan(3);
+});
+
+it("takes any data, a viewpoint and other options", async () => {
+  await inPage(({ set }) => {
+    set({
+      data: [{ at: [0, 0, 1] }, { at: [0, 0, 2] }, { at: [1, 0, 0] }] as never,
+      getPosition: (({ at }: { at: number[] }) => at) as never,
+      viewpoint: [0, 0, -5],
+    });
+  });
+  await reached(({ answers, values }) => answers.at(-1)!.count === 2 && values().join() === "1,0,1");
+  await inPage(({ set }) => {
+    set({ viewpoint: [0, 0, 5] });
+  });
+  await reached(({ values }) => values().join() === "0,1,1");
+  expect(await inPage(({ errors }) => errors)).toEqual([]);
+  await inPage(({ set }) => {
+    set({ visibility: { radius: 0.1 } });
+  });
+  await reached(({ errors }) => errors.length > 0);
+  expect(await inPage(({ errors }) => errors)).toEqual(["radius"]);
+  await inPage(({ set }) => {
+    set({ data: [{ at: [NaN, 0, 1] }] as never });
+  });
+  await reached(({ errors }) => errors.length > 1);
+  expect(await inPage(({ errors }) => errors.at(-1))).toBe("non-finite");
+});

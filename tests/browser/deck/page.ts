@@ -1,0 +1,85 @@
+// A page with one deck.gl layer. `page` lets the test change it.
+import { Deck, type Layer, OrbitView, type OrbitViewState } from "@deck.gl/core";
+import { PointCloud, init } from "hidden-point-removal";
+import { VisiblePointCloudLayer, type VisiblePointCloudLayerProps } from "hidden-point-removal/deck";
+
+type Props = Partial<VisiblePointCloudLayerProps>;
+
+export interface DeckPage {
+  answers: { count: number }[];
+  errors: string[];
+  /** Where the camera is, as the view itself says. */
+  camera: () => number[];
+  layer: () => Layer;
+  /** The values that the layer with the points is filtered by. */
+  values: () => number[];
+  set: (props: Props, viewState?: Partial<OrbitViewState>) => void;
+  visibleFrom: (viewpoint: number[], positions?: number[]) => Promise<number[]>;
+  pick: (x: number, y: number) => Promise<number | undefined>;
+}
+
+const positions = new Float32Array(layers());
+const binary = { length: positions.length / 3, attributes: { getPosition: { value: positions, size: 3 } } };
+let viewState: OrbitViewState = { target: [0, 0, 0], zoom: 6, rotationX: 90, rotationOrbit: 0 };
+let props: Props = { data: binary as never, visibility: { exponent: 3 } };
+
+const deck = new Deck({
+  parent: document.getElementById("root") as HTMLDivElement,
+  width: 300,
+  height: 300,
+  views: new OrbitView({ id: "view" }),
+  viewState,
+  layers: [layerOf()],
+  onError: (error) => page.errors.push((error as { code?: string }).code ?? error.message),
+});
+
+const page: DeckPage = {
+  answers: [],
+  errors: [],
+  camera: () => deck.getViewports()[0]!.cameraPosition,
+  layer: () => sublayer(),
+  values: () => {
+    const { data, getFilterValue } = sublayer().props as unknown as {
+      data: { length: number; attributes?: { getFilterValue?: { value: Float32Array } } };
+      getFilterValue: (object: unknown, info: { index: number }) => number;
+    };
+    const told = data.attributes?.getFilterValue?.value;
+    return Array.from({ length: data.length }, (_, index) => told?.[index] ?? getFilterValue(null, { index }));
+  },
+  set: (changed, view = {}) => {
+    props = { ...props, ...changed };
+    viewState = { ...viewState, ...view };
+    deck.setProps({ viewState, layers: [layerOf()] });
+  },
+  visibleFrom: async (viewpoint, of = [...positions]) => {
+    await init();
+    return [...new PointCloud(of).visibleFrom(viewpoint, { exponent: 3 }).indices];
+  },
+  pick: async (x, y) => (await deck.pickObjectAsync({ x, y, radius: 3 }))?.index,
+};
+(globalThis as unknown as { page: DeckPage }).page = page;
+
+function layerOf(): VisiblePointCloudLayer {
+  return new VisiblePointCloudLayer({
+    id: "scan",
+    coordinateSystem: "cartesian",
+    pointSize: 2,
+    getColor: [255, 0, 0],
+    pickable: true,
+    onVisible: (answer) => page.answers.push(answer),
+    ...props,
+  });
+}
+
+function sublayer(): Layer {
+  const { layerManager } = deck as unknown as { layerManager: { getLayers: () => Layer[] } };
+  return layerManager.getLayers().find(({ id }) => id === "scan-points")!;
+}
+
+/** Two discs of points, the second behind the first. */
+function layers(): number[] {
+  return Array.from({ length: 2000 }, (_, i) => {
+    const [r, turn] = [Math.sqrt((i + 0.5) / 2000), 2.399963 * i];
+    return [r * Math.cos(turn), r * Math.sin(turn), 0, r * Math.cos(turn), r * Math.sin(turn), -0.5];
+  }).flat();
+}
