@@ -1,5 +1,5 @@
 import type { LoadedCloud } from "../cloud.ts";
-import { mulberry32 } from "./random.ts";
+import { mulberry32 } from "../room.ts";
 import { makeLand, type Return } from "./tile-land.ts";
 
 /*
