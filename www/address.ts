@@ -56,6 +56,12 @@ export class Address {
     }, CALM);
   }
 
+  /** The page as it is now, for others to open; `null` where no address can. */
+  link(): string | null {
+    this.write();
+    return this.cloud && location.href;
+  }
+
   private write(): void {
     if (!this.cloud) return;
     const { name, usual } = this.cloud;
@@ -89,6 +95,7 @@ function settingsInAddress(now: Settings, usual: Usual): Record<string, string[]
     ambient: unless(USUAL_SETTINGS.ambient, now.ambient),
     smoothing: unless(USUAL_SETTINGS.smoothing, now.smoothing),
     freeze: now.freeze ? [String(now.freeze)] : [],
+    compare: now.compare === null ? [] : [String(now.compare)],
     hidden: unless("off", now.hidden),
     color: unless(USUAL_SETTINGS.color, now.color),
     size: unless(usual.size, now.size),

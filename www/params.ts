@@ -70,6 +70,7 @@ export function readParams(search: string, samples: readonly string[]): Params {
     smoothing: read("smoothing", whole(1000), "an integer from 0 to 1000, so it is 1"),
     freeze: read("freeze", parsePlace, "three numbers x,y,z, so the viewpoint goes with the camera"),
     hidden: read("hidden", oneOf<HiddenMode>("off", "dimmed", "shown"), "off, dimmed or shown, so they are off"),
+    compare: read("compare", within(0, 1), "a number from 0 to 1, so the picture is not divided"),
     // Whether the cloud has it, it will tell.
     color: query.get("color") ?? undefined,
     size: read("size", within(0.05, 50), "a number from 0.05 to 50, so the usual one is used"),
@@ -90,6 +91,7 @@ export function readParams(search: string, samples: readonly string[]): Params {
 
 /** Parameters that a sentence calls something else. */
 const WORDS: Record<string, string> = {
+  compare: "place of the divider",
   edge: "longest edge",
   freeze: "frozen viewpoint",
   fov: "field of view",

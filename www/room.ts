@@ -1,5 +1,4 @@
 import type { LoadedCloud } from "./cloud.ts";
-import { mulberry32 } from "./samples/random.ts";
 
 /*
  * A living room of 6 × 2.7 × 4.6 meters as a scanner might leave it: points spread evenly over every surface, two
@@ -236,4 +235,15 @@ function sphere([x, y, z]: Vector, r: number, color: Color): Surface {
 
 function dot(a: Vector, b: Vector): number {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+/** A small well-known generator (Tommy Ettinger's mulberry32): 32 bits of state, the same numbers everywhere. */
+export function mulberry32(seed: number): () => number {
+  let state = seed;
+  return () => {
+    state = (state + 0x6d2b79f5) | 0;
+    let t = Math.imul(state ^ (state >>> 15), 1 | state);
+    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+    return ((t ^ (t >>> 14)) >>> 0) / 4294967296;
+  };
 }

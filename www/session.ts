@@ -18,6 +18,8 @@ import { OWN_COLORS, type Settings, Store, USUAL_SETTINGS } from "./settings.ts"
 import type { Status } from "./status.ts";
 import { colorChoices } from "./view/colors.ts";
 import { type AskedView, findHome, isInReach } from "./view/framing.ts";
+import { Plot } from "./tools/plot.ts";
+import { Tools } from "./tools/tools.ts";
 import { LightHandles } from "./view/light-handles.ts";
 import { Viewer } from "./viewer.ts";
 
@@ -69,8 +71,14 @@ export function startSession(params: Params, status: Status, message: Message): 
     },
   });
 
+  let shownName = "";
+  // Who comes without any wish of their own is shown what this is about.
+  const tools = new Tools(viewer, store, { name: () => shownName, link: () => address.link() }, location.search === "");
+  const plot = new Plot(viewer, store);
   viewer.onFrame = () => {
     handles.place();
+    tools.place();
+    plot.follow();
   };
   viewer.stage.onCamera = () => {
     address.touch();
@@ -86,6 +94,8 @@ export function startSession(params: Params, status: Status, message: Message): 
   };
   viewer.onAnswer = (answer, total) => {
     controls.follow(answer);
+    tools.follow();
+    plot.answer(answer);
     status.answer(answer, total, store.current.freeze !== null);
     tell(answer.note);
   };
@@ -95,6 +105,7 @@ export function startSession(params: Params, status: Status, message: Message): 
   };
   viewer.onAutomatic = (exponent) => {
     controls.markAutomatic(exponent);
+    plot.markAutomatic(exponent);
   };
   viewer.onBusy = (busy) => {
     status.busy(busy);
@@ -147,7 +158,8 @@ export function startSession(params: Params, status: Status, message: Message): 
         return findHome(cloud, upward, sameUp ? sample : null, sameUp ? (asked ?? taken) : null, lens);
       };
       const home = homeWith(up);
-      const worker = await WorkerPointCloud.create(loaded.positions, { transfer: true, signal });
+      // The page keeps the file's own coordinates for the tools.
+      const worker = await WorkerPointCloud.create(loaded.positions, { signal });
       inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), cloud.radius);
       const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...store.current, ...own });
       signal.throwIfAborted();
@@ -156,7 +168,10 @@ export function startSession(params: Params, status: Status, message: Message): 
       store.change(own);
       askedView = asked;
       controls.prepare(cloud);
-      viewer.show({ cloud, inquiry, home, answer, findHome: homeWith });
+      tools.clear();
+      viewer.show({ cloud, positions: loaded.positions, inquiry, home, answer, findHome: homeWith });
+      shownName = sample?.name ?? request.name;
+      plot.clear();
       controls.usual = usual;
       address.begin(insteadOf === undefined ? source.name : null, usual);
       firstLoad.hide();

@@ -35,6 +35,8 @@ export interface Settings {
   smoothing: number;
   /** Where the viewpoint stays while the camera moves on. */
   freeze: Viewpoint | null;
+  /** Where the picture is divided, as a share of its width: all points to the left, visible ones to the right. */
+  compare: number | null;
   /** "own" for the file's own colors (without any, two calm tones from low to high), "plain", "height", or the name of an attribute. */
   color: string;
   /** Of a point, in multiples of the points' rough distance from one another. */
@@ -65,6 +67,7 @@ export const USUAL_SETTINGS: Settings = {
   ambient: 0.3,
   smoothing: 1,
   freeze: null,
+  compare: null,
   color: OWN_COLORS,
   size: 1,
   fieldOfView: 45,

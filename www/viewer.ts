@@ -16,6 +16,8 @@ import { Surface } from "./view/surface.ts";
 /** A cloud that is ready to be shown, with the first answer about it. */
 export interface Opened {
   cloud: Cloud;
+  /** As the file has them. */
+  positions: Float32Array | Float64Array;
   inquiry: Inquiry;
   home: Home;
   answer: TimedView;
@@ -71,6 +73,11 @@ export class Viewer {
   /** The cloud on screen. */
   get cloud(): Cloud | null {
     return this.shown?.cloud ?? null;
+  }
+
+  /** What the tools work on; only while there is a cloud. */
+  get scene(): Opened & { visible: Uint32Array } {
+    return { ...this.shown!, visible: this.shown!.answer.visibility.indices };
   }
 
   /** Whether the camera stands where it stood at first. */
@@ -144,6 +151,12 @@ export class Viewer {
     this.inquire();
   }
 
+  /** Tints the points that are selected. */
+  setChosen(indices: Uint32Array): void {
+    this.shown?.attributes.setChosen(indices);
+    this.stage.invalidate();
+  }
+
   /** Looks at the cloud as for the first time. */
   reset(): void {
     if (!this.shown) return;
@@ -173,8 +186,10 @@ export class Viewer {
     this.onBusy(inquiry.busy);
   }
 
-  private showAnswer({ visibility, triangles }: TimedView): void {
+  private showAnswer(answer: TimedView): void {
+    const { visibility, triangles } = answer;
     const { points, surface } = this.shown!;
+    this.shown!.answer = answer;
     points.setVisible(visibility.indices);
     surface.setTriangles(triangles);
     this.surfaceShown = triangles !== null;
@@ -204,10 +219,11 @@ export class Viewer {
    * Points have no size of their own, so nothing of a cloud really covers anything: as long as the viewpoint goes with the
    * camera, hidden points are drawn through the visible ones. Seen from elsewhere, they stand where they are.
    */
-  private applyLook({ hidden, freeze, size, fieldOfView }: Settings): void {
+  private applyLook({ hidden: chosen, freeze, compare, size, fieldOfView }: Settings): void {
     const { points } = this.shown!;
     const frozen = freeze !== null;
-    points.show(hidden, frozen);
+    const hidden = compare === null ? chosen : "shown";
+    points.show(hidden, frozen, compare ?? 1);
     (frozen ? this.stage.points : this.stage.through).add(points.ghost);
     this.stage.setThroughOpacity(THROUGH_OPACITY[hidden]);
     this.stage.setPointWidth(points.setPointSize(size));

@@ -51,14 +51,10 @@ test("a glTF file's numbers may lie beside it on the web", async () => {
 
 test("an octree (COPC) is read from a file, by its ranges from a server that has them, and whole from one that has none", async () => {
   const content = fixture("octree.copc.laz");
-  const sorted = async (query: string) => {
-    const page = await openReady(query);
-    return { page, now: await status(page) };
-  };
   served.set("whole/octree.copc.laz", content);
   served.set("ranged/octree.copc.laz", content);
   for (const place of ["whole", "ranged"]) {
-    const { now } = await sorted(`?src=${place}/octree.copc.laz`);
+    const now = await status(await openReady(`?src=${place}/octree.copc.laz`));
     // The octree has another order of points, which changes no answer.
     expect(now, place).toMatchObject({ state: "ready", total: 3000, ...(await answerInNode(octree, now)) });
   }
@@ -69,7 +65,7 @@ test("an octree (COPC) is read from a file, by its ranges from a server that has
   expect(now).toMatchObject({ total: 3000, ...(await answerInNode(octree, now)) });
 });
 
-test("of more points than allowed, an octree shows its coarser levels, and asks for no others", async () => {
+test("of more points than allowed, an octree shows its coarser levels", async () => {
   served.set("ranged/octree.copc.laz", fixture("octree.copc.laz"));
   const page = await openReady("?src=ranged/octree.copc.laz&points=1100");
   const now = await status(page);

@@ -93,6 +93,13 @@ export class Inquiry {
       (lights.length === 0 || (this.answered.light !== null && isSameLight(this.answered.light, light)));
   }
 
+  /** An answer besides those for the picture, which go first. */
+  async aside(question: ViewQuestion): Promise<ViewAnswer> {
+    const answer = await askView(this.cloud, question);
+    this.freeSince = performance.now();
+    return answer;
+  }
+
   dispose(): void {
     this.onView = this.onLight = this.onAutomatic = this.onError = () => undefined;
     void this.cloud.points.dispose();

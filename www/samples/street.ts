@@ -1,5 +1,5 @@
 import type { LoadedCloud } from "../cloud.ts";
-import { mulberry32 } from "./random.ts";
+import { mulberry32 } from "../room.ts";
 import { makeScene, type Material } from "./street-scene.ts";
 import type { Vector } from "./trace.ts";
 

@@ -1,5 +1,5 @@
 import type { LoadedCloud } from "../cloud.ts";
-import { mulberry32 } from "./random.ts";
+import { mulberry32 } from "../room.ts";
 import { makeLand, type Return } from "./tile-land.ts";
 
 /*
@@ -8,8 +8,8 @@ import { makeLand, type Return } from "./tile-land.ts";
  * walls are seen on one side only. Of a beam into a tree, a part comes back from the ground. The same on every machine.
  */
 
-export const EAST = 512_000;
-export const NORTH = 5_403_000;
+const EAST = 512_000;
+const NORTH = 5_403_000;
 const SIDE = 320;
 /** Between two sweeps along the line of flight, and two beams of a sweep. */
 const STEP = 0.66;

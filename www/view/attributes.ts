@@ -4,6 +4,9 @@ import { type Cloud, type Up, upVector } from "../cloud.ts";
 /** Where a file has no colors: from low to high, two calm tones that leave the shape to the shading. */
 const LOW = new Color("#6f8796");
 const HIGH = new Color("#efe6d6");
+/** Selected points, and how much of that covers their own color. */
+const CHOSEN = new Color("#4fb3ff");
+const CHOSEN_COVERAGE = 0.65;
 /** The share of the points below and above which heights have the ramp's first and last color. */
 const RAMP_FROM = 0.01;
 const RAMP_SAMPLE = 20_000;
@@ -13,7 +16,8 @@ export const TINT_SHADER = /* glsl */ `
   uniform vec3 up, low, high;
   uniform vec2 heights;
   uniform bool lit, colored;
-  attribute float brightness;
+  uniform vec3 chosenColor;
+  attribute float brightness, chosen;
   attribute vec3 color;
 
   vec3 ownTint() {
@@ -23,6 +27,10 @@ export const TINT_SHADER = /* glsl */ `
 
   float light() {
     return lit ? brightness : 1.0;
+  }
+
+  vec3 chosenOr(vec3 tint) {
+    return mix(tint, chosenColor, ${CHOSEN_COVERAGE.toFixed(2)} * chosen);
   }
 `;
 
@@ -36,6 +44,7 @@ export class CloudAttributes {
     low: { value: display(LOW) },
     high: { value: display(HIGH) },
     lit: { value: false },
+    chosenColor: { value: display(CHOSEN) },
     colored: { value: false },
   };
   private readonly local: Float32Array;
@@ -44,6 +53,7 @@ export class CloudAttributes {
   private readonly ownColors: Uint8Array | null;
   private color: BufferAttribute | null = null;
   private brightness: BufferAttribute | null = null;
+  private chosen: BufferAttribute | null = null;
 
   constructor({ local, colors }: Cloud) {
     this.local = local;
@@ -57,7 +67,21 @@ export class CloudAttributes {
     geometry.setAttribute("position", this.position);
     if (this.color) geometry.setAttribute("color", this.color);
     if (this.brightness) geometry.setAttribute("brightness", this.brightness);
+    if (this.chosen) geometry.setAttribute("chosen", this.chosen);
     this.geometries.push(geometry);
+  }
+
+  /** The points that are selected. */
+  setChosen(indices: Uint32Array): void {
+    if (!this.chosen) {
+      if (indices.length === 0) return;
+      this.chosen = new BufferAttribute(new Uint8Array(this.local.length / 3), 1, true).setUsage(DynamicDrawUsage);
+      for (const geometry of this.geometries) geometry.setAttribute("chosen", this.chosen);
+    }
+    const marks = this.chosen.array as Uint8Array;
+    marks.fill(0);
+    for (const index of indices) marks[index] = 255;
+    this.chosen.needsUpdate = true;
   }
 
   setUp(up: Up): void {

@@ -15,6 +15,9 @@ const THROUGH_WIDTH = 0.45;
 
 /** Device pixels: above, one near point covers the view. */
 const MOST_PIXELS = 160;
+/** Device pixels: further to the right than any picture goes. */
+const EVERYWHERE = 1e9;
+
 const vertexShader = /* glsl */ `
   ${TINT_SHADER}
   /* The width of a point in the cloud's units, and how many pixels a unit has at distance 1. */
@@ -31,15 +34,17 @@ const vertexShader = /* glsl */ `
     size = clamp(width * pixels / gl_Position.w, least, ${MOST_PIXELS.toFixed(1)});
     gl_PointSize = size;
     // Hidden points have no light of their own.
-    tint = coverage > 0.0 ? mix(ownTint(), cover, coverage) : ownTint() * light();
+    tint = chosenOr(coverage > 0.0 ? mix(ownTint(), cover, coverage) : ownTint() * light());
   }
 `;
 
 const fragmentShader = /* glsl */ `
+  uniform float until;
   varying vec3 tint;
   varying float size;
 
   void main() {
+    if (gl_FragCoord.x > until) discard;
     // Below three pixels a disc and a square look alike.
     if (size > 3.0 && length(gl_PointCoord - 0.5) > 0.5) discard;
     gl_FragColor = vec4(tint, 1.0);
@@ -62,6 +67,8 @@ export class CloudPoints {
   private width = 0;
   /** Whether the hidden points are drawn through the visible ones: as specks, for both to be seen. */
   private throughOthers = true;
+  /** The share of the picture's width, from its left, that hidden points are drawn in. */
+  private until = 1;
 
   constructor(cloud: Cloud, attributes: CloudAttributes) {
     this.cloud = cloud;
@@ -83,6 +90,7 @@ export class CloudPoints {
           least: { value: 1 },
           cover: { value: display(HIDDEN) },
           coverage: { value: 0 },
+          until: { value: EVERYWHERE },
         },
       });
       const points = new Points(geometry, material);
@@ -92,9 +100,10 @@ export class CloudPoints {
     this.solid = draw();
     this.ghost = draw();
     this.solid.onBeforeRender = this.ghost.onBeforeRender = (renderer, _scene, camera) => {
-      const height = renderer.getDrawingBufferSize(new Vector2()).y;
+      const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
       const pixels = (camera.projectionMatrix.elements[5] * height) / 2;
       for (const { material } of [this.solid, this.ghost]) material.uniforms["pixels"]!.value = pixels;
+      this.ghost.material.uniforms["until"]!.value = this.until * width;
       const least = leastPixels(cloud.count) * renderer.getPixelRatio();
       this.solid.material.uniforms["least"]!.value = least;
       this.ghost.material.uniforms["least"]!.value = this.throughOthers ? least / 1.5 : least;
@@ -118,8 +127,10 @@ export class CloudPoints {
     this.ghost.geometry.setDrawRange(indices.length, this.cloud.count - indices.length);
   }
 
-  show(mode: HiddenMode, frozen: boolean): void {
+  /** Hidden points, and up to which share of the picture's width. */
+  show(mode: HiddenMode, frozen: boolean, until = 1): void {
     const { uniforms } = this.ghost.material;
+    this.until = until;
     this.ghost.visible = mode !== "off";
     this.throughOthers = !frozen;
     uniforms["cover"]!.value = display(frozen && mode === "dimmed" ? HIDDEN_DIMMED : HIDDEN);

@@ -85,9 +85,22 @@ export class Stage {
     this.frame();
   }
 
+  /** The picture as it is now, as a PNG file. */
+  snapshot(): Promise<Blob> {
+    // What is drawn is there to be read until the browser has shown it.
+    this.invalidate();
+    this.frame();
+    return new Promise((resolve, reject) => {
+      this.canvas.toBlob((file) => {
+        if (file) resolve(file);
+        else reject(new Error("the browser makes no picture of this size"));
+      }, "image/png");
+    });
+  }
+
   private frame(): void {
-    this.onFrame();
     this.camera.updateMatrixWorld();
+    this.onFrame();
     const from = this.camera.matrixWorld.elements.join();
     if (!this.changed && from === this.drawnFrom) return;
     if (from !== this.drawnFrom) this.onCamera();

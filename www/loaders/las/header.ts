@@ -45,7 +45,6 @@ const EXTRA_TYPES: (NumberType | null)[] = [null, "uint8", "int8", "uint16", "in
 const EXTRA_RECORD = 192;
 const LONGEST_HEADER = 1 << 20;
 
-/** `read` hands out any part of the file. */
 export async function readHeader(name: string, blob: Blob): Promise<LasHeader> {
   const data = await bytes(name, blob, 0, LONGEST_HEADER);
   const header = parseHeader(name, data);

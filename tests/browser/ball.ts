@@ -1,0 +1,65 @@
+import type { BrowserContextOptions, Page } from "playwright-core";
+import { binaryPly, georeferencedBall } from "./clouds.js";
+import { inNode, openReady, served, status, upToDate } from "./support.js";
+
+/*
+ * The ball of 600 points stands in UTM coordinates: f32 would be half a meter off. It is looked at from straight ahead,
+ * so that tests can tell for themselves where its points are in the picture.
+ */
+const COUNT = 600;
+export const positions = georeferencedBall(COUNT);
+export const MIDDLE = [512_345.5, 5_403_210.25, 431.75] as const;
+const [X, Y, Z] = MIDDLE;
+const DISTANCE = 9;
+const FRONT = [X, Y, Z + DISTANCE];
+
+/** The page with the ball, or with a file of it made by the test. */
+export async function openBall(options: BrowserContextOptions = {}, view: readonly number[] = FRONT, file = binaryPly(positions, "double", true)): Promise<Page> {
+  served.set("clouds/utm.ply", file);
+  const page = await openReady(`?src=clouds/utm.ply&up=y&view=${view.join()}&target=${MIDDLE.join()}`, options);
+  await upToDate(page);
+  return page;
+}
+
+export const at = (index: number): [number, number, number] => [positions[3 * index]!, positions[3 * index + 1]!, positions[3 * index + 2]!];
+
+/** Where a point is on the screen, seen from FRONT. */
+export async function place(page: Page, index: number): Promise<{ x: number; y: number }> {
+  const box = (await page.locator("#view").boundingBox())!;
+  const [x, y, z] = at(index);
+  const ahead = DISTANCE - (z - Z);
+  const pixels = box.height / 2 / Math.tan(Math.PI / 8) / ahead;
+  return { x: box.x + box.width / 2 + (x - X) * pixels, y: box.y + box.height / 2 - (y - Y) * pixels };
+}
+
+export async function clickPoint(page: Page, index: number): Promise<void> {
+  const { x, y } = await place(page, index);
+  await page.mouse.click(x, y);
+}
+
+/** What is visible from the camera of the page, ascending. */
+export async function visible(page: Page): Promise<number[]> {
+  const { viewpoint } = await status(page);
+  return inNode(positions, (cloud) => [...cloud.visibleFrom(viewpoint).indices]);
+}
+
+/** Points well apart from every other in the picture, of those in `among`. */
+export async function lonely(page: Page, among: number[], rivals: number[]): Promise<number[]> {
+  const places = new Map(await Promise.all(rivals.map(async (i) => [i, await place(page, i)] as const)));
+  return among.filter((i) => {
+    const own = places.get(i)!;
+    return rivals.every((j) => j === i || Math.hypot(own.x - places.get(j)!.x, own.y - places.get(j)!.y) > 12);
+  });
+}
+
+export const everything = Array.from({ length: COUNT }, (_, i) => i);
+export const tool = (page: Page, name: string) => page.locator("#tool-bar").getByRole("button", { name });
+
+/** The points of `among` within a box on the screen. */
+export async function within(page: Page, among: number[], box: { left: number; top: number; right: number; bottom: number }): Promise<number[]> {
+  const inside = await Promise.all(among.map(async (i) => {
+    const { x, y } = await place(page, i);
+    return x > box.left && x < box.right && y > box.top && y < box.bottom;
+  }));
+  return among.filter((_, i) => inside[i]);
+}

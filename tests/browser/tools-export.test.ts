@@ -1,0 +1,162 @@
+import { readFileSync } from "node:fs";
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { at, clickPoint, everything, openBall, tool, visible, within } from "./ball.js";
+import { differentPixels, drag, openReady, picture, settled, status, upToDate } from "./support.js";
+
+const COLOR = (index: number) => [index % 256, (7 * index) % 256, 255 - (index % 256)];
+
+/** The ball with a color for each point, as some scanner might write it. */
+function coloredPly(): Uint8Array {
+  const head = ["ply", "format binary_little_endian 1.0", `element vertex ${everything.length}`];
+  const properties = ["x", "y", "z"].map((axis) => `property double ${axis}`).concat(["red", "green", "blue"].map((channel) => `property uchar ${channel}`));
+  const body = Buffer.alloc(27 * everything.length);
+  for (const index of everything) {
+    for (const [axis, value] of at(index).entries()) body.writeDoubleLE(value, 27 * index + 8 * axis);
+    body.set(COLOR(index), 27 * index + 24);
+  }
+  return Buffer.concat([Buffer.from([...head, ...properties, "end_header", ""].join("\n")), body]);
+}
+
+/** What a click on that button of the export card saves. */
+async function saved(page: Page, button: string): Promise<{ name: string; content: Buffer }> {
+  const coming = page.waitForEvent("download");
+  await page.locator("#export-card").getByRole("button", { name: button }).click();
+  const download = await coming;
+  return { name: download.suggestedFilename(), content: readFileSync(await download.path()) };
+}
+
+interface Ply {
+  properties: string[];
+  comments: string[];
+  rows: number[][];
+}
+
+function readPly(file: Buffer): Ply {
+  const end = file.indexOf("end_header\n") + 11;
+  const lines = file.subarray(0, end).toString().split("\n");
+  expect(lines.slice(0, 2)).toEqual(["ply", "format binary_little_endian 1.0"]);
+  const properties = lines.filter((line) => line.startsWith("property ")).map((line) => line.slice(9));
+  const count = Number(lines.find((line) => line.startsWith("element vertex "))!.slice(15));
+  let offset = end;
+  const next = (type: string) => {
+    const bytes = type === "double" ? 8 : type === "float" ? 4 : 1;
+    offset += bytes;
+    return bytes === 8 ? file.readDoubleLE(offset - 8) : bytes === 4 ? file.readFloatLE(offset - 4) : file.readUInt8(offset - 1);
+  };
+  const rows = Array.from({ length: count }, () => properties.map((property) => next(property.split(" ")[0]!)));
+  expect(offset).toBe(file.length);
+  return { properties, comments: lines.filter((line) => line.startsWith("comment ")), rows };
+}
+
+test("the visible points, saved as PLY, JSON and CSV, are the package's own, with their colors and in full precision", async () => {
+  const page = await openBall({}, undefined, coloredPly());
+  const seen = await visible(page);
+  await tool(page, "Export").click();
+  expect(await page.locator("#export-what").isVisible()).toBe(false);
+  const ply = await saved(page, "PLY");
+  expect(ply.name).toBe("utm-visible.ply");
+  const { properties, comments, rows } = readPly(ply.content);
+  expect(properties).toEqual(["double x", "double y", "double z", "uchar red", "uchar green", "uchar blue"]);
+  expect(rows).toEqual(seen.map((index) => [...at(index), ...COLOR(index)]));
+  const { viewpoint, radius } = await status(page);
+  expect(comments).toEqual([`comment Visible points: ${seen.length} of 600`, `comment Seen from ${viewpoint.join(" ")}`, `comment Radius ${radius}`]);
+
+  const json = await saved(page, "JSON");
+  expect(json.name).toBe("utm-visible.json");
+  expect(JSON.parse(json.content.toString())).toMatchObject({ cloud: "utm.ply", points: "visible", total: 600, viewpoint, radius, inversion: "spherical", indices: seen });
+  const csv = await saved(page, "CSV");
+  expect(csv.content.toString()).toBe(["index,x,y,z", ...seen.map((index) => [index, ...at(index)].join()), ""].join("\n"));
+
+  // Opened again, the file is a cloud of as many points.
+  const before = await status(page);
+  await page.locator("#file").setInputFiles({ name: ply.name, mimeType: "", buffer: ply.content });
+  await page.locator(`#status[data-total="${seen.length}"]`).waitFor();
+  expect((await upToDate(page)).refilters).toBeGreaterThan(before.refilters);
+});
+
+test("a selection is saved in the place of the visible points, and only while there is one", async () => {
+  const page = await openBall();
+  const canvas = (await page.locator("#view").boundingBox())!;
+  const [x, y] = [canvas.x + canvas.width / 2, canvas.y + canvas.height / 2];
+  const box = { left: x - 70.3, top: y - 70.3, right: x + 70.3, bottom: y + 70.3 };
+  await tool(page, "Select").click();
+  await page.locator("#select-shape label", { hasText: "Box" }).click();
+  await page.getByLabel("Through the surface").check();
+  await page.mouse.move(box.left, box.top);
+  await page.mouse.down();
+  await page.mouse.move(box.right, box.bottom);
+  await page.mouse.up();
+  const inside = await within(page, everything, box);
+  await tool(page, "Export").click();
+  await page.locator("#export-what label", { hasText: "Selected" }).click();
+  const ply = await saved(page, "PLY");
+  expect(ply.name).toBe("utm-selection.ply");
+  expect(readPly(ply.content).rows).toEqual(inside.map((index) => at(index)));
+  expect((JSON.parse((await saved(page, "JSON")).content.toString()) as { indices: number[] }).indices).toEqual(inside);
+  await tool(page, "Select").click();
+  await page.locator("#select-clear").click();
+  await tool(page, "Export").click();
+  expect(await page.locator("#export-what").isVisible()).toBe(false);
+  expect((await saved(page, "CSV")).name).toBe("utm-visible.csv");
+});
+
+test("single precision stays single: a sample's points are saved bit by bit", async () => {
+  const page = await openReady("?sample=bunny");
+  await tool(page, "Export").click();
+  const { properties, rows } = readPly((await saved(page, "PLY")).content);
+  expect(properties).toEqual(["float x", "float y", "float z"]);
+  const { visible: count } = await status(page);
+  expect(rows.length).toBe(count);
+  const sample = await page.evaluate(async () => [...new Float32Array(await (await fetch("samples/bunny.bin")).arrayBuffer())]);
+  const { indices } = JSON.parse((await saved(page, "JSON")).content.toString()) as { indices: number[] };
+  expect(rows).toEqual(indices.map((index) => sample.slice(3 * index, 3 * index + 3)));
+});
+
+test("the picture is saved as one sees it, marks included", async () => {
+  const page = await openBall();
+  await tool(page, "Measure").click();
+  const seen = await visible(page);
+  const canvas = (await page.locator("#view").boundingBox())!;
+  for (const shift of [-60, 60]) {
+    // Wherever the next visible point is.
+    const places = await within(page, seen, { left: canvas.x + canvas.width / 2 + shift - 40, right: canvas.x + canvas.width / 2 + shift + 40, top: canvas.y + canvas.height / 2 - 40, bottom: canvas.y + canvas.height / 2 + 40 });
+    await clickPoint(page, places[0]!);
+  }
+  expect(await page.locator("#marks .measure").count()).toBe(1);
+  await tool(page, "Export").click();
+  const png = await saved(page, "PNG");
+  expect(png.name).toBe("utm-picture.png");
+  await tool(page, "Export").click();
+  await page.addStyleTag({ content: "#tools { visibility: hidden }" });
+  await page.locator("#view").blur();
+  const shown = await picture(page);
+  expect(await differentPixels(page, shown, png.content)).toBeLessThan(60);
+  await page.addStyleTag({ content: "#marks { visibility: hidden }" });
+  expect(await differentPixels(page, await picture(page), png.content)).toBeGreaterThan(200);
+});
+
+test("the copied link shows the same cloud, camera and settings", async () => {
+  const page = await openReady("?sample=dragon_res4", { permissions: ["clipboard-read", "clipboard-write"] });
+  await page.getByLabel("Exponent", { exact: true }).fill("2.5");
+  await drag(page, 80, 30);
+  await settled(page);
+  await tool(page, "Compare").click();
+  await tool(page, "Export").click();
+  await page.getByRole("button", { name: "Copy link" }).click();
+  await expect.poll(() => page.locator("#export-result").textContent()).toBe("The link is copied.");
+  const link = await page.evaluate(() => navigator.clipboard.readText());
+  expect(link).toBe(page.url());
+  const before = await status(page);
+  const again = await openReady(new URL(link).search);
+  const { visible: count, viewpoint, radius } = await upToDate(again);
+  expect({ count, viewpoint, radius }).toEqual({ count: before.visible, viewpoint: before.viewpoint, radius: before.radius });
+  expect(await again.locator("#divider").getAttribute("aria-valuenow")).toBe(await page.locator("#divider").getAttribute("aria-valuenow"));
+
+  // No link opens a file on somebody's device.
+  await page.locator("#file").setInputFiles({ name: "own.xyz", mimeType: "", buffer: Buffer.from("0 0 0\n1 0 0\n0 1 0\n0 0 1\n") });
+  await page.locator('#status[data-total="4"]').waitFor();
+  await page.getByRole("button", { name: "Copy link" }).click();
+  await expect.poll(() => page.locator("#export-result").textContent()).toMatch(/no link can open/);
+  expect(await page.evaluate(() => navigator.clipboard.readText())).toBe(link);
+});

@@ -1,0 +1,205 @@
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { at, clickPoint, everything, lonely, MIDDLE, openBall, place, tool, visible, within } from "./ball.js";
+import { differentPixels, drag, picture, settled, status, upToDate } from "./support.js";
+
+const [X, Y, Z] = MIDDLE;
+
+
+test("a click tells a visible point's index and its place in full precision", async () => {
+  const page = await openBall();
+  const seen = await visible(page);
+  const [first, second] = await lonely(page, seen, seen);
+  await tool(page, "Pick").click();
+  const result = page.locator("#pick-result");
+  for (const index of [first!, second!]) {
+    await clickPoint(page, index);
+    expect(await result.locator("span").allTextContents()).toEqual([...["x", "y", "z"].map((axis, i) => `${axis} ${at(index)[i]!}`), `index ${index}`]);
+    const { x, y } = await place(page, index);
+    const ring = (await page.locator("#marks .ring").boundingBox())!;
+    expect(ring.x + ring.width / 2).toBeCloseTo(x, 0);
+    expect(ring.y + ring.height / 2).toBeCloseTo(y, 0);
+  }
+  // A drag turns the camera and picks nothing; the ring goes with its point.
+  const before = (await page.locator("#marks .ring").boundingBox())!;
+  await drag(page, 40, 0);
+  expect((await settled(page)).viewpoint).not.toEqual([X, Y, Z + 9]);
+  expect(await result.getAttribute("data-index")).toBe(String(second));
+  expect((await page.locator("#marks .ring").boundingBox())!.x).not.toBeCloseTo(before.x, 0);
+
+  await page.mouse.click(40, 40);
+  expect(await result.textContent()).toBe("No visible point there.");
+  expect(await page.locator("#marks .ring").count()).toBe(0);
+});
+
+test("hidden points are picked only through the surface", async () => {
+  const page = await openBall();
+  const seen = new Set(await visible(page));
+  const hidden = everything.filter((i) => !seen.has(i));
+  const [index] = await lonely(page, hidden, everything);
+  await tool(page, "Pick").click();
+  await clickPoint(page, index!);
+  const result = page.locator("#pick-result");
+  expect(await result.getAttribute("data-index")).toBe(null);
+  await page.getByLabel("Through the surface").check();
+  await clickPoint(page, index!);
+  expect(await result.getAttribute("data-index")).toBe(String(index));
+  expect(await page.locator("#marks .ring.hidden").count()).toBe(1);
+});
+
+test("by keyboard: P, Enter for the middle, Escape once for the point and once for the tool", async () => {
+  const target = 300;
+  const [x, y, z] = at(target);
+  // From straight outside that point, which is therefore seen.
+  const from = [x + 3 * (x - X), y + 3 * (y - Y), z + 3 * (z - Z)];
+  const page = await openBall({}, from);
+  await page.locator("#view").focus();
+  await page.keyboard.press("p");
+  expect(await tool(page, "Pick").getAttribute("aria-pressed")).toBe("true");
+  await page.keyboard.press("Enter");
+  expect(await page.locator("#pick-result").getAttribute("data-index")).toBe(String(target));
+  await page.keyboard.press("Escape");
+  expect(await page.locator("#marks .ring").count()).toBe(0);
+  expect(await tool(page, "Pick").getAttribute("aria-pressed")).toBe("true");
+  await page.keyboard.press("Escape");
+  expect(await tool(page, "Pick").getAttribute("aria-pressed")).toBe("false");
+  expect(await page.locator("#tool-card").isVisible()).toBe(false);
+});
+
+test("two clicks measure a distance in the file's units, as often as one likes", async () => {
+  const page = await openBall();
+  const seen = await visible(page);
+  const [a, b, c] = await lonely(page, seen, seen);
+  const distance = (i: number, j: number) => Math.hypot(...at(i).map((value, axis) => value - at(j)[axis]!));
+  await tool(page, "Measure").click();
+  const result = page.locator("#measure-result");
+  for (const index of [a!, b!]) await clickPoint(page, index);
+  expect(Number(await result.getAttribute("data-distance"))).toBe(distance(a!, b!));
+  for (const index of [a!, c!]) await clickPoint(page, index);
+  const texts = [distance(a!, b!), distance(a!, c!)].map((value) => String(Number(value.toPrecision(6))));
+  expect(await page.locator("#marks .measure text").allTextContents()).toEqual(texts);
+  // The line goes from point to point.
+  const ends = await page.locator("#marks .measure line").last().evaluate((line) => ["x1", "y1", "x2", "y2"].map((name) => Number(line.getAttribute(name))));
+  const [from, to] = [await place(page, a!), await place(page, c!)];
+  for (const [i, value] of [from.x, from.y, to.x, to.y].entries()) expect(ends[i]).toBeCloseTo(value, 0);
+
+  // Escape gives up the third.
+  await clickPoint(page, b!);
+  expect(await page.locator("#marks .ring").count()).toBe(1);
+  await page.keyboard.press("Escape");
+  expect(await page.locator("#marks .ring").count()).toBe(0);
+  expect(await page.locator("#marks .measure").count()).toBe(2);
+  await page.getByRole("button", { name: "Clear all" }).click();
+  expect(await page.locator("#marks .measure").count()).toBe(0);
+});
+
+async function dragBox(page: Page, { left, top, right, bottom }: { left: number; top: number; right: number; bottom: number }): Promise<void> {
+  await page.mouse.move(left, top);
+  await page.mouse.down();
+  await page.mouse.move(right, bottom, { steps: 4 });
+  await page.mouse.up();
+}
+
+test("box and lasso select visible points, or all through the surface; the camera stays", async () => {
+  const page = await openBall();
+  const seen = await visible(page);
+  const plain = await picture(page);
+  const before = await status(page);
+  const canvas = (await page.locator("#view").boundingBox())!;
+  const [x, y] = [canvas.x + canvas.width / 2, canvas.y + canvas.height / 2];
+  const half = { left: x - 90.3, top: y - 120.3, right: x + 20.3, bottom: y + 60.3 };
+  const count = async () => Number(await page.locator("#select-result").getAttribute("data-count"));
+
+  await tool(page, "Select").click();
+  await page.locator("#select-shape label", { hasText: "Box" }).click();
+  await dragBox(page, half);
+  const inside = await within(page, seen, half);
+  expect(inside.length).toBeGreaterThan(10);
+  expect(await count()).toBe(inside.length);
+  expect(await differentPixels(page, plain, await picture(page))).toBeGreaterThan(500);
+  expect(await status(page)).toEqual(before);
+
+  const more = { left: x + 30.3, top: y - 80.3, right: x + 90.3, bottom: y + 80.3 };
+  await page.keyboard.down("Shift");
+  await dragBox(page, more);
+  await page.keyboard.up("Shift");
+  expect(await count()).toBe(inside.length + (await within(page, seen, more)).length);
+  await page.keyboard.down("Alt");
+  await dragBox(page, half);
+  await page.keyboard.up("Alt");
+  expect(await count()).toBe((await within(page, seen, more)).length);
+
+  await page.getByLabel("Through the surface").check();
+  await dragBox(page, half);
+  expect(await count()).toBe((await within(page, everything, half)).length);
+
+  await page.getByLabel("Through the surface").uncheck();
+  await page.locator("#select-shape label", { hasText: "Lasso" }).click();
+  // A triangle around the upper left half of the box.
+  await page.mouse.move(half.left, half.top);
+  await page.mouse.down();
+  await page.mouse.move(half.right, half.top, { steps: 5 });
+  await page.mouse.move(half.left, half.bottom, { steps: 5 });
+  await page.mouse.up();
+  const places = await Promise.all(inside.map((i) => place(page, i)));
+  const triangle = places.filter((at) => (at.x - half.left) / (half.right - half.left) + (at.y - half.top) / (half.bottom - half.top) < 1);
+  expect(await count()).toBe(triangle.length);
+
+  await page.getByRole("button", { name: "All in the picture" }).click();
+  expect(await count()).toBe(seen.length);
+  await page.locator("#view").press("Escape");
+  expect(await count()).toBe(0);
+  expect(await status(page)).toEqual(before);
+  await page.locator("#view").press("Escape");
+  await page.locator("#view").blur();
+  expect(await differentPixels(page, plain, await picture(page))).toBe(0);
+  await drag(page, 60, 0);
+  expect((await settled(page)).viewpoint).not.toEqual(before.viewpoint);
+});
+
+test("a label is there as long as its point is seen", async () => {
+  const page = await openBall();
+  const seen = await visible(page);
+  const [index] = await lonely(page, seen, seen);
+  await tool(page, "Label").click();
+  await clickPoint(page, index!);
+  // The field has the focus; letters in it are no keys.
+  await page.keyboard.type("Chimney <b> crest?");
+  await page.keyboard.press("Enter");
+  const label = page.locator("#marks .note");
+  expect(await label.locator("text").textContent()).toBe("Chimney <b> crest?");
+  expect(await label.isVisible()).toBe(true);
+  // To the other side of the ball and back.
+  await page.locator("#view").focus();
+  for (let i = 0; i < 36; i++) await page.keyboard.press("ArrowLeft");
+  await settled(page);
+  expect((await visible(page)).includes(index!)).toBe(false);
+  expect(await label.isVisible()).toBe(false);
+  for (let i = 0; i < 36; i++) await page.keyboard.press("ArrowRight");
+  await settled(page);
+  expect(await label.isVisible()).toBe(true);
+  await page.getByRole("button", { name: "Remove the label Chimney <b> crest?" }).click();
+  expect(await label.count()).toBe(0);
+
+  // Escape in the field gives the label up.
+  await clickPoint(page, index!);
+  await page.keyboard.type("never");
+  await page.keyboard.press("Escape");
+  expect(await page.getByLabel("Text of the label").isVisible()).toBe(false);
+  expect(await page.locator("#marks .note, #marks .ring").count()).toBe(0);
+});
+
+test("marks and the selection do not go to the next cloud", async () => {
+  const page = await openBall();
+  const seen = await visible(page);
+  const [a, b] = await lonely(page, seen, seen);
+  await tool(page, "Measure").click();
+  for (const index of [a!, b!]) await clickPoint(page, index);
+  await tool(page, "Select").click();
+  await page.getByRole("button", { name: "All in the picture" }).click();
+  await page.locator("#sample").selectOption("dragon_res4");
+  await page.locator('#status[data-total="5205"]').waitFor();
+  await upToDate(page);
+  expect(await page.locator("#marks .measure").count()).toBe(0);
+  expect(await page.locator("#select-result").getAttribute("data-count")).toBe("0");
+});

@@ -1,0 +1,131 @@
+import type { TimedView } from "../ask/inquiry.ts";
+import { byId } from "../panel/dom.ts";
+import { Segmented } from "../panel/segmented.ts";
+import { save } from "./files.ts";
+import { pictureWithMarks } from "./picture.ts";
+import { plyParts } from "./ply.ts";
+import type { Bench, Tool } from "./tool.ts";
+
+export interface ExportActions {
+  /** What the cloud is called. */
+  name: () => string;
+  /** The page as it is now, for others to open; `null` where no address can. */
+  link: () => string | null;
+}
+
+/** Indices written at once. */
+const BATCH = 65_536;
+
+/** What is seen, or selected, as a file; the picture as one; and a link to all of it. */
+export class Export implements Tool {
+  readonly name = "export";
+  readonly uses = "nothing";
+  private readonly bench: Bench;
+  private readonly selected: () => Uint32Array;
+  private readonly actions: ExportActions;
+  private readonly output = byId("export-result");
+  private readonly what = new Segmented<"visible" | "selection">("export-what", () => undefined);
+
+  constructor(bench: Bench, selected: () => Uint32Array, actions: ExportActions) {
+    this.bench = bench;
+    this.selected = selected;
+    this.actions = actions;
+    this.bind("export-ply", "ply", () => this.ply());
+    this.bind("export-json", "json", () => this.json());
+    this.bind("export-csv", "csv", () => this.csv());
+    this.bind("export-png", "png", async () => [await pictureWithMarks(bench.viewer.stage, bench.marks.svg)]);
+    byId("copy-link").addEventListener("click", () => void this.copyLink());
+  }
+
+  /** Offers the selection while there is one. */
+  open(): void {
+    this.output.textContent = "";
+    const none = this.selected().length === 0;
+    byId("export-what", HTMLFieldSetElement).hidden = none;
+    if (none) this.what.value = "visible";
+  }
+
+  clear(): void {
+    this.open();
+  }
+
+  private get indices(): Uint32Array {
+    return this.what.value === "selection" ? this.selected() : this.bench.viewer.scene.visible;
+  }
+
+  private bind(id: string, ending: string, parts: () => Iterable<BlobPart> | Promise<Iterable<BlobPart>>): void {
+    const button = byId(id, HTMLButtonElement);
+    button.addEventListener("click", () => {
+      if (!this.bench.viewer.cloud) return;
+      const stem = this.actions.name().toLowerCase().replace(/\.\w{1,4}$/, "").replace(/[^\p{L}\p{N}]+/gu, "-").replace(/^-+|-+$/g, "");
+      const file = `${stem || "cloud"}-${ending === "png" ? "picture" : this.what.value}.${ending}`;
+      button.disabled = true;
+      void (async () => {
+        try {
+          await save(file, await parts());
+          this.output.textContent = `Saved as ${file}.`;
+        } catch (error) {
+          this.output.textContent = `Could not be saved: ${error instanceof Error ? error.message : String(error)}.`;
+        }
+        button.disabled = false;
+      })();
+    });
+  }
+
+  private ply(): Iterable<BlobPart> {
+    const { cloud, positions, answer } = this.bench.viewer.scene;
+    const { what, indices } = this;
+    const comments = [`${what.value === "visible" ? "Visible" : "Selected"} points: ${indices.length} of ${cloud.count}`, ...seenFrom(answer)];
+    return plyParts({ positions, colors: cloud.colors, fields: cloud.attributes, indices, comments });
+  }
+
+  private *json(): Iterable<BlobPart> {
+    const { cloud, answer } = this.bench.viewer.scene;
+    const { question, visibility } = answer;
+    const head = {
+      cloud: this.actions.name(),
+      points: this.what.value,
+      total: cloud.count,
+      viewpoint: question.viewpoint,
+      radius: visibility.radius,
+      exponent: visibility.exponent,
+      inversion: visibility.inversion,
+    };
+    yield JSON.stringify(head).slice(0, -1);
+    yield ',"indices":[';
+    yield* joined(this.indices, ",", String);
+    yield "]}\n";
+  }
+
+  private *csv(): Iterable<BlobPart> {
+    const { positions } = this.bench.viewer.scene;
+    yield "index,x,y,z\n";
+    yield* joined(this.indices, "\n", (index) => [index, ...positions.subarray(3 * index, 3 * index + 3)].join());
+    yield "\n";
+  }
+
+  private async copyLink(): Promise<void> {
+    const link = this.actions.link();
+    if (link === null) {
+      this.output.textContent = "This cloud is a file on your device, which no link can open.";
+      return;
+    }
+    try {
+      await navigator.clipboard.writeText(link);
+      this.output.textContent = "The link is copied.";
+    } catch {
+      this.output.textContent = "The browser does not let this page copy; the link is the page’s address.";
+    }
+  }
+}
+
+/** A list in pieces. */
+function* joined(indices: Uint32Array, separator: string, text: (index: number) => string): Generator<string> {
+  for (let from = 0; from < indices.length; from += BATCH) {
+    yield (from > 0 ? separator : "") + Array.from(indices.subarray(from, from + BATCH), text).join(separator);
+  }
+}
+
+function seenFrom({ question, visibility }: TimedView): string[] {
+  return [`Seen from ${question.viewpoint.join(" ")}`, `Radius ${visibility.radius}`];
+}

@@ -1,0 +1,16 @@
+/** Puts pieces together to a file that the browser saves. Between the pieces the page goes on drawing. */
+export async function save(name: string, parts: Iterable<BlobPart>): Promise<void> {
+  const done: BlobPart[] = [];
+  for (const part of parts) {
+    done.push(part);
+    await new Promise((resolve) => setTimeout(resolve));
+  }
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob(done));
+  link.download = name;
+  link.click();
+  // The browser has begun to read it by then.
+  setTimeout(() => {
+    URL.revokeObjectURL(link.href);
+  }, 60_000);
+}

@@ -1,0 +1,20 @@
+import { byId } from "../panel/dom.ts";
+
+/** The sheet with all keys. A modal dialog keeps the focus, closes by Escape and gives the focus back by itself. */
+export function bindKeysSheet(): void {
+  const sheet = byId("keys", HTMLDialogElement);
+  const toggle = () => {
+    if (sheet.open) sheet.close();
+    else sheet.showModal();
+  };
+  byId("tool-keys").addEventListener("click", toggle);
+  byId("keys-close").addEventListener("click", toggle);
+  // A click beside the sheet is one on the dialog itself.
+  sheet.addEventListener("click", (event) => {
+    if (event.target === sheet) sheet.close();
+  });
+  document.addEventListener("keydown", (event) => {
+    const typing = event.target instanceof HTMLInputElement && !["radio", "checkbox", "range"].includes(event.target.type);
+    if (event.key === "?" && !typing && !event.ctrlKey && !event.metaKey) toggle();
+  });
+}

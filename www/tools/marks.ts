@@ -1,0 +1,122 @@
+import type { Viewer } from "../viewer.ts";
+import { includes } from "./find.ts";
+import { Projection } from "./projection.ts";
+
+const SVG = "http://www.w3.org/2000/svg";
+
+/** Something drawn over the picture that is fastened to points of the cloud. */
+export interface Mark {
+  remove(): void;
+}
+
+interface Fastened {
+  element: SVGGElement;
+  anchors: readonly number[];
+  /** Gone with its anchor; else drawn faintly. */
+  hides: boolean;
+  place: (ends: { x: number; y: number }[]) => void;
+}
+
+/** Marks over the picture: they go with their points, and show whether these are seen from here. */
+export class Marks {
+  readonly svg: SVGSVGElement;
+  private readonly viewer: Viewer;
+  private readonly all = new Set<Fastened>();
+  private placed = "";
+
+  constructor(svg: SVGSVGElement, viewer: Viewer) {
+    this.svg = svg;
+    this.viewer = viewer;
+  }
+
+  /** A ring around a point. */
+  ring(index: number): Mark {
+    const element = group("ring", [create("circle", { r: 9, class: "under" }), create("circle", { r: 9 }), create("circle", { r: 2, class: "dot" })]);
+    return this.fasten({ element, anchors: [index], hides: false, place: ([at]) => { move(element, at!); } });
+  }
+
+  /** A line between two points with a text at its middle. */
+  line(from: number, to: number, text: string): Mark {
+    const lines = [create("line", { class: "under" }), create("line", {})];
+    const label = withText(text);
+    const dots = [create("circle", { r: 3, class: "dot" }), create("circle", { r: 3, class: "dot" })];
+    const element = group("measure", [...lines, ...dots, label]);
+    const place = ([a, b]: { x: number; y: number }[]) => {
+      for (const line of lines) set(line, { x1: a!.x, y1: a!.y, x2: b!.x, y2: b!.y });
+      for (const [i, dot] of dots.entries()) move(dot, [a!, b!][i]!);
+      move(label, { x: (a!.x + b!.x) / 2, y: (a!.y + b!.y) / 2 - 10 });
+    };
+    return this.fasten({ element, anchors: [from, to], hides: false, place });
+  }
+
+  /** A text beside a point, as long as that is seen. */
+  note(index: number, text: string): Mark {
+    const label = withText(text);
+    move(label, { x: 14, y: -14 });
+    const element = group("note", [create("line", { x2: 11, y2: -11 }), create("circle", { r: 3, class: "dot" }), label]);
+    return this.fasten({ element, anchors: [index], hides: true, place: ([at]) => { move(element, at!); } });
+  }
+
+  /** Once more where its points are now. Called every frame; does nothing while nothing has moved. */
+  place(): void {
+    if (!this.viewer.cloud) return;
+    const { cloud, visible } = this.viewer.scene;
+    const { camera, size } = this.viewer.stage;
+    const now = [camera.matrixWorld.elements, camera.projectionMatrix.elements[5], size.width, size.height].join();
+    if (this.all.size === 0 || now === this.placed) return;
+    this.placed = now;
+    const at = new Projection(cloud.local, camera, size);
+    for (const { element, anchors, hides, place } of this.all) {
+      const ends = anchors.map((index) => ({ inPicture: at.to(index), ahead: at.ahead, x: at.x, y: at.y }));
+      const seen = anchors.every((index) => includes(visible, index));
+      const shown = (seen || !hides) && ends.every(({ ahead }) => ahead > 0) && ends.some(({ inPicture }) => inPicture);
+      element.style.display = shown ? "" : "none";
+      element.classList.toggle("hidden", !seen);
+      if (shown) place(ends);
+    }
+  }
+
+  /** Other points are visible now, or there are other marks. */
+  invalidate(): void {
+    this.placed = "";
+    this.place();
+  }
+
+  private fasten(mark: Fastened): Mark {
+    this.svg.append(mark.element);
+    this.all.add(mark);
+    this.invalidate();
+    return {
+      remove: () => {
+        mark.element.remove();
+        this.all.delete(mark);
+      },
+    };
+  }
+}
+
+function create<Name extends keyof SVGElementTagNameMap>(name: Name, attributes: Record<string, string | number>): SVGElementTagNameMap[Name] {
+  const element = document.createElementNS(SVG, name);
+  set(element, attributes);
+  return element;
+}
+
+function set(element: SVGElement, attributes: Record<string, string | number>): void {
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, String(value));
+}
+
+function group(kind: string, parts: SVGElement[]): SVGGElement {
+  const element = create("g", { class: kind });
+  element.append(...parts);
+  return element;
+}
+
+function withText(text: string): SVGTextElement {
+  const element = create("text", {});
+  element.textContent = text;
+  return element;
+}
+
+function move(element: SVGElement, { x, y }: { x: number; y: number }): void {
+  element.setAttribute("transform", `translate(${x} ${y})`);
+}

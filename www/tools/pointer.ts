@@ -1,0 +1,67 @@
+import type { Spot } from "./find.ts";
+
+/** A press that goes no further, in pixels, is a click. */
+const STILL = 5;
+/** How far from a click a point may be: fingers are wide. */
+export const TOLERANCE = 8;
+const TOUCH_TOLERANCE = 16;
+
+/** Tells clicks on the canvas from drags, which turn the camera. */
+export function onClick(canvas: HTMLElement, click: (spot: Spot) => void): void {
+  let pressed: PointerEvent | null = null;
+  canvas.addEventListener("pointerdown", (event) => {
+    // A second finger makes it something else.
+    pressed = event.isPrimary && event.button === 0 ? event : null;
+  });
+  canvas.addEventListener("pointerup", (event) => {
+    const from = pressed;
+    pressed = null;
+    if (!from || event.pointerId !== from.pointerId || Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > STILL) return;
+    const { left, top } = canvas.getBoundingClientRect();
+    click({ x: event.clientX - left, y: event.clientY - top, tolerance: event.pointerType === "touch" ? TOUCH_TOLERANCE : TOLERANCE });
+  });
+}
+
+/** Takes drags on the canvas from the camera as long as `wanted` says so and tells all places each has been at. */
+export function onDrag(
+  canvas: HTMLElement,
+  wanted: () => boolean,
+  handlers: { drag: (path: { x: number; y: number }[]) => void; end: (path: { x: number; y: number }[], event: PointerEvent) => void },
+): { cancel: () => boolean } {
+  let path: { x: number; y: number }[] | null = null;
+  const at = (event: PointerEvent) => {
+    const { left, top } = canvas.getBoundingClientRect();
+    return { x: event.clientX - left, y: event.clientY - top };
+  };
+  // In the capture phase, before the orbit controls.
+  canvas.addEventListener(
+    "pointerdown",
+    (event) => {
+      if (!wanted() || event.button !== 0) return;
+      event.stopImmediatePropagation();
+      canvas.focus();
+      if (!event.isPrimary) return;
+      canvas.setPointerCapture(event.pointerId);
+      path = [at(event)];
+    },
+    { capture: true },
+  );
+  canvas.addEventListener("pointermove", (event) => {
+    if (!path || !event.isPrimary) return;
+    path.push(at(event));
+    handlers.drag(path);
+  });
+  canvas.addEventListener("pointerup", (event) => {
+    if (!path || !event.isPrimary) return;
+    const done = path;
+    path = null;
+    handlers.end(done, event);
+  });
+  const cancel = () => {
+    const begun = path !== null;
+    path = null;
+    return begun;
+  };
+  canvas.addEventListener("pointercancel", cancel);
+  return { cancel };
+}

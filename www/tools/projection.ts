@@ -1,0 +1,41 @@
+import { Matrix4, type PerspectiveCamera } from "three";
+
+/** Where points of the cloud are in the picture: in CSS pixels from its left and top. */
+export class Projection {
+  x = 0;
+  y = 0;
+  /** How far ahead of the camera. */
+  ahead = 0;
+  private readonly local: Float32Array;
+  private readonly matrix: readonly number[];
+  private readonly width: number;
+  private readonly height: number;
+  /** Pixels that a unit has at distance 1. */
+  private readonly pixels: number;
+
+  constructor(local: Float32Array, camera: PerspectiveCamera, { width, height }: { width: number; height: number }) {
+    this.local = local;
+    this.matrix = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
+    this.width = width;
+    this.height = height;
+    this.pixels = (camera.projectionMatrix.elements[5] * height) / 2;
+  }
+
+  /** Goes to a point; `false` for what is behind the camera or out of the picture. */
+  to(index: number): boolean {
+    const m = this.matrix;
+    const x = this.local[3 * index]!;
+    const y = this.local[3 * index + 1]!;
+    const z = this.local[3 * index + 2]!;
+    this.ahead = m[3]! * x + m[7]! * y + m[11]! * z + m[15]!;
+    if (this.ahead <= 0) return false;
+    this.x = (0.5 + (0.5 * (m[0]! * x + m[4]! * y + m[8]! * z + m[12]!)) / this.ahead) * this.width;
+    this.y = (0.5 - (0.5 * (m[1]! * x + m[5]! * y + m[9]! * z + m[13]!)) / this.ahead) * this.height;
+    return this.x >= 0 && this.y >= 0 && this.x <= this.width && this.y <= this.height;
+  }
+
+  /** The length of so many pixels at the point's distance. */
+  lengthOf(pixels: number): number {
+    return (pixels * this.ahead) / this.pixels;
+  }
+}

@@ -1,0 +1,94 @@
+import { byId } from "../panel/dom.ts";
+import type { Store } from "../settings.ts";
+import type { Viewer } from "../viewer.ts";
+import { Compare } from "./compare.ts";
+import { Export, type ExportActions } from "./export.ts";
+import { bindKeysSheet } from "./keys.ts";
+import { Label } from "./label.ts";
+import { Marks } from "./marks.ts";
+import { Measure } from "./measure.ts";
+import { Pick } from "./pick.ts";
+import { onClick, TOLERANCE } from "./pointer.ts";
+import { Select } from "./select.ts";
+import type { Bench, Tool } from "./tool.ts";
+
+/** The bar over the cloud: at most one of its tools is at work, and has the clicks or the drags. */
+export class Tools {
+  private readonly tools: Tool[];
+  private readonly marks: Marks;
+  private readonly stage = byId("stage");
+  private readonly canvas = byId("view", HTMLCanvasElement);
+  private readonly through = byId("through", HTMLInputElement);
+  private readonly compare: Compare;
+  private active: Tool | null = null;
+
+  constructor(viewer: Viewer, store: Store, actions: ExportActions, introduce: boolean) {
+    this.marks = new Marks(document.querySelector<SVGSVGElement>("#marks")!, viewer);
+    const bench: Bench = { viewer, marks: this.marks, through: () => this.through.checked };
+    const select: Select = new Select(bench, this.canvas, () => this.active === select);
+    const exports = new Export(bench, () => select.indices, actions);
+    select.onChange = () => { exports.open(); };
+    this.tools = [new Pick(bench), new Measure(bench), select, new Label(bench), exports];
+    for (const tool of this.tools) {
+      byId(`tool-${tool.name}`).addEventListener("click", () => { this.toggle(tool); });
+    }
+    onClick(this.canvas, (spot) => {
+      if (viewer.cloud) this.active?.click?.(spot);
+    });
+    this.compare = new Compare(viewer, store, introduce);
+    bindKeysSheet();
+    this.bindKeys({ c: () => { this.compare.toggle(); } }, viewer);
+  }
+
+  /** For a cloud that is shown in the place of another. */
+  clear(): void {
+    for (const tool of this.tools) tool.clear?.();
+  }
+
+  /** Other points are visible. */
+  follow(): void {
+    this.marks.invalidate();
+    this.compare.follow();
+  }
+
+  /** Called every frame. */
+  place(): void {
+    this.marks.place();
+    this.compare.place();
+  }
+
+  private toggle(tool: Tool): void {
+    this.show(this.active === tool ? null : tool);
+  }
+
+  private show(active: Tool | null): void {
+    this.active?.leave?.();
+    this.active = active;
+    if (active) this.stage.dataset["uses"] = active.uses;
+    else delete this.stage.dataset["uses"];
+    for (const tool of this.tools) {
+      byId(`tool-${tool.name}`).setAttribute("aria-pressed", String(tool === active));
+      byId(`${tool.name}-card`).hidden = tool !== active;
+    }
+    byId("tool-card").hidden = active === null;
+    byId("through-choice").hidden = active?.uses === "nothing";
+    active?.open?.();
+  }
+
+  private bindKeys(others: Record<string, () => void>, viewer: Viewer): void {
+    const keys: Record<string, () => void> = { ...others };
+    for (const tool of this.tools) keys[tool.name[0]!] = () => { this.toggle(tool); };
+    this.canvas.addEventListener("keydown", (event) => {
+      if (event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
+      const { width, height } = viewer.stage.size;
+      if (event.key === "Enter" && viewer.cloud) this.active?.click?.({ x: width / 2, y: height / 2, tolerance: TOLERANCE });
+      else keys[event.key.toLowerCase()]?.();
+    });
+    this.stage.addEventListener("keydown", (event) => {
+      if (event.key !== "Escape" || !this.active) return;
+      // First what has been begun, then the tool itself.
+      if (!this.active.cancel?.()) this.show(null);
+      this.canvas.focus();
+    });
+  }
+}
