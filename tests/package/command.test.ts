@@ -1,6 +1,6 @@
 // The command for files, run as npx runs it.
 import { spawnSync } from "node:child_process";
-import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, lstatSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
@@ -157,6 +157,17 @@ describe("tables keep their lines", () => {
     expect(written.toString("latin1")).toBe(head + visible.map((i) => lines[i]!).join(""));
   });
 
+  it.each(["\n", "\r\n", "\r"])("after a byte order mark, with lines that end with %j", (end) => {
+    const lines = every((i) => `${at(i).join(" ")}${end}`);
+    const mark = "\xef\xbb\xbf";
+    const written = filtered("marked.xyz", bytes(mark, ...lines));
+    const first = visible[0] === 0 ? mark : "";
+    expect(written.toString("latin1")).toBe(first + visible.map((i) => lines[i]!).join(""));
+    const swapped = every((i) => `${at(i)[1]!},${at(i)[0]!},${at(i)[2]!}${end}`);
+    const head = `${mark}y,x,z${end}`;
+    expect(filtered("marked.csv", bytes(head, ...swapped)).toString("latin1")).toBe(head + visible.map((i) => swapped[i]!).join(""));
+  });
+
   it("and the number of points above them is the new one", () => {
     const lines = every((i) => `${at(i).join(" ")} 17\n`);
     const written = filtered("counted.pts", `${COUNT}\n${lines.join("")}`);
@@ -188,6 +199,7 @@ describe("what is missing, wrong or not to be had", () => {
     [/one file/, ["a.ply", "c.ply", "--from", "1,2,3", "-o", "b.ply"]],
     [/--exponent/, ["a.ply", "--from", "1,2,3", "-o", "b.ply", "--exponent", "-1"]],
     [/--exponent/, ["a.ply", "--from", "1,2,3", "-o", "b.ply", "--exponent", "best"]],
+    [/--from/, ["a.ply", "--from", "-o", "b.ply"]],
     [/--colour/, ["a.ply", "--from", "1,2,3", "-o", "b.ply", "--colour"]],
   ];
   it.each(usage)("wrong usage ends with 2 and says %s", (names, args) => {
@@ -197,6 +209,8 @@ describe("what is missing, wrong or not to be had", () => {
     expect(stderr.trim().split("\n")).toHaveLength(1);
   });
 
+  const listed = (format: string, length: string) =>
+    `ply\nformat ${format} 1.0\nelement vertex 1\nproperty list ${length} int seen_by\nproperty float x\nproperty float y\nproperty float z\nend_header\n`;
   const problems: [name: string, says: RegExp, content: Uint8Array | string][] = [
     ["short.ply", /after 1 of the 5 × vertex/, bytes(plyHeader("binary_little_endian", 5), Buffer.alloc(30))],
     ["short-ascii.ply", /after 1 of the 5 × vertex/, bytes(plyHeader("ascii", 5), "1 2 3 4 5\n")],
@@ -205,6 +219,10 @@ describe("what is missing, wrong or not to be had", () => {
     ["endless.ply", /no end/, "ply\nformat ascii 1.0\n"],
     ["odd.ply", /unknown type/, "ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n1\n"],
     ["flat.ply", /no x, y and z/, "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"],
+    ["twice.ply", /vertices twice/, "ply\nformat ascii 1.0\nelement vertex 0\nelement vertex 0\nend_header\n"],
+    ["backwards.ply", /length of a list is -1/, bytes(listed("ascii", "char"), "-1 0 0 1\n")],
+    ["negative.ply", /length of a list is -1/, bytes(listed("binary_little_endian", "char"), Buffer.alloc(13, 255))],
+    ["lengthless.ply", /length of a list is NaN/, bytes(listed("binary_little_endian", "float"), Buffer.alloc(16, 255))],
     ["huge.ply", /after 0 of the 4000000000/, bytes(plyHeader("binary_little_endian", 4e9))],
     ["short.pcd", /after 1 of the 3/, bytes(pcdHeader("binary", 3), Buffer.alloc(40))],
     ["damaged.pcd", /damaged/, bytes(pcdHeader("binary_compressed", 2), Buffer.from([4, 0, 0, 0, 42, 0, 0, 0, 255, 255, 255, 255]))],
@@ -225,7 +243,8 @@ describe("what is missing, wrong or not to be had", () => {
 
   it("a file or directory that is not there ends with 1", () => {
     writeFileSync(inScratch("one.xyz"), "0 0 1\n");
-    for (const [input, output] of [["missing.xyz", "out.xyz"], ["one.xyz", "missing/out.xyz"]] as const) {
+    mkdirSync(inScratch("missing.d.xyz"));
+    for (const [input, output] of [["missing.xyz", "out.xyz"], ["one.xyz", "missing/out.xyz"], ["missing.d.xyz", "out.xyz"], ["one.xyz", "missing.d.xyz"]] as const) {
       const { stderr, status } = run(input, "--from", "0,0,5", "-o", output);
       expect([status, stderr.includes("missing")]).toEqual([1, true]);
     }
@@ -246,6 +265,15 @@ describe("the rest", () => {
     writeFileSync(inScratch("same.xyz"), "0 0 1\n0 0 2\n");
     expect(run("same.xyz", "--from=0,0,5", "--output", "same.xyz").status).toBe(0);
     expect(readFileSync(inScratch("same.xyz"), "utf8")).toBe("0 0 2\n");
+  });
+
+  it("what a link leads to is replaced, and stays as private as it was", () => {
+    writeFileSync(inScratch("private.xyz"), "0 0 1\n0 0 2\n", { mode: 0o600 });
+    symlinkSync("private.xyz", inScratch("link.xyz"));
+    expect(run("link.xyz", "--from", "0,0,5", "-o", "link.xyz").status).toBe(0);
+    expect(lstatSync(inScratch("link.xyz")).isSymbolicLink()).toBe(true);
+    expect(readFileSync(inScratch("private.xyz"), "utf8")).toBe("0 0 2\n");
+    expect(lstatSync(inScratch("private.xyz")).mode & 0o777).toBe(0o600);
   });
 
   it("a bar is drawn on a terminal only, fits into it, and is taken away", () => {

@@ -65,7 +65,8 @@ function parsed(args: string[]) {
       },
     });
   } catch (error) {
-    throw new UsageProblem((error as Error).message);
+    // What follows is about how such words are written in general.
+    throw new UsageProblem((error as Error).message.split("\n", 1)[0]);
   }
 }
 

@@ -1,4 +1,4 @@
-import { type FileHandle, open, rename, rm } from "node:fs/promises";
+import { type FileHandle, open, realpath, rename, rm, stat } from "node:fs/promises";
 
 import { FileProblem } from "./formats/point-file.js";
 
@@ -8,7 +8,9 @@ const CHUNK = 1 << 24;
 export async function readWhole(name: string, onProgress: (share: number) => void): Promise<Buffer> {
   const handle = await open(name);
   try {
-    const { size } = await handle.stat();
+    const stats = await handle.stat();
+    if (!stats.isFile()) throw new FileProblem("it is not a regular file");
+    const { size } = stats;
     const file = room(size);
     let at = 0;
     while (at < size) {
@@ -31,7 +33,10 @@ function room(size: number): Buffer {
   }
 }
 
-/** Writes a file beside its place first, so that a failure leaves no half of it; "-" is standard output. */
+/**
+ * Writes a file beside its place first, so that a failure leaves no half of it; "-" is
+ * standard output. What it replaces is what a link leads to, and who may read it stays.
+ */
 export async function writeWhole(name: string, parts: Iterable<Uint8Array>): Promise<void> {
   if (name === "-") {
     // It comes a second time as an event, which ends the process if nobody listens.
@@ -39,11 +44,16 @@ export async function writeWhole(name: string, parts: Iterable<Uint8Array>): Pro
     for (const chunk of gathered(parts)) await print(chunk);
     return;
   }
-  const unfinished = `${name}.${process.pid}.part`;
-  const handle = await open(unfinished, "w");
+  const place = await realpath(name).catch(() => name);
+  const mode = await stat(place).then(
+    (stats) => stats.mode & 0o777,
+    () => undefined,
+  );
+  const unfinished = `${place}.${process.pid}.part`;
+  const handle = await open(unfinished, "w", mode);
   try {
     await writeAll(handle, parts).finally(() => handle.close());
-    await rename(unfinished, name);
+    await rename(unfinished, place);
   } catch (error) {
     await rm(unfinished, { force: true });
     throw error;

@@ -8,15 +8,28 @@ export interface Line {
   end: number;
 }
 
+const [LINE_FEED, RETURN] = [0x0a, 0x0d];
+/** What some programs write before text in UTF-8. */
+const BYTE_ORDER_MARK = /^\xef\xbb\xbf/;
+
 /** The lines from a place on, in Latin-1, which keeps one character a byte. */
 export function* linesOf(file: Buffer, from = 0, firstNumber = 1): Generator<Line> {
+  const last = endOfLines(file, from);
   let start = from;
   for (let number = firstNumber; start < file.length; number++) {
-    const found = file.indexOf(0x0a, start);
+    const found = file.indexOf(last, start);
     const end = found < 0 ? file.length : found + 1;
-    yield { text: file.toString("latin1", start, end).trim(), number, start, end };
+    const text = file.toString("latin1", start, end);
+    yield { text: (start === 0 ? text.replace(BYTE_ORDER_MARK, "") : text).trim(), number, start, end };
     start = end;
   }
+}
+
+/** The last byte of each line, as the first one ends: in old files a return alone. */
+function endOfLines(file: Buffer, from: number): number {
+  const at = file.indexOf(RETURN, from);
+  const feed = file.indexOf(LINE_FEED, from);
+  return at >= 0 && (feed < 0 || at + 1 < feed) ? RETURN : LINE_FEED;
 }
 
 const NOT_FINITE = /^[-+]?(nan|inf|infinity)(\(.*\))?$/i;

@@ -10,6 +10,7 @@ export function readPly(file: Buffer): PointFile {
   const header = readPlyHeader(file);
   const vertex = header.elements.find(({ name }) => name === "vertex");
   if (vertex === undefined) throw new FileProblem("it has no vertices");
+  if (header.elements.some((one) => one !== vertex && one.name === "vertex")) throw new FileProblem("its PLY header tells of vertices twice");
   const axes = AXES.map((axis) => vertex.properties.find(({ name }) => name.toLowerCase() === axis));
   if (axes.some((axis) => axis?.length !== undefined || axis === undefined)) throw new FileProblem("its vertices have no x, y and z");
   const types = axes.map((axis) => axis!.type);
@@ -55,7 +56,7 @@ function columnsOf({ properties }: Element, words: string[]): number[] {
   let column = 0;
   return properties.map(({ length }) => {
     const begins = column;
-    column += length === undefined ? 1 : 1 + Number(words[column]);
+    column += length === undefined ? 1 : 1 + listLength(Number(words[column]));
     return begins;
   });
 }
@@ -118,13 +119,18 @@ function walk(view: DataView, properties: Property[], start: number, little: boo
     let count = 1;
     if (length !== undefined) {
       if (at + sizeOf(length) > view.byteLength) return undefined;
-      count = Math.max(0, reader(view, length, little)(at));
+      count = listLength(reader(view, length, little)(at));
       at += sizeOf(length);
     }
     at += count * sizeOf(type);
     if (at > view.byteLength) return undefined;
   }
   return [...begins, at];
+}
+
+function listLength(length: number): number {
+  if (!Number.isInteger(length) || length < 0) throw new FileProblem(`the length of a list is ${length}`);
+  return length;
 }
 
 function endsEarly({ name, count }: Element, found: number): FileProblem {
