@@ -1,7 +1,7 @@
 import type { TimedView } from "../ask/inquiry.ts";
 import { byId } from "../panel/dom.ts";
 import { Segmented } from "../panel/segmented.ts";
-import { save } from "./files.ts";
+import { copy, save } from "./files.ts";
 import { pictureWithMarks } from "./picture.ts";
 import { plyParts } from "./ply.ts";
 import type { Bench, Tool } from "./tool.ts";
@@ -110,12 +110,8 @@ export class Export implements Tool {
       this.output.textContent = "This cloud is a file on your device, which no link can open.";
       return;
     }
-    try {
-      await navigator.clipboard.writeText(link);
-      this.output.textContent = "The link is copied.";
-    } catch {
-      this.output.textContent = "The browser does not let this page copy; the link is the page’s address.";
-    }
+    const copied = await copy(link);
+    this.output.textContent = copied ? "The link is copied." : "The browser does not let this page copy; the link is the page’s address.";
   }
 }
 
