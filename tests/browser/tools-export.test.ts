@@ -158,6 +158,6 @@ test("the copied link shows the same cloud, camera and settings", async () => {
   await page.locator("#file").setInputFiles({ name: "own.xyz", mimeType: "", buffer: Buffer.from("0 0 0\n1 0 0\n0 1 0\n0 0 1\n") });
   await page.locator('#status[data-total="4"]').waitFor();
   await page.getByRole("button", { name: "Copy link" }).click();
-  await expect.poll(() => page.locator("#export-result").textContent()).toMatch(/no link can open/);
+  await expect.poll(() => page.locator("#export-result").textContent()).toMatch(/^No link can open/);
   expect(await page.evaluate(() => navigator.clipboard.readText())).toBe(link);
 });

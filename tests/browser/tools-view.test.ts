@@ -76,6 +76,12 @@ test("the bare page opens divided until the camera is first moved, and stays so 
   await expect.poll(() => asked.url()).toContain("compare=0.3");
 });
 
+test("a divider that cannot be is named", async () => {
+  const page = await openReady("?sample=dragon_res4&compare=2");
+  expect(await page.locator("#message p").textContent()).toBe("The place of the divider in the address is not a number from 0 to 1, so the picture is not divided.");
+  expect(await page.locator("#divider").isVisible()).toBe(false);
+});
+
 test("the plot is the visible share of this view at each exponent, and a click chooses one", async () => {
   const page = await openReady("?sample=dragon_res4");
   const before = await upToDate(page);

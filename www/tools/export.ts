@@ -107,7 +107,7 @@ export class Export implements Tool {
   private async copyLink(): Promise<void> {
     const link = this.actions.link();
     if (link === null) {
-      this.output.textContent = "This cloud is a file on your device, which no link can open.";
+      this.output.textContent = "No link can open this cloud: it is a file on your device, or still being loaded.";
       return;
     }
     const copied = await copy(link);
