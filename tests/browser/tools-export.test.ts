@@ -6,14 +6,15 @@ import { differentPixels, drag, openReady, picture, settled, status, upToDate } 
 
 const COLOR = (index: number) => [index % 256, (7 * index) % 256, 255 - (index % 256)];
 
-/** The ball with a color for each point, as some scanner might write it. */
+/** The ball with a color and an intensity for each point, as some scanner might write it. */
 function coloredPly(): Uint8Array {
   const head = ["ply", "format binary_little_endian 1.0", `element vertex ${everything.length}`];
-  const properties = ["x", "y", "z"].map((axis) => `property double ${axis}`).concat(["red", "green", "blue"].map((channel) => `property uchar ${channel}`));
-  const body = Buffer.alloc(27 * everything.length);
+  const properties = ["x", "y", "z"].map((axis) => `property double ${axis}`).concat(["red", "green", "blue"].map((channel) => `property uchar ${channel}`), "property ushort intensity");
+  const body = Buffer.alloc(29 * everything.length);
   for (const index of everything) {
-    for (const [axis, value] of at(index).entries()) body.writeDoubleLE(value, 27 * index + 8 * axis);
-    body.set(COLOR(index), 27 * index + 24);
+    for (const [axis, value] of at(index).entries()) body.writeDoubleLE(value, 29 * index + 8 * axis);
+    body.set(COLOR(index), 29 * index + 24);
+    body.writeUInt16LE(100 * index, 29 * index + 27);
   }
   return Buffer.concat([Buffer.from([...head, ...properties, "end_header", ""].join("\n")), body]);
 }
@@ -40,16 +41,16 @@ function readPly(file: Buffer): Ply {
   const count = Number(lines.find((line) => line.startsWith("element vertex "))!.slice(15));
   let offset = end;
   const next = (type: string) => {
-    const bytes = type === "double" ? 8 : type === "float" ? 4 : 1;
+    const bytes = { double: 8, float: 4, ushort: 2 }[type] ?? 1;
     offset += bytes;
-    return bytes === 8 ? file.readDoubleLE(offset - 8) : bytes === 4 ? file.readFloatLE(offset - 4) : file.readUInt8(offset - 1);
+    return bytes === 8 ? file.readDoubleLE(offset - 8) : bytes === 4 ? file.readFloatLE(offset - 4) : bytes === 2 ? file.readUInt16LE(offset - 2) : file.readUInt8(offset - 1);
   };
   const rows = Array.from({ length: count }, () => properties.map((property) => next(property.split(" ")[0]!)));
   expect(offset).toBe(file.length);
   return { properties, comments: lines.filter((line) => line.startsWith("comment ")), rows };
 }
 
-test("the visible points, saved as PLY, JSON and CSV, are the package's own, with their colors and in full precision", async () => {
+test("the visible points, saved as PLY, JSON and CSV, are the package's own, with colors and attributes, in full precision", async () => {
   const page = await openBall({}, undefined, coloredPly());
   const seen = await visible(page);
   await tool(page, "Export").click();
@@ -57,8 +58,8 @@ test("the visible points, saved as PLY, JSON and CSV, are the package's own, wit
   const ply = await saved(page, "PLY");
   expect(ply.name).toBe("utm-visible.ply");
   const { properties, comments, rows } = readPly(ply.content);
-  expect(properties).toEqual(["double x", "double y", "double z", "uchar red", "uchar green", "uchar blue"]);
-  expect(rows).toEqual(seen.map((index) => [...at(index), ...COLOR(index)]));
+  expect(properties).toEqual(["double x", "double y", "double z", "uchar red", "uchar green", "uchar blue", "ushort intensity"]);
+  expect(rows).toEqual(seen.map((index) => [...at(index), ...COLOR(index), 100 * index]));
   const { viewpoint, radius } = await status(page);
   expect(comments).toEqual([`comment Visible points: ${seen.length} of 600`, `comment Seen from ${viewpoint.join(" ")}`, `comment Radius ${radius}`]);
 
@@ -157,6 +158,6 @@ test("the copied link shows the same cloud, camera and settings", async () => {
   await page.locator("#file").setInputFiles({ name: "own.xyz", mimeType: "", buffer: Buffer.from("0 0 0\n1 0 0\n0 1 0\n0 0 1\n") });
   await page.locator('#status[data-total="4"]').waitFor();
   await page.getByRole("button", { name: "Copy link" }).click();
-  await expect.poll(() => page.locator("#export-result").textContent()).toMatch(/no link can open/);
+  await expect.poll(() => page.locator("#export-result").textContent()).toMatch(/^No link can open/);
   expect(await page.evaluate(() => navigator.clipboard.readText())).toBe(link);
 });

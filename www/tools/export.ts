@@ -1,7 +1,7 @@
 import type { TimedView } from "../ask/inquiry.ts";
 import { byId } from "../panel/dom.ts";
 import { Segmented } from "../panel/segmented.ts";
-import { save } from "./files.ts";
+import { copy, save } from "./files.ts";
 import { pictureWithMarks } from "./picture.ts";
 import { plyParts } from "./ply.ts";
 import type { Bench, Tool } from "./tool.ts";
@@ -107,15 +107,11 @@ export class Export implements Tool {
   private async copyLink(): Promise<void> {
     const link = this.actions.link();
     if (link === null) {
-      this.output.textContent = "This cloud is a file on your device, which no link can open.";
+      this.output.textContent = "No link can open this cloud: it is a file on your device, or still being loaded.";
       return;
     }
-    try {
-      await navigator.clipboard.writeText(link);
-      this.output.textContent = "The link is copied.";
-    } catch {
-      this.output.textContent = "The browser does not let this page copy; the link is the page’s address.";
-    }
+    const copied = await copy(link);
+    this.output.textContent = copied ? "The link is copied." : "The browser does not let this page copy; the link is the page’s address.";
   }
 }
 

@@ -14,3 +14,13 @@ export async function save(name: string, parts: Iterable<BlobPart>): Promise<voi
     URL.revokeObjectURL(link.href);
   }, 60_000);
 }
+
+/** Whether the browser lets the page copy: not without a secure connection, nor where the user forbids it. */
+export async function copy(text: string): Promise<boolean> {
+  try {
+    await navigator.clipboard.writeText(text);
+    return true;
+  } catch {
+    return false;
+  }
+}

@@ -59,12 +59,12 @@ export class Marks {
 
   /** Once more where its points are now. Called every frame; does nothing while nothing has moved. */
   place(): void {
-    if (!this.viewer.cloud) return;
-    const { cloud, visible } = this.viewer.scene;
+    if (this.all.size === 0 || !this.viewer.cloud) return;
     const { camera, size } = this.viewer.stage;
     const now = [camera.matrixWorld.elements, camera.projectionMatrix.elements[5], size.width, size.height].join();
-    if (this.all.size === 0 || now === this.placed) return;
+    if (now === this.placed) return;
     this.placed = now;
+    const { cloud, visible } = this.viewer.scene;
     const at = new Projection(cloud.local, camera, size);
     for (const { element, anchors, hides, place } of this.all) {
       const ends = anchors.map((index) => ({ inPicture: at.to(index), ahead: at.ahead, x: at.x, y: at.y }));

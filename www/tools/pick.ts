@@ -1,4 +1,5 @@
 import { byId } from "../panel/dom.ts";
+import { copy } from "./files.ts";
 import { pointAt, type Spot } from "./find.ts";
 import type { Mark } from "./marks.ts";
 import type { Bench, Tool } from "./tool.ts";
@@ -17,8 +18,8 @@ export class Pick implements Tool {
   constructor(bench: Bench) {
     this.bench = bench;
     this.copy.addEventListener("click", () => {
-      void navigator.clipboard.writeText(this.output.dataset["place"]!).then(() => {
-        this.copy.textContent = "Copied";
+      void copy(this.output.dataset["place"]!).then((copied) => {
+        this.copy.textContent = copied ? "Copied" : "The browser forbids it";
       });
     });
   }

@@ -37,6 +37,7 @@ export class Tools {
     });
     this.compare = new Compare(viewer, store, introduce);
     bindKeysSheet();
+    byId("tools").hidden = false;
     this.bindKeys({ c: () => { this.compare.toggle(); } }, viewer);
   }
 

@@ -1,0 +1,179 @@
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { at, openBall, place, tool } from "./ball.js";
+import { differentPixels, drag, dragonPositions, inNode, openReady, picture, reached, refiltered, settled, status, unfold, upToDate } from "./support.js";
+
+const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
+
+/** Where the divider is, in pixels from the left. */
+async function dividerAt(page: Page): Promise<number> {
+  const { x, width } = (await page.locator("#divider").boundingBox())!;
+  return x + width / 2;
+}
+
+/** What is to the left and to the right of a place in the picture, a little apart from it. */
+async function halves(page: Page, at: number): Promise<[Buffer, Buffer]> {
+  await picture(page);
+  const { width } = (await page.locator("#view").boundingBox())!;
+  const clip = (x: number, w: number) => page.screenshot({ clip: { x, y: 60, width: w, height: 500 } });
+  return [await clip(0, at - 20), await clip(at + 20, width - at - 20)];
+}
+
+test("the divider shows all points to its left and visible ones to its right, by mouse and by keys", async () => {
+  const page = await openReady("?sample=dragon_res3");
+  const before = await settled(page);
+  const divider = page.getByRole("slider", { name: /^Divider/ });
+  expect(await divider.isVisible()).toBe(false);
+  const x = 420;
+  const plain = await halves(page, x);
+  await tool(page, "Compare").click();
+  expect(await dividerAt(page)).toBeLessThan(x);
+  const note = page.locator("#compare-note span");
+  expect(await note.allTextContents()).toEqual(["All 22,998 points", `${before.visible.toLocaleString("en-US")} seen from here`]);
+
+  await divider.hover();
+  await page.mouse.down();
+  await page.mouse.move(x, 300, { steps: 4 });
+  await page.mouse.up();
+  expect(await dividerAt(page)).toBeCloseTo(x, 0);
+  const divided = await halves(page, x);
+  expect(await differentPixels(page, plain[0], divided[0])).toBeGreaterThan(2000);
+  expect(await differentPixels(page, plain[1], divided[1])).toBe(0);
+
+  await divider.focus();
+  const value = async () => Number(await divider.getAttribute("aria-valuenow"));
+  const first = await value();
+  await page.keyboard.press("ArrowRight");
+  expect(await value()).toBe(first + 2);
+  await page.keyboard.press("End");
+  expect(await value()).toBe(100);
+  await page.keyboard.press("Home");
+  expect(await value()).toBe(0);
+  // All that is left are visible points.
+  expect(await differentPixels(page, plain[1], (await halves(page, x))[1])).toBe(0);
+  expect(await status(page)).toEqual(before);
+
+  await page.locator("#view").focus();
+  await page.keyboard.press("c");
+  expect(await divider.isVisible()).toBe(false);
+});
+
+test("the bare page opens divided until the camera is first moved, and stays so where it was asked for", async () => {
+  const page = await openReady();
+  const divider = page.locator("#divider");
+  expect(await divider.isVisible()).toBe(true);
+  expect(await page.locator("#compare-note span").first().textContent()).toBe("All 437,645 points");
+  const before = await status(page);
+  await drag(page, 60, 0);
+  await refiltered(page, before);
+  expect(await divider.isVisible()).toBe(false);
+
+  const asked = await openReady("?sample=dragon_res4&compare=0.3");
+  expect(await asked.locator("#divider").isVisible()).toBe(true);
+  await drag(asked, 60, 0);
+  await settled(asked);
+  expect(await asked.locator("#divider").getAttribute("aria-valuenow")).toBe("30");
+  await expect.poll(() => asked.url()).toContain("compare=0.3");
+});
+
+test("a divider that cannot be is named", async () => {
+  const page = await openReady("?sample=dragon_res4&compare=2");
+  expect(await page.locator("#message p").textContent()).toBe("The place of the divider in the address is not a number from 0 to 1, so the picture is not divided.");
+  expect(await page.locator("#divider").isVisible()).toBe(false);
+});
+
+test("the plot is the visible share of this view at each exponent, and a click chooses one", async () => {
+  const page = await openReady("?sample=dragon_res4");
+  const before = await upToDate(page);
+  await unfold(page, "Visible share by radius");
+  const plot = page.locator("#plot");
+  const complete = () => page.locator('#plot[data-points="13"]').waitFor({ state: "attached", timeout: 60_000 });
+  const shares = () => plot.locator("circle title").allTextContents();
+  const expected = ({ viewpoint }: { viewpoint: number[] }) =>
+    inNode(dragonPositions("_res4"), (cloud) => {
+      return Array.from({ length: 13 }, (_, i) => `${i / 2}: ${((100 * cloud.visibleFrom(viewpoint, { exponent: i / 2 }).count) / 5205).toFixed(1)} %`);
+    });
+  await complete();
+  expect(await shares()).toEqual(await expected(before));
+  // Asking for it is no answer of the picture's.
+  expect(await status(page)).toEqual(before);
+
+  await page.locator("#view").press("ArrowLeft");
+  const moved = await refiltered(page, before);
+  await complete();
+  expect(await shares()).toEqual(await expected(moved));
+
+  const mark = await plot.locator(".automatic").evaluate((line) => Number(line.getAttribute("x1")));
+  expect(mark).toBeCloseTo(34 + (moved.exponent / 6) * 238, 6);
+  const box = (await plot.boundingBox())!;
+  await plot.click({ position: { x: ((34 + 238 / 3) / 280) * box.width, y: box.height / 2 } });
+  const chosen = await refiltered(page, moved);
+  expect(chosen.exponent).toBeCloseTo(2, 1);
+  expect(await page.getByLabel("Exponent", { exact: true }).inputValue()).toBe(String(Number(chosen.exponent.toFixed(2))));
+  // The automatic one stays where it was.
+  expect(await plot.locator(".automatic").evaluate((line) => Number(line.getAttribute("x1")))).toBeCloseTo(mark, 6);
+});
+
+test("the question mark opens the sheet with all keys; it keeps the focus and gives it back", async () => {
+  const page = await openReady("?sample=dragon_res4");
+  await page.locator("#view").focus();
+  await page.keyboard.press("?");
+  const sheet = page.getByRole("dialog", { name: "Mouse, touch and keys" });
+  expect(await sheet.isVisible()).toBe(true);
+  for (const key of ["P", "M", "L", "S", "C", "E", "F", "H", "R", "?", "Esc"]) expect(await sheet.locator("kbd").allTextContents()).toContain(key);
+  for (let i = 0; i < 5; i++) {
+    await page.keyboard.press("Tab");
+    expect(await page.evaluate(() => document.activeElement === document.body || document.getElementById("keys")!.contains(document.activeElement))).toBe(true);
+  }
+  await page.keyboard.press("Escape");
+  expect(await sheet.isVisible()).toBe(false);
+  expect(await page.evaluate(() => document.activeElement?.id)).toBe("view");
+  await page.getByRole("button", { name: "Keys" }).click();
+  await page.getByRole("button", { name: "Close" }).click();
+  expect(await sheet.isVisible()).toBe(false);
+});
+
+test.for([{ viewport: { width: 1280, height: 800 } }, { viewport: { width: 761, height: 600 } }, PHONE, { ...PHONE, viewport: { width: 320, height: 600 } }])(
+  "every tool fits the canvas and covers no other ($viewport.width px)",
+  async (options) => {
+    const page = await openReady("?sample=dragon_res4", options);
+    for (const name of ["Pick", "Measure", "Select", "Label", "Export"]) {
+      await tool(page, name).click();
+      const flaws = await page.evaluate(() => {
+        const boxOf = (element: Element) => element.getBoundingClientRect();
+        const canvas = boxOf(document.getElementById("view")!);
+        const shown = [...document.querySelectorAll("#tool-bar button, #tool-card button, #tool-card label, #tool-card output")].filter((element) => element.checkVisibility() && element.textContent !== "");
+        const found: string[] = [];
+        for (const [i, a] of shown.entries()) {
+          const box = boxOf(a);
+          if (box.left < canvas.left || box.right > canvas.right || box.bottom > canvas.bottom || box.top < canvas.top) found.push(`${a.textContent} leaves the canvas`);
+          if (a.matches("#tool-bar button") && (box.width < 44 || box.height < 44)) found.push(`${a.textContent} is too small`);
+          if (a.scrollWidth > a.clientWidth + 1 && a.matches("button")) found.push(`${a.textContent} is cut off`);
+          for (const b of shown.slice(i + 1)) {
+            const other = boxOf(b);
+            const over = Math.min(box.right, other.right) - Math.max(box.left, other.left) > 1.5 && Math.min(box.bottom, other.bottom) - Math.max(box.top, other.top) > 1.5;
+            if (over) found.push(`${a.textContent} lies over ${b.textContent}`);
+          }
+        }
+        return found;
+      });
+      expect(flaws, name).toEqual([]);
+    }
+  },
+);
+
+test("a finger picks", async () => {
+  const page = await openBall(PHONE);
+  await tool(page, "Pick").tap();
+  // The point that bulges most towards the viewer is seen for sure.
+  const nearest = Array.from({ length: 600 }, (_, i) => i).reduce((best, i) => (at(i)[2] > at(best)[2] ? i : best), 0);
+  const { x, y } = await place(page, nearest);
+  await page.touchscreen.tap(x, y);
+  expect(await page.locator("#pick-result").getAttribute("data-index")).toBe(String(nearest));
+});
+
+test("?embed=1 has no tools", async () => {
+  const page = await openReady("?sample=dragon_res4&embed=1");
+  await reached(page, "ready");
+  expect(await page.locator("#tools").isVisible()).toBe(false);
+});
