@@ -70,6 +70,8 @@ impl PointCloud {
                 .as_ref()
                 .is_none_or(|&(kept, _)| kept != k)
             {
+                // Never room for two.
+                self.kept.denoised = None;
                 self.kept.denoised = Some((k, Box::new(self.denoised(k)?)));
             }
             let denoised = self.kept.denoised.as_mut();
@@ -83,6 +85,7 @@ impl PointCloud {
         match options.vote {
             Some(k) if k <= MOST_KEPT => {
                 if self.kept.voters.as_ref().is_none_or(|voters| voters.k != k) {
+                    self.kept.voters = None;
                     self.kept.voters = Some(self.voters(k)?);
                 }
                 Ok(())
@@ -133,7 +136,7 @@ impl PointCloud {
     fn voters(&self, k: usize) -> Result<Voters, Error> {
         let points = self.sequence.points.len();
         let each = k.min(points.saturating_sub(1));
-        let mut others: Vec<u32> = with_room(points * each)?;
+        let mut others: Vec<u32> = with_room(points.saturating_mul(each))?;
         self.for_each_neighborhood("vote", k, &mut |_, nearest| {
             others.extend(nearest.found().iter().map(|other| other.index));
         })?;

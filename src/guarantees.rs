@@ -29,13 +29,15 @@ pub fn permissible_curvature(radius: f64, r: f64, beta: f64) -> Result<f64, Erro
     in_range("r", r, f64::MIN_POSITIVE, f64::MAX)?;
     in_range("R", radius, r, f64::MAX)?;
     in_range("beta", beta, 0.0, PI)?;
-    // In units of r, both sides times sin³β. The denominator is the paper's, without
-    // its differences: 4Rr − 4R² + (2R − r)²/sin²β = r² + (2R − r)²·cot²β.
+    // In units of R, both sides times t³·sin³β for t = r ÷ R, so that nothing can overflow.
+    // The denominator is the paper's, without its differences:
+    // 4Rr − 4R² + (2R − r)²/sin²β = r² + (2R − r)²·cot²β.
     let (sin, cos) = libm::sincos(beta);
-    let far = 2.0 * (radius / r) - 1.0;
-    let above = sin * (far + 1.0) * (2.0 * far * cos * cos + sin * sin);
-    let below = libm::hypot(sin, far * cos);
-    Ok(above / below / below / below / r)
+    let t = r / radius;
+    let far = 2.0 - t;
+    let above = 2.0 * sin * (2.0 * far * cos * cos + t * sin * sin);
+    let below = libm::hypot(t * sin, far * cos);
+    Ok(above / below / below / below / radius)
 }
 
 /// The radius R below which the bottoms of dents in a body are hidden (paper §4):

@@ -153,11 +153,7 @@ impl Nearest {
             }
             self.found.pop();
         }
-        let mut slot = self.found.len();
-        self.found.push(new);
-        while slot > 0 && new.is_before(&self.found[slot - 1]) {
-            self.found.swap(slot, slot - 1);
-            slot -= 1;
-        }
+        let slot = self.found.partition_point(|other| other.is_before(&new));
+        self.found.insert(slot, new);
     }
 }

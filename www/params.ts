@@ -22,8 +22,8 @@ export interface Params {
 const MOST_EXPONENT = 6;
 const MOST_LIGHTS = 8;
 const MOST_POWER = 16;
-/** Neighbors that smooth noise; the library's limit is the cloud, but time is the page's. */
-const MOST_NEIGHBORS = 1000;
+/** Neighbors that smooth noise; the library's limit is the cloud, but time is the page's: with so many, a large sample takes minutes. */
+const MOST_NEIGHBORS = 100;
 
 export function readParams(search: string, samples: readonly string[]): Params {
   const query = new URLSearchParams(search);

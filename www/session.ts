@@ -17,7 +17,7 @@ import { type Sample, sampleNamed, usualLook } from "./samples.ts";
 import { OWN_COLORS, type Settings, Store, USUAL_SETTINGS } from "./settings.ts";
 import type { Status } from "./status.ts";
 import { colorChoices } from "./view/colors.ts";
-import { type AskedView, findHome, isInReach } from "./view/framing.ts";
+import { type AskedView, findHome, inReachOnly } from "./view/framing.ts";
 import { Plot } from "./tools/plot.ts";
 import { Tools } from "./tools/tools.ts";
 import { LightHandles } from "./view/light-handles.ts";
@@ -142,15 +142,13 @@ export function startSession(params: Params, status: Status, message: Message): 
       progress.show(null);
       const cloud = prepareCloud(loaded);
       const usual = usualLook(sample, request.name, cloud.count, loaded.taken?.up);
-      const own: Partial<Settings> = { ...usual, freeze: null, lights: [], ...radiusFor(store.current), ...source.settings };
+      const { view: asked, places, notes: farNotes } = inReachOnly(cloud, source.view, source.settings);
+      const own: Partial<Settings> = { ...usual, freeze: null, lights: [], ...radiusFor(store.current), ...source.settings, ...places };
       const { fieldOfView: fov, up } = { ...usual, ...source.settings };
-      const tooFar = source.view !== null && !isInReach(cloud, source.view.at);
-      const farNote = tooFar ? ["The view in the address is too far away to see anything, so the usual view is used."] : [];
       const { color, notes: colorNote } = usableColor(own.color ?? store.current.color, cloud, source.settings.color !== undefined);
       own.color = color;
-      const more = [...farNote, ...colorNote, ...(loaded.notes ?? [])];
+      const more = [...farNotes, ...colorNote, ...(loaded.notes ?? [])];
       if (more.length > 0) message.show([...notes, ...more].join(" "));
-      const asked = tooFar ? null : source.view;
       const taken = loaded.taken?.from ? { at: loaded.taken.from, target: null } : null;
       const homeWith = (upward: Up) => {
         const lens = { fov, aspect: viewer.stage.camera.aspect };

@@ -95,7 +95,8 @@ pub(super) fn with_cloud<T>(
     })
 }
 
-/// Asks a cloud what it sees. What noise handling needs is kept for the next view.
+/// Asks a cloud what it sees. What noise handling needs is kept for the next view, where
+/// there is room for that.
 pub(super) fn with_view<T>(
     handle: u32,
     options: &Options,
@@ -103,7 +104,10 @@ pub(super) fn with_view<T>(
 ) -> Result<T, Failure> {
     if options.denoise.or(options.vote).is_some() {
         CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {
-            Some(Some(Cloud::Space(cloud))) => cloud.prepare_for(options).map_err(Failure::from),
+            Some(Some(Cloud::Space(cloud))) => match cloud.prepare_for(options) {
+                Ok(()) | Err(Error::OutOfMemory) => Ok(()),
+                Err(refused) => Err(Failure::from(refused)),
+            },
             _ => Err(Failure::DISPOSED),
         })?;
     }

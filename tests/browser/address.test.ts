@@ -64,6 +64,9 @@ test.for([
   ["exponent=400", /exponent in the address is not a number from 0 to 6/],
   ["view=1e300,0,0", /view in the address is too far away/],
   ["view=1e19,0,0", /view in the address is too far away/],
+  ["freeze=1e300,0,0", /frozen viewpoint in the address is too far away/],
+  ["light=1e300,0,0&light=0,1e20,0", /light in the address is too far away/],
+  ["denoise=101", /denoise in the address is not an integer from 0 to 100/],
   ["src=", /names no file after “src=”/],
 ] as const)("?%s is refused with a note, and the sample is seen as usual", async ([query, note]) => {
   const usual = await status(await openReady("?sample=bunny"));
@@ -71,6 +74,14 @@ test.for([
   const { state, total, visible, viewpoint } = usual;
   expect(await settled(page)).toMatchObject({ state, total, visible, viewpoint });
   expect(await page.locator("#message").textContent()).toMatch(note);
+});
+
+test("a target out of reach is refused with a note, and the address keeps no numbers that are none", async () => {
+  const page = await openReady("?sample=bunny&view=0,5,30&target=1e300,0,0");
+  expect((await settled(page)).viewpoint).toEqual([0, 5, 30]);
+  expect(await page.locator("#message").textContent()).toMatch(/target in the address is too far away/);
+  await page.waitForFunction(() => !location.search.includes("target="));
+  expect(page.url()).toContain("view=0,5,30");
 });
 
 test("a sample that is picked is in the address", async () => {

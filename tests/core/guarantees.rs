@@ -125,6 +125,26 @@ fn lemma_4_3_pits_are_seen_up_to_the_permissible_curvature() {
 }
 
 #[test]
+fn the_permissible_curvature_has_no_limits_of_size() {
+    // Far from the viewer's own direction it is tan β ÷ R for R that is much larger than r.
+    for beta in [0.5, 1.0, 2.5] {
+        for (radius, r) in [
+            (1e200, 1.0),
+            (1e300, 1e-300),
+            (1.0, 1e-200),
+            (1e-100, 1e-300),
+        ] {
+            let bound = permissible_curvature(radius, r, beta).unwrap();
+            let expected = libm::tan(beta).abs() / radius;
+            assert!(
+                (bound / expected - 1.0).abs() < 1e-12,
+                "{radius} {r} {beta}: {bound}"
+            );
+        }
+    }
+}
+
+#[test]
 fn other_inversions_have_their_own_curvature() {
     for r in [0.5, 2.0] {
         for gamma in [1.1, 2.0, 5.0] {

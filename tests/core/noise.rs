@@ -174,7 +174,7 @@ fn a_prepared_cloud_answers_like_one_made_anew() {
             }
         }
     }
-    // What is refused leaves what was kept.
+    // What is refused changes no answer.
     assert!(keeping.prepare_for(&denoising(10_000)).is_err());
     let kept = keeping.visible_from(FRONT, &denoising(9)).unwrap();
     assert_eq!(kept, plain.visible_from(FRONT, &denoising(9)).unwrap());

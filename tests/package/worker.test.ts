@@ -277,13 +277,14 @@ describe("requests given up", () => {
       cloud.visibleFrom(farAway, options),
       cloud.visibleFromDirection([0, 0, -1], options),
       cloud.visibleFromAny([farAway], options),
+      cloud.visibleFromAtLeast(1, [farAway], options),
       cloud.autoRadius(farAway, "search", options),
       cloud.reconstruct(farAway, options),
       cloud.illuminate([farAway], options),
     ];
     const [first, second, third] = [frame(), frame(), frame()].map(settled) as [Promise<string[]>, Promise<string[]>, Promise<string[]>];
-    const none = new Array<string>(6).fill("aborted");
-    const all = new Array<string>(6).fill("answered");
+    const none = new Array<string>(7).fill("aborted");
+    const all = new Array<string>(7).fill("answered");
     // The very first had begun.
     expect(await first).toEqual(["answered", ...none.slice(1)]);
     expect(await second).toEqual(none);
@@ -296,7 +297,7 @@ describe("requests given up", () => {
       cloud.reconstruct(farAway, given),
       cloud.illuminate([farAway], given),
     ];
-    expect(await settled(aborted)).toEqual(none.slice(1));
+    expect(await settled(aborted)).toEqual(none.slice(2));
   });
 
   it("are those whose signal aborts: waiting, running, or not yet asked", async () => {

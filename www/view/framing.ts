@@ -1,7 +1,7 @@
 import { Vector3 } from "three";
 import { type Cloud, type Up, upVector } from "../cloud.ts";
 import type { Sample } from "../samples.ts";
-import type { Viewpoint } from "../settings.ts";
+import type { Settings, Viewpoint } from "../settings.ts";
 import type { Pose } from "./navigation.ts";
 
 /** Where a cloud is first looked at from: the camera's pose, and the same place in the file's coordinates. */
@@ -48,8 +48,33 @@ export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: Aske
 }
 
 /** Whether anything of the cloud could be seen from there: beyond, it is far below a pixel, and further out f32 gives up. */
-export function isInReach(cloud: Cloud, view: Viewpoint): boolean {
+function isInReach(cloud: Cloud, view: Viewpoint): boolean {
   return Math.hypot(...view.map((value, axis) => value - cloud.center[axis]!)) <= 1e6 * cloud.radius;
+}
+
+/** Of the places that an address asks for those in reach, and what is to be said about the others. */
+export function inReachOnly(
+  cloud: Cloud,
+  view: AskedView | null,
+  { freeze, lights }: Partial<Settings>,
+): { view: AskedView | null; places: Partial<Settings>; notes: string[] } {
+  const notes: string[] = [];
+  const isNear = (place: Viewpoint, otherwise: string) => {
+    const near = isInReach(cloud, place);
+    if (!near && !notes.includes(otherwise)) notes.push(otherwise);
+    return near;
+  };
+  let asked = view;
+  if (asked && !isNear(asked.at, "The view in the address is too far away to see anything, so the usual view is used.")) asked = null;
+  if (asked?.target && !isNear(asked.target, "The target in the address is too far away to be looked at, so the camera looks at the middle.")) {
+    asked = { ...asked, target: null };
+  }
+  const places: Partial<Settings> = {};
+  if (freeze && !isNear(freeze, "The frozen viewpoint in the address is too far away to see anything, so the viewpoint goes with the camera.")) {
+    places.freeze = null;
+  }
+  if (lights) places.lights = lights.filter((light) => isNear(light, "A light in the address is too far away to be told from others, so it is left out."));
+  return { view: asked, places, notes };
 }
 
 export function inLocal({ center }: Cloud, place: Viewpoint): Vector3 {

@@ -187,7 +187,7 @@ export class WorkerPointCloud {
     viewpoint: ArrayLike<number>,
     options?: WorkerVisibilityOptions,
   ): Promise<Visibility> {
-    const answer = await this.#ask(options, VIEW_OPTIONS, (dimension, given) =>
+    const answer = await this.#ask("visibleFrom", options, VIEW_OPTIONS, (dimension, given) =>
       viewQuery(dimension, viewpoint, given),
     );
     return new VisibilityAnswer(answer);
@@ -202,7 +202,7 @@ export class WorkerPointCloud {
     direction: ArrayLike<number>,
     options?: WorkerVisibilityOptions,
   ): Promise<Visibility> {
-    const answer = await this.#ask(options, VIEW_OPTIONS, (dimension, given) =>
+    const answer = await this.#ask("visibleFromDirection", options, VIEW_OPTIONS, (dimension, given) =>
       directionQuery(dimension, direction, given),
     );
     return new VisibilityAnswer(answer);
@@ -217,7 +217,7 @@ export class WorkerPointCloud {
     viewpoints: readonly ArrayLike<number>[],
     options?: WorkerVisibilityOptions,
   ): Promise<Visibility> {
-    const answer = await this.#ask(options, VIEW_OPTIONS, (dimension, given) =>
+    const answer = await this.#ask("visibleFromAny", options, VIEW_OPTIONS, (dimension, given) =>
       severalQuery(dimension, viewpoints, given),
     );
     return new VisibilityAnswer(answer);
@@ -234,7 +234,7 @@ export class WorkerPointCloud {
     viewpoints: readonly ArrayLike<number>[],
     options?: WorkerVisibilityOptions,
   ): Promise<Visibility> {
-    const answer = await this.#ask(options, VIEW_OPTIONS, (dimension, given) =>
+    const answer = await this.#ask("visibleFromAtLeast", options, VIEW_OPTIONS, (dimension, given) =>
       severalQuery(dimension, viewpoints, given, { k }),
     );
     return new VisibilityAnswer(answer);
@@ -250,7 +250,7 @@ export class WorkerPointCloud {
     rule?: RadiusRule,
     options?: RequestOptions,
   ): Promise<ChosenRadius> {
-    return this.#ask(options, [], (dimension) => radiusQuery(dimension, viewpoint, rule));
+    return this.#ask("autoRadius", options, [], (dimension) => radiusQuery(dimension, viewpoint, rule));
   }
 
   /**
@@ -262,7 +262,7 @@ export class WorkerPointCloud {
     viewpoint: ArrayLike<number>,
     options?: ReconstructionOptions & RequestOptions,
   ): Promise<Reconstruction> {
-    const answer = await this.#ask(options, RECONSTRUCTION_OPTIONS, (dimension, given) =>
+    const answer = await this.#ask("reconstruct", options, RECONSTRUCTION_OPTIONS, (dimension, given) =>
       reconstructionQuery(dimension, viewpoint, given),
     );
     return new ReconstructionAnswer(answer);
@@ -277,7 +277,7 @@ export class WorkerPointCloud {
     lights: readonly ArrayLike<number>[],
     options?: IlluminationOptions & RequestOptions,
   ): Promise<Float32Array> {
-    const { brightness } = await this.#ask(options, ILLUMINATION_OPTIONS, (dimension, given) =>
+    const { brightness } = await this.#ask("illuminate", options, ILLUMINATION_OPTIONS, (dimension, given) =>
       illuminationQuery(dimension, lights, given),
     );
     return brightness;
@@ -324,13 +324,14 @@ export class WorkerPointCloud {
 
   /** Asks what `read` makes of the options of that query, and heeds those of the request. */
   async #ask<K extends QueryKind>(
+    method: string,
     options: unknown,
     names: readonly string[],
     read: (dimension: number, given: Record<string, unknown>) => Query<K>,
   ): Promise<Answers[K]> {
     this.#queue.requireOpen();
     const given = givenOptions(options, names, REQUEST_OPTIONS);
-    const latest = readFlag(given, "latest");
+    const latest = readFlag(given, "latest") ? method : undefined;
     const signal = readSignal(given["signal"]);
     const query = read(this.#settings.dimension, given);
     return untilAborted(signal, this.#queue.query(query, { latest, signal, owner: this }));

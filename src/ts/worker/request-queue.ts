@@ -8,8 +8,8 @@ import type { ThreadEvents } from "./thread.js";
 type Kind = Request["kind"];
 
 interface AskOptions {
-  /** May be dropped when a newer request of this kind and sort comes before it has started. */
-  latest?: boolean;
+  /** May be dropped when a newer request with the same name here comes before it has started. */
+  latest?: string | undefined;
   signal?: AbortSignal | undefined;
   /** Told which share of the request is done. */
   onProgress?: ((share: number) => void) | undefined;
@@ -67,8 +67,8 @@ export class RequestQueue implements ThreadEvents {
         reject(abortError(BY_SIGNAL));
         return;
       }
-      if (options.latest === true) {
-        this.#dropOvertaken(request.kind);
+      if (options.latest !== undefined) {
+        this.#dropOvertaken(options.latest);
       }
       this.#waiting.push({ ...options, request, resolve, reject });
       this.#sendNext();
@@ -153,8 +153,8 @@ export class RequestQueue implements ThreadEvents {
     }
   }
 
-  #dropOvertaken(kind: Kind): void {
-    const isOvertaken = ({ latest, request }: Pending) => latest === true && request.kind === kind;
+  #dropOvertaken(by: string): void {
+    const isOvertaken = ({ latest }: Pending) => latest === by;
     const overtaken = this.#waiting.filter(isOvertaken);
     this.#waiting = this.#waiting.filter((pending) => !isOvertaken(pending));
     for (const { reject } of overtaken) {
