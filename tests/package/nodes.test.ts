@@ -5,7 +5,7 @@ import * as THREE from "three";
 import { init, PointCloud } from "hidden-point-removal";
 import { HiddenPointNodesFilter, type HiddenPointNodesFilterOptions } from "hidden-point-removal/nodes";
 import { HiddenPointFilter } from "hidden-point-removal/three";
-import { afterEach, beforeAll, describe, expect, it } from "vitest";
+import { afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 
 import { dragon, drawnOf, nodeOf, split, whole } from "./nodes-support";
 import { bumpySphere, problemOf } from "./support";
@@ -214,22 +214,31 @@ describe("a cloud split into nodes", () => {
   });
 });
 
-it("gets over the death of the worker", async () => {
+describe("gets over the death of the worker", () => {
   const started: threads.Worker[] = [];
   const Original = threads.Worker;
   const replace = (replacement: typeof threads.Worker) => {
     threads.Worker = replacement;
     syncBuiltinESMExports();
   };
-  replace(
-    class extends Original {
-      constructor(...args: ConstructorParameters<typeof Original>) {
-        super(...args);
-        started.push(this);
-      }
-    },
-  );
-  try {
+
+  beforeEach(() => {
+    started.length = 0;
+    replace(
+      class extends Original {
+        constructor(...args: ConstructorParameters<typeof Original>) {
+          super(...args);
+          started.push(this);
+        }
+      },
+    );
+  });
+
+  afterEach(() => {
+    replace(Original);
+  });
+
+  it("whenever it dies", async () => {
     const nodes = split(bumpySphere(1, 3000), 3);
     const scene = sceneOf(nodes);
     const errors: unknown[] = [];
@@ -243,9 +252,41 @@ it("gets over the death of the worker", async () => {
     }
     expect(errors).toEqual([]);
     expect(started.length).toBeGreaterThan(1);
-  } finally {
-    replace(Original);
-  }
+  });
+
+  it("while it prepares several nodes", async () => {
+    const nodes = split(bumpySphere(1, 3000), 3);
+    const scene = sceneOf(nodes);
+    const errors: unknown[] = [];
+    scene.filter.addEventListener("error", ({ error }) => errors.push(error));
+    scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, 5)).toArray());
+    scene.filter.update(scene.camera);
+    await expect.poll(() => started.length, { timeout: 60_000 }).toBe(1);
+    const [worker] = started;
+    // Once it runs, and before any node is ready.
+    await new Promise<void>((resolve) => {
+      worker!.once("message", () => {
+        worker!.removeAllListeners("message");
+        resolve();
+      });
+    });
+    await worker!.terminate();
+    await settle(scene);
+    expect(errors).toEqual([]);
+    expect(scene.changes.at(-1)!.nodes).toBe(nodes.length);
+    expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene));
+  });
+});
+
+it("takes a node that is listed twice for one, and comes to rest", async () => {
+  const nodes = split(bumpySphere(1, 3000), 2);
+  const scene = sceneOf(nodes, { nodes: () => [...nodes, ...nodes] });
+  scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, 5)).toArray());
+  await settle(scene);
+  await settle(scene);
+  expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene));
+  scene.filter.update(scene.camera);
+  expect(scene.filter.settled).toBe(true);
 });
 
 describe("refuses", () => {
@@ -267,10 +308,37 @@ describe("refuses", () => {
   });
 
   it("what is no root, or stretched", () => {
-    expect(() => new HiddenPointNodesFilter({} as never)).toThrow(/root/);
+    for (const root of [{}, null, undefined]) {
+      expect(() => new HiddenPointNodesFilter(root as never)).toThrow(expect.objectContaining({ code: "option", message: expect.stringMatching(/root/) as string }));
+    }
     const root = new THREE.Group();
     root.scale.x = 2;
     expect(() => new HiddenPointNodesFilter(root)).toThrow(/scale/);
+  });
+
+  it("what is listed as a node and is none, once", () => {
+    const scene = sceneOf([new THREE.Points()], { nodes: () => [new THREE.Mesh(), undefined] as never });
+    const told = codes(scene.filter);
+    for (let i = 0; i < 3; i++) scene.filter.update(scene.camera);
+    expect(told).toEqual(["option view"]);
+  });
+
+  it("a node whose geometry has a filter, until it has another", async () => {
+    const nodes = split(bumpySphere(1, 3000), 2);
+    const shared = new THREE.Points(nodes[0]!.geometry);
+    shared.name = "shared";
+    const scene = sceneOf([...nodes, shared]);
+    const told = codes(scene.filter);
+    scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, 5)).toArray());
+    for (let i = 0; i < 3; i++) await settle(scene);
+    expect(told).toEqual(["option shared"]);
+    expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene));
+    shared.geometry = nodes[0]!.geometry.clone();
+    shared.geometry.setIndex(null).setDrawRange(0, Infinity);
+    shared.position.copy(nodes[0]!.position);
+    await settle(scene);
+    expect(scene.changes.at(-1)!.nodes).toBe(nodes.length + 1);
+    expect(told).toEqual(["option shared"]);
   });
 
   it("a node, once, and goes on with the others", async () => {

@@ -143,6 +143,47 @@ describe.each(VERSIONS)("with %s", (_, load) => {
     });
   });
 
+  it("does not take a filtered geometry over from another filter, which goes on", () => {
+    const [one, other] = [sceneOf(adapter, sphere), sceneOf(adapter, sphere.slice(0, 3000))];
+    const [filter, owner] = [filterFor(one.points, { worker: false }), filterFor(other.points, { worker: false })];
+    const errors: string[] = [];
+    filter.addEventListener("error", ({ error }) => errors.push(error.message));
+    const update = () => {
+      filter.update(one.camera);
+      owner.update(other.camera);
+    };
+    update();
+    const before = drawn(other.geometry);
+    one.points.geometry = other.geometry;
+    for (let i = 0; i < 3; i++) update();
+    expect(errors).toEqual([expect.stringMatching(/already/)]);
+    expect(drawn(other.geometry)).toEqual(before);
+    expect(one.geometry.index).toBeNull();
+    owner.dispose();
+    expect(other.geometry.index).toBeNull();
+    update();
+    expect(drawn(other.geometry)).toEqual(before);
+  });
+
+  it("leaves what a listener throws to its caller, and goes on", () => {
+    const { points, camera, geometry } = sceneOf(adapter, sphere);
+    const filter = filterFor(points, { worker: false });
+    const errors: unknown[] = [];
+    filter.addEventListener("error", ({ error }) => errors.push(error));
+    filter.addEventListener("change", () => {
+      throw new Error("a listener's own");
+    });
+    expect(() => {
+      filter.update(camera);
+    }).toThrow("a listener's own");
+    camera.position.set(0, 5, 0);
+    expect(() => {
+      filter.update(camera);
+    }).toThrow("a listener's own");
+    expect(errors).toEqual([]);
+    expect(drawn(geometry)).toEqual([...new adapter.PointCloud(sphere).visibleFrom([0, 5, 0]).indices]);
+  });
+
   describe("says once", () => {
     function heard(filter: Filter): string[] {
       const codes: string[] = [];

@@ -60,7 +60,10 @@ interface Round {
  * Orthographic cameras are refused (`option`).
  */
 export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilterEvents> {
-  /** While true, what is drawn stays, wherever the camera goes; new nodes are drawn whole. */
+  /**
+   * While true, nothing new is asked, wherever the camera goes; an answer on its way is still
+   * drawn. New nodes are drawn whole.
+   */
   frozen = false;
 
   readonly #root: Object3D;
@@ -89,7 +92,7 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
    */
   constructor(root: Object3D, options?: HiddenPointNodesFilterOptions) {
     super();
-    if (typeof root !== "object" || !("isObject3D" in root)) {
+    if (typeof (root as unknown) !== "object" || (root as unknown) === null || !("isObject3D" in root)) {
       throw new HprError("option", `root must be a THREE.Object3D, got ${describe(root)}`);
     }
     this.#root = root;
@@ -151,11 +154,11 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
       if (this.#eye.isDirection) {
         throw new HprError("option", "camera: nodes cannot be merged along a direction, as an orthographic camera sees them");
       }
+      this.#nodes.takeUp();
     } catch (error) {
       this.#refuse(error);
       return;
     }
-    this.#nodes.takeUp();
     this.#next();
   }
 

@@ -1,6 +1,7 @@
 import type { Object3D, Points } from "three";
 
 import { isDimmed } from "../three/dimmed.js";
+import { requirePoints } from "../three/options.js";
 import { CloudNode } from "./node.js";
 import type { NodesSettings } from "./options.js";
 
@@ -17,7 +18,8 @@ export class NodeSet {
   readonly #settings: NodesSettings;
   readonly #events: NodeSetEvents;
   readonly #nodes = new Map<Points, CloudNode>();
-  readonly #refusedPoints = new WeakSet<Points>();
+  /** What had a filter already or could not be dimmed: the geometry and the material that it had. */
+  readonly #refusedPoints = new WeakMap<Points, Pick<Points, "geometry" | "material">>();
   #frame = 0;
   #version = 0;
   #building = 0;
@@ -65,12 +67,14 @@ export class NodeSet {
 
   /** Notes which nodes are there now. */
   takeUp(): void {
-    this.#frame += 1;
     const { nodes } = this.#settings;
-    if (nodes === undefined) {
+    // What it throws changes nothing.
+    const given = nodes === undefined ? undefined : listed(nodes());
+    this.#frame += 1;
+    if (given === undefined) {
       this.#takeUpBelow(this.#root);
     } else {
-      for (const points of nodes()) this.#takeUpOne(points);
+      for (const points of given) this.#takeUpOne(points);
     }
     let isLeft = false;
     for (const node of this.#nodes.values()) {
@@ -137,7 +141,9 @@ export class NodeSet {
   }
 
   #added(points: Points): CloudNode | undefined {
-    if (this.#refusedPoints.has(points)) {
+    const { geometry, material } = points;
+    const refused = this.#refusedPoints.get(points);
+    if (refused?.geometry === geometry && refused.material === material) {
       return undefined;
     }
     try {
@@ -147,7 +153,7 @@ export class NodeSet {
       this.#nodes.set(points, node);
       return node;
     } catch (error) {
-      this.#refusedPoints.add(points);
+      this.#refusedPoints.set(points, { geometry, material });
       this.#events.refused(error as Error, points);
       return undefined;
     }
@@ -194,4 +200,11 @@ export class NodeSet {
     this.#nodes.delete(node.points);
     node.dispose();
   }
+}
+
+/** Each once, however often it is listed. */
+function listed(nodes: Iterable<Points>): Set<Points> {
+  const points = new Set(nodes);
+  for (const one of points) requirePoints(one);
+  return points;
 }

@@ -35,6 +35,8 @@ export class CloudNode {
   seen = -1;
   measure: Measure | undefined;
   #place = new Matrix4();
+  /** Counts the clouds that were begun: only what becomes of the last one counts. */
+  #builds = 0;
   #cloud: Cloud | undefined;
   #answer: Answer | undefined;
   #refused: { geometry: BufferGeometry; position: unknown; version: number } | undefined;
@@ -68,6 +70,8 @@ export class CloudNode {
 
   /** Makes a cloud of the points as they are now. */
   async build(): Promise<void> {
+    const build = ++this.#builds;
+    const isCurrent = () => build === this.#builds && this.#isBuilding();
     this.state = "building";
     this.dropCloud();
     this.#refused = undefined;
@@ -77,14 +81,14 @@ export class CloudNode {
       this.measure = measure(read.numbers);
       const cloud = await prepareCloud(read, this.#settings);
       // It may have been left, or be building anew, in the meantime.
-      if (this.#isBuilding()) {
+      if (isCurrent()) {
         this.#cloud = cloud;
         this.state = "ready";
       } else {
         void cloud.dispose();
       }
     } catch (error) {
-      if (this.#isBuilding()) {
+      if (isCurrent()) {
         this.state = "refused";
         this.#refused = this.#positions();
       }

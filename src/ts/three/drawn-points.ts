@@ -90,6 +90,9 @@ export class DrawnPoints {
       this.release();
     }
     const { geometry } = this.#points;
+    if (!same) {
+      requireUnfiltered(geometry);
+    }
     const position = requireFilterable(geometry);
     if (!same) {
       const { index, drawRange } = geometry;
@@ -169,13 +172,14 @@ export class DrawnPoints {
   }
 }
 
-/** Refuses geometries whose points are not where their positions say, or have a filter. */
+/** Refuses geometries that have a filter. */
 export function requireUnfiltered(geometry: BufferGeometry): void {
   if (taken.has(geometry)) {
     throw new HprError("option", "points: this geometry has a HiddenPointFilter already");
   }
 }
 
+/** Refuses geometries whose points are not where their positions say. */
 function requireFilterable(geometry: BufferGeometry): PositionAttribute {
   const { attributes, morphAttributes } = geometry;
   if (Object.values(morphAttributes).some((list) => (list as unknown[] | undefined)?.length)) {

@@ -42,7 +42,7 @@ export interface HiddenPointFilterEvents {
  * Morph targets, instances and a scale that is not uniform are refused (`option`).
  */
 export class HiddenPointFilter extends EventDispatcher<HiddenPointFilterEvents> {
-  /** While true, what is drawn stays, wherever the camera goes. */
+  /** While true, nothing new is asked, wherever the camera goes; an answer on its way is still drawn. */
   frozen = false;
   /**
    * Resolves when the points are prepared and, if `update` was called by then, the first
@@ -226,21 +226,28 @@ export class HiddenPointFilter extends EventDispatcher<HiddenPointFilterEvents> 
     const { isDirection } = this.#eye;
     const from = this.#eye.ask();
     const { view } = this.#settings;
+    let asked: Visibility | Promise<Visibility>;
     try {
-      const asked = isDirection ? this.#cloud!.visibleFromDirection(from, view) : this.#cloud!.visibleFrom(from, view);
-      this.#await(asked, (answer) => {
-        this.#apply(answer, begun);
-      });
+      asked = isDirection ? this.#cloud!.visibleFromDirection(from, view) : this.#cloud!.visibleFrom(from, view);
     } catch (error) {
       this.#refuse(error);
+      return;
     }
+    this.#await(asked, (answer) => {
+      this.#apply(answer, begun);
+    });
   }
 
   #apply({ indices, count }: Visibility, begun: number): void {
     if (this.#disposed || !this.#drawn.isSame) {
       return;
     }
-    this.#drawn.setVisible(indices);
+    try {
+      this.#drawn.setVisible(indices);
+    } catch (error) {
+      this.#refuse(error);
+      return;
+    }
     this.#answered = true;
     this.#refused = this.#recovering = false;
     this.#show();

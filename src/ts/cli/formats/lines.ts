@@ -1,3 +1,4 @@
+import { Numbers } from "./numbers.js";
 import { FileProblem, type Records } from "./point-file.js";
 
 /** A line of a text file: without its end, and where it is with its end. */
@@ -44,9 +45,9 @@ export function coordinate(word: string | undefined): number | undefined {
 /** Collects points that are one line each. */
 export class LinePoints {
   readonly #file: Buffer;
-  readonly #numbers: number[] = [];
-  readonly #starts: number[] = [];
-  readonly #ends: number[] = [];
+  readonly #numbers = new Numbers();
+  readonly #starts = new Numbers();
+  readonly #ends = new Numbers();
 
   constructor(file: Buffer) {
     this.#file = file;
@@ -56,12 +57,12 @@ export class LinePoints {
     return this.#starts.length;
   }
 
-  get numbers(): readonly number[] {
-    return this.#numbers;
+  get numbers(): Float64Array<ArrayBuffer> {
+    return this.#numbers.all();
   }
 
   get records(): Records {
-    return { bytes: this.#file, start: (i) => this.#starts[i]!, end: (i) => this.#ends[i]! };
+    return { bytes: this.#file, start: (i) => this.#starts.at(i), end: (i) => this.#ends.at(i) };
   }
 
   /** @param words the words of the line that are its x, y and z */

@@ -21,7 +21,7 @@ export function readTable(file: Buffer): PointFile {
   }
   if (points.count === 0) throw new FileProblem("it has no lines with three numbers");
   return {
-    positions: Float64Array.from(points.numbers),
+    positions: points.numbers.slice(),
     leftOut: [],
     header: (count) => Buffer.concat(head.map((line) => headLine(file, line, count))),
     records: points.records,
