@@ -8,7 +8,7 @@ import { expect, it } from "vitest";
 import { wasmBytes } from "./support";
 
 /** What a page that uses an adapter has anyway. */
-const PEERS = ["three", "react", "react/*", "@react-three/fiber"];
+const PEERS = ["three", "react", "react/*", "@react-three/fiber", "@deck.gl/*"];
 
 const gzipped = (bytes: Uint8Array) => gzipSync(bytes, { level: 9 }).length;
 
@@ -25,6 +25,7 @@ it.each([
   ["three.js", 18_000],
   ["react-three-fiber.js", 18_500],
   ["nodes.js", 21_000],
+  ["deck.js", 10_500],
 ])("%s stays below %i bytes, gzipped", async (file, limit) => {
   const size = await sizeOf(file);
   console.log(`${file}: ${size} bytes gzipped, ${size + gzipped(wasmBytes())} with the wasm`);

@@ -70,8 +70,10 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     onVisible: { type: "function", value: null, optional: true },
   };
 
+  /** @internal */
   declare state: State;
 
+  /** @internal */
   override initializeState(): void {
     const sight = new Sight({
       answer: (answer, milliseconds) => {
@@ -84,11 +86,12 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     this.setState({ sight, mask: undefined, data: undefined });
   }
 
-  /** Also when only the camera has moved. */
+  /** Also when only the camera has moved. @internal */
   override shouldUpdateState({ changeFlags }: Update): boolean {
     return changeFlags.somethingChanged;
   }
 
+  /** @internal */
   override updateState({ changeFlags }: Update): void {
     const { sight } = this.state;
     const { data, getPosition, viewpoint, visibility } = this.props as unknown as Own & { data: unknown };
@@ -106,10 +109,12 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     }
   }
 
+  /** @internal */
   override finalizeState(): void {
     this.state.sight.dispose();
   }
 
+  /** @internal */
   override renderLayers(): Layer {
     const { mask, data = this.props.data } = this.state;
     const { extensions, updateTriggers } = this.props;
