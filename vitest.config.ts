@@ -9,5 +9,6 @@ export default defineConfig({
     // Machines differ in speed: these limits only end what hangs.
     testTimeout: 180_000,
     hookTimeout: 300_000,
+    expect: { poll: { timeout: 60_000 } },
   },
 });
