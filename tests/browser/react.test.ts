@@ -77,9 +77,12 @@ it("draws what is visible, in a frame that it asked for", async () => {
 it("is frozen, turned off and made anew as its options say", async () => {
   const first = await inPage(({ changes }) => changes.length);
   // Written anew, but the same.
+  const frames = await inPage((app) => app.frames);
   await inPage(({ set }) => {
     set({ exponent: 3, frozen: true });
   });
+  // The option is there with the frame that it asks for.
+  await page.waitForFunction((before) => (globalThis as unknown as { app: App }).app.frames > before, frames);
   await inPage(({ state }) => {
     state.camera.position.set(0, 0, -6);
     state.invalidate();
