@@ -49,6 +49,9 @@ export interface Settings {
 /** The file's own colors. */
 export const OWN_COLORS = "own";
 
+/** The library's automatic c, in spacings. */
+export const AUTOMATIC_C = 0.07;
+
 /** The library's own default. */
 export const USUAL_EDGE = 5;
 

@@ -1,34 +1,24 @@
 // Many clouds in one worker.
-import { syncBuiltinESMExports } from "node:module";
-import threads from "node:worker_threads";
 import { afterEach, beforeEach, expect, it } from "vitest";
 
+import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
 import { bumpySphere, cappedWasm, freshPackage, problemOf, readyPackage, trappingWasm } from "./support";
 
 const { WorkerPointCloud, PointCloud } = await readyPackage();
 
 const farAway = [0, 0, 5];
-const running = new Set<threads.Worker>();
 let started = 0;
-const OriginalWorker = threads.Worker;
 
-class CountedWorker extends OriginalWorker {
+class StartedWorker extends CountedWorker {
   constructor(...args: ConstructorParameters<typeof OriginalWorker>) {
     super(...args);
     started += 1;
-    running.add(this);
-    this.on("exit", () => running.delete(this));
   }
-}
-
-function replaceWorker(replacement: typeof threads.Worker) {
-  threads.Worker = replacement;
-  syncBuiltinESMExports();
 }
 
 beforeEach(() => {
   started = 0;
-  replaceWorker(CountedWorker);
+  replaceWorker(StartedWorker);
 });
 
 afterEach(async () => {

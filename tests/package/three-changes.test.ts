@@ -1,30 +1,13 @@
 // The adapter for three.js: what is refused, what is changed under it, and many filters on one page.
-import { syncBuiltinESMExports } from "node:module";
-import threads from "node:worker_threads";
 import { afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 
+import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
 import { bumpySphere, problemOf } from "./support";
 import { type Adapter, adapterFor, drawn, type Filter, nextChange, type Scene, sceneOf, VERSIONS } from "./three-support";
 
 const sphere = bumpySphere(1, 3000);
 const other = bumpySphere(2, 2000);
 const loose = (value: unknown) => value as never;
-
-const running = new Set<threads.Worker>();
-const OriginalWorker = threads.Worker;
-
-class CountedWorker extends OriginalWorker {
-  constructor(...args: ConstructorParameters<typeof OriginalWorker>) {
-    super(...args);
-    running.add(this);
-    this.on("exit", () => running.delete(this));
-  }
-}
-
-function replaceWorker(replacement: typeof threads.Worker) {
-  threads.Worker = replacement;
-  syncBuiltinESMExports();
-}
 
 beforeEach(() => {
   replaceWorker(CountedWorker);

@@ -1,9 +1,9 @@
-import { syncBuiltinESMExports } from "node:module";
 import { setFlagsFromString } from "node:v8";
 import { runInNewContext } from "node:vm";
-import threads from "node:worker_threads";
+import type threads from "node:worker_threads";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 
+import { OriginalWorker, replaceWorker } from "./node-workers";
 import { bumpySphere, freshPackage, problemOf, readyPackage, trappingWasm } from "./support";
 
 const { WorkerPointCloud, PointCloud, HprError } = await readyPackage();
@@ -16,12 +16,6 @@ const loose = (value: unknown) => value as never;
 
 /** Every thread that was started, so that a test can end one. */
 const started: threads.Worker[] = [];
-const OriginalWorker = threads.Worker;
-
-function replaceWorker(replacement: typeof threads.Worker) {
-  threads.Worker = replacement;
-  syncBuiltinESMExports();
-}
 
 beforeEach(() => {
   replaceWorker(

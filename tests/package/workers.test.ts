@@ -1,10 +1,11 @@
 import { readFileSync } from "node:fs";
-import { createRequire, syncBuiltinESMExports } from "node:module";
+import { createRequire } from "node:module";
 import { availableParallelism } from "node:os";
-import threads from "node:worker_threads";
+import type threads from "node:worker_threads";
 import { gunzipSync } from "node:zlib";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 
+import { OriginalWorker, replaceWorker } from "./node-workers";
 import { bumpySphere, bunny, problemOf, readyPackage } from "./support";
 
 const { WorkerPointCloud, PointCloud } = await readyPackage();
@@ -12,12 +13,6 @@ const { WorkerPointCloud, PointCloud } = await readyPackage();
 const sphere = bumpySphere(1, 3000);
 const farAway = [0, 0, 5];
 const started: threads.Worker[] = [];
-const OriginalWorker = threads.Worker;
-
-function replaceWorker(replacement: typeof threads.Worker) {
-  threads.Worker = replacement;
-  syncBuiltinESMExports();
-}
 
 class ListedWorker extends OriginalWorker {
   constructor(...args: ConstructorParameters<typeof OriginalWorker>) {

@@ -1,10 +1,8 @@
 import { init, ringOfViewpoints, type Inversion as LibraryInversion, type VisibilityOptions } from "hidden-point-removal";
 import type { WorkerPointCloud } from "hidden-point-removal/worker";
-import type { Viewpoint } from "../settings.ts";
+import { AUTOMATIC_C, type Viewpoint } from "../settings.ts";
 import type { Method } from "./question.ts";
 
-/** The library's automatic c, in spacings: what tells the page the spacing. */
-const AUTOMATIC_C = 0.07;
 /** The library's limit. */
 const MOST_POWER = 16;
 

@@ -1,4 +1,4 @@
-import type { Inversion, Store } from "../settings.ts";
+import { AUTOMATIC_C, type Inversion, type Store } from "../settings.ts";
 import { byId } from "./dom.ts";
 import { Segmented } from "./segmented.ts";
 import { Slider } from "./slider.ts";
@@ -46,9 +46,6 @@ export function bindInversion(store: Store): (resolved: Inversion) => void {
     if (automatic && typeof resolved === "object" && "power" in resolved) power.value = Math.log10((resolved.power as number) - 1);
   };
 }
-
-/** The library's automatic c, in spacings. */
-const AUTOMATIC_C = 0.07;
 
 function scaleAt(spacings: number): number {
   return Math.log10(spacings);
