@@ -1,7 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { asciiPly } from "./clouds.js";
-import { brightness, differentPixels, openReady, picture, served, status, unfold, upToDate } from "./support.js";
+import { brightness, differentPixels, EVERY_PIXEL, openReady, picture, served, status, unfold, upToDate } from "./support.js";
 
 /** A wall of two by two, and a small plate before its middle. */
 function wall(): number[] {
@@ -17,7 +17,7 @@ const LEFT_LIGHT = "&light=-1.2,0,1.5";
 
 async function openWall(query: string): Promise<Page> {
   served.set("clouds/wall.ply", asciiPly(wall()));
-  const page = await openReady(FROM + query);
+  const page = await openReady(FROM + query, EVERY_PIXEL);
   await upToDate(page);
   return page;
 }
