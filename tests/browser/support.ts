@@ -105,16 +105,19 @@ export async function refiltered(page: Page, before: Status): Promise<Status> {
   return settled(page);
 }
 
-/** The status once no more answers come. */
+/** The status once no more answers come: ten frames, in which the camera would have moved on, without a question or an answer. */
 export async function settled(page: Page): Promise<Status> {
-  let last = await status(page);
-  for (let quiet = 0; quiet < 5; ) {
-    await page.waitForTimeout(150);
-    const now = await status(page);
-    quiet = now.refilters === last.refilters ? quiet + 1 : 0;
-    last = now;
-  }
-  return last;
+  await page.evaluate(async () => {
+    const { dataset } = document.getElementById("status")!;
+    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+    let last = dataset["refilters"];
+    for (let quiet = 0; quiet < 10; ) {
+      await frame();
+      quiet = dataset["refilters"] === last && dataset["busy"] === "0" ? quiet + 1 : 0;
+      last = dataset["refilters"];
+    }
+  });
+  return status(page);
 }
 
 /** The status once the picture is that of the present settings and camera. */
