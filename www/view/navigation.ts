@@ -41,6 +41,10 @@ export class Navigation {
     this.controls = this.place(pose);
   }
 
+  dispose(): void {
+    this.controls.dispose();
+  }
+
   /** What the camera looks at. */
   get target(): Vector3 {
     return this.controls.target;
