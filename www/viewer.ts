@@ -48,10 +48,11 @@ export class Viewer {
   private lit = false;
   private surfaceShown = false;
 
-  constructor(canvas: HTMLCanvasElement, store: Store) {
+  /** `polite`: the page around the picture can be scrolled over it. */
+  constructor(canvas: HTMLCanvasElement, store: Store, polite: boolean) {
     this.store = store;
     this.stage = new Stage(canvas);
-    this.navigation = new Navigation(this.stage.camera, canvas);
+    this.navigation = new Navigation(this.stage.camera, canvas, polite);
     this.marker = new ViewpointMarker(this.stage.overlay, canvas);
     this.stage.onFrame = () => {
       this.marker.follow(this.stage.camera);
