@@ -86,7 +86,7 @@ export async function openCloud({ request, sample, view: wanted, settings: wishe
 }
 
 /** What the cloud before, or the address, was colored by may be something that this one does not have. */
-function usableColor(color: string, cloud: Cloud, asked: boolean): { color: string; notes: string[] } {
+export function usableColor(color: string, cloud: Cloud, asked: boolean): { color: string; notes: string[] } {
   if (colorChoices(cloud).some(({ value }) => value === color)) return { color, notes: [] };
   const notes = asked ? [`It has nothing called “${color}” to be colored by, so it has its usual colors.`] : [];
   return { color: OWN_COLORS, notes };
