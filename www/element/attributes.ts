@@ -75,10 +75,14 @@ export function readAttributes(element: Element): Reading {
     fieldOfView: read("fov"),
     up: read("up"),
   };
+  const limit = read("limit");
+  for (const name of src === null && sample !== null ? SOURCES.slice(2) : []) {
+    if (element.hasAttribute(name)) refuse(name, `The attribute ${name} is for files; the samples are as they are.`);
+  }
   return {
     src,
     sample,
-    limit: read("limit"),
+    limit,
     skipNonFinite: element.hasAttribute("skip-non-finite"),
     settings: Object.fromEntries(Object.entries(settings).filter(([, value]) => value !== undefined)),
     frozen: element.hasAttribute("frozen"),

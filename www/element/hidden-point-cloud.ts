@@ -22,8 +22,10 @@ class HiddenPointCloud extends Base implements Own {
   #showing: { showing: Showing; pointing: Pointing } | null = null;
   #state: Own["state"] = "empty";
   #ready = new Settling();
-  /** Attributes that have been written since the last update. */
-  #written = new Set<string>();
+  /** Whether the attributes name other points than those that are there or on their way. */
+  #stale = true;
+  /** Whether the view has been asked for, if only once more. */
+  #looks = false;
   #updating = false;
   /** By attribute, what has been told already. */
   #told = new Map<string, string>();
@@ -45,9 +47,11 @@ class HiddenPointCloud extends Base implements Own {
     this.#touch();
   }
 
-  attributeChangedCallback(name: string): void {
-    this.#written.add(name);
-    if (SOURCES.includes(name)) this.#ready = this.#ready.renewed();
+  attributeChangedCallback(name: string, before: string | null, now: string | null): void {
+    // Writing the same address once more tries it once more.
+    const renamed = name === "src" || (SOURCES.includes(name) && before !== now && !(name === "sample" && this.hasAttribute("src")));
+    if (renamed) this.#renew();
+    this.#looks ||= name === "viewpoint" || name === "target";
     this.#touch();
   }
 
@@ -122,8 +126,8 @@ class HiddenPointCloud extends Base implements Own {
   }
 
   #update(): void {
-    const written = this.#written;
-    this.#written = new Set();
+    const looks = this.#looks;
+    this.#looks = false;
     const reading = readAttributes(this);
     this.#frame.setLabel(this.getAttribute("label"));
     if (!this.hasAttribute("announce")) this.#frame.hush();
@@ -131,8 +135,10 @@ class HiddenPointCloud extends Base implements Own {
     const showing = there ?? this.#wake(reading);
     for (const problem of this.#newProblems(reading)) this.#emit("error", { error: problem });
     if (!showing) return;
-    if (there) showing.follow(reading, written.has("viewpoint") || written.has("target"));
-    if (!there || SOURCES.some((name) => written.has(name))) this.#state = showing.open() ? "loading" : "empty";
+    if (there) showing.follow(reading, looks);
+    if (!this.#stale) return;
+    this.#stale = false;
+    this.#state = showing.open() ? "loading" : "empty";
   }
 
   /** `null` where nothing can be drawn, which is told once. */
@@ -155,6 +161,11 @@ class HiddenPointCloud extends Base implements Own {
     this.#showing?.showing.dispose();
     this.#showing = null;
     this.#state = "empty";
+    this.#renew();
+  }
+
+  #renew(): void {
+    this.#stale = true;
     this.#ready = this.#ready.renewed();
   }
 

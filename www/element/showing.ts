@@ -148,8 +148,9 @@ export class Showing {
     }
     this.obey(() => {
       if (Object.keys(changed).length > 0) this.store.change(changed);
-      if (look || JSON.stringify(reading.view) !== JSON.stringify(before.view)) this.look(ready);
+      // What is frozen together with a new view is frozen where one was.
       if (reading.frozen !== before.frozen) this.moves.freeze(reading.frozen);
+      if (look || JSON.stringify(reading.view) !== JSON.stringify(before.view)) this.look(ready);
     });
     this.viewer.stage.invalidate();
   }
