@@ -1,6 +1,9 @@
 // Somebody else's page with elements that come from another origin, under as strict a security policy as they run with.
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import type { Page } from "playwright-core";
 import type { HiddenPointCloudElement } from "../../www/element/api.js";
+import { root } from "../root.js";
 import { openPage, served } from "./support.js";
 
 /** What an element has told, as far as it can be sent here. */
@@ -32,9 +35,10 @@ const SCRIPT = `
   }
 `;
 
-/** The policy that docs/EMBED.md gives. */
+/** The policy that docs/EMBED.md gives, and what this page itself has besides. */
 export function policyFor(origin: string): string {
-  return `default-src 'none'; script-src 'self' ${origin} 'wasm-unsafe-eval'; worker-src blob: ${origin}; connect-src 'self' ${origin}; img-src data:`;
+  const [, given] = /^```\n(default-src .*)\n```$/m.exec(readFileSync(join(root, "docs/EMBED.md"), "utf8"))!;
+  return `${given!.replaceAll("https://example.org", origin).replace("script-src", "script-src 'self'")}; style-src 'unsafe-inline'; img-src data:`;
 }
 
 /** Opens a page with that body; the element comes from `address`. */

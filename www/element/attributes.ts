@@ -65,7 +65,7 @@ export function readAttributes(element: Element): Reading {
   const [exponent, radius] = [read("exponent"), read("radius")];
   if (exponent !== undefined && radius !== undefined) refuse("radius", "The attributes exponent and radius exclude each other, so exponent is used.");
   const [at, target] = [read("viewpoint"), read("target")];
-  if (!at && target) refuse("target", "The attribute target needs a viewpoint to be looked at from, so the usual view is used.");
+  if (target && !element.hasAttribute("viewpoint")) refuse("target", "The attribute target needs a viewpoint to be looked at from, so the usual view is used.");
   const settings: Partial<Record<keyof Settings, unknown>> = {
     radius: exponent === undefined ? radius : { exponent },
     inversion: read("inversion"),

@@ -1,3 +1,4 @@
+import { readable } from "../address.ts";
 import { byId } from "./dom.ts";
 
 /** In a frame of another page: the picture alone, and a link to all of it as it is now. */
@@ -8,7 +9,7 @@ export function showEmbedded(): void {
   const follow = () => {
     const address = new URL(location.href);
     address.searchParams.delete("embed");
-    link.href = address.href;
+    link.href = readable(address).href;
   };
   follow();
   // The address goes with the camera and the settings.
