@@ -118,8 +118,13 @@ export function inversionText(inversion: Inversion): string {
   return value === "auto" ? kind : `${kind}:${value}`;
 }
 
-/** Commas and colons may stand in an address as they are, and are easier to read. */
 function replace(address: URL): void {
+  const { href } = readable(address);
+  if (href !== location.href) history.replaceState(null, "", href);
+}
+
+/** Commas and colons may stand in an address as they are, and are easier to read. */
+export function readable(address: URL): URL {
   address.search = address.search.replaceAll("%2C", ",").replaceAll("%3A", ":");
-  if (address.href !== location.href) history.replaceState(null, "", address);
+  return address;
 }

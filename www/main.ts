@@ -1,4 +1,5 @@
 import { byId } from "./panel/dom.ts";
+import { showEmbedded } from "./panel/embedded.ts";
 import { Message } from "./panel/message.ts";
 import { bindSheet } from "./panel/sheet.ts";
 import { readParams } from "./params.ts";
@@ -8,7 +9,7 @@ import { Status } from "./status.ts";
 import { canDraw } from "./view/stage.ts";
 
 const params = readParams(location.search, SAMPLES.map((sample) => sample.name));
-document.body.classList.toggle("embedded", params.embed);
+if (params.embed) showEmbedded();
 const status = new Status(byId("status"));
 const message = new Message();
 bindSheet();

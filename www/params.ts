@@ -1,6 +1,5 @@
-import type { Up } from "./cloud.ts";
-import { MAX_POINTS } from "./loaders/limits.ts";
-import type { HiddenMode, Inversion, Radius, Settings, Viewpoint, Viewpoints } from "./settings.ts";
+import type { Settings, Viewpoint } from "./settings.ts";
+import { parsePlace, type ValueName, type ValueOf, VALUES, type Written } from "./values.ts";
 
 /** What the address of the page asks for. Anything that cannot be used is named in `notes`, in plain words. */
 export interface Params {
@@ -18,12 +17,7 @@ export interface Params {
   notes: string[];
 }
 
-/** The end of the slider. */
-const MOST_EXPONENT = 6;
 const MOST_LIGHTS = 8;
-const MOST_POWER = 16;
-/** Neighbors that smooth noise; the library's limit is the cloud, but time is the page's: with so many, a large sample takes minutes. */
-const MOST_NEIGHBORS = 100;
 
 export function readParams(search: string, samples: readonly string[]): Params {
   const query = new URLSearchParams(search);
@@ -38,15 +32,16 @@ export function readParams(search: string, samples: readonly string[]): Params {
   if (src === "") notes.push(`The address names no file after “src=”, so this is the ${sample}.`);
 
   /** One value by its name; `undefined` where there is none or none that fits. */
-  const read = <T>(name: string, parse: (text: string) => T | undefined, refusal: string): T | undefined => {
+  const read = <Name extends ValueName>(name: Name): ValueOf<Name> | undefined => {
     const text = query.get(name);
+    const { parse, refusal } = VALUES[name] as Written<ValueOf<Name>>;
     const value = text === null ? undefined : parse(text);
     if (text !== null && value === undefined) notes.push(`The ${WORDS[name] ?? name} in the address is not ${refusal}.`);
     return value;
   };
 
-  const exponent = read("exponent", within(0, MOST_EXPONENT), `a number from 0 to ${MOST_EXPONENT}, so the automatic one is used`);
-  let radius = read("radius", parseRadius, "auto, search, opposite or a positive number, so the automatic one is used");
+  const exponent = read("exponent");
+  let radius = read("radius");
   if (radius && exponent !== undefined) {
     notes.push("Radius and exponent in the address exclude each other, so the exponent is used.");
     radius = undefined;
@@ -58,32 +53,32 @@ export function readParams(search: string, samples: readonly string[]): Params {
 
   const settings: Record<keyof Settings, unknown> = {
     radius: exponent === undefined ? radius : { exponent },
-    inversion: read("inversion", parseInversion, `spherical, exponential, exponential:c with a positive c or power:γ with γ above 1 and at most ${MOST_POWER}, so it is spherical`),
-    viewpoints: read("viewpoints", oneOf<Viewpoints>("one", "any", "two"), "one, any or two, so it is one"),
-    denoise: read("denoise", whole(MOST_NEIGHBORS), `an integer from 0 to ${MOST_NEIGHBORS}, so noise is left as it is`),
-    vote: read("vote", whole(MOST_NEIGHBORS), `an integer from 0 to ${MOST_NEIGHBORS}, so there is no vote`),
-    show: read("show", oneOf<Settings["show"]>("points", "surface"), "points or surface, so points are shown"),
-    edge: read("edge", parseEdge, "a positive number of spacings or all, so it is 5"),
+    inversion: read("inversion"),
+    viewpoints: read("viewpoints"),
+    denoise: read("denoise"),
+    vote: read("vote"),
+    show: read("show"),
+    edge: read("edge"),
     lights: query.has("light") ? lights.filter((light) => light !== undefined).slice(0, MOST_LIGHTS) : undefined,
-    soft: read("soft", within(0, 1), "a number from 0 to 1, so lights are points"),
-    ambient: read("ambient", within(0, 1), "a number from 0 to 1, so the usual one is used"),
-    smoothing: read("smoothing", whole(1000), "an integer from 0 to 1000, so it is 1"),
-    freeze: read("freeze", parsePlace, "three numbers x,y,z, so the viewpoint goes with the camera"),
-    hidden: read("hidden", oneOf<HiddenMode>("off", "dimmed", "shown"), "off, dimmed or shown, so they are off"),
-    compare: read("compare", within(0, 1), "a number from 0 to 1, so the picture is not divided"),
+    soft: read("soft"),
+    ambient: read("ambient"),
+    smoothing: read("smoothing"),
+    freeze: read("freeze"),
+    hidden: read("hidden"),
+    compare: read("compare"),
     // Whether the cloud has it, it will tell.
     color: query.get("color") ?? undefined,
-    size: read("size", within(0.05, 50), "a number from 0.05 to 50, so the usual one is used"),
-    fieldOfView: read("fov", within(5, 100), "a number of degrees from 5 to 100, so the usual one is used"),
-    up: read("up", oneOf<Up>("y", "z", "-y"), "y, z or -y, so the usual one is used"),
+    size: read("size"),
+    fieldOfView: read("fov"),
+    up: read("up"),
   };
   return {
     sample,
     src: src === "" ? null : src,
-    view: read("view", parsePlace, "three numbers x,y,z, so the usual view is used") ?? null,
-    target: read("target", parsePlace, "three numbers x,y,z, so the camera looks at the middle") ?? null,
-    points: read("points", (text) => whole(MAX_POINTS)(text) || undefined, `an integer from 1 to ${MAX_POINTS}, so it is the last`) ?? null,
-    embed: read("embed", oneOf("0", "1"), "0 or 1, so the controls are shown") === "1",
+    view: read("view") ?? null,
+    target: read("target") ?? null,
+    points: read("points") ?? null,
+    embed: read("embed") === "1",
     settings: Object.fromEntries(Object.entries(settings).filter(([, value]) => value !== undefined)),
     notes,
   };
@@ -105,54 +100,3 @@ const WORDS: Record<string, string> = {
   viewpoints: "number of viewpoints",
 };
 
-function parseRadius(text: string): Radius | undefined {
-  const rule = oneOf<"auto" | "search" | "opposite">("auto", "search", "opposite")(text);
-  if (rule) return { rule };
-  const length = parseNumber(text);
-  return length > 0 && length < Infinity ? { length } : undefined;
-}
-
-/** A kind, and after a colon its parameter. */
-function parseInversion(text: string): Inversion | undefined {
-  const [kind, parameter, ...more] = text.split(":");
-  if (more.length > 0) return undefined;
-  const value = parameter === undefined ? "auto" : parseNumber(parameter);
-  if (kind === "spherical" && parameter === undefined) return "spherical";
-  if (kind === "exponential" && (value === "auto" || (value > 0 && value < Infinity))) return { exponential: value };
-  if (kind === "power" && (value === "auto" || (value > 1 && value <= MOST_POWER))) return { power: value };
-  return undefined;
-}
-
-function parseEdge(text: string): number | undefined {
-  if (text === "all") return Infinity;
-  const edge = parseNumber(text);
-  return edge > 0 && edge < Infinity ? edge : undefined;
-}
-
-function parsePlace(text: string): Viewpoint | undefined {
-  const numbers = text.split(",").map(parseNumber);
-  return numbers.length === 3 && numbers.every(Number.isFinite) ? (numbers as Viewpoint) : undefined;
-}
-
-function within(least: number, most: number): (text: string) => number | undefined {
-  return (text) => {
-    const value = parseNumber(text);
-    return value >= least && value <= most ? value : undefined;
-  };
-}
-
-function whole(most: number): (text: string) => number | undefined {
-  return (text) => {
-    const value = within(0, most)(text);
-    return Number.isInteger(value) ? value : undefined;
-  };
-}
-
-function oneOf<T extends string>(...values: T[]): (text: string) => T | undefined {
-  return (text) => values.find((value) => value === text);
-}
-
-/** Like Number, but an empty text is no number. */
-function parseNumber(text: string): number {
-  return text.trim() === "" ? NaN : Number(text);
-}

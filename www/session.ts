@@ -1,10 +1,7 @@
 import { HprError } from "hidden-point-removal";
-import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { Address, type CloudName } from "./address.ts";
-import { Inquiry } from "./ask/inquiry.ts";
-import { WorkerCloud } from "./ask/worker-cloud.ts";
-import { type Cloud, prepareCloud, type Up } from "./cloud.ts";
-import { loadCloud, LoadProblem, type LoadRequest } from "./loaders/index.ts";
+import { LoadProblem, type LoadRequest } from "./loaders/index.ts";
+import { openCloud, type Place, requestFor, type Wish } from "./opening.ts";
 import { Controls } from "./panel/controls.ts";
 import { byId } from "./panel/dom.ts";
 import { FirstLoad } from "./panel/first-load.ts";
@@ -13,26 +10,20 @@ import type { Message } from "./panel/message.ts";
 import { Progress } from "./panel/progress.ts";
 import { SamplePicker } from "./panel/sample-picker.ts";
 import type { Params } from "./params.ts";
-import { type Sample, sampleNamed, usualLook } from "./samples.ts";
-import { OWN_COLORS, type Settings, Store, USUAL_SETTINGS } from "./settings.ts";
+import { type Sample, sampleNamed } from "./samples.ts";
+import { Store, USUAL_SETTINGS } from "./settings.ts";
 import type { Status } from "./status.ts";
-import { colorChoices } from "./view/colors.ts";
-import { type AskedView, findHome, inReachOnly } from "./view/framing.ts";
+import type { AskedView } from "./view/framing.ts";
 import { Plot } from "./tools/plot.ts";
 import { Tools } from "./tools/tools.ts";
 import { LightHandles } from "./view/light-handles.ts";
 import { Viewer } from "./viewer.ts";
 
-/** What is to be opened, and how it is to be seen. */
-interface Source {
-  request: LoadRequest;
-  sample: Sample | null;
+/** What is to be opened, and what the page has to know of it besides. */
+interface Source extends Wish {
   /** How an address calls it. */
   name: CloudName | null;
-  view: AskedView | null;
-  /** Settings that belong to this cloud alone. */
-  settings: Partial<Settings>;
-  /** What the user has to know about it besides. */
+  /** What the user has to know about it. */
   notes: string[];
   /** What could not be opened, so that this one is in its place. */
   insteadOf?: string;
@@ -41,7 +32,7 @@ interface Source {
 /** From the address of the page to a cloud on screen, and from there to every other cloud the user opens. */
 export function startSession(params: Params, status: Status, message: Message): void {
   const store = new Store({ ...USUAL_SETTINGS, ...params.settings, freeze: null, lights: USUAL_SETTINGS.lights });
-  const viewer = new Viewer(byId("view", HTMLCanvasElement), store);
+  const viewer = new Viewer(byId("view", HTMLCanvasElement), store, params.embed);
   const controls = new Controls(viewer, store, { ...USUAL_SETTINGS, ...params.settings });
   const handles = new LightHandles(byId("lights"), viewer, store);
   const progress = new Progress(() => {
@@ -132,52 +123,35 @@ export function startSession(params: Params, status: Status, message: Message): 
     opening = source;
     say(`Loading ${request.name}.`);
     progress.show(null);
-    let inquiry: Inquiry | null = null;
     try {
-      const loaded = await loadCloud(request, signal, (step, fraction) => {
-        say(`${step} ${request.name}.`);
-        progress.show(fraction);
-      });
-      say(`Finding the visible points of ${request.name}.`);
-      progress.show(null);
-      const cloud = prepareCloud(loaded);
-      const usual = usualLook(sample, request.name, cloud.count, loaded.taken?.up);
-      const { view: asked, places, notes: farNotes } = inReachOnly(cloud, source.view, source.settings);
-      const own: Partial<Settings> = { ...usual, freeze: null, lights: [], ...radiusFor(store.current), ...source.settings, ...places };
-      const { fieldOfView: fov, up } = { ...usual, ...source.settings };
-      const { color, notes: colorNote } = usableColor(own.color ?? store.current.color, cloud, source.settings.color !== undefined);
-      own.color = color;
-      const more = [...farNotes, ...colorNote, ...(loaded.notes ?? [])];
-      if (more.length > 0) message.show([...notes, ...more].join(" "));
-      const taken = loaded.taken?.from ? { at: loaded.taken.from, target: null } : null;
-      const homeWith = (upward: Up) => {
-        const lens = { fov, aspect: viewer.stage.camera.aspect };
-        const sameUp = upward === up;
-        return findHome(cloud, upward, sameUp ? sample : null, sameUp ? (asked ?? taken) : null, lens);
+      const place: Place = {
+        settings: () => store.current,
+        aspect: () => viewer.stage.camera.aspect,
+        shared: false,
+        signal,
+        onProgress: (step, fraction) => {
+          say(step);
+          progress.show(fraction);
+        },
       };
-      const home = homeWith(up);
-      // The page keeps the file's own coordinates for the tools.
-      const worker = await WorkerPointCloud.create(loaded.positions, { signal });
-      inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), cloud.radius);
-      const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...store.current, ...own });
-      signal.throwIfAborted();
+      const ready = await openCloud(source, place);
+      if (ready.notes.length > 0) message.show([...notes, ...ready.notes].join(" "));
       status.loaded();
       viewer.clear();
-      store.change(own);
-      askedView = asked;
-      controls.prepare(cloud);
+      store.change(ready.settings);
+      askedView = ready.view;
+      controls.prepare(ready.opened.cloud);
       tools.clear();
-      viewer.show({ cloud, positions: loaded.positions, inquiry, home, answer, findHome: homeWith });
+      viewer.show(ready.opened);
       shownName = sample?.name ?? request.name;
       plot.clear();
-      controls.usual = usual;
-      address.begin(insteadOf === undefined ? source.name : null, usual);
+      controls.usual = ready.usual;
+      address.begin(insteadOf === undefined ? source.name : null, ready.usual);
       firstLoad.hide();
       if (insteadOf !== undefined) status.error(insteadOf);
       if (sample) picker.showSample(sample);
       else picker.showOwn(request.name);
     } catch (error) {
-      inquiry?.dispose();
       if (signal.aborted) return;
       opening = null;
       progress.hide();
@@ -215,11 +189,7 @@ export function startSession(params: Params, status: Status, message: Message): 
 }
 
 function fromSample(sample: Sample, view: AskedView | null): Source {
-  const request: LoadRequest =
-    "file" in sample.from
-      ? { kind: "sample", name: sample.label, url: new URL(sample.from.file, document.baseURI).href }
-      : { kind: "shape", name: sample.label, shape: sample.from.shape };
-  return { request, sample, name: ["sample", sample.name], view, settings: {}, notes: [] };
+  return { request: requestFor(sample, document.baseURI), sample, name: ["sample", sample.name], view, settings: {}, notes: [] };
 }
 
 function fromAddress(address: string, view: AskedView | null, limit: { limit?: number }): Source {
@@ -235,18 +205,6 @@ function withoutNonFinite(error: unknown, source: Source): Source | null {
   const { request } = source;
   const possible = error instanceof LoadProblem && error.nonFinite > 0 && (request.kind === "file" || request.kind === "url");
   return possible ? { ...source, request: { ...request, skipNonFinite: true } } : null;
-}
-
-/** What the cloud before, or the address, was colored by may be something that this one does not have. */
-function usableColor(color: string, cloud: Cloud, asked: boolean): { color: string; notes: string[] } {
-  if (colorChoices(cloud).some(({ value }) => value === color)) return { color, notes: [] };
-  const notes = asked ? [`It has nothing called “${color}” to be colored by, so it has its usual colors.`] : [];
-  return { color: OWN_COLORS, notes };
-}
-
-/** A radius in units of the cloud before means nothing to the next one. */
-function radiusFor({ radius }: Settings): Partial<Settings> {
-  return "length" in radius ? { radius: { rule: "auto" } } : {};
 }
 
 function plain(error: unknown): string {

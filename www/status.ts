@@ -1,13 +1,12 @@
 import { inversionText } from "./address.ts";
 import type { TimedView } from "./ask/inquiry.ts";
 import { byId } from "./panel/dom.ts";
+import { sentenceOf } from "./sentence.ts";
 import type { Inversion } from "./settings.ts";
 
 /** The sentence changes not more often than this, in milliseconds, and is announced when it has stood for this long. */
 const CALM = 800;
 const SETTLED = 1000;
-
-const number = new Intl.NumberFormat("en-US");
 
 /**
  * The #status line: its data-attributes tell at once and in full precision, its sentence in calm and rounded. Screen
@@ -88,12 +87,7 @@ export class Status {
   /** The sentence about the last answer, once more with what has become of the viewpoint. */
   describe(frozen: boolean): void {
     if (!this.last || this.element.dataset["state"] !== "ready") return;
-    const { visibility, quick, milliseconds, total } = this.last;
-    const where = frozen ? "were visible from the frozen viewpoint" : "are visible from here";
-    const time = milliseconds < 10 ? milliseconds.toFixed(1) : number.format(Math.round(milliseconds));
-    const share = percent(visibility.count, total);
-    const standIn = quick ? ", with the automatic radius while moving" : "";
-    this.say(`${number.format(visibility.count)} of ${number.format(total)} points (${share}) ${where}, found in ${time}\u00a0ms${standIn}.`);
+    this.say(sentenceOf(this.last, this.last.total, frozen));
   }
 
   /** Lets the next sentence be read at once. */
@@ -115,12 +109,4 @@ export class Status {
       this.element.textContent = this.sentence;
     }, CALM);
   }
-}
-
-/** Rounded, but neither to none nor to all where that is not so. */
-function percent(count: number, total: number): string {
-  const share = total > 0 ? Math.round((100 * count) / total) : 0;
-  if (share === 0 && count > 0) return "<\u00a01\u00a0%";
-  if (share === 100 && count < total) return ">\u00a099\u00a0%";
-  return `${share}\u00a0%`;
 }

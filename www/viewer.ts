@@ -48,11 +48,12 @@ export class Viewer {
   private lit = false;
   private surfaceShown = false;
 
-  constructor(canvas: HTMLCanvasElement, store: Store) {
+  /** `polite`: the page around the picture can be scrolled over it. */
+  constructor(canvas: HTMLCanvasElement, store: Store, polite: boolean) {
     this.store = store;
     this.stage = new Stage(canvas);
-    this.navigation = new Navigation(this.stage.camera, canvas);
-    this.marker = new ViewpointMarker(this.stage.overlay);
+    this.navigation = new Navigation(this.stage.camera, canvas, polite);
+    this.marker = new ViewpointMarker(this.stage.overlay, canvas);
     this.stage.onFrame = () => {
       this.marker.follow(this.stage.camera);
       this.inquire();
@@ -112,6 +113,15 @@ export class Viewer {
     this.shown.points.dispose();
     this.shown.surface.dispose();
     this.shown = null;
+    this.stage.invalidate();
+  }
+
+  /** Ends the picture, its worker and its hold on the canvas, which is of no further use. */
+  dispose(): void {
+    this.clear();
+    this.marker.remove();
+    this.navigation.dispose();
+    this.stage.dispose();
   }
 
   /** Shows a cloud, after `clear`. */
@@ -155,6 +165,13 @@ export class Viewer {
   setChosen(indices: Uint32Array): void {
     this.shown?.attributes.setChosen(indices);
     this.stage.invalidate();
+  }
+
+  /** Makes another view the first one, and goes there. */
+  setHome(findHome: Opened["findHome"]): void {
+    if (!this.shown) return;
+    this.shown.findHome = findHome;
+    this.reset();
   }
 
   /** Looks at the cloud as for the first time. */

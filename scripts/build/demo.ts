@@ -1,17 +1,21 @@
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
 
-/** The demo page, in www/dist, to be hosted under any path. */
+/** The demo page and, beside it, the element for other pages: in www/dist, to be hosted under any path. */
 export async function buildDemo(): Promise<void> {
   const work = {
     name: "demo",
     inputs: ["www", "dist", "package.json", "package-lock.json"],
     ignore: ["www/dist", "www/public/samples"],
-    outputs: ["www/dist/index.html"],
+    outputs: ["www/dist/index.html", "www/dist/hidden-point-cloud.js", "www/dist/hidden-point-cloud.d.ts"],
   };
   const result = await unlessUnchanged(work, async () => {
-    say("Building the demo page…");
-    await mustRun("vite", ["build", "www", "--configLoader", "runner", "--logLevel", "warn"], "The demo page could not be built");
+    // The page first: it empties the folder.
+    for (const [what, config] of [["demo page", "www/vite.config.ts"], ["element", "www/element/vite.config.ts"]] as const) {
+      say(`Building the ${what}…`);
+      const options = ["--config", config, "--configLoader", "runner", "--logLevel", "warn"];
+      await mustRun("vite", ["build", "www", ...options], `The ${what} could not be built`);
+    }
   });
-  say(`Demo page: ${result}`);
+  say(`Demo page and element: ${result}`);
 }

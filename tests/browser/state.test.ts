@@ -112,8 +112,18 @@ test("?embed=1 is the picture alone", async () => {
   await upToDate(page);
   const box = (await page.locator("#view").boundingBox())!;
   expect(box).toMatchObject({ x: 0, y: 0, width: 1000, height: 700 });
-  for (const chrome of ["#panel", "#lights", "#progress"]) expect(await page.locator(chrome).isVisible()).toBe(false);
+  for (const chrome of ["#sheet", "#hidden-points", "#tools", "#lights", "#progress"]) expect(await page.locator(chrome).isVisible()).toBe(false);
   expect((await status(page)).total).toBe(5205);
+
+  // Screen readers hear of it; tools that nobody sees do not take the drags; the link shows all of it as it is.
+  await expect.poll(() => page.getByRole("status").textContent()).toMatch(/of 5,205 points/);
+  await page.locator("#view").focus();
+  await page.keyboard.press("s");
+  await page.keyboard.press("ArrowLeft");
+  expect(await page.locator("#stage").getAttribute("data-uses")).toBeNull();
+  const now = await written(page);
+  const [whole] = await Promise.all([page.context().waitForEvent("page"), page.getByRole("link", { name: "Whole page" }).click()]);
+  expect(new URL(whole.url()).search).toBe(now.replace("&embed=1", ""));
 });
 
 test("data-busy is 1 from a change until its answer is there", async () => {

@@ -13,6 +13,7 @@ const require = createRequire(import.meta.url);
 let site: Site;
 let browser: Browser;
 let errors: string[] = [];
+let provoked: RegExp[] = [];
 const pages: Page[] = [];
 /** Files the site has besides the page, by name. */
 export const served = new Map<string, Uint8Array>();
@@ -29,13 +30,18 @@ afterAll(async () => {
 
 afterEach(async () => {
   await Promise.all(pages.splice(0).map((page) => page.context().close()));
-  const seen = errors;
-  errors = [];
+  const seen = errors.filter((error) => !provoked.some((pattern) => pattern.test(error)));
+  [errors, provoked] = [[], []];
   expect(seen, "errors in the browser's console").toEqual([]);
 });
 
 /** For tests that look at single pixels of a screenshot. */
 export const EVERY_PIXEL: BrowserContextOptions = { deviceScaleFactor: 1 };
+
+/** What the browser itself will say about something that the test has wanted to go wrong. */
+export function provoke(pattern: RegExp): void {
+  provoked.push(pattern);
+}
 
 export async function openPage(query = "", options: BrowserContextOptions = {}): Promise<Page> {
   // Nearly all time goes into drawing in software: a quarter of the pixels, in a layout that is the same, takes half of it.

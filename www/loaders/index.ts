@@ -1,6 +1,7 @@
 import type { LoadedCloud } from "../cloud.ts";
 import { LoadProblem, missingPart } from "./problem.ts";
 import type { LoadReply, LoadRequest } from "./protocol.ts";
+import script from "./worker.ts?worker&url";
 
 export { LoadProblem } from "./problem.ts";
 export type { LoadRequest } from "./protocol.ts";
@@ -11,7 +12,7 @@ export function loadCloud(
   signal: AbortSignal,
   onProgress: (step: string, fraction: number | null) => void,
 ): Promise<LoadedCloud> {
-  const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module" });
+  const { worker, end } = startWorker();
   return new Promise<LoadedCloud>((resolve, reject) => {
     signal.addEventListener("abort", () => {
       reject(new DOMException("Another cloud was opened.", "AbortError"));
@@ -28,5 +29,21 @@ export function loadCloud(
       reject(running ? new LoadProblem(`${request.name} could not be read: the browser ran out of memory or stopped the loader.`) : missingPart(request.name));
     };
     worker.postMessage(request);
-  }).finally(() => { worker.terminate(); });
+  }).finally(end);
+}
+
+/**
+ * Browsers run no worker whose script comes from another origin, as it does where a page takes the element from elsewhere.
+ * A script of the page's own may import it, though.
+ */
+function startWorker(): { worker: Worker; end: () => void } {
+  const { href, origin } = new URL(script, import.meta.url);
+  const foreign = origin !== location.origin;
+  const address = foreign ? URL.createObjectURL(new Blob([`import ${JSON.stringify(href)};`], { type: "text/javascript" })) : href;
+  const worker = new Worker(address, { type: "module" });
+  const end = () => {
+    worker.terminate();
+    if (foreign) URL.revokeObjectURL(address);
+  };
+  return { worker, end };
 }

@@ -1,5 +1,6 @@
 import type { ViewAnswer } from "../ask/views.ts";
 import { type Inversion, type Settings, type Store, USUAL_SETTINGS } from "../settings.ts";
+import { Moves } from "../moves.ts";
 import type { Viewer } from "../viewer.ts";
 import type { Cloud } from "../cloud.ts";
 import { bindColor, type ColorControl } from "./color.ts";
@@ -14,9 +15,7 @@ import { bindSurface } from "./surface.ts";
 import { bindViewpoints } from "./several.ts";
 import { bindFreeze } from "./viewpoint.ts";
 
-const FIELD_OF_VIEW = { least: 5, most: 100 };
-
-/** All of the panel's controls and the keys that stand for them: they change the settings and show what these are. */
+/** All of the panel's controls: they change the settings and show what these are. */
 export class Controls {
   private readonly radius: RadiusControl;
   private readonly followInversion: (resolved: Inversion) => void;
@@ -33,24 +32,15 @@ export class Controls {
     bindNoise(store);
     this.followSurface = bindSurface(store);
     bindShadows(store, viewer);
-    const { nextHidden } = bindLook(store);
+    bindLook(store);
     this.color = bindColor(store);
     viewer.onLegend = this.color.explain;
-    const toggleFreeze = bindFreeze(store, viewer);
+    const moves = new Moves(byId("view", HTMLCanvasElement), viewer, store, () => this.usual);
+    bindFreeze(store, moves);
     bindSections(opened);
 
-    const reset = () => {
-      store.change({ fieldOfView: this.usual.fieldOfView });
-      viewer.reset();
-    };
-    byId("reset").addEventListener("click", reset);
-    viewer.navigation.onFieldOfView = (factor) => {
-      const wanted = store.current.fieldOfView * factor;
-      store.change({ fieldOfView: Math.min(FIELD_OF_VIEW.most, Math.max(FIELD_OF_VIEW.least, wanted)) });
-    };
-    const keys: Record<string, () => void> = { f: toggleFreeze, r: reset, h: nextHidden };
-    byId("view").addEventListener("keydown", (event) => {
-      if (!event.ctrlKey && !event.metaKey && !event.altKey) keys[event.key.toLowerCase()]?.();
+    byId("reset").addEventListener("click", () => {
+      moves.reset();
     });
   }
 

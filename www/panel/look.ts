@@ -4,7 +4,7 @@ import { Segmented } from "./segmented.ts";
 import { Slider } from "./slider.ts";
 
 /** What changes the picture and nothing that is found: hidden points, their size, the lens, which way is up. */
-export function bindLook(store: Store): { nextHidden: () => void } {
+export function bindLook(store: Store): void {
   const hidden = new Segmented<HiddenMode>("hidden-points", (value) => {
     store.change({ hidden: value });
   });
@@ -23,9 +23,4 @@ export function bindLook(store: Store): { nextHidden: () => void } {
     lens.value = now.fieldOfView;
     upward.value = now.up;
   });
-  return {
-    nextHidden: () => {
-      store.change({ hidden: hidden.next });
-    },
-  };
 }

@@ -21,12 +21,6 @@ export class Segmented<Value extends string> {
   set value(value: Value) {
     for (const input of this.inputs) input.checked = input.value === value;
   }
-
-  /** The value after the current one, the first after the last. */
-  get next(): Value {
-    const at = this.inputs.findIndex((input) => input.checked);
-    return this.inputs[(at + 1) % this.inputs.length]!.value as Value;
-  }
 }
 
 /** The same where the values are numbers. */

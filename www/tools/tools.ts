@@ -81,6 +81,8 @@ export class Tools {
     for (const tool of this.tools) keys[tool.name[0]!] = () => { this.toggle(tool); };
     this.canvas.addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
+      // In a frame of another page there are no tools.
+      if (!byId("tools").checkVisibility()) return;
       const { width, height } = viewer.stage.size;
       if (event.key === "Enter" && viewer.cloud) this.active?.click?.({ x: width / 2, y: height / 2, tolerance: TOLERANCE });
       else keys[event.key.toLowerCase()]?.();

@@ -85,6 +85,7 @@ export class EyeDome {
   private readonly target: WebGLRenderTarget;
   private readonly material: ShaderMaterial;
   private readonly screen = new Scene();
+  private readonly cover: Mesh;
   private readonly camera = new OrthographicCamera();
   private readonly size = new Vector2();
   private readonly planes = new Vector2();
@@ -115,9 +116,9 @@ export class EyeDome {
     // One triangle that covers the screen.
     const triangle = new BufferGeometry();
     triangle.setAttribute("position", new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
-    const cover = new Mesh(triangle, this.material);
-    cover.frustumCulled = false;
-    this.screen.add(cover);
+    this.cover = new Mesh(triangle, this.material);
+    this.cover.frustumCulled = false;
+    this.screen.add(this.cover);
   }
 
   /** Draws the scene shaded onto the screen; its depths go along, so that more can be drawn among the points. */
@@ -130,6 +131,13 @@ export class EyeDome {
   renderOver(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera, opacity: number): void {
     this.shade(renderer, scene, camera);
     this.draw(renderer, opacity);
+  }
+
+  dispose(): void {
+    this.cover.geometry.dispose();
+    this.material.dispose();
+    this.target.depthTexture?.dispose();
+    this.target.dispose();
   }
 
   private shade(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {

@@ -3,17 +3,20 @@ import { CameraHelper, Color, type Object3D, PerspectiveCamera, type Quaternion,
 /** Where the frozen viewpoint is: a small camera in the accent color, of a fixed share of the cloud's size. */
 export class ViewpointMarker {
   private readonly parent: Object3D;
+  /** Whose accent color it has. */
+  private readonly canvas: HTMLCanvasElement;
   private helper: CameraHelper | null = null;
   private readonly at = new Vector3();
   private size = 0;
 
-  constructor(parent: Object3D) {
+  constructor(parent: Object3D, canvas: HTMLCanvasElement) {
     this.parent = parent;
+    this.canvas = canvas;
   }
 
   place(at: Vector3, direction: Quaternion, size: number): void {
     this.remove();
-    const accent = new Color(getComputedStyle(document.documentElement).getPropertyValue("--accent").trim());
+    const accent = new Color(getComputedStyle(this.canvas).getPropertyValue("--accent").trim());
     const standing = new PerspectiveCamera(40, 1.4, size * 0.02, size);
     standing.position.copy(at);
     standing.quaternion.copy(direction);

@@ -16,29 +16,39 @@ export class Navigation {
   onMove: () => void = () => undefined;
   private readonly camera: PerspectiveCamera;
   private readonly canvas: HTMLCanvasElement;
+  /** Whether the wheel and one finger scroll the page around the picture until that has the focus. */
+  private readonly polite: boolean;
   private controls: OrbitControls;
 
-  constructor(camera: PerspectiveCamera, canvas: HTMLCanvasElement) {
+  constructor(camera: PerspectiveCamera, canvas: HTMLCanvasElement, polite: boolean) {
     this.camera = camera;
     this.canvas = canvas;
+    this.polite = polite;
     this.controls = this.place({ at: new Vector3(0, 0, 3), target: new Vector3(), up: new Vector3(0, 1, 0) });
     canvas.addEventListener("keydown", (event) => { this.onKey(event); });
     // In the capture phase, so that the orbit controls do not zoom as well. Some systems turn the wheel sideways with Alt.
     canvas.addEventListener(
       "wheel",
       (event) => {
-        if (!event.altKey) return;
+        // With Ctrl it is a pinch on a touchpad, or would zoom the whole page.
+        const others = !this.attended && !event.ctrlKey;
+        if (others || event.altKey) event.stopImmediatePropagation();
+        if (others || !event.altKey) return;
         event.preventDefault();
-        event.stopImmediatePropagation();
         this.onFieldOfView((event.deltaY || event.deltaX) > 0 ? 1.08 : 1 / 1.08);
       },
       { capture: true, passive: false },
     );
+    for (const change of ["focus", "blur"]) canvas.addEventListener(change, () => { this.shareTouch(); });
   }
 
   setHome(pose: Pose): void {
     this.controls.dispose();
     this.controls = this.place(pose);
+  }
+
+  dispose(): void {
+    this.controls.dispose();
   }
 
   /** What the camera looks at. */
@@ -52,6 +62,7 @@ export class Navigation {
     this.camera.position.copy(at);
     const controls = new OrbitControls(this.camera, this.canvas);
     controls.target.copy(target);
+    this.shareTouch();
     const distance = at.distanceTo(target);
     controls.minDistance = distance / 1000;
     controls.maxDistance = distance * 1000;
@@ -60,6 +71,16 @@ export class Navigation {
     this.camera.position.copy(at);
     controls.addEventListener("change", () => { this.onMove(); });
     return controls;
+  }
+
+  /** Whether what is done over the picture is meant for it. */
+  private get attended(): boolean {
+    return !this.polite || (document.hasFocus() && this.canvas.matches(":focus"));
+  }
+
+  /** Orbit controls take all of it. */
+  private shareTouch(): void {
+    this.canvas.style.touchAction = this.attended ? "none" : "pan-y";
   }
 
   private onKey(event: KeyboardEvent): void {

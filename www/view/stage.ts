@@ -17,6 +17,7 @@ export class Stage {
   private readonly canvas: HTMLCanvasElement;
   private readonly renderer: WebGLRenderer;
   private readonly eyeDome: EyeDome;
+  private readonly resizing = new ResizeObserver(() => { this.resize(); });
   private changed = true;
   private drawnFrom = "";
   /** Half the size of what is to be seen, around the origin. */
@@ -25,11 +26,11 @@ export class Stage {
 
   constructor(canvas: HTMLCanvasElement) {
     this.canvas = canvas;
-    const background = new Color(getComputedStyle(document.documentElement).getPropertyValue("--canvas").trim());
+    const background = new Color(getComputedStyle(canvas).getPropertyValue("--canvas").trim());
     this.renderer = new WebGLRenderer({ canvas, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
     this.eyeDome = new EyeDome(background);
-    new ResizeObserver(() => { this.resize(); }).observe(canvas);
+    this.resizing.observe(canvas);
     canvas.addEventListener("webglcontextrestored", () => { this.invalidate(); });
     this.resize();
     this.renderer.setAnimationLoop(() => { this.frame(); });
@@ -71,6 +72,16 @@ export class Stage {
   /** Something other than the camera has changed: draw again. */
   invalidate(): void {
     this.changed = true;
+  }
+
+  /** Draws no more, and gives the graphics card its memory back; the canvas is of no further use. */
+  dispose(): void {
+    this.resizing.disconnect();
+    this.renderer.setAnimationLoop(null);
+    this.eyeDome.dispose();
+    this.renderer.dispose();
+    // Browsers keep only so many pictures alive, and a context goes late by itself.
+    this.renderer.forceContextLoss();
   }
 
   private resize(): void {

@@ -1,0 +1,245 @@
+import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { gzipSync } from "node:zlib";
+import type { Page } from "playwright-core";
+import { afterAll, beforeAll, expect, test } from "vitest";
+import type { PickedPoint } from "../../www/element/api.js";
+import { root } from "../root.js";
+import { asciiPly, ball } from "./clouds.js";
+import { servePage, type Site } from "./site.js";
+import { element, hears, heardBy, openStranger, settledState } from "./stranger.js";
+import { inNode, provoke, served } from "./support.js";
+
+const DIST = join(root, "www/dist");
+const positions = ball(900);
+/** Larger, and elsewhere. */
+const other = ball(1300).map((value, i) => 3 * value + [10, 20, 30][i % 3]!);
+const TWO = '<hidden-point-cloud id="a" src="clouds/a.ply" exponent="2" viewpoint="1,2,9"></hidden-point-cloud><hidden-point-cloud id="b" src="clouds/b.ply"></hidden-point-cloud>';
+
+let elsewhere: Site;
+
+beforeAll(async () => {
+  elsewhere = await servePage(new Map(), { "access-control-allow-origin": "*" });
+  served.set("clouds/a.ply", asciiPly(positions));
+  served.set("clouds/b.ply", asciiPly(other));
+});
+
+afterAll(() => {
+  elsewhere.close();
+});
+
+async function openTwo(): Promise<Page> {
+  const page = await openStranger(elsewhere.address, TWO);
+  expect(await Promise.all([settledState(page, "a"), settledState(page, "b")])).toEqual(["ready", "ready"]);
+  return page;
+}
+
+function seenBy(page: Page, id: string) {
+  return element(page, id, ({ count, visible, visibleCount, viewpoint }) => ({ count, visible: [...visible], visibleCount, viewpoint: viewpoint! }));
+}
+
+/** Workers and pictures that there are. */
+async function kept(page: Page): Promise<{ workers: number; pictures: number }> {
+  return { workers: page.workers().length, pictures: await page.evaluate(() => (globalThis as unknown as { livePictures: () => number }).livePictures()) };
+}
+
+test("two elements from another origin, under a strict policy, answer as the package does, in one worker", async () => {
+  const page = await openTwo();
+  const [a, b] = [await seenBy(page, "a"), await seenBy(page, "b")];
+  expect(a.viewpoint).toEqual([1, 2, 9]);
+  expect(a.visible).toEqual(await inNode(positions, (cloud) => [...cloud.visibleFrom([1, 2, 9], { exponent: 2 }).indices]));
+  expect(b.visible).toEqual(await inNode(other, (cloud) => [...cloud.visibleFrom(b.viewpoint).indices]));
+  expect([a.count, a.visibleCount, b.count]).toEqual([900, a.visible.length, 1300]);
+  expect(await heardBy(page, "a", "load")).toEqual([{ total: 900 }]);
+  expect((await heardBy(page, "a", "change"))[0]).toMatchObject({ count: a.visibleCount, viewpoint: [1, 2, 9] });
+  expect((await heardBy(page, "a", "progress")).length).toBeGreaterThan(0);
+  expect(await heardBy(page, "a", "error")).toEqual([]);
+  await expect.poll(() => kept(page)).toEqual({ workers: 1, pictures: 2 });
+  expect(await page.evaluate(() => (globalThis as unknown as { forbidden: string[] }).forbidden)).toEqual([]);
+
+  // Drawn: not one color alone.
+  const colors = await element(page, "a", async (cloud) => {
+    const bitmap = await createImageBitmap(await cloud.toBlob());
+    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
+    context.drawImage(bitmap, 0, 0);
+    return new Set(new Uint32Array(context.getImageData(0, 0, bitmap.width, bitmap.height).data.buffer)).size;
+  });
+  expect(colors).toBeGreaterThan(20);
+});
+
+test("what is removed is given up, what comes back starts again, what is moved stays", async () => {
+  const page = await openTwo();
+  await page.evaluate(() => {
+    const a = document.getElementById("a")!;
+    document.body.append(a, document.createElement("section"));
+    document.querySelector("section")!.append(a);
+  });
+  expect(await kept(page)).toEqual({ workers: 1, pictures: 2 });
+  expect(await heardBy(page, "a", "load")).toHaveLength(1);
+
+  for (let round = 1; round <= 2; round++) {
+    await page.evaluate(() => {
+      const [a, b] = [document.getElementById("a")!, document.getElementById("b")!];
+      Object.assign(globalThis, { removed: [a, b] });
+      a.remove();
+      b.remove();
+    });
+    await expect.poll(() => kept(page)).toEqual({ workers: 0, pictures: 0 });
+    expect(await page.evaluate(() => (globalThis as unknown as { removed: { count: number; state: string }[] }).removed.map(({ count, state }) => [count, state]))).toEqual([[0, "empty"], [0, "empty"]]);
+    await page.evaluate(() => { document.body.append(...(globalThis as unknown as { removed: Node[] }).removed); });
+    expect(await Promise.all([settledState(page, "a"), settledState(page, "b")])).toEqual(["ready", "ready"]);
+    await expect.poll(() => kept(page)).toEqual({ workers: 1, pictures: 2 });
+    expect((await seenBy(page, "a")).count).toBe(900);
+    expect(await element(page, "a", (cloud) => cloud.shadowRoot!.querySelectorAll("canvas").length)).toBe(1);
+  }
+});
+
+test("attributes and properties are followed, and what they cannot be is told", async () => {
+  const page = await openTwo();
+  const change = (act: () => Promise<unknown>) => hears(page, "a", "change", act);
+  const options = async (ask: object) => inNode(positions, (cloud) => cloud.visibleFrom([1, 2, 9], ask).count);
+
+  expect((await change(() => element(page, "a", (cloud) => { cloud.exponent = 4; }))).count).toBe(await options({ exponent: 4 }));
+  expect(await page.locator("#a").getAttribute("exponent")).toBe("4");
+  expect((await change(() => element(page, "a", (cloud) => { cloud.removeAttribute("exponent"); cloud.radius = "search"; }))).count).toBe(await options({ radius: "search" }));
+  expect(await change(() => element(page, "a", (cloud) => { cloud.radius = 250; }))).toMatchObject({ count: await options({ radius: 250 }), radius: 250 });
+  expect((await change(() => element(page, "a", (cloud) => { cloud.inversion = "power:1.5"; }))).count).toBe(await options({ inversion: { power: 1.5 } }));
+  expect((await change(() => element(page, "a", (cloud) => { cloud.inversion = cloud.radius = null; }))).count).toBe(await options({}));
+  expect((await change(() => element(page, "a", (cloud) => { cloud.viewpoint = [9, 0, 3]; cloud.target = [0, 1, 0]; }))).viewpoint).toEqual([9, 0, 3]);
+  expect(await element(page, "a", ({ target }) => target)).toEqual([0, 1, 0]);
+
+  // A frozen viewpoint stays when the camera goes.
+  await element(page, "a", async (cloud) => { cloud.frozen = true; await Promise.resolve(); cloud.viewpoint = [-9, 1, 0]; });
+  expect(await element(page, "a", ({ viewpoint }) => viewpoint)).toEqual([-9, 1, 0]);
+  expect((await heardBy(page, "a", "change")).at(-1)!.viewpoint).toEqual([9, 0, 3]);
+  expect((await change(() => element(page, "a", (cloud) => { cloud.frozen = false; }))).viewpoint).toEqual([-9, 1, 0]);
+
+  // The keys of the page, and attributes that follow them.
+  await element(page, "a", (cloud) => { cloud.focus(); });
+  await page.keyboard.press("h");
+  await page.keyboard.press("f");
+  expect(await element(page, "a", ({ hiddenPoints, frozen }) => [hiddenPoints, frozen])).toEqual(["dimmed", true]);
+  await page.keyboard.press("f");
+  expect(await page.locator("#a").getAttribute("frozen")).toBeNull();
+  expect((await change(() => page.keyboard.press("ArrowLeft"))).viewpoint).not.toEqual([-9, 1, 0]);
+  expect((await change(() => page.keyboard.press("r"))).viewpoint).toEqual([-9, 1, 0]);
+
+  const wrong = { exponent: "7", radius: "-1", inversion: "power:17", "hidden-points": "some", viewpoint: "1,2", "point-size": "0", fov: "400", up: "x", sample: "dragon", color: "smell" };
+  for (const [name, value] of Object.entries(wrong)) {
+    const error = await hears(page, "a", "error", () => element(page, "a", (cloud, given) => { cloud.setAttribute(...given); }, [name, value] as [string, string]));
+    expect(error, name).toMatchObject({ code: "attribute", attribute: name });
+    expect(error.message).toContain(value === "dragon" ? "exclude" : value);
+  }
+  expect((await heardBy(page, "a", "error")).map(({ attribute }) => attribute)).toEqual(Object.keys(wrong));
+  expect(await element(page, "a", ({ state, count, exponent, hiddenPoints, up }) => [state, count, exponent, hiddenPoints, up])).toEqual(["ready", 900, null, "off", null]);
+  // A radius that is a number, but none for this cloud.
+  const small = await hears(page, "a", "error", () => element(page, "a", (cloud) => { cloud.radius = 0.001; }));
+  expect(small).toMatchObject({ code: "attribute" });
+  expect(small.message).toMatch(/do not suit/);
+});
+
+test("a file that is not there, one that is none, and one that comes too late", async () => {
+  provoke(/404/);
+  served.set("clouds/page.ply", Buffer.from("<!doctype html>"));
+  const page = await openStranger(elsewhere.address, '<hidden-point-cloud id="a" src="clouds/none.ply"><p>Text</p></hidden-point-cloud>');
+  const refused = await element(page, "a", (cloud) => cloud.ready.catch((error: unknown) => (error as { code: string }).code));
+  expect(refused).toBe("source");
+  expect(await heardBy(page, "a", "error")).toEqual([{ code: "source", attribute: undefined, message: "none.ply could not be downloaded: the server answered 404." }]);
+  expect(await element(page, "a", ({ state, count }) => [state, count])).toEqual(["error", 0]);
+  expect(await page.locator("#a").locator('[part="error"]').textContent()).toContain("404");
+
+  const second = await hears(page, "a", "error", () => element(page, "a", (cloud) => { cloud.src = "clouds/page.ply"; }));
+  expect(second).toMatchObject({ code: "source", message: expect.stringContaining("page.ply is not a point cloud") as string });
+
+  // The first of these is given up, and never heard of.
+  await element(page, "a", async (cloud) => {
+    cloud.src = "clouds/b.ply";
+    await Promise.resolve();
+    cloud.src = "clouds/a.ply";
+    await cloud.ready;
+  });
+  expect(await heardBy(page, "a", "load")).toEqual([{ total: 900 }]);
+  expect(await page.locator("#a").locator('[part="error"]').isVisible()).toBe(false);
+  await element(page, "a", (cloud) => { cloud.src = null; });
+  expect(await element(page, "a", ({ state, count, visible }) => [state, count, visible.length])).toEqual(["empty", 0, 0]);
+  await expect.poll(() => kept(page)).toEqual({ workers: 0, pictures: 1 });
+});
+
+test("visible points are picked and hidden ones are not, and the page around scrolls until the picture has the focus", async () => {
+  const page = await openStranger(elsewhere.address, TWO, "<p>".repeat(100));
+  await settledState(page, "a");
+  const { visible, hits, through } = await element(page, "a", (cloud) => {
+    const places: (PickedPoint | null)[] = [];
+    const others: (PickedPoint | null)[] = [];
+    const { left, top, width, height } = cloud.getBoundingClientRect();
+    for (let i = 0; i < 400; i++) {
+      const at = [left + ((i % 20) / 20) * width, top + (Math.floor(i / 20) / 20) * height] as const;
+      places.push(cloud.pick(...at));
+      others.push(cloud.pick(...at, { through: true, tolerance: 3 }));
+    }
+    return { visible: [...cloud.visible], hits: places.filter((point) => point !== null), through: others.filter((point) => point !== null) };
+  });
+  expect(hits.length).toBeGreaterThan(20);
+  for (const { index, position, visible: seen } of hits) {
+    expect(seen && visible.includes(index)).toBe(true);
+    expect(position).toEqual([...positions.slice(3 * index, 3 * index + 3)]);
+  }
+  expect(through.some((point) => !point.visible)).toBe(true);
+  for (const point of through) expect(point.visible).toBe(visible.includes(point.index));
+
+  // There and back again.
+  const { index, position } = hits[0]!;
+  const spot = (await element(page, "a", (cloud, place) => cloud.project(place), position))!;
+  expect(await element(page, "a", (cloud, { x, y }) => cloud.pick(x, y, { tolerance: 0.5 })?.index, spot)).toBe(index);
+  expect((await hears(page, "a", "pick", () => page.mouse.click(spot.x, spot.y))).index).toBe(index);
+  expect(await element(page, "a", (cloud) => { try { cloud.pick(NaN, 0); return ""; } catch (error) { return String(error); } })).toMatch(/TypeError/);
+
+  // The click has given it the focus: the wheel zooms.
+  const zoomed = await hears(page, "a", "change", () => page.mouse.wheel(0, 120));
+  expect(zoomed.viewpoint).not.toEqual([1, 2, 9]);
+  expect(await page.evaluate(() => scrollY)).toBe(0);
+  await page.evaluate(() => { (document.activeElement as HTMLElement).blur(); });
+  const before = await element(page, "a", ({ viewpoint }) => viewpoint);
+  await page.mouse.wheel(0, 120);
+  await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(0);
+  expect(await element(page, "a", ({ viewpoint }) => viewpoint)).toEqual(before);
+  expect(await element(page, "a", (cloud) => cloud.shadowRoot!.querySelector("canvas")!.style.touchAction)).toBe("pan-y");
+});
+
+test("one who does not see it is told what it is, and with announce what is visible", async () => {
+  const page = await openStranger(elsewhere.address, '<hidden-point-cloud id="a" sample="bunny" label="A rabbit" announce></hidden-point-cloud>');
+  await settledState(page, "a");
+  const canvas = page.locator("#a").locator("canvas");
+  expect(await canvas.getAttribute("aria-label")).toMatch(/^A rabbit\. Arrow keys orbit/);
+  await page.keyboard.press("Tab");
+  expect(await element(page, "a", (cloud) => cloud.shadowRoot!.activeElement?.localName)).toBe("canvas");
+  await expect.poll(() => page.locator("#a").getByRole("status").textContent()).toMatch(/^[\d,]+ of 1,839 points .* are visible from here/);
+  await element(page, "a", (cloud) => { cloud.announce = false; });
+  expect(await page.locator("#a").getByRole("status").textContent()).toBe("");
+});
+
+test("until its first cloud it asks for 286 kB, three.js and the WebAssembly included", async () => {
+  const page = await openStranger(elsewhere.address, "");
+  const asked = new Set<string>();
+  page.context().on("request", (request) => {
+    if (request.url().startsWith(elsewhere.address)) asked.add(request.url().slice(elsewhere.address.length));
+  });
+  await page.reload();
+  await page.evaluate((body) => { document.body.innerHTML = body; }, TWO);
+  expect(await settledState(page, "a")).toBe("ready");
+  const sizes = Object.fromEntries([...asked].map((name) => [name, gzipSync(readFileSync(join(DIST, name)), { level: 9 }).length]));
+  const sum = Object.values(sizes).reduce((total, size) => total + size, 0);
+  // The module, the package's worker and wasm; workers ask for their own scripts, and the loader for the format.
+  expect(Object.keys(sizes)).toEqual(expect.arrayContaining(["hidden-point-cloud.js", expect.stringMatching(/hpr_bg.*\.wasm/) as string]));
+  expect(sum).toBeLessThanOrEqual(286_000);
+});
+
+test("a server can import it, and its types are beside it", () => {
+  const address = pathToFileURL(join(DIST, "hidden-point-cloud.js")).href;
+  const names = execFileSync(process.execPath, ["--input-type=module", "-e", `console.log(Object.keys(await import("${address}")).join())`], { encoding: "utf8" });
+  expect(names.trim()).toBe("HiddenPointCloudElement");
+  const types = readFileSync(join(DIST, "hidden-point-cloud.d.ts"), "utf8");
+  for (const name of ["export interface HiddenPointCloudElement extends HTMLElement", "HTMLElementTagNameMap", "export declare const HiddenPointCloudElement"]) expect(types).toContain(name);
+});

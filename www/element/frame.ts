@@ -1,0 +1,117 @@
+import style from "./element.css?inline";
+
+/** Screen readers hear of a new sentence when it has stood for so many milliseconds. */
+const SETTLED = 1000;
+const KEYS = "Arrow keys orbit, Shift and arrow keys pan, plus and minus zoom, square brackets change the field of view, F freezes the viewpoint, H shows hidden points, R resets the view, Enter picks the point in the middle.";
+
+/** What is in the element's shadow: the picture and what is said over it, each with its slot and its part for the page. */
+export class Frame {
+  private readonly root: ShadowRoot;
+  private readonly bar = make("progress", "progress");
+  private readonly loading = words("loading");
+  private readonly error = words("error");
+  private readonly fallback = make("div", "fallback");
+  private readonly live = make("p", "status");
+  private canvas: HTMLCanvasElement | null = null;
+  private label: string | null = null;
+  private announcing: ReturnType<typeof setTimeout> | undefined;
+
+  constructor(root: ShadowRoot) {
+    this.root = root;
+    // Unlike a style element, also where the page's security policy forbids those.
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(style);
+    root.adoptedStyleSheets = [sheet];
+    this.bar.max = 1;
+    this.bar.ariaLabel = "Loading";
+    this.fallback.className = "fallback";
+    this.fallback.append(document.createElement("slot"));
+    this.live.className = "unseen";
+    this.live.role = "status";
+    this.bar.hidden = this.loading.hidden = this.error.hidden = this.fallback.hidden = true;
+    root.append(this.bar, this.loading, this.error, this.fallback, this.live);
+  }
+
+  /** A new one each time: a canvas that has been given up draws no more. */
+  newCanvas(): HTMLCanvasElement {
+    const canvas = make("canvas", "canvas");
+    canvas.tabIndex = 0;
+    this.canvas?.remove();
+    this.canvas = canvas;
+    this.root.prepend(canvas);
+    this.setLabel(this.label);
+    return canvas;
+  }
+
+  removeCanvas(): void {
+    this.canvas?.remove();
+    this.canvas = null;
+  }
+
+  setLabel(label: string | null): void {
+    this.label = label;
+    if (this.canvas) this.canvas.ariaLabel = `${label ?? "Point cloud"}. ${KEYS}`;
+  }
+
+  /** `null`: under way, but nobody knows how far. */
+  showProgress(fraction: number | null): void {
+    this.bar.hidden = false;
+    if (fraction === null) this.bar.removeAttribute("value");
+    else this.bar.value = fraction;
+  }
+
+  hideProgress(): void {
+    this.bar.hidden = true;
+  }
+
+  /** In the middle, where the picture is empty. */
+  sayLoading(sentence: string | null): void {
+    say(this.loading, sentence);
+  }
+
+  sayError(sentence: string | null): void {
+    say(this.error, sentence);
+  }
+
+  /** What the page has put into the element, in the place of the picture; `false` where that is nothing. */
+  showFallback(): boolean {
+    const slot = this.fallback.querySelector("slot")!;
+    const filled = slot.assignedNodes().some((node) => node instanceof Element || node.textContent!.trim() !== "");
+    this.fallback.hidden = !filled;
+    return filled;
+  }
+
+  announce(sentence: string): void {
+    clearTimeout(this.announcing);
+    this.announcing = setTimeout(() => {
+      this.live.textContent = sentence;
+    }, SETTLED);
+  }
+
+  /** Nothing is to be heard any more. */
+  hush(): void {
+    clearTimeout(this.announcing);
+    this.live.textContent = "";
+  }
+}
+
+function make<Tag extends "canvas" | "progress" | "div" | "p">(tag: Tag, part: string): HTMLElementTagNameMap[Tag] {
+  const element = document.createElement(tag);
+  element.setAttribute("part", part);
+  return element;
+}
+
+/** Words of the element's own, unless the page has others for the slot of that name. */
+function words(name: string): HTMLElement {
+  const box = make("div", name);
+  box.className = "words";
+  const slot = document.createElement("slot");
+  slot.name = name;
+  box.append(slot);
+  return box;
+}
+
+function say(box: HTMLElement, sentence: string | null): void {
+  box.hidden = sentence === null;
+  box.querySelector("slot")!.textContent = sentence;
+}

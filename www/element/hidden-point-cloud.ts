@@ -1,0 +1,248 @@
+import type { TimedView } from "../ask/inquiry.ts";
+import { canDraw } from "../view/stage.ts";
+import type * as Api from "./api.ts";
+import { ATTRIBUTES, type Reading, readAttributes, SOURCES, valueOf } from "./attributes.ts";
+import { Frame } from "./frame.ts";
+import { Pointing } from "./pointing.ts";
+import { Problem } from "./problem.ts";
+import { adoptEarly, placeOf, reflect, write } from "./properties.ts";
+import { type Listener, Showing } from "./showing.ts";
+
+type Events = Api.HiddenPointCloudEventMap;
+type Reflected = Exclude<keyof Api.HiddenPointCloudElement, keyof HTMLElement | "viewpoint" | "target" | "state" | "ready" | "count" | "visibleCount" | "visible" | "reset" | "pick" | "project" | "toBlob">;
+type Own = Omit<Api.HiddenPointCloudElement, keyof HTMLElement | Reflected>;
+
+/** Where there are no elements, as on a server, importing this does no more than define the class. */
+const Base = "HTMLElement" in globalThis ? HTMLElement : (Object as unknown as typeof HTMLElement);
+
+class HiddenPointCloud extends Base implements Own {
+  static readonly observedAttributes = ATTRIBUTES;
+
+  readonly #frame = new Frame(this.attachShadow({ mode: "open", delegatesFocus: true }));
+  #showing: { showing: Showing; pointing: Pointing } | null = null;
+  #state: Own["state"] = "empty";
+  #ready = new Settling();
+  /** Whether the attributes name other points than those that are there or on their way. */
+  #stale = true;
+  /** Whether the view has been asked for, if only once more. */
+  #looks = false;
+  #updating = false;
+  /** By attribute, what has been told already. */
+  #told = new Map<string, string>();
+
+  connectedCallback(): void {
+    adoptEarly(this);
+    this.#touch();
+  }
+
+  disconnectedCallback(): void {
+    // What is only being moved is back before anybody has seen that it was gone.
+    queueMicrotask(() => {
+      if (!this.isConnected) this.#sleep();
+    });
+  }
+
+  /** Moved without having left. */
+  connectedMoveCallback(): void {
+    this.#touch();
+  }
+
+  attributeChangedCallback(name: string, before: string | null, now: string | null): void {
+    // Writing the same address once more tries it once more.
+    const renamed = name === "src" || (SOURCES.includes(name) && before !== now && !(name === "sample" && this.hasAttribute("src")));
+    if (renamed) this.#renew();
+    this.#looks ||= name === "viewpoint" || name === "target";
+    this.#touch();
+  }
+
+  get state(): Own["state"] {
+    return this.#state;
+  }
+
+  get ready(): Promise<void> {
+    return this.#ready.promise;
+  }
+
+  get count(): number {
+    return this.#showing?.showing.cloud?.count ?? 0;
+  }
+
+  get visibleCount(): number {
+    return this.#visible.length;
+  }
+
+  get visible(): Uint32Array {
+    return this.#visible.slice();
+  }
+
+  get viewpoint(): Api.Place | null {
+    const { showing } = this.#showing ?? {};
+    return showing?.cloud ? [...showing.viewer.viewpoint] : (valueOf(this, "viewpoint") ?? null);
+  }
+
+  set viewpoint(place: Api.Place | null) {
+    write(this, "viewpoint", place && Array.from(place).join(","));
+  }
+
+  get target(): Api.Place | null {
+    const { showing } = this.#showing ?? {};
+    return showing?.cloud ? [...(showing.viewer.target ?? showing.cloud.center)] : (valueOf(this, "target") ?? null);
+  }
+
+  set target(place: Api.Place | null) {
+    write(this, "target", place && Array.from(place).join(","));
+  }
+
+  reset(): void {
+    this.#showing?.showing.moves.reset();
+  }
+
+  pick(clientX: number, clientY: number, options?: { through?: boolean; tolerance?: number }): Api.PickedPoint | null {
+    return this.#showing?.pointing.pick(clientX, clientY, options) ?? null;
+  }
+
+  project(position: ArrayLike<number>): { x: number; y: number } | null {
+    return this.#showing?.pointing.project(placeOf(position)) ?? null;
+  }
+
+  async toBlob(): Promise<Blob> {
+    if (!this.#showing?.showing.cloud) throw new Problem("source", "There is no cloud to make a picture of.");
+    return this.#showing.showing.viewer.stage.snapshot();
+  }
+
+  get #visible(): Uint32Array {
+    const { showing } = this.#showing ?? {};
+    return showing?.cloud ? showing.viewer.scene.visible : new Uint32Array(0);
+  }
+
+  /** Attributes that are written together are followed together. */
+  #touch(): void {
+    if (this.#updating) return;
+    this.#updating = true;
+    queueMicrotask(() => {
+      this.#updating = false;
+      if (this.isConnected) this.#update();
+    });
+  }
+
+  #update(): void {
+    const looks = this.#looks;
+    this.#looks = false;
+    const reading = readAttributes(this);
+    this.#frame.setLabel(this.getAttribute("label"));
+    if (!this.hasAttribute("announce")) this.#frame.hush();
+    const there = this.#showing?.showing ?? null;
+    const showing = there ?? this.#wake(reading);
+    for (const problem of this.#newProblems(reading)) this.#emit("error", { error: problem });
+    if (!showing) return;
+    if (there) showing.follow(reading, looks);
+    if (!this.#stale) return;
+    this.#stale = false;
+    this.#state = showing.open() ? "loading" : "empty";
+  }
+
+  /** `null` where nothing can be drawn, which is told once. */
+  #wake(reading: Reading): Showing | null {
+    if (this.#state === "error") return null;
+    if (!canDraw()) {
+      const problem = new Problem("webgl", "This cloud is drawn with WebGL 2, which this browser does not offer or has switched off.");
+      if (!this.#frame.showFallback()) this.#frame.sayError(problem.message);
+      this.#fail(problem);
+      return null;
+    }
+    const showing = new Showing(this.#frame, reading, this.#listener());
+    const pointing = new Pointing(showing.canvas, showing.viewer);
+    pointing.onPick((point) => { this.#emit("pick", point); });
+    this.#showing = { showing, pointing };
+    return showing;
+  }
+
+  #sleep(): void {
+    this.#showing?.showing.dispose();
+    this.#showing = null;
+    this.#state = "empty";
+    this.#renew();
+  }
+
+  #renew(): void {
+    this.#stale = true;
+    this.#ready = this.#ready.renewed();
+  }
+
+  #listener(): Listener {
+    return {
+      loaded: (total) => {
+        this.#state = "ready";
+        this.#emit("load", { total });
+        this.#ready.resolve();
+      },
+      failed: (problem) => { this.#fail(problem); },
+      answered: (answer) => { this.#answer(answer); },
+      progressed: (fraction) => { this.#emit("progress", { fraction }); },
+      refused: (problem) => { this.#emit("error", { error: problem }); },
+      moved: ({ hidden, freeze }) => {
+        if (hidden !== (valueOf(this, "hidden-points") ?? "off")) this.setAttribute("hidden-points", hidden);
+        this.toggleAttribute("frozen", freeze !== null);
+      },
+    };
+  }
+
+  #answer(answer: TimedView): void {
+    const { question, visibility, milliseconds } = answer;
+    if (this.hasAttribute("announce")) this.#frame.announce(this.#showing!.showing.sentence(answer));
+    this.#emit("change", { count: visibility.count, viewpoint: [...question.viewpoint], radius: visibility.radius, milliseconds });
+  }
+
+  #fail(problem: Problem): void {
+    this.#state = "error";
+    if (this.hasAttribute("announce")) this.#frame.announce(problem.message);
+    this.#emit("error", { error: problem });
+    this.#ready.reject(problem);
+  }
+
+  /** Not once more those that have been told, as long as the attribute says the same. */
+  #newProblems({ problems }: Reading): Problem[] {
+    const fresh = [...problems].filter(([attribute, { message }]) => this.#told.get(attribute) !== message).map(([, problem]) => problem);
+    this.#told = new Map([...problems].map(([attribute, { message }]) => [attribute, message]));
+    return fresh;
+  }
+
+  #emit<Type extends keyof Events>(type: Type, detail: Events[Type]["detail"]): void {
+    this.dispatchEvent(new CustomEvent(type, { detail }));
+  }
+}
+
+/** A promise that is settled from outside, at most once. */
+class Settling {
+  readonly promise: Promise<void>;
+  resolve!: () => void;
+  reject!: (problem: Problem) => void;
+  private settled = false;
+
+  constructor() {
+    this.promise = new Promise((resolve, reject) => {
+      this.resolve = () => {
+        this.settled = true;
+        resolve();
+      };
+      this.reject = (problem) => {
+        this.settled = true;
+        reject(problem);
+      };
+    });
+    // The event tells; who does not ask need not hear of it twice.
+    this.promise.catch(() => undefined);
+  }
+
+  /** Another one, unless this one still waits. */
+  renewed(): Settling {
+    return this.settled ? new Settling() : this;
+  }
+}
+
+if ("customElements" in globalThis) {
+  reflect(HiddenPointCloud.prototype);
+  if (!customElements.get("hidden-point-cloud")) customElements.define("hidden-point-cloud", HiddenPointCloud);
+}
+
+export const HiddenPointCloudElement = HiddenPointCloud as unknown as typeof Api.HiddenPointCloudElement;

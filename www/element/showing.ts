@@ -1,0 +1,211 @@
+import type { TimedView } from "../ask/inquiry.ts";
+import type { Cloud } from "../cloud.ts";
+import type { LoadRequest } from "../loaders/index.ts";
+import { Moves } from "../moves.ts";
+import { openCloud, type Ready, requestFor, usableColor } from "../opening.ts";
+import { sentenceOf } from "../sentence.ts";
+import { sampleNamed } from "../samples.ts";
+import { type Settings, Store, USUAL_SETTINGS } from "../settings.ts";
+import { inReachOnly } from "../view/framing.ts";
+import { Viewer } from "../viewer.ts";
+import { changedSettings, type Reading } from "./attributes.ts";
+import type { Frame } from "./frame.ts";
+import { Problem, problemOf } from "./problem.ts";
+
+/** What a showing tells the element. */
+export interface Listener {
+  loaded: (total: number) => void;
+  failed: (problem: Problem) => void;
+  answered: (answer: TimedView) => void;
+  progressed: (fraction: number | null) => void;
+  /** Something is wrong, but there is a picture. */
+  refused: (problem: Problem) => void;
+  /** Keys have changed these, not attributes. */
+  moved: (settings: Settings) => void;
+}
+
+/** The picture of an element from when it comes into a document until it leaves. */
+export class Showing {
+  readonly viewer: Viewer;
+  readonly canvas: HTMLCanvasElement;
+  readonly moves: Moves;
+  private readonly store: Store;
+  private readonly frame: Frame;
+  private readonly tell: Listener;
+  private reading: Reading;
+  private ready: Ready | null = null;
+  private loading = new AbortController();
+  private note: string | null = null;
+  /** Whether the settings are being changed for the attributes. */
+  private obeying = false;
+
+  constructor(frame: Frame, reading: Reading, tell: Listener) {
+    this.frame = frame;
+    this.tell = tell;
+    this.reading = reading;
+    this.store = new Store({ ...USUAL_SETTINGS, ...reading.settings });
+    this.canvas = frame.newCanvas();
+    this.viewer = new Viewer(this.canvas, this.store, true);
+    this.moves = new Moves(this.canvas, this.viewer, this.store, () => ({ ...USUAL_SETTINGS, ...this.ready?.usual, ...this.reading.settings }));
+    this.viewer.onAnswer = (answer) => {
+      this.hear(answer);
+    };
+    this.viewer.onError = (error) => {
+      tell.refused(problemOf(error, "The view"));
+    };
+    this.store.follow((now) => {
+      if (this.ready && !this.obeying) tell.moved(now);
+    });
+  }
+
+  /** The cloud that is shown. */
+  get cloud(): Cloud | null {
+    return this.viewer.cloud;
+  }
+
+  /** The attributes are others; those of the view may also be the same once more. */
+  follow(reading: Reading, look: boolean): void {
+    const before = this.reading;
+    this.reading = reading;
+    // What is being loaded comes to it when it is there.
+    if (this.ready) this.apply(before, this.ready, look);
+  }
+
+  /** Opens what the attributes name, in the place of what is there or on its way; `false` where they name nothing. */
+  open(): boolean {
+    this.loading.abort();
+    const { signal } = (this.loading = new AbortController());
+    this.frame.sayError(null);
+    const asked = this.reading;
+    const { src, sample } = asked;
+    if (src === null && sample === null) {
+      this.empty();
+      return false;
+    }
+    const name = src === null ? sampleNamed(sample!).label : nameOf(src);
+    if (!this.ready) this.frame.sayLoading(`Loading ${name}.`);
+    this.progress(null);
+    this.load(asked, name, signal).catch((error: unknown) => {
+      if (signal.aborted) return;
+      const problem = problemOf(error, name);
+      this.empty();
+      this.frame.sayError(problem.message);
+      this.tell.failed(problem);
+    });
+    return true;
+  }
+
+  dispose(): void {
+    this.loading.abort();
+    this.viewer.dispose();
+    this.frame.removeCanvas();
+    this.frame.hush();
+  }
+
+  private async load(asked: Reading, name: string, signal: AbortSignal): Promise<void> {
+    const sample = asked.src === null ? sampleNamed(asked.sample!) : null;
+    const settings = { ...USUAL_SETTINGS, ...asked.settings };
+    const ready = await openCloud(
+      { request: sample ? requestFor(sample, import.meta.url) : fileRequest(asked, name), sample, view: asked.view, settings: asked.settings },
+      {
+        settings: () => settings,
+        aspect: () => this.viewer.stage.camera.aspect,
+        shared: true,
+        signal,
+        onProgress: (step, fraction) => {
+          if (signal.aborted) return;
+          if (!this.ready) this.frame.sayLoading(step);
+          this.progress(fraction);
+        },
+      },
+    );
+    const { opened, notes } = ready;
+    if (signal.aborted) {
+      opened.inquiry.dispose();
+      return;
+    }
+    this.empty();
+    this.obey(() => {
+      this.store.change({ ...settings, ...ready.settings });
+      this.viewer.show(opened);
+      this.moves.freeze(asked.frozen);
+    });
+    this.ready = ready;
+    this.apply(asked, ready, false);
+    this.tell.loaded(opened.cloud.count);
+    for (const note of notes) this.tell.refused(new Problem("attribute", note));
+    this.hear(opened.answer);
+  }
+
+  /** From what the attributes said before to what they say now. */
+  private apply(before: Reading, ready: Ready, look: boolean): void {
+    const { reading } = this;
+    const changed = changedSettings(before, reading, ready.usual);
+    if (changed.color !== undefined) {
+      const { color, notes } = usableColor(changed.color, ready.opened.cloud, true);
+      for (const note of notes) this.tell.refused(new Problem("attribute", note, { attribute: "color" }));
+      changed.color = color;
+    }
+    this.obey(() => {
+      if (Object.keys(changed).length > 0) this.store.change(changed);
+      // What is frozen together with a new view is frozen where one was.
+      if (reading.frozen !== before.frozen) this.moves.freeze(reading.frozen);
+      if (look || JSON.stringify(reading.view) !== JSON.stringify(before.view)) this.look(ready);
+    });
+    this.viewer.stage.invalidate();
+  }
+
+  /** Goes to the view that is asked for. */
+  private look(ready: Ready): void {
+    const { view, notes } = inReachOnly(ready.opened.cloud, this.reading.view, {});
+    for (const note of notes) this.tell.refused(new Problem("attribute", note, { attribute: view ? "target" : "viewpoint" }));
+    this.viewer.setHome(ready.homeFrom(view));
+  }
+
+  private obey(change: () => void): void {
+    this.obeying = true;
+    change();
+    this.obeying = false;
+  }
+
+  private hear(answer: TimedView): void {
+    // The first one is told when the cloud is.
+    if (!this.ready) return;
+    if (answer.note !== null && answer.note !== this.note) this.tell.refused(new Problem("attribute", answer.note));
+    this.note = answer.note;
+    this.tell.answered(answer);
+  }
+
+  /** What screen readers are to hear of the last answer. */
+  sentence(answer: TimedView): string {
+    return sentenceOf(answer, this.cloud?.count ?? 0, this.moves.frozen);
+  }
+
+  private progress(fraction: number | null): void {
+    this.frame.showProgress(fraction);
+    this.tell.progressed(fraction);
+  }
+
+  private quiet(): void {
+    this.frame.hideProgress();
+    this.frame.sayLoading(null);
+  }
+
+  private empty(): void {
+    this.quiet();
+    this.viewer.clear();
+    this.ready = null;
+    this.note = null;
+  }
+}
+
+function fileRequest({ src, limit, skipNonFinite }: Reading, name: string): LoadRequest {
+  if (!URL.canParse(src!, document.baseURI)) throw new Problem("source", `${name} could not be downloaded: “${src}” is no address.`);
+  const url = new URL(src!, document.baseURI).href;
+  return { kind: "url", name, url, skipNonFinite, ...(limit === undefined ? {} : { limit }) };
+}
+
+function nameOf(src: string): string {
+  const url = URL.canParse(src, document.baseURI) ? new URL(src, document.baseURI) : null;
+  return url?.pathname.split("/").pop() || src;
+}

@@ -1,0 +1,28 @@
+import { fileURLToPath } from "node:url";
+import { defineConfig } from "vite";
+import { COMMON } from "../build/common.ts";
+import { declarations } from "../build/declarations-plugin.ts";
+
+const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
+const NAME = "hidden-point-cloud";
+
+/** One module beside the page, with its types; what it loads later is in a folder of its name. */
+export default defineConfig({
+  ...COMMON,
+  root: here(".."),
+  publicDir: false,
+  build: {
+    outDir: here("../dist"),
+    emptyOutDir: false,
+    assetsDir: NAME,
+    target: "es2022",
+    modulePreload: false,
+    chunkSizeWarningLimit: 900,
+    rolldownOptions: {
+      input: here(`${NAME}.ts`),
+      preserveEntrySignatures: "strict",
+      output: { entryFileNames: "[name].js" },
+    },
+  },
+  plugins: [declarations(here("api.ts"), `${NAME}.d.ts`)],
+});

@@ -1,0 +1,17 @@
+import { readable } from "../address.ts";
+import { byId } from "./dom.ts";
+
+/** In a frame of another page: the picture alone, and a link to all of it as it is now. */
+export function showEmbedded(): void {
+  document.body.classList.add("embedded");
+  const link = byId("whole-page", HTMLAnchorElement);
+  link.hidden = false;
+  const follow = () => {
+    const address = new URL(location.href);
+    address.searchParams.delete("embed");
+    link.href = readable(address).href;
+  };
+  follow();
+  // The address goes with the camera and the settings.
+  for (const event of ["pointerdown", "focus", "click"]) link.addEventListener(event, follow);
+}

@@ -1,0 +1,20 @@
+import type { TimedView } from "./ask/inquiry.ts";
+
+const number = new Intl.NumberFormat("en-US");
+
+/** What people and screen readers are told of an answer. */
+export function sentenceOf({ visibility, quick, milliseconds }: TimedView, total: number, frozen: boolean): string {
+  const where = frozen ? "were visible from the frozen viewpoint" : "are visible from here";
+  const time = milliseconds < 10 ? milliseconds.toFixed(1) : number.format(Math.round(milliseconds));
+  const share = percent(visibility.count, total);
+  const standIn = quick ? ", with the automatic radius while moving" : "";
+  return `${number.format(visibility.count)} of ${number.format(total)} points (${share}) ${where}, found in ${time}\u00a0ms${standIn}.`;
+}
+
+/** Rounded, but neither to none nor to all where that is not so. */
+function percent(count: number, total: number): string {
+  const share = total > 0 ? Math.round((100 * count) / total) : 0;
+  if (share === 0 && count > 0) return "<\u00a01\u00a0%";
+  if (share === 100 && count < total) return ">\u00a099\u00a0%";
+  return `${share}\u00a0%`;
+}
