@@ -1,6 +1,7 @@
 import type { Up } from "./cloud.ts";
+import { MOST_SPLAT } from "./compare/zbuffer.ts";
 import { MAX_POINTS } from "./loaders/limits.ts";
-import type { HiddenMode, Inversion, Radius, Settings, Viewpoint, Viewpoints } from "./settings.ts";
+import type { Against, HiddenMode, Inversion, Radius, Settings, Viewpoint, Viewpoints } from "./settings.ts";
 
 /** What the address of the page asks for. Anything that cannot be used is named in `notes`, in plain words. */
 export interface Params {
@@ -71,6 +72,8 @@ export function readParams(search: string, samples: readonly string[]): Params {
     freeze: read("freeze", parsePlace, "three numbers x,y,z, so the viewpoint goes with the camera"),
     hidden: read("hidden", oneOf<HiddenMode>("off", "dimmed", "shown"), "off, dimmed or shown, so they are off"),
     compare: read("compare", within(0, 1), "a number from 0 to 1, so the picture is not divided"),
+    against: read("against", oneOf<Against>("all", "zbuffer", "surface"), "all, zbuffer or surface, so all points are"),
+    splat: read("splat", parseSplat, `auto or an integer from 1 to ${MOST_SPLAT}, so it is chosen by the view`),
     // Whether the cloud has it, it will tell.
     color: query.get("color") ?? undefined,
     size: read("size", within(0.05, 50), "a number from 0.05 to 50, so the usual one is used"),
@@ -91,6 +94,7 @@ export function readParams(search: string, samples: readonly string[]): Params {
 
 /** Parameters that a sentence calls something else. */
 const WORDS: Record<string, string> = {
+  against: "comparison",
   compare: "place of the divider",
   edge: "longest edge",
   freeze: "frozen viewpoint",
@@ -98,6 +102,7 @@ const WORDS: Record<string, string> = {
   hidden: "way to show hidden points",
   show: "kind of picture",
   size: "point size",
+  splat: "width of the z-buffer’s points",
   soft: "softness of the lights",
   ambient: "ambient light",
   points: "number of points",
@@ -127,6 +132,11 @@ function parseEdge(text: string): number | undefined {
   if (text === "all") return Infinity;
   const edge = parseNumber(text);
   return edge > 0 && edge < Infinity ? edge : undefined;
+}
+
+function parseSplat(text: string): number | "auto" | undefined {
+  const width = text === "auto" ? text : whole(MOST_SPLAT)(text);
+  return width === 0 ? undefined : width;
 }
 
 function parsePlace(text: string): Viewpoint | undefined {

@@ -13,8 +13,8 @@ import type { Message } from "./panel/message.ts";
 import { Progress } from "./panel/progress.ts";
 import { SamplePicker } from "./panel/sample-picker.ts";
 import type { Params } from "./params.ts";
-import { type Sample, sampleNamed, usualLook } from "./samples.ts";
-import { OWN_COLORS, type Settings, Store, USUAL_SETTINGS } from "./settings.ts";
+import { type KnownSurface, NO_SURFACE, type Sample, sampleNamed, usualLook } from "./samples.ts";
+import { type Against, OWN_COLORS, type Settings, Store, USUAL_SETTINGS } from "./settings.ts";
 import type { Status } from "./status.ts";
 import { colorChoices } from "./view/colors.ts";
 import { type AskedView, findHome, inReachOnly } from "./view/framing.ts";
@@ -147,7 +147,10 @@ export function startSession(params: Params, status: Status, message: Message): 
       const { fieldOfView: fov, up } = { ...usual, ...source.settings };
       const { color, notes: colorNote } = usableColor(own.color ?? store.current.color, cloud, source.settings.color !== undefined);
       own.color = color;
-      const more = [...farNotes, ...colorNote, ...(loaded.notes ?? [])];
+      const surface = surfaceOf(sample);
+      const { against, notes: againstNote } = usableAgainst(own.against ?? store.current.against, surface, source.settings.against !== undefined);
+      own.against = against;
+      const more = [...farNotes, ...colorNote, ...againstNote, ...(loaded.notes ?? [])];
       if (more.length > 0) message.show([...notes, ...more].join(" "));
       const taken = loaded.taken?.from ? { at: loaded.taken.from, target: null } : null;
       const homeWith = (upward: Up) => {
@@ -167,7 +170,7 @@ export function startSession(params: Params, status: Status, message: Message): 
       askedView = asked;
       controls.prepare(cloud);
       tools.clear();
-      viewer.show({ cloud, positions: loaded.positions, inquiry, home, answer, findHome: homeWith });
+      viewer.show({ cloud, positions: loaded.positions, inquiry, home, answer, findHome: homeWith, surface });
       shownName = sample?.name ?? request.name;
       plot.clear();
       controls.usual = usual;
@@ -242,6 +245,18 @@ function usableColor(color: string, cloud: Cloud, asked: boolean): { color: stri
   if (colorChoices(cloud).some(({ value }) => value === color)) return { color, notes: [] };
   const notes = asked ? [`It has nothing called “${color}” to be colored by, so it has its usual colors.`] : [];
   return { color: OWN_COLORS, notes };
+}
+
+function surfaceOf(sample: Sample | null): KnownSurface | string {
+  const surface = sample?.surface ?? NO_SURFACE;
+  if (typeof surface === "string" || "shape" in surface) return surface;
+  return { faces: new URL(surface.faces, document.baseURI).href };
+}
+
+/** Of some clouds no surface is known that ours could be compared with. */
+function usableAgainst(against: Against, surface: KnownSurface | string, asked: boolean): { against: Against; notes: string[] } {
+  if (against !== "surface" || typeof surface !== "string") return { against, notes: [] };
+  return { against: "all", notes: asked ? [`There is no true surface to compare with, so all points are. ${surface}`] : [] };
 }
 
 /** A radius in units of the cloud before means nothing to the next one. */
