@@ -1,4 +1,4 @@
-import { Matrix4, Quaternion, Vector3 } from "three";
+import { Matrix4, Quaternion } from "three";
 import type { LightAnswer } from "./ask/lights.ts";
 import { isSamePlace } from "./ask/question.ts";
 import type { Inquiry, TimedView } from "./ask/inquiry.ts";
@@ -124,7 +124,7 @@ export class Viewer {
     if (!this.shown) return;
     this.shown.inquiry.dispose();
     const { points, mesh } = this.shown;
-    for (const drawn of [points.solid, points.different, points.ghost, mesh.mesh]) drawn.removeFromParent();
+    for (const drawn of [points.solid, points.different, points.extra, points.ghost, mesh.mesh]) drawn.removeFromParent();
     points.dispose();
     mesh.dispose();
     this.shown = null;
@@ -258,8 +258,8 @@ export class Viewer {
     const frozen = freeze !== null;
     const hidden = compare === null ? chosen : this.compared ? "off" : "shown";
     points.show(hidden, frozen, compare ?? 1);
-    (frozen ? this.stage.points : this.stage.through).add(points.ghost);
-    this.stage.setThroughOpacity(THROUGH_OPACITY[hidden]);
+    (frozen ? this.stage.points : this.stage.through).add(points.ghost, points.extra);
+    this.stage.setThroughOpacity(this.compared ? 1 : THROUGH_OPACITY[hidden]);
     this.stage.setPointWidth(points.setPointSize(size));
     this.stage.setFieldOfView(fieldOfView);
   }
@@ -281,27 +281,5 @@ export class Viewer {
     this.marker.place(at, this.shown!.frozen, 0.18 * cloud.radius);
     // The marker has to be in the picture too, from wherever one looks back at it.
     this.stage.setExtent(Math.max(cloud.radius, at.length() + 0.2 * cloud.radius));
-  }
-
-  /** Where a place is in the picture, in CSS pixels from its left and top; `null` behind the camera. */
-  project(place: Viewpoint): { x: number; y: number } | null {
-    const { camera } = this.stage;
-    const seen = inLocal(this.shown!.cloud, place).applyMatrix4(camera.matrixWorldInverse);
-    if (seen.z >= 0) return null;
-    const { x, y } = seen.applyMatrix4(camera.projectionMatrix);
-    const { width, height } = this.stage.size;
-    return { x: (0.5 + x / 2) * width, y: (0.5 - y / 2) * height };
-  }
-
-  /** The place at that point of the picture that is as far ahead of the camera as `like`. */
-  placeAt(x: number, y: number, like: Viewpoint): Viewpoint {
-    const { cloud } = this.shown!;
-    const { camera } = this.stage;
-    const depth = -inLocal(cloud, like).applyMatrix4(camera.matrixWorldInverse).z;
-    const { width, height } = this.stage.size;
-    const tangent = Math.tan((camera.fov * Math.PI) / 360);
-    const place = new Vector3((2 * x) / width - 1, 1 - (2 * y) / height, -1);
-    place.multiply(new Vector3(tangent * camera.aspect, tangent, 1)).multiplyScalar(depth);
-    return inFile(cloud, place.applyMatrix4(camera.matrixWorld));
   }
 }

@@ -9,7 +9,7 @@ import { Reference } from "./reference.ts";
 /** Ours beside the z-buffer of the same picture, for as long as it is wanted: computed anew with every answer and every turn of the camera. */
 export class AgainstPicture {
   /** The z-buffer's last answer, and ours that it stands beside. */
-  result: { picture: PictureAnswer; ours: TimedView; width: number; height: number } | null = null;
+  result: { picture: PictureAnswer; ours: TimedView } | null = null;
   problem: string | null = null;
   private readonly viewer: Viewer;
   private readonly changed: () => void;
@@ -51,7 +51,7 @@ export class AgainstPicture {
       const picture = pictureFrom(this.viewer, ours.question.viewpoint);
       const answer = await this.worker.ask({ picture, splat: width, visible: ours.visibility.indices });
       if (answer === null) return;
-      this.result = { picture: answer, ours, width: picture.width, height: picture.height };
+      this.result = { picture: answer, ours };
       this.viewer.showParts(answer.parts);
     } catch (error) {
       if (this.ended) return;

@@ -90,7 +90,7 @@ export class AgainstSurface {
       const truth = await this.worker.ask({ surface: this.surface, viewpoint: question.viewpoint, visible: visibility.indices });
       if (this.ended) return;
       // What came for a view that has been left since is not shown.
-      if (truth !== null && this.at && isSamePlace(this.at, question.viewpoint, this.viewer.scene.cloud.radius)) {
+      if (truth !== null && !this.stopped && this.at && isSamePlace(this.at, question.viewpoint, this.viewer.scene.cloud.radius)) {
         this.result = { truth, ours };
         this.viewer.showParts(truth.parts, true);
       }

@@ -74,7 +74,7 @@ export class CompareCard {
       this.result.textContent = problem ?? "";
       return { left: "Z-buffer", right: "Ours" };
     }
-    const { picture, ours, width, height } = result;
+    const { picture, ours } = result;
     const [both, onlyOurs, onlyReference, outside] = picture.parts.ends;
     const [mine, theirs] = [onlyOurs - both, onlyReference - onlyOurs];
     if (this.store.current.splat === "auto") this.splat.value = picture.splat;
@@ -90,9 +90,8 @@ export class CompareCard {
       picture.milliseconds,
     );
     const beyond = outside - onlyReference;
-    this.result.textContent =
-      `Of the ${number.format(picture.inside)} points in the picture (${width} × ${height} pixels): a z-buffer knows no others.` +
-      (beyond > 0 ? ` Ours sees ${number.format(beyond)} more outside it.` : "");
+    const more = beyond > 0 ? ` Ours sees ${number.format(beyond)} more.` : "";
+    this.result.textContent = `Of the ${number.format(picture.inside)} points in the picture: it knows no others.${more}`;
     return { left: `Z-buffer: ${number.format(picture.visible)}`, right: `Ours: ${number.format(onlyOurs)}` };
   }
 
@@ -113,8 +112,8 @@ export class CompareCard {
       [
         { label: "Rays", count: truth.visible, more: time(truth.milliseconds) },
         { label: "Ours", count: onlyOurs, more: time(ours.milliseconds) },
-        { label: "Shown though hidden", color: DIFFERENCE.onlyOurs, count: wrong, more: percent(wrong, total) },
-        { label: "Hidden though visible", color: DIFFERENCE.onlyReference, count: missed, more: percent(missed, total) },
+        { label: "Wrongly shown", color: DIFFERENCE.onlyOurs, count: wrong, more: percent(wrong, total) },
+        { label: "Wrongly hidden", color: DIFFERENCE.onlyReference, count: missed, more: percent(missed, total) },
       ],
       total,
       truth.milliseconds,

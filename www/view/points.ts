@@ -73,14 +73,16 @@ type Draw = Points<BufferGeometry, ShaderMaterial>;
 export class CloudPoints {
   readonly solid: Draw;
   readonly ghost: Draw;
-  /** What ours and the reference tell apart. */
+  /** What only ours shows: mostly behind what the reference does. */
+  readonly extra: Draw;
+  /** What else ours and the reference tell apart. */
   readonly different = new Group();
   private readonly cloud: Cloud;
   private readonly order: BufferAttribute;
   private readonly spacing: number;
   private readonly draws: Draw[];
   private width = 0;
-  /** Whether the hidden points are drawn through the visible ones: as specks, for both to be seen. */
+  /** Whether the hidden points, or what only ours shows, are drawn through the others: as specks, for both to be seen. */
   private throughOthers = true;
   /** Where the picture is divided, as a share of its width from its left: hidden points are left of it. */
   private divider = 1;
@@ -116,10 +118,11 @@ export class CloudPoints {
     };
     this.solid = draw(null, 0);
     this.ghost = draw(HIDDEN, COVERAGE);
-    const [onlyOurs, onlyReference, outside] = [draw(new Color(DIFFERENCE.onlyOurs), 1), draw(new Color(DIFFERENCE.onlyReference), 1), draw(null, 0)];
-    this.different.add(onlyOurs, onlyReference, outside);
-    this.different.visible = false;
-    this.draws = [this.solid, onlyOurs, onlyReference, outside, this.ghost];
+    this.extra = draw(new Color(DIFFERENCE.onlyOurs), 1);
+    const [missing, outside] = [draw(new Color(DIFFERENCE.onlyReference), 1), draw(null, 0)];
+    this.different.add(missing, outside);
+    this.extra.visible = this.different.visible = false;
+    this.draws = [this.solid, this.extra, missing, outside, this.ghost];
     for (const each of this.draws) {
       each.onBeforeRender = (renderer, _scene, camera) => {
         const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
@@ -127,7 +130,8 @@ export class CloudPoints {
         uniforms["pixels"]!.value = (camera.projectionMatrix.elements[5] * height) / 2;
         const least = leastPixels(cloud.count) * renderer.getPixelRatio();
         uniforms["least"]!.value = each === this.ghost && this.throughOthers ? least / 1.5 : least;
-        const [left, right] = [each === this.ghost || (each === onlyReference && !this.fill), each === onlyOurs || each === outside];
+        const left = each === this.ghost || (each === missing && !this.fill);
+        const right = each === this.extra || each === outside;
         const at = this.divider * width;
         (uniforms["between"]!.value as Vector2).set(right ? at : 0, left ? at : EVERYWHERE);
       };
@@ -147,16 +151,16 @@ export class CloudPoints {
     }
     while (next < this.cloud.count) order[at++] = next++;
     this.order.needsUpdate = true;
-    this.different.visible = false;
+    this.extra.visible = this.different.visible = false;
     this.setRanges([indices.length, indices.length, indices.length, indices.length]);
   }
 
-  /** The answer beside a reference, whose own points `fill` the gaps of ours or stay on their side. */
+  /** The answer beside a reference, whose own points `fill` the gaps of ours or stay on their side. Keeps the order for itself. */
   setParts({ order, ends }: Parts, fill: boolean): void {
-    (this.order.array as Uint32Array).set(order);
+    this.order.array = order;
     this.order.needsUpdate = true;
     this.fill = fill;
-    this.different.visible = true;
+    this.extra.visible = this.different.visible = true;
     this.setRanges(ends);
   }
 
@@ -188,7 +192,8 @@ export class CloudPoints {
 
   private setWidths(): void {
     for (const { material } of this.draws) material.uniforms["width"]!.value = this.width;
-    if (this.throughOthers) this.ghost.material.uniforms["width"]!.value = Math.min(this.width, THROUGH_WIDTH * this.spacing);
+    if (!this.throughOthers) return;
+    for (const { material } of [this.ghost, this.extra]) material.uniforms["width"]!.value = Math.min(this.width, THROUGH_WIDTH * this.spacing);
   }
 
   dispose(): void {
