@@ -3,8 +3,8 @@ import { Inquiry } from "./ask/inquiry.ts";
 import { WorkerCloud } from "./ask/worker-cloud.ts";
 import { type Cloud, prepareCloud, type Up } from "./cloud.ts";
 import { loadCloud, type LoadRequest } from "./loaders/index.ts";
-import { type Sample, usualLook } from "./samples.ts";
-import { OWN_COLORS, type Settings } from "./settings.ts";
+import { type KnownSurface, NO_SURFACE, type Sample, usualLook } from "./samples.ts";
+import { type Against, OWN_COLORS, type Settings } from "./settings.ts";
 import { colorChoices } from "./view/colors.ts";
 import { type AskedView, findHome, type Home, inReachOnly } from "./view/framing.ts";
 import type { Opened } from "./viewer.ts";
@@ -61,6 +61,9 @@ export async function openCloud({ request, sample, view: wanted, settings: wishe
   const own: Partial<Settings> = { ...usual, freeze: null, lights: [], ...radiusFor(place.settings()), ...wished, ...places };
   const { color, notes: colorNote } = usableColor(own.color ?? place.settings().color, cloud, wished.color !== undefined);
   own.color = color;
+  const surface = sample?.surface ?? NO_SURFACE;
+  const { against, notes: againstNote } = usableAgainst(own.against ?? place.settings().against, surface, wished.against !== undefined);
+  own.against = against;
 
   const { fieldOfView: fov, up } = { ...usual, ...wished };
   const taken = loaded.taken?.from ? { at: loaded.taken.from, target: null } : null;
@@ -77,8 +80,8 @@ export async function openCloud({ request, sample, view: wanted, settings: wishe
   try {
     const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...place.settings(), ...own });
     signal.throwIfAborted();
-    const opened = { cloud, positions: loaded.positions, inquiry, home, answer, findHome: homeFrom(view) };
-    return { opened, settings: own, usual, view, homeFrom, notes: [...farNotes, ...colorNote, ...(loaded.notes ?? [])] };
+    const opened = { cloud, positions: loaded.positions, inquiry, home, answer, findHome: homeFrom(view), surface };
+    return { opened, settings: own, usual, view, homeFrom, notes: [...farNotes, ...colorNote, ...againstNote, ...(loaded.notes ?? [])] };
   } catch (error) {
     inquiry.dispose();
     throw error;
@@ -90,6 +93,12 @@ export function usableColor(color: string, cloud: Cloud, asked: boolean): { colo
   if (colorChoices(cloud).some(({ value }) => value === color)) return { color, notes: [] };
   const notes = asked ? [`It has nothing called “${color}” to be colored by, so it has its usual colors.`] : [];
   return { color: OWN_COLORS, notes };
+}
+
+/** Of some clouds no surface is known that ours could be compared with. */
+function usableAgainst(against: Against, surface: KnownSurface | string, asked: boolean): { against: Against; notes: string[] } {
+  if (against !== "surface" || typeof surface !== "string") return { against, notes: [] };
+  return { against: "all", notes: asked ? [`There is no true surface to compare with, so all points are. ${surface}`] : [] };
 }
 
 /** A radius in units of the cloud before means nothing to the next one. */

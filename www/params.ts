@@ -66,6 +66,8 @@ export function readParams(search: string, samples: readonly string[]): Params {
     freeze: read("freeze"),
     hidden: read("hidden"),
     compare: read("compare"),
+    against: read("against"),
+    splat: read("splat"),
     // Whether the cloud has it, it will tell.
     color: query.get("color") ?? undefined,
     size: read("size"),
@@ -86,6 +88,7 @@ export function readParams(search: string, samples: readonly string[]): Params {
 
 /** Parameters that a sentence calls something else. */
 const WORDS: Record<string, string> = {
+  against: "comparison",
   compare: "place of the divider",
   edge: "longest edge",
   freeze: "frozen viewpoint",
@@ -93,10 +96,10 @@ const WORDS: Record<string, string> = {
   hidden: "way to show hidden points",
   show: "kind of picture",
   size: "point size",
+  splat: "width of the z-buffer’s points",
   soft: "softness of the lights",
   ambient: "ambient light",
   points: "number of points",
   up: "side that is up",
   viewpoints: "number of viewpoints",
 };
-

@@ -100,6 +100,11 @@ export class Inquiry {
     return answer;
   }
 
+  /** The cloud's spacing in its own units; 0 where it has none. */
+  spacing(): Promise<number> {
+    return this.cloud.spacing();
+  }
+
   dispose(): void {
     this.onView = this.onLight = this.onAutomatic = this.onError = () => undefined;
     void this.cloud.points.dispose();

@@ -44,6 +44,7 @@ export class Tools {
   /** For a cloud that is shown in the place of another. */
   clear(): void {
     for (const tool of this.tools) tool.clear?.();
+    this.compare.drop();
   }
 
   /** Other points are visible. */

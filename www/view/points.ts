@@ -1,5 +1,6 @@
-import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Points, ShaderMaterial, Vector2 } from "three";
+import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Group, Points, ShaderMaterial, Vector2 } from "three";
 import type { Cloud } from "../cloud.ts";
+import type { Parts } from "../compare/parts.ts";
 import type { HiddenMode } from "../settings.ts";
 import { type CloudAttributes, display, TINT_SHADER } from "./attributes.ts";
 
@@ -8,6 +9,12 @@ const HIDDEN = new Color("#a9599c");
 const HIDDEN_DIMMED = new Color("#4a515c");
 /** How much of that color covers a hidden point's own. */
 const COVERAGE = 0.7;
+
+/**
+ * Where ours and a reference differ: what only ours shows, and what only the reference does. Apart in hue for everyone,
+ * also for eyes that do not tell red from green or blue from yellow, and in neither color are points drawn else.
+ */
+export const DIFFERENCE = { onlyOurs: "#ff8c1a", onlyReference: "#1fc8e0" };
 
 /** How much is seen of hidden points that are drawn through the visible ones, and how wide they are at most, in spacings. */
 export const THROUGH_OPACITY: Record<HiddenMode, number> = { off: 0, dimmed: 0.4, shown: 0.85 };
@@ -39,36 +46,48 @@ const vertexShader = /* glsl */ `
 `;
 
 const fragmentShader = /* glsl */ `
-  uniform float until;
+  /* Pixels from the left between which it is drawn. */
+  uniform vec2 between;
   varying vec3 tint;
   varying float size;
 
   void main() {
-    if (gl_FragCoord.x > until) discard;
+    if (gl_FragCoord.x < between.x || gl_FragCoord.x > between.y) discard;
     // Below three pixels a disc and a square look alike.
     if (size > 3.0 && length(gl_PointCoord - 0.5) > 0.5) discard;
     gl_FragColor = vec4(tint, 1.0);
   }
 `;
 
+type Draw = Points<BufferGeometry, ShaderMaterial>;
+
 /**
- * The cloud as two draws of the same points: `solid` for the visible ones, `ghost` for the hidden ones. They share one
- * index buffer, written anew for each answer: first the visible points, then the hidden ones.
+ * The cloud as draws of the same points: `solid` for the visible ones, `ghost` for the hidden ones. They share one index
+ * buffer, written anew for each answer: first the visible points, then the hidden ones.
  *
  *      index   [ visible …… | hidden …………… ]
  *                solid ────   ghost ───────
+ *
+ * Beside a reference they are those of `Parts`: what both see is drawn everywhere, the rest on its own side of the divider.
  */
 export class CloudPoints {
-  readonly solid: Points<BufferGeometry, ShaderMaterial>;
-  readonly ghost: Points<BufferGeometry, ShaderMaterial>;
+  readonly solid: Draw;
+  readonly ghost: Draw;
+  /** What only ours shows: mostly behind what the reference does. */
+  readonly extra: Draw;
+  /** What else ours and the reference tell apart. */
+  readonly different = new Group();
   private readonly cloud: Cloud;
   private readonly order: BufferAttribute;
   private readonly spacing: number;
+  private readonly draws: Draw[];
   private width = 0;
-  /** Whether the hidden points are drawn through the visible ones: as specks, for both to be seen. */
+  /** Whether the hidden points, or what only ours shows, are drawn through the others: as specks, for both to be seen. */
   private throughOthers = true;
-  /** The share of the picture's width, from its left, that hidden points are drawn in. */
-  private until = 1;
+  /** Where the picture is divided, as a share of its width from its left: hidden points are left of it. */
+  private divider = 1;
+  /** Whether what only the reference shows is drawn on both sides. */
+  private fill = false;
 
   constructor(cloud: Cloud, attributes: CloudAttributes) {
     this.cloud = cloud;
@@ -76,7 +95,7 @@ export class CloudPoints {
     this.order.setUsage(DynamicDrawUsage);
     this.spacing = roughSpacing(cloud);
 
-    const draw = () => {
+    const draw = (cover: Color | null, coverage: number) => {
       const geometry = new BufferGeometry();
       attributes.addTo(geometry);
       geometry.setIndex(this.order);
@@ -88,26 +107,35 @@ export class CloudPoints {
           width: { value: 0 },
           pixels: { value: 1 },
           least: { value: 1 },
-          cover: { value: display(HIDDEN) },
-          coverage: { value: 0 },
-          until: { value: EVERYWHERE },
+          cover: { value: display(cover ?? HIDDEN) },
+          coverage: { value: coverage },
+          between: { value: new Vector2(0, EVERYWHERE) },
         },
       });
       const points = new Points(geometry, material);
       points.frustumCulled = false;
       return points;
     };
-    this.solid = draw();
-    this.ghost = draw();
-    this.solid.onBeforeRender = this.ghost.onBeforeRender = (renderer, _scene, camera) => {
-      const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
-      const pixels = (camera.projectionMatrix.elements[5] * height) / 2;
-      for (const { material } of [this.solid, this.ghost]) material.uniforms["pixels"]!.value = pixels;
-      this.ghost.material.uniforms["until"]!.value = this.until * width;
-      const least = leastPixels(cloud.count) * renderer.getPixelRatio();
-      this.solid.material.uniforms["least"]!.value = least;
-      this.ghost.material.uniforms["least"]!.value = this.throughOthers ? least / 1.5 : least;
-    };
+    this.solid = draw(null, 0);
+    this.ghost = draw(HIDDEN, COVERAGE);
+    this.extra = draw(new Color(DIFFERENCE.onlyOurs), 1);
+    const [missing, outside] = [draw(new Color(DIFFERENCE.onlyReference), 1), draw(null, 0)];
+    this.different.add(missing, outside);
+    this.extra.visible = this.different.visible = false;
+    this.draws = [this.solid, this.extra, missing, outside, this.ghost];
+    for (const each of this.draws) {
+      each.onBeforeRender = (renderer, _scene, camera) => {
+        const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
+        const { uniforms } = each.material;
+        uniforms["pixels"]!.value = (camera.projectionMatrix.elements[5] * height) / 2;
+        const least = leastPixels(cloud.count) * renderer.getPixelRatio();
+        uniforms["least"]!.value = each === this.ghost && this.throughOthers ? least / 1.5 : least;
+        const left = each === this.ghost || (each === missing && !this.fill);
+        const right = each === this.extra || each === outside;
+        const at = this.divider * width;
+        (uniforms["between"]!.value as Vector2).set(right ? at : 0, left ? at : EVERYWHERE);
+      };
+    }
     this.show("off", false);
   }
 
@@ -123,18 +151,26 @@ export class CloudPoints {
     }
     while (next < this.cloud.count) order[at++] = next++;
     this.order.needsUpdate = true;
-    this.solid.geometry.setDrawRange(0, indices.length);
-    this.ghost.geometry.setDrawRange(indices.length, this.cloud.count - indices.length);
+    this.extra.visible = this.different.visible = false;
+    this.setRanges([indices.length, indices.length, indices.length, indices.length]);
+  }
+
+  /** The answer beside a reference, whose own points `fill` the gaps of ours or stay on their side. Keeps the order for itself. */
+  setParts({ order, ends }: Parts, fill: boolean): void {
+    this.order.array = order;
+    this.order.needsUpdate = true;
+    this.fill = fill;
+    this.extra.visible = this.different.visible = true;
+    this.setRanges(ends);
   }
 
   /** Hidden points, and up to which share of the picture's width. */
-  show(mode: HiddenMode, frozen: boolean, until = 1): void {
+  show(mode: HiddenMode, frozen: boolean, divider = 1): void {
     const { uniforms } = this.ghost.material;
-    this.until = until;
+    this.divider = divider;
     this.ghost.visible = mode !== "off";
     this.throughOthers = !frozen;
     uniforms["cover"]!.value = display(frozen && mode === "dimmed" ? HIDDEN_DIMMED : HIDDEN);
-    uniforms["coverage"]!.value = COVERAGE;
     this.setWidths();
   }
 
@@ -145,13 +181,23 @@ export class CloudPoints {
     return this.width;
   }
 
+  /** One draw after another, and the hidden points in the last. */
+  private setRanges(ends: readonly number[]): void {
+    let from = 0;
+    [...ends, this.cloud.count].forEach((end, i) => {
+      this.draws[i]!.geometry.setDrawRange(from, end - from);
+      from = end;
+    });
+  }
+
   private setWidths(): void {
-    this.solid.material.uniforms["width"]!.value = this.width;
-    this.ghost.material.uniforms["width"]!.value = this.throughOthers ? Math.min(this.width, THROUGH_WIDTH * this.spacing) : this.width;
+    for (const { material } of this.draws) material.uniforms["width"]!.value = this.width;
+    if (!this.throughOthers) return;
+    for (const { material } of [this.ghost, this.extra]) material.uniforms["width"]!.value = Math.min(this.width, THROUGH_WIDTH * this.spacing);
   }
 
   dispose(): void {
-    for (const { geometry, material } of [this.solid, this.ghost]) {
+    for (const { geometry, material } of this.draws) {
       geometry.dispose();
       material.dispose();
     }

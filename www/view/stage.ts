@@ -1,4 +1,4 @@
-import { Color, PerspectiveCamera, Scene, WebGLRenderer } from "three";
+import { Color, PerspectiveCamera, Scene, Vector2, WebGLRenderer } from "three";
 import { EyeDome } from "./eye-dome.ts";
 
 /** The canvas: one camera, the shaded points, those drawn through them, and an overlay of what is drawn among them unshaded. */
@@ -39,6 +39,11 @@ export class Stage {
   /** Of the picture in CSS pixels. */
   get size(): { width: number; height: number } {
     return { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
+
+  /** Of the picture in its own pixels. */
+  get resolution(): Vector2 {
+    return this.renderer.getDrawingBufferSize(new Vector2());
   }
 
   setExtent(extent: number): void {
@@ -118,10 +123,7 @@ export class Stage {
     this.changed = false;
     this.drawnFrom = from;
 
-    // As tight as the cloud allows: the depth buffer is shared by clouds of a millimeter and of a hundred kilometers.
-    const distance = this.camera.position.length();
-    this.camera.far = distance + 1.1 * this.extent;
-    this.camera.near = Math.max(distance - 1.1 * this.extent, this.camera.far / 5000);
+    Object.assign(this.camera, clipping(this.camera.position.length(), this.extent));
     this.camera.updateProjectionMatrix();
 
     this.eyeDome.render(this.renderer, this.points, this.camera);
@@ -130,6 +132,15 @@ export class Stage {
     }
     this.renderer.render(this.overlay, this.camera);
   }
+}
+
+/**
+ * Between which distances something of that extent, so far away, is drawn. As tight as it allows: the depth buffer is shared
+ * by clouds of a millimeter and of a hundred kilometers.
+ */
+export function clipping(distance: number, extent: number): { near: number; far: number } {
+  const far = distance + 1.1 * extent;
+  return { near: Math.max(distance - 1.1 * extent, far / 5000), far };
 }
 
 /** Whether this browser can draw at all; asked of a canvas of its own, so that nothing is logged where it cannot. */
