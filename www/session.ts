@@ -3,7 +3,7 @@ import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { Address, type CloudName } from "./address.ts";
 import { Inquiry } from "./ask/inquiry.ts";
 import { WorkerCloud } from "./ask/worker-cloud.ts";
-import { type Cloud, prepareCloud, type Up } from "./cloud.ts";
+import type { Cloud, Up } from "./cloud.ts";
 import { loadCloud, LoadProblem, type LoadRequest } from "./loaders/index.ts";
 import { Controls } from "./panel/controls.ts";
 import { byId } from "./panel/dom.ts";
@@ -134,13 +134,12 @@ export function startSession(params: Params, status: Status, message: Message): 
     progress.show(null);
     let inquiry: Inquiry | null = null;
     try {
-      const loaded = await loadCloud(request, signal, (step, fraction) => {
+      const { cloud, positions, ...loaded } = await loadCloud(request, signal, (step, fraction) => {
         say(`${step} ${request.name}.`);
         progress.show(fraction);
       });
       say(`Finding the visible points of ${request.name}.`);
       progress.show(null);
-      const cloud = prepareCloud(loaded);
       const usual = usualLook(sample, request.name, cloud.count, loaded.taken?.up);
       const { view: asked, places, notes: farNotes } = inReachOnly(cloud, source.view, source.settings);
       const own: Partial<Settings> = { ...usual, freeze: null, lights: [], ...radiusFor(store.current), ...source.settings, ...places };
@@ -157,7 +156,7 @@ export function startSession(params: Params, status: Status, message: Message): 
       };
       const home = homeWith(up);
       // The page keeps the file's own coordinates for the tools.
-      const worker = await WorkerPointCloud.create(loaded.positions, { signal });
+      const worker = await WorkerPointCloud.create(positions, { signal });
       inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), cloud.radius);
       const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...store.current, ...own });
       signal.throwIfAborted();
@@ -167,7 +166,7 @@ export function startSession(params: Params, status: Status, message: Message): 
       askedView = asked;
       controls.prepare(cloud);
       tools.clear();
-      viewer.show({ cloud, positions: loaded.positions, inquiry, home, answer, findHome: homeWith });
+      viewer.show({ cloud, positions, inquiry, home, answer, findHome: homeWith });
       shownName = sample?.name ?? request.name;
       plot.clear();
       controls.usual = usual;

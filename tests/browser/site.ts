@@ -24,8 +24,8 @@ export interface Site {
   close(): void;
 }
 
-/** Serves the built page, and `extra` files beside it. */
-export async function servePage(extra: ReadonlyMap<string, Uint8Array> = new Map()): Promise<Site> {
+/** Serves the built page, and `extra` files beside it, with these headers besides. */
+export async function servePage(extra: ReadonlyMap<string, Uint8Array> = new Map(), headers: Record<string, string> = {}): Promise<Site> {
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url!, "http://localhost").pathname);
     const name = path.startsWith(FOLDER) ? path.slice(FOLDER.length) || "index.html" : "";
@@ -38,7 +38,7 @@ export async function servePage(extra: ReadonlyMap<string, Uint8Array> = new Map
       response.end(body.subarray(Number(range[1]), Number(range[2]) + 1));
       return;
     }
-    response.writeHead(body ? 200 : 404, { "content-type": TYPES[extname(file)] ?? "application/octet-stream" });
+    response.writeHead(body ? 200 : 404, { ...headers, "content-type": TYPES[extname(file)] ?? "application/octet-stream" });
     response.end(body);
   });
   await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));

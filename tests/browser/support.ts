@@ -34,7 +34,8 @@ afterEach(async () => {
   expect(seen, "errors in the browser's console").toEqual([]);
 });
 
-export async function openPage(query = "", options: BrowserContextOptions = {}): Promise<Page> {
+/** `prepare`: done with the page before it is opened. */
+export async function openPage(query = "", options: BrowserContextOptions = {}, prepare?: (page: Page) => Promise<void>): Promise<Page> {
   const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, ...options });
   const page = await context.newPage();
   pages.push(page);
@@ -42,13 +43,14 @@ export async function openPage(query = "", options: BrowserContextOptions = {}):
     if (message.type() === "error") errors.push(message.text());
   });
   page.on("pageerror", (error) => errors.push(String(error)));
+  await prepare?.(page);
   await page.goto(site.address + query);
   return page;
 }
 
 /** Opens the page and waits until its cloud is there. */
-export async function openReady(query = "", options: BrowserContextOptions = {}): Promise<Page> {
-  const page = await openPage(query, options);
+export async function openReady(query = "", options: BrowserContextOptions = {}, prepare?: (page: Page) => Promise<void>): Promise<Page> {
+  const page = await openPage(query, options, prepare);
   await reached(page, "ready");
   return page;
 }

@@ -53,7 +53,7 @@ const fragmentShader = /* glsl */ `
 
 /**
  * The cloud as two draws of the same points: `solid` for the visible ones, `ghost` for the hidden ones. They share one
- * index buffer, written anew for each answer: first the visible points, then the hidden ones.
+ * index buffer, written anew for each answer: first the visible points, then the hidden ones, if these are drawn at all.
  *
  *      index   [ visible …… | hidden …………… ]
  *                solid ────   ghost ───────
@@ -61,18 +61,18 @@ const fragmentShader = /* glsl */ `
 export class CloudPoints {
   readonly solid: Points<BufferGeometry, ShaderMaterial>;
   readonly ghost: Points<BufferGeometry, ShaderMaterial>;
-  private readonly cloud: Cloud;
   private readonly order: BufferAttribute;
   private readonly spacing: number;
   private width = 0;
+  private visible: Uint32Array = new Uint32Array();
+  private hiddenListed = true;
   /** Whether the hidden points are drawn through the visible ones: as specks, for both to be seen. */
   private throughOthers = true;
   /** The share of the picture's width, from its left, that hidden points are drawn in. */
   private until = 1;
 
   constructor(cloud: Cloud, attributes: CloudAttributes) {
-    this.cloud = cloud;
-    this.order = new BufferAttribute(Uint32Array.from({ length: cloud.count }, (_, i) => i), 1);
+    this.order = new BufferAttribute(new Uint32Array(cloud.count), 1);
     this.order.setUsage(DynamicDrawUsage);
     this.spacing = roughSpacing(cloud);
 
@@ -113,18 +113,35 @@ export class CloudPoints {
 
   /** The answer for a viewpoint: ascending indices of the visible points. */
   setVisible(indices: Uint32Array): void {
+    this.visible = indices;
+    this.order.clearUpdateRanges();
+    (this.order.array as Uint32Array).set(indices);
+    this.upload(0, indices.length);
+    this.solid.geometry.setDrawRange(0, indices.length);
+    this.hiddenListed = false;
+    if (this.ghost.visible) this.listHidden();
+  }
+
+  private listHidden(): void {
+    this.hiddenListed = true;
+    const { visible } = this;
     const order = this.order.array as Uint32Array;
-    order.set(indices);
-    let at = indices.length;
+    let at = visible.length;
     let next = 0;
-    for (const index of indices) {
+    for (let i = 0; i < visible.length; i++) {
+      const index = visible[i]!;
       while (next < index) order[at++] = next++;
       next = index + 1;
     }
-    while (next < this.cloud.count) order[at++] = next++;
+    while (next < order.length) order[at++] = next++;
+    this.upload(visible.length, order.length);
+    this.ghost.geometry.setDrawRange(visible.length, order.length - visible.length);
+  }
+
+  /** What of the order has been written anew; three.js forgets the ranges once they are on the graphics card. */
+  private upload(from: number, to: number): void {
+    this.order.addUpdateRange(from, to - from);
     this.order.needsUpdate = true;
-    this.solid.geometry.setDrawRange(0, indices.length);
-    this.ghost.geometry.setDrawRange(indices.length, this.cloud.count - indices.length);
   }
 
   /** Hidden points, and up to which share of the picture's width. */
@@ -132,6 +149,7 @@ export class CloudPoints {
     const { uniforms } = this.ghost.material;
     this.until = until;
     this.ghost.visible = mode !== "off";
+    if (this.ghost.visible && !this.hiddenListed) this.listHidden();
     this.throughOthers = !frozen;
     uniforms["cover"]!.value = display(frozen && mode === "dimmed" ? HIDDEN_DIMMED : HIDDEN);
     uniforms["coverage"]!.value = COVERAGE;
