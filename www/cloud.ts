@@ -40,6 +40,8 @@ export interface Cloud {
 /** What the page takes over from a loader: a cloud ready to draw, with the file's own coordinates and what it says. */
 export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "notes" | "taken"> {
   cloud: Cloud;
+  /** The positions once more, to be given away to the hull's worker: that takes what it gets. */
+  copy: Float32Array | Float64Array;
 }
 
 /** Goes over all coordinates a few times: for a worker, not for the page's thread. */
@@ -63,7 +65,7 @@ export function prepareCloud({ positions, colors, attributes = [], ...said }: Lo
   const radius = Math.hypot(...size) / 2;
   // A single point, or many equal ones, still need a distance to be looked at from.
   const cloud = { colors, attributes, count: positions.length / 3, center, local, size, radius: radius > 0 ? radius : 1 };
-  return { cloud, positions, ...said };
+  return { cloud, positions, copy: positions.slice(), ...said };
 }
 
 export function upVector(up: Up): [number, number, number] {

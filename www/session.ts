@@ -134,7 +134,7 @@ export function startSession(params: Params, status: Status, message: Message): 
     progress.show(null);
     let inquiry: Inquiry | null = null;
     try {
-      const { cloud, positions, ...loaded } = await loadCloud(request, signal, (step, fraction) => {
+      const { cloud, positions, copy, ...loaded } = await loadCloud(request, signal, (step, fraction) => {
         say(`${step} ${request.name}.`);
         progress.show(fraction);
       });
@@ -156,7 +156,7 @@ export function startSession(params: Params, status: Status, message: Message): 
       };
       const home = homeWith(up);
       // The page keeps the file's own coordinates for the tools.
-      const worker = await WorkerPointCloud.create(positions, { signal });
+      const worker = await WorkerPointCloud.create(copy, { signal, transfer: true });
       inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), cloud.radius);
       const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...store.current, ...own });
       signal.throwIfAborted();

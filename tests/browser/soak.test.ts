@@ -50,8 +50,8 @@ async function around(page: Page): Promise<void> {
   await step(page, "ArrowRight");
   await press(page, "#lights-list button");
   await press(page, '[name="show"][value="points"]');
-  for (const freeze of ["on", "off"]) await press(page, `#freeze[aria-pressed="${freeze === "off"}"]`);
-  for (const _ of ["on", "off"]) await press(page, "#tool-compare");
+  for (const frozen of [true, false]) await press(page, `#freeze[aria-pressed="${!frozen}"]`);
+  for (const compared of [true, false]) await press(page, `#tool-compare[aria-pressed="${!compared}"]`);
   await press(page, "#tool-select");
   await press(page, "#select-all");
   await press(page, "#select-clear");

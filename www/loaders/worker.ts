@@ -22,8 +22,8 @@ const progress = (step: string, fraction: number | null) => {
 self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
   try {
     const prepared = prepareCloud(await load(request));
-    const { positions, cloud } = prepared;
-    const arrays = [positions, cloud.local, cloud.colors, ...cloud.attributes.map(({ values }) => values)];
+    const { positions, copy, cloud } = prepared;
+    const arrays = [positions, copy, cloud.local, cloud.colors, ...cloud.attributes.map(({ values }) => values)];
     post({ kind: "cloud", prepared }, arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : [])));
   } catch (error) {
     const problem = error instanceof LoadProblem ? error : new LoadProblem(`${request.name} could not be read: ${String(error)}.`);

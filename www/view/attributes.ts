@@ -1,4 +1,4 @@
-import { BufferAttribute, type BufferGeometry, Color, DynamicDrawUsage, Vector2, Vector3 } from "three";
+import { BufferAttribute, type BufferGeometry, Color, DynamicDrawUsage, Sphere, Vector2, Vector3 } from "three";
 import { type Cloud, type Up, upVector } from "../cloud.ts";
 import { spreadOf } from "./spread.ts";
 
@@ -46,6 +46,7 @@ export class CloudAttributes {
     colored: { value: false },
   };
   private readonly local: Float32Array;
+  private readonly bounds: Sphere;
   private readonly geometries: BufferGeometry[] = [];
   private readonly position: BufferAttribute;
   private readonly ownColors: Uint8Array | null;
@@ -53,8 +54,9 @@ export class CloudAttributes {
   private brightness: BufferAttribute | null = null;
   private chosen: BufferAttribute | null = null;
 
-  constructor({ local, colors }: Cloud) {
+  constructor({ local, colors, radius }: Cloud) {
     this.local = local;
+    this.bounds = new Sphere(new Vector3(), radius);
     this.position = new BufferAttribute(local, 3);
     this.ownColors = colors;
     this.setTints(null);
@@ -66,6 +68,8 @@ export class CloudAttributes {
     if (this.color) geometry.setAttribute("color", this.color);
     if (this.brightness) geometry.setAttribute("brightness", this.brightness);
     if (this.chosen) geometry.setAttribute("chosen", this.chosen);
+    // Else three.js looks for it, in all points, and for each geometry anew.
+    geometry.boundingSphere = this.bounds;
     this.geometries.push(geometry);
   }
 

@@ -17,6 +17,7 @@ export class Stage {
   private readonly canvas: HTMLCanvasElement;
   private readonly renderer: WebGLRenderer;
   private readonly eyeDome: EyeDome;
+  private shape = { width: 1, height: 1 };
   private changed = true;
   private drawnFrom = "";
   /** Half the size of what is to be seen, around the origin. */
@@ -29,7 +30,11 @@ export class Stage {
     this.renderer = new WebGLRenderer({ canvas, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
     this.eyeDome = new EyeDome(background);
-    new ResizeObserver(() => { this.resize(); }).observe(canvas);
+    new ResizeObserver(() => {
+      this.resize();
+      // A resized canvas is empty; drawing at once avoids a flash.
+      this.frame();
+    }).observe(canvas);
     canvas.addEventListener("webglcontextrestored", () => { this.invalidate(); });
     this.resize();
     this.renderer.setAnimationLoop(() => { this.frame(); });
@@ -37,7 +42,7 @@ export class Stage {
 
   /** Of the picture in CSS pixels. */
   get size(): { width: number; height: number } {
-    return { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+    return this.shape;
   }
 
   setExtent(extent: number): void {
@@ -76,13 +81,13 @@ export class Stage {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
+    // Asked of the document once: each time it would have to be laid out first.
+    this.shape = { width, height };
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.onResize();
     this.invalidate();
-    // A resized canvas is empty; drawing at once avoids a flash.
-    this.frame();
   }
 
   /** The picture as it is now, as a PNG file. */

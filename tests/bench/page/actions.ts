@@ -1,8 +1,11 @@
 // What else one does on the page, and how long that holds its thread.
+import { writeFileSync } from "node:fs";
+
 import type { Browser, Page } from "playwright-core";
 
 import { plyParts } from "../../../www/tools/ply.js";
 import { dragon } from "../clouds.js";
+import { scratch } from "../paths.js";
 import type { Row, Table } from "../report.js";
 import { traced } from "./trace.js";
 import { answered, newContext, ready, upToDate, watchedPage } from "./visit.js";
@@ -49,11 +52,10 @@ const ACTIONS: Action[] = [
   ["export the picture", (page) => saved(page, "#export-png")],
 ];
 
-/** The dragon with what a scan has besides: colors, a number and a class for each point. */
-let file: { name: string; mimeType: string; buffer: Buffer };
+const file = scratch("scan.ply");
 
 export async function timeActions(browser: Browser, address: string): Promise<Table> {
-  file = { name: "scan.ply", mimeType: "application/octet-stream", buffer: scan() };
+  writeFileSync(file, scan());
   const context = await newContext(browser);
   const page = await watchedPage(context);
   const rows: Row[] = [];
@@ -77,6 +79,7 @@ export async function timeActions(browser: Browser, address: string): Promise<Ta
   return { title: "What holds the page's thread", note, rows };
 }
 
+/** The dragon with what a scan has besides: colors, two numbers and a class for each point. */
 function scan(): Buffer {
   const { positions } = dragon("dragon");
   const count = positions.length / 3;
