@@ -35,20 +35,20 @@ export class Projection {
     const x = this.local[3 * index]!;
     const y = this.local[3 * index + 1]!;
     const z = this.local[3 * index + 2]!;
-    this.ahead = m[3]! * x + m[7]! * y + m[11]! * z + m[15]!;
+    this.ahead = m[3] * x + m[7] * y + m[11] * z + m[15];
     if (this.ahead <= 0) return false;
-    this.x = (0.5 + (0.5 * (m[0]! * x + m[4]! * y + m[8]! * z + m[12]!)) / this.ahead) * this.width;
-    this.y = (0.5 - (0.5 * (m[1]! * x + m[5]! * y + m[9]! * z + m[13]!)) / this.ahead) * this.height;
+    this.x = (0.5 + (0.5 * (m[0] * x + m[4] * y + m[8] * z + m[12])) / this.ahead) * this.width;
+    this.y = (0.5 - (0.5 * (m[1] * x + m[5] * y + m[9] * z + m[13])) / this.ahead) * this.height;
     return this.x >= 0 && this.y >= 0 && this.x <= this.width && this.y <= this.height;
   }
 
-  /** Goes to those of the points, or of all of them, that are in a box of the picture. */
+  /** Goes to those of the points, or of all of them, that are in the picture and in a box of it. */
   each(box: Box, indices: Uint32Array | null, visit: (index: number) => void): void {
     const { local, width, height } = this;
     const [a, b, , d, e, f, , h, i, j, , l, m, n, , p] = this.matrix;
     // In shares of the picture from its middle, times how far ahead: nothing is divided for what is elsewhere.
-    const [left, right] = [(2 * box.left) / width - 1, (2 * box.right) / width - 1];
-    const [top, bottom] = [1 - (2 * box.top) / height, 1 - (2 * box.bottom) / height];
+    const [left, right] = [Math.max(-1, (2 * box.left) / width - 1), Math.min(1, (2 * box.right) / width - 1)];
+    const [top, bottom] = [Math.min(1, 1 - (2 * box.top) / height), Math.max(-1, 1 - (2 * box.bottom) / height)];
     const count = indices ? indices.length : local.length / 3;
     for (let k = 0; k < count; k++) {
       const index = indices ? indices[k]! : k;
@@ -60,7 +60,11 @@ export class Projection {
       if (across < left * ahead || across > right * ahead) continue;
       const up = b * x + f * y + j * z + n;
       if (up < bottom * ahead || up > top * ahead) continue;
-      if (this.to(index)) visit(index);
+      if (ahead <= 0) continue;
+      this.ahead = ahead;
+      this.x = (0.5 + (0.5 * across) / ahead) * width;
+      this.y = (0.5 - (0.5 * up) / ahead) * height;
+      visit(index);
     }
   }
 
