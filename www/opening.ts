@@ -1,7 +1,7 @@
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { Inquiry } from "./ask/inquiry.ts";
 import { WorkerCloud } from "./ask/worker-cloud.ts";
-import { type Cloud, prepareCloud, type Up } from "./cloud.ts";
+import type { Cloud, Up } from "./cloud.ts";
 import { loadCloud, type LoadRequest } from "./loaders/index.ts";
 import { type KnownSurface, NO_SURFACE, type Sample, usualLook } from "./samples.ts";
 import { type Against, OWN_COLORS, type Settings } from "./settings.ts";
@@ -51,11 +51,10 @@ const SHARED_BELOW = 200_000;
 /** From what is wished for to a cloud with its first answer. Nothing is shown yet, and what fails leaves nothing behind. */
 export async function openCloud({ request, sample, view: wanted, settings: wished }: Wish, place: Place): Promise<Ready> {
   const { signal, onProgress } = place;
-  const loaded = await loadCloud(request, signal, (step, fraction) => {
+  const { cloud, positions, copy, ...loaded } = await loadCloud(request, signal, (step, fraction) => {
     onProgress(`${step} ${request.name}.`, fraction);
   });
   onProgress(`Finding the visible points of ${request.name}.`, null);
-  const cloud = prepareCloud(loaded);
   const usual = usualLook(sample, request.name, cloud.count, loaded.taken?.up);
   const { view, places, notes: farNotes } = inReachOnly(cloud, wanted, wished);
   const own: Partial<Settings> = { ...usual, freeze: null, lights: [], ...radiusFor(place.settings()), ...wished, ...places };
@@ -75,12 +74,12 @@ export async function openCloud({ request, sample, view: wanted, settings: wishe
   const home = homeFrom(view)(up);
 
   // The page keeps the file's own coordinates for the tools.
-  const worker = await WorkerPointCloud.create(loaded.positions, { signal, shared: place.shared && cloud.count < SHARED_BELOW });
+  const worker = await WorkerPointCloud.create(copy, { signal, transfer: true, shared: place.shared && cloud.count < SHARED_BELOW });
   const inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), cloud.radius);
   try {
     const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...place.settings(), ...own });
     signal.throwIfAborted();
-    const opened = { cloud, positions: loaded.positions, inquiry, home, answer, findHome: homeFrom(view), surface };
+    const opened = { cloud, positions, inquiry, home, answer, findHome: homeFrom(view), surface };
     return { opened, settings: own, usual, view, homeFrom, notes: [...farNotes, ...colorNote, ...againstNote, ...(loaded.notes ?? [])] };
   } catch (error) {
     inquiry.dispose();

@@ -43,7 +43,8 @@ export function provoke(pattern: RegExp): void {
   provoked.push(pattern);
 }
 
-export async function openPage(query = "", options: BrowserContextOptions = {}): Promise<Page> {
+/** `prepare`: done with the page before it is opened. */
+export async function openPage(query = "", options: BrowserContextOptions = {}, prepare?: (page: Page) => Promise<void>): Promise<Page> {
   // Nearly all time goes into drawing in software: a quarter of the pixels, in a layout that is the same, takes half of it.
   const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, deviceScaleFactor: 0.5, ...options });
   const page = await context.newPage();
@@ -52,13 +53,14 @@ export async function openPage(query = "", options: BrowserContextOptions = {}):
     if (message.type() === "error") errors.push(message.text());
   });
   page.on("pageerror", (error) => errors.push(String(error)));
+  await prepare?.(page);
   await page.goto(site.address + query);
   return page;
 }
 
 /** Opens the page and waits until its cloud is there. */
-export async function openReady(query = "", options: BrowserContextOptions = {}): Promise<Page> {
-  const page = await openPage(query, options);
+export async function openReady(query = "", options: BrowserContextOptions = {}, prepare?: (page: Page) => Promise<void>): Promise<Page> {
+  const page = await openPage(query, options, prepare);
   await reached(page, "ready");
   return page;
 }

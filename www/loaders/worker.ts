@@ -1,5 +1,5 @@
 /// <reference lib="webworker" />
-import type { LoadedCloud } from "../cloud.ts";
+import { type LoadedCloud, prepareCloud } from "../cloud.ts";
 import { SHAPES } from "../shapes.ts";
 import { download, downloadRanges } from "./download.ts";
 import { checkedCloud, MAX_POINTS } from "./limits.ts";
@@ -21,9 +21,10 @@ const progress = (step: string, fraction: number | null) => {
 
 self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
   try {
-    const cloud = await load(request);
-    const arrays = [cloud.positions, cloud.colors, ...(cloud.attributes ?? []).map(({ values }) => values)];
-    post({ kind: "cloud", cloud }, arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : [])));
+    const prepared = prepareCloud(await load(request));
+    const { positions, copy, cloud } = prepared;
+    const arrays = [positions, copy, cloud.local, cloud.colors, ...cloud.attributes.map(({ values }) => values)];
+    post({ kind: "cloud", prepared }, arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : [])));
   } catch (error) {
     const problem = error instanceof LoadProblem ? error : new LoadProblem(`${request.name} could not be read: ${String(error)}.`);
     post({ kind: "problem", sentence: problem.message, nonFinite: problem.nonFinite });

@@ -63,7 +63,7 @@ type Draw = Points<BufferGeometry, ShaderMaterial>;
 
 /**
  * The cloud as draws of the same points: `solid` for the visible ones, `ghost` for the hidden ones. They share one index
- * buffer, written anew for each answer: first the visible points, then the hidden ones.
+ * buffer, written anew for each answer: first the visible points, then the hidden ones, if these are drawn at all.
  *
  *      index   [ visible …… | hidden …………… ]
  *                solid ────   ghost ───────
@@ -77,11 +77,12 @@ export class CloudPoints {
   readonly extra: Draw;
   /** What else ours and the reference tell apart. */
   readonly different = new Group();
-  private readonly cloud: Cloud;
   private readonly order: BufferAttribute;
   private readonly spacing: number;
   private readonly draws: Draw[];
   private width = 0;
+  private visible: Uint32Array = new Uint32Array();
+  private hiddenListed = true;
   /** Whether the hidden points, or what only ours shows, are drawn through the others: as specks, for both to be seen. */
   private throughOthers = true;
   /** Where the picture is divided, as a share of its width from its left: hidden points are left of it. */
@@ -90,8 +91,7 @@ export class CloudPoints {
   private fill = false;
 
   constructor(cloud: Cloud, attributes: CloudAttributes) {
-    this.cloud = cloud;
-    this.order = new BufferAttribute(Uint32Array.from({ length: cloud.count }, (_, i) => i), 1);
+    this.order = new BufferAttribute(new Uint32Array(cloud.count), 1);
     this.order.setUsage(DynamicDrawUsage);
     this.spacing = roughSpacing(cloud);
 
@@ -141,24 +141,43 @@ export class CloudPoints {
 
   /** The answer for a viewpoint: ascending indices of the visible points. */
   setVisible(indices: Uint32Array): void {
+    this.visible = indices;
+    this.order.clearUpdateRanges();
+    (this.order.array as Uint32Array).set(indices);
+    this.upload(0, indices.length);
+    this.extra.visible = this.different.visible = false;
+    this.setRanges([indices.length, indices.length, indices.length, indices.length]);
+    this.hiddenListed = false;
+    if (this.ghost.visible) this.listHidden();
+  }
+
+  private listHidden(): void {
+    this.hiddenListed = true;
+    const { visible } = this;
     const order = this.order.array as Uint32Array;
-    order.set(indices);
-    let at = indices.length;
+    let at = visible.length;
     let next = 0;
-    for (const index of indices) {
+    for (let i = 0; i < visible.length; i++) {
+      const index = visible[i]!;
       while (next < index) order[at++] = next++;
       next = index + 1;
     }
-    while (next < this.cloud.count) order[at++] = next++;
+    while (next < order.length) order[at++] = next++;
+    this.upload(visible.length, order.length);
+  }
+
+  /** What of the order has been written anew; three.js forgets the ranges once they are on the graphics card. */
+  private upload(from: number, to: number): void {
+    this.order.addUpdateRange(from, to - from);
     this.order.needsUpdate = true;
-    this.extra.visible = this.different.visible = false;
-    this.setRanges([indices.length, indices.length, indices.length, indices.length]);
   }
 
   /** The answer beside a reference, whose own points `fill` the gaps of ours or stay on their side. Keeps the order for itself. */
   setParts({ order, ends }: Parts, fill: boolean): void {
     this.order.array = order;
+    this.order.clearUpdateRanges();
     this.order.needsUpdate = true;
+    this.hiddenListed = true;
     this.fill = fill;
     this.extra.visible = this.different.visible = true;
     this.setRanges(ends);
@@ -169,6 +188,7 @@ export class CloudPoints {
     const { uniforms } = this.ghost.material;
     this.divider = divider;
     this.ghost.visible = mode !== "off";
+    if (this.ghost.visible && !this.hiddenListed) this.listHidden();
     this.throughOthers = !frozen;
     uniforms["cover"]!.value = display(frozen && mode === "dimmed" ? HIDDEN_DIMMED : HIDDEN);
     this.setWidths();
@@ -184,7 +204,7 @@ export class CloudPoints {
   /** One draw after another, and the hidden points in the last. */
   private setRanges(ends: readonly number[]): void {
     let from = 0;
-    [...ends, this.cloud.count].forEach((end, i) => {
+    [...ends, this.order.count].forEach((end, i) => {
       this.draws[i]!.geometry.setDrawRange(from, end - from);
       from = end;
     });

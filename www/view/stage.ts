@@ -17,7 +17,12 @@ export class Stage {
   private readonly canvas: HTMLCanvasElement;
   private readonly renderer: WebGLRenderer;
   private readonly eyeDome: EyeDome;
-  private readonly resizing = new ResizeObserver(() => { this.resize(); });
+  private readonly resizing = new ResizeObserver(() => {
+    this.resize();
+    // A resized canvas is empty; drawing at once avoids a flash.
+    this.frame();
+  });
+  private shape = { width: 1, height: 1 };
   private changed = true;
   private drawnFrom = "";
   /** Half the size of what is to be seen, around the origin. */
@@ -38,7 +43,7 @@ export class Stage {
 
   /** Of the picture in CSS pixels. */
   get size(): { width: number; height: number } {
-    return { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+    return this.shape;
   }
 
   /** Of the picture in its own pixels. */
@@ -92,13 +97,13 @@ export class Stage {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
+    // Asked of the document once: each time it would have to be laid out first.
+    this.shape = { width, height };
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.onResize();
     this.invalidate();
-    // A resized canvas is empty; drawing at once avoids a flash.
-    this.frame();
   }
 
   /** The picture as it is now, as a PNG file. */
