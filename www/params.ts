@@ -1,6 +1,6 @@
 import type { Up } from "./cloud.ts";
 import { MAX_POINTS } from "./loaders/limits.ts";
-import type { HiddenMode, Inversion, Radius, Settings, Viewpoint, Viewpoints } from "./settings.ts";
+import type { HiddenMode, Inversion, Radius, Settings, ThemeChoice, Viewpoint, Viewpoints } from "./settings.ts";
 
 /** What the address of the page asks for. Anything that cannot be used is named in `notes`, in plain words. */
 export interface Params {
@@ -76,6 +76,7 @@ export function readParams(search: string, samples: readonly string[]): Params {
     size: read("size", within(0.05, 50), "a number from 0.05 to 50, so the usual one is used"),
     fieldOfView: read("fov", within(5, 100), "a number of degrees from 5 to 100, so the usual one is used"),
     up: read("up", oneOf<Up>("y", "z", "-y"), "y, z or -y, so the usual one is used"),
+    theme: read("theme", oneOf<ThemeChoice>("system", "dark", "light"), "system, dark or light, so it is the system’s"),
   };
   return {
     sample,

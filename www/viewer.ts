@@ -12,6 +12,7 @@ import { Navigation } from "./view/navigation.ts";
 import { CloudPoints, THROUGH_OPACITY } from "./view/points.ts";
 import { Stage } from "./view/stage.ts";
 import { Surface } from "./view/surface.ts";
+import { type Theme, THEMES } from "./view/theme.ts";
 
 /** A cloud that is ready to be shown, with the first answer about it. */
 export interface Opened {
@@ -45,6 +46,7 @@ export class Viewer {
   private readonly store: Store;
   private readonly marker: ViewpointMarker;
   private shown: Shown | null = null;
+  private theme = THEMES.dark;
   private lit = false;
   private surfaceShown = false;
 
@@ -117,9 +119,9 @@ export class Viewer {
   /** Shows a cloud, after `clear`. */
   show(opened: Opened): void {
     const { cloud, inquiry, answer, home } = opened;
-    const attributes = new CloudAttributes(cloud);
-    const points = new CloudPoints(cloud, attributes);
-    const surface = new Surface(attributes);
+    const attributes = new CloudAttributes(cloud, this.theme);
+    const points = new CloudPoints(cloud, attributes, this.theme);
+    const surface = new Surface(attributes, this.theme);
     this.shown = { ...opened, attributes, points, surface };
     inquiry.onView = (next) => {
       this.showAnswer(next);
@@ -155,6 +157,16 @@ export class Viewer {
   setChosen(indices: Uint32Array): void {
     this.shown?.attributes.setChosen(indices);
     this.stage.invalidate();
+  }
+
+  setTheme(theme: Theme): void {
+    this.theme = theme;
+    this.stage.setTheme(theme);
+    this.marker.setTheme(theme);
+    if (!this.shown) return;
+    const { attributes, points, surface } = this.shown;
+    for (const part of [attributes, points, surface]) part.setTheme(theme);
+    this.paint(this.store.current);
   }
 
   /** Looks at the cloud as for the first time. */
@@ -204,7 +216,7 @@ export class Viewer {
 
   private paint({ color, up }: Settings): void {
     const { cloud, attributes } = this.shown!;
-    const { tints, legend } = colorBy(color, cloud, up);
+    const { tints, legend } = colorBy(color, cloud, up, this.theme);
     attributes.setTints(tints);
     this.stage.invalidate();
     this.onLegend(legend);

@@ -11,6 +11,7 @@ import { RadiusControl } from "./radius.ts";
 import { bindSections } from "./sections.ts";
 import { bindShadows } from "./shadows.ts";
 import { bindSurface } from "./surface.ts";
+import { bindTheme } from "./theme.ts";
 import { bindViewpoints } from "./several.ts";
 import { bindFreeze } from "./viewpoint.ts";
 
@@ -37,6 +38,9 @@ export class Controls {
     this.color = bindColor(store);
     viewer.onLegend = this.color.explain;
     const toggleFreeze = bindFreeze(store, viewer);
+    bindTheme(store, (theme) => {
+      viewer.setTheme(theme);
+    });
     bindSections(opened);
 
     const reset = () => {

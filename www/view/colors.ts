@@ -1,5 +1,6 @@
 import { type Attribute, type Cloud, type Up, upVector } from "../cloud.ts";
 import { OWN_COLORS } from "../settings.ts";
+import type { Theme } from "./theme.ts";
 
 const PLAIN = "plain";
 const HEIGHT = "height";
@@ -14,7 +15,6 @@ export type Legend =
   | { kind: "ramp"; low: number; high: number; colors: readonly string[] }
   | { kind: "categories"; entries: { label: string; color: string; count: number }[] };
 
-const PLAIN_COLOR: Rgb = [222, 216, 204];
 /** Between these shares of the values the map runs: from the least to the largest, a few strays would take it. */
 const FROM = 0.01;
 const SAMPLE = 20_000;
@@ -60,8 +60,11 @@ export function colorChoices({ colors, attributes }: Cloud): { value: string; la
   ];
 }
 
-export function colorBy(choice: string, cloud: Cloud, up: Up): Coloring {
-  if (choice === PLAIN) return { tints: filled(cloud.count, () => PLAIN_COLOR), legend: null };
+export function colorBy(choice: string, cloud: Cloud, up: Up, theme: Theme): Coloring {
+  if (choice === PLAIN) {
+    const plain = rgb(theme.plain);
+    return { tints: filled(cloud.count, () => plain), legend: null };
+  }
   if (choice === HEIGHT) return ramp(cloud.count, heights(cloud, up));
   const attribute = cloud.attributes.find(({ name }) => name === choice);
   if (!attribute) return { tints: null, legend: null };

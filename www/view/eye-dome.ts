@@ -1,7 +1,7 @@
 import {
   BufferAttribute,
   BufferGeometry,
-  type Color,
+  Color,
   DepthTexture,
   GLSL3,
   Mesh,
@@ -89,7 +89,7 @@ export class EyeDome {
   private readonly size = new Vector2();
   private readonly planes = new Vector2();
 
-  constructor(background: Color) {
+  constructor() {
     this.target = new WebGLRenderTarget(1, 1, {
       minFilter: NearestFilter,
       magFilter: NearestFilter,
@@ -104,7 +104,7 @@ export class EyeDome {
         colors: { value: this.target.texture },
         depths: { value: this.target.depthTexture },
         planes: { value: this.planes },
-        background: { value: background.clone().convertLinearToSRGB() },
+        background: { value: new Color() },
         reach: { value: REACH },
         strength: { value: STRENGTH },
         softness: { value: 1 },
@@ -118,6 +118,11 @@ export class EyeDome {
     const cover = new Mesh(triangle, this.material);
     cover.frustumCulled = false;
     this.screen.add(cover);
+  }
+
+  /** In display colors. */
+  setBackground(color: Color): void {
+    this.material.uniforms["background"]!.value = color;
   }
 
   /** Draws the scene shaded onto the screen; its depths go along, so that more can be drawn among the points. */

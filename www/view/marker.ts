@@ -1,4 +1,5 @@
 import { CameraHelper, Color, type Object3D, PerspectiveCamera, type Quaternion, Vector3 } from "three";
+import type { Theme } from "./theme.ts";
 
 /** Where the frozen viewpoint is: a small camera in the accent color, of a fixed share of the cloud's size. */
 export class ViewpointMarker {
@@ -6,6 +7,7 @@ export class ViewpointMarker {
   private helper: CameraHelper | null = null;
   private readonly at = new Vector3();
   private size = 0;
+  private color = new Color();
 
   constructor(parent: Object3D) {
     this.parent = parent;
@@ -13,7 +15,6 @@ export class ViewpointMarker {
 
   place(at: Vector3, direction: Quaternion, size: number): void {
     this.remove();
-    const accent = new Color(getComputedStyle(document.documentElement).getPropertyValue("--accent").trim());
     const standing = new PerspectiveCamera(40, 1.4, size * 0.02, size);
     standing.position.copy(at);
     standing.quaternion.copy(direction);
@@ -22,8 +23,13 @@ export class ViewpointMarker {
     this.size = size;
     this.helper = new CameraHelper(standing);
     this.helper.visible = false;
-    this.helper.setColors(accent, accent, accent, accent, accent);
+    this.paint();
     this.parent.add(this.helper);
+  }
+
+  setTheme({ accent }: Theme): void {
+    this.color = new Color(accent);
+    this.paint();
   }
 
   /** From within the marker there would be nothing but its lines across the picture. */
@@ -35,5 +41,10 @@ export class ViewpointMarker {
     this.helper?.removeFromParent();
     this.helper?.dispose();
     this.helper = null;
+  }
+
+  private paint(): void {
+    const { color } = this;
+    this.helper?.setColors(color, color, color, color, color);
   }
 }

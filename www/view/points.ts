@@ -1,12 +1,10 @@
-import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Points, ShaderMaterial, Vector2 } from "three";
+import { BufferAttribute, BufferGeometry, DynamicDrawUsage, Points, ShaderMaterial, Vector2 } from "three";
 import type { Cloud } from "../cloud.ts";
 import type { HiddenMode } from "../settings.ts";
 import { type CloudAttributes, display, TINT_SHADER } from "./attributes.ts";
+import type { Theme } from "./theme.ts";
 
-/** Hidden points have a hue of their own; dimmed ones are a dark neutral where nothing stands before them. */
-const HIDDEN = new Color("#a9599c");
-const HIDDEN_DIMMED = new Color("#4a515c");
-/** How much of that color covers a hidden point's own. */
+/** How much of the theme's color for hidden points covers their own. */
 const COVERAGE = 0.7;
 
 /** How much is seen of hidden points that are drawn through the visible ones, and how wide they are at most, in spacings. */
@@ -64,14 +62,17 @@ export class CloudPoints {
   private readonly cloud: Cloud;
   private readonly order: BufferAttribute;
   private readonly spacing: number;
+  private theme: Theme;
+  private dimmed = false;
   private width = 0;
   /** Whether the hidden points are drawn through the visible ones: as specks, for both to be seen. */
   private throughOthers = true;
   /** The share of the picture's width, from its left, that hidden points are drawn in. */
   private until = 1;
 
-  constructor(cloud: Cloud, attributes: CloudAttributes) {
+  constructor(cloud: Cloud, attributes: CloudAttributes, theme: Theme) {
     this.cloud = cloud;
+    this.theme = theme;
     this.order = new BufferAttribute(Uint32Array.from({ length: cloud.count }, (_, i) => i), 1);
     this.order.setUsage(DynamicDrawUsage);
     this.spacing = roughSpacing(cloud);
@@ -88,7 +89,7 @@ export class CloudPoints {
           width: { value: 0 },
           pixels: { value: 1 },
           least: { value: 1 },
-          cover: { value: display(HIDDEN) },
+          cover: { value: display(theme.hidden) },
           coverage: { value: 0 },
           until: { value: EVERYWHERE },
         },
@@ -133,9 +134,15 @@ export class CloudPoints {
     this.until = until;
     this.ghost.visible = mode !== "off";
     this.throughOthers = !frozen;
-    uniforms["cover"]!.value = display(frozen && mode === "dimmed" ? HIDDEN_DIMMED : HIDDEN);
     uniforms["coverage"]!.value = COVERAGE;
+    this.dimmed = frozen && mode === "dimmed";
+    this.setTheme(this.theme);
     this.setWidths();
+  }
+
+  setTheme(theme: Theme): void {
+    this.theme = theme;
+    this.ghost.material.uniforms["cover"]!.value = display(this.dimmed ? theme.hiddenDimmed : theme.hidden);
   }
 
   /** In multiples of the points' rough distance from one another; the width of a point in the cloud's units. */

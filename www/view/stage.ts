@@ -1,5 +1,7 @@
-import { Color, PerspectiveCamera, Scene, WebGLRenderer } from "three";
+import { PerspectiveCamera, Scene, WebGLRenderer } from "three";
+import { display } from "./attributes.ts";
 import { EyeDome } from "./eye-dome.ts";
+import { type Theme, THEMES } from "./theme.ts";
 
 /** The canvas: one camera, the shaded points, those drawn through them, and an overlay of what is drawn among them unshaded. */
 export class Stage {
@@ -25,10 +27,10 @@ export class Stage {
 
   constructor(canvas: HTMLCanvasElement) {
     this.canvas = canvas;
-    const background = new Color(getComputedStyle(document.documentElement).getPropertyValue("--canvas").trim());
     this.renderer = new WebGLRenderer({ canvas, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
-    this.eyeDome = new EyeDome(background);
+    this.eyeDome = new EyeDome();
+    this.setTheme(THEMES.dark);
     new ResizeObserver(() => { this.resize(); }).observe(canvas);
     canvas.addEventListener("webglcontextrestored", () => { this.invalidate(); });
     this.resize();
@@ -38,6 +40,11 @@ export class Stage {
   /** Of the picture in CSS pixels. */
   get size(): { width: number; height: number } {
     return { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+  }
+
+  setTheme({ background }: Theme): void {
+    this.eyeDome.setBackground(display(background));
+    this.invalidate();
   }
 
   setExtent(extent: number): void {
