@@ -4,6 +4,7 @@ import type { Viewer } from "../viewer.ts";
 import type { Cloud } from "../cloud.ts";
 import { bindColor, type ColorControl } from "./color.ts";
 import { byId } from "./dom.ts";
+import { bindFullScreen } from "./full-screen.ts";
 import { bindInversion } from "./inversion.ts";
 import { bindLook } from "./look.ts";
 import { bindNoise } from "./noise.ts";
@@ -52,7 +53,7 @@ export class Controls {
       const wanted = store.current.fieldOfView * factor;
       store.change({ fieldOfView: Math.min(FIELD_OF_VIEW.most, Math.max(FIELD_OF_VIEW.least, wanted)) });
     };
-    const keys: Record<string, () => void> = { f: toggleFreeze, r: reset, h: nextHidden };
+    const keys: Record<string, () => void> = { v: toggleFreeze, f: bindFullScreen(), r: reset, h: nextHidden };
     byId("view").addEventListener("keydown", (event) => {
       if (!event.ctrlKey && !event.metaKey && !event.altKey) keys[event.key.toLowerCase()]?.();
     });
