@@ -5,6 +5,7 @@ import { Inquiry } from "./ask/inquiry.ts";
 import { WorkerCloud } from "./ask/worker-cloud.ts";
 import { type Cloud, prepareCloud, type Up } from "./cloud.ts";
 import { loadCloud, LoadProblem, type LoadRequest } from "./loaders/index.ts";
+import { keepForOffline } from "./offline/keep.ts";
 import { Controls } from "./panel/controls.ts";
 import { byId } from "./panel/dom.ts";
 import { FirstLoad } from "./panel/first-load.ts";
@@ -174,6 +175,7 @@ export function startSession(params: Params, status: Status, message: Message): 
       address.begin(insteadOf === undefined ? source.name : null, usual);
       firstLoad.hide();
       if (insteadOf !== undefined) status.error(insteadOf);
+      keepForOffline(request.kind === "sample" ? request.url : null);
       if (sample) picker.showSample(sample);
       else picker.showOwn(request.name);
     } catch (error) {
