@@ -9,9 +9,11 @@ import { launchBrowser, servePage, type Site } from "./site.js";
 // Software rendering on a busy machine is slow: these limits only end what hangs.
 vi.setConfig({ testTimeout: 180_000, hookTimeout: 120_000 });
 
+export const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
+
 const require = createRequire(import.meta.url);
-let site: Site;
-let browser: Browser;
+export let site: Site;
+export let browser: Browser;
 let errors: string[] = [];
 const pages: Page[] = [];
 /** Files the site has besides the page, by name. */
@@ -35,7 +37,8 @@ afterEach(async () => {
 });
 
 export async function openPage(query = "", options: BrowserContextOptions = {}): Promise<Page> {
-  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, ...options });
+  // Each page is the first visit: what stays between visits has tests of its own (offline.test.ts).
+  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, serviceWorkers: "block", ...options });
   const page = await context.newPage();
   pages.push(page);
   page.on("console", (message) => {
