@@ -19,8 +19,7 @@ import { OWN_COLORS, type Settings, Store, USUAL_SETTINGS } from "./settings.ts"
 import type { Status } from "./status.ts";
 import { colorChoices } from "./view/colors.ts";
 import { type AskedView, findHome, inReachOnly } from "./view/framing.ts";
-import { Plot } from "./tools/plot.ts";
-import { Tools } from "./tools/tools.ts";
+import { Workshop } from "./tools/workshop.ts";
 import { LightHandles } from "./view/light-handles.ts";
 import { Viewer } from "./viewer.ts";
 
@@ -74,12 +73,10 @@ export function startSession(params: Params, status: Status, message: Message): 
 
   let shownName = "";
   // Who comes without any wish of their own is shown what this is about.
-  const tools = new Tools(viewer, store, { name: () => shownName, link: () => address.link() }, location.search === "");
-  const plot = new Plot(viewer, store);
+  const workshop = new Workshop(viewer, store, { name: () => shownName, link: () => address.link() }, location.search === "");
   viewer.onFrame = () => {
     handles.place();
-    tools.place();
-    plot.follow();
+    workshop.place();
   };
   viewer.stage.onCamera = () => {
     address.touch();
@@ -95,8 +92,7 @@ export function startSession(params: Params, status: Status, message: Message): 
   };
   viewer.onAnswer = (answer, total) => {
     controls.follow(answer);
-    tools.follow();
-    plot.answer(answer);
+    workshop.answer(answer);
     status.answer(answer, total, store.current.freeze !== null);
     tell(answer.note);
   };
@@ -106,7 +102,7 @@ export function startSession(params: Params, status: Status, message: Message): 
   };
   viewer.onAutomatic = (exponent) => {
     controls.markAutomatic(exponent);
-    plot.markAutomatic(exponent);
+    workshop.markAutomatic(exponent);
   };
   viewer.onBusy = (busy) => {
     status.busy(busy);
@@ -167,10 +163,12 @@ export function startSession(params: Params, status: Status, message: Message): 
       store.change(own);
       askedView = asked;
       controls.prepare(cloud);
-      tools.clear();
+      workshop.clear();
       viewer.show({ cloud, positions: loaded.positions, inquiry, home, answer, findHome: homeWith });
       shownName = sample?.name ?? request.name;
-      plot.clear();
+      workshop.begin().catch(() => {
+        message.show("The tools of this page could not be loaded; reload the page to try again.");
+      });
       controls.usual = usual;
       address.begin(insteadOf === undefined ? source.name : null, usual);
       firstLoad.hide();

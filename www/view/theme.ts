@@ -33,9 +33,9 @@ export const THEMES: Record<ThemeName, Theme> = {
   },
   light: {
     background: "#eef0f3",
-    low: "#4d6475",
-    high: "#b59b73",
-    plain: "#7d7a74",
+    low: "#587990",
+    high: "#c3a375",
+    plain: "#8b877f",
     hidden: "#a3348f",
     hiddenDimmed: "#b4bbc4",
     chosen: "#0b6fc4",
