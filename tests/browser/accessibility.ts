@@ -22,7 +22,8 @@ export interface Visit {
 }
 
 const nothing = () => Promise.resolve();
-const SMALL = "sample=dragon_res4";
+/** Small, and dense enough for a point to be in the middle of the picture. */
+const SMALL = "sample=dragon_res3";
 const PHONE: BrowserContextOptions = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 const WIDE: BrowserContextOptions = { viewport: { width: 1280, height: 800 } };
 
@@ -105,4 +106,8 @@ export async function audit(page: Page): Promise<AxeResults> {
 /**
  * What axe-core leaves open here, rule by rule, and why it is well. Anything else it leaves open has to be looked at.
  */
-export const JUDGED: Readonly<Record<string, string>> = {};
+export const JUDGED: Readonly<Record<string, string>> = {
+  "color-contrast":
+    "It does not tell the background of what lies over the cloud, or under the bar that stays while a phone’s sheet scrolls. " +
+    "`tests/browser/contrast.ts` computes the contrast of every text itself, over the cloud with black and with white behind it: none is below 4.5.",
+};

@@ -1,5 +1,5 @@
 import { SAMPLES, type Sample, sampleNamed } from "../samples.ts";
-import { byId } from "./dom.ts";
+import { byId, nextFrame } from "./dom.ts";
 
 /** In CSS pixels; made twice as large by tests/browser/thumbnails.ts. */
 const THUMBNAIL = { width: 84, height: 56 };
@@ -22,7 +22,7 @@ export class SamplePicker {
   }
 
   showSample(sample: Sample): void {
-    this.showPictures();
+    void this.showPictures();
     this.removeOwn();
     this.select.value = this.shown = sample.name;
     this.mark(sample.name);
@@ -35,7 +35,7 @@ export class SamplePicker {
   }
 
   showOwn(name: string): void {
-    this.showPictures();
+    void this.showPictures();
     this.removeOwn();
     this.select.prepend(new Option(name, "", true, true));
     this.shown = "";
@@ -45,12 +45,13 @@ export class SamplePicker {
 
   /** After a cloud that could not be opened: back to the one that is still there. */
   restore(): void {
-    this.showPictures();
+    void this.showPictures();
     this.select.value = this.shown ?? "";
   }
 
   /** Not before the first cloud is there, or is known not to come: until then it has the line to itself. */
-  private showPictures(): void {
+  private async showPictures(): Promise<void> {
+    await nextFrame();
     for (const button of this.thumbnails.querySelectorAll("button")) {
       const image = button.querySelector("img")!;
       if (!image.hasAttribute("src")) image.src = `thumbnails/${button.dataset["sample"]}.webp`;

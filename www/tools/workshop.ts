@@ -1,4 +1,5 @@
 import type { TimedView } from "../ask/inquiry.ts";
+import { nextFrame } from "../panel/dom.ts";
 import type { Store } from "../settings.ts";
 import type { Viewer } from "../viewer.ts";
 import type { ExportActions } from "./export.ts";
@@ -36,6 +37,7 @@ export class Workshop {
     if (this.coming) return;
     this.coming = true;
     try {
+      await nextFrame();
       this.here = await this.load();
     } finally {
       this.coming = false;
