@@ -103,6 +103,7 @@ function settingsInAddress(now: Settings, usual: Usual): Record<string, string[]
     size: unless(usual.size, now.size),
     fov: unless(usual.fieldOfView, now.fieldOfView),
     up: unless(usual.up, now.up),
+    theme: unless(USUAL_SETTINGS.theme, now.theme),
   };
 }
 

@@ -9,7 +9,7 @@ import type { Viewer } from "./viewer.ts";
 const TURN = Math.PI / 36;
 const NEARER = 0.92;
 /** Where the first lights come, as parts of the picture's width and height: in sight, and not beside the camera. */
-const SPOTS = [[0.16, 0.16], [0.84, 0.2], [0.2, 0.84], [0.8, 0.84]] as const;
+const SPOTS = [[0.16, 0.16], [0.76, 0.2], [0.2, 0.84], [0.8, 0.84]] as const;
 /** How far away they are, as a share of the distance to what is looked at. */
 const AHEAD = 0.7;
 

@@ -73,6 +73,7 @@ export function readParams(search: string, samples: readonly string[]): Params {
     size: read("size"),
     fieldOfView: read("fov"),
     up: read("up"),
+    theme: read("theme"),
   };
   return {
     sample,

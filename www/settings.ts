@@ -12,6 +12,9 @@ export type Radius = { rule: "auto" | "search" | "opposite" } | { exponent: numb
 /** How points are flipped. The exponential's c is counted in the cloud's spacings, so that it suits clouds of any size. */
 export type Inversion = "spherical" | { exponential: number | "auto" } | { power: number | "auto" };
 
+/** In what colors the page is: those the system asks for, or one theme in any case. */
+export type ThemeChoice = "system" | "dark" | "light";
+
 /** One viewpoint, or it with a ring of four around it: what any of the five sees, or at least two. */
 export type Viewpoints = "one" | "any" | "two";
 
@@ -50,6 +53,7 @@ export interface Settings {
   /** Vertical, in degrees. */
   fieldOfView: number;
   up: Up;
+  theme: ThemeChoice;
 }
 
 /** The file's own colors. */
@@ -83,6 +87,7 @@ export const USUAL_SETTINGS: Settings = {
   size: 1,
   fieldOfView: 45,
   up: "y",
+  theme: "system",
 };
 
 type Listener = (now: Settings, before: Settings) => void;

@@ -1,7 +1,7 @@
 import type { Up } from "./cloud.ts";
 import { MOST_SPLAT } from "./compare/zbuffer.ts";
 import { MAX_POINTS } from "./loaders/limits.ts";
-import type { Against, HiddenMode, Inversion, Radius, Settings, Viewpoint, Viewpoints } from "./settings.ts";
+import type { Against, HiddenMode, Inversion, Radius, Settings, ThemeChoice, Viewpoint, Viewpoints } from "./settings.ts";
 
 /** How a value is written as text, and how a sentence ends about a text that is none: "is not …". */
 export interface Written<T> {
@@ -37,6 +37,7 @@ export const VALUES = {
   size: written(within(0.05, 50), "a number from 0.05 to 50, so the usual one is used"),
   fov: written(within(5, 100), "a number of degrees from 5 to 100, so the usual one is used"),
   up: written(oneOf<Up>("y", "z", "-y"), "y, z or -y, so the usual one is used"),
+  theme: written(oneOf<ThemeChoice>("system", "dark", "light"), "system, dark or light, so it is the system’s"),
   view: written(parsePlace, "three numbers x,y,z, so the usual view is used"),
   target: written(parsePlace, "three numbers x,y,z, so the camera looks at the middle"),
   points: written((text) => whole(MAX_POINTS)(text) || undefined, `an integer from 1 to ${MAX_POINTS}, so it is the last`),

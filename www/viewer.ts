@@ -14,6 +14,7 @@ import { Navigation } from "./view/navigation.ts";
 import { CloudPoints, THROUGH_OPACITY } from "./view/points.ts";
 import { Stage } from "./view/stage.ts";
 import { Surface } from "./view/surface.ts";
+import { type Theme, THEMES } from "./view/theme.ts";
 
 /** A cloud that is ready to be shown, with the first answer about it. */
 export interface Opened {
@@ -55,6 +56,7 @@ export class Viewer {
   private readonly store: Store;
   private readonly marker: ViewpointMarker;
   private shown: Shown | null = null;
+  private theme = THEMES.dark;
   private lit = false;
   private surfaceShown = false;
   /** Whether points are drawn by what a reference says of them. */
@@ -65,7 +67,7 @@ export class Viewer {
     this.store = store;
     this.stage = new Stage(canvas);
     this.navigation = new Navigation(this.stage.camera, canvas, polite);
-    this.marker = new ViewpointMarker(this.stage.overlay, canvas);
+    this.marker = new ViewpointMarker(this.stage.overlay);
     this.stage.onFrame = () => {
       this.marker.follow(this.stage.camera);
       this.inquire();
@@ -144,9 +146,9 @@ export class Viewer {
   /** Shows a cloud, after `clear`. */
   show(opened: Opened): void {
     const { cloud, inquiry, answer, home } = opened;
-    const attributes = new CloudAttributes(cloud);
-    const points = new CloudPoints(cloud, attributes);
-    const mesh = new Surface(attributes);
+    const attributes = new CloudAttributes(cloud, this.theme);
+    const points = new CloudPoints(cloud, attributes, this.theme);
+    const mesh = new Surface(attributes, this.theme);
     this.shown = { ...opened, attributes, points, mesh, frozen: null };
     inquiry.onView = (next) => {
       this.showAnswer(next);
@@ -199,6 +201,16 @@ export class Viewer {
     else this.shown.points.setVisible(this.scene.visible);
     this.setShape();
     this.applyLook(this.store.current);
+  }
+
+  setTheme(theme: Theme): void {
+    this.theme = theme;
+    this.stage.setTheme(theme);
+    this.marker.setTheme(theme);
+    if (!this.shown) return;
+    const { attributes, points, mesh } = this.shown;
+    for (const part of [attributes, points, mesh]) part.setTheme(theme);
+    this.paint(this.store.current);
   }
 
   /** Looks at the cloud as for the first time. */
@@ -255,7 +267,7 @@ export class Viewer {
 
   private paint({ color, up }: Settings): void {
     const { cloud, attributes } = this.shown!;
-    const { tints, legend } = colorBy(color, cloud, up);
+    const { tints, legend } = colorBy(color, cloud, up, this.theme);
     attributes.setTints(tints);
     this.stage.invalidate();
     this.onLegend(legend);

@@ -1,8 +1,6 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { openPage, openReady, reached, refiltered, settled, status } from "./support.js";
-
-const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
+import { openPage, openReady, PHONE, reached, refiltered, settled, status } from "./support.js";
 
 /** Controls and texts in sight that lie over one another, are cut off at the side, or have no name. */
 async function flaws(page: Page): Promise<string[]> {

@@ -108,7 +108,7 @@ test("lights are added, dragged, moved by keys, brought to the camera and remove
   await page.keyboard.press("ArrowUp");
   const [turned] = await lightsInAddress(page, 1);
   expect(turned).not.toEqual(moved);
-  await page.getByRole("button", { name: "Put light 1 where the camera is" }).click();
+  await page.getByRole("button", { name: "To camera: light 1" }).click();
   await page.keyboard.press("ArrowLeft");
   // The address follows when it may.
   await expect.poll(async () => (await lightsInAddress(page, 1))[0]).not.toEqual(turned);

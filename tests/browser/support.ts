@@ -9,9 +9,11 @@ import { launchBrowser, servePage, type Site } from "./site.js";
 // Software rendering on a busy machine is slow: these limits only end what hangs.
 vi.setConfig({ testTimeout: 180_000, hookTimeout: 120_000 });
 
+export const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
+
 const require = createRequire(import.meta.url);
-let site: Site;
-let browser: Browser;
+export let site: Site;
+export let browser: Browser;
 let errors: string[] = [];
 let provoked: RegExp[] = [];
 const pages: Page[] = [];
@@ -45,8 +47,9 @@ export function provoke(pattern: RegExp): void {
 
 /** `prepare`: done with the page before it is opened. */
 export async function openPage(query = "", options: BrowserContextOptions = {}, prepare?: (page: Page) => Promise<void>): Promise<Page> {
+  // Each page is the first visit: what stays between visits has tests of its own (offline.test.ts).
   // Nearly all time goes into drawing in software: a quarter of the pixels, in a layout that is the same, takes half of it.
-  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, deviceScaleFactor: 0.5, ...options });
+  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, deviceScaleFactor: 0.5, serviceWorkers: "block", ...options });
   const page = await context.newPage();
   pages.push(page);
   page.on("console", (message) => {

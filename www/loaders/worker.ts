@@ -9,6 +9,9 @@ import { readFile } from "./read.ts";
 
 const post = (reply: LoadReply, transfer: Transferable[] = []) => { self.postMessage(reply, { transfer }); };
 
+/** Why a sample cannot be had: those that have been opened before are (offline/service-worker.ts). */
+const NOT_KEPT = "there is no connection, and it has not been opened on this device before";
+
 /** Not more often than the eye can follow. */
 const EVERY = 50;
 let last = { step: "", at: 0 };
@@ -39,7 +42,7 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
     return SHAPES[request.shape]();
   }
   if (request.kind === "sample") {
-    const data = await (await download(name, request.url, downloading)).arrayBuffer();
+    const data = await (await download(name, request.url, downloading, NOT_KEPT)).arrayBuffer();
     // A server that answers with a page for what it does not have.
     if (data.byteLength % 12 !== 0) throw new LoadProblem(`${name} could not be downloaded: the server sent something else.`);
     return { positions: new Float32Array(data), colors: null };

@@ -5,7 +5,6 @@ import { Segmented } from "../panel/segmented.ts";
 import { Slider } from "../panel/slider.ts";
 import type { KnownSurface } from "../samples.ts";
 import type { Against, Store } from "../settings.ts";
-import { DIFFERENCE } from "../view/points.ts";
 
 const number = new Intl.NumberFormat("en-US");
 
@@ -83,8 +82,8 @@ export class CompareCard {
       [
         { label: "Z-buffer", count: picture.visible, more: time(picture.milliseconds) },
         { label: "Ours", count: onlyOurs, more: time(ours.milliseconds) },
-        { label: "Only the z-buffer", color: DIFFERENCE.onlyReference, count: theirs, more: share(theirs) },
-        { label: "Only ours", color: DIFFERENCE.onlyOurs, count: mine, more: share(mine) },
+        { label: "Only the z-buffer", color: "var(--only-reference)", count: theirs, more: share(theirs) },
+        { label: "Only ours", color: "var(--only-ours)", count: mine, more: share(mine) },
       ],
       picture.inside,
       picture.milliseconds,
@@ -112,8 +111,8 @@ export class CompareCard {
       [
         { label: "Rays", count: truth.visible, more: time(truth.milliseconds) },
         { label: "Ours", count: onlyOurs, more: time(ours.milliseconds) },
-        { label: "Wrongly shown", color: DIFFERENCE.onlyOurs, count: wrong, more: percent(wrong, total) },
-        { label: "Wrongly hidden", color: DIFFERENCE.onlyReference, count: missed, more: percent(missed, total) },
+        { label: "Wrongly shown", color: "var(--only-ours)", count: wrong, more: percent(wrong, total) },
+        { label: "Wrongly hidden", color: "var(--only-reference)", count: missed, more: percent(missed, total) },
       ],
       total,
       truth.milliseconds,

@@ -3,7 +3,6 @@ import { byId } from "../panel/dom.ts";
 import { Segmented } from "../panel/segmented.ts";
 import { BATCH, copy, save } from "./files.ts";
 import { pictureWithMarks } from "./picture.ts";
-import { plyParts } from "./ply.ts";
 import type { Bench, Tool } from "./tool.ts";
 
 export interface ExportActions {
@@ -69,7 +68,8 @@ export class Export implements Tool {
     });
   }
 
-  private ply(): Iterable<BlobPart> {
+  private async ply(): Promise<Iterable<BlobPart>> {
+    const { plyParts } = await import("./ply.ts");
     const { cloud, positions, answer } = this.bench.viewer.scene;
     const { what, indices } = this;
     const comments = [`${what.value === "visible" ? "Visible" : "Selected"} points: ${indices.length} of ${cloud.count}`, ...seenFrom(answer)];

@@ -1,12 +1,9 @@
 import { BufferAttribute, type BufferGeometry, Color, DynamicDrawUsage, Sphere, Vector2, Vector3 } from "three";
 import { type Cloud, type Up, upVector } from "../cloud.ts";
 import { spreadOf } from "./spread.ts";
+import type { Theme } from "./theme.ts";
 
-/** Where a file has no colors: from low to high, two calm tones that leave the shape to the shading. */
-const LOW = new Color("#6f8796");
-const HIGH = new Color("#efe6d6");
-/** Selected points, and how much of that covers their own color. */
-const CHOSEN = new Color("#4fb3ff");
+/** How much of a selected point's own color is covered. */
 const CHOSEN_COVERAGE = 0.65;
 
 /** Before a vertex shader's `main`: the color of a vertex, and how much of it the lights leave. */
@@ -39,10 +36,10 @@ export class CloudAttributes {
     up: { value: new Vector3(0, 1, 0) },
     heights: { value: new Vector2(-1, 1) },
     // Drawn as they are: the shading pass and the screen both take display colors.
-    low: { value: display(LOW) },
-    high: { value: display(HIGH) },
+    low: { value: new Color() },
+    high: { value: new Color() },
     lit: { value: false },
-    chosenColor: { value: display(CHOSEN) },
+    chosenColor: { value: new Color() },
     colored: { value: false },
   };
   private readonly local: Float32Array;
@@ -54,12 +51,19 @@ export class CloudAttributes {
   private brightness: BufferAttribute | null = null;
   private chosen: BufferAttribute | null = null;
 
-  constructor({ local, colors, radius }: Cloud) {
+  constructor({ local, colors, radius }: Cloud, theme: Theme) {
     this.local = local;
     this.bounds = new Sphere(new Vector3(), radius);
     this.position = new BufferAttribute(local, 3);
     this.ownColors = colors;
     this.setTints(null);
+    this.setTheme(theme);
+  }
+
+  setTheme({ low, high, chosen }: Theme): void {
+    this.uniforms.low.value = display(low);
+    this.uniforms.high.value = display(high);
+    this.uniforms.chosenColor.value = display(chosen);
   }
 
   /** Gives a geometry the cloud's points as vertices. */
@@ -121,8 +125,8 @@ export class CloudAttributes {
 }
 
 /** As the shaders take colors: three.js' own are linear. */
-export function display(color: Color): Color {
-  return color.clone().convertLinearToSRGB();
+export function display(color: string): Color {
+  return new Color(color).convertLinearToSRGB();
 }
 
 /** The heights between which the colors run: not from the lowest to the highest point, or a few strays would take the ramp. */

@@ -2,6 +2,7 @@ import { type Attribute, type Cloud, type Up, upVector } from "../cloud.ts";
 import type { Values } from "../loaders/numbers.ts";
 import { OWN_COLORS } from "../settings.ts";
 import { spreadOf } from "./spread.ts";
+import type { Theme } from "./theme.ts";
 
 const PLAIN = "plain";
 const HEIGHT = "height";
@@ -16,7 +17,6 @@ export type Legend =
   | { kind: "ramp"; low: number; high: number; colors: readonly string[] }
   | { kind: "categories"; entries: { label: string; color: string; count: number }[] };
 
-const PLAIN_COLOR: Rgb = [222, 216, 204];
 const STEPS = 256;
 const MOST_ENTRIES = 12;
 
@@ -59,8 +59,8 @@ export function colorChoices({ colors, attributes }: Cloud): { value: string; la
   ];
 }
 
-export function colorBy(choice: string, cloud: Cloud, up: Up): Coloring {
-  if (choice === PLAIN) return { tints: painted(cloud.count, [PLAIN_COLOR], () => 0), legend: null };
+export function colorBy(choice: string, cloud: Cloud, up: Up, theme: Theme): Coloring {
+  if (choice === PLAIN) return { tints: painted(cloud.count, [rgb(theme.plain)], () => 0), legend: null };
   if (choice === HEIGHT) return ramp(cloud.count, heights(cloud, up));
   const attribute = cloud.attributes.find(({ name }) => name === choice);
   if (!attribute) return { tints: null, legend: null };

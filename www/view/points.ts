@@ -3,18 +3,10 @@ import type { Cloud } from "../cloud.ts";
 import type { Parts } from "../compare/parts.ts";
 import type { HiddenMode } from "../settings.ts";
 import { type CloudAttributes, display, TINT_SHADER } from "./attributes.ts";
+import type { Theme } from "./theme.ts";
 
-/** Hidden points have a hue of their own; dimmed ones are a dark neutral where nothing stands before them. */
-const HIDDEN = new Color("#a9599c");
-const HIDDEN_DIMMED = new Color("#4a515c");
-/** How much of that color covers a hidden point's own. */
+/** How much of the theme's color for hidden points covers their own. */
 const COVERAGE = 0.7;
-
-/**
- * Where ours and a reference differ: what only ours shows, and what only the reference does. Apart in hue for everyone,
- * also for eyes that do not tell red from green or blue from yellow, and in neither color are points drawn else.
- */
-export const DIFFERENCE = { onlyOurs: "#ff8c1a", onlyReference: "#1fc8e0" };
 
 /** How much is seen of hidden points that are drawn through the visible ones, and how wide they are at most, in spacings. */
 export const THROUGH_OPACITY: Record<HiddenMode, number> = { off: 0, dimmed: 0.4, shown: 0.85 };
@@ -77,9 +69,13 @@ export class CloudPoints {
   readonly extra: Draw;
   /** What else ours and the reference tell apart. */
   readonly different = new Group();
+  /** Of that, what only the reference shows. */
+  private readonly missing: Draw;
   private readonly order: BufferAttribute;
   private readonly spacing: number;
   private readonly draws: Draw[];
+  private theme: Theme;
+  private dimmed = false;
   private width = 0;
   private visible: Uint32Array = new Uint32Array();
   private hiddenListed = true;
@@ -90,12 +86,13 @@ export class CloudPoints {
   /** Whether what only the reference shows is drawn on both sides. */
   private fill = false;
 
-  constructor(cloud: Cloud, attributes: CloudAttributes) {
+  constructor(cloud: Cloud, attributes: CloudAttributes, theme: Theme) {
+    this.theme = theme;
     this.order = new BufferAttribute(new Uint32Array(cloud.count), 1);
     this.order.setUsage(DynamicDrawUsage);
     this.spacing = roughSpacing(cloud);
 
-    const draw = (cover: Color | null, coverage: number) => {
+    const draw = (coverage: number) => {
       const geometry = new BufferGeometry();
       attributes.addTo(geometry);
       geometry.setIndex(this.order);
@@ -107,7 +104,7 @@ export class CloudPoints {
           width: { value: 0 },
           pixels: { value: 1 },
           least: { value: 1 },
-          cover: { value: display(cover ?? HIDDEN) },
+          cover: { value: new Color() },
           coverage: { value: coverage },
           between: { value: new Vector2(0, EVERYWHERE) },
         },
@@ -116,10 +113,11 @@ export class CloudPoints {
       points.frustumCulled = false;
       return points;
     };
-    this.solid = draw(null, 0);
-    this.ghost = draw(HIDDEN, COVERAGE);
-    this.extra = draw(new Color(DIFFERENCE.onlyOurs), 1);
-    const [missing, outside] = [draw(new Color(DIFFERENCE.onlyReference), 1), draw(null, 0)];
+    this.solid = draw(0);
+    this.ghost = draw(COVERAGE);
+    this.extra = draw(1);
+    this.missing = draw(1);
+    const [missing, outside] = [this.missing, draw(0)];
     this.different.add(missing, outside);
     this.extra.visible = this.different.visible = false;
     this.draws = [this.solid, this.extra, missing, outside, this.ghost];
@@ -185,13 +183,23 @@ export class CloudPoints {
 
   /** Hidden points, and up to which share of the picture's width. */
   show(mode: HiddenMode, frozen: boolean, divider = 1): void {
-    const { uniforms } = this.ghost.material;
     this.divider = divider;
     this.ghost.visible = mode !== "off";
     if (this.ghost.visible && !this.hiddenListed) this.listHidden();
     this.throughOthers = !frozen;
-    uniforms["cover"]!.value = display(frozen && mode === "dimmed" ? HIDDEN_DIMMED : HIDDEN);
+    this.dimmed = frozen && mode === "dimmed";
+    this.setTheme(this.theme);
     this.setWidths();
+  }
+
+  setTheme(theme: Theme): void {
+    this.theme = theme;
+    const colors: [Draw, string][] = [
+      [this.ghost, this.dimmed ? theme.hiddenDimmed : theme.hidden],
+      [this.extra, theme.onlyOurs],
+      [this.missing, theme.onlyReference],
+    ];
+    for (const [{ material }, color] of colors) material.uniforms["cover"]!.value = display(color);
   }
 
   /** In multiples of the points' rough distance from one another; the width of a point in the cloud's units. */

@@ -1,5 +1,7 @@
-import { Color, PerspectiveCamera, Scene, Vector2, WebGLRenderer } from "three";
+import { PerspectiveCamera, Scene, Vector2, WebGLRenderer } from "three";
+import { display } from "./attributes.ts";
 import { EyeDome } from "./eye-dome.ts";
+import { type Theme, THEMES } from "./theme.ts";
 
 /** The canvas: one camera, the shaded points, those drawn through them, and an overlay of what is drawn among them unshaded. */
 export class Stage {
@@ -31,10 +33,10 @@ export class Stage {
 
   constructor(canvas: HTMLCanvasElement) {
     this.canvas = canvas;
-    const background = new Color(getComputedStyle(canvas).getPropertyValue("--canvas").trim());
     this.renderer = new WebGLRenderer({ canvas, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
-    this.eyeDome = new EyeDome(background);
+    this.eyeDome = new EyeDome();
+    this.setTheme(THEMES.dark);
     this.resizing.observe(canvas);
     canvas.addEventListener("webglcontextrestored", () => { this.invalidate(); });
     this.resize();
@@ -49,6 +51,11 @@ export class Stage {
   /** Of the picture in its own pixels. */
   get resolution(): Vector2 {
     return this.renderer.getDrawingBufferSize(new Vector2());
+  }
+
+  setTheme({ background }: Theme): void {
+    this.eyeDome.setBackground(display(background));
+    this.invalidate();
   }
 
   setExtent(extent: number): void {
