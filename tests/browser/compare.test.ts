@@ -11,7 +11,7 @@ import { Projected, zBuffer } from "../../www/compare/zbuffer.js";
 import { DISTANCE, MIDDLE, openBall, positions as ballPositions, tool } from "./ball.js";
 import { ball, binaryPly } from "./clouds.js";
 import { choose } from "./files.js";
-import { drag, inNode, middleOf, openReady, picture, differentPixels, refiltered, served, type Status, status, upToDate } from "./support.js";
+import { drag, EVERY_PIXEL, inNode, middleOf, openReady, picture, differentPixels, refiltered, served, type Status, status, upToDate } from "./support.js";
 
 const { positions: corners, cells } = createRequire(import.meta.url)("bunny") as { positions: number[][]; cells: number[][] };
 const bunny: Mesh = { positions: Float32Array.from(corners.flat()), triangles: Uint32Array.from(cells.flat()) };
@@ -83,7 +83,7 @@ test("the airplane's skin is closed: each edge has two triangles", () => {
 });
 
 test("ours beside the z-buffer: the counts are those of its definition, live, and in the address", async () => {
-  const page = await openBall();
+  const page = await openBall(EVERY_PIXEL);
   const before = await status(page);
   await page.locator("#view").press("c");
   await page.getByLabel("Z-buffer").check();

@@ -2,7 +2,7 @@ import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { type ThemeName, THEMES } from "../../www/view/theme.ts";
 import { at, clickPoint, everything, openBall, tool } from "./ball.js";
-import { openPage, openReady, picture, reached, settled, status } from "./support.js";
+import { EVERY_PIXEL, openPage, openReady, picture, reached, settled, status } from "./support.js";
 
 /** Seen for sure: those that bulge most towards the viewer. */
 const NEAREST = everything.toSorted((i, j) => at(j)[2] - at(i)[2]).slice(0, 2);
@@ -78,7 +78,7 @@ test("a theme that there is not is named", async () => {
 test("points, hidden points and the saved picture's marks have the theme's colors", async () => {
   const drawn: Record<string, string[]> = {};
   for (const name of ["dark", "light"] as const) {
-    const page = await openBall({ colorScheme: name });
+    const page = await openBall({ colorScheme: name, ...EVERY_PIXEL });
     await page.locator("#color").selectOption("plain");
     await tool(page, "Measure").click();
     for (const index of NEAREST) await clickPoint(page, index);
