@@ -5,6 +5,8 @@ import { grid, type Mesh } from "../../www/compare/mesh.js";
 import { RayTracer } from "../fidelity/rays.js";
 import { errorsOf } from "../fidelity/score.js";
 import { readParams } from "../../www/params.js";
+import { oracleFor } from "../../www/compare/oracles.js";
+import { makeRoom } from "../../www/room.js";
 import { makeRings, skinOfRings } from "../../www/rings.js";
 import { partsOf } from "../../www/compare/parts.js";
 import { Projected, zBuffer } from "../../www/compare/zbuffer.js";
@@ -16,6 +18,8 @@ import { drag, inNode, middleOf, openReady, picture, differentPixels, refiltered
 const { positions: corners, cells } = createRequire(import.meta.url)("bunny") as { positions: number[][]; cells: number[][] };
 const bunny: Mesh = { positions: Float32Array.from(corners.flat()), triangles: Uint32Array.from(cells.flat()) };
 const TOLERANCE = 1.75;
+/** Drawn by software, a picture takes its time. */
+const SMALL = { viewport: { width: 800, height: 440 } };
 
 interface Screen {
   width: number;
@@ -82,8 +86,36 @@ test("the airplane's skin is closed: each edge has two triangles", () => {
   expect(new Set(triangles).size).toBe(makeRings().positions.length / 3);
 });
 
+test("of the street a scanner saw all that its own beams met", async () => {
+  const street = await oracleFor({ shape: "street" }, new Float32Array());
+  const sees = street.from([-21, 1.1, 1.75]);
+  // The first of three stations; its 60,000 points come first.
+  const tried = Array.from({ length: 6000 }, (_, i) => 7 * i);
+  expect(tried.filter((i) => !sees(i))).toEqual([]);
+  // From the other end of the street, much of it is hidden.
+  const other = street.from([22, 0.9, 1.75]);
+  const share = tried.filter(other).length / tried.length;
+  expect(share).toBeGreaterThan(0.1);
+  expect(share).toBeLessThan(0.8);
+});
+
+test("in the room the ceiling is seen and the floor under the rug is not, also where noise has put it", async () => {
+  const room = await oracleFor({ shape: "room" }, new Float32Array());
+  const { positions } = makeRoom();
+  expect(room.count).toBe(positions.length / 3);
+  const sees = room.from([-0.2, 2.4, 0.3]);
+  const share = (like: (x: number, y: number, z: number) => boolean) => {
+    const chosen = Array.from({ length: room.count }, (_, i) => i).filter((i) => like(positions[3 * i]!, positions[3 * i + 1]!, positions[3 * i + 2]!));
+    expect(chosen.length).toBeGreaterThan(1000);
+    return chosen.filter(sees).length / chosen.length;
+  };
+  // Some of it is over the bookcase, the lamp or the plant.
+  expect(share((_x, y) => y > 2.69)).toBeGreaterThan(0.97);
+  expect(share((x, y, z) => y < 0.004 && x > -1.99 && x < 0.59 && z > -1.09 && z < 0.79)).toBe(0);
+});
+
 test("ours beside the z-buffer: the counts are those of its definition, live, and in the address", async () => {
-  const page = await openBall();
+  const page = await openBall(SMALL);
   const before = await status(page);
   await page.locator("#view").press("c");
   await page.getByLabel("Z-buffer").check();
@@ -140,7 +172,7 @@ async function bunnyTruth({ viewpoint, radius, total }: Status) {
 }
 
 test("ours beside the true surface: false positives and negatives, in color, for each view and setting", async () => {
-  const page = await openReady("?sample=bunny&compare=0.2&against=surface");
+  const page = await openReady("?sample=bunny&compare=0.2&against=surface", SMALL);
   const first = await upToDate(page);
   const truth = await bunnyTruth(first);
   const shown = await figures(page);
@@ -172,7 +204,7 @@ test("ours beside the true surface: false positives and negatives, in color, for
 });
 
 test("tracing can be stopped and taken up again", async () => {
-  const page = await openReady("?sample=dragon_res4");
+  const page = await openReady("?sample=dragon_res4", SMALL);
   let release = () => {};
   const held = new Promise<void>((resolve) => (release = resolve));
   await page.route("**/*.faces", async (route) => {
@@ -190,7 +222,7 @@ test("tracing can be stopped and taken up again", async () => {
 
 test("where no surface is known, the choice is not offered and says why", async () => {
   served.set("clouds/ball.ply", binaryPly(ball(300), "float", true));
-  const page = await openReady("?src=clouds/ball.ply&compare=0.5&against=surface");
+  const page = await openReady("?src=clouds/ball.ply&compare=0.5&against=surface", SMALL);
   expect(await page.locator("#message p").textContent()).toBe("There is no true surface to compare with, so all points are. Only of samples of this page is the true surface known.");
   expect(await page.getByLabel("True surface").isDisabled()).toBe(true);
   expect(await page.getByRole("radio", { name: "All points" }).isChecked()).toBe(true);
