@@ -18,6 +18,8 @@ export interface LoadedCloud {
   positions: Float32Array | Float64Array;
   colors: Uint8Array | null;
   attributes?: Attribute[];
+  /** The file has faces, and all of their corners are among the positions, in its own order. */
+  isMesh?: boolean;
   /** What the user has to know about it, in plain sentences. */
   notes?: string[];
   /** What the file says of how it was taken: which way was up, and from where where it knows. */

@@ -3,7 +3,7 @@ import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { Address, type CloudName } from "./address.ts";
 import { Inquiry } from "./ask/inquiry.ts";
 import { WorkerCloud } from "./ask/worker-cloud.ts";
-import { type Cloud, prepareCloud, type Up } from "./cloud.ts";
+import { type Cloud, type LoadedCloud, prepareCloud, type Up } from "./cloud.ts";
 import { loadCloud, LoadProblem, type LoadRequest } from "./loaders/index.ts";
 import { Controls } from "./panel/controls.ts";
 import { byId } from "./panel/dom.ts";
@@ -147,7 +147,7 @@ export function startSession(params: Params, status: Status, message: Message): 
       const { fieldOfView: fov, up } = { ...usual, ...source.settings };
       const { color, notes: colorNote } = usableColor(own.color ?? store.current.color, cloud, source.settings.color !== undefined);
       own.color = color;
-      const surface = surfaceOf(sample);
+      const surface = surfaceOf(source, loaded);
       const { against, notes: againstNote } = usableAgainst(own.against ?? store.current.against, surface, source.settings.against !== undefined);
       own.against = against;
       const more = [...farNotes, ...colorNote, ...againstNote, ...(loaded.notes ?? [])];
@@ -247,10 +247,10 @@ function usableColor(color: string, cloud: Cloud, asked: boolean): { color: stri
   return { color: OWN_COLORS, notes };
 }
 
-function surfaceOf(sample: Sample | null): KnownSurface | string {
+function surfaceOf({ sample, request }: Source, { isMesh }: LoadedCloud): KnownSurface | string {
+  if (isMesh) return { file: request.kind === "file" ? request.file : (request as { url: string }).url };
   const surface = sample?.surface ?? NO_SURFACE;
-  if (typeof surface === "string" || "shape" in surface) return surface;
-  return { faces: new URL(surface.faces, document.baseURI).href };
+  return typeof surface === "object" && "faces" in surface ? { faces: new URL(surface.faces, document.baseURI).href } : surface;
 }
 
 /** Of some clouds no surface is known that ours could be compared with. */

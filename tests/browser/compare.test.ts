@@ -6,12 +6,13 @@ import { RayTracer } from "../fidelity/rays.js";
 import { errorsOf } from "../fidelity/score.js";
 import { readParams } from "../../www/params.js";
 import { oracleFor } from "../../www/compare/oracles.js";
+import { readFaces } from "../../www/loaders/faces.js";
 import { makeRoom } from "../../www/room.js";
 import { makeRings, skinOfRings } from "../../www/rings.js";
 import { partsOf } from "../../www/compare/parts.js";
 import { Projected, zBuffer } from "../../www/compare/zbuffer.js";
 import { DISTANCE, MIDDLE, openBall, positions as ballPositions, tool } from "./ball.js";
-import { ball, binaryPly } from "./clouds.js";
+import { ball, binaryPly, text } from "./clouds.js";
 import { choose } from "./files.js";
 import { drag, inNode, middleOf, openReady, picture, differentPixels, refiltered, served, type Status, status, upToDate } from "./support.js";
 
@@ -84,6 +85,29 @@ test("the airplane's skin is closed: each edge has two triangles", () => {
   }
   expect([...edges.values()].every((count) => count === 2)).toBe(true);
   expect(new Set(triangles).size).toBe(makeRings().positions.length / 3);
+});
+
+test("faces of one's own files are read and cut into triangles", async () => {
+  const read = (content: string | Uint8Array, vertices = 5) => {
+    const blob = new Blob([typeof content === "string" ? content : new Uint8Array(content)]);
+    return readFaces({ name: "mesh", blob, limit: Infinity, onProgress: () => undefined }, vertices).then((triangles) => [...triangles]);
+  };
+  const obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1/1 2//1 3\nf -4 -3 -2 -1\nv 0 0 1\nf 1 2 3 4 5\n";
+  expect(await read(obj)).toEqual([0, 1, 2, 0, 1, 2, 0, 2, 3, 0, 1, 2, 0, 2, 3, 0, 3, 4]);
+  const header = (format: string) => `ply\nformat ${format} 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 2\nproperty uchar flag\nproperty list uchar int vertex_indices\nend_header\n`;
+  expect(await read(`${header("ascii")}${"0 0 0\n".repeat(5)}\n7 3 0 1 2\n7 4 1 2 3 4\n`)).toEqual([0, 1, 2, 1, 2, 3, 1, 3, 4]);
+  const rows = new DataView(new ArrayBuffer(60 + 14 + 18));
+  let at = 60;
+  for (const face of [[0, 1, 2], [1, 2, 3, 4]]) {
+    rows.setUint8(at, 7);
+    rows.setUint8(at + 1, face.length);
+    face.forEach((corner, i) => { rows.setInt32(at + 2 + 4 * i, corner, true); });
+    at += 2 + 4 * face.length;
+  }
+  expect(await read(Buffer.concat([text(header("binary_little_endian")), new Uint8Array(rows.buffer)]))).toEqual([0, 1, 2, 1, 2, 3, 1, 3, 4]);
+  await expect(read(obj, 4)).rejects.toThrow("mesh has faces between points that it does not have");
+  await expect(read(`${header("ascii")}${"0 0 0\n".repeat(5)}7 3 0 1 2\n`)).rejects.toThrow("ends before its last face");
+  await expect(read(Buffer.concat([text(header("binary_little_endian")), new Uint8Array(rows.buffer, 0, 80)]))).rejects.toThrow();
 });
 
 test("of the street a scanner saw all that its own beams met", async () => {
@@ -223,10 +247,10 @@ test("tracing can be stopped and taken up again", async () => {
 test("where no surface is known, the choice is not offered and says why", async () => {
   served.set("clouds/ball.ply", binaryPly(ball(300), "float", true));
   const page = await openReady("?src=clouds/ball.ply&compare=0.5&against=surface", SMALL);
-  expect(await page.locator("#message p").textContent()).toBe("There is no true surface to compare with, so all points are. Only of samples of this page is the true surface known.");
+  expect(await page.locator("#message p").textContent()).toBe("There is no true surface to compare with, so all points are. It is known of samples, and of PLY and OBJ meshes that are shown whole.");
   expect(await page.getByLabel("True surface").isDisabled()).toBe(true);
   expect(await page.getByRole("radio", { name: "All points" }).isChecked()).toBe(true);
-  expect(await page.locator("#against-note").textContent()).toBe("True surface: only of samples of this page is the true surface known.");
+  expect(await page.locator("#against-note").textContent()).toBe("No true surface. It is known of samples, and of PLY and OBJ meshes that are shown whole.");
   await expect.poll(() => page.url()).not.toContain("against");
 
   // The choice goes from cloud to cloud where it can.
@@ -234,6 +258,15 @@ test("where no surface is known, the choice is not offered and says why", async 
   await expect.poll(async () => (await status(page)).total).toBe(1839);
   await page.getByLabel("True surface").check();
   await figures(page);
+  const samples = await figures(page);
+
+  // The same mesh as a file: traced alike.
+  const obj = [...corners.map((corner) => `v ${Array.from(Float32Array.from(corner)).join(" ")}`), ...cells.map((cell) => `f ${cell.map((corner) => corner + 1).join(" ")}`)];
+  await choose(page, "own.obj", text(obj.join("\n")));
+  await expect.poll(() => page.locator("#sample option:checked").textContent()).toBe("own.obj");
+  await expect.poll(async () => (await figures(page)).counts).toEqual((await bunnyTruth(await upToDate(page))).counts);
+  expect((await figures(page)).of).toBe(samples.of);
+
   await choose(page, "ball.ply", binaryPly(ball(300), "float", true));
   await expect.poll(async () => (await status(page)).total).toBe(300);
   expect(await page.getByRole("radio", { name: "All points" }).isChecked()).toBe(true);

@@ -4,7 +4,7 @@ import type { Settings } from "../settings.ts";
 import type { Viewer } from "../viewer.ts";
 import { pictureFrom } from "./picture.ts";
 import type { PictureAnswer, PictureQuestion } from "./protocol.ts";
-import { Reference } from "./reference.ts";
+import { Reference, sentenceOf } from "./reference.ts";
 
 /** Ours beside the z-buffer of the same picture, for as long as it is wanted: computed anew with every answer and every turn of the camera. */
 export class AgainstPicture {
@@ -55,7 +55,7 @@ export class AgainstPicture {
       this.viewer.showParts(answer.parts);
     } catch (error) {
       if (this.ended) return;
-      this.problem = `The z-buffer could not be computed: ${error instanceof Error ? error.message : String(error)}.`;
+      this.problem = `The z-buffer could not be computed: ${sentenceOf(error)}`;
       this.viewer.showParts(null);
     }
     this.changed();
