@@ -18,6 +18,8 @@ export interface LoadedCloud {
   positions: Float32Array | Float64Array;
   colors: Uint8Array | null;
   attributes?: Attribute[];
+  /** The file has faces, and all of their corners are among the positions, in its own order. */
+  isMesh?: boolean;
   /** What the user has to know about it, in plain sentences. */
   notes?: string[];
   /** What the file says of how it was taken: which way was up, and from where where it knows. */
@@ -38,7 +40,7 @@ export interface Cloud {
 }
 
 /** What the page takes over from a loader: a cloud ready to draw, with the file's own coordinates and what it says. */
-export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "notes" | "taken"> {
+export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "isMesh" | "notes" | "taken"> {
   cloud: Cloud;
   /** The positions once more, to be given away to the hull's worker: that takes what it gets. */
   copy: Float32Array | Float64Array;

@@ -60,7 +60,7 @@ export async function openCloud({ request, sample, view: wanted, settings: wishe
   const own: Partial<Settings> = { ...usual, freeze: null, lights: [], ...radiusFor(place.settings()), ...wished, ...places };
   const { color, notes: colorNote } = usableColor(own.color ?? place.settings().color, cloud, wished.color !== undefined);
   own.color = color;
-  const surface = sample?.surface ?? NO_SURFACE;
+  const surface = surfaceOf(request, sample, loaded.isMesh);
   const { against, notes: againstNote } = usableAgainst(own.against ?? place.settings().against, surface, wished.against !== undefined);
   own.against = against;
 
@@ -92,6 +92,13 @@ export function usableColor(color: string, cloud: Cloud, asked: boolean): { colo
   if (colorChoices(cloud).some(({ value }) => value === color)) return { color, notes: [] };
   const notes = asked ? [`It has nothing called “${color}” to be colored by, so it has its usual colors.`] : [];
   return { color: OWN_COLORS, notes };
+}
+
+/** Of a mesh of one's own the faces are read again when they are asked for. */
+function surfaceOf(request: LoadRequest, sample: Sample | null, isMesh = false): KnownSurface | string {
+  if (isMesh && request.kind === "file") return { file: request.file };
+  if (isMesh && request.kind === "url") return { file: request.url };
+  return sample?.surface ?? NO_SURFACE;
 }
 
 /** Of some clouds no surface is known that ours could be compared with. */

@@ -2,8 +2,11 @@ import type { Up } from "./cloud.ts";
 import { type Settings, USUAL_SETTINGS } from "./settings.ts";
 import type { ShapeName } from "./shapes.ts";
 
-/** A surface that a cloud was taken from: triangles between its points in a file made by build/samples-plugin.ts, or that of a shape. */
-export type KnownSurface = { faces: string } | { shape: "room" | "rings" | "street" };
+/**
+ * A surface that a cloud was taken from: triangles between its points in a file made by build/samples-plugin.ts, that of a
+ * shape, or the faces of the user's own file, which is opened once more for them.
+ */
+export type KnownSurface = { faces: string } | { shape: "room" | "rings" | "street" } | { file: Blob | string };
 
 /** A cloud the page brings along. */
 export interface Sample {
@@ -110,8 +113,7 @@ export const SAMPLES: readonly Sample[] = [
   },
 ];
 
-/** Where the cloud is a file of one's own. */
-export const NO_SURFACE = "Only of samples of this page is the true surface known.";
+export const NO_SURFACE = "It is known of samples, and of PLY and OBJ meshes that are shown whole.";
 
 export function sampleNamed(name: string): Sample {
   return SAMPLES.find((sample) => sample.name === name)!;

@@ -5,17 +5,22 @@ import { grid, type Mesh } from "../../www/compare/mesh.js";
 import { RayTracer } from "../fidelity/rays.js";
 import { errorsOf } from "../fidelity/score.js";
 import { readParams } from "../../www/params.js";
+import { oracleFor } from "../../www/compare/oracles.js";
+import { readFaces } from "../../www/loaders/faces.js";
+import { makeRoom } from "../../www/room.js";
 import { makeRings, skinOfRings } from "../../www/rings.js";
 import { partsOf } from "../../www/compare/parts.js";
 import { Projected, zBuffer } from "../../www/compare/zbuffer.js";
 import { DISTANCE, MIDDLE, openBall, positions as ballPositions, tool } from "./ball.js";
-import { ball, binaryPly } from "./clouds.js";
+import { ball, binaryPly, text } from "./clouds.js";
 import { choose } from "./files.js";
 import { drag, EVERY_PIXEL, inNode, middleOf, openReady, picture, differentPixels, refiltered, served, type Status, status, upToDate } from "./support.js";
 
 const { positions: corners, cells } = createRequire(import.meta.url)("bunny") as { positions: number[][]; cells: number[][] };
 const bunny: Mesh = { positions: Float32Array.from(corners.flat()), triangles: Uint32Array.from(cells.flat()) };
 const TOLERANCE = 1.75;
+/** Drawn by software, a picture takes its time. */
+const SMALL = { viewport: { width: 800, height: 440 } };
 
 interface Screen {
   width: number;
@@ -82,8 +87,59 @@ test("the airplane's skin is closed: each edge has two triangles", () => {
   expect(new Set(triangles).size).toBe(makeRings().positions.length / 3);
 });
 
+test("faces of one's own files are read and cut into triangles", async () => {
+  const read = (content: string | Uint8Array, vertices = 5) => {
+    const blob = new Blob([typeof content === "string" ? content : new Uint8Array(content)]);
+    return readFaces({ name: "mesh", blob, limit: Infinity, onProgress: () => undefined }, vertices).then((triangles) => [...triangles]);
+  };
+  const obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1/1 2//1 3\nf -4 -3 -2 -1\nv 0 0 1\nf 1 2 3 4 5\n";
+  expect(await read(obj)).toEqual([0, 1, 2, 0, 1, 2, 0, 2, 3, 0, 1, 2, 0, 2, 3, 0, 3, 4]);
+  const header = (format: string) => `ply\nformat ${format} 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 2\nproperty uchar flag\nproperty list uchar int vertex_indices\nend_header\n`;
+  expect(await read(`${header("ascii")}${"0 0 0\n".repeat(5)}\n7 3 0 1 2\n7 4 1 2 3 4\n`)).toEqual([0, 1, 2, 1, 2, 3, 1, 3, 4]);
+  const rows = new DataView(new ArrayBuffer(60 + 14 + 18));
+  let at = 60;
+  for (const face of [[0, 1, 2], [1, 2, 3, 4]]) {
+    rows.setUint8(at, 7);
+    rows.setUint8(at + 1, face.length);
+    face.forEach((corner, i) => { rows.setInt32(at + 2 + 4 * i, corner, true); });
+    at += 2 + 4 * face.length;
+  }
+  expect(await read(Buffer.concat([text(header("binary_little_endian")), new Uint8Array(rows.buffer)]))).toEqual([0, 1, 2, 1, 2, 3, 1, 3, 4]);
+  await expect(read(obj, 4)).rejects.toThrow("mesh has faces between points that it does not have");
+  await expect(read(`${header("ascii")}${"0 0 0\n".repeat(5)}7 3 0 1 2\n`)).rejects.toThrow("ends before its last face");
+  await expect(read(Buffer.concat([text(header("binary_little_endian")), new Uint8Array(rows.buffer, 0, 80)]))).rejects.toThrow();
+});
+
+test("of the street a scanner saw all that its own beams met", async () => {
+  const street = await oracleFor({ shape: "street" }, new Float32Array());
+  const sees = street.from([-21, 1.1, 1.75]);
+  // The first of three stations; its 60,000 points come first.
+  const tried = Array.from({ length: 6000 }, (_, i) => 7 * i);
+  expect(tried.filter((i) => !sees(i))).toEqual([]);
+  // From the other end of the street, much of it is hidden.
+  const other = street.from([22, 0.9, 1.75]);
+  const share = tried.filter(other).length / tried.length;
+  expect(share).toBeGreaterThan(0.1);
+  expect(share).toBeLessThan(0.8);
+});
+
+test("in the room the ceiling is seen and the floor under the rug is not, also where noise has put it", async () => {
+  const room = await oracleFor({ shape: "room" }, new Float32Array());
+  const { positions } = makeRoom();
+  expect(room.count).toBe(positions.length / 3);
+  const sees = room.from([-0.2, 2.4, 0.3]);
+  const share = (like: (x: number, y: number, z: number) => boolean) => {
+    const chosen = Array.from({ length: room.count }, (_, i) => i).filter((i) => like(positions[3 * i]!, positions[3 * i + 1]!, positions[3 * i + 2]!));
+    expect(chosen.length).toBeGreaterThan(1000);
+    return chosen.filter(sees).length / chosen.length;
+  };
+  // Some of it is over the bookcase, the lamp or the plant.
+  expect(share((_x, y) => y > 2.69)).toBeGreaterThan(0.97);
+  expect(share((x, y, z) => y < 0.004 && x > -1.99 && x < 0.59 && z > -1.09 && z < 0.79)).toBe(0);
+});
+
 test("ours beside the z-buffer: the counts are those of its definition, live, and in the address", async () => {
-  const page = await openBall(EVERY_PIXEL);
+  const page = await openBall({ ...SMALL, ...EVERY_PIXEL });
   const before = await status(page);
   await page.locator("#view").press("c");
   await page.getByLabel("Z-buffer").check();
@@ -140,7 +196,7 @@ async function bunnyTruth({ viewpoint, radius, total }: Status) {
 }
 
 test("ours beside the true surface: false positives and negatives, in color, for each view and setting", async () => {
-  const page = await openReady("?sample=bunny&compare=0.2&against=surface");
+  const page = await openReady("?sample=bunny&compare=0.2&against=surface", SMALL);
   const first = await upToDate(page);
   const truth = await bunnyTruth(first);
   const shown = await figures(page);
@@ -172,7 +228,7 @@ test("ours beside the true surface: false positives and negatives, in color, for
 });
 
 test("tracing can be stopped and taken up again", async () => {
-  const page = await openReady("?sample=dragon_res4");
+  const page = await openReady("?sample=dragon_res4", SMALL);
   let release = () => {};
   const held = new Promise<void>((resolve) => (release = resolve));
   await page.route("**/*.faces", async (route) => {
@@ -190,11 +246,11 @@ test("tracing can be stopped and taken up again", async () => {
 
 test("where no surface is known, the choice is not offered and says why", async () => {
   served.set("clouds/ball.ply", binaryPly(ball(300), "float", true));
-  const page = await openReady("?src=clouds/ball.ply&compare=0.5&against=surface");
-  expect(await page.locator("#message p").textContent()).toBe("There is no true surface to compare with, so all points are. Only of samples of this page is the true surface known.");
+  const page = await openReady("?src=clouds/ball.ply&compare=0.5&against=surface", SMALL);
+  expect(await page.locator("#message p").textContent()).toBe("There is no true surface to compare with, so all points are. It is known of samples, and of PLY and OBJ meshes that are shown whole.");
   expect(await page.getByLabel("True surface").isDisabled()).toBe(true);
   expect(await page.getByRole("radio", { name: "All points" }).isChecked()).toBe(true);
-  expect(await page.locator("#against-note").textContent()).toBe("True surface: only of samples of this page is the true surface known.");
+  expect(await page.locator("#against-note").textContent()).toBe("No true surface. It is known of samples, and of PLY and OBJ meshes that are shown whole.");
   await expect.poll(() => page.url()).not.toContain("against");
 
   // The choice goes from cloud to cloud where it can.
@@ -202,6 +258,15 @@ test("where no surface is known, the choice is not offered and says why", async 
   await expect.poll(async () => (await status(page)).total).toBe(1839);
   await page.getByLabel("True surface").check();
   await figures(page);
+  const samples = await figures(page);
+
+  // The same mesh as a file: traced alike.
+  const obj = [...corners.map((corner) => `v ${Array.from(Float32Array.from(corner)).join(" ")}`), ...cells.map((cell) => `f ${cell.map((corner) => corner + 1).join(" ")}`)];
+  await choose(page, "own.obj", text(obj.join("\n")));
+  await expect.poll(() => page.locator("#sample option:checked").textContent()).toBe("own.obj");
+  await expect.poll(async () => (await figures(page)).counts).toEqual((await bunnyTruth(await upToDate(page))).counts);
+  expect((await figures(page)).of).toBe(samples.of);
+
   await choose(page, "ball.ply", binaryPly(ball(300), "float", true));
   await expect.poll(async () => (await status(page)).total).toBe(300);
   expect(await page.getByRole("radio", { name: "All points" }).isChecked()).toBe(true);

@@ -4,7 +4,7 @@ import type { Settings } from "../settings.ts";
 import type { Viewer } from "../viewer.ts";
 import { pictureFrom } from "./picture.ts";
 import type { PictureAnswer, PictureQuestion } from "./protocol.ts";
-import { Reference } from "./reference.ts";
+import { Reference, sentenceOf } from "./reference.ts";
 
 /** Ours beside the z-buffer of the same picture, for as long as it is wanted: computed anew with every answer and every turn of the camera. */
 export class AgainstPicture {
@@ -15,16 +15,13 @@ export class AgainstPicture {
   private readonly changed: () => void;
   private readonly worker: Reference<PictureQuestion, PictureAnswer>;
   private readonly newest = new Newest<Settings>((settings) => this.ask(settings));
-  private readonly spacing: Promise<number>;
   private wanted = "";
   private ended = false;
 
   constructor(viewer: Viewer, changed: () => void) {
     this.viewer = viewer;
     this.changed = changed;
-    const { cloud, inquiry } = viewer.scene;
-    this.worker = new Reference(new Worker(new URL("./zbuffer-worker.ts", import.meta.url), { type: "module" }), cloud.local);
-    this.spacing = inquiry.spacing();
+    this.worker = new Reference(new Worker(new URL("./zbuffer-worker.ts", import.meta.url), { type: "module" }), viewer.scene.cloud.local);
   }
 
   /** Called every frame. */
@@ -43,10 +40,15 @@ export class AgainstPicture {
     this.worker.dispose();
   }
 
+  private isOver(): boolean {
+    return this.ended;
+  }
+
   private async ask({ splat }: Settings): Promise<void> {
+    if (this.ended) return;
     try {
-      const width = splat === "auto" ? { spacing: await this.spacing } : splat;
-      if (this.ended) return;
+      const width = splat === "auto" ? { spacing: await this.viewer.scene.inquiry.spacing() } : splat;
+      if (this.isOver()) return;
       const { answer: ours } = this.viewer.scene;
       const picture = pictureFrom(this.viewer, ours.question.viewpoint);
       const answer = await this.worker.ask({ picture, splat: width, visible: ours.visibility.indices });
@@ -54,8 +56,8 @@ export class AgainstPicture {
       this.result = { picture: answer, ours };
       this.viewer.showParts(answer.parts);
     } catch (error) {
-      if (this.ended) return;
-      this.problem = `The z-buffer could not be computed: ${error instanceof Error ? error.message : String(error)}.`;
+      if (this.isOver()) return;
+      this.problem = `The z-buffer could not be computed: ${sentenceOf(error)}`;
       this.viewer.showParts(null);
     }
     this.changed();

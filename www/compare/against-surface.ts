@@ -5,7 +5,7 @@ import type { KnownSurface } from "../samples.ts";
 import type { Viewpoint } from "../settings.ts";
 import type { Viewer } from "../viewer.ts";
 import type { TruthAnswer, TruthQuestion } from "./protocol.ts";
-import { Reference } from "./reference.ts";
+import { Reference, sentenceOf } from "./reference.ts";
 
 /** So many milliseconds the view has to rest before rays are traced. */
 const REST = 300;
@@ -21,6 +21,7 @@ export class AgainstSurface {
   private readonly changed: () => void;
   private readonly surface: KnownSurface;
   private readonly worker: Reference<TruthQuestion, TruthAnswer>;
+  private readonly origin: Viewpoint;
   private readonly newest = new Newest<TimedView>((ours) => this.ask(ours));
   /** The viewpoint of the truth that is known or traced. */
   private at: Viewpoint | null = null;
@@ -33,8 +34,11 @@ export class AgainstSurface {
     this.changed = changed;
     // The worker is not where the page is.
     this.surface = "faces" in surface ? { faces: new URL(surface.faces, document.baseURI).href } : surface;
-    const { positions } = viewer.scene;
-    this.worker = new Reference(new Worker(new URL("./truth-worker.ts", import.meta.url), { type: "module" }), positions);
+    const { positions, cloud } = viewer.scene;
+    // A mesh is traced in f32: as the file has it where it is that, and else, as a map's is, around its middle.
+    const single = positions instanceof Float32Array;
+    this.origin = single ? [0, 0, 0] : cloud.center;
+    this.worker = new Reference(new Worker(new URL("./truth-worker.ts", import.meta.url), { type: "module" }), single ? positions : cloud.local);
     this.worker.onProgress = (fraction) => {
       this.progress = fraction;
       changed();
@@ -88,7 +92,8 @@ export class AgainstSurface {
   private async ask(ours: TimedView): Promise<void> {
     const { question, visibility } = ours;
     try {
-      const truth = await this.worker.ask({ surface: this.surface, viewpoint: question.viewpoint, visible: visibility.indices });
+      const viewpoint = question.viewpoint.map((value, axis) => value - this.origin[axis]!) as Viewpoint;
+      const truth = await this.worker.ask({ surface: this.surface, viewpoint, visible: visibility.indices });
       if (this.ended) return;
       // What came for a view that has been left since is not shown.
       if (truth !== null && !this.stopped && this.at && isSamePlace(this.at, question.viewpoint, this.viewer.scene.cloud.radius)) {
@@ -97,7 +102,7 @@ export class AgainstSurface {
       }
     } catch (error) {
       if (this.ended) return;
-      this.problem = `No rays could be traced: ${error instanceof Error ? error.message : String(error)}.`;
+      this.problem = `No rays could be traced: ${sentenceOf(error)}`;
       this.viewer.showParts(null);
     }
     this.progress = null;

@@ -1,4 +1,5 @@
 import { download } from "../loaders/download.ts";
+import { readFaces } from "../loaders/faces.ts";
 import { makeRings, skinOfRings } from "../rings.ts";
 import { scanRoom, type Surface } from "../room.ts";
 import type { KnownSurface } from "../samples.ts";
@@ -7,9 +8,14 @@ import type { Vector } from "../samples/trace.ts";
 import { grid, joined } from "./mesh.ts";
 import { meshOracle, type Oracle } from "./tracer.ts";
 
-/** The truth about a sample whose surface is known; `positions` are the cloud's as its file has them. */
+/** The truth about a cloud whose surface is known; what is asked and answered is in the coordinates of `positions`. */
 export async function oracleFor(surface: KnownSurface, positions: Float32Array): Promise<Oracle> {
   if ("faces" in surface) return meshOracle({ positions, triangles: await facesAt(surface.faces) });
+  if ("file" in surface) {
+    const name = "Its file";
+    const blob = typeof surface.file === "string" ? await download(name, surface.file, () => undefined) : surface.file;
+    return meshOracle({ positions, triangles: await readFaces({ name, blob, limit: Infinity, onProgress: () => undefined }, positions.length / 3) });
+  }
   return { rings, room, street }[surface.shape]();
 }
 

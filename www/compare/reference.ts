@@ -11,7 +11,7 @@ export class Reference<Question, Answer> {
   private waiting: { resolve: (answer: Answer | null) => void; reject: (error: Error) => void } | null = null;
   private ended = false;
 
-  constructor(worker: Worker, positions: Float32Array | Float64Array) {
+  constructor(worker: Worker, positions: Float32Array) {
     this.worker = worker;
     worker.onmessage = ({ data: reply }: MessageEvent<Reply<Answer>>) => {
       if (reply.kind === "progress") this.onProgress(reply.fraction);
@@ -46,9 +46,9 @@ export class Reference<Question, Answer> {
     this.settle()?.resolve(null);
   }
 
-  private async send(positions: Float32Array | Float64Array): Promise<void> {
+  private async send(positions: Float32Array): Promise<void> {
     for (let at = 0; at < positions.length && !this.ended; at += 3 * PIECE) {
-      const points = new Float32Array(positions.subarray(at, at + 3 * PIECE));
+      const points = positions.slice(at, at + 3 * PIECE);
       this.tell({ kind: "points", count: positions.length / 3, at, points }, [points.buffer]);
       await new Promise((resolve) => setTimeout(resolve));
     }
@@ -63,4 +63,9 @@ export class Reference<Question, Answer> {
     this.waiting = null;
     return waiting;
   }
+}
+
+/** With one full stop at its end. */
+export function sentenceOf(error: unknown): string {
+  return `${(error instanceof Error ? error.message : String(error)).replace(/\.$/, "")}.`;
 }

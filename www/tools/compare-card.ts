@@ -53,7 +53,7 @@ export class CompareCard {
     const unknown = typeof surface === "string";
     this.card.querySelector<HTMLInputElement>('[value="surface"]')!.disabled = unknown;
     this.againstNote.hidden = !unknown;
-    this.againstNote.textContent = unknown ? `True surface: ${surface.charAt(0).toLowerCase()}${surface.slice(1)}` : "";
+    this.againstNote.textContent = unknown ? `No true surface. ${surface}` : "";
     byId("splat-choice").hidden = against !== "zbuffer";
     this.splatAuto.setAttribute("aria-pressed", String(splat === "auto"));
     if (splat !== "auto") this.splat.value = splat;
