@@ -24,6 +24,8 @@ export interface Place {
   settings: () => Settings;
   /** Width by height of the picture. */
   aspect: () => number;
+  /** What a sentence says of a place that is asked for: the view "in the address". */
+  asked: string;
   /** Whether there are other clouds beside it, with which a small one shares a worker. */
   shared: boolean;
   signal: AbortSignal;
@@ -41,7 +43,9 @@ export interface Ready {
   view: AskedView | null;
   /** Where it is first looked at from if that view is asked for. */
   homeFrom: (view: AskedView | null) => (up: Up) => Home;
-  /** What the user has to know about it. */
+  /** What was asked for and cannot be had. */
+  refusals: string[];
+  /** What the user has to know about the cloud. */
   notes: string[];
 }
 
@@ -56,7 +60,7 @@ export async function openCloud({ request, sample, view: wanted, settings: wishe
   });
   onProgress(`Finding the visible points of ${request.name}.`, null);
   const usual = usualLook(sample, request.name, cloud.count, loaded.taken?.up);
-  const { view, places, notes: farNotes } = inReachOnly(cloud, wanted, wished);
+  const { view, places, notes: farNotes } = inReachOnly(cloud, wanted, wished, place.asked);
   const own: Partial<Settings> = { ...usual, freeze: null, lights: [], ...radiusFor(place.settings()), ...wished, ...places };
   const { color, notes: colorNote } = usableColor(own.color ?? place.settings().color, cloud, wished.color !== undefined);
   own.color = color;
@@ -80,7 +84,7 @@ export async function openCloud({ request, sample, view: wanted, settings: wishe
     const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...place.settings(), ...own });
     signal.throwIfAborted();
     const opened = { cloud, positions, inquiry, home, answer, findHome: homeFrom(view), surface };
-    return { opened, settings: own, usual, view, homeFrom, notes: [...farNotes, ...colorNote, ...againstNote, ...(loaded.notes ?? [])] };
+    return { opened, settings: own, usual, view, homeFrom, refusals: [...farNotes, ...colorNote, ...againstNote], notes: loaded.notes ?? [] };
   } catch (error) {
     inquiry.dispose();
     throw error;

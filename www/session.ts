@@ -124,6 +124,7 @@ export function startSession(params: Params, status: Status, message: Message): 
       const place: Place = {
         settings: () => store.current,
         aspect: () => viewer.stage.camera.aspect,
+        asked: "in the address",
         shared: false,
         signal,
         onProgress: (step, fraction) => {
@@ -132,7 +133,8 @@ export function startSession(params: Params, status: Status, message: Message): 
         },
       };
       const ready = await openCloud(source, place);
-      if (ready.notes.length > 0) message.show([...notes, ...ready.notes].join(" "));
+      const more = [...ready.refusals, ...ready.notes];
+      if (more.length > 0) message.show([...notes, ...more].join(" "));
       status.loaded();
       viewer.clear();
       store.change(ready.settings);

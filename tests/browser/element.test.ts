@@ -52,7 +52,7 @@ test("two elements from another origin, under a strict policy, answer as the pac
   expect(a.visible).toEqual(await inNode(positions, (cloud) => [...cloud.visibleFrom([1, 2, 9], { exponent: 2 }).indices]));
   expect(b.visible).toEqual(await inNode(other, (cloud) => [...cloud.visibleFrom(b.viewpoint).indices]));
   expect([a.count, a.visibleCount, b.count]).toEqual([900, a.visible.length, 1300]);
-  expect(await heardBy(page, "a", "load")).toEqual([{ total: 900 }]);
+  expect(await heardBy(page, "a", "load")).toEqual([{ total: 900, notes: [] }]);
   expect((await heardBy(page, "a", "change"))[0]).toMatchObject({ count: a.visibleCount, viewpoint: [1, 2, 9] });
   expect((await heardBy(page, "a", "progress")).length).toBeGreaterThan(0);
   expect(await heardBy(page, "a", "error")).toEqual([]);
@@ -134,6 +134,8 @@ test("attributes and properties are followed, and what they cannot be is told", 
   }
   expect((await heardBy(page, "a", "error")).map(({ attribute }) => attribute)).toEqual(Object.keys(wrong));
   expect(await element(page, "a", ({ state, count, exponent, hiddenPoints, up }) => [state, count, exponent, hiddenPoints, up])).toEqual(["ready", 900, null, "off", null]);
+  const far = await hears(page, "a", "error", () => element(page, "a", (cloud) => { cloud.viewpoint = [1e300, 0, 0]; }));
+  expect(far).toMatchObject({ attribute: "viewpoint", message: expect.stringMatching(/^The view that is asked for is too far away/) as string });
   // A radius that is a number, but none for this cloud.
   const small = await hears(page, "a", "error", () => element(page, "a", (cloud) => { cloud.radius = 0.001; }));
   expect(small).toMatchObject({ code: "attribute" });
@@ -160,7 +162,7 @@ test("a file that is not there, one that is none, and one that comes too late", 
     cloud.src = "clouds/a.ply";
     await cloud.ready;
   });
-  expect(await heardBy(page, "a", "load")).toEqual([{ total: 900 }]);
+  expect(await heardBy(page, "a", "load")).toEqual([{ total: 900, notes: [] }]);
   expect(await page.locator("#a").locator('[part="error"]').isVisible()).toBe(false);
   await element(page, "a", (cloud) => { cloud.src = null; });
   expect(await element(page, "a", ({ state, count, visible }) => [state, count, visible.length])).toEqual(["empty", 0, 0]);

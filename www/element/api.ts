@@ -27,8 +27,8 @@ export interface HiddenPointCloudError extends Error {
 
 /** None of them bubbles. */
 export interface HiddenPointCloudEventMap {
-  /** A cloud is there, with its first answer. */
-  load: CustomEvent<{ total: number }>;
+  /** A cloud is there, with its first answer. `notes`: sentences about the file, such as that not all of its points are shown. */
+  load: CustomEvent<{ total: number; notes: string[] }>;
   /** Other points are visible; also after `load`. `radius` is 0 where the inversion has none. */
   change: CustomEvent<{ count: number; viewpoint: Place; radius: number; milliseconds: number }>;
   /** How far the loading is, from 0 to 1; `null` where nobody knows. */

@@ -138,7 +138,8 @@ class HiddenPointCloud extends Base implements Own {
     if (there) showing.follow(reading, looks);
     if (!this.#stale) return;
     this.#stale = false;
-    this.#state = showing.open() ? "loading" : "empty";
+    this.#state = reading.src === null && reading.sample === null ? "empty" : "loading";
+    showing.open();
   }
 
   /** `null` where nothing can be drawn, which is told once. */
@@ -171,9 +172,9 @@ class HiddenPointCloud extends Base implements Own {
 
   #listener(): Listener {
     return {
-      loaded: (total) => {
+      loaded: (total, notes) => {
         this.#state = "ready";
-        this.#emit("load", { total });
+        this.#emit("load", { total, notes });
         this.#ready.resolve();
       },
       failed: (problem) => { this.#fail(problem); },

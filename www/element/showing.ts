@@ -13,9 +13,12 @@ import { changedSettings, type Reading } from "./attributes.ts";
 import type { Frame } from "./frame.ts";
 import { Problem, problemOf } from "./problem.ts";
 
+/** What a sentence says of places. */
+const ASKED = "that is asked for";
+
 /** What a showing tells the element. */
 export interface Listener {
-  loaded: (total: number) => void;
+  loaded: (total: number, notes: string[]) => void;
   failed: (problem: Problem) => void;
   answered: (answer: TimedView) => void;
   progressed: (fraction: number | null) => void;
@@ -73,8 +76,8 @@ export class Showing {
     if (this.ready) this.apply(before, this.ready, look);
   }
 
-  /** Opens what the attributes name, in the place of what is there or on its way; `false` where they name nothing. */
-  open(): boolean {
+  /** Opens what the attributes name, in the place of what is there or on its way. */
+  open(): void {
     this.loading.abort();
     const { signal } = (this.loading = new AbortController());
     this.frame.sayError(null);
@@ -82,7 +85,7 @@ export class Showing {
     const { src, sample } = asked;
     if (src === null && sample === null) {
       this.empty();
-      return false;
+      return;
     }
     const name = src === null ? sampleNamed(sample!).label : nameOf(src);
     if (!this.ready) this.frame.sayLoading(`Loading ${name}.`);
@@ -94,7 +97,6 @@ export class Showing {
       this.frame.sayError(problem.message);
       this.tell.failed(problem);
     });
-    return true;
   }
 
   dispose(): void {
@@ -112,6 +114,7 @@ export class Showing {
       {
         settings: () => settings,
         aspect: () => this.viewer.stage.camera.aspect,
+        asked: ASKED,
         shared: true,
         signal,
         onProgress: (step, fraction) => {
@@ -121,7 +124,7 @@ export class Showing {
         },
       },
     );
-    const { opened, notes } = ready;
+    const { opened, refusals, notes } = ready;
     if (signal.aborted) {
       opened.inquiry.dispose();
       return;
@@ -134,8 +137,8 @@ export class Showing {
     });
     this.ready = ready;
     this.apply(asked, ready, false);
-    this.tell.loaded(opened.cloud.count);
-    for (const note of notes) this.tell.refused(new Problem("attribute", note));
+    this.tell.loaded(opened.cloud.count, notes);
+    for (const refusal of refusals) this.tell.refused(new Problem("attribute", refusal));
     this.hear(opened.answer);
   }
 
@@ -159,7 +162,7 @@ export class Showing {
 
   /** Goes to the view that is asked for. */
   private look(ready: Ready): void {
-    const { view, notes } = inReachOnly(ready.opened.cloud, this.reading.view, {});
+    const { view, notes } = inReachOnly(ready.opened.cloud, this.reading.view, {}, ASKED);
     for (const note of notes) this.tell.refused(new Problem("attribute", note, { attribute: view ? "target" : "viewpoint" }));
     this.viewer.setHome(ready.homeFrom(view));
   }

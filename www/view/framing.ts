@@ -52,29 +52,30 @@ function isInReach(cloud: Cloud, view: Viewpoint): boolean {
   return Math.hypot(...view.map((value, axis) => value - cloud.center[axis]!)) <= 1e6 * cloud.radius;
 }
 
-/** Of the places that an address asks for those in reach, and what is to be said about the others. */
+/** Of the places that are asked for those in reach, and what is to be said about the others: the view "in the address" … */
 export function inReachOnly(
   cloud: Cloud,
   view: AskedView | null,
   { freeze, lights }: Partial<Settings>,
+  asked: string,
 ): { view: AskedView | null; places: Partial<Settings>; notes: string[] } {
   const notes: string[] = [];
   const isNear = (place: Viewpoint, otherwise: string) => {
-    const near = isInReach(cloud, place);
-    if (!near && !notes.includes(otherwise)) notes.push(otherwise);
-    return near;
+    const reached = isInReach(cloud, place);
+    if (!reached && !notes.includes(otherwise)) notes.push(otherwise);
+    return reached;
   };
-  let asked = view;
-  if (asked && !isNear(asked.at, "The view in the address is too far away to see anything, so the usual view is used.")) asked = null;
-  if (asked?.target && !isNear(asked.target, "The target in the address is too far away to be looked at, so the camera looks at the middle.")) {
-    asked = { ...asked, target: null };
+  let near = view;
+  if (near && !isNear(near.at, `The view ${asked} is too far away to see anything, so the usual view is used.`)) near = null;
+  if (near?.target && !isNear(near.target, `The target ${asked} is too far away to be looked at, so the camera looks at the middle.`)) {
+    near = { ...near, target: null };
   }
   const places: Partial<Settings> = {};
-  if (freeze && !isNear(freeze, "The frozen viewpoint in the address is too far away to see anything, so the viewpoint goes with the camera.")) {
+  if (freeze && !isNear(freeze, `The frozen viewpoint ${asked} is too far away to see anything, so the viewpoint goes with the camera.`)) {
     places.freeze = null;
   }
-  if (lights) places.lights = lights.filter((light) => isNear(light, "A light in the address is too far away to be told from others, so it is left out."));
-  return { view: asked, places, notes };
+  if (lights) places.lights = lights.filter((light) => isNear(light, `A light ${asked} is too far away to be told from others, so it is left out.`));
+  return { view: near, places, notes };
 }
 
 export function inLocal({ center }: Cloud, place: Viewpoint): Vector3 {
