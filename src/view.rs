@@ -21,6 +21,14 @@ pub(crate) struct View {
 }
 
 impl PointCloud {
+    /// Refuses what every viewpoint would be refused with, where there is none.
+    pub(crate) fn check_options(&self, options: &Options) -> Result<(), Error> {
+        if let Some(k) = options.vote {
+            self.check_neighbors("vote", k)?;
+        }
+        check_flip(options)
+    }
+
     pub(crate) fn view(&self, viewpoint: [f64; 3], options: &Options) -> Result<View, Error> {
         if viewpoint.iter().any(|x| !x.is_finite()) {
             return Err(Error::Viewpoint { viewpoint });
@@ -69,6 +77,14 @@ pub(crate) fn resolved_kernel(
             (Kernel::Exponential { scale }, ChosenRadius::unit(0.0))
         }
     })
+}
+
+/// Refuses what is refused even where all points are at the viewpoint.
+pub(crate) fn check_flip(options: &Options) -> Result<(), Error> {
+    let inversion = resolved_inversion(options, 0.0)?;
+    let radius = |choice| radius::given(choice, 0.0);
+    resolved_kernel(inversion, options.radius, 0.0, &radius)?;
+    Ok(())
 }
 
 /// The inversion with numbers only; numbers out of range and choices that exclude
