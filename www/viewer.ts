@@ -75,7 +75,7 @@ export class Viewer {
     return this.shown?.cloud ?? null;
   }
 
-  /** What the tools work on; only while there is a cloud. */
+  /** What the tools work on; only while there is a cloud. What is visible is there until the next answer. */
   get scene(): Opened & { visible: Uint32Array } {
     return { ...this.shown!, visible: this.shown!.answer.visibility.indices };
   }
@@ -188,8 +188,10 @@ export class Viewer {
 
   private showAnswer(answer: TimedView): void {
     const { visibility, triangles } = answer;
-    const { points, surface } = this.shown!;
+    const { points, surface, inquiry, answer: last } = this.shown!;
     this.shown!.answer = answer;
+    // The first one is shown as it was opened.
+    if (last !== answer) inquiry.recycle(last);
     points.setVisible(visibility.indices);
     surface.setTriangles(triangles);
     this.surfaceShown = triangles !== null;

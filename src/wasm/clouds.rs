@@ -36,18 +36,20 @@ pub(super) struct CloudInfo {
     handle: f64,
     length: f64,
     skipped: f64,
+    spacing: f64,
 }
 
 impl CloudInfo {
     fn new(handle: u32, cloud: &Cloud) -> Self {
-        let (length, skipped) = match cloud {
-            Cloud::Space(cloud) => (cloud.len(), cloud.skipped()),
-            Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped()),
+        let (length, skipped, spacing) = match cloud {
+            Cloud::Space(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
+            Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
         };
         Self {
             handle: f64::from(handle),
             length: length as f64,
             skipped: skipped as f64,
+            spacing,
         }
     }
 }

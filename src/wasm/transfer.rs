@@ -4,21 +4,11 @@
 use alloc::vec::Vec;
 
 use js_sys::{Float32Array, Float64Array, Uint32Array};
-use wasm_bindgen::prelude::*;
 
+use super::options::ViewOptions;
 use crate::Error;
 use crate::points::Points;
 use crate::room::filled;
-
-#[wasm_bindgen]
-extern "C" {
-    // js-sys has this constructor too, but there a refused allocation would
-    // unwind through the frames of this instance instead of being an error.
-    #[wasm_bindgen(js_name = Uint32Array)]
-    type FallibleUint32Array;
-    #[wasm_bindgen(catch, constructor, js_class = "Uint32Array")]
-    fn new(length: u32) -> Result<FallibleUint32Array, JsValue>;
-}
 
 pub(super) fn singles(positions: &Float32Array) -> Result<Points, Error> {
     let mut own = zeros::<[f32; 3]>(positions.length() / 3)?;
@@ -62,9 +52,10 @@ fn zeros<T: Copy + Default>(count: u32) -> Result<Vec<T>, Error> {
 }
 
 /// The caller's own copy: views of this memory would die when it grows.
-pub(super) fn copy_out(indices: &[u32]) -> Result<Uint32Array, Error> {
-    let copy = FallibleUint32Array::new(indices.len() as u32).map_err(|_| Error::OutOfMemory)?;
-    let copy: Uint32Array = copy.unchecked_into();
+pub(super) fn copy_out(indices: &[u32], options: &ViewOptions) -> Result<Uint32Array, Error> {
+    let copy = options
+        .memory(indices.len() as u32)
+        .map_err(|_| Error::OutOfMemory)?;
     copy.copy_from(indices);
     Ok(copy)
 }

@@ -100,6 +100,11 @@ export class Inquiry {
     return answer;
   }
 
+  /** Takes the memory of an answer that nothing shows any more, for the next but one. */
+  recycle({ visibility }: ViewAnswer): void {
+    this.cloud.points.recycle(visibility);
+  }
+
   dispose(): void {
     this.onView = this.onLight = this.onAutomatic = this.onError = () => undefined;
     void this.cloud.points.dispose();

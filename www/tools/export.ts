@@ -49,8 +49,9 @@ export class Export implements Tool {
     this.open();
   }
 
+  /** A copy: while the file is written, the viewpoint may move on. */
   private get indices(): Uint32Array {
-    return this.what.value === "selection" ? this.selected() : this.bench.viewer.scene.visible;
+    return this.what.value === "selection" ? this.selected() : this.bench.viewer.scene.visible.slice();
   }
 
   private bind(id: string, ending: string, parts: () => Iterable<BlobPart> | Promise<Iterable<BlobPart>>): void {
