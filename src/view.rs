@@ -53,6 +53,7 @@ impl PointCloud {
 
 /// How an inversion with numbers only moves points, and what was chosen for it.
 /// `radius` turns a choice of R into a number.
+#[inline(never)]
 pub(crate) fn resolved_kernel(
     inversion: Inversion,
     choice: Radius,
@@ -89,6 +90,7 @@ pub(crate) fn check_flip(options: &Options) -> Result<(), Error> {
 
 /// The inversion with numbers only; numbers out of range and choices that exclude
 /// each other are refused.
+#[inline(never)]
 pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inversion, Error> {
     let refuse = |inversion| {
         let option = options.radius.name();

@@ -86,7 +86,7 @@ pub fn append_f64(handle: u32, positions: &Float64Array) -> Result<JsValue, JsVa
 #[wasm_bindgen(unchecked_return_type = "CloudSize")]
 pub fn remove(handle: u32, indices: &Uint32Array) -> Result<JsValue, JsValue> {
     let indices = copy_in_integers(indices).map_err(Failure::from)?;
-    resized(change_any(handle, |cloud| match cloud {
+    resized(change_any(handle, &mut |cloud| match cloud {
         Cloud::Space(cloud) => cloud.remove(&indices),
         Cloud::Hyper(cloud) => cloud.remove(&indices),
     }))
@@ -171,8 +171,9 @@ fn create_cloud(
 }
 
 fn append(handle: u32, positions: Result<Points, Error>) -> Result<JsValue, JsValue> {
-    resized(change_any(handle, |cloud| match cloud {
-        Cloud::Space(cloud) => cloud.add(positions?.as_given()),
+    let positions = positions.map_err(Failure::from)?;
+    resized(change_any(handle, &mut |cloud| match cloud {
+        Cloud::Space(cloud) => cloud.add(positions.as_given()),
         Cloud::Hyper(_) => Ok(()),
     }))
 }

@@ -31,7 +31,7 @@ pub fn create(
 #[wasm_bindgen(js_name = appendHyper, unchecked_return_type = "CloudSize")]
 pub fn append(handle: u32, positions: &Float64Array) -> Result<JsValue, JsValue> {
     let positions = numbers(positions).map_err(refused)?;
-    resized(change_any(handle, |cloud| match cloud {
+    resized(change_any(handle, &mut |cloud| match cloud {
         Cloud::Space(_) => Ok(()),
         Cloud::Hyper(cloud) => cloud.append(&positions),
     }))

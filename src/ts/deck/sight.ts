@@ -114,26 +114,26 @@ export class Sight {
       return;
     }
     this.#busy = false;
-    if (this.#recover(error)) {
-      return;
+    if (error instanceof HprError && error.code === "internal") {
+      // With the worker, its clouds are lost.
+      const [read, wasRecovering] = [this.#read, this.#recovering];
+      this.dispose();
+      if (!wasRecovering && this.#createAgain(read)) {
+        return;
+      }
     }
     this.#tell.error(error as Error);
     this.#next();
   }
 
-  /** Once in a row: with the worker, its clouds are lost. */
-  #recover(error: unknown): boolean {
-    const read = this.#read;
-    if (!(error instanceof HprError) || error.code !== "internal" || this.#recovering || read === undefined) {
-      return false;
-    }
+  #createAgain(read: ReadPositions | undefined): boolean {
     try {
-      this.setPositions(read);
+      if (read !== undefined) this.setPositions(read);
     } catch {
-      // What they are now cannot be read: the layer will say so itself.
+      // The data has become something else; the layer hears of that, too.
       return false;
     }
     this.#recovering = true;
-    return true;
+    return read !== undefined;
   }
 }
