@@ -4,11 +4,10 @@ use alloc::vec::Vec;
 use core::cell::RefCell;
 use std::thread_local;
 
-use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::failure::Failure;
-use super::to_js;
+use super::record::record;
 use crate::hull::Memory;
 use crate::room::push;
 use crate::{Error, Options, PointCloud, PointCloudNd};
@@ -31,11 +30,10 @@ struct LastView {
     memory: Memory,
 }
 
-#[derive(Serialize)]
 pub(super) struct CloudInfo {
-    handle: f64,
-    length: f64,
-    skipped: f64,
+    handle: u32,
+    length: usize,
+    skipped: usize,
     spacing: f64,
 }
 
@@ -46,11 +44,24 @@ impl CloudInfo {
             Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
         };
         Self {
-            handle: f64::from(handle),
-            length: length as f64,
-            skipped: skipped as f64,
+            handle,
+            length,
+            skipped,
             spacing,
         }
+    }
+}
+
+impl From<CloudInfo> for JsValue {
+    #[inline(never)]
+    fn from(info: CloudInfo) -> Self {
+        let fields = [
+            ("handle", f64::from(info.handle)),
+            ("length", info.length as f64),
+            ("skipped", info.skipped as f64),
+            ("spacing", info.spacing),
+        ];
+        record(&fields).into()
     }
 }
 
@@ -68,12 +79,12 @@ pub(super) fn created(made: Result<Cloud, Error>) -> Result<JsValue, JsValue> {
             Ok(info)
         })
     });
-    Ok(to_js(&kept.map_err(Failure::from)?))
+    Ok(kept.map_err(Failure::from)?.into())
 }
 
 /// The size of a cloud whose change was not refused.
 pub(super) fn resized(changed: Result<CloudInfo, Failure>) -> Result<JsValue, JsValue> {
-    Ok(to_js(&changed?))
+    Ok(changed?.into())
 }
 
 /// Frees a cloud; its number may be given to another one afterwards.
