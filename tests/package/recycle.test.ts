@@ -3,7 +3,9 @@ import type threads from "node:worker_threads";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 
 import { OriginalWorker, replaceWorker } from "./node-workers";
+import { drawnOf, nodeOf } from "./nodes-support";
 import { bumpySphere, problemOf, randomNumbers, readyPackage } from "./support";
+import { adapterFor, drawn, nextChange, sceneOf, VERSIONS } from "./three-support";
 
 const { WorkerPointCloud, PointCloud, HprError } = await readyPackage();
 
@@ -19,6 +21,8 @@ const [near, farAway] = [[0, 0, 1.5], [0, 0, 5]];
 const loose = (value: unknown) => value as never;
 
 const started: threads.Worker[] = [];
+/** Bytes that came along with each request for a view. */
+const given: number[] = [];
 
 beforeEach(() => {
   replaceWorker(
@@ -27,12 +31,19 @@ beforeEach(() => {
         super(...args);
         started.push(this);
       }
+
+      override postMessage(...[message, transfer]: Parameters<threads.Worker["postMessage"]>): void {
+        const { kind, spare } = (message as { content: { kind: string; spare?: ArrayBuffer } }).content;
+        if (kind === "visibleFrom") given.push(spare?.byteLength ?? 0);
+        super.postMessage(message, transfer);
+      }
     },
   );
 });
 
 afterEach(async () => {
   replaceWorker(OriginalWorker);
+  given.length = 0;
   await Promise.all(started.splice(0).map((worker) => worker.terminate()));
 });
 
@@ -190,4 +201,45 @@ it("memory that a worker takes along when it dies is missed by nobody", async ()
   const next = await WorkerPointCloud.create(sphere);
   next.recycle(kept);
   expect(await next.visibleFrom(farAway)).toEqual(direct.visibleFrom(farAway));
+});
+
+describe("an answer that is drawn goes back with the next request", () => {
+  const places = [[0, 0, 5], [0, 0.1, 5], [0, 0.2, 5], [0, 0.3, 5]];
+
+  it("of a filter", async () => {
+    const adapter = await adapterFor(VERSIONS[0]![1]);
+    const { points, camera, geometry } = sceneOf(adapter, sphere);
+    const filter = new adapter.HiddenPointFilter(points, { exponent: 3 });
+    for (const place of places) {
+      camera.position.fromArray(place);
+      const change = nextChange(filter);
+      filter.update(camera);
+      await change;
+      expect(drawn(geometry)).toEqual([...direct.visibleFrom(place, { exponent: 3 }).indices]);
+    }
+    filter.dispose();
+    expect([given[0], given.slice(1).every((bytes) => bytes > 0), given.length]).toEqual([0, true, 4]);
+  });
+
+  it("of a filter of nodes", async () => {
+    const { THREE } = await adapterFor(VERSIONS[0]![1]);
+    const { HiddenPointNodesFilter } = await import("hidden-point-removal/nodes");
+    const points = Array.from({ length: 3000 }, (_, i) => [...sphere.subarray(3 * i, 3 * i + 3)]);
+    const nodes = [nodeOf(points.slice(0, 1500), [0, 0, 0]), nodeOf(points.slice(1500), [0, 0, 0])];
+    const root = new THREE.Group().add(...nodes);
+    const camera = new THREE.PerspectiveCamera();
+    const filter = new HiddenPointNodesFilter(root, { radius: 5000 });
+    for (const place of places) {
+      camera.position.fromArray(place);
+      camera.updateMatrixWorld();
+      do {
+        filter.update(camera);
+        await new Promise((resolve) => setTimeout(resolve, 5));
+      } while (!filter.settled);
+      expect(drawnOf(nodes)).toEqual([...direct.visibleFrom(place, { radius: 5000 }).indices]);
+    }
+    filter.dispose();
+    expect(given.length).toBeGreaterThanOrEqual(8);
+    expect([given.slice(0, 2), given.slice(-6).every((bytes) => bytes > 0)]).toEqual([[0, 0], true]);
+  });
 });
