@@ -8,7 +8,9 @@ interface Failure {
   code: HprErrorCode;
   problem: keyof typeof MESSAGES;
   option: string;
-  numbers: [number, number, number];
+  a: number;
+  b: number;
+  c: number;
 }
 
 /** The same words as the crate's `Error`. */
@@ -49,7 +51,7 @@ export function refusal(thrown: unknown): HprError | undefined {
   if (!isFailure(thrown)) {
     return undefined;
   }
-  const [a, b, c] = thrown.numbers;
+  const { a, b, c } = thrown;
   const words: Words = MESSAGES[thrown.problem];
   return new HprError(thrown.code, words(spelled(a), spelled(b), spelled(c), thrown.option));
 }
@@ -69,6 +71,6 @@ function isFailure(thrown: unknown): thrown is Failure {
     !(thrown instanceof Error) &&
     "code" in thrown &&
     "problem" in thrown &&
-    "numbers" in thrown
+    "option" in thrown
   );
 }

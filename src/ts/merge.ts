@@ -2,6 +2,7 @@ import { describe, HprError } from "./errors.js";
 import { requireInstance } from "./instance.js";
 import { allocating } from "./memory.js";
 import { givenOptions } from "./options.js";
+import { coreOptions } from "./perform.js";
 import { MAX_LENGTH, type Positions, readPositions, readViewpoint } from "./positions.js";
 import { plainView, typedArrayType } from "./typed-arrays.js";
 import { Kernel, type ResolvedInversion, Rule, type ViewSettings, viewSettings } from "./view-options.js";
@@ -70,10 +71,11 @@ export function readMerge(parts: unknown, viewpoint: unknown, options: unknown):
 /** Asks the core, maybe in another thread. */
 export function performMerge({ positions, ids, viewpoint, settings }: Merge): Uint32Array<ArrayBuffer> {
   const [x, y, z] = viewpoint as [number, number, number];
+  const options = coreOptions(settings);
   return requireInstance().call((bindings) =>
     positions.BYTES_PER_ELEMENT === 4
-      ? bindings.mergeVisibleF32(positions as Float32Array, ids, x, y, z, settings)
-      : bindings.mergeVisibleF64(positions as Float64Array, ids, x, y, z, settings),
+      ? bindings.mergeVisibleF32(positions as Float32Array, ids, x, y, z, options)
+      : bindings.mergeVisibleF64(positions as Float64Array, ids, x, y, z, options),
   ) as Uint32Array<ArrayBuffer>;
 }
 

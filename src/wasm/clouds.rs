@@ -4,11 +4,10 @@ use alloc::vec::Vec;
 use core::cell::RefCell;
 use std::thread_local;
 
-use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::failure::Failure;
-use super::to_js;
+use super::record::record;
 use crate::hull::Memory;
 use crate::room::push;
 use crate::{Error, Options, PointCloud, PointCloudNd};
@@ -31,24 +30,38 @@ struct LastView {
     memory: Memory,
 }
 
-#[derive(Serialize)]
 pub(super) struct CloudInfo {
-    handle: f64,
-    length: f64,
-    skipped: f64,
+    handle: u32,
+    length: usize,
+    skipped: usize,
+    spacing: f64,
 }
 
 impl CloudInfo {
     fn new(handle: u32, cloud: &Cloud) -> Self {
-        let (length, skipped) = match cloud {
-            Cloud::Space(cloud) => (cloud.len(), cloud.skipped()),
-            Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped()),
+        let (length, skipped, spacing) = match cloud {
+            Cloud::Space(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
+            Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
         };
         Self {
-            handle: f64::from(handle),
-            length: length as f64,
-            skipped: skipped as f64,
+            handle,
+            length,
+            skipped,
+            spacing,
         }
+    }
+}
+
+impl From<CloudInfo> for JsValue {
+    #[inline(never)]
+    fn from(info: CloudInfo) -> Self {
+        let fields = [
+            ("handle", f64::from(info.handle)),
+            ("length", info.length as f64),
+            ("skipped", info.skipped as f64),
+            ("spacing", info.spacing),
+        ];
+        record(&fields).into()
     }
 }
 
@@ -66,12 +79,12 @@ pub(super) fn created(made: Result<Cloud, Error>) -> Result<JsValue, JsValue> {
             Ok(info)
         })
     });
-    Ok(to_js(&kept.map_err(Failure::from)?))
+    Ok(kept.map_err(Failure::from)?.into())
 }
 
 /// The size of a cloud whose change was not refused.
 pub(super) fn resized(changed: Result<CloudInfo, Failure>) -> Result<JsValue, JsValue> {
-    Ok(to_js(&changed?))
+    Ok(changed?.into())
 }
 
 /// Frees a cloud; its number may be given to another one afterwards.
@@ -103,15 +116,20 @@ pub(super) fn with_view<T>(
     query: impl FnOnce(&PointCloud) -> Result<T, Error>,
 ) -> Result<T, Failure> {
     if options.denoise.or(options.vote).is_some() {
-        CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {
-            Some(Some(Cloud::Space(cloud))) => match cloud.prepare_for(options) {
-                Ok(()) | Err(Error::OutOfMemory) => Ok(()),
-                Err(refused) => Err(Failure::from(refused)),
-            },
-            _ => Err(Failure::DISPOSED),
-        })?;
+        prepare(handle, options)?;
     }
     with_cloud(handle, query)
+}
+
+#[inline(never)]
+fn prepare(handle: u32, options: &Options) -> Result<(), Failure> {
+    CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {
+        Some(Some(Cloud::Space(cloud))) => match cloud.prepare_for(options) {
+            Ok(()) | Err(Error::OutOfMemory) => Ok(()),
+            Err(refused) => Err(Failure::from(refused)),
+        },
+        _ => Err(Failure::DISPOSED),
+    })
 }
 
 pub(super) fn with_hyper<T>(
@@ -151,7 +169,7 @@ fn forget(handle: u32) {
 /// Changes a cloud of any dimension.
 pub(super) fn change_any(
     handle: u32,
-    change: impl FnOnce(&mut Cloud) -> Result<(), Error>,
+    change: &mut dyn FnMut(&mut Cloud) -> Result<(), Error>,
 ) -> Result<CloudInfo, Failure> {
     forget(handle);
     CLOUDS.with_borrow_mut(|clouds| {

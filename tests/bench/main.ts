@@ -11,6 +11,7 @@ import { fidelityTables } from "../fidelity/tables.js";
 import { type BrowserEngine, openChromium } from "./chromium.js";
 import { CLOUDS, type Cloud } from "./clouds.js";
 import { localEngines } from "./engines.js";
+import { measureGarbage } from "./garbage.js";
 import { timeSizes } from "./linear.js";
 import { describeMachine } from "./machine.js";
 import { measureMemory } from "./memory.js";
@@ -34,7 +35,7 @@ try {
   if (options.sections.has("speed")) tables.push(...(await timeQueries(chosenClouds(), enginesWith(browser), others)));
   if (options.sections.has("workers")) tables.push(...[await timeWorkers()].filter((table) => table !== undefined));
   if (options.sections.has("linear")) tables.push(await timeSizes(localEngines()));
-  if (options.sections.has("adapter")) tables.push(await timeAdapter(), await timeNodes());
+  if (options.sections.has("adapter")) tables.push(await timeAdapter(), await timeNodes(), await measureGarbage());
   if (options.sections.has("memory")) tables.push(measureMemory());
   if (options.sections.has("fidelity")) tables.push(...fidelityTables(console.error));
 } finally {

@@ -10,7 +10,8 @@ WHAT, by default --speed and --workers:
                three.js and quickhull3d on the same flipped points
   --workers    two workers against one, on a million points
   --linear     nanoseconds a point from 30,000 to 3 million points
-  --adapter    what the adapters for three.js take of the page's own thread
+  --adapter    what the adapters for three.js take of the page's own thread, and the memory
+               that answers leave behind
   --memory     the wasm memory: peaks, over 1,000 queries, and at 10 million points
   --page       the built demo page in Chromium: first picture, an orbit, what holds its thread
   --soak       what that page holds after 200 answers and 40 clouds

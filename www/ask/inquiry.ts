@@ -101,8 +101,8 @@ export class Inquiry {
   }
 
   /** The cloud's spacing in its own units; 0 where it has none. */
-  spacing(): Promise<number> {
-    return this.cloud.spacing();
+  get spacing(): number {
+    return this.cloud.points.spacing;
   }
 
   dispose(): void {

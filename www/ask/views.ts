@@ -44,7 +44,7 @@ async function see(
   options: VisibilityOptions,
 ): Promise<Pick<ViewAnswer, "visibility" | "triangles">> {
   if (shape.kind === "surface") {
-    const maxEdge = shape.edge === USUAL_EDGE ? undefined : shape.edge === Infinity ? Infinity : shape.edge * (await cloud.spacing());
+    const maxEdge = shape.edge === USUAL_EDGE ? undefined : shape.edge === Infinity ? Infinity : shape.edge * cloud.points.spacing;
     const surface = await cloud.points.reconstruct(viewpoint, { ...options, maxEdge });
     return { visibility: surface, triangles: surface.triangles };
   }

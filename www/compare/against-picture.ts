@@ -47,7 +47,7 @@ export class AgainstPicture {
   private async ask({ splat }: Settings): Promise<void> {
     if (this.ended) return;
     try {
-      const width = splat === "auto" ? { spacing: await this.viewer.scene.inquiry.spacing() } : splat;
+      const width = splat === "auto" ? { spacing: this.viewer.scene.inquiry.spacing } : splat;
       if (this.isOver()) return;
       const { answer: ours } = this.viewer.scene;
       const picture = pictureFrom(this.viewer, ours.question.viewpoint);

@@ -274,7 +274,7 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
       while (to < ids.length && ids[to]! < next) to++;
       if (node.state === "ready" && node.drawn.isSame && this.#nodes.isPresent(node)) {
         const base = first;
-        node.drawn.setVisible(ids.slice(from, to).map((id) => id - base));
+        node.drawn.setVisible(ids.subarray(from, to).map((id) => id - base));
         if (this.#enabled) {
           node.show();
         }

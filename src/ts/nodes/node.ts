@@ -6,6 +6,7 @@ import { versionOf } from "../three/attribute.js";
 import { type Cloud, prepareCloud } from "../three/cloud.js";
 import { DimmedPoints } from "../three/dimmed.js";
 import { DrawnPoints, requireUnfiltered } from "../three/drawn-points.js";
+import type { Visibility } from "../visibility.js";
 import { type Measure, measure } from "./measure.js";
 import type { NodesSettings } from "./options.js";
 
@@ -14,7 +15,7 @@ type State = "new" | "building" | "ready" | "refused";
 interface Answer {
   viewpoint: readonly number[];
   how: string;
-  indices: Uint32Array;
+  visibility: Visibility;
 }
 
 const IDENTITY = new Matrix4();
@@ -96,19 +97,23 @@ export class CloudNode {
     }
   }
 
-  /** What of this node alone is visible: asked once for each view. */
+  /** What of this node alone is visible: asked once for each view, and there until the next is asked. */
   async visibleFrom(viewpoint: readonly number[], options: MergeOptions): Promise<Uint32Array> {
     const how = JSON.stringify(options);
     const known = this.#answer;
     if (known?.how === how && known.viewpoint.every((x, axis) => x === viewpoint[axis])) {
-      return known.indices;
+      return known.visibility.indices;
     }
     if (this.#cloud === undefined) {
       throw new HprError("disposed", "this node is being prepared anew");
     }
-    const { indices } = await this.#cloud.visibleFrom(viewpoint, options);
-    this.#answer = { viewpoint, how, indices };
-    return indices;
+    if (known !== undefined) {
+      this.#answer = undefined;
+      this.#cloud.recycle(known.visibility);
+    }
+    const visibility = await this.#cloud.visibleFrom(viewpoint, options);
+    this.#answer = { viewpoint, how, visibility };
+    return visibility.indices;
   }
 
   /** Some points with numbers of their own, for a merge. */

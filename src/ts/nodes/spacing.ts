@@ -1,13 +1,8 @@
 import { prepareCloud } from "../three/cloud.js";
-import { extent, measure, meanSquare } from "./measure.js";
 import type { CloudNode } from "./node.js";
 import type { NodesSettings } from "./options.js";
 
 const SAMPLE = 30_000;
-/** From so many extents away, the chosen radius is never the least one that is possible. */
-const FAR = 1000;
-/** R = 5·r²/s. */
-const SPACINGS = 5;
 
 /**
  * The spacing of all nodes' points together, as the core measures it: nodes may lie in one
@@ -17,21 +12,11 @@ const SPACINGS = 5;
 export async function spacingOf(nodes: readonly CloudNode[], settings: NodesSettings): Promise<number> {
   const total = nodes.reduce((sum, { drawn }) => sum + drawn.total, 0);
   const numbers = sample(nodes, Math.max(1, total / SAMPLE));
-  const whole = measure(numbers);
-  const reach = FAR * extent([whole]);
-  if (reach === 0) {
-    return 0;
-  }
-  const [x, y, z] = whole.mean;
-  const viewpoint = [x + reach, y, z];
   const count = numbers.length / 3;
   const cloud = await prepareCloud({ numbers, own: true }, { inWorker: settings.inWorker, nonFinite: "skip" });
-  try {
-    const { radius } = await cloud.autoRadius(viewpoint);
-    return ((SPACINGS * meanSquare([whole], viewpoint)) / radius) * Math.sqrt(count / total);
-  } finally {
-    void cloud.dispose();
-  }
+  const { spacing } = cloud;
+  void cloud.dispose();
+  return total === 0 ? 0 : spacing * Math.sqrt(count / total);
 }
 
 /** One point of every so many, here and there among them: neighbors in a file are neighbors in space. */

@@ -238,12 +238,13 @@ export class HiddenPointFilter extends EventDispatcher<HiddenPointFilterEvents> 
     });
   }
 
-  #apply({ indices, count }: Visibility, begun: number): void {
+  #apply(answer: Visibility, begun: number): void {
     if (this.#disposed || !this.#drawn.isSame) {
       return;
     }
     try {
-      this.#drawn.setVisible(indices);
+      this.#drawn.setVisible(answer.indices);
+      this.#cloud?.recycle(answer);
     } catch (error) {
       this.#refuse(error);
       return;
@@ -256,7 +257,7 @@ export class HiddenPointFilter extends EventDispatcher<HiddenPointFilterEvents> 
     if (this.#wantsAnswer()) {
       this.#ask();
     }
-    this.dispatchEvent({ type: "change", count, milliseconds });
+    this.dispatchEvent({ type: "change", count: answer.count, milliseconds });
   }
 
   #show(): void {

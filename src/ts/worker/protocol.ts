@@ -1,6 +1,6 @@
 import { HprError, type HprErrorCode } from "../errors.js";
 import type { Merge } from "../merge.js";
-import type { CloudSettings } from "../options.js";
+import type { CloudSettings, CloudSize } from "../options.js";
 import type { Answers, Query } from "../queries.js";
 
 /**
@@ -21,13 +21,8 @@ export type Request =
   | { kind: "remove"; indices: Uint32Array }
   | { kind: "forget" }
   | ({ kind: "merge"; module: WebAssembly.Module } & Merge)
-  | Query;
-
-/** `length` and `skipped` of a cloud. */
-export interface CloudSize {
-  length: number;
-  skipped: number;
-}
+  /** With memory for the answer's indices, where there is some. */
+  | (Query & { spare?: ArrayBuffer | undefined });
 
 /** The value of a reply, by the kind of its request. */
 export interface Replies extends Answers {

@@ -1,6 +1,6 @@
-import { HprError } from "../errors.js";
 import { allocating } from "../memory.js";
 import { failedReply, isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { Sectors } from "./sectors.js";
 import { joinThread } from "./shared-thread.js";
 import type { Thread, ThreadEvents } from "./thread.js";
 
@@ -14,6 +14,7 @@ export class Team {
   readonly #events: ThreadEvents;
   #members: Thread[] = [];
   #starting = 0;
+  readonly #sectors = new Sectors();
   #asked: Request | undefined;
   /** By member; those not asked, or not answered yet, have none. */
   #replies: (Reply | undefined)[] = [];
@@ -61,7 +62,7 @@ export class Team {
     let copies: { request: Request; transfer: ArrayBuffer[] }[];
     const asked = isForAll(request) ? this.#members : this.#members.slice(0, 1);
     try {
-      copies = asked.map((_, number) => copyFor(request, number, asked.length));
+      copies = asked.map((_, number) => copyFor(request, number, asked.length, this.#sectors));
     } catch (thrown) {
       // None of them has been asked, so none has changed.
       queueMicrotask(() => {
@@ -130,9 +131,10 @@ export class Team {
     const failures = replies.filter((reply) => "error" in reply);
     const values = replies.flatMap((reply) => ("value" in reply ? [reply.value] : []));
     const lost = failures.find(({ error }) => error.code === "internal") ?? failures[0];
-    const kind = this.#asked?.kind;
+    const asked = this.#asked;
+    this.#asked = undefined;
     if (lost !== undefined) {
-      const isChange = kind === "append" || kind === "remove";
+      const isChange = asked?.kind === "append" || asked?.kind === "remove";
       if (!isChange || lost.error.code === "internal" || values.length === 0) {
         return lost;
       }
@@ -140,8 +142,8 @@ export class Team {
       this.#dismiss((_, number) => "error" in replies[number]!);
     }
     try {
-      const value = kind === "visibleFrom" ? joined(values as Replies["visibleFrom"][]) : values[0];
-      return { value };
+      const isDivided = asked?.kind === "visibleFrom" && values.length > 1;
+      return { value: isDivided ? this.#sectors.joined(values as Replies["visibleFrom"][], asked.spare) : values[0] };
     } catch (thrown) {
       return failedReply(thrown);
     }
@@ -175,6 +177,7 @@ function copyFor(
   request: Request,
   number: number,
   count: number,
+  sectors: Sectors,
 ): { request: Request; transfer: ArrayBuffer[] } {
   switch (request.kind) {
     case "create":
@@ -190,10 +193,16 @@ function copyFor(
       const { positions, ids } = request;
       return { request, transfer: [positions.buffer as ArrayBuffer, ids.buffer as ArrayBuffer] };
     }
-    case "visibleFrom":
-      return { request: count === 1 ? request : { ...request, sector: { number, count } }, transfer: [] };
-    default:
+    case "forget":
       return { request, transfer: [] };
+    case "visibleFrom":
+      if (count > 1) {
+        const spare = sectors.spareFor(number);
+        return { request: { ...request, sector: { number, count }, spare }, transfer: listed(spare) };
+      }
+      return { request, transfer: listed(request.spare) };
+    default:
+      return { request, transfer: listed(request.spare) };
   }
 }
 
@@ -204,44 +213,6 @@ function ownCopy<T extends Float32Array | Float64Array | Uint32Array>(array: T, 
     : allocating(`a copy of ${array.length} numbers for each worker`, () => array.slice() as T);
 }
 
-/** One answer from those of all sectors. */
-function joined(parts: Replies["visibleFrom"][]): Replies["visibleFrom"] {
-  const first = parts[0];
-  if (first === undefined) {
-    throw new HprError("internal", "no worker has answered");
-  }
-  if (parts.length === 1) {
-    return first;
-  }
-  const count = parts.reduce((sum, { indices }) => sum + indices.length, 0);
-  const lists = parts.map(({ indices }) => indices);
-  const indices = allocating(`${count} indices`, () => merged(lists));
-  return { ...first, indices };
-}
-
-/** Of lists that are ascending and share nothing, one; two by two, so that many take few passes. */
-function merged(lists: Uint32Array<ArrayBuffer>[]): Uint32Array<ArrayBuffer> {
-  if (lists.length === 1) {
-    return lists[0]!;
-  }
-  const half = lists.length >>> 1;
-  return mergedPair(merged(lists.slice(0, half)), merged(lists.slice(half)));
-}
-
-/** In the page's own thread for every view: a loop that needs no warming up. */
-function mergedPair(a: Uint32Array<ArrayBuffer>, b: Uint32Array<ArrayBuffer>): Uint32Array<ArrayBuffer> {
-  const all = new Uint32Array(a.length + b.length);
-  let [i, j, next] = [0, 0, 0];
-  while (i < a.length && j < b.length) {
-    const [x, y] = [a[i]!, b[j]!];
-    if (x < y) {
-      all[next++] = x;
-      i++;
-    } else {
-      all[next++] = y;
-      j++;
-    }
-  }
-  all.set(i < a.length ? a.subarray(i) : b.subarray(j), next);
-  return all;
+function listed(buffer: ArrayBuffer | undefined): ArrayBuffer[] {
+  return buffer === undefined ? [] : [buffer];
 }
