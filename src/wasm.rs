@@ -12,7 +12,6 @@ mod formulas;
 mod hyperspace;
 mod options;
 mod outputs;
-mod record;
 mod transfer;
 mod views;
 
@@ -21,6 +20,8 @@ use alloc::string::ToString;
 use std::panic;
 
 use js_sys::{Float32Array, Float64Array, Function, Uint32Array};
+use serde::Serialize;
+use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
 use self::clouds::{Cloud, change_any, created, resized};
@@ -191,4 +192,17 @@ fn merge_visible(
         copy_out(&seen, options)
     });
     Ok(merged.map_err(Failure::from)?)
+}
+
+fn to_js(value: &impl Serialize) -> JsValue {
+    /// Flattened, a struct is written as a map of names. As a struct, serde-wasm-bindgen
+    /// would look for its names in a hash map, and the wasm be 0.8 kB larger.
+    #[derive(Serialize)]
+    struct Object<T> {
+        #[serde(flatten)]
+        fields: T,
+    }
+    let serializer = Serializer::new().serialize_maps_as_objects(true);
+    let object = Object { fields: value };
+    object.serialize(&serializer).unwrap_or_else(JsValue::from)
 }

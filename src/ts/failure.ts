@@ -8,9 +8,7 @@ interface Failure {
   code: HprErrorCode;
   problem: keyof typeof MESSAGES;
   option: string;
-  a: number;
-  b: number;
-  c: number;
+  numbers: [number, number, number];
 }
 
 /** The same words as the crate's `Error`. */
@@ -51,7 +49,7 @@ export function refusal(thrown: unknown): HprError | undefined {
   if (!isFailure(thrown)) {
     return undefined;
   }
-  const { a, b, c } = thrown;
+  const [a, b, c] = thrown.numbers;
   const words: Words = MESSAGES[thrown.problem];
   return new HprError(thrown.code, words(spelled(a), spelled(b), spelled(c), thrown.option));
 }
@@ -71,6 +69,6 @@ function isFailure(thrown: unknown): thrown is Failure {
     !(thrown instanceof Error) &&
     "code" in thrown &&
     "problem" in thrown &&
-    "option" in thrown
+    "numbers" in thrown
   );
 }

@@ -1,12 +1,28 @@
-//! What a query answers, as JavaScript receives it.
+//! What a query answers, as JavaScript receives it. All numbers are doubles, as its own
+//! are: the code that writes a field is compiled once for each type.
 
+use js_sys::Uint32Array;
+use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::failure::Failure;
 use super::options::ViewOptions;
-use super::record::record;
+use super::to_js;
 use super::transfer::copy_out;
 use crate::{ChosenRadius, Error, Exponential, Inversion, Visibility};
+
+#[derive(Serialize)]
+struct Answer {
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    indices: Uint32Array,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    triangles: Uint32Array,
+    radius: f64,
+    exponent: f64,
+    evaluations: f64,
+    /// c of the exponential inversion, which may have been chosen; otherwise 0.
+    scale: f64,
+}
 
 /// An answer with the triangles between its points, if it has any.
 pub(super) fn answer(
@@ -14,20 +30,18 @@ pub(super) fn answer(
     triangles: &[[u32; 3]],
     options: &ViewOptions,
 ) -> Result<JsValue, Failure> {
-    // c of the exponential inversion, which may have been chosen.
     let scale = match visibility.inversion() {
         Inversion::Exponential(Exponential::Scale(scale)) => scale,
         _ => 0.0,
     };
-    let answer = record(&[
-        ("radius", visibility.radius()),
-        ("exponent", visibility.exponent()),
-        ("evaluations", f64::from(visibility.evaluations())),
-        ("scale", scale),
-    ]);
-    answer.set_array("indices", &copy_out(visibility.indices(), options)?);
-    answer.set_array("triangles", &copy_out(triangles.as_flattened(), options)?);
-    Ok(answer.into())
+    Ok(to_js(&Answer {
+        indices: copy_out(visibility.indices(), options)?,
+        triangles: copy_out(triangles.as_flattened(), options)?,
+        radius: visibility.radius(),
+        exponent: visibility.exponent(),
+        evaluations: f64::from(visibility.evaluations()),
+        scale,
+    }))
 }
 
 /// The answer to a query that was not refused.
@@ -38,14 +52,20 @@ pub(super) fn answered(
     Ok(visibility.and_then(|visibility| answer(&visibility, &[], options))?)
 }
 
+#[derive(Serialize)]
+struct Chosen {
+    radius: f64,
+    exponent: f64,
+    evaluations: f64,
+}
+
 pub(super) fn chosen(chosen: Result<ChosenRadius, Failure>) -> Result<JsValue, JsValue> {
     let chosen = chosen?;
-    let chosen = record(&[
-        ("radius", chosen.radius),
-        ("exponent", chosen.exponent),
-        ("evaluations", f64::from(chosen.evaluations)),
-    ]);
-    Ok(chosen.into())
+    Ok(to_js(&Chosen {
+        radius: chosen.radius,
+        exponent: chosen.exponent,
+        evaluations: f64::from(chosen.evaluations),
+    }))
 }
 
 #[cold]

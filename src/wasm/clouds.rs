@@ -4,10 +4,11 @@ use alloc::vec::Vec;
 use core::cell::RefCell;
 use std::thread_local;
 
+use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::failure::Failure;
-use super::record::record;
+use super::to_js;
 use crate::hull::Memory;
 use crate::room::push;
 use crate::{Error, Options, PointCloud, PointCloudNd};
@@ -30,10 +31,11 @@ struct LastView {
     memory: Memory,
 }
 
+#[derive(Serialize)]
 pub(super) struct CloudInfo {
-    handle: u32,
-    length: usize,
-    skipped: usize,
+    handle: f64,
+    length: f64,
+    skipped: f64,
     spacing: f64,
 }
 
@@ -44,24 +46,11 @@ impl CloudInfo {
             Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
         };
         Self {
-            handle,
-            length,
-            skipped,
+            handle: f64::from(handle),
+            length: length as f64,
+            skipped: skipped as f64,
             spacing,
         }
-    }
-}
-
-impl From<CloudInfo> for JsValue {
-    #[inline(never)]
-    fn from(info: CloudInfo) -> Self {
-        let fields = [
-            ("handle", f64::from(info.handle)),
-            ("length", info.length as f64),
-            ("skipped", info.skipped as f64),
-            ("spacing", info.spacing),
-        ];
-        record(&fields).into()
     }
 }
 
@@ -79,12 +68,12 @@ pub(super) fn created(made: Result<Cloud, Error>) -> Result<JsValue, JsValue> {
             Ok(info)
         })
     });
-    Ok(kept.map_err(Failure::from)?.into())
+    Ok(to_js(&kept.map_err(Failure::from)?))
 }
 
 /// The size of a cloud whose change was not refused.
 pub(super) fn resized(changed: Result<CloudInfo, Failure>) -> Result<JsValue, JsValue> {
-    Ok(changed?.into())
+    Ok(to_js(&changed?))
 }
 
 /// Frees a cloud; its number may be given to another one afterwards.

@@ -1,12 +1,14 @@
 //! What JavaScript receives as an exception. It words the message itself
 //! (src/ts/failure.ts): the formatting of numbers alone would be 30 kB of wasm.
 
+use serde::Serialize;
 use wasm_bindgen::JsValue;
 
-use super::record::record;
+use super::to_js;
 use crate::{Error, MAX_POINTS};
 
 /// A refusal: which one, and the option and the numbers its message names.
+#[derive(Serialize)]
 pub(super) struct Failure {
     code: &'static str,
     problem: &'static str,
@@ -115,11 +117,6 @@ impl From<Failure> for JsValue {
     #[cold]
     #[inline(never)]
     fn from(failure: Failure) -> Self {
-        let [a, b, c] = failure.numbers;
-        let thrown = record(&[("a", a), ("b", b), ("c", c)]);
-        thrown.set_text("code", failure.code);
-        thrown.set_text("problem", failure.problem);
-        thrown.set_text("option", failure.option);
-        thrown.into()
+        to_js(&failure)
     }
 }

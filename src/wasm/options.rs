@@ -7,7 +7,7 @@ use crate::{Exponential, Inversion, Options, Radius};
 
 #[wasm_bindgen]
 extern "C" {
-    /// Read field by field: what a library says about a field of the wrong type brings the
+    /// Read field by field: what serde says about a field of the wrong type brings the
     /// formatting of floats along, 30 kB. Numbers stand for the choices (src/ts/options.ts).
     #[wasm_bindgen(typescript_type = "ViewOptions")]
     pub type ViewOptions;
