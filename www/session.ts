@@ -157,7 +157,8 @@ export function startSession(params: Params, status: Status, message: Message): 
       const home = homeWith(up);
       // The page keeps the file's own coordinates for the tools.
       const worker = await WorkerPointCloud.create(copy, { signal, transfer: true });
-      inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), cloud.radius);
+      const another = async () => new WorkerCloud(await WorkerPointCloud.create(positions, { workers: 1 }), cloud.center);
+      inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), another, cloud.radius);
       const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...store.current, ...own });
       signal.throwIfAborted();
       status.loaded();
