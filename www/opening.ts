@@ -79,7 +79,8 @@ export async function openCloud({ request, sample, view: wanted, settings: wishe
 
   // The page keeps the file's own coordinates for the tools.
   const worker = await WorkerPointCloud.create(copy, { signal, transfer: true, shared: place.shared && cloud.count < SHARED_BELOW });
-  const inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), cloud.radius);
+  const another = async () => new WorkerCloud(await WorkerPointCloud.create(positions, { workers: 1 }), cloud.center);
+  const inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), another, cloud.radius);
   try {
     const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...place.settings(), ...own });
     signal.throwIfAborted();

@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { gunzipSync } from "node:zlib";
-import { init, PointCloud } from "hidden-point-removal";
+import { init, PointCloud, type VisibilityOptions } from "hidden-point-removal";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, vi } from "vitest";
 import { launchBrowser, servePage, type Site } from "./site.js";
@@ -165,7 +165,7 @@ export async function inNode<T>(positions: Float32Array | Float64Array, ask: (cl
 export async function answerInNode(
   positions: Float32Array | Float64Array,
   { viewpoint }: Status,
-  options: { radius?: number; exponent?: number } = {},
+  options: Pick<VisibilityOptions, "radius" | "exponent"> = {},
 ) {
   const { count, radius, exponent } = await inNode(positions, (cloud) => cloud.visibleFrom(viewpoint, options));
   return { visible: count, radius, exponent };

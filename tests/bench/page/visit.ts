@@ -16,10 +16,15 @@ export interface Watched {
 
 type Watching = typeof globalThis & { watched: Watched };
 
-/** A page that will watch itself from its first moment on. */
-export async function watchedPage(context: BrowserContext): Promise<Page> {
+/** A page that will watch itself from its first moment on. Its draw calls can be left out, where software draws. */
+export async function watchedPage(context: BrowserContext, drawing = true): Promise<Page> {
   const page = await context.newPage();
   await countHoldings(page);
+  if (!drawing) {
+    await page.addInitScript(() => {
+      WebGL2RenderingContext.prototype.drawElements = WebGL2RenderingContext.prototype.drawArrays = () => undefined;
+    });
+  }
   await page.addInitScript(() => {
     const watched: Watched = { asked: {}, answered: [] };
     (globalThis as Watching).watched = watched;
