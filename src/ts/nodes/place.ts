@@ -4,16 +4,68 @@ import { Matrix4, type Object3D } from "three";
  * Where an object is in the space of another one above it. Not by way of the world, whose
  * rounding would move points apart that are equal in two nodes.
  */
-export interface Place {
+export class Place {
   readonly object: Object3D;
-  readonly matrix: Matrix4;
+  readonly matrix = new Matrix4();
   /** Grows when the object moves, or whatever it is in. */
-  version: number;
-  frame: number;
-  readonly local: Matrix4;
-  parent: Object3D | null;
+  version = 0;
+  frame = -1;
+  parent: Object3D | null = null;
   above: Place | undefined;
-  aboveVersion: number;
+  aboveVersion = 0;
+  readonly #local = new Matrix4();
+  /** What the object's matrix was made of: position, quaternion, scale. */
+  readonly #made = new Float64Array(10).fill(NaN);
+
+  constructor(object: Object3D) {
+    this.object = object;
+  }
+
+  /** Whether the object is elsewhere in its parent than when it was asked last. */
+  isMoved(): boolean {
+    const { object } = this;
+    if (object.matrixAutoUpdate) {
+      if (this.#isMadeOfTheSame()) {
+        return false;
+      }
+      object.updateMatrix();
+    } else {
+      this.#made[0] = NaN;
+    }
+    if (object.matrix.equals(this.#local)) {
+      return false;
+    }
+    this.#local.copy(object.matrix);
+    return true;
+  }
+
+  place(): void {
+    this.matrix.copy(this.#local);
+    if (this.above !== undefined) this.matrix.premultiply(this.above.matrix);
+  }
+
+  /** Composing a matrix takes longer than all the rest of a frame. */
+  #isMadeOfTheSame(): boolean {
+    const { position, quaternion, scale, pivot } = this.object as Object3D & { pivot?: unknown };
+    const made = this.#made;
+    const isSame =
+      position.x === made[0] &&
+      position.y === made[1] &&
+      position.z === made[2] &&
+      quaternion.x === made[3] &&
+      quaternion.y === made[4] &&
+      quaternion.z === made[5] &&
+      quaternion.w === made[6] &&
+      scale.x === made[7] &&
+      scale.y === made[8] &&
+      scale.z === made[9];
+    if (!isSame) {
+      position.toArray(made);
+      quaternion.toArray(made, 3);
+      scale.toArray(made, 7);
+    }
+    return isSame && (pivot === undefined || pivot === null);
+  }
 }
 
 /** The places of objects, each looked at once a frame, however many are in it. */
@@ -34,8 +86,7 @@ export class Places {
   of(object: Object3D): Place {
     let place = this.#known.get(object);
     if (place === undefined) {
-      const above = { parent: null, above: undefined, aboveVersion: 0 };
-      place = { object, matrix: new Matrix4(), local: new Matrix4(), version: 0, frame: -1, ...above };
+      place = new Place(object);
       this.#known.set(object, place);
     }
     return place;
@@ -43,27 +94,22 @@ export class Places {
 
   /** What its version is now. */
   versionOf(place: Place): number {
-    if (place.frame === this.#frame || place.object === this.#root) {
+    const { object } = place;
+    if (place.frame === this.#frame || object === this.#root) {
       return place.version;
     }
     place.frame = this.#frame;
-    const { object, local } = place;
-    const isMoved = place.parent !== object.parent;
-    if (isMoved) {
+    const isElsewhere = place.parent !== object.parent;
+    if (isElsewhere) {
       place.parent = object.parent;
       place.above = object.parent === null || object.parent === this.#root ? undefined : this.of(object.parent);
     }
-    const { above } = place;
-    const aboveVersion = above === undefined ? 0 : this.versionOf(above);
-    if (object.matrixAutoUpdate) {
-      object.updateMatrix();
-    }
-    if (isMoved || aboveVersion !== place.aboveVersion || !object.matrix.equals(local)) {
+    const aboveVersion = place.above === undefined ? 0 : this.versionOf(place.above);
+    const isMoved = place.isMoved();
+    if (isElsewhere || isMoved || aboveVersion !== place.aboveVersion) {
       place.aboveVersion = aboveVersion;
       place.version += 1;
-      local.copy(object.matrix);
-      place.matrix.copy(local);
-      if (above !== undefined) place.matrix.premultiply(above.matrix);
+      place.place();
     }
     return place.version;
   }
