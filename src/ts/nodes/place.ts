@@ -46,7 +46,9 @@ export class Place {
 
   /** Composing a matrix takes longer than all the rest of a frame. */
   #isMadeOfTheSame(): boolean {
-    const { position, quaternion, scale, pivot } = this.object as Object3D & { pivot?: unknown };
+    const { position, quaternion, scale } = this.object;
+    // Older versions of three have none.
+    const { pivot = null } = this.object as { pivot?: unknown };
     const made = this.#made;
     const isSame =
       position.x === made[0] &&
@@ -64,7 +66,7 @@ export class Place {
       quaternion.toArray(made, 3);
       scale.toArray(made, 7);
     }
-    return isSame && (pivot === undefined || pivot === null);
+    return isSame && pivot === null;
   }
 }
 
@@ -102,7 +104,8 @@ export class Places {
     const isElsewhere = place.parent !== object.parent;
     if (isElsewhere) {
       place.parent = object.parent;
-      place.above = object.parent === null || object.parent === this.#root ? undefined : this.of(object.parent);
+      const holder = this.#holderOf(object);
+      place.above = holder === undefined ? undefined : this.of(holder);
     }
     const aboveVersion = place.above === undefined ? 0 : this.versionOf(place.above);
     const isMoved = place.isMoved();
@@ -112,5 +115,21 @@ export class Places {
       place.place();
     }
     return place.version;
+  }
+
+  /**
+   * What an object's own matrix is relative to, unless that is the root. Octrees of potree-core
+   * (and what it is made of) nest their nodes, but draw each where it is in the octree.
+   */
+  #holderOf(object: Object3D): Object3D | undefined {
+    for (let at = object.parent; at !== null; at = at.parent) {
+      if ("pcoGeometry" in at) {
+        return at === this.#root ? undefined : at;
+      }
+      if (at === this.#root) {
+        break;
+      }
+    }
+    return object.parent === null || object.parent === this.#root ? undefined : object.parent;
   }
 }

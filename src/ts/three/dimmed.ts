@@ -23,6 +23,7 @@ export class DimmedPoints {
   readonly #given: Material | undefined;
   #copied: { from: Material; version: number } | undefined;
   #refused: { material: unknown } | undefined;
+  #isShown = false;
 
   /** @throws HprError `option` for a material that cannot be dimmed. */
   constructor(points: Points, material: Material | undefined) {
@@ -49,7 +50,7 @@ export class DimmedPoints {
       geometry.setIndex(drawn.order ?? null);
     }
     geometry.setDrawRange(drawn.visible, drawn.total - drawn.visible);
-    this.#child.visible = true;
+    this.#isShown = true;
     if (this.#child.parent !== this.#points) {
       this.#points.add(this.#child);
     }
@@ -57,7 +58,7 @@ export class DimmedPoints {
   }
 
   hide(): void {
-    this.#child.visible = false;
+    this.#isShown = this.#child.visible = false;
   }
 
   /**
@@ -69,9 +70,12 @@ export class DimmedPoints {
   follow(): void {
     const [points, child] = [this.#points, this.#child];
     const { attributes, boundingSphere = null } = (points.geometry as Partial<BufferGeometry> | undefined) ?? {};
-    if (!child.visible || attributes === undefined) {
+    if (!this.#isShown || attributes === undefined) {
       return;
     }
+    // Viewers of tiles hide everything before they show something, and place no others' children.
+    child.visible = true;
+    child.matrixWorld.copy(points.matrixWorld);
     child.layers.mask = points.layers.mask;
     child.renderOrder = points.renderOrder;
     child.frustumCulled = points.frustumCulled;
