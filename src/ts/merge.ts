@@ -57,19 +57,18 @@ interface ReadPart {
 }
 
 /** What `mergeVisible` was given, read, copied into one and checked for type. */
-export interface Merge extends ReadPart {
+interface Merge extends ReadPart {
   viewpoint: number[];
   settings: ViewSettings;
 }
 
-export function readMerge(parts: unknown, viewpoint: unknown, options: unknown): Merge {
+function readMerge(parts: unknown, viewpoint: unknown, options: unknown): Merge {
   const position = readViewpoint(viewpoint, 3);
   const settings = readSettings(options);
   return { ...joined(readParts(parts)), viewpoint: position, settings };
 }
 
-/** Asks the core, maybe in another thread. */
-export function performMerge({ positions, ids, viewpoint, settings }: Merge): Uint32Array<ArrayBuffer> {
+function performMerge({ positions, ids, viewpoint, settings }: Merge): Uint32Array<ArrayBuffer> {
   const [x, y, z] = viewpoint as [number, number, number];
   const options = coreOptions(settings);
   return requireInstance().call((bindings) =>

@@ -189,10 +189,6 @@ function copyFor(
       const indices = ownCopy(request.indices, number);
       return { request: { ...request, indices }, transfer: [indices.buffer as ArrayBuffer] };
     }
-    case "merge": {
-      const { positions, ids } = request;
-      return { request, transfer: [positions.buffer as ArrayBuffer, ids.buffer as ArrayBuffer] };
-    }
     case "forget":
       return { request, transfer: [] };
     case "visibleFrom":

@@ -1,5 +1,4 @@
 import { ask, build, giveMemory, type PointCloud } from "../cloud.js";
-import { performMerge } from "../merge.js";
 import { importNodeModule } from "../node.js";
 import type { CloudSize } from "../options.js";
 import { initSync } from "../start.js";
@@ -32,10 +31,6 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
     const created = build(request.positions, { dimension, stride, nonFinite }, report);
     clouds.set(number, created);
     return sizeOf(created);
-  }
-  if (request.kind === "merge") {
-    initSync(request.module);
-    return { ids: performMerge(request) };
   }
   const cloud = clouds.get(number);
   if (request.kind === "forget") {
