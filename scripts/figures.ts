@@ -1,5 +1,5 @@
-// npm run figures: builds, then draws the paper's figures and measures fidelity into
-// tests/figures; arguments are handed on.
+// npm run figures: builds, then draws the paper's figures, measures fidelity into
+// tests/figures and accessibility into docs; arguments are handed on.
 import { spawnSync } from "node:child_process";
 
 import { build } from "./build/build.js";

@@ -208,6 +208,14 @@ impl PointCloud {
         self.skipped
     }
 
+    /// The mean distance of a point to its 6 nearest others, in the cloud's units: what the
+    /// automatic rules go by. Measured at 2048 distinct points where there are more; 0 where
+    /// there are fewer than two.
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.statistics.spacing
+    }
+
     /// The same indices at other, finite `positions`, one for each distinct point.
     pub(crate) fn moved(&self, positions: &[[f64; 3]]) -> Result<Self, OutOfMemory> {
         let mut bounds = Bounds::EMPTY;

@@ -143,6 +143,13 @@ impl PointCloud {
         Ok(Voters { k, each, others })
     }
 
+    /// Refuses more neighbors than there are other points.
+    pub(crate) fn check_neighbors(&self, option: &'static str, k: usize) -> Result<(), Error> {
+        let most = self.sequence.present().saturating_sub(1);
+        in_range(option, k as f64, 1.0, most as f64)?;
+        Ok(())
+    }
+
     /// The distinct points in their order, each with its `k` nearest others.
     fn for_each_neighborhood(
         &self,
@@ -150,9 +157,7 @@ impl PointCloud {
         k: usize,
         visit: &mut dyn FnMut(usize, &Nearest),
     ) -> Result<(), Error> {
-        let present = self.sequence.present();
-        let most = present.saturating_sub(1);
-        in_range(option, k as f64, 1.0, most as f64)?;
+        self.check_neighbors(option, k)?;
         let points = &self.sequence.points;
         let neighbors = Neighbors::new(points)?;
         let mut nearest = Nearest::with_room(k)?;

@@ -311,6 +311,7 @@ impl fmt::Display for Number {
 impl core::error::Error for Error {}
 
 /// `value`, unless it is not in the range, or NaN.
+#[inline(never)]
 pub(crate) fn in_range(
     option: &'static str,
     value: f64,

@@ -75,6 +75,9 @@ impl PointCloud {
 
         let mut brightness = filled(len, 0.0)?;
         self.after_denoising(options, |cloud, options| {
+            if lights.is_empty() {
+                cloud.check_options(options)?;
+            }
             for &light in lights {
                 let seen = cloud.visible_from(light, options)?;
                 for &index in seen.indices() {

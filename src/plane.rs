@@ -92,6 +92,14 @@ impl PointCloud2d {
         self.cloud.skipped()
     }
 
+    /// The mean distance of a point to its 6 nearest others, in the cloud's units: what the
+    /// automatic rules go by. Measured at 2048 distinct points where there are more; 0 where
+    /// there are fewer than two.
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.cloud.spacing()
+    }
+
     /// Which points are visible from `viewpoint`? See [`PointCloud::visible_from`].
     ///
     /// # Errors

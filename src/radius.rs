@@ -96,6 +96,7 @@ pub(crate) fn resolve(
 
 /// A radius that is given as a number, checked; any other choice is the closed form
 /// without a spacing.
+#[inline(never)]
 pub(crate) fn given(choice: Radius, farthest: f64) -> Result<ChosenRadius, Error> {
     match choice {
         Radius::Absolute(radius) => {
@@ -163,6 +164,7 @@ pub(crate) fn bounded(radius: f64, farthest: f64) -> ChosenRadius {
     from_radius(within(radius, farthest), farthest)
 }
 
+#[inline(never)]
 pub(crate) fn from_radius(radius: f64, farthest: f64) -> ChosenRadius {
     let exponent = if farthest > 0.0 && radius > farthest {
         libm::log10(radius / farthest).min(f64::MAX)

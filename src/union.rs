@@ -74,6 +74,9 @@ impl PointCloud {
         options: &Options,
     ) -> Result<Visibility, Error> {
         let inversion = resolved_inversion(options, self.statistics.spacing)?;
+        if viewpoints.is_empty() {
+            self.check_options(options)?;
+        }
         let mut views: Vec<u32> = filled(self.sequence.points.len(), 0)?;
         let mut chosen = ChosenRadius::unit(0.0);
         let mut memory = hull::Memory::default();

@@ -21,6 +21,14 @@ pub(crate) struct View {
 }
 
 impl PointCloud {
+    /// Refuses what every viewpoint would be refused with, where there is none.
+    pub(crate) fn check_options(&self, options: &Options) -> Result<(), Error> {
+        if let Some(k) = options.vote {
+            self.check_neighbors("vote", k)?;
+        }
+        check_flip(options)
+    }
+
     pub(crate) fn view(&self, viewpoint: [f64; 3], options: &Options) -> Result<View, Error> {
         if viewpoint.iter().any(|x| !x.is_finite()) {
             return Err(Error::Viewpoint { viewpoint });
@@ -45,6 +53,7 @@ impl PointCloud {
 
 /// How an inversion with numbers only moves points, and what was chosen for it.
 /// `radius` turns a choice of R into a number.
+#[inline(never)]
 pub(crate) fn resolved_kernel(
     inversion: Inversion,
     choice: Radius,
@@ -71,8 +80,17 @@ pub(crate) fn resolved_kernel(
     })
 }
 
+/// Refuses what is refused even where all points are at the viewpoint.
+pub(crate) fn check_flip(options: &Options) -> Result<(), Error> {
+    let inversion = resolved_inversion(options, 0.0)?;
+    let radius = |choice| radius::given(choice, 0.0);
+    resolved_kernel(inversion, options.radius, 0.0, &radius)?;
+    Ok(())
+}
+
 /// The inversion with numbers only; numbers out of range and choices that exclude
 /// each other are refused.
+#[inline(never)]
 pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inversion, Error> {
     let refuse = |inversion| {
         let option = options.radius.name();

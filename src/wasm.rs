@@ -83,14 +83,13 @@ pub fn append_f64(handle: u32, positions: &Float64Array) -> Result<JsValue, JsVa
 }
 
 /// Removes points from a cloud of any dimension by their indices.
-#[wasm_bindgen]
-pub fn remove(handle: u32, indices: &Uint32Array) -> Result<(), JsValue> {
+#[wasm_bindgen(unchecked_return_type = "CloudSize")]
+pub fn remove(handle: u32, indices: &Uint32Array) -> Result<JsValue, JsValue> {
     let indices = copy_in_integers(indices).map_err(Failure::from)?;
-    change_any(handle, |cloud| match cloud {
+    resized(change_any(handle, &mut |cloud| match cloud {
         Cloud::Space(cloud) => cloud.remove(&indices),
         Cloud::Hyper(cloud) => cloud.remove(&indices),
-    })?;
-    Ok(())
+    }))
 }
 
 /// The ids of what is visible among single-precision positions, one id for each.
@@ -124,7 +123,7 @@ const TYPES: &str = r#"
 /** Makes all of the functions below call into this instance. */
 export function __wbg_set_wasm(exports: WebAssembly.Exports): void;
 interface CloudOptions { skipNonFinite: boolean; progress?: ((share: number) => void) | undefined }
-interface CloudSize { length: number; skipped: number }
+interface CloudSize { length: number; skipped: number; spacing: number }
 interface CloudInfo extends CloudSize { handle: number }
 /** ViewSettings of options.ts. */
 interface ViewOptions {
@@ -134,6 +133,8 @@ interface ViewOptions {
   parameter: number;
   denoise: number;
   vote: number;
+  /** Makes room for so many indices of an answer. */
+  memory: (length: number) => Uint32Array<ArrayBuffer>;
 }
 interface ChosenRadius { radius: number; exponent: number; evaluations: number }
 interface Answer extends ChosenRadius {
@@ -170,8 +171,9 @@ fn create_cloud(
 }
 
 fn append(handle: u32, positions: Result<Points, Error>) -> Result<JsValue, JsValue> {
-    resized(change_any(handle, |cloud| match cloud {
-        Cloud::Space(cloud) => cloud.add(positions?.as_given()),
+    let positions = positions.map_err(Failure::from)?;
+    resized(change_any(handle, &mut |cloud| match cloud {
+        Cloud::Space(cloud) => cloud.add(positions.as_given()),
         Cloud::Hyper(_) => Ok(()),
     }))
 }
@@ -182,12 +184,12 @@ fn merge_visible(
     viewpoint: [f64; 3],
     options: &ViewOptions,
 ) -> Result<Uint32Array, JsValue> {
-    let options = options.read();
+    let view = options.read();
     let merged = positions.and_then(|positions| {
         let ids = copy_in_integers(ids)?;
         let part = |_| (positions.as_given(), &ids[..]);
-        let seen = merge(1, &part, viewpoint, &options)?;
-        copy_out(&seen)
+        let seen = merge(1, &part, viewpoint, &view)?;
+        copy_out(&seen, options)
     });
     Ok(merged.map_err(Failure::from)?)
 }

@@ -96,11 +96,14 @@ function settingsInAddress(now: Settings, usual: Usual): Record<string, string[]
     smoothing: unless(USUAL_SETTINGS.smoothing, now.smoothing),
     freeze: now.freeze ? [String(now.freeze)] : [],
     compare: now.compare === null ? [] : [String(now.compare)],
+    against: now.compare === null ? [] : unless("all", now.against),
+    splat: now.compare === null || now.against !== "zbuffer" ? [] : unless("auto", now.splat),
     hidden: unless("off", now.hidden),
     color: unless(USUAL_SETTINGS.color, now.color),
     size: unless(usual.size, now.size),
     fov: unless(usual.fieldOfView, now.fieldOfView),
     up: unless(usual.up, now.up),
+    theme: unless(USUAL_SETTINGS.theme, now.theme),
   };
 }
 

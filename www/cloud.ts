@@ -18,6 +18,8 @@ export interface LoadedCloud {
   positions: Float32Array | Float64Array;
   colors: Uint8Array | null;
   attributes?: Attribute[];
+  /** The file has faces, and all of their corners are among the positions, in its own order. */
+  isMesh?: boolean;
   /** What the user has to know about it, in plain sentences. */
   notes?: string[];
   /** What the file says of how it was taken: which way was up, and from where where it knows. */
@@ -37,7 +39,15 @@ export interface Cloud {
   radius: number;
 }
 
-export function prepareCloud({ positions, colors, attributes = [] }: LoadedCloud): Cloud {
+/** What the page takes over from a loader: a cloud ready to draw, with the file's own coordinates and what it says. */
+export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "isMesh" | "notes" | "taken"> {
+  cloud: Cloud;
+  /** The positions once more, to be given away to the hull's worker: that takes what it gets. */
+  copy: Float32Array | Float64Array;
+}
+
+/** Goes over all coordinates a few times: for a worker, not for the page's thread. */
+export function prepareCloud({ positions, colors, attributes = [], ...said }: LoadedCloud): PreparedCloud {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < positions.length; i += 3) {
@@ -56,7 +66,8 @@ export function prepareCloud({ positions, colors, attributes = [] }: LoadedCloud
   const size = high.map((value, axis) => value - low[axis]!) as [number, number, number];
   const radius = Math.hypot(...size) / 2;
   // A single point, or many equal ones, still need a distance to be looked at from.
-  return { colors, attributes, count: positions.length / 3, center, local, size, radius: radius > 0 ? radius : 1 };
+  const cloud = { colors, attributes, count: positions.length / 3, center, local, size, radius: radius > 0 ? radius : 1 };
+  return { cloud, positions, copy: positions.slice(), ...said };
 }
 
 export function upVector(up: Up): [number, number, number] {

@@ -2,13 +2,14 @@ import { Vector3 } from "three";
 import { upVector } from "./cloud.ts";
 import type { Store, Viewpoint } from "./settings.ts";
 import { inFile, inLocal } from "./view/framing.ts";
+import { placeAt } from "./view/place.ts";
 import type { Viewer } from "./viewer.ts";
 
 /** Radians, and a share of the distance, for each press of a key. */
 const TURN = Math.PI / 36;
 const NEARER = 0.92;
 /** Where the first lights come, as parts of the picture's width and height: in sight, and not beside the camera. */
-const SPOTS = [[0.16, 0.16], [0.84, 0.2], [0.2, 0.84], [0.8, 0.84]] as const;
+const SPOTS = [[0.16, 0.16], [0.76, 0.2], [0.2, 0.84], [0.8, 0.84]] as const;
 /** How far away they are, as a share of the distance to what is looked at. */
 const AHEAD = 0.7;
 
@@ -21,7 +22,7 @@ export function addLight(store: Store, viewer: Viewer): void {
   const like = viewpoint.map((value, axis) => value + AHEAD * (target[axis]! - value)) as Viewpoint;
   const [x, y] = SPOTS[lights.length % SPOTS.length]!;
   const { width, height } = viewer.stage.size;
-  store.change({ lights: [...lights, viewer.placeAt(x * width, y * height, like)] });
+  store.change({ lights: [...lights, placeAt(viewer, x * width, y * height, like)] });
 }
 
 /** Arrow keys turn a light around the middle of the cloud, plus and minus bring it nearer and farther. */

@@ -11,8 +11,8 @@ export class Moves {
   /** What a reset goes back to. */
   private readonly usual: () => Pick<Settings, "fieldOfView">;
 
-  /** Also gives the canvas its keys, besides those of the navigation. */
-  constructor(canvas: HTMLCanvasElement, viewer: Viewer, store: Store, usual: () => Pick<Settings, "fieldOfView">) {
+  /** Also gives the canvas its keys, those of the navigation and `more` besides. */
+  constructor(canvas: HTMLCanvasElement, viewer: Viewer, store: Store, usual: () => Pick<Settings, "fieldOfView">, more: Record<string, () => void> = {}) {
     this.viewer = viewer;
     this.store = store;
     this.usual = usual;
@@ -21,7 +21,8 @@ export class Moves {
       store.change({ fieldOfView: Math.min(FIELD_OF_VIEW.most, Math.max(FIELD_OF_VIEW.least, wanted)) });
     };
     const keys: Record<string, () => void> = {
-      f: () => { this.freeze(!this.frozen); },
+      ...more,
+      v: () => { this.freeze(!this.frozen); },
       r: () => { this.reset(); },
       h: () => { this.nextHidden(); },
     };

@@ -1,10 +1,10 @@
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { Inquiry } from "./ask/inquiry.ts";
 import { WorkerCloud } from "./ask/worker-cloud.ts";
-import { type Cloud, prepareCloud, type Up } from "./cloud.ts";
+import type { Cloud, Up } from "./cloud.ts";
 import { loadCloud, type LoadRequest } from "./loaders/index.ts";
-import { type Sample, usualLook } from "./samples.ts";
-import { OWN_COLORS, type Settings } from "./settings.ts";
+import { type KnownSurface, NO_SURFACE, type Sample, usualLook } from "./samples.ts";
+import { type Against, OWN_COLORS, type Settings } from "./settings.ts";
 import { colorChoices } from "./view/colors.ts";
 import { type AskedView, findHome, type Home, inReachOnly } from "./view/framing.ts";
 import type { Opened } from "./viewer.ts";
@@ -55,16 +55,18 @@ const SHARED_BELOW = 200_000;
 /** From what is wished for to a cloud with its first answer. Nothing is shown yet, and what fails leaves nothing behind. */
 export async function openCloud({ request, sample, view: wanted, settings: wished }: Wish, place: Place): Promise<Ready> {
   const { signal, onProgress } = place;
-  const loaded = await loadCloud(request, signal, (step, fraction) => {
+  const { cloud, positions, copy, ...loaded } = await loadCloud(request, signal, (step, fraction) => {
     onProgress(`${step} ${request.name}.`, fraction);
   });
   onProgress(`Finding the visible points of ${request.name}.`, null);
-  const cloud = prepareCloud(loaded);
   const usual = usualLook(sample, request.name, cloud.count, loaded.taken?.up);
   const { view, places, notes: farNotes } = inReachOnly(cloud, wanted, wished, place.asked);
   const own: Partial<Settings> = { ...usual, freeze: null, lights: [], ...radiusFor(place.settings()), ...wished, ...places };
   const { color, notes: colorNote } = usableColor(own.color ?? place.settings().color, cloud, wished.color !== undefined);
   own.color = color;
+  const surface = surfaceOf(request, sample, loaded.isMesh);
+  const { against, notes: againstNote } = usableAgainst(own.against ?? place.settings().against, surface, wished.against !== undefined);
+  own.against = against;
 
   const { fieldOfView: fov, up } = { ...usual, ...wished };
   const taken = loaded.taken?.from ? { at: loaded.taken.from, target: null } : null;
@@ -76,13 +78,14 @@ export async function openCloud({ request, sample, view: wanted, settings: wishe
   const home = homeFrom(view)(up);
 
   // The page keeps the file's own coordinates for the tools.
-  const worker = await WorkerPointCloud.create(loaded.positions, { signal, shared: place.shared && cloud.count < SHARED_BELOW });
-  const inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), cloud.radius);
+  const worker = await WorkerPointCloud.create(copy, { signal, transfer: true, shared: place.shared && cloud.count < SHARED_BELOW });
+  const another = async () => new WorkerCloud(await WorkerPointCloud.create(positions, { workers: 1 }), cloud.center);
+  const inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), another, cloud.radius);
   try {
     const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...place.settings(), ...own });
     signal.throwIfAborted();
-    const opened = { cloud, positions: loaded.positions, inquiry, home, answer, findHome: homeFrom(view) };
-    return { opened, settings: own, usual, view, homeFrom, refusals: [...farNotes, ...colorNote], notes: loaded.notes ?? [] };
+    const opened = { cloud, positions, inquiry, home, answer, findHome: homeFrom(view), surface };
+    return { opened, settings: own, usual, view, homeFrom, refusals: [...farNotes, ...colorNote, ...againstNote], notes: loaded.notes ?? [] };
   } catch (error) {
     inquiry.dispose();
     throw error;
@@ -94,6 +97,19 @@ export function usableColor(color: string, cloud: Cloud, asked: boolean): { colo
   if (colorChoices(cloud).some(({ value }) => value === color)) return { color, notes: [] };
   const notes = asked ? [`It has nothing called “${color}” to be colored by, so it has its usual colors.`] : [];
   return { color: OWN_COLORS, notes };
+}
+
+/** Of a mesh of one's own the faces are read again when they are asked for. */
+function surfaceOf(request: LoadRequest, sample: Sample | null, isMesh = false): KnownSurface | string {
+  if (isMesh && request.kind === "file") return { file: request.file };
+  if (isMesh && request.kind === "url") return { file: request.url };
+  return sample?.surface ?? NO_SURFACE;
+}
+
+/** Of some clouds no surface is known that ours could be compared with. */
+function usableAgainst(against: Against, surface: KnownSurface | string, asked: boolean): { against: Against; notes: string[] } {
+  if (against !== "surface" || typeof surface !== "string") return { against, notes: [] };
+  return { against: "all", notes: asked ? [`There is no true surface to compare with, so all points are. ${surface}`] : [] };
 }
 
 /** A radius in units of the cloud before means nothing to the next one. */

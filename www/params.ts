@@ -66,11 +66,14 @@ export function readParams(search: string, samples: readonly string[]): Params {
     freeze: read("freeze"),
     hidden: read("hidden"),
     compare: read("compare"),
+    against: read("against"),
+    splat: read("splat"),
     // Whether the cloud has it, it will tell.
     color: query.get("color") ?? undefined,
     size: read("size"),
     fieldOfView: read("fov"),
     up: read("up"),
+    theme: read("theme"),
   };
   return {
     sample,
@@ -86,6 +89,7 @@ export function readParams(search: string, samples: readonly string[]): Params {
 
 /** Parameters that a sentence calls something else. */
 const WORDS: Record<string, string> = {
+  against: "comparison",
   compare: "place of the divider",
   edge: "longest edge",
   freeze: "frozen viewpoint",
@@ -93,10 +97,10 @@ const WORDS: Record<string, string> = {
   hidden: "way to show hidden points",
   show: "kind of picture",
   size: "point size",
+  splat: "width of the z-buffer’s points",
   soft: "softness of the lights",
   ambient: "ambient light",
   points: "number of points",
   up: "side that is up",
   viewpoints: "number of viewpoints",
 };
-

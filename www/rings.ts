@@ -43,13 +43,38 @@ const MAIN: Wing = { root: [2.4, -0.1, 1.1], tip: [-2.4, -0.25, 5.4], chords: [5
 const TAILPLANE: Wing = { root: [-4.6, 0.05, 0.9], tip: [-6.6, 0.0, 3.0], chords: [2.4, 1.1], thickness: 0.1, rings: 8, points: 20 };
 const FIN: Wing = { root: [-3.9, 0.8, 0], tip: [-6.4, 3.2, 0], chords: [3.1, 1.3], thickness: 0.1, rings: 10, points: 22 };
 
+/** What is covered by one skin: its rings in a row, and how many points each has. */
+interface Body {
+  rings: Ring[];
+  points: number;
+}
+
 export function makeRings(): LoadedCloud {
-  const sections: [Ring, number][] = [
-    ...fuselage().map((ring): [Ring, number] => [ring, FUSELAGE_POINTS]),
-    ...[MAIN, mirrored(MAIN), TAILPLANE, mirrored(TAILPLANE), FIN].flatMap((wing) => ribs(wing).map((ring): [Ring, number] => [ring, wing.points])),
-  ];
-  const points = sections.flatMap(([ring, count]) => Array.from({ length: count }, (_, i) => ring(i / count)));
+  const points = bodies().flatMap(({ rings, points: count }) => rings.flatMap((ring) => Array.from({ length: count }, (_, i) => ring(i / count))));
   return { positions: Float32Array.from(points.flat()), colors: null };
+}
+
+/** The skin of the airplane: triangles between the points of neighboring rings, and over the first and the last ring of each body. */
+export function skinOfRings(): Uint32Array {
+  const triangles: number[] = [];
+  let first = 0;
+  for (const { rings, points: count } of bodies()) {
+    const last = first + (rings.length - 1) * count;
+    for (let ring = first; ring < last; ring += count) {
+      for (let i = 0; i < count; i++) {
+        const [a, b] = [ring + i, ring + ((i + 1) % count)];
+        triangles.push(a, b, a + count, a + count, b, b + count);
+      }
+    }
+    for (const end of [first, last]) for (let i = 2; i < count; i++) triangles.push(end, end + i - 1, end + i);
+    first = last + count;
+  }
+  return Uint32Array.from(triangles);
+}
+
+function bodies(): Body[] {
+  const wings = [MAIN, mirrored(MAIN), TAILPLANE, mirrored(TAILPLANE), FIN];
+  return [{ rings: fuselage(), points: FUSELAGE_POINTS }, ...wings.map((wing) => ({ rings: ribs(wing), points: wing.points }))];
 }
 
 function fuselage(): Ring[] {

@@ -13,6 +13,8 @@ type Color = [number, number, number];
 export interface Surface {
   area: number;
   color: Color;
+  /** By how many flat pieces along u and v it is told well enough from a round one. */
+  pieces: [number, number];
   at(u: number, v: number): { point: Vector; normal: Vector };
 }
 
@@ -34,12 +36,39 @@ const LINEN: Color = [236, 224, 196];
 const BOOKS: Color[] = [[146, 74, 66], [72, 96, 128], [196, 172, 120], [86, 116, 96], [120, 96, 120], [206, 200, 188]]; // prettier-ignore
 
 export function makeRoom(): LoadedCloud {
-  const random = mulberry32(20070802);
-  const surfaces = roomSurfaces(random);
-  const total = surfaces.reduce((sum, surface) => sum + surface.area, 0);
-
   const positions = new Float32Array(3 * POINTS);
   const colors = new Uint8Array(3 * POINTS);
+  let i = 0;
+  for (const { surface, u, v, off, grain } of scanRoom().places) {
+    const { point, normal } = surface.at(u, v);
+    const light = 0.72 + 0.28 * Math.max(0, dot(normal, LIGHT)) + 0.05 * (grain - 0.5);
+    for (let axis = 0; axis < 3; axis++) {
+      positions[3 * i + axis] = point[axis]! + off * normal[axis]!;
+      colors[3 * i + axis] = Math.min(255, surface.color[axis]! * light);
+    }
+    i++;
+  }
+  return { positions, colors };
+}
+
+/** Where a point is on its surface, how far off it is measured, and a number from 0 to 1 of its own. */
+interface Place {
+  surface: Surface;
+  u: number;
+  v: number;
+  off: number;
+  grain: number;
+}
+
+/** All surfaces of the room, and the places of its points on them, surface after surface. */
+export function scanRoom(): { surfaces: Surface[]; places: Iterable<Place> } {
+  const random = mulberry32(20070802);
+  const surfaces = roomSurfaces(random);
+  return { surfaces, places: scatter(surfaces, random) };
+}
+
+function* scatter(surfaces: readonly Surface[], random: () => number): Generator<Place> {
+  const total = surfaces.reduce((sum, surface) => sum + surface.area, 0);
   let area = 0;
   let i = 0;
   for (const surface of surfaces) {
@@ -49,19 +78,13 @@ export function makeRoom(): LoadedCloud {
     let u = random();
     let v = random();
     for (; i < end; i++) {
-      const { point, normal } = surface.at(u, v);
+      const here = { u, v };
       // M. Roberts' R2 sequence fills a square evenly, as a scanner would; independent random points leave holes.
       u = (u + 0.7548776662466927) % 1;
       v = (v + 0.5698402909980532) % 1;
-      const away = NOISE * (random() + random() + random() - 1.5);
-      const light = 0.72 + 0.28 * Math.max(0, dot(normal, LIGHT)) + 0.05 * (random() - 0.5);
-      for (let axis = 0; axis < 3; axis++) {
-        positions[3 * i + axis] = point[axis]! + away * normal[axis]!;
-        colors[3 * i + axis] = Math.min(255, surface.color[axis]! * light);
-      }
+      yield { surface, ...here, off: NOISE * (random() + random() + random() - 1.5), grain: random() };
     }
   }
-  return { positions, colors };
 }
 
 /** All there is in the room; `random` decides about books and leaves. */
@@ -178,6 +201,7 @@ function rectangle(corner: Vector, a: Vector, b: Vector, normal: Vector, color: 
   return {
     area,
     color,
+    pieces: [1, 1],
     at: (u, v) => ({ point: corner.map((value, axis) => value + u * a[axis]! + v * b[axis]!) as Vector, normal }),
   };
 }
@@ -209,6 +233,7 @@ function cylinder([x, y, z]: Vector, bottom: number, top: number, height: number
   return {
     area: Math.PI * (bottom + top) * height,
     color,
+    pieces: [64, 1],
     at(u, v) {
       const turn = 2 * Math.PI * u;
       const r = bottom + (top - bottom) * v;
@@ -222,6 +247,7 @@ function sphere([x, y, z]: Vector, r: number, color: Color): Surface {
   return {
     area: 4 * Math.PI * r * r,
     color,
+    pieces: [64, 32],
     at(u, v) {
       // Archimedes: even in height and in longitude is even on the sphere.
       const turn = 2 * Math.PI * u;

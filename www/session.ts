@@ -1,6 +1,7 @@
 import { HprError } from "hidden-point-removal";
 import { Address, type CloudName } from "./address.ts";
 import { LoadProblem, type LoadRequest } from "./loaders/index.ts";
+import { keepForOffline } from "./offline/keep.ts";
 import { openCloud, type Place, requestFor, type Wish } from "./opening.ts";
 import { Controls } from "./panel/controls.ts";
 import { byId } from "./panel/dom.ts";
@@ -14,8 +15,7 @@ import { type Sample, sampleNamed } from "./samples.ts";
 import { Store, USUAL_SETTINGS } from "./settings.ts";
 import type { Status } from "./status.ts";
 import type { AskedView } from "./view/framing.ts";
-import { Plot } from "./tools/plot.ts";
-import { Tools } from "./tools/tools.ts";
+import { Workshop } from "./tools/workshop.ts";
 import { LightHandles } from "./view/light-handles.ts";
 import { Viewer } from "./viewer.ts";
 
@@ -64,12 +64,10 @@ export function startSession(params: Params, status: Status, message: Message): 
 
   let shownName = "";
   // Who comes without any wish of their own is shown what this is about.
-  const tools = new Tools(viewer, store, { name: () => shownName, link: () => address.link() }, location.search === "");
-  const plot = new Plot(viewer, store);
+  const workshop = new Workshop(viewer, store, { name: () => shownName, link: () => address.link() }, location.search === "");
   viewer.onFrame = () => {
     handles.place();
-    tools.place();
-    plot.follow();
+    workshop.place();
   };
   viewer.stage.onCamera = () => {
     address.touch();
@@ -85,8 +83,7 @@ export function startSession(params: Params, status: Status, message: Message): 
   };
   viewer.onAnswer = (answer, total) => {
     controls.follow(answer);
-    tools.follow();
-    plot.answer(answer);
+    workshop.answer(answer);
     status.answer(answer, total, store.current.freeze !== null);
     tell(answer.note);
   };
@@ -96,7 +93,7 @@ export function startSession(params: Params, status: Status, message: Message): 
   };
   viewer.onAutomatic = (exponent) => {
     controls.markAutomatic(exponent);
-    plot.markAutomatic(exponent);
+    workshop.markAutomatic(exponent);
   };
   viewer.onBusy = (busy) => {
     status.busy(busy);
@@ -143,14 +140,17 @@ export function startSession(params: Params, status: Status, message: Message): 
       store.change(ready.settings);
       askedView = ready.view;
       controls.prepare(ready.opened.cloud);
-      tools.clear();
+      workshop.clear();
       viewer.show(ready.opened);
       shownName = sample?.name ?? request.name;
-      plot.clear();
+      workshop.begin().catch(() => {
+        message.show("The tools of this page could not be loaded; reload the page to try again.");
+      });
       controls.usual = ready.usual;
       address.begin(insteadOf === undefined ? source.name : null, ready.usual);
       firstLoad.hide();
       if (insteadOf !== undefined) status.error(insteadOf);
+      keepForOffline(request.kind === "sample" ? request.url : null);
       if (sample) picker.showSample(sample);
       else picker.showOwn(request.name);
     } catch (error) {

@@ -12,8 +12,14 @@ export type Radius = { rule: "auto" | "search" | "opposite" } | { exponent: numb
 /** How points are flipped. The exponential's c is counted in the cloud's spacings, so that it suits clouds of any size. */
 export type Inversion = "spherical" | { exponential: number | "auto" } | { power: number | "auto" };
 
+/** In what colors the page is: those the system asks for, or one theme in any case. */
+export type ThemeChoice = "system" | "dark" | "light";
+
 /** One viewpoint, or it with a ring of four around it: what any of the five sees, or at least two. */
 export type Viewpoints = "one" | "any" | "two";
+
+/** What ours is compared with: nothing hidden at all, the z-buffer of the same picture, or what rays see of the true surface. */
+export type Against = "all" | "zbuffer" | "surface";
 
 /** Everything that can be set on the page. The panel and the address change it; the questions and the picture follow from it. */
 export interface Settings {
@@ -35,8 +41,11 @@ export interface Settings {
   smoothing: number;
   /** Where the viewpoint stays while the camera moves on. */
   freeze: Viewpoint | null;
-  /** Where the picture is divided, as a share of its width: all points to the left, visible ones to the right. */
+  /** Where the picture is divided, as a share of its width: what ours is compared with to the left, visible points to the right. */
   compare: number | null;
+  against: Against;
+  /** How wide the z-buffer draws a point, in pixels. */
+  splat: number | "auto";
   /** "own" for the file's own colors (without any, two calm tones from low to high), "plain", "height", or the name of an attribute. */
   color: string;
   /** Of a point, in multiples of the points' rough distance from one another. */
@@ -44,6 +53,7 @@ export interface Settings {
   /** Vertical, in degrees. */
   fieldOfView: number;
   up: Up;
+  theme: ThemeChoice;
 }
 
 /** The file's own colors. */
@@ -71,10 +81,13 @@ export const USUAL_SETTINGS: Settings = {
   smoothing: 1,
   freeze: null,
   compare: null,
+  against: "all",
+  splat: "auto",
   color: OWN_COLORS,
   size: 1,
   fieldOfView: 45,
   up: "y",
+  theme: "system",
 };
 
 type Listener = (now: Settings, before: Settings) => void;

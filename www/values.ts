@@ -1,6 +1,7 @@
 import type { Up } from "./cloud.ts";
+import { MOST_SPLAT } from "./compare/zbuffer.ts";
 import { MAX_POINTS } from "./loaders/limits.ts";
-import type { HiddenMode, Inversion, Radius, Settings, Viewpoint, Viewpoints } from "./settings.ts";
+import type { Against, HiddenMode, Inversion, Radius, Settings, ThemeChoice, Viewpoint, Viewpoints } from "./settings.ts";
 
 /** How a value is written as text, and how a sentence ends about a text that is none: "is not …". */
 export interface Written<T> {
@@ -31,9 +32,12 @@ export const VALUES = {
   freeze: written(parsePlace, "three numbers x,y,z, so the viewpoint goes with the camera"),
   hidden: written(oneOf<HiddenMode>("off", "dimmed", "shown"), "off, dimmed or shown, so they are off"),
   compare: written(within(0, 1), "a number from 0 to 1, so the picture is not divided"),
+  against: written(oneOf<Against>("all", "zbuffer", "surface"), "all, zbuffer or surface, so all points are"),
+  splat: written(parseSplat, `auto or an integer from 1 to ${MOST_SPLAT}, so it is chosen by the view`),
   size: written(within(0.05, 50), "a number from 0.05 to 50, so the usual one is used"),
   fov: written(within(5, 100), "a number of degrees from 5 to 100, so the usual one is used"),
   up: written(oneOf<Up>("y", "z", "-y"), "y, z or -y, so the usual one is used"),
+  theme: written(oneOf<ThemeChoice>("system", "dark", "light"), "system, dark or light, so it is the system’s"),
   view: written(parsePlace, "three numbers x,y,z, so the usual view is used"),
   target: written(parsePlace, "three numbers x,y,z, so the camera looks at the middle"),
   points: written((text) => whole(MAX_POINTS)(text) || undefined, `an integer from 1 to ${MAX_POINTS}, so it is the last`),
@@ -69,6 +73,11 @@ function parseEdge(text: string): number | undefined {
   if (text === "all") return Infinity;
   const edge = parseNumber(text);
   return edge > 0 && edge < Infinity ? edge : undefined;
+}
+
+function parseSplat(text: string): number | "auto" | undefined {
+  const width = text === "auto" ? text : whole(MOST_SPLAT)(text);
+  return width === 0 ? undefined : width;
 }
 
 export function parsePlace(text: string): Viewpoint | undefined {

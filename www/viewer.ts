@@ -1,8 +1,10 @@
-import { Matrix4, Quaternion, Vector3 } from "three";
+import { Matrix4, Quaternion } from "three";
 import type { LightAnswer } from "./ask/lights.ts";
 import { isSamePlace } from "./ask/question.ts";
 import type { Inquiry, TimedView } from "./ask/inquiry.ts";
 import type { Cloud, Up } from "./cloud.ts";
+import type { Parts } from "./compare/parts.ts";
+import type { KnownSurface } from "./samples.ts";
 import type { Settings, Store, Viewpoint } from "./settings.ts";
 import { CloudAttributes } from "./view/attributes.ts";
 import { colorBy, type Legend } from "./view/colors.ts";
@@ -12,6 +14,7 @@ import { Navigation } from "./view/navigation.ts";
 import { CloudPoints, THROUGH_OPACITY } from "./view/points.ts";
 import { Stage } from "./view/stage.ts";
 import { Surface } from "./view/surface.ts";
+import { type Theme, THEMES } from "./view/theme.ts";
 
 /** A cloud that is ready to be shown, with the first answer about it. */
 export interface Opened {
@@ -23,9 +26,17 @@ export interface Opened {
   answer: TimedView;
   /** Where to look at it from with that side up, in a picture of the shape it has now. */
   findHome: (up: Up) => Home;
+  /** The surface its points were taken from; where it is not known, a sentence says why. */
+  surface: KnownSurface | string;
 }
 
-type Shown = Opened & { attributes: CloudAttributes; points: CloudPoints; surface: Surface };
+type Shown = Opened & {
+  attributes: CloudAttributes;
+  points: CloudPoints;
+  mesh: Surface;
+  /** The way one looks from where the viewpoint stays. */
+  frozen: Quaternion | null;
+};
 
 /** What is on screen: one cloud, the camera before it, and the viewpoint its points are filtered for. */
 export class Viewer {
@@ -45,15 +56,18 @@ export class Viewer {
   private readonly store: Store;
   private readonly marker: ViewpointMarker;
   private shown: Shown | null = null;
+  private theme = THEMES.dark;
   private lit = false;
   private surfaceShown = false;
+  /** Whether points are drawn by what a reference says of them. */
+  private compared = false;
 
   /** `polite`: the page around the picture can be scrolled over it. */
   constructor(canvas: HTMLCanvasElement, store: Store, polite: boolean) {
     this.store = store;
     this.stage = new Stage(canvas);
     this.navigation = new Navigation(this.stage.camera, canvas, polite);
-    this.marker = new ViewpointMarker(this.stage.overlay, canvas);
+    this.marker = new ViewpointMarker(this.stage.overlay);
     this.stage.onFrame = () => {
       this.marker.follow(this.stage.camera);
       this.inquire();
@@ -79,6 +93,11 @@ export class Viewer {
   /** What the tools work on; only while there is a cloud. */
   get scene(): Opened & { visible: Uint32Array } {
     return { ...this.shown!, visible: this.shown!.answer.visibility.indices };
+  }
+
+  /** The way one looks from the viewpoint: the camera's, or that of where it stays. */
+  get direction(): Quaternion {
+    return this.shown!.frozen ?? this.stage.camera.quaternion;
   }
 
   /** Whether the camera stands where it stood at first. */
@@ -107,12 +126,12 @@ export class Viewer {
   clear(): void {
     if (!this.shown) return;
     this.shown.inquiry.dispose();
-    this.shown.points.solid.removeFromParent();
-    this.shown.points.ghost.removeFromParent();
-    this.shown.surface.mesh.removeFromParent();
-    this.shown.points.dispose();
-    this.shown.surface.dispose();
+    const { points, mesh } = this.shown;
+    for (const drawn of [points.solid, points.different, points.extra, points.ghost, mesh.mesh]) drawn.removeFromParent();
+    points.dispose();
+    mesh.dispose();
     this.shown = null;
+    this.compared = false;
     this.stage.invalidate();
   }
 
@@ -127,10 +146,10 @@ export class Viewer {
   /** Shows a cloud, after `clear`. */
   show(opened: Opened): void {
     const { cloud, inquiry, answer, home } = opened;
-    const attributes = new CloudAttributes(cloud);
-    const points = new CloudPoints(cloud, attributes);
-    const surface = new Surface(attributes);
-    this.shown = { ...opened, attributes, points, surface };
+    const attributes = new CloudAttributes(cloud, this.theme);
+    const points = new CloudPoints(cloud, attributes, this.theme);
+    const mesh = new Surface(attributes, this.theme);
+    this.shown = { ...opened, attributes, points, mesh, frozen: null };
     inquiry.onView = (next) => {
       this.showAnswer(next);
       this.onAnswer(next, cloud.count);
@@ -149,7 +168,7 @@ export class Viewer {
     };
     this.lit = false;
     this.onLight(null);
-    this.stage.points.add(points.solid, surface.mesh);
+    this.stage.points.add(points.solid, points.different, mesh.mesh);
     this.navigation.setHome(home.pose);
     this.applyLook(this.store.current);
     this.placeMarker(this.store.current.freeze);
@@ -172,6 +191,26 @@ export class Viewer {
     if (!this.shown) return;
     this.shown.findHome = findHome;
     this.reset();
+  }
+
+  /** Draws the last answer beside a reference until told anew, also while there are newer answers; `null` for those alone. */
+  showParts(parts: Parts | null, fill = false): void {
+    if (!this.shown || (!parts && !this.compared)) return;
+    this.compared = parts !== null;
+    if (parts) this.shown.points.setParts(parts, fill);
+    else this.shown.points.setVisible(this.scene.visible);
+    this.setShape();
+    this.applyLook(this.store.current);
+  }
+
+  setTheme(theme: Theme): void {
+    this.theme = theme;
+    this.stage.setTheme(theme);
+    this.marker.setTheme(theme);
+    if (!this.shown) return;
+    const { attributes, points, mesh } = this.shown;
+    for (const part of [attributes, points, mesh]) part.setTheme(theme);
+    this.paint(this.store.current);
   }
 
   /** Looks at the cloud as for the first time. */
@@ -205,11 +244,18 @@ export class Viewer {
 
   private showAnswer(answer: TimedView): void {
     const { visibility, triangles } = answer;
-    const { points, surface } = this.shown!;
+    const { points, mesh } = this.shown!;
     this.shown!.answer = answer;
-    points.setVisible(visibility.indices);
-    surface.setTriangles(triangles);
-    this.surfaceShown = triangles !== null;
+    if (!this.compared) points.setVisible(visibility.indices);
+    mesh.setTriangles(triangles);
+    this.setShape();
+  }
+
+  /** The surface in the place of the points, unless they are compared. */
+  private setShape(): void {
+    const { points, mesh, answer } = this.shown!;
+    this.surfaceShown = answer.triangles !== null && !this.compared;
+    mesh.mesh.visible = this.surfaceShown;
     points.solid.visible = !this.surfaceShown;
     this.setShading();
   }
@@ -221,7 +267,7 @@ export class Viewer {
 
   private paint({ color, up }: Settings): void {
     const { cloud, attributes } = this.shown!;
-    const { tints, legend } = colorBy(color, cloud, up);
+    const { tints, legend } = colorBy(color, cloud, up, this.theme);
     attributes.setTints(tints);
     this.stage.invalidate();
     this.onLegend(legend);
@@ -239,10 +285,10 @@ export class Viewer {
   private applyLook({ hidden: chosen, freeze, compare, size, fieldOfView }: Settings): void {
     const { points } = this.shown!;
     const frozen = freeze !== null;
-    const hidden = compare === null ? chosen : "shown";
+    const hidden = compare === null ? chosen : this.compared ? "off" : "shown";
     points.show(hidden, frozen, compare ?? 1);
-    (frozen ? this.stage.points : this.stage.through).add(points.ghost);
-    this.stage.setThroughOpacity(THROUGH_OPACITY[hidden]);
+    (frozen ? this.stage.points : this.stage.through).add(points.ghost, points.extra);
+    this.stage.setThroughOpacity(this.compared ? 1 : THROUGH_OPACITY[hidden]);
     this.stage.setPointWidth(points.setPointSize(size));
     this.stage.setFieldOfView(fieldOfView);
   }
@@ -253,36 +299,16 @@ export class Viewer {
     const { cloud } = this.shown!;
     const { camera } = this.stage;
     if (!freeze) {
+      this.shown!.frozen = null;
       this.stage.setExtent(cloud.radius);
       return;
     }
     const here = isSamePlace(freeze, this.viewpoint, cloud.radius);
     const at = here ? camera.position : inLocal(cloud, freeze);
     const toTarget = new Quaternion().setFromRotationMatrix(new Matrix4().lookAt(at, this.navigation.target, camera.up));
-    this.marker.place(at, here ? camera.quaternion : toTarget, 0.18 * cloud.radius);
+    this.shown!.frozen = here ? camera.quaternion.clone() : toTarget;
+    this.marker.place(at, this.shown!.frozen, 0.18 * cloud.radius);
     // The marker has to be in the picture too, from wherever one looks back at it.
     this.stage.setExtent(Math.max(cloud.radius, at.length() + 0.2 * cloud.radius));
-  }
-
-  /** Where a place is in the picture, in CSS pixels from its left and top; `null` behind the camera. */
-  project(place: Viewpoint): { x: number; y: number } | null {
-    const { camera } = this.stage;
-    const seen = inLocal(this.shown!.cloud, place).applyMatrix4(camera.matrixWorldInverse);
-    if (seen.z >= 0) return null;
-    const { x, y } = seen.applyMatrix4(camera.projectionMatrix);
-    const { width, height } = this.stage.size;
-    return { x: (0.5 + x / 2) * width, y: (0.5 - y / 2) * height };
-  }
-
-  /** The place at that point of the picture that is as far ahead of the camera as `like`. */
-  placeAt(x: number, y: number, like: Viewpoint): Viewpoint {
-    const { cloud } = this.shown!;
-    const { camera } = this.stage;
-    const depth = -inLocal(cloud, like).applyMatrix4(camera.matrixWorldInverse).z;
-    const { width, height } = this.stage.size;
-    const tangent = Math.tan((camera.fov * Math.PI) / 360);
-    const place = new Vector3((2 * x) / width - 1, 1 - (2 * y) / height, -1);
-    place.multiply(new Vector3(tangent * camera.aspect, tangent, 1)).multiplyScalar(depth);
-    return inFile(cloud, place.applyMatrix4(camera.matrixWorld));
   }
 }

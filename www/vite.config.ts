@@ -1,6 +1,7 @@
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
 import { COMMON } from "./build/common.ts";
+import { offline } from "./build/offline-plugin.ts";
 import { samples } from "./build/samples-plugin.ts";
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
@@ -9,5 +10,5 @@ export default defineConfig({
   ...COMMON,
   root: here("."),
   build: { outDir: here("dist"), emptyOutDir: true, target: "es2022", chunkSizeWarningLimit: 900 },
-  plugins: [samples()],
+  plugins: [samples(), offline()],
 });

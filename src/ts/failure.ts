@@ -54,6 +54,11 @@ export function refusal(thrown: unknown): HprError | undefined {
   return new HprError(thrown.code, words(spelled(a), spelled(b), spelled(c), thrown.option));
 }
 
+/** What the core would refuse such points with. */
+export function nonFinite(count: number, first: number): HprError {
+  return new HprError("non-finite", MESSAGES.nonFinite(String(count), String(first)));
+}
+
 /** As the crate spells it: JavaScript's way, but for these. */
 function spelled(number: number): string {
   if (Object.is(number, -0)) {

@@ -2,6 +2,7 @@ import { describe, HprError } from "./errors.js";
 import { requireInstance } from "./instance.js";
 import { allocating } from "./memory.js";
 import { givenOptions } from "./options.js";
+import { coreOptions } from "./perform.js";
 import { MAX_LENGTH, type Positions, readPositions, readViewpoint } from "./positions.js";
 import { plainView, typedArrayType } from "./typed-arrays.js";
 import { Kernel, type ResolvedInversion, Rule, type ViewSettings, viewSettings } from "./view-options.js";
@@ -56,24 +57,24 @@ interface ReadPart {
 }
 
 /** What `mergeVisible` was given, read, copied into one and checked for type. */
-export interface Merge extends ReadPart {
+interface Merge extends ReadPart {
   viewpoint: number[];
   settings: ViewSettings;
 }
 
-export function readMerge(parts: unknown, viewpoint: unknown, options: unknown): Merge {
+function readMerge(parts: unknown, viewpoint: unknown, options: unknown): Merge {
   const position = readViewpoint(viewpoint, 3);
   const settings = readSettings(options);
   return { ...joined(readParts(parts)), viewpoint: position, settings };
 }
 
-/** Asks the core, maybe in another thread. */
-export function performMerge({ positions, ids, viewpoint, settings }: Merge): Uint32Array<ArrayBuffer> {
+function performMerge({ positions, ids, viewpoint, settings }: Merge): Uint32Array<ArrayBuffer> {
   const [x, y, z] = viewpoint as [number, number, number];
+  const options = coreOptions(settings);
   return requireInstance().call((bindings) =>
     positions.BYTES_PER_ELEMENT === 4
-      ? bindings.mergeVisibleF32(positions as Float32Array, ids, x, y, z, settings)
-      : bindings.mergeVisibleF64(positions as Float64Array, ids, x, y, z, settings),
+      ? bindings.mergeVisibleF32(positions as Float32Array, ids, x, y, z, options)
+      : bindings.mergeVisibleF64(positions as Float64Array, ids, x, y, z, options),
   ) as Uint32Array<ArrayBuffer>;
 }
 

@@ -27,6 +27,13 @@ export interface CloudSettings {
   skipNonFinite: boolean;
 }
 
+/** What changes with the points of a cloud, and can be asked of it. */
+export interface CloudSize {
+  length: number;
+  skipped: number;
+  spacing: number;
+}
+
 export const CLOUD_OPTIONS = ["dimension", "stride", "nonFinite"] as const;
 
 /** A greater one would not fit into the core's memory. */

@@ -2,6 +2,7 @@ import { HprError } from "./errors.js";
 import type { Bindings, Instance } from "./instance.js";
 import { allocating } from "./memory.js";
 import type { Answers, Found, Query, QueryKind } from "./queries.js";
+import { roomIn, type Spares } from "./spares.js";
 import { resolvedInversion, type ViewSettings } from "./view-options.js";
 
 /** A cloud in the memory of an instance. */
@@ -10,6 +11,8 @@ interface Target {
   handle: number;
   dimension: number;
   length: number;
+  /** Where there may be memory for the answer's indices. */
+  spares: Spares;
 }
 
 type CoreAnswer = ReturnType<Bindings["visibleFrom"]>;
@@ -18,31 +21,34 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
   visibleFrom: (target, { viewpoint, settings, sector }) => {
     const { instance, handle, dimension } = target;
     const [x, y, z] = viewpoint as [number, number, number];
+    const options = coreOptions(settings, target.spares);
     const answer = instance.call((bindings) => {
       if (dimension > 3) {
-        return bindings.hyperVisibleFrom(handle, Float64Array.from(viewpoint), 1, settings);
+        return bindings.hyperVisibleFrom(handle, Float64Array.from(viewpoint), 1, options);
       }
       return sector === undefined
-        ? bindings.visibleFrom(handle, x, y, z, settings)
-        : bindings.visibleInSector(handle, x, y, z, settings, sector.number, sector.count);
+        ? bindings.visibleFrom(handle, x, y, z, options)
+        : bindings.visibleInSector(handle, x, y, z, options, sector.number, sector.count);
     });
     return found(target, settings, answer);
   },
 
   visibleFromDirection: (target, { direction, settings }) => {
     const [x, y, z] = direction as [number, number, number];
+    const options = coreOptions(settings, target.spares);
     const answer = target.instance.call((bindings) =>
-      bindings.visibleFromDirection(target.handle, x, y, z, settings),
+      bindings.visibleFromDirection(target.handle, x, y, z, options),
     );
     return found(target, settings, answer);
   },
 
   visibleFromSeveral: (target, { viewpoints, k, settings }) => {
     const { instance, handle, dimension } = target;
+    const options = coreOptions(settings, target.spares);
     const answer = instance.call((bindings) =>
       dimension > 3
-        ? bindings.hyperVisibleFrom(handle, viewpoints, k, settings)
-        : bindings.visibleFromSeveral(handle, viewpoints, k, settings),
+        ? bindings.hyperVisibleFrom(handle, viewpoints, k, options)
+        : bindings.visibleFromSeveral(handle, viewpoints, k, options),
     );
     return found(target, settings, answer);
   },
@@ -51,15 +57,16 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     const [x, y, z] = viewpoint as [number, number, number];
     return instance.call((bindings) =>
       dimension > 3
-        ? bindings.hyperAutoRadius(handle, Float64Array.from(viewpoint), settings)
-        : bindings.autoRadius(handle, x, y, z, settings),
+        ? bindings.hyperAutoRadius(handle, Float64Array.from(viewpoint), coreOptions(settings))
+        : bindings.autoRadius(handle, x, y, z, coreOptions(settings)),
     );
   },
 
   reconstruct: (target, { viewpoint, settings, maxEdge }) => {
     const [x, y, z] = viewpoint as [number, number, number];
+    const options = coreOptions(settings, target.spares);
     const answer = target.instance.call((bindings) =>
-      bindings.reconstruct(target.handle, x, y, z, settings, maxEdge),
+      bindings.reconstruct(target.handle, x, y, z, options, maxEdge),
     );
     return { ...found(target, settings, answer), triangles: answer.triangles };
   },
@@ -74,7 +81,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     }
     const brightness = allocating(`${length} numbers`, () => new Float32Array(length));
     instance.call((bindings) => {
-      bindings.illuminate(handle, lights, settings, triangles, smoothing, ambient, brightness);
+      bindings.illuminate(handle, lights, coreOptions(settings), triangles, smoothing, ambient, brightness);
     });
     return { brightness };
   },
@@ -83,6 +90,17 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
 /** Asks the core. */
 export function perform<K extends QueryKind>(target: Target, query: Query<K>): Answers[K] {
   return performers[query.kind](target, query);
+}
+
+/** What the core reads of a view's settings, and where it gets arrays from: the first for the indices. */
+export function coreOptions(settings: ViewSettings, spares?: Spares) {
+  let left = spares;
+  const memory = (length: number) => {
+    const spare = left?.take();
+    left = undefined;
+    return roomIn(spare, length);
+  };
+  return { ...settings, memory };
 }
 
 function found({ length }: Target, settings: ViewSettings, answer: CoreAnswer): Found {

@@ -10,7 +10,7 @@ import { plainView, typedArrayType } from "./typed-arrays.js";
 export type Positions = Float32Array | Float64Array | ArrayLike<number>;
 
 /** The core's limit, known here so that nothing is copied in vain. */
-const MAX_POINTS = 2 ** 28;
+export const MOST_POINTS = 2 ** 28;
 /** A 32-bit memory cannot address more. */
 export const MAX_LENGTH = 2 ** 32 - 1;
 
@@ -146,9 +146,9 @@ function viewOf(positions: Float32Array | Float64Array): Float32Array | Float64A
 }
 
 function checkLimits(length: number, stride: number): void {
-  if (length > MAX_POINTS * stride) {
+  if (length > MOST_POINTS * stride) {
     const count = Math.floor(length / stride);
-    throw new HprError("too-large", `${count} points exceed the limit of ${MAX_POINTS}`);
+    throw new HprError("too-large", `${count} points exceed the limit of ${MOST_POINTS}`);
   }
   if (length > MAX_LENGTH) {
     throw new HprError("too-large", `${length} coordinates exceed the limit of ${MAX_LENGTH}`);

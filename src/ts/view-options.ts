@@ -1,5 +1,6 @@
 import { describe, HprError } from "./errors.js";
-import { givenOptions, number } from "./options.js";
+import { givenOptions, integer, number } from "./options.js";
+import { MOST_POINTS } from "./positions.js";
 
 /** How the radius R is chosen where it is not given. */
 export type RadiusRule = "auto" | "search" | "opposite";
@@ -165,17 +166,13 @@ function givenInversion(inversion: unknown): Record<string, unknown> {
   }
 }
 
-/** The upper bound is the core's to check, which knows how many points are present. */
+/** The core, which knows how many points are present, allows fewer; it could not say a greater number. */
 function neighbors(given: Record<string, unknown>, name: "denoise" | "vote", dimension: number): number {
-  const count = given[name];
-  if (count === undefined) {
+  if (given[name] === undefined) {
     return 0;
   }
   requireSpace(name, dimension);
-  if (!Number.isInteger(count) || (count as number) < 1) {
-    throw new HprError("option", `${name} must be an integer of at least 1, got ${describe(count)}`);
-  }
-  return count as number;
+  return integer(given, name, 1, MOST_POINTS - 1) ?? 0;
 }
 
 function isRule(value: unknown): value is RadiusRule {

@@ -4,6 +4,9 @@ import type { Answers, Found } from "./queries.js";
 import { plainView, typedArrayType } from "./typed-arrays.js";
 import type { ResolvedInversion } from "./view-options.js";
 
+/** Takes the memory of an answer's indices: gone for whoever still looks at them. */
+export let takeMemory: (answer: unknown) => ArrayBuffer | undefined;
+
 /** How a radius was chosen. */
 export interface ChosenRadius {
   /**
@@ -21,7 +24,7 @@ export interface ChosenRadius {
 /**
  * Which points are visible, from one viewpoint or several. The masks are made from `indices`
  * when they are asked for: what is written there shows in them, and once its
- * buffer has been transferred away the methods throw an HprError `disposed`.
+ * buffer has been recycled or transferred away the methods throw an HprError `disposed`.
  */
 export interface Visibility extends ChosenRadius {
   /** The visible points' indices, ascending: the caller's own copy. */
@@ -70,6 +73,21 @@ export class VisibilityAnswer implements Visibility {
   readonly inversion: ResolvedInversion;
   readonly #cloudLength: number;
 
+  static {
+    takeMemory = (answer) => {
+      if (typeof answer !== "object" || answer === null || !(#cloudLength in answer)) {
+        throw new HprError("option", `recycle needs an answer of a cloud, got ${describe(answer)}`);
+      }
+      try {
+        const { buffer } = answer.indices;
+        return structuredClone(buffer as ArrayBuffer, { transfer: [buffer as ArrayBuffer] });
+      } catch {
+        // Gone already: recycled before, or transferred away.
+        return undefined;
+      }
+    };
+  }
+
   constructor(answer: Found) {
     this.indices = answer.indices;
     this.count = answer.indices.length;
@@ -110,7 +128,7 @@ export class VisibilityAnswer implements Visibility {
   #readIndices(): Uint32Array {
     const indices = plainView(this.indices, Uint32Array);
     if (indices === undefined) {
-      throw new HprError("disposed", "the indices of this answer are gone: their buffer has been transferred away");
+      throw new HprError("disposed", "the indices of this answer are gone: their buffer has been recycled or transferred away");
     }
     return indices;
   }

@@ -6,6 +6,7 @@ use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::failure::Failure;
+use super::options::ViewOptions;
 use super::to_js;
 use super::transfer::copy_out;
 use crate::{ChosenRadius, Error, Exponential, Inversion, Visibility};
@@ -24,14 +25,18 @@ struct Answer {
 }
 
 /// An answer with the triangles between its points, if it has any.
-pub(super) fn answer(visibility: &Visibility, triangles: &[[u32; 3]]) -> Result<JsValue, Failure> {
+pub(super) fn answer(
+    visibility: &Visibility,
+    triangles: &[[u32; 3]],
+    options: &ViewOptions,
+) -> Result<JsValue, Failure> {
     let scale = match visibility.inversion() {
         Inversion::Exponential(Exponential::Scale(scale)) => scale,
         _ => 0.0,
     };
     Ok(to_js(&Answer {
-        indices: copy_out(visibility.indices())?,
-        triangles: copy_out(triangles.as_flattened())?,
+        indices: copy_out(visibility.indices(), options)?,
+        triangles: copy_out(triangles.as_flattened(), options)?,
         radius: visibility.radius(),
         exponent: visibility.exponent(),
         evaluations: f64::from(visibility.evaluations()),
@@ -40,8 +45,11 @@ pub(super) fn answer(visibility: &Visibility, triangles: &[[u32; 3]]) -> Result<
 }
 
 /// The answer to a query that was not refused.
-pub(super) fn answered(visibility: Result<Visibility, Failure>) -> Result<JsValue, JsValue> {
-    Ok(visibility.and_then(|visibility| answer(&visibility, &[]))?)
+pub(super) fn answered(
+    visibility: Result<Visibility, Failure>,
+    options: &ViewOptions,
+) -> Result<JsValue, JsValue> {
+    Ok(visibility.and_then(|visibility| answer(&visibility, &[], options))?)
 }
 
 #[derive(Serialize)]

@@ -36,18 +36,20 @@ pub(super) struct CloudInfo {
     handle: f64,
     length: f64,
     skipped: f64,
+    spacing: f64,
 }
 
 impl CloudInfo {
     fn new(handle: u32, cloud: &Cloud) -> Self {
-        let (length, skipped) = match cloud {
-            Cloud::Space(cloud) => (cloud.len(), cloud.skipped()),
-            Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped()),
+        let (length, skipped, spacing) = match cloud {
+            Cloud::Space(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
+            Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
         };
         Self {
             handle: f64::from(handle),
             length: length as f64,
             skipped: skipped as f64,
+            spacing,
         }
     }
 }
@@ -103,15 +105,20 @@ pub(super) fn with_view<T>(
     query: impl FnOnce(&PointCloud) -> Result<T, Error>,
 ) -> Result<T, Failure> {
     if options.denoise.or(options.vote).is_some() {
-        CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {
-            Some(Some(Cloud::Space(cloud))) => match cloud.prepare_for(options) {
-                Ok(()) | Err(Error::OutOfMemory) => Ok(()),
-                Err(refused) => Err(Failure::from(refused)),
-            },
-            _ => Err(Failure::DISPOSED),
-        })?;
+        prepare(handle, options)?;
     }
     with_cloud(handle, query)
+}
+
+#[inline(never)]
+fn prepare(handle: u32, options: &Options) -> Result<(), Failure> {
+    CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {
+        Some(Some(Cloud::Space(cloud))) => match cloud.prepare_for(options) {
+            Ok(()) | Err(Error::OutOfMemory) => Ok(()),
+            Err(refused) => Err(Failure::from(refused)),
+        },
+        _ => Err(Failure::DISPOSED),
+    })
 }
 
 pub(super) fn with_hyper<T>(
@@ -151,7 +158,7 @@ fn forget(handle: u32) {
 /// Changes a cloud of any dimension.
 pub(super) fn change_any(
     handle: u32,
-    change: impl FnOnce(&mut Cloud) -> Result<(), Error>,
+    change: &mut dyn FnMut(&mut Cloud) -> Result<(), Error>,
 ) -> Result<CloudInfo, Failure> {
     forget(handle);
     CLOUDS.with_borrow_mut(|clouds| {

@@ -31,7 +31,7 @@ pub fn create(
 #[wasm_bindgen(js_name = appendHyper, unchecked_return_type = "CloudSize")]
 pub fn append(handle: u32, positions: &Float64Array) -> Result<JsValue, JsValue> {
     let positions = numbers(positions).map_err(refused)?;
-    resized(change_any(handle, |cloud| match cloud {
+    resized(change_any(handle, &mut |cloud| match cloud {
         Cloud::Space(_) => Ok(()),
         Cloud::Hyper(cloud) => cloud.append(&positions),
     }))
@@ -45,17 +45,18 @@ pub fn visible_from(
     k: u32,
     options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
-    let options = options.read();
-    answered(with_hyper(handle, |cloud| {
+    let view = options.read();
+    let seen = with_hyper(handle, |cloud| {
         let viewpoints = numbers(viewpoints)?;
         let mut rows: Vec<&[f64]> = with_room(viewpoints.len() / cloud.dimension())?;
         rows.extend(viewpoints.chunks_exact(cloud.dimension()));
         if rows.is_empty() {
-            cloud.visible_from_any(&rows, &options)
+            cloud.visible_from_any(&rows, &view)
         } else {
-            cloud.visible_from_at_least(k as usize, &rows, &options)
+            cloud.visible_from_at_least(k as usize, &rows, &view)
         }
-    }))
+    });
+    answered(seen, options)
 }
 
 /// The radius that the rule of `options` chooses for a viewpoint.

@@ -1,5 +1,6 @@
 //! Options of a view as JavaScript hands them over: checked for type there, for range here.
 
+use js_sys::Uint32Array;
 use wasm_bindgen::prelude::*;
 
 use crate::{Exponential, Inversion, Options, Radius};
@@ -22,6 +23,10 @@ extern "C" {
     fn denoise(this: &ViewOptions) -> f64;
     #[wasm_bindgen(method, getter)]
     fn vote(this: &ViewOptions) -> f64;
+    /// JavaScript makes the arrays of an answer: it knows of memory that can be used again,
+    /// and a refused allocation of its own is an error rather than a trap.
+    #[wasm_bindgen(method, catch)]
+    pub(super) fn memory(this: &ViewOptions, length: u32) -> Result<Uint32Array, JsValue>;
 }
 
 impl ViewOptions {

@@ -19,11 +19,11 @@ pub fn reconstruct(
     options: &ViewOptions,
     max_edge: Option<f64>,
 ) -> Result<JsValue, JsValue> {
-    let options = options.read();
-    let mesh = with_view(handle, &options, |cloud| {
-        cloud.reconstruct([x, y, z], &options, max_edge)
+    let view = options.read();
+    let mesh = with_view(handle, &view, |cloud| {
+        cloud.reconstruct([x, y, z], &view, max_edge)
     })?;
-    Ok(answer(&mesh.visibility, &mesh.triangles)?)
+    Ok(answer(&mesh.visibility, &mesh.triangles, options)?)
 }
 
 /// Writes the brightness of every index under the lights, x, y, z of one after another,

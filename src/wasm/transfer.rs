@@ -4,45 +4,40 @@
 use alloc::vec::Vec;
 
 use js_sys::{Float32Array, Float64Array, Uint32Array};
-use wasm_bindgen::prelude::*;
 
+use super::options::ViewOptions;
 use crate::Error;
 use crate::points::Points;
 use crate::room::filled;
 
-#[wasm_bindgen]
-extern "C" {
-    // js-sys has this constructor too, but there a refused allocation would
-    // unwind through the frames of this instance instead of being an error.
-    #[wasm_bindgen(js_name = Uint32Array)]
-    type FallibleUint32Array;
-    #[wasm_bindgen(catch, constructor, js_class = "Uint32Array")]
-    fn new(length: u32) -> Result<FallibleUint32Array, JsValue>;
-}
-
+#[inline(never)]
 pub(super) fn singles(positions: &Float32Array) -> Result<Points, Error> {
     let mut own = zeros::<[f32; 3]>(positions.length() / 3)?;
     positions.copy_to(own.as_flattened_mut());
     Ok(Points::Single(own))
 }
 
+#[inline(never)]
 pub(super) fn doubles(positions: &Float64Array) -> Result<Points, Error> {
     Ok(Points::Double(triples(positions)?))
 }
 
 /// Points of three doubles each.
+#[inline(never)]
 pub(super) fn triples(positions: &Float64Array) -> Result<Vec<[f64; 3]>, Error> {
     let mut own = zeros::<[f64; 3]>(positions.length() / 3)?;
     positions.copy_to(own.as_flattened_mut());
     Ok(own)
 }
 
+#[inline(never)]
 pub(super) fn numbers(numbers: &Float64Array) -> Result<Vec<f64>, Error> {
     let mut own = zeros(numbers.length())?;
     numbers.copy_to(&mut own);
     Ok(own)
 }
 
+#[inline(never)]
 pub(super) fn copy_in_integers(integers: &Uint32Array) -> Result<Vec<u32>, Error> {
     let mut own = zeros(integers.length())?;
     integers.copy_to(&mut own);
@@ -50,6 +45,7 @@ pub(super) fn copy_in_integers(integers: &Uint32Array) -> Result<Vec<u32>, Error
 }
 
 /// Triangles of three indices each.
+#[inline(never)]
 pub(super) fn corners(triangles: &Uint32Array) -> Result<Vec<[u32; 3]>, Error> {
     let mut own = zeros::<[u32; 3]>(triangles.length() / 3)?;
     triangles.copy_to(own.as_flattened_mut());
@@ -62,9 +58,11 @@ fn zeros<T: Copy + Default>(count: u32) -> Result<Vec<T>, Error> {
 }
 
 /// The caller's own copy: views of this memory would die when it grows.
-pub(super) fn copy_out(indices: &[u32]) -> Result<Uint32Array, Error> {
-    let copy = FallibleUint32Array::new(indices.len() as u32).map_err(|_| Error::OutOfMemory)?;
-    let copy: Uint32Array = copy.unchecked_into();
+#[inline(never)]
+pub(super) fn copy_out(indices: &[u32], options: &ViewOptions) -> Result<Uint32Array, Error> {
+    let copy = options
+        .memory(indices.len() as u32)
+        .map_err(|_| Error::OutOfMemory)?;
     copy.copy_from(indices);
     Ok(copy)
 }

@@ -34,12 +34,13 @@ pub fn visible_in_sector(
     count: u32,
 ) -> Result<JsValue, JsValue> {
     let sector = Sector::new(number, count).unwrap_or(Sector::WHOLE);
-    let options = options.read();
-    answered(with_view(handle, &options, |cloud| {
+    let view = options.read();
+    let seen = with_view(handle, &view, |cloud| {
         with_memory(handle, |memory| {
-            cloud.visible_in_sector_with(memory, [x, y, z], &options, sector)
+            cloud.visible_in_sector_with(memory, [x, y, z], &view, sector)
         })
-    }))
+    });
+    answered(seen, options)
 }
 
 /// Which points are visible from at least `k` of the viewpoints, x, y, z of one after
@@ -51,16 +52,17 @@ pub fn visible_from_several(
     k: u32,
     options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
-    let options = options.read();
-    answered(with_view(handle, &options, |cloud| {
+    let view = options.read();
+    let seen = with_view(handle, &view, |cloud| {
         let viewpoints = triples(viewpoints)?;
         // Any of none is an answer, one of none a refusal.
         if viewpoints.is_empty() {
-            cloud.visible_from_any(&viewpoints, &options)
+            cloud.visible_from_any(&viewpoints, &view)
         } else {
-            cloud.visible_from_at_least(k as usize, &viewpoints, &options)
+            cloud.visible_from_at_least(k as usize, &viewpoints, &view)
         }
-    }))
+    });
+    answered(seen, options)
 }
 
 /// Which points are visible along (x, y, z) from infinitely far away?
@@ -72,10 +74,11 @@ pub fn visible_from_direction(
     z: f64,
     options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
-    let options = options.read();
-    answered(with_view(handle, &options, |cloud| {
-        cloud.visible_from_direction([x, y, z], &options)
-    }))
+    let view = options.read();
+    let seen = with_view(handle, &view, |cloud| {
+        cloud.visible_from_direction([x, y, z], &view)
+    });
+    answered(seen, options)
 }
 
 /// The radius that the rule of `options` chooses for (x, y, z).

@@ -2,18 +2,17 @@
 import { spawnSync } from "node:child_process";
 import { cpus, loadavg, platform, release, totalmem } from "node:os";
 
-import type { BrowserEngine } from "./chromium.js";
 import type { Peer } from "./peers.js";
 
 const [loadBefore = 0] = loadavg();
 
-export function describeMachine(browser: BrowserEngine | undefined, peers: Peer[]): Record<string, string> {
+export function describeMachine(chromium: string | undefined, peers: Peer[]): Record<string, string> {
   const cores = cpus();
   const memory = `${Math.round(totalmem() / 2 ** 30)} GiB`;
   const rustc = spawnSync("rustc", ["--version"], { encoding: "utf8" }).stdout.trim();
   const versions = [
     `Node ${process.versions.node}`,
-    ...(browser === undefined ? [] : [`Chromium ${browser.version}`]),
+    ...(chromium === undefined ? [] : [`Chromium ${chromium}`]),
     rustc,
     ...peers.map(({ name, version }) => `${name} ${version}`),
   ];

@@ -11,12 +11,14 @@ import { fidelityTables } from "../fidelity/tables.js";
 import { type BrowserEngine, openChromium } from "./chromium.js";
 import { CLOUDS, type Cloud } from "./clouds.js";
 import { localEngines } from "./engines.js";
+import { measureGarbage } from "./garbage.js";
 import { timeSizes } from "./linear.js";
 import { describeMachine } from "./machine.js";
 import { measureMemory } from "./memory.js";
 import { timeNodes } from "./nodes.js";
 import { type BenchOptions, readOptions, USAGE } from "./options.js";
 import { root } from "./paths.js";
+import { measurePage } from "./page/page.js";
 import { peers } from "./peers.js";
 import { markdown, type Table } from "./report.js";
 import { timeQueries } from "./speed.js";
@@ -33,22 +35,32 @@ try {
   if (options.sections.has("speed")) tables.push(...(await timeQueries(chosenClouds(), enginesWith(browser), others)));
   if (options.sections.has("workers")) tables.push(...[await timeWorkers()].filter((table) => table !== undefined));
   if (options.sections.has("linear")) tables.push(await timeSizes(localEngines()));
-  if (options.sections.has("adapter")) tables.push(await timeAdapter(), await timeNodes());
+  if (options.sections.has("adapter")) tables.push(await timeAdapter(), await timeNodes(), await measureGarbage());
   if (options.sections.has("memory")) tables.push(measureMemory());
   if (options.sections.has("fidelity")) tables.push(...fidelityTables(console.error));
 } finally {
   await browser?.close();
 }
 
-const machine = describeMachine(browser, others);
-const text = [
-  "# Measured\n",
-  ...Object.entries(machine).map(([what, value]) => `- ${what}: ${value}`),
-  `- command: \`${["npm run bench", ...(args.length === 0 ? [] : ["--", ...args])].join(" ")}\`\n`,
-  ...tables.map(markdown).filter((table) => table !== ""),
-].join("\n");
-if (options.write) writeFileSync(join(root, "tests", "bench", "RESULTS.md"), text);
-console.log(options.json ? JSON.stringify({ machine, tables }, undefined, 2) : text);
+const wanted = { page: options.sections.has("page"), soak: options.sections.has("soak") };
+const demo = wanted.page || wanted.soak ? await measurePage(wanted) : undefined;
+
+const machine = describeMachine(demo?.chromium ?? browser?.version, others);
+const reports = { "RESULTS.md": tables, "PAGE.md": demo?.page ?? [], "SOAK.md": demo?.soak ?? [] };
+for (const [file, reported] of Object.entries(reports)) {
+  if (reported.length > 0 && options.write) writeFileSync(join(root, "tests", "bench", file), textOf(reported));
+}
+const all = Object.values(reports).flat();
+console.log(options.json ? JSON.stringify({ machine, tables: all }, undefined, 2) : textOf(all));
+
+function textOf(tables: Table[]): string {
+  return [
+    "# Measured\n",
+    ...Object.entries(machine).map(([what, value]) => `- ${what}: ${value}`),
+    `- command: \`${["npm run bench", ...(args.length === 0 ? [] : ["--", ...args])].join(" ")}\`\n`,
+    ...tables.map(markdown).filter((table) => table !== ""),
+  ].join("\n");
+}
 
 function optionsOrExit(): BenchOptions {
   try {

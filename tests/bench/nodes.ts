@@ -1,6 +1,6 @@
 // A cloud split into nodes, against the same cloud in one piece: the same answers, and what they take.
 import { PointCloud } from "hidden-point-removal";
-import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
+import { HiddenPointNodesFilter, type HiddenPointNodesFilterEvents } from "hidden-point-removal/nodes";
 import { BufferAttribute, BufferGeometry, Group, PerspectiveCamera, Points } from "three";
 
 import { garbageOf, meanMicroseconds } from "./adapter.js";
@@ -14,12 +14,6 @@ const VIEWS = 12;
 /** Cells along the longest side of the box. */
 const GRIDS = [8, 16];
 
-interface Change {
-  viewpoint: number[];
-  radius: number;
-  milliseconds: number;
-}
-
 export async function timeNodes(): Promise<Table> {
   const cloud = dragon("dragon");
   const rows: Row[] = [];
@@ -29,7 +23,8 @@ export async function timeNodes(): Promise<Table> {
   }
   const note =
     "The answer of all nodes, compared with that of the cloud in one piece. Milliseconds from asking to the answer, in Node, " +
-    "on one worker; microseconds and bytes of garbage of an update() in which nothing changes.";
+    "on one worker: of a view 30° further, and of the same one when a node has gone or come back. Microseconds and bytes of " +
+    "garbage of an update() in which nothing changes.";
   return { title: "Nodes of one cloud", note, rows };
 }
 
@@ -38,24 +33,31 @@ async function row(cloud: Cloud, along: number): Promise<Row> {
   const root = new Group().add(...nodes);
   const camera = new PerspectiveCamera();
   const filter = new HiddenPointNodesFilter(root);
-  const changes: Change[] = [];
+  const changes: HiddenPointNodesFilterEvents["change"][] = [];
   filter.addEventListener("change", (change) => changes.push(change));
   const unsplit = new PointCloud(whole);
   const at = orbit(cloud);
-  const [split_, together, decades]: number[][] = [[], [], []];
+  const [split_, together, changed]: number[][] = [[], [], []];
   let visible = 0;
   for (let i = 0; i < VIEWS; i++) {
     camera.position.fromArray(at(30 * i));
     filter.update(camera);
     await settled(filter);
-    const { viewpoint, radius, milliseconds } = changes.at(-1)!;
+    const { viewpoint, milliseconds } = changes.at(-1)!;
     const start = performance.now();
-    const { indices } = unsplit.visibleFrom(viewpoint, { radius });
+    const { indices } = unsplit.visibleFrom(viewpoint!);
     together!.push(performance.now() - start);
     if (digestOf(indices) !== digestOf(drawnOf(nodes))) throw new WrongAnswer(`${nodes.length} nodes answer otherwise than the cloud in one piece`);
     split_!.push(milliseconds);
-    decades!.push(Math.abs(Math.log10(radius / unsplit.autoRadius(viewpoint).radius)));
     visible = indices.length;
+  }
+  for (let i = 0; i < VIEWS; i++) {
+    const [node] = nodes;
+    if (i % 2 === 0) root.remove(node!);
+    else root.add(node!);
+    filter.update(camera);
+    await settled(filter);
+    changed!.push(changes.at(-1)!.milliseconds);
   }
   const still = () => {
     filter.update(camera);
@@ -68,7 +70,7 @@ async function row(cloud: Cloud, along: number): Promise<Row> {
     visible,
     "nodes, ms": median(split_!),
     "in one piece, ms": median(together!),
-    "decades from the automatic R, at most": Math.max(...decades!),
+    "a node gone or back, ms": median(changed!),
     "still, µs": meanMicroseconds(still),
     "still, bytes": garbageOf(still),
   };

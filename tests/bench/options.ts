@@ -10,19 +10,24 @@ WHAT, by default --speed and --workers:
                three.js and quickhull3d on the same flipped points
   --workers    two workers against one, on a million points
   --linear     nanoseconds a point from 30,000 to 3 million points
-  --adapter    what the adapters for three.js take of the page's own thread
+  --adapter    what the adapters for three.js take of the page's own thread, and the memory
+               that answers leave behind
   --memory     the wasm memory: peaks, over 1,000 queries, and at 10 million points
+  --page       the built demo page in Chromium: first picture, an orbit, what holds its thread
+  --soak       what that page holds after 200 answers and 40 clouds
   --fidelity   errors against ray-traced visibility, for each choice of the radius
-  --all        all of it, and --peers
+  --all        all of it but --page and --soak, and --peers
 
   --clouds     only these of --speed's clouds:
                ${Object.keys(CLOUDS).join(", ")}
   --peers      also SciPy (Qhull) and Open3D, installed into target/ (needs Python 3 with pip)
   --json       prints JSON instead of tables
-  --write      writes the tables to tests/bench/RESULTS.md, too`;
+  --write      writes the tables to tests/bench, too: to RESULTS.md, or PAGE.md and SOAK.md`;
 
-const SECTIONS = ["speed", "workers", "linear", "adapter", "memory", "fidelity"] as const;
+const SECTIONS = ["speed", "workers", "linear", "adapter", "memory", "page", "soak", "fidelity"] as const;
 type Section = (typeof SECTIONS)[number];
+/** Those that "all" leaves out. */
+const ALONE = new Set<Section>(["page", "soak"]);
 
 export interface BenchOptions {
   sections: ReadonlySet<Section>;
@@ -35,10 +40,10 @@ export interface BenchOptions {
 /** Throws an Error that says what is wrong with the arguments. */
 export function readOptions(args: string[]): BenchOptions {
   const flag = { type: "boolean", default: false } as const;
-  const flags = { speed: flag, workers: flag, linear: flag, adapter: flag, memory: flag, fidelity: flag, all: flag };
+  const flags = { speed: flag, workers: flag, linear: flag, adapter: flag, memory: flag, page: flag, soak: flag, fidelity: flag, all: flag };
   const options = { ...flags, peers: flag, json: flag, write: flag, clouds: { type: "string" } } as const;
   const { values } = parseArgs({ args, options });
-  const asked = SECTIONS.filter((section) => values[section] || values.all);
+  const asked = SECTIONS.filter((section) => values[section] || (values.all && !ALONE.has(section)));
   const clouds = values.clouds?.split(",") ?? Object.keys(CLOUDS);
   const unknown = clouds.find((name) => !(name in CLOUDS));
   if (unknown !== undefined) throw new Error(`There is no cloud named ${unknown}.`);

@@ -10,7 +10,7 @@ const COUNT = 600;
 export const positions = georeferencedBall(COUNT);
 export const MIDDLE = [512_345.5, 5_403_210.25, 431.75] as const;
 const [X, Y, Z] = MIDDLE;
-const DISTANCE = 9;
+export const DISTANCE = 9;
 const FRONT = [X, Y, Z + DISTANCE];
 
 /** The page with the ball, or with a file of it made by the test. */

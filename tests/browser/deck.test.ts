@@ -111,3 +111,41 @@ it("takes any data, a viewpoint and other options", async () => {
   await reached(({ errors }) => errors.length > 1);
   expect(await inPage(({ errors }) => errors.at(-1))).toBe("non-finite");
 });
+
+it("gets over the death of its worker, whether it is asked or not", async () => {
+  const before = await compared();
+  await inPage(({ killWorker, set }) => {
+    killWorker();
+    set({}, { rotationX: -60, rotationOrbit: 20 });
+  });
+  await reached(({ answers }) => answers.length === 2);
+  const after = await compared();
+  expect(after.visible).toEqual(after.expected);
+  expect(after.visible).not.toEqual(before.visible);
+
+  await inPage(({ killWorkerWhenAsked, set }) => {
+    killWorkerWhenAsked();
+    set({}, { rotationX: 90, rotationOrbit: 0 });
+  });
+  await reached(({ answers }) => answers.length === 3);
+  expect((await compared()).visible).toEqual(before.visible);
+  expect(await inPage(({ errors, workers }) => [errors, workers()])).toEqual([[], 3]);
+});
+
+it("says when the next worker is lost, too, and asks no more", async () => {
+  await inPage(({ killWorkerWhenAsked, set }) => {
+    killWorkerWhenAsked(2);
+    set({}, { rotationX: -60, rotationOrbit: 20 });
+  });
+  await reached(({ errors }) => errors.length > 0);
+  await inPage(({ set }) => {
+    set({}, { rotationX: 90, rotationOrbit: 0 });
+  });
+  await inPage(() => new Promise((resolve) => setTimeout(resolve, 300)));
+  expect(await inPage(({ errors, workers, answers }) => [errors, workers(), answers.length])).toEqual([["internal"], 2, 1]);
+  // Other data is asked about in a worker of its own.
+  await inPage(({ set }) => {
+    set({ data: { length: 1, attributes: { getPosition: { value: new Float32Array(3), size: 3 } } } as never });
+  });
+  await reached(({ answers }) => answers.at(-1)!.count === 1);
+});

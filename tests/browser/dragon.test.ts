@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import { answerInNode, drag, dragonPositions, openReady, refiltered, settled, status } from "./support.js";
+import { answered, answerInNode, drag, dragonPositions, openReady, refiltered, settled, status, upToDate } from "./support.js";
 
 test("the page opens on the dragon, and every answer while orbiting is the package's own", async () => {
   const positions = dragonPositions();
@@ -8,7 +8,7 @@ test("the page opens on the dragon, and every answer while orbiting is the packa
   expect(first.total).toBe(437_645);
   expect(first.visible).toBeGreaterThan(0);
   expect(first.visible).toBeLessThan(first.total);
-  expect(first.sentence).toMatch(/^[\d,]+ of 437,645 points \(\d+\s%\) are visible from here, found in [\d.]+\sms\.$/);
+  expect(first.sentence).toMatch(/^[\d,]+ of 437,645 points \(\d+\s%\) are visible from here, found in [\d.,]+\sms\.$/);
   expect(first).toMatchObject(await answerInNode(positions, first));
 
   await drag(page, 180, 40);
@@ -46,4 +46,24 @@ test("while the worker is busy the page goes on drawing, and the newest viewpoin
   expect(await frames).toBeGreaterThan(1);
   const after = await refiltered(page, before);
   expect(after).toMatchObject(await answerInNode(dragonPositions(), after));
+});
+
+test("a slow question that the camera leaves behind does not hold up the next answer", async () => {
+  const page = await openReady("?sample=dragon_res2&radius=opposite");
+  const first = await upToDate(page);
+  expect(first.evaluations).toBeGreaterThan(10);
+  // The camera rests for long enough that the rule, of some 40 hulls, is asked, and goes on before it can be answered.
+  await page.locator("#view").press("ArrowLeft");
+  const quick = await answered(page, first);
+  expect(quick.evaluations).toBe(0);
+  await page.waitForTimeout(450);
+  const before = await status(page);
+  await page.locator("#view").press("ArrowLeft");
+  const next = await answered(page, before);
+  expect(next.evaluations).toBe(0);
+  expect(next.viewpoint).not.toEqual(quick.viewpoint);
+  // The rule is then asked where the camera has come to rest.
+  const last = await upToDate(page);
+  expect(last).toMatchObject({ viewpoint: next.viewpoint, ...(await answerInNode(dragonPositions("_res2"), next, { radius: "opposite" })) });
+  expect(last.evaluations).toBeGreaterThan(10);
 });

@@ -119,9 +119,9 @@ test("attributes and properties are followed, and what they cannot be is told", 
   // The keys of the page, and attributes that follow them.
   await element(page, "a", (cloud) => { cloud.focus(); });
   await page.keyboard.press("h");
-  await page.keyboard.press("f");
+  await page.keyboard.press("v");
   expect(await element(page, "a", ({ hiddenPoints, frozen }) => [hiddenPoints, frozen])).toEqual(["dimmed", true]);
-  await page.keyboard.press("f");
+  await page.keyboard.press("v");
   expect(await page.locator("#a").getAttribute("frozen")).toBeNull();
   expect((await change(() => page.keyboard.press("ArrowLeft"))).viewpoint).not.toEqual([-9, 1, 0]);
   expect((await change(() => page.keyboard.press("r"))).viewpoint).toEqual([-9, 1, 0]);

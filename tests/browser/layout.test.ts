@@ -1,8 +1,6 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { openPage, openReady, reached, refiltered, settled, status } from "./support.js";
-
-const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
+import { openPage, openReady, PHONE, reached, refiltered, settled, status } from "./support.js";
 
 /** Controls and texts in sight that lie over one another, are cut off at the side, or have no name. */
 async function flaws(page: Page): Promise<string[]> {
@@ -93,6 +91,48 @@ test("keyboard focus is seen", async () => {
   await page.getByRole("button", { name: "Reset view" }).focus();
   await page.keyboard.press("Tab");
   expect(await outline()).toBe("solid");
+});
+
+test.for([
+  { name: "a phone held sideways", options: { ...PHONE, viewport: { width: 844, height: 390 } }, text: 16 },
+  { name: "text of twice the size", options: { viewport: { width: 1280, height: 800 } }, text: 32 },
+  { name: "everything of twice the size", options: { viewport: { width: 640, height: 400 }, deviceScaleFactor: 2 }, text: 16 },
+  { name: "the system's own colors", options: { viewport: { width: 1280, height: 800 }, forcedColors: "active" }, text: 16 },
+] as const)("with $name nothing overlaps or is cut off", async ({ options, text }) => {
+  const page = await openPage("?sample=bunny", options);
+  await (await page.context().newCDPSession(page)).send("Page.setFontSizes", { fontSizes: { standard: text } });
+  await reached(page, "ready");
+  expect(await page.evaluate(() => Number.parseFloat(getComputedStyle(document.documentElement).fontSize))).toBe(0.9375 * text);
+  await page.locator("#tools").waitFor();
+  for (const open of [false, true]) {
+    await page.evaluate((unfolded) => {
+      document.getElementById("panel")!.classList.toggle("open", unfolded);
+      for (const section of document.querySelectorAll("details")) section.open = unfolded;
+    }, open);
+    expect(await flaws(page)).toEqual([]);
+  }
+  // The cloud keeps room for itself, and its tools stay within it.
+  await page.evaluate(() => { document.getElementById("panel")!.classList.remove("open"); });
+  const view = (await page.locator("#view").boundingBox())!;
+  const bar = (await page.locator("#tool-bar").boundingBox())!;
+  expect(bar.y).toBeGreaterThan(view.y + 0.4 * view.height);
+  expect(bar.x + bar.width).toBeLessThanOrEqual(view.x + view.width);
+});
+
+test("fingers have 44 pixels for everything they can press", async () => {
+  const page = await openReady("?sample=bunny&light=0,0.3,0.2", PHONE);
+  const small = await page.evaluate(() => {
+    document.getElementById("panel")!.classList.add("open");
+    for (const section of document.querySelectorAll("details")) section.open = true;
+    const all = [...document.querySelectorAll<HTMLElement>("button, select, summary, .segmented label, input[type=range], #through-choice")].filter((element) => element.checkVisibility());
+    return all.flatMap((element) => {
+      const { width, height } = element.getBoundingClientRect();
+      // A light's handle takes more than what is seen of it.
+      const more = element.parentElement!.id === "lights" ? -2 * Number.parseFloat(getComputedStyle(element, "::after").top) : 0;
+      return Math.min(width, height) + more < 43.9 ? `${element.id || element.textContent}: ${width} × ${height}` : [];
+    });
+  });
+  expect(small).toEqual([]);
 });
 
 test("without WebGL a plain sentence says so", async () => {

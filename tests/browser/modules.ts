@@ -11,7 +11,9 @@ const TYPES: Record<string, string> = { ".js": "text/javascript", ".wasm": "appl
  * bundled. Once they are loaded, `modules` holds them by their names.
  */
 export async function serveModules(imports: Record<string, string>): Promise<{ address: string; close: () => void }> {
-  const load = `Promise.all(Object.keys(${JSON.stringify(imports)}).map(async (name) => [name, await import(name)]))`;
+  // A name with a slash at its end stands for a folder.
+  const names = Object.keys(imports).filter((name) => !name.endsWith("/"));
+  const load = `Promise.all(${JSON.stringify(names)}.map(async (name) => [name, await import(name)]))`;
   const page = `<!doctype html><link rel="icon" href="data:,"><body>
     <script type="importmap">${JSON.stringify({ imports })}</script>
     <script type="module">globalThis.modules = Object.fromEntries(await ${load});</script>`;

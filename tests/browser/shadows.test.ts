@@ -1,7 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { asciiPly } from "./clouds.js";
-import { brightness, differentPixels, openReady, picture, served, status, unfold, upToDate } from "./support.js";
+import { brightness, differentPixels, EVERY_PIXEL, openReady, picture, served, status, unfold, upToDate } from "./support.js";
 
 /** A wall of two by two, and a small plate before its middle. */
 function wall(): number[] {
@@ -17,7 +17,7 @@ const LEFT_LIGHT = "&light=-1.2,0,1.5";
 
 async function openWall(query: string): Promise<Page> {
   served.set("clouds/wall.ply", asciiPly(wall()));
-  const page = await openReady(FROM + query);
+  const page = await openReady(FROM + query, EVERY_PIXEL);
   await upToDate(page);
   return page;
 }
@@ -108,7 +108,7 @@ test("lights are added, dragged, moved by keys, brought to the camera and remove
   await page.keyboard.press("ArrowUp");
   const [turned] = await lightsInAddress(page, 1);
   expect(turned).not.toEqual(moved);
-  await page.getByRole("button", { name: "Put light 1 where the camera is" }).click();
+  await page.getByRole("button", { name: "To camera: light 1" }).click();
   await page.keyboard.press("ArrowLeft");
   // The address follows when it may.
   await expect.poll(async () => (await lightsInAddress(page, 1))[0]).not.toEqual(turned);

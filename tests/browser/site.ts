@@ -16,19 +16,27 @@ const TYPES: Record<string, string> = {
   ".css": "text/css",
   ".svg": "image/svg+xml",
   ".wasm": "application/wasm",
+  ".webmanifest": "application/manifest+json",
+  ".webp": "image/webp",
 };
 
 export interface Site {
   /** Of the page, with a slash at its end. */
   address: string;
+  /** Every file that was asked for, in this order. */
+  asked: string[];
   close(): void;
+  /** As if it had never been there: no connection stays, either. */
+  vanish(): void;
 }
 
-/** Serves the built page, and `extra` files beside it; with `headers` such as those that let other sites have them. */
+/** Serves the built page, and `extra` files beside it or in the place of its own; with `headers` such as those that let other sites have them. */
 export async function servePage(extra: ReadonlyMap<string, Uint8Array> = new Map(), headers: Record<string, string> = {}): Promise<Site> {
+  const asked: string[] = [];
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url!, "http://localhost").pathname);
     const name = path.startsWith(FOLDER) ? path.slice(FOLDER.length) || "index.html" : "";
+    asked.push(name);
     const file = join(DIST, normalize(name));
     const own = name !== "" && file.startsWith(DIST) && existsSync(file);
     const body = extra.get(name) ?? (own ? readFileSync(file) : null);
@@ -44,8 +52,13 @@ export async function servePage(extra: ReadonlyMap<string, Uint8Array> = new Map
   await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
   return {
     address: `http://127.0.0.1:${(server.address() as AddressInfo).port}${FOLDER}`,
+    asked,
     close: () => {
       server.close();
+    },
+    vanish: () => {
+      server.close();
+      server.closeAllConnections();
     },
   };
 }

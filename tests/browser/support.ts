@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { gunzipSync } from "node:zlib";
-import { init, PointCloud } from "hidden-point-removal";
+import { init, PointCloud, type VisibilityOptions } from "hidden-point-removal";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, vi } from "vitest";
 import { launchBrowser, servePage, type Site } from "./site.js";
@@ -9,9 +9,11 @@ import { launchBrowser, servePage, type Site } from "./site.js";
 // Software rendering on a busy machine is slow: these limits only end what hangs.
 vi.setConfig({ testTimeout: 180_000, hookTimeout: 120_000 });
 
+export const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
+
 const require = createRequire(import.meta.url);
-let site: Site;
-let browser: Browser;
+export let site: Site;
+export let browser: Browser;
 let errors: string[] = [];
 let provoked: RegExp[] = [];
 const pages: Page[] = [];
@@ -35,26 +37,33 @@ afterEach(async () => {
   expect(seen, "errors in the browser's console").toEqual([]);
 });
 
+/** For tests that look at single pixels of a screenshot. */
+export const EVERY_PIXEL: BrowserContextOptions = { deviceScaleFactor: 1 };
+
 /** What the browser itself will say about something that the test has wanted to go wrong. */
 export function provoke(pattern: RegExp): void {
   provoked.push(pattern);
 }
 
-export async function openPage(query = "", options: BrowserContextOptions = {}): Promise<Page> {
-  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, ...options });
+/** `prepare`: done with the page before it is opened. */
+export async function openPage(query = "", options: BrowserContextOptions = {}, prepare?: (page: Page) => Promise<void>): Promise<Page> {
+  // Each page is the first visit: what stays between visits has tests of its own (offline.test.ts).
+  // Nearly all time goes into drawing in software: a quarter of the pixels, in a layout that is the same, takes half of it.
+  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, deviceScaleFactor: 0.5, serviceWorkers: "block", ...options });
   const page = await context.newPage();
   pages.push(page);
   page.on("console", (message) => {
     if (message.type() === "error") errors.push(message.text());
   });
   page.on("pageerror", (error) => errors.push(String(error)));
+  await prepare?.(page);
   await page.goto(site.address + query);
   return page;
 }
 
 /** Opens the page and waits until its cloud is there. */
-export async function openReady(query = "", options: BrowserContextOptions = {}): Promise<Page> {
-  const page = await openPage(query, options);
+export async function openReady(query = "", options: BrowserContextOptions = {}, prepare?: (page: Page) => Promise<void>): Promise<Page> {
+  const page = await openPage(query, options, prepare);
   await reached(page, "ready");
   return page;
 }
@@ -107,16 +116,19 @@ export async function refiltered(page: Page, before: Status): Promise<Status> {
   return settled(page);
 }
 
-/** The status once no more answers come. */
+/** The status once no more answers come: ten frames, in which the camera would have moved on, without a question or an answer. */
 export async function settled(page: Page): Promise<Status> {
-  let last = await status(page);
-  for (let quiet = 0; quiet < 5; ) {
-    await page.waitForTimeout(150);
-    const now = await status(page);
-    quiet = now.refilters === last.refilters ? quiet + 1 : 0;
-    last = now;
-  }
-  return last;
+  await page.evaluate(async () => {
+    const { dataset } = document.getElementById("status")!;
+    const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
+    let last = dataset["refilters"];
+    for (let quiet = 0; quiet < 10; ) {
+      await frame();
+      quiet = dataset["refilters"] === last && dataset["busy"] === "0" ? quiet + 1 : 0;
+      last = dataset["refilters"];
+    }
+  });
+  return status(page);
 }
 
 /** The status once the picture is that of the present settings and camera. */
@@ -153,7 +165,7 @@ export async function inNode<T>(positions: Float32Array | Float64Array, ask: (cl
 export async function answerInNode(
   positions: Float32Array | Float64Array,
   { viewpoint }: Status,
-  options: { radius?: number; exponent?: number } = {},
+  options: Pick<VisibilityOptions, "radius" | "exponent"> = {},
 ) {
   const { count, radius, exponent } = await inNode(positions, (cloud) => cloud.visibleFrom(viewpoint, options));
   return { visible: count, radius, exponent };

@@ -2,7 +2,7 @@ import { readFileSync } from "node:fs";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { at, clickPoint, everything, openBall, tool, visible, within } from "./ball.js";
-import { differentPixels, drag, openReady, picture, settled, status, upToDate } from "./support.js";
+import { differentPixels, drag, EVERY_PIXEL, openReady, picture, settled, status, upToDate } from "./support.js";
 
 const COLOR = (index: number) => [index % 256, (7 * index) % 256, 255 - (index % 256)];
 
@@ -115,7 +115,7 @@ test("single precision stays single: a sample's points are saved bit by bit", as
 });
 
 test("the picture is saved as one sees it, marks included", async () => {
-  const page = await openBall();
+  const page = await openBall(EVERY_PIXEL);
   await tool(page, "Measure").click();
   const seen = await visible(page);
   const canvas = (await page.locator("#view").boundingBox())!;

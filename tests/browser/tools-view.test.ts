@@ -1,9 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { at, openBall, place, tool } from "./ball.js";
-import { differentPixels, drag, dragonPositions, inNode, openReady, picture, reached, refiltered, settled, status, unfold, upToDate } from "./support.js";
-
-const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
+import { differentPixels, drag, dragonPositions, inNode, openReady, PHONE, picture, reached, refiltered, settled, status, unfold, upToDate } from "./support.js";
 
 /** Where the divider is, in pixels from the left. */
 async function dividerAt(page: Page): Promise<number> {

@@ -53,6 +53,24 @@ fn expected(points: &[[f64; 3]], viewpoint: [f64; 3]) -> f64 {
 }
 
 #[test]
+fn the_spacing_is_told() {
+    for kind in KINDS {
+        for (seed, n) in [(1, 2), (2, 7), (3, 60), (4, 500)] {
+            let points = kind.scene(seed, n).points;
+            let cloud = PointCloud::new(&points).unwrap();
+            let points = distinct(&points);
+            let expected = if points.len() < 2 {
+                0.0
+            } else {
+                spacing(&points)
+            };
+            let off = (cloud.spacing() - expected).abs();
+            assert!(off <= 1e-9 * expected, "{}: {off}", kind.name);
+        }
+    }
+}
+
+#[test]
 fn it_is_five_times_the_mean_square_distance_over_the_spacing() {
     for kind in KINDS.iter().filter(|kind| !kind.name.contains("scaled")) {
         for (seed, n) in [(1, 2), (2, 3), (3, 7), (4, 8), (5, 60), (6, 500)] {

@@ -4,7 +4,7 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use hidden_point_removal::{
-    Error, Exponential, Inversion, Options, PointCloud, Radius, ring_of_viewpoints,
+    Error, Exponential, Inversion, Lighting, Options, PointCloud, Radius, ring_of_viewpoints,
 };
 
 use crate::common::flip::distance;
@@ -66,6 +66,44 @@ fn no_viewpoint_sees_nothing() {
     );
     assert_eq!(answer.inversion(), options.inversion);
     assert_eq!(answer.mask(), [0; 50]);
+}
+
+#[test]
+fn no_viewpoint_is_refused_what_one_is() {
+    let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(1), 50)).unwrap();
+    let power = Options::with_inversion(Inversion::Power(2.0));
+    let scale = Options::with_inversion(Inversion::Exponential(Exponential::Auto));
+    let usual = Options::default();
+    for options in [
+        Options::with_radius(-1.0),
+        Options::with_exponent(-1.0),
+        Options {
+            radius: Radius::Absolute(0.0),
+            ..power
+        },
+        Options {
+            radius: Radius::Search,
+            ..power
+        },
+        Options {
+            radius: Radius::Absolute(9.0),
+            ..scale
+        },
+        Options {
+            vote: Some(50),
+            ..usual
+        },
+        Options {
+            denoise: Some(0),
+            ..usual
+        },
+    ] {
+        let one = cloud.visible_from([0.0; 3], &options).err();
+        assert!(one.is_some(), "{options:?}");
+        assert_eq!(cloud.visible_from_any(&[], &options).err(), one);
+        let lighting = Lighting::default();
+        assert_eq!(cloud.illuminate(&[], &options, &lighting).err(), one);
+    }
 }
 
 #[test]

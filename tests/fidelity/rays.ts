@@ -4,14 +4,9 @@ import { BufferAttribute, BufferGeometry, DoubleSide, Ray, Vector3 } from "three
 import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
 import { MeshBVH } from "three-mesh-bvh";
 
+import type { Mesh } from "../../www/compare/mesh.js";
 import { dragonPly } from "../bench/clouds.js";
 import type { Point } from "../bench/measure.js";
-
-export interface Mesh {
-  positions: Float32Array;
-  /** Three indices each. */
-  triangles: Uint32Array;
-}
 
 /** Points of a mesh, and of which face each is; without faces they are its vertices. */
 export interface MeshPoints {

@@ -1,8 +1,9 @@
 // Surfaces made here, as meshes, and points scattered over their faces.
+import { grid, joined, type Mesh } from "../../www/compare/mesh.js";
 import { roomSurfaces } from "../../www/room.js";
 import { bumpyRadius, direction, seeded } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";
-import type { Mesh, MeshPoints } from "./rays.js";
+import type { MeshPoints } from "./rays.js";
 
 /** A ring of radius 1 and thickness 0.8, lying level. */
 export function torus(): Mesh {
@@ -19,43 +20,13 @@ export function bumpySphere(): Mesh {
   const radius = bumpyRadius();
   return grid(480, 240, (u, v) => {
     const along = direction(-Math.cos(Math.PI * v), u);
-    return along.map((x) => x * radius(along)) as Point;
+    return along.map((x) => x * radius(along));
   });
 }
 
 /** The page's living room: open surfaces and thin things, to be looked at from inside. */
 export function room(): Mesh {
   return joined(roomSurfaces(seeded(20070802)).map((surface) => grid(12, 8, (u, v) => surface.at(u, v).point)));
-}
-
-/** A patch of surface for 0 … 1 twice, as so many by so many rectangles cut in two. */
-export function grid(columns: number, rows: number, at: (u: number, v: number) => Point): Mesh {
-  const positions = new Float32Array(3 * (columns + 1) * (rows + 1));
-  const triangles = new Uint32Array(6 * columns * rows);
-  for (let row = 0; row <= rows; row++) {
-    for (let column = 0; column <= columns; column++) {
-      const corner = row * (columns + 1) + column;
-      positions.set(at(column / columns, row / rows), 3 * corner);
-      if (row === rows || column === columns) continue;
-      const [right, up] = [corner + 1, corner + columns + 1];
-      triangles.set([corner, right, up, up, right, up + 1], 6 * (row * columns + column));
-    }
-  }
-  return { positions, triangles };
-}
-
-/** Several meshes as one. */
-export function joined(meshes: Mesh[]): Mesh {
-  const positions = new Float32Array(meshes.reduce((sum, mesh) => sum + mesh.positions.length, 0));
-  const triangles = new Uint32Array(meshes.reduce((sum, mesh) => sum + mesh.triangles.length, 0));
-  let [point, corner] = [0, 0];
-  for (const mesh of meshes) {
-    positions.set(mesh.positions, 3 * point);
-    triangles.set(mesh.triangles.map((index) => index + point), corner);
-    point += mesh.positions.length / 3;
-    corner += mesh.triangles.length;
-  }
-  return { positions, triangles };
 }
 
 /** `count` random points on the faces, as many a unit of area as `density` says, all the same by default. */

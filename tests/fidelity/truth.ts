@@ -3,11 +3,12 @@
 import { readFileSync } from "node:fs";
 import { gunzipSync } from "node:zlib";
 
+import type { Mesh } from "../../www/compare/mesh.js";
 import { bunny36k, type Cloud, dragon, sharedFile } from "../bench/clouds.js";
 import { direction, seeded } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";
 import { bounds } from "../bench/views.js";
-import { type Mesh, type MeshPoints, RayTracer } from "./rays.js";
+import { type MeshPoints, RayTracer } from "./rays.js";
 import { bumpySphere, room, scatter, torus } from "./shapes.js";
 
 export interface Labelled {

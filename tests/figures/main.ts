@@ -6,6 +6,7 @@ import { join } from "node:path";
 import { init } from "hidden-point-removal";
 
 import { root } from "../root.js";
+import { accessibilityText } from "./accessibility.js";
 import { beforeAfter } from "./before-after.js";
 import { errorPlot } from "./error-plot.js";
 import { fidelityText } from "./fidelity.js";
@@ -17,18 +18,21 @@ import { shadows } from "./shadows.js";
 import { Studio } from "./studio.js";
 
 const MAKERS: Record<string, Maker> = { "before-after": beforeAfter, errors: errorPlot, radius, reconstruction, shadows };
+/** What is written, not drawn. */
 const FIDELITY = "fidelity";
+const ACCESSIBILITY = "accessibility";
 const FOLDER = join(root, "tests", "figures");
 
-const names = process.argv.length > 2 ? process.argv.slice(2) : [...Object.keys(MAKERS), FIDELITY];
-const unknown = names.find((name) => name !== FIDELITY && !(name in MAKERS));
+const names = process.argv.length > 2 ? process.argv.slice(2) : [...Object.keys(MAKERS), FIDELITY, ACCESSIBILITY];
+const unknown = names.find((name) => name !== FIDELITY && name !== ACCESSIBILITY && !(name in MAKERS));
 if (unknown !== undefined) {
-  console.error(`There is no figure named ${unknown}. There are: ${[...Object.keys(MAKERS), FIDELITY].join(", ")}.`);
+  console.error(`There is no figure named ${unknown}. There are: ${[...Object.keys(MAKERS), FIDELITY, ACCESSIBILITY].join(", ")}.`);
   process.exit(2);
 }
 await init();
-await draw(names.filter((name) => name !== FIDELITY));
+await draw(names.filter((name) => name in MAKERS));
 if (names.includes(FIDELITY)) measureFidelity();
+if (names.includes(ACCESSIBILITY)) await withStudio(async (studio) => { write("../../docs/ACCESSIBILITY.md", await accessibilityText(studio)); });
 
 function measureFidelity(): void {
   const text = fidelityText(console.error);
@@ -38,12 +42,18 @@ function measureFidelity(): void {
 
 async function draw(chosen: string[]): Promise<void> {
   if (chosen.length === 0) return;
-  const studio = await Studio.open();
-  try {
+  await withStudio(async (studio) => {
     for (const name of chosen) {
       console.error(`Drawing ${name}…`);
       keep(await MAKERS[name]!(studio));
     }
+  });
+}
+
+async function withStudio(use: (studio: Studio) => Promise<void>): Promise<void> {
+  const studio = await Studio.open();
+  try {
+    await use(studio);
   } finally {
     await studio.close();
   }

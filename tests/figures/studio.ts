@@ -1,5 +1,5 @@
 // The demo page as a camera: opened by its address, photographed when its picture is up to date.
-import type { Browser, Page } from "playwright-core";
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 
 import { launchBrowser, servePage, type Site } from "../browser/site.js";
 
@@ -68,6 +68,19 @@ export class Studio {
       await prepare(page);
       return page.locator("body").screenshot();
     });
+  }
+
+  /** The whole page, as visitors have it. */
+  async visit(query: string, options: BrowserContextOptions, use: (page: Page) => Promise<void>): Promise<void> {
+    const context = await this.browser.newContext({ ...options, serviceWorkers: "block" });
+    try {
+      const page = await context.newPage();
+      await page.goto(this.site.address + query);
+      await page.locator('#status[data-state="ready"][data-busy="0"]').waitFor({ state: "attached", timeout: PATIENCE });
+      await use(page);
+    } finally {
+      await context.close();
+    }
   }
 
   private async withPage<T>(viewport: Size, use: (page: Page) => Promise<T>): Promise<T> {

@@ -110,7 +110,7 @@ const refusals: [code: string, names: RegExp, call: () => unknown][] = [
   ["option", /denoise.*1\.5/, view(farAway, { denoise: 1.5 })],
   ["option", /denoise.*"8"/, view(farAway, { denoise: "8" })],
   ["option", /denoise.*499.*500/, view(farAway, { denoise: 500 })],
-  ["option", /denoise.*499/, view(farAway, { denoise: 2 ** 32 + 1 })],
+  ["option", /denoise.*4294967297/, view(farAway, { denoise: 2 ** 32 + 1 })],
   ["option", /vote.*-1/, view(farAway, { vote: -1 })],
   ["option", /vote.*NaN/, view(farAway, { vote: NaN })],
   ["option", /vote.*499.*500/, view(farAway, { vote: 500 })],
@@ -173,10 +173,50 @@ describe("messages of the core", () => {
     ["the farthest distance (infinity) exceeds the range of f64", () => hiddenPointRemoval([1e200, 0, 0], [0, 0, 0])],
     ["exponent must be finite and at least 0, got -100000000000000000000", view(farAway, { exponent: -1e20 })],
     ["exponent must be finite and at least 0, got -1e21", view(farAway, { exponent: -1e21 })],
+    ["denoise must be an integer from 1 to 268435455, got 4294967296", view(farAway, { denoise: 2 ** 32 })],
+    ["vote must be an integer from 1 to 268435455, got 1e+300", view(farAway, { vote: 1e300 })],
+    ["vote must be from 1 to 499, got 268435455", view(farAway, { vote: 2 ** 28 - 1 })],
     ["index 500 is out of range for a cloud of length 500", remove([3, 500])],
   ];
   it.each(worded)("%s", async (message, call) => {
     expect((await problemOf(call)).message).toBe(message);
+  });
+});
+
+describe("lists of no viewpoints", () => {
+  const [space, hyper] = [new PointCloud(sphere), new PointCloud(sphere.subarray(0, 400), { dimension: 4 })];
+  const refused: [options: object, inHyperspace: boolean][] = [
+    [{ radius: 0 }, true],
+    [{ radius: NaN }, true],
+    [{ radius: 1.7e308 }, true],
+    [{ exponent: -1 }, true],
+    [{ exponent: Infinity }, true],
+    [{ inversion: { power: 17 } }, true],
+    [{ inversion: { power: 2 }, radius: -1 }, true],
+    [{ inversion: { power: 2 }, radius: "search" }, true],
+    [{ inversion: { exponential: 0 } }, true],
+    [{ inversion: { exponential: 1 }, exponent: 2 }, true],
+    [{ denoise: 500 }, false],
+    [{ vote: 500 }, false],
+    [{ vote: 70_000 }, false],
+  ];
+  it.each(refused)("are refused as one viewpoint is: %o", async (options, inHyperspace) => {
+    const one = await problemOf(() => space.visibleFrom([0, 0, 0], options));
+    expect(one).toBeInstanceOf(HprError);
+    const [any, lit] = [await problemOf(() => space.visibleFromAny([], options)), await problemOf(() => space.illuminate([], options))];
+    const said = ({ code, message }: { code?: string; message: string }) => [code, message.replace(/\(the farthest distance is .*\)/, "")];
+    expect([said(any), said(lit)]).toEqual([said(one), said(one)]);
+    if (inHyperspace) {
+      const alone = await problemOf(() => hyper.visibleFrom([0, 0, 0, 0], options));
+      expect(said(await problemOf(() => hyper.visibleFromAny([], options)))).toEqual(said(alone));
+    }
+  });
+
+  it("are answered with what one viewpoint is answered with", () => {
+    for (const options of [{ radius: 1e-9 }, { exponent: 0 }, { inversion: { power: 2 } }, { denoise: 6, vote: 6 }, { radius: "search" as const }]) {
+      expect(space.visibleFromAny([], options).count).toBe(0);
+      expect(space.illuminate([], options)).toEqual(new Float32Array(500));
+    }
   });
 });
 

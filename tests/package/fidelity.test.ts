@@ -2,12 +2,13 @@
 import { init, PointCloud } from "hidden-point-removal";
 import { beforeAll, describe, expect, test } from "vitest";
 
+import { grid, joined, type Mesh } from "../../www/compare/mesh.js";
 import type { Point } from "../bench/measure.js";
 import { type Curve, curves, meanCurve } from "../fidelity/curves.js";
 import { AUTOMATIC, METHODS } from "../fidelity/methods.js";
-import { type Mesh, RayTracer } from "../fidelity/rays.js";
+import { RayTracer } from "../fidelity/rays.js";
 import { errorsOf, score } from "../fidelity/score.js";
-import { grid, joined, scatter } from "../fidelity/shapes.js";
+import { scatter } from "../fidelity/shapes.js";
 import { soften } from "../fidelity/soften.js";
 import type { Labelled } from "../fidelity/truth.js";
 import { withFigures } from "../figures/readme.js";

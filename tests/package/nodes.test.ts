@@ -2,8 +2,8 @@
 import { syncBuiltinESMExports } from "node:module";
 import threads from "node:worker_threads";
 import * as THREE from "three";
-import { init, PointCloud } from "hidden-point-removal";
-import { HiddenPointNodesFilter, type HiddenPointNodesFilterOptions } from "hidden-point-removal/nodes";
+import { init, PointCloud, type VisibilityOptions } from "hidden-point-removal";
+import { HiddenPointNodesFilter, type HiddenPointNodesFilterEvents, type HiddenPointNodesFilterOptions } from "hidden-point-removal/nodes";
 import { HiddenPointFilter } from "hidden-point-removal/three";
 import { afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 
@@ -28,7 +28,7 @@ function sceneOf(nodes: THREE.Points[], options?: HiddenPointNodesFilterOptions)
   scene.updateMatrixWorld(true);
   const filter = new HiddenPointNodesFilter(root, options);
   filters.push(filter);
-  const changes: { count: number; nodes: number; viewpoint: number[]; radius: number }[] = [];
+  const changes: HiddenPointNodesFilterEvents["change"][] = [];
   filter.addEventListener("change", (change) => changes.push(change));
   return { root, camera, scene, filter, changes };
 }
@@ -36,18 +36,22 @@ function sceneOf(nodes: THREE.Points[], options?: HiddenPointNodesFilterOptions)
 type Scene = ReturnType<typeof sceneOf>;
 
 /** Updates as an animation does until everything is there. */
-async function settle({ filter, camera }: Pick<Scene, "filter" | "camera">): Promise<void> {
+async function settle({ filter, camera }: { filter: HiddenPointNodesFilter; camera: THREE.Camera }): Promise<void> {
   filter.update(camera);
   await expect.poll(() => filter.settled, { timeout: 60_000, interval: 5 }).toBe(true);
 }
 
-/** What the unsplit cloud answers from where the nodes were asked, with their radius or the given options. */
-function answerOf(nodes: THREE.Points[], { root, camera, changes }: Scene, options?: object): number[] {
-  const { viewpoint, radius } = changes.at(-1)!;
-  root.worldToLocal(camera.position.clone()).toArray().forEach((x, axis) => {
-    expect(viewpoint[axis]).toBeCloseTo(x, 9);
+/** What the unsplit cloud answers from where, or along which direction, the nodes were asked. */
+function answerOf(nodes: THREE.Points[], { root, camera, changes }: Omit<Scene, "camera"> & { camera: THREE.Camera }, options?: VisibilityOptions): number[] {
+  const { viewpoint, direction, radius } = changes.at(-1)!;
+  const cloud = new PointCloud(whole(nodes));
+  const seen = direction === null ? root.worldToLocal(camera.position.clone()) : new THREE.Vector3(0, 0, -1).transformDirection(camera.matrixWorld).transformDirection(root.matrixWorld.clone().invert());
+  seen.toArray().forEach((x, axis) => {
+    expect((viewpoint ?? direction)![axis]).toBeCloseTo(x, 9);
   });
-  return [...new PointCloud(whole(nodes)).visibleFrom(viewpoint, options ?? { radius }).indices];
+  const answer = direction === null ? cloud.visibleFrom(viewpoint!, options) : cloud.visibleFromDirection(direction, options);
+  expect(radius).toBe(answer.radius);
+  return [...answer.indices];
 }
 
 describe("a cloud split into nodes", () => {
@@ -56,16 +60,13 @@ describe("a cloud split into nodes", () => {
     expect(nodes.length).toBeGreaterThan(50);
     const scene = sceneOf(nodes, { worker });
     const { camera, root, changes } = scene;
-    const unsplit = new PointCloud(whole(nodes));
     for (const place of [[0.3, 0.4, 0.5], [-0.05, 0.12, 0.1], [-0.02, 0.13, 0.0]]) {
       camera.position.fromArray(root.localToWorld(new THREE.Vector3().fromArray(place)).toArray());
       await settle(scene);
-      const { count, radius, nodes: asked, viewpoint } = changes.at(-1)!;
+      const { count, nodes: asked } = changes.at(-1)!;
       expect(asked).toBe(nodes.length);
       expect(count).toBe(scene.filter.visibleCount);
       expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene));
-      const automatic = unsplit.autoRadius(viewpoint).radius;
-      expect(Math.abs(Math.log10(radius / automatic))).toBeLessThan(0.1);
     }
   });
 
@@ -119,41 +120,56 @@ describe("a cloud split into nodes", () => {
     expect(drawnOf(levels).length).toBeLessThan(5000);
   });
 
-  it.each<[name: string, options: HiddenPointNodesFilterOptions, alike: (radius: number) => object]>([
-    ["a radius", { radius: 20 }, () => ({ radius: 20 })],
-    ["an exponent", { exponent: 2.5 }, (radius) => ({ radius })],
-    ["a power", { inversion: { power: 2 } }, (radius) => ({ radius, inversion: { power: 2 } })],
-    ["an exponential", { inversion: { exponential: 0.001 } }, () => ({ inversion: { exponential: 0.001 } })],
-  ])("is seen with %s as one cloud is", async (_, options, alike) => {
+  const views: [name: string, options: VisibilityOptions][] = [
+    ["a radius", { radius: 20 }],
+    ["an exponent", { exponent: 2.5 }],
+    ["an exponential", { inversion: { exponential: 0.001 } }],
+    ["an automatic exponential", { inversion: { exponential: "auto" } }],
+    ["denoising", { denoise: 6 }],
+    ["a vote", { vote: 6 }],
+  ];
+
+  it.each([
+    ...views,
+    ["a power", { inversion: { power: 2 } }],
+    ["a search", { radius: "search" }],
+    ["the opposite viewpoint", { radius: "opposite" }],
+  ] satisfies typeof views)("is seen with %s as one cloud is", async (_, options) => {
     const nodes = split(bumpySphere(5, 4000), 5);
     const scene = sceneOf(nodes, options);
     scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(2, 3, 4)).toArray());
     await settle(scene);
-    const how = alike(scene.changes.at(-1)!.radius);
-    expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene, how));
+    expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene, options));
   });
 
-  it("has about the automatic exponential scale of one", async () => {
+  it.each([["nothing else", {}], ...views] satisfies typeof views)("is seen by an orthographic camera with %s as one cloud is", async (_, options) => {
     const nodes = split(bumpySphere(5, 4000), 5);
-    const scene = sceneOf(nodes, { inversion: { exponential: "auto" } });
+    const scene = sceneOf(nodes, options);
+    const camera = new THREE.OrthographicCamera();
+    const { filter, changes } = scene;
+    for (const turn of [0.3, 1.3]) {
+      camera.rotation.set(turn, 0.4, 0.5);
+      camera.updateMatrixWorld();
+      await settle({ filter, camera });
+      expect(drawnOf(nodes)).toEqual(answerOf(nodes, { ...scene, camera }, options));
+    }
+    expect(changes.map(({ viewpoint }) => viewpoint)).toEqual([null, null]);
+    // Panning asks nothing, a viewpoint does.
+    camera.position.set(3, 4, 5);
+    await settle({ filter, camera });
+    expect(changes).toHaveLength(2);
     scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(2, 3, 4)).toArray());
     await settle(scene);
-    const expected = answerOf(nodes, scene, { inversion: { exponential: "auto" } });
-    expect(Math.abs(scene.filter.visibleCount - expected.length)).toBeLessThan(0.01 * expected.length);
+    expect(changes.at(-1)!.direction).toBeNull();
+    expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene, options));
   });
 
-  it("keeps its radius while that serves, and asks again only what is new", async () => {
+  it("is asked again only for what is new", async () => {
     const nodes = split(dragon(), 10);
     const scene = sceneOf(nodes);
     const { root, camera, changes, filter } = scene;
-    const look = async (z: number) => {
-      camera.position.fromArray(root.localToWorld(new THREE.Vector3(0, 0.1, z)).toArray());
-      await settle(scene);
-      return changes.at(-1)!.radius;
-    };
-    const first = await look(0.5);
-    expect(await look(0.52)).toBe(first);
-    expect(await look(0.8)).not.toBe(first);
+    camera.position.fromArray(root.localToWorld(new THREE.Vector3(0, 0.1, 0.5)).toArray());
+    await settle(scene);
     // Turning the camera, or moving all of it, asks nothing.
     const answers = changes.length;
     camera.rotation.set(1, 2, 3);
@@ -297,8 +313,8 @@ describe("refuses", () => {
   };
 
   it.each<[options: object, words: string]>([
-    [{ denoise: 6 }, "denoise"],
-    [{ radius: "search" }, "radius"],
+    [{ radius: "nearest" }, "radius"],
+    [{ mode: "fade" }, "mode"],
     [{ nodes: [] }, "nodes"],
     [{ settle: 1 }, "settle"],
     [{ exponent: 2, radius: 3 }, "exclude"],
@@ -364,19 +380,25 @@ describe("refuses", () => {
     other.dispose();
   });
 
-  it("a radius that is too small and an orthographic camera, once each", async () => {
+  it("a radius that is too small and a direction that has no limit, once each", async () => {
     const nodes = split(bumpySphere(1, 3000), 3);
-    const scene = sceneOf(nodes, { radius: 3 });
+    const scene = sceneOf(nodes, { radius: 3, inversion: { power: 2 } });
     const told = codes(scene.filter);
+    const far = sceneOf(split(bumpySphere(1, 3000), 3), { radius: 3 });
+    const toldFar = codes(far.filter);
     for (let i = 0; i < 5; i++) {
-      scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, 5 + i)).toArray());
-      await settle(scene);
+      far.camera.position.fromArray(far.root.localToWorld(new THREE.Vector3(0, 0, 5 + i)).toArray());
+      await settle(far);
     }
-    expect(told).toEqual(["radius view"]);
+    expect(toldFar).toEqual(["radius view"]);
+    far.camera.position.fromArray(far.root.localToWorld(new THREE.Vector3(0, 0, 1.5)).toArray());
+    await settle(far);
+    expect(far.filter.visibleCount).toBeGreaterThan(100);
+    const camera = new THREE.OrthographicCamera();
+    for (let i = 0; i < 3; i++) await settle({ filter: scene.filter, camera });
+    expect(told).toEqual(["option view"]);
     scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, 1.5)).toArray());
     await settle(scene);
     expect(scene.filter.visibleCount).toBeGreaterThan(100);
-    for (let i = 0; i < 3; i++) scene.filter.update(new THREE.OrthographicCamera());
-    expect(told).toEqual(["radius view", "option view"]);
   });
 });

@@ -1,3 +1,4 @@
+import { getEventListeners } from "node:events";
 import { setFlagsFromString } from "node:v8";
 import { runInNewContext } from "node:vm";
 import type threads from "node:worker_threads";
@@ -49,6 +50,7 @@ describe("a cloud in a worker", () => {
         const cloud = await WorkerPointCloud.create(positions, options);
         expect(cloud.length).toBe(direct.length);
         expect(cloud.skipped).toBe(direct.skipped);
+        expect(cloud.spacing).toBe(direct.spacing);
         for (const viewpoint of [farAway, [0.1, 0.2, 0.3], Float32Array.of(-4, 1, 2)]) {
           for (const how of [{}, { exponent: 3 }, { radius: 5000 }]) {
             const [there, here] = [await cloud.visibleFrom(viewpoint, how), direct.visibleFrom(viewpoint, how)];
@@ -82,7 +84,7 @@ describe("a cloud in a worker", () => {
     asked.push(cloud.visibleFrom(farAway));
     expect(cloud).toHaveLength(750);
     await Promise.all(changes);
-    expect([cloud.length, cloud.skipped]).toEqual([1500, 1]);
+    expect([cloud.length, cloud.skipped, cloud.spacing]).toEqual([1500, 1, direct.spacing]);
     const answers = await Promise.all(asked);
     expect(answers).toEqual(expected);
     expect(answers.map((answer) => answer.mask().length)).toEqual([750, 1500, 1500]);
@@ -306,6 +308,28 @@ describe("requests given up", () => {
     waiting.abort();
     running.abort();
     expect(await settled(asked)).toEqual(["aborted", "aborted", "aborted", "answered"]);
+  });
+
+  it("listen once to a signal, however many there are, and no longer than they are pending", async () => {
+    const warnings: string[] = [];
+    const warn = ({ name }: Error) => warnings.push(name);
+    process.on("warning", warn);
+    const cloud = await WorkerPointCloud.create(sphere);
+    const controller = new AbortController();
+    const { signal } = controller;
+    const listening = () => getEventListeners(signal, "abort").length;
+    const answered = Array.from({ length: 30 }, () => cloud.visibleFrom(farAway, { signal }));
+    expect(listening()).toBe(1);
+    expect(await settled(answered)).toEqual(new Array<string>(30).fill("answered"));
+    expect(listening()).toBe(0);
+    const aborted = Array.from({ length: 30 }, () => cloud.visibleFrom(farAway, { signal }));
+    controller.abort();
+    aborted.push(cloud.visibleFrom(farAway, { signal }));
+    expect(await settled(aborted)).toEqual(new Array<string>(31).fill("aborted"));
+    expect(listening()).toBe(0);
+    await new Promise((resolve) => setImmediate(resolve));
+    process.off("warning", warn);
+    expect(warnings).toEqual([]);
   });
 
   it("may be the cloud itself", async () => {

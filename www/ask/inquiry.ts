@@ -3,16 +3,19 @@ import { askLight, type LightAnswer } from "./lights.ts";
 import { Newest } from "./newest.ts";
 import {
   isAutomatic,
+  isSlow,
   isSameLight,
   isSamePlace,
   isSameView,
   type LightQuestion,
+  type Method,
   methodOf,
   quickLight,
   quickView,
   shapeOf,
   type ViewQuestion,
 } from "./question.ts";
+import { SecondCloud } from "./second-cloud.ts";
 import { askView, type ViewAnswer } from "./views.ts";
 import type { WorkerCloud } from "./worker-cloud.ts";
 
@@ -37,9 +40,10 @@ export class Inquiry {
   onError: (error: unknown) => void = () => undefined;
 
   private readonly cloud: WorkerCloud;
+  private readonly second: SecondCloud;
   private readonly size: number;
-  private readonly views = new Newest<ViewQuestion>((question) => this.view(question));
-  private readonly lights = new Newest<LightQuestion>((question) => this.light(question));
+  private readonly views = new Newest<ViewQuestion>((question, overtaken) => this.view(question, overtaken));
+  private readonly lights = new Newest<LightQuestion>((question, overtaken) => this.light(question, overtaken));
   private wanted: { view: ViewQuestion | null; light: LightQuestion | null } = { view: null, light: null };
   private answered: { view: ViewQuestion | null; light: LightQuestion | null } = { view: null, light: null };
   private mesh: Uint32Array | null = null;
@@ -48,8 +52,10 @@ export class Inquiry {
   private freeSince = 0;
   private upToDate = false;
 
-  constructor(cloud: WorkerCloud, size: number) {
+  /** `another` makes the same cloud once more, for what takes long. */
+  constructor(cloud: WorkerCloud, another: () => Promise<WorkerCloud>, size: number) {
     this.cloud = cloud;
+    this.second = new SecondCloud(another);
     this.size = size;
   }
 
@@ -63,7 +69,7 @@ export class Inquiry {
     const question = { viewpoint, method: methodOf(settings), shape: shapeOf(settings) };
     this.wanted.view = question;
     this.viewpoint = { at: viewpoint, since: -Infinity };
-    return this.ask(question);
+    return this.ask(this.cloud, undefined, question);
   }
 
   /** Tells the automatic exponent where the answer itself does not, unless a newer question waits. */
@@ -96,13 +102,19 @@ export class Inquiry {
   /** An answer besides those for the picture, which go first. */
   async aside(question: ViewQuestion): Promise<ViewAnswer> {
     const answer = await askView(this.cloud, question);
-    this.freeSince = performance.now();
+    this.noteFree(this.cloud);
     return answer;
+  }
+
+  /** The cloud's spacing in its own units; 0 where it has none. */
+  get spacing(): number {
+    return this.cloud.points.spacing;
   }
 
   dispose(): void {
     this.onView = this.onLight = this.onAutomatic = this.onError = () => undefined;
     void this.cloud.points.dispose();
+    this.second.dispose();
   }
 
   private wantView(question: ViewQuestion): void {
@@ -126,35 +138,53 @@ export class Inquiry {
     this.lights.want(wanted);
   }
 
-  private async view(question: ViewQuestion): Promise<void> {
+  private async view(question: ViewQuestion, overtaken: AbortSignal): Promise<void> {
     try {
-      this.onView(await this.ask(question));
+      this.onView(await this.ask(...(await this.placeFor(question, overtaken)), question));
       if (question === this.wanted.view) await this.findAutomatic();
     } catch (error) {
+      if (isAbort(error)) return;
       this.onError(error);
     }
     // Also what was refused is not to be waited for.
     this.answered.view = question;
   }
 
-  private async light(question: LightQuestion): Promise<void> {
+  private async light(question: LightQuestion, overtaken: AbortSignal): Promise<void> {
     try {
-      const answer = await askLight(this.cloud, question);
+      const [cloud, signal] = await this.placeFor(question, overtaken);
+      const answer = await askLight(cloud, question, signal);
+      this.noteFree(cloud);
       if (this.wanted.light) this.onLight(answer);
     } catch (error) {
+      if (isAbort(error)) return;
       this.onError(error);
     }
-    this.freeSince = performance.now();
     if (this.wanted.light) this.answered.light = question;
   }
 
-  private async ask(question: ViewQuestion): Promise<TimedView> {
+  /** Where a question is asked, and what gives it up: an answer that comes soon is shown also where the camera has moved on. */
+  private async placeFor({ method }: { method: Method }, overtaken: AbortSignal): Promise<[WorkerCloud, AbortSignal | undefined]> {
+    return isSlow(method) ? [await this.second.ready(overtaken), overtaken] : [this.cloud, undefined];
+  }
+
+  /** From now on the cloud in the foreground has time for the next question. */
+  private noteFree(cloud: WorkerCloud): void {
+    if (cloud === this.cloud) this.freeSince = performance.now();
+  }
+
+  private async ask(cloud: WorkerCloud, signal: AbortSignal | undefined, question: ViewQuestion): Promise<TimedView> {
     const asked = performance.now();
-    const answer = await askView(this.cloud, question);
-    const begun = Math.max(asked, this.freeSince);
-    this.freeSince = performance.now();
+    const answer = await askView(cloud, question, signal);
+    const begun = cloud === this.cloud ? Math.max(asked, this.freeSince) : asked;
+    this.noteFree(cloud);
     this.mesh = answer.triangles;
     this.answered.view = question;
-    return { ...answer, quick: question.quick === true, asked, milliseconds: this.freeSince - begun };
+    return { ...answer, quick: question.quick === true, asked, milliseconds: performance.now() - begun };
   }
+}
+
+/** Another question has come in the place of this one. */
+function isAbort(error: unknown): boolean {
+  return error instanceof DOMException && error.name === "AbortError";
 }

@@ -55,8 +55,12 @@ export function quickLight(question: LightQuestion): LightQuestion {
 }
 
 function quickMethod(method: Method): Method {
-  const slow = method.radius && "rule" in method.radius && !isAutomatic(method);
-  return slow ? { ...method, radius: { rule: "auto" } } : method;
+  return isSlow(method) ? { ...method, radius: { rule: "auto" } } : method;
+}
+
+/** Whether the radius takes many hulls to choose. */
+export function isSlow(method: Method): boolean {
+  return method.radius !== null && "rule" in method.radius && !isAutomatic(method);
 }
 
 /** Whether the answer's own exponent is the automatic one. */

@@ -1,4 +1,5 @@
 import { HprError, type Visibility, type VisibilityOptions } from "hidden-point-removal";
+import type { RequestOptions } from "hidden-point-removal/worker";
 import { USUAL_EDGE, type Viewpoint } from "../settings.ts";
 import type { Shape, ViewQuestion } from "./question.ts";
 import type { WorkerCloud } from "./worker-cloud.ts";
@@ -17,9 +18,9 @@ export interface ViewAnswer {
 const RING = { count: 4, fraction: 0.05 };
 
 /** What is seen from a viewpoint. Where the settings do not suit the cloud or the place, the library's defaults answer. */
-export async function askView(cloud: WorkerCloud, question: ViewQuestion): Promise<ViewAnswer> {
+export async function askView(cloud: WorkerCloud, question: ViewQuestion, signal?: AbortSignal): Promise<ViewAnswer> {
   const { viewpoint, method, shape } = question;
-  const { value, note } = await orUsual(() => cloud.options(method, viewpoint), (options) => see(cloud, viewpoint, shape, options));
+  const { value, note } = await orUsual(() => cloud.options(method, viewpoint), (options) => see(cloud, viewpoint, shape, { ...options, signal }));
   return { question, ...value, note };
 }
 
@@ -41,10 +42,10 @@ async function see(
   cloud: WorkerCloud,
   viewpoint: Viewpoint,
   shape: Shape,
-  options: VisibilityOptions,
+  options: VisibilityOptions & RequestOptions,
 ): Promise<Pick<ViewAnswer, "visibility" | "triangles">> {
   if (shape.kind === "surface") {
-    const maxEdge = shape.edge === USUAL_EDGE ? undefined : shape.edge === Infinity ? Infinity : shape.edge * (await cloud.spacing());
+    const maxEdge = shape.edge === USUAL_EDGE ? undefined : shape.edge === Infinity ? Infinity : shape.edge * cloud.points.spacing;
     const surface = await cloud.points.reconstruct(viewpoint, { ...options, maxEdge });
     return { visibility: surface, triangles: surface.triangles };
   }

@@ -1,6 +1,6 @@
 import { init, ringOfViewpoints, type Inversion as LibraryInversion, type VisibilityOptions } from "hidden-point-removal";
 import type { WorkerPointCloud } from "hidden-point-removal/worker";
-import { AUTOMATIC_C, type Viewpoint } from "../settings.ts";
+import type { Viewpoint } from "../settings.ts";
 import type { Method } from "./question.ts";
 
 /** The library's limit. */
@@ -11,18 +11,10 @@ export class WorkerCloud {
   readonly points: WorkerPointCloud;
   /** Of the bounding box, in the file's coordinates. */
   readonly center: Viewpoint;
-  private known: Promise<number> | null = null;
 
   constructor(points: WorkerPointCloud, center: Viewpoint) {
     this.points = points;
     this.center = center;
-  }
-
-  /** The cloud's spacing in its own units; 0 where it has none. */
-  spacing(): Promise<number> {
-    return (this.known ??= this.points.visibleFrom(this.center, { inversion: { exponential: "auto" } }).then(({ inversion }) => {
-      return typeof inversion === "object" && "exponential" in inversion ? inversion.exponential / AUTOMATIC_C : 0;
-    }));
   }
 
   async options({ radius, inversion, denoise, vote }: Method, viewpoint: Viewpoint): Promise<VisibilityOptions> {
@@ -45,7 +37,7 @@ export class WorkerCloud {
       return { power: inversion.power === "auto" ? await this.automaticPower(viewpoint) : inversion.power };
     }
     const { exponential } = inversion;
-    return { exponential: exponential === "auto" ? "auto" : exponential * (await this.spacing()) };
+    return { exponential: exponential === "auto" ? "auto" : exponential * this.points.spacing };
   }
 
   /** The γ that, facing the viewer, lets pits be as deep as the automatic radius does: γ ÷ (γ − 1) = 2R ÷ r at the farthest distance r. */

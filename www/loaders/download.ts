@@ -3,9 +3,12 @@ import { LoadProblem } from "./problem.ts";
 /** The pieces of a download are kept by the browser, on disk where they are large; an address cannot be trusted to end. */
 const MAX_DOWNLOAD = 4_000_000_000;
 
-/** Fetches a file whole, telling how far it is where the server says how long it is. */
-export async function download(name: string, url: string, onProgress: (fraction: number | null) => void): Promise<Blob> {
-  return receive(name, await ask(name, url), onProgress);
+/**
+ * Fetches a file whole, telling how far it is where the server says how long it is. `unreachable`: why nothing of it can be
+ * had, if that is known.
+ */
+export async function download(name: string, url: string, onProgress: (fraction: number | null) => void, unreachable?: string): Promise<Blob> {
+  return receive(name, await ask(name, url, { unreachable }), onProgress);
 }
 
 /**
@@ -18,7 +21,7 @@ export async function downloadRanges(
 ): Promise<{ read: (from: number, to: number) => Promise<Uint8Array> } | { blob: Blob }> {
   let first: Response;
   try {
-    first = await ask(name, url, [0, FIRST]);
+    first = await ask(name, url, { range: [0, FIRST] });
   } catch {
     // Some servers refuse the question to other sites' pages, but not the file.
     return { blob: await download(name, url, onProgress) };
@@ -28,7 +31,7 @@ export async function downloadRanges(
   return {
     read: async (from, to) => {
       if (to <= head.length) return head.subarray(from, to);
-      const response = await ask(name, url, [from, to]);
+      const response = await ask(name, url, { range: [from, to] });
       if (response.status !== 206) throw new LoadProblem(`${name} could not be downloaded: the server no longer sends parts of it.`);
       return bodyOf(name, response);
     },
@@ -38,16 +41,19 @@ export async function downloadRanges(
 /** Enough for a header and what it lists. */
 const FIRST = 1 << 16;
 
-async function ask(name: string, url: string, range?: [number, number]): Promise<Response> {
+interface Question {
+  range?: [number, number];
+  unreachable?: string | undefined;
+}
+
+async function ask(name: string, url: string, { range, unreachable }: Question = {}): Promise<Response> {
   let response: Response;
   try {
     response = await fetch(url, range ? { headers: { Range: `bytes=${range[0]}-${range[1] - 1}` } } : {});
   } catch {
-    const why =
-      new URL(url, location.href).origin === location.origin
-        ? "the connection failed"
-        : "the address does not answer, or does not allow other pages to read it";
-    throw new LoadProblem(`${name} could not be downloaded: ${why}.`);
+    const own = new URL(url, location.href).origin === location.origin;
+    const why = own ? "the connection failed" : "the address does not answer, or does not allow other pages to read it";
+    throw new LoadProblem(`${name} could not be downloaded: ${unreachable ?? why}.`);
   }
   if (!response.ok) throw new LoadProblem(`${name} could not be downloaded: the server answered ${response.status}.`);
   return response;

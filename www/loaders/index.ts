@@ -1,4 +1,4 @@
-import type { LoadedCloud } from "../cloud.ts";
+import type { PreparedCloud } from "../cloud.ts";
 import { LoadProblem, missingPart } from "./problem.ts";
 import type { LoadReply, LoadRequest } from "./protocol.ts";
 import script from "./worker.ts?worker&url";
@@ -11,15 +11,15 @@ export function loadCloud(
   request: LoadRequest,
   signal: AbortSignal,
   onProgress: (step: string, fraction: number | null) => void,
-): Promise<LoadedCloud> {
+): Promise<PreparedCloud> {
   const { worker, end } = startWorker();
-  return new Promise<LoadedCloud>((resolve, reject) => {
+  return new Promise<PreparedCloud>((resolve, reject) => {
     signal.addEventListener("abort", () => {
       reject(new DOMException("Another cloud was opened.", "AbortError"));
     });
     worker.onmessage = ({ data: reply }: MessageEvent<LoadReply>) => {
       if (reply.kind === "progress") onProgress(reply.step, reply.fraction);
-      else if (reply.kind === "cloud") resolve(reply.cloud);
+      else if (reply.kind === "cloud") resolve(reply.prepared);
       else reject(new LoadProblem(reply.sentence, reply.nonFinite));
     };
     worker.onerror = (event) => {

@@ -56,6 +56,7 @@ function withoutNonFinite(cloud: LoadedCloud, count: number): LoadedCloud {
   for (let i = 0, at = 0; at < count; i++) if (isFiniteAt(positions, i)) kept[at++] = i;
   return {
     ...cloud,
+    isMesh: false,
     positions: picked(positions, kept, 3),
     colors: colors && picked(colors, kept, 3),
     attributes: attributes.map((attribute) => ({ ...attribute, values: picked(attribute.values, kept, 1) })),

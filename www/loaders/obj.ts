@@ -7,8 +7,10 @@ import { LoadProblem } from "./problem.ts";
 export async function readObj(reading: Reading, encoding: string): Promise<LoadedCloud> {
   const { name, limit } = reading;
   const builder = new CloudBuilder("float64", ["red", "green", "blue"].map((column) => ({ name: column, type: "float32" })), limit, null);
+  let faces = false;
   for await (const some of lines(reading, 0, encoding)) {
     for (const text of some) {
+      faces ||= /^\s*f\s/.test(text);
       if (!/^\s*v\s/.test(text) || !builder.takes()) continue;
       const line = text.trim();
       const words = line.split(/\s+/);
@@ -19,5 +21,6 @@ export async function readObj(reading: Reading, encoding: string): Promise<Loade
     }
   }
   if (builder.rows === 0) throw new LoadProblem(`${name} holds no points: it has no vertex lines (“v x y z”).`);
-  return builder.finish();
+  const cloud = builder.finish();
+  return { ...cloud, isMesh: faces && cloud.positions.length === 3 * builder.rows };
 }

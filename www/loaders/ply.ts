@@ -26,7 +26,7 @@ interface Property {
   list: NumberType | null;
 }
 
-interface PlyElement {
+export interface PlyElement {
   name: string;
   count: number;
   properties: Property[];
@@ -34,13 +34,8 @@ interface PlyElement {
 
 /** The vertices of a PLY file, whatever faces it has. */
 export async function readPly(reading: Reading): Promise<LoadedCloud> {
-  const { name, blob } = reading;
-  const { headerLines, end } = headerOf(name, await bytes(name, blob, 0, LONGEST_HEADER));
-  const format = headerLines.find((line) => line.startsWith("format "))?.split(/\s+/)[1];
-  if (format !== "ascii" && format !== "binary_little_endian" && format !== "binary_big_endian") {
-    throw new LoadProblem(`${name} is a PLY file of an unknown format (${format ?? "none given"}).`);
-  }
-  const elements = elementsOf(name, headerLines);
+  const { name } = reading;
+  const { format, elements, end } = await readPlyHeader(reading);
   const at = elements.findIndex((element) => element.name === "vertex");
   if (at < 0) throw new LoadProblem(`${name} is a PLY file without vertices.`);
   const before = elements.slice(0, at);
@@ -51,12 +46,32 @@ export async function readPly(reading: Reading): Promise<LoadedCloud> {
 
   const { position, others, rowBytes } = fieldsOf(name, count, properties);
   const littleEndian = format === "binary_little_endian";
+  let cloud: LoadedCloud;
   if (format === "ascii") {
     const skip = before.reduce((sum, element) => sum + element.count, 0);
-    return readTextRows(reading, { start: end, count, position, others, skip });
+    cloud = await readTextRows(reading, { start: end, count, position, others, skip });
+  } else {
+    const start = await passOver(reading, end, before, littleEndian, count);
+    cloud = await readBinaryRows(reading, { start, count, position, others }, rowBytes, littleEndian);
   }
-  const start = await passOver(reading, end, before, littleEndian, count);
-  return readBinaryRows(reading, { start, count, position, others }, rowBytes, littleEndian);
+  const faces = elements.some((element) => element.name === "face" && element.count > 0);
+  return { ...cloud, isMesh: faces && cloud.positions.length === 3 * count };
+}
+
+export interface PlyHeader {
+  format: "ascii" | "binary_little_endian" | "binary_big_endian";
+  elements: PlyElement[];
+  /** Where what it describes begins. */
+  end: number;
+}
+
+export async function readPlyHeader({ name, blob }: Reading): Promise<PlyHeader> {
+  const { headerLines, end } = headerOf(name, await bytes(name, blob, 0, LONGEST_HEADER));
+  const format = headerLines.find((line) => line.startsWith("format "))?.split(/\s+/)[1];
+  if (format !== "ascii" && format !== "binary_little_endian" && format !== "binary_big_endian") {
+    throw new LoadProblem(`${name} is a PLY file of an unknown format (${format ?? "none given"}).`);
+  }
+  return { format, elements: elementsOf(name, headerLines), end };
 }
 
 function headerOf(name: string, start: ArrayBuffer): { headerLines: string[]; end: number } {
@@ -107,8 +122,8 @@ function fieldsOf(name: string, count: number, properties: readonly Property[]) 
   return { position: position as [Field, Field, Field], others, rowBytes };
 }
 
-/** Where the vertices of a binary file begin, behind elements whose lists may have any length. */
-async function passOver({ name, blob }: Reading, start: number, before: readonly PlyElement[], littleEndian: boolean, promised: number): Promise<number> {
+/** Where an element of a binary file begins, behind others whose lists may have any length. */
+export async function passOver({ name, blob }: Reading, start: number, before: readonly PlyElement[], littleEndian: boolean, promised: number): Promise<number> {
   if (before.length === 0) return start;
   const view = new DataView(await bytes(name, blob, start, blob.size));
   let at = 0;

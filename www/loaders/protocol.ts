@@ -1,4 +1,4 @@
-import type { LoadedCloud } from "../cloud.ts";
+import type { PreparedCloud } from "../cloud.ts";
 import type { ShapeName } from "../shapes.ts";
 
 /** What the page asks of the loading worker; one request each. */
@@ -17,5 +17,5 @@ interface ReadOptions {
 /** What comes back: any number of steps, then the cloud or what was wrong. `fraction` is null where it cannot be known. */
 export type LoadReply =
   | { kind: "progress"; step: string; fraction: number | null }
-  | { kind: "cloud"; cloud: LoadedCloud }
+  | { kind: "cloud"; prepared: PreparedCloud }
   | { kind: "problem"; sentence: string; nonFinite: number };

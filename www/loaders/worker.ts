@@ -1,5 +1,5 @@
 /// <reference lib="webworker" />
-import type { LoadedCloud } from "../cloud.ts";
+import { type LoadedCloud, prepareCloud } from "../cloud.ts";
 import { SHAPES } from "../shapes.ts";
 import { download, downloadRanges } from "./download.ts";
 import { checkedCloud, MAX_POINTS } from "./limits.ts";
@@ -8,6 +8,9 @@ import type { LoadReply, LoadRequest } from "./protocol.ts";
 import { readFile } from "./read.ts";
 
 const post = (reply: LoadReply, transfer: Transferable[] = []) => { self.postMessage(reply, { transfer }); };
+
+/** Why a sample cannot be had: those that have been opened before are (offline/service-worker.ts). */
+const NOT_KEPT = "there is no connection, and it has not been opened on this device before";
 
 /** Not more often than the eye can follow. */
 const EVERY = 50;
@@ -21,9 +24,10 @@ const progress = (step: string, fraction: number | null) => {
 
 self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
   try {
-    const cloud = await load(request);
-    const arrays = [cloud.positions, cloud.colors, ...(cloud.attributes ?? []).map(({ values }) => values)];
-    post({ kind: "cloud", cloud }, arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : [])));
+    const prepared = prepareCloud(await load(request));
+    const { positions, copy, cloud } = prepared;
+    const arrays = [positions, copy, cloud.local, cloud.colors, ...cloud.attributes.map(({ values }) => values)];
+    post({ kind: "cloud", prepared }, arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : [])));
   } catch (error) {
     const problem = error instanceof LoadProblem ? error : new LoadProblem(`${request.name} could not be read: ${String(error)}.`);
     post({ kind: "problem", sentence: problem.message, nonFinite: problem.nonFinite });
@@ -38,7 +42,7 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
     return SHAPES[request.shape]();
   }
   if (request.kind === "sample") {
-    const data = await (await download(name, request.url, downloading)).arrayBuffer();
+    const data = await (await download(name, request.url, downloading, NOT_KEPT)).arrayBuffer();
     // A server that answers with a page for what it does not have.
     if (data.byteLength % 12 !== 0) throw new LoadProblem(`${name} could not be downloaded: the server sent something else.`);
     return { positions: new Float32Array(data), colors: null };

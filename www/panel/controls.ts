@@ -5,6 +5,7 @@ import type { Viewer } from "../viewer.ts";
 import type { Cloud } from "../cloud.ts";
 import { bindColor, type ColorControl } from "./color.ts";
 import { byId } from "./dom.ts";
+import { bindFullScreen } from "./full-screen.ts";
 import { bindInversion } from "./inversion.ts";
 import { bindLook } from "./look.ts";
 import { bindNoise } from "./noise.ts";
@@ -12,6 +13,7 @@ import { RadiusControl } from "./radius.ts";
 import { bindSections } from "./sections.ts";
 import { bindShadows } from "./shadows.ts";
 import { bindSurface } from "./surface.ts";
+import { bindTheme } from "./theme.ts";
 import { bindViewpoints } from "./several.ts";
 import { bindFreeze } from "./viewpoint.ts";
 
@@ -35,8 +37,11 @@ export class Controls {
     bindLook(store);
     this.color = bindColor(store);
     viewer.onLegend = this.color.explain;
-    const moves = new Moves(byId("view", HTMLCanvasElement), viewer, store, () => this.usual);
+    const moves = new Moves(byId("view", HTMLCanvasElement), viewer, store, () => this.usual, { f: bindFullScreen() });
     bindFreeze(store, moves);
+    bindTheme(store, (theme) => {
+      viewer.setTheme(theme);
+    });
     bindSections(opened);
 
     byId("reset").addEventListener("click", () => {

@@ -1,3 +1,8 @@
+/** When the page has been drawn as it is now: for what may come after that. */
+export function nextFrame(): Promise<unknown> {
+  return new Promise((resolve) => requestAnimationFrame(resolve));
+}
+
 /** An element that index.html is known to have. */
 export function byId(id: string): HTMLElement;
 export function byId<T extends HTMLElement>(id: string, type: new () => T): T;

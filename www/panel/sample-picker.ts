@@ -1,5 +1,5 @@
 import { SAMPLES, type Sample, sampleNamed } from "../samples.ts";
-import { byId } from "./dom.ts";
+import { byId, nextFrame } from "./dom.ts";
 
 /** In CSS pixels; made twice as large by tests/browser/thumbnails.ts. */
 const THUMBNAIL = { width: 84, height: 56 };
@@ -22,6 +22,7 @@ export class SamplePicker {
   }
 
   showSample(sample: Sample): void {
+    void this.showPictures();
     this.removeOwn();
     this.select.value = this.shown = sample.name;
     this.mark(sample.name);
@@ -34,6 +35,7 @@ export class SamplePicker {
   }
 
   showOwn(name: string): void {
+    void this.showPictures();
     this.removeOwn();
     this.select.prepend(new Option(name, "", true, true));
     this.shown = "";
@@ -43,7 +45,17 @@ export class SamplePicker {
 
   /** After a cloud that could not be opened: back to the one that is still there. */
   restore(): void {
+    void this.showPictures();
     this.select.value = this.shown ?? "";
+  }
+
+  /** Not before the first cloud is there, or is known not to come: until then it has the line to itself. */
+  private async showPictures(): Promise<void> {
+    await nextFrame();
+    for (const button of this.thumbnails.querySelectorAll("button")) {
+      const image = button.querySelector("img")!;
+      if (!image.hasAttribute("src")) image.src = `thumbnails/${button.dataset["sample"]}.webp`;
+    }
   }
 
   /** Presses the picture of the sample that is on screen. */
@@ -62,11 +74,9 @@ function thumbnail({ name, label, picture }: Sample, pick: () => void): HTMLButt
   button.dataset["sample"] = name;
   button.title = label;
   const image = document.createElement("img");
-  image.src = `thumbnails/${name}.webp`;
   image.width = THUMBNAIL.width;
   image.height = THUMBNAIL.height;
   image.alt = "";
-  image.loading = "lazy";
   button.append(image, picture!);
   button.addEventListener("click", pick);
   return button;

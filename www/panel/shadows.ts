@@ -35,7 +35,7 @@ export function bindShadows(store: Store, viewer: Viewer): void {
     name.textContent = `Light ${i + 1}`;
     item.append(
       name,
-      button("To camera", `Put light ${i + 1} where the camera is; arrow keys move it`, () => {
+      button("To camera", `To camera: light ${i + 1}; arrow keys move it`, () => {
         store.change({ lights: store.current.lights.with(i, viewer.viewpoint) });
       }),
       button("Remove", `Remove light ${i + 1}`, () => {

@@ -27,17 +27,16 @@ const CURB = 3.6;
 const FACADE = 6.4;
 const DEPTH = 4.2;
 const STOREY = 3.3;
-/** The share of the rays that a pane sends back. */
-const PANE = 0.06;
 
-export function makeScene(random: () => number): Solid<Material> {
+/** `throughPane` is asked for each ray that comes to a window. */
+export function makeScene(random: () => number, throughPane: () => boolean): Solid<Material> {
   const solids: Solid<Material>[] = [ground()];
   for (const side of [-1, 1] as const) {
     for (let x = -HALF_LENGTH; x < HALF_LENGTH - 4; ) {
       const width = Math.min(HALF_LENGTH - x, 8 + 5 * random());
       const storeys = 3 + Math.floor(2.4 * random());
       // Here and there one looks between two houses.
-      if (random() < 0.86) solids.push(house(x, x + width, side, storeys, { color: PLASTER[Math.floor(random() * PLASTER.length)]!, kind: 6, gloss: 0.6 }, random));
+      if (random() < 0.86) solids.push(house(x, x + width, side, storeys, { color: PLASTER[Math.floor(random() * PLASTER.length)]!, kind: 6, gloss: 0.6 }, random, throughPane));
       x += width;
     }
     for (let x = -31; x < 32; x += 9.4 + 2 * random()) solids.push(random() < 0.72 ? tree(x, side * 4.4, random) : lamp(x, side * 4.1));
@@ -67,7 +66,7 @@ function ground(): Solid<Material> {
 }
 
 /** A façade with windows, and rooms behind it: floors, walls, a piece of furniture. */
-function house(from: number, to: number, side: 1 | -1, storeys: number, wall: Material, random: () => number): Solid<Material> {
+function house(from: number, to: number, side: 1 | -1, storeys: number, wall: Material, random: () => number, throughPane: () => boolean): Solid<Material> {
   const height = storeys * STOREY + 0.5;
   const windows = Math.max(2, Math.round((to - from) / 2.6));
   const bay = (to - from) / windows;
@@ -102,7 +101,7 @@ function house(from: number, to: number, side: 1 | -1, storeys: number, wall: Ma
     if (hit.normal[1] === 0) return hit;
     const material = part(eye[0] + hit.distance * along[0], eye[2] + hit.distance * along[2]);
     if (material) return { ...hit, material };
-    if (random() < PANE) return { ...hit, material: GLASS };
+    if (!throughPane()) return { ...hit, material: GLASS };
     return behind(hit.distance + 0.06, eye, along, reach, inside);
   };
 }

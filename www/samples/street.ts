@@ -1,7 +1,7 @@
 import type { LoadedCloud } from "../cloud.ts";
 import { mulberry32 } from "../room.ts";
 import { makeScene, type Material } from "./street-scene.ts";
-import type { Vector } from "./trace.ts";
+import type { Hit, Solid, Vector } from "./trace.ts";
 
 /*
  * A street of 70 meters with houses, trees and parked cars, as a terrestrial laser scanner sees it from three places on
@@ -10,6 +10,7 @@ import type { Vector } from "./trace.ts";
  * street, z up. A fixed seed: the same points on every machine.
  */
 
+const SEED = 2007;
 const STATIONS: Vector[] = [
   [-21, 1.1, 1.75],
   [0.5, -1.3, 1.75],
@@ -23,39 +24,28 @@ const HIGHEST = 58;
 const REACH = 48;
 /** Of the measured distance, one standard deviation, in meters. */
 const NOISE = 0.004;
+/** The share of the beams that a pane sends back. */
+const PANE = 0.06;
 
 const LABELS = { 2: "ground", 5: "high vegetation", 6: "building", 11: "road", 64: "vehicle", 65: "street furniture", 66: "behind glass" };
 
 export function makeStreet(): LoadedCloud {
-  const random = mulberry32(2007);
-  const scene = makeScene(random);
   const most = STATIONS.length * TURNS * STEPS;
   const positions = new Float32Array(3 * most);
   const colors = new Uint8Array(3 * most);
   const intensity = new Uint8Array(most);
   const classification = new Uint8Array(most);
   let count = 0;
-  for (const from of STATIONS) {
-    for (let turn = 0; turn < TURNS; turn++) {
-      for (let step = 0; step < STEPS; step++) {
-        const around = (2 * Math.PI * (turn + 0.4 * random())) / TURNS;
-        const up = ((LOWEST + ((HIGHEST - LOWEST) * (step + 0.4 * random())) / STEPS) * Math.PI) / 180;
-        const along: Vector = [Math.cos(up) * Math.cos(around), Math.cos(up) * Math.sin(around), Math.sin(up)];
-        const hit = scene(from, along, REACH);
-        if (!hit) continue;
-        const distance = hit.distance + NOISE * gaussian(random);
-        const { color, kind, gloss } = hit.material;
-        const light = shade(hit.normal, hit.material, random);
-        for (let axis = 0; axis < 3; axis++) {
-          positions[3 * count + axis] = from[axis]! + distance * along[axis]!;
-          colors[3 * count + axis] = Math.min(255, color[axis]! * light);
-        }
-        const slant = Math.abs(along[0] * hit.normal[0] + along[1] * hit.normal[1] + along[2] * hit.normal[2]);
-        intensity[count] = Math.min(255, gloss * (0.25 + 0.75 * slant) * (0.92 + 0.16 * random()) * Math.min(1, 22 / (10 + hit.distance)) * 255);
-        classification[count] = kind;
-        count++;
-      }
+  for (const { from, along, hit, measured, light, grain } of scan()) {
+    const { color, kind, gloss } = hit.material;
+    for (let axis = 0; axis < 3; axis++) {
+      positions[3 * count + axis] = from[axis]! + measured * along[axis]!;
+      colors[3 * count + axis] = Math.min(255, color[axis]! * light);
     }
+    const slant = Math.abs(along[0] * hit.normal[0] + along[1] * hit.normal[1] + along[2] * hit.normal[2]);
+    intensity[count] = Math.min(255, gloss * (0.25 + 0.75 * slant) * (0.92 + 0.16 * grain) * Math.min(1, 22 / (10 + hit.distance)) * 255);
+    classification[count] = kind;
+    count++;
   }
   return {
     positions: positions.slice(0, 3 * count),
@@ -65,6 +55,32 @@ export function makeStreet(): LoadedCloud {
       { name: "classification", kind: "category", values: classification.slice(0, count), labels: LABELS },
     ],
   };
+}
+
+/** All that was scanned, and the places on its surfaces that the beams met. One looks through its panes. */
+export function streetTruth(): { scene: Solid<Material>; places: Float64Array } {
+  const places: number[] = [];
+  for (const { from, along, hit } of scan()) places.push(...from.map((value, axis) => value + hit.distance * along[axis]!));
+  return { scene: makeScene(mulberry32(SEED), () => true), places: Float64Array.from(places) };
+}
+
+/** Every beam that comes back, with the distance that is measured. */
+function* scan(): Generator<{ from: Vector; along: Vector; hit: Hit<Material>; measured: number; light: number; grain: number }> {
+  const random = mulberry32(SEED);
+  const scene = makeScene(random, () => random() >= PANE);
+  for (const from of STATIONS) {
+    for (let turn = 0; turn < TURNS; turn++) {
+      for (let step = 0; step < STEPS; step++) {
+        const around = (2 * Math.PI * (turn + 0.4 * random())) / TURNS;
+        const up = ((LOWEST + ((HIGHEST - LOWEST) * (step + 0.4 * random())) / STEPS) * Math.PI) / 180;
+        const along: Vector = [Math.cos(up) * Math.cos(around), Math.cos(up) * Math.sin(around), Math.sin(up)];
+        const hit = scene(from, along, REACH);
+        if (!hit) continue;
+        const measured = hit.distance + NOISE * gaussian(random);
+        yield { from, along, hit, measured, light: shade(hit.normal, hit.material, random), grain: random() };
+      }
+    }
+  }
 }
 
 /** Soft daylight from the south and above; rooms are darker. */

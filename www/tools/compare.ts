@@ -1,6 +1,9 @@
+import { AgainstPicture } from "../compare/against-picture.ts";
+import { AgainstSurface } from "../compare/against-surface.ts";
 import { byId } from "../panel/dom.ts";
-import type { Store } from "../settings.ts";
+import type { Settings, Store } from "../settings.ts";
 import type { Viewer } from "../viewer.ts";
+import { CompareCard, type Sides } from "./compare-card.ts";
 
 /** Beside the middle, where one takes hold of the cloud to turn it. */
 const FIRST = 0.42;
@@ -11,26 +14,35 @@ const LEAP = 0.1;
 const number = new Intl.NumberFormat("en-US");
 
 /**
- * The line that divides the picture: all points to its left, those that are seen to its right. To `introduce` it, it is
- * there from the beginning until the camera moves for the first time.
+ * The line that divides the picture: what ours is compared with to its left, ours to its right. To `introduce` it, it is
+ * there from the beginning, with all points to its left and without its card, until the camera moves for the first time.
  */
 export class Compare {
   private readonly viewer: Viewer;
   private readonly store: Store;
   private readonly divider = byId("divider");
   private readonly note = byId("compare-note");
+  private readonly card: CompareCard;
+  /** What ours is compared with, where that is not simply all points. */
+  private reference: AgainstPicture | AgainstSurface | null = null;
   private introducing: boolean;
 
   constructor(viewer: Viewer, store: Store, introduce: boolean) {
     this.viewer = viewer;
     this.store = store;
     this.introducing = introduce;
+    this.card = new CompareCard(store, () => {
+      if (!(this.reference instanceof AgainstSurface)) return;
+      if (this.reference.stopped) this.reference.again();
+      else this.reference.stop();
+    });
     if (introduce) store.change({ compare: FIRST });
     const button = byId("tool-compare");
     button.addEventListener("click", () => { this.toggle(); });
     this.bindDivider();
-    store.follow(({ compare }) => {
-      button.setAttribute("aria-pressed", String(compare !== null));
+    store.follow((now, before) => {
+      button.setAttribute("aria-pressed", String(now.compare !== null));
+      if (now.against !== before.against || (now.compare === null) !== (before.compare === null)) this.drop();
       this.follow();
     });
   }
@@ -40,26 +52,56 @@ export class Compare {
     this.store.change({ compare: this.store.current.compare === null ? FIRST : null });
   }
 
+  /** The cloud goes, or something else is compared. */
+  drop(): void {
+    this.reference?.dispose();
+    this.reference = null;
+    this.viewer.showParts(null);
+  }
+
   /** Says once more what is on either side. */
   follow(): void {
     const { compare } = this.store.current;
-    this.divider.hidden = this.note.hidden = compare === null || this.viewer.cloud === null;
-    if (compare === null || this.viewer.cloud === null) return;
-    const { cloud, visible } = this.viewer.scene;
+    const idle = compare === null || this.viewer.cloud === null;
+    this.divider.hidden = this.note.hidden = idle;
+    this.card.show(idle || this.introducing ? null : this.viewer.scene.surface);
+    if (idle) return;
     const [left, right] = this.note.children;
-    left!.textContent = `All ${number.format(cloud.count)} points`;
-    right!.textContent = `${number.format(visible.length)} seen from here`;
+    const sides = this.sides();
+    left!.textContent = sides.left;
+    right!.textContent = sides.right;
     this.note.style.setProperty("--at", `${100 * compare}%`);
     this.divider.style.left = `${100 * compare}%`;
     this.divider.ariaValueNow = String(Math.round(100 * compare));
-    this.divider.ariaValueText = `${left!.textContent} on the left ${this.divider.ariaValueNow} %, ${right!.textContent} on the right`;
+    this.divider.ariaValueText = `${sides.left} on the left ${this.divider.ariaValueNow} %, ${sides.right} on the right`;
   }
 
   /** Called every frame. */
   place(): void {
-    if (!this.introducing || this.viewer.cloud === null || this.viewer.isHome) return;
-    this.introducing = false;
-    this.store.change({ compare: null });
+    if (this.viewer.cloud === null) return;
+    if (this.introducing && !this.viewer.isHome) {
+      this.introducing = false;
+      this.store.change({ compare: null });
+    }
+    const { current } = this.store;
+    if (current.compare === null) return;
+    this.reference ??= this.begin(current);
+    this.reference?.follow(current);
+  }
+
+  private begin({ against }: Settings): AgainstPicture | AgainstSurface | null {
+    const { surface } = this.viewer.scene;
+    const changed = () => { this.follow(); };
+    if (against === "zbuffer") return new AgainstPicture(this.viewer, changed);
+    return against === "surface" && typeof surface !== "string" ? new AgainstSurface(this.viewer, surface, changed) : null;
+  }
+
+  private sides(): Sides {
+    const { cloud, visible } = this.viewer.scene;
+    if (this.reference instanceof AgainstPicture) return this.card.showPicture(this.reference);
+    if (this.reference instanceof AgainstSurface) return this.card.showSurface(this.reference, cloud.count);
+    this.card.showAll();
+    return { left: `All ${number.format(cloud.count)} points`, right: `${number.format(visible.length)} seen from here` };
   }
 
   private bindDivider(): void {

@@ -1,9 +1,8 @@
 import type { TimedView } from "../ask/inquiry.ts";
 import { byId } from "../panel/dom.ts";
 import { Segmented } from "../panel/segmented.ts";
-import { copy, save } from "./files.ts";
+import { BATCH, copy, save } from "./files.ts";
 import { pictureWithMarks } from "./picture.ts";
-import { plyParts } from "./ply.ts";
 import type { Bench, Tool } from "./tool.ts";
 
 export interface ExportActions {
@@ -12,9 +11,6 @@ export interface ExportActions {
   /** The page as it is now, for others to open; `null` where no address can. */
   link: () => string | null;
 }
-
-/** Indices written at once. */
-const BATCH = 65_536;
 
 /** What is seen, or selected, as a file; the picture as one; and a link to all of it. */
 export class Export implements Tool {
@@ -72,7 +68,8 @@ export class Export implements Tool {
     });
   }
 
-  private ply(): Iterable<BlobPart> {
+  private async ply(): Promise<Iterable<BlobPart>> {
+    const { plyParts } = await import("./ply.ts");
     const { cloud, positions, answer } = this.bench.viewer.scene;
     const { what, indices } = this;
     const comments = [`${what.value === "visible" ? "Visible" : "Selected"} points: ${indices.length} of ${cloud.count}`, ...seenFrom(answer)];
@@ -100,7 +97,7 @@ export class Export implements Tool {
   private *csv(): Iterable<BlobPart> {
     const { positions } = this.bench.viewer.scene;
     yield "index,x,y,z\n";
-    yield* joined(this.indices, "\n", (index) => [index, ...positions.subarray(3 * index, 3 * index + 3)].join());
+    yield* joined(this.indices, "\n", (index) => `${index},${positions[3 * index]!},${positions[3 * index + 1]!},${positions[3 * index + 2]!}`);
     yield "\n";
   }
 

@@ -1,3 +1,6 @@
+/** Points written at once: not for longer than a frame takes. */
+export const BATCH = 8192;
+
 /** Puts pieces together to a file that the browser saves. Between the pieces the page goes on drawing. */
 export async function save(name: string, parts: Iterable<BlobPart>): Promise<void> {
   const done: BlobPart[] = [];

@@ -1,4 +1,5 @@
 import type { Viewer } from "../viewer.ts";
+import { Area } from "./area.ts";
 import { Projection } from "./projection.ts";
 
 /** A place in the picture, in CSS pixels from its left and top, and how many of them a point may be off. */
@@ -15,7 +16,10 @@ const LAYER = 4;
 export function pointAt(viewer: Viewer, { x, y, tolerance }: Spot, through: boolean): number | null {
   const found: { index: number; off: number; ahead: number }[] = [];
   let behind = Infinity;
-  forEachCandidate(viewer, through, (index, at) => {
+  const at = projectionOf(viewer);
+  // A little more than the circle: what is on its rim is decided below.
+  const reach = tolerance + 1;
+  at.each({ left: x - reach, right: x + reach, top: y - reach, bottom: y + reach }, candidates(viewer, through), (index) => {
     const off = Math.hypot(at.x - x, at.y - y);
     if (off > tolerance) return;
     found.push({ index, off, ahead: at.ahead });
@@ -28,21 +32,15 @@ export function pointAt(viewer: Viewer, { x, y, tolerance }: Spot, through: bool
 
 /** All points within a closed line, ascending. */
 export function pointsWithin(viewer: Viewer, line: readonly { x: number; y: number }[], through: boolean): Uint32Array {
-  const xs = line.map(({ x }) => x);
-  const ys = line.map(({ y }) => y);
-  const [left, right, top, bottom] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
-  const found: number[] = [];
-  forEachCandidate(viewer, through, (index, { x, y }) => {
-    if (x < left || x > right || y < top || y > bottom) return;
-    // Odd: a ray to the right leaves the line once more than it enters.
-    let inside = false;
-    for (let i = 0, j = line.length - 1; i < line.length; j = i++) {
-      const [a, b] = [line[i]!, line[j]!];
-      if (a.y > y !== b.y > y && x < a.x + ((y - a.y) * (b.x - a.x)) / (b.y - a.y)) inside = !inside;
-    }
-    if (inside) found.push(index);
+  const area = new Area(line);
+  const among = candidates(viewer, through);
+  const found = new Uint32Array(among?.length ?? viewer.scene.cloud.count);
+  let count = 0;
+  const at = projectionOf(viewer);
+  at.each(area.box, among, (index) => {
+    if (area.holds(at.x, at.y)) found[count++] = index;
   });
-  return Uint32Array.from(found);
+  return found.slice(0, count);
 }
 
 /** Whether a point is among the ascending indices. */
@@ -57,13 +55,11 @@ export function includes(indices: Uint32Array, index: number): boolean {
   return indices[low] === index;
 }
 
-/** The visible points, or all, that are in the picture. */
-function forEachCandidate(viewer: Viewer, through: boolean, visit: (index: number, at: Projection) => void): void {
-  const { cloud, visible } = viewer.scene;
-  const at = new Projection(cloud.local, viewer.stage.camera, viewer.stage.size);
-  const count = through ? cloud.count : visible.length;
-  for (let i = 0; i < count; i++) {
-    const index = through ? i : visible[i]!;
-    if (at.to(index)) visit(index, at);
-  }
+/** The visible points, or `null` for all. */
+function candidates(viewer: Viewer, through: boolean): Uint32Array | null {
+  return through ? null : viewer.scene.visible;
+}
+
+function projectionOf(viewer: Viewer): Projection {
+  return new Projection(viewer.scene.cloud.local, viewer.stage.camera, viewer.stage.size);
 }

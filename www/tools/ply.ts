@@ -1,3 +1,5 @@
+import { BATCH } from "./files.ts";
+
 /** A number for each point besides its place and color. */
 export interface Field {
   name: string;
@@ -44,8 +46,6 @@ const KIND_OF = new Map<unknown, Kind>([
   [Float32Array, KINDS.float32],
 ]);
 
-/** Points written at once, between which the page may do something else. */
-const BATCH = 65_536;
 const TAKEN = ["x", "y", "z", "red", "green", "blue"];
 
 /** A binary PLY file in pieces: every number as wide as the cloud has it, so that nothing is lost. */

@@ -1,5 +1,13 @@
 import { Matrix4, type PerspectiveCamera } from "three";
 
+/** In CSS pixels from the picture's left and top. */
+export interface Box {
+  left: number;
+  right: number;
+  top: number;
+  bottom: number;
+}
+
 /** Where points of the cloud are in the picture: in CSS pixels from its left and top. */
 export class Projection {
   x = 0;
@@ -7,7 +15,7 @@ export class Projection {
   /** How far ahead of the camera. */
   ahead = 0;
   private readonly local: Float32Array;
-  private readonly matrix: readonly number[];
+  private readonly matrix: Matrix4["elements"];
   private readonly width: number;
   private readonly height: number;
   /** Pixels that a unit has at distance 1. */
@@ -27,11 +35,37 @@ export class Projection {
     const x = this.local[3 * index]!;
     const y = this.local[3 * index + 1]!;
     const z = this.local[3 * index + 2]!;
-    this.ahead = m[3]! * x + m[7]! * y + m[11]! * z + m[15]!;
+    this.ahead = m[3] * x + m[7] * y + m[11] * z + m[15];
     if (this.ahead <= 0) return false;
-    this.x = (0.5 + (0.5 * (m[0]! * x + m[4]! * y + m[8]! * z + m[12]!)) / this.ahead) * this.width;
-    this.y = (0.5 - (0.5 * (m[1]! * x + m[5]! * y + m[9]! * z + m[13]!)) / this.ahead) * this.height;
+    this.x = (0.5 + (0.5 * (m[0] * x + m[4] * y + m[8] * z + m[12])) / this.ahead) * this.width;
+    this.y = (0.5 - (0.5 * (m[1] * x + m[5] * y + m[9] * z + m[13])) / this.ahead) * this.height;
     return this.x >= 0 && this.y >= 0 && this.x <= this.width && this.y <= this.height;
+  }
+
+  /** Goes to those of the points, or of all of them, that are in the picture and in a box of it. */
+  each(box: Box, indices: Uint32Array | null, visit: (index: number) => void): void {
+    const { local, width, height } = this;
+    const [a, b, , d, e, f, , h, i, j, , l, m, n, , p] = this.matrix;
+    // In shares of the picture from its middle, times how far ahead: nothing is divided for what is elsewhere.
+    const [left, right] = [Math.max(-1, (2 * box.left) / width - 1), Math.min(1, (2 * box.right) / width - 1)];
+    const [top, bottom] = [Math.min(1, 1 - (2 * box.top) / height), Math.max(-1, 1 - (2 * box.bottom) / height)];
+    const count = indices ? indices.length : local.length / 3;
+    for (let k = 0; k < count; k++) {
+      const index = indices ? indices[k]! : k;
+      const x = local[3 * index]!;
+      const y = local[3 * index + 1]!;
+      const z = local[3 * index + 2]!;
+      const ahead = d * x + h * y + l * z + p;
+      const across = a * x + e * y + i * z + m;
+      if (across < left * ahead || across > right * ahead) continue;
+      const up = b * x + f * y + j * z + n;
+      if (up < bottom * ahead || up > top * ahead) continue;
+      if (ahead <= 0) continue;
+      this.ahead = ahead;
+      this.x = (0.5 + (0.5 * across) / ahead) * width;
+      this.y = (0.5 - (0.5 * up) / ahead) * height;
+      visit(index);
+    }
   }
 
   /** The length of so many pixels at the point's distance. */

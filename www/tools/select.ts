@@ -92,11 +92,23 @@ function box(a: Place, b: Place): Place[] {
   return [a, { x: b.x, y: a.y }, b, { x: a.x, y: b.y }];
 }
 
+/** All are ascending, the results too. */
 function joined(a: Uint32Array, b: Uint32Array): Uint32Array {
-  return Uint32Array.from(new Set([...a, ...b])).sort();
+  const all = new Uint32Array(a.length + b.length);
+  let count = 0;
+  for (let i = 0, j = 0; i < a.length || j < b.length; count++) {
+    const next = Math.min(a[i] ?? Infinity, b[j] ?? Infinity);
+    if (a[i] === next) i++;
+    if (b[j] === next) j++;
+    all[count] = next;
+  }
+  return all.slice(0, count);
 }
 
 function without(a: Uint32Array, b: Uint32Array): Uint32Array {
-  const gone = new Set(b);
-  return Uint32Array.from(a.filter((index) => !gone.has(index)));
+  let j = 0;
+  return a.filter((index) => {
+    while (j < b.length && b[j]! < index) j++;
+    return b[j] !== index;
+  });
 }

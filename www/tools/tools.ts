@@ -44,6 +44,7 @@ export class Tools {
   /** For a cloud that is shown in the place of another. */
   clear(): void {
     for (const tool of this.tools) tool.clear?.();
+    this.compare.drop();
   }
 
   /** Other points are visible. */
@@ -84,8 +85,13 @@ export class Tools {
       // In a frame of another page there are no tools.
       if (!byId("tools").checkVisibility()) return;
       const { width, height } = viewer.stage.size;
-      if (event.key === "Enter" && viewer.cloud) this.active?.click?.({ x: width / 2, y: height / 2, tolerance: TOLERANCE });
-      else keys[event.key.toLowerCase()]?.();
+      if (event.key !== "Enter") {
+        keys[event.key.toLowerCase()]?.();
+      } else if (viewer.cloud) {
+        // Else the same press would send off the form that has just got the focus.
+        event.preventDefault();
+        this.active?.click?.({ x: width / 2, y: height / 2, tolerance: TOLERANCE });
+      }
     });
     this.stage.addEventListener("keydown", (event) => {
       if (event.key !== "Escape" || !this.active) return;

@@ -1,15 +1,10 @@
-import { BufferAttribute, type BufferGeometry, Color, DynamicDrawUsage, Vector2, Vector3 } from "three";
+import { BufferAttribute, type BufferGeometry, Color, DynamicDrawUsage, Sphere, Vector2, Vector3 } from "three";
 import { type Cloud, type Up, upVector } from "../cloud.ts";
+import { spreadOf } from "./spread.ts";
+import type { Theme } from "./theme.ts";
 
-/** Where a file has no colors: from low to high, two calm tones that leave the shape to the shading. */
-const LOW = new Color("#6f8796");
-const HIGH = new Color("#efe6d6");
-/** Selected points, and how much of that covers their own color. */
-const CHOSEN = new Color("#4fb3ff");
+/** How much of a selected point's own color is covered. */
 const CHOSEN_COVERAGE = 0.65;
-/** The share of the points below and above which heights have the ramp's first and last color. */
-const RAMP_FROM = 0.01;
-const RAMP_SAMPLE = 20_000;
 
 /** Before a vertex shader's `main`: the color of a vertex, and how much of it the lights leave. */
 export const TINT_SHADER = /* glsl */ `
@@ -41,13 +36,14 @@ export class CloudAttributes {
     up: { value: new Vector3(0, 1, 0) },
     heights: { value: new Vector2(-1, 1) },
     // Drawn as they are: the shading pass and the screen both take display colors.
-    low: { value: display(LOW) },
-    high: { value: display(HIGH) },
+    low: { value: new Color() },
+    high: { value: new Color() },
     lit: { value: false },
-    chosenColor: { value: display(CHOSEN) },
+    chosenColor: { value: new Color() },
     colored: { value: false },
   };
   private readonly local: Float32Array;
+  private readonly bounds: Sphere;
   private readonly geometries: BufferGeometry[] = [];
   private readonly position: BufferAttribute;
   private readonly ownColors: Uint8Array | null;
@@ -55,11 +51,19 @@ export class CloudAttributes {
   private brightness: BufferAttribute | null = null;
   private chosen: BufferAttribute | null = null;
 
-  constructor({ local, colors }: Cloud) {
+  constructor({ local, colors, radius }: Cloud, theme: Theme) {
     this.local = local;
+    this.bounds = new Sphere(new Vector3(), radius);
     this.position = new BufferAttribute(local, 3);
     this.ownColors = colors;
     this.setTints(null);
+    this.setTheme(theme);
+  }
+
+  setTheme({ low, high, chosen }: Theme): void {
+    this.uniforms.low.value = display(low);
+    this.uniforms.high.value = display(high);
+    this.uniforms.chosenColor.value = display(chosen);
   }
 
   /** Gives a geometry the cloud's points as vertices. */
@@ -68,6 +72,8 @@ export class CloudAttributes {
     if (this.color) geometry.setAttribute("color", this.color);
     if (this.brightness) geometry.setAttribute("brightness", this.brightness);
     if (this.chosen) geometry.setAttribute("chosen", this.chosen);
+    // Else three.js looks for it, in all points, and for each geometry anew.
+    geometry.boundingSphere = this.bounds;
     this.geometries.push(geometry);
   }
 
@@ -119,19 +125,12 @@ export class CloudAttributes {
 }
 
 /** As the shaders take colors: three.js' own are linear. */
-export function display(color: Color): Color {
-  return color.clone().convertLinearToSRGB();
+export function display(color: string): Color {
+  return new Color(color).convertLinearToSRGB();
 }
 
 /** The heights between which the colors run: not from the lowest to the highest point, or a few strays would take the ramp. */
-function rampHeights(local: Float32Array, direction: Vector3): Vector2 {
-  const step = 3 * Math.ceil(local.length / 3 / RAMP_SAMPLE);
-  const heights: number[] = [];
-  for (let i = 0; i < local.length; i += step) {
-    heights.push(local[i]! * direction.x + local[i + 1]! * direction.y + local[i + 2]! * direction.z);
-  }
-  heights.sort((a, b) => a - b);
-  const at = (share: number) => heights[Math.round(share * (heights.length - 1))]!;
-  const [low, high] = [at(RAMP_FROM), at(1 - RAMP_FROM)];
+function rampHeights(local: Float32Array, { x, y, z }: Vector3): Vector2 {
+  const [low, high] = spreadOf(local.length / 3, (i) => local[3 * i]! * x + local[3 * i + 1]! * y + local[3 * i + 2]! * z);
   return high > low ? new Vector2(low, high) : new Vector2(low - 1, low + 1);
 }

@@ -1,5 +1,8 @@
 import { type Attribute, type Cloud, type Up, upVector } from "../cloud.ts";
+import type { Values } from "../loaders/numbers.ts";
 import { OWN_COLORS } from "../settings.ts";
+import { spreadOf } from "./spread.ts";
+import type { Theme } from "./theme.ts";
 
 const PLAIN = "plain";
 const HEIGHT = "height";
@@ -14,10 +17,6 @@ export type Legend =
   | { kind: "ramp"; low: number; high: number; colors: readonly string[] }
   | { kind: "categories"; entries: { label: string; color: string; count: number }[] };
 
-const PLAIN_COLOR: Rgb = [222, 216, 204];
-/** Between these shares of the values the map runs: from the least to the largest, a few strays would take it. */
-const FROM = 0.01;
-const SAMPLE = 20_000;
 const STEPS = 256;
 const MOST_ENTRIES = 12;
 
@@ -60,8 +59,8 @@ export function colorChoices({ colors, attributes }: Cloud): { value: string; la
   ];
 }
 
-export function colorBy(choice: string, cloud: Cloud, up: Up): Coloring {
-  if (choice === PLAIN) return { tints: filled(cloud.count, () => PLAIN_COLOR), legend: null };
+export function colorBy(choice: string, cloud: Cloud, up: Up, theme: Theme): Coloring {
+  if (choice === PLAIN) return { tints: painted(cloud.count, [rgb(theme.plain)], () => 0), legend: null };
   if (choice === HEIGHT) return ramp(cloud.count, heights(cloud, up));
   const attribute = cloud.attributes.find(({ name }) => name === choice);
   if (!attribute) return { tints: null, legend: null };
@@ -76,40 +75,58 @@ function heights({ local, center }: Cloud, up: Up): (i: number) => number {
   return (i) => sign * (local[3 * i + axis]! + center[axis]);
 }
 
+/** Not from the least to the largest: a few strays would take the map. */
 function ramp(count: number, value: (i: number) => number): Coloring {
-  const [low, high] = range(count, value);
+  const [low, high] = spreadOf(count, value);
   const scale = high > low ? (STEPS - 1) / (high - low) : 0;
-  const tints = filled(count, (i) => {
+  const tints = painted(count, VIRIDIS, (i) => {
     const step = Math.round((value(i) - low) * scale);
     // Not a number stands at the low end.
-    return VIRIDIS[step > 0 ? Math.min(STEPS - 1, step) : 0]!;
+    return step > 0 ? Math.min(STEPS - 1, step) : 0;
   });
   return { tints, legend: { kind: "ramp", low, high, colors: VIRIDIS_STOPS } };
 }
 
-function range(count: number, value: (i: number) => number): [number, number] {
-  const step = Math.ceil(count / SAMPLE);
-  const sample = Array.from({ length: Math.ceil(count / step) }, (_, i) => value(i * step)).filter(Number.isFinite);
-  sample.sort((a, b) => a - b);
-  const at = (share: number) => sample[Math.round(share * (sample.length - 1))] ?? 0;
-  return [at(FROM), at(1 - FROM)];
-}
-
 function categories({ values, labels = {} }: Attribute): Coloring {
-  const counts = new Map<number, number>();
-  for (const value of values) counts.set(value, (counts.get(value) ?? 0) + 1);
-  const known = [...counts.keys()].sort((a, b) => a - b);
-  const shown = new Map(known.map((value, i) => [value, CLASS_COLORS[labels[value] ?? ""] ?? TABLEAU[i % TABLEAU.length]!]));
-  const tint = new Map([...shown].map(([value, color]) => [value, rgb(color)]));
-  const entries = known.map((value) => ({ label: labels[value] ?? String(value), color: shown.get(value)!, count: counts.get(value)! }));
+  const { known, counts, numbers } = numbered(values);
+  const ascending = [...known].sort((a, b) => a - b);
+  const shown = new Map(ascending.map((value, i) => [value, CLASS_COLORS[labels[value] ?? ""] ?? TABLEAU[i % TABLEAU.length]!]));
+  const tints = painted(values.length, known.map((value) => rgb(shown.get(value)!)), (i) => numbers[i]!);
+  const entries = ascending.map((value) => ({ label: labels[value] ?? String(value), color: shown.get(value)!, count: counts[known.indexOf(value)]! }));
   // The largest ones, where there are too many to be listed.
   if (entries.length > MOST_ENTRIES) entries.sort((a, b) => b.count - a.count).splice(MOST_ENTRIES);
-  return { tints: filled(values.length, (i) => tint.get(values[i]!)!), legend: { kind: "categories", entries } };
+  return { tints, legend: { kind: "categories", entries } };
 }
 
-function filled(count: number, color: (i: number) => Rgb): Uint8Array {
+/** The values there are, in the order they are met, how many of each, and for every point the number of its own. */
+function numbered(values: Values): { known: number[]; counts: number[]; numbers: Uint32Array } {
+  const numberOf = new Map<number, number>();
+  const counts: number[] = [];
+  const numbers = new Uint32Array(values.length);
+  let [value, number] = [NaN, -1];
+  for (let i = 0; i < values.length; i++) {
+    // Neighbors in a file mostly belong together.
+    if (values[i] !== value) {
+      value = values[i]!;
+      number = numberOf.get(value) ?? numberOf.size;
+      numberOf.set(value, number);
+    }
+    numbers[i] = number;
+    counts[number] = (counts[number] ?? 0) + 1;
+  }
+  return { known: [...numberOf.keys()], counts, numbers };
+}
+
+/** Each point in one of some colors. */
+function painted(count: number, colors: readonly Rgb[], colorOf: (i: number) => number): Uint8Array {
+  const bytes = Uint8Array.from(colors.flat());
   const tints = new Uint8Array(3 * count);
-  for (let i = 0; i < count; i++) tints.set(color(i), 3 * i);
+  for (let i = 0; i < count; i++) {
+    const from = 3 * colorOf(i);
+    tints[3 * i] = bytes[from]!;
+    tints[3 * i + 1] = bytes[from + 1]!;
+    tints[3 * i + 2] = bytes[from + 2]!;
+  }
   return tints;
 }
 

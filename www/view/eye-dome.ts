@@ -1,7 +1,7 @@
 import {
   BufferAttribute,
   BufferGeometry,
-  type Color,
+  Color,
   DepthTexture,
   GLSL3,
   Mesh,
@@ -90,7 +90,7 @@ export class EyeDome {
   private readonly size = new Vector2();
   private readonly planes = new Vector2();
 
-  constructor(background: Color) {
+  constructor() {
     this.target = new WebGLRenderTarget(1, 1, {
       minFilter: NearestFilter,
       magFilter: NearestFilter,
@@ -105,7 +105,7 @@ export class EyeDome {
         colors: { value: this.target.texture },
         depths: { value: this.target.depthTexture },
         planes: { value: this.planes },
-        background: { value: background.clone().convertLinearToSRGB() },
+        background: { value: new Color() },
         reach: { value: REACH },
         strength: { value: STRENGTH },
         softness: { value: 1 },
@@ -119,6 +119,11 @@ export class EyeDome {
     this.cover = new Mesh(triangle, this.material);
     this.cover.frustumCulled = false;
     this.screen.add(this.cover);
+  }
+
+  /** In display colors. */
+  setBackground(color: Color): void {
+    this.material.uniforms["background"]!.value = color;
   }
 
   /** Draws the scene shaded onto the screen; its depths go along, so that more can be drawn among the points. */

@@ -1,6 +1,7 @@
 import { lightByKey } from "../light-moves.ts";
 import type { Store } from "../settings.ts";
 import type { Viewer } from "../viewer.ts";
+import { placeAt, project } from "./place.ts";
 
 /** A handle over the picture for each light: dragged across the picture, or moved around the cloud by keys. */
 export class LightHandles {
@@ -24,7 +25,7 @@ export class LightHandles {
     const { lights } = this.store.current;
     const { width, height } = this.viewer.stage.size;
     for (const [i, handle] of this.handles.entries()) {
-      const at = this.viewer.cloud && this.viewer.project(lights[i]!);
+      const at = this.viewer.cloud && project(this.viewer, lights[i]!);
       const inPicture = at && at.x >= 0 && at.y >= 0 && at.x <= width && at.y <= height;
       handle.hidden = !inPicture;
       if (inPicture) handle.style.translate = `${at.x}px ${at.y}px`;
@@ -52,7 +53,7 @@ export class LightHandles {
       const lights = [...this.store.current.lights];
       // Not out of the picture, where nobody could take hold of it again.
       const [x, y] = [clamp(event.clientX - left, width), clamp(event.clientY - top, height)];
-      lights[i] = this.viewer.placeAt(x, y, lights[i]!);
+      lights[i] = placeAt(this.viewer, x, y, lights[i]!);
       this.store.change({ lights });
     });
     return handle;

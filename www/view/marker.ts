@@ -1,22 +1,20 @@
 import { CameraHelper, Color, type Object3D, PerspectiveCamera, type Quaternion, Vector3 } from "three";
+import type { Theme } from "./theme.ts";
 
 /** Where the frozen viewpoint is: a small camera in the accent color, of a fixed share of the cloud's size. */
 export class ViewpointMarker {
   private readonly parent: Object3D;
-  /** Whose accent color it has. */
-  private readonly canvas: HTMLCanvasElement;
   private helper: CameraHelper | null = null;
   private readonly at = new Vector3();
   private size = 0;
+  private color = new Color();
 
-  constructor(parent: Object3D, canvas: HTMLCanvasElement) {
+  constructor(parent: Object3D) {
     this.parent = parent;
-    this.canvas = canvas;
   }
 
   place(at: Vector3, direction: Quaternion, size: number): void {
     this.remove();
-    const accent = new Color(getComputedStyle(this.canvas).getPropertyValue("--accent").trim());
     const standing = new PerspectiveCamera(40, 1.4, size * 0.02, size);
     standing.position.copy(at);
     standing.quaternion.copy(direction);
@@ -25,8 +23,13 @@ export class ViewpointMarker {
     this.size = size;
     this.helper = new CameraHelper(standing);
     this.helper.visible = false;
-    this.helper.setColors(accent, accent, accent, accent, accent);
+    this.paint();
     this.parent.add(this.helper);
+  }
+
+  setTheme({ accent }: Theme): void {
+    this.color = new Color(accent);
+    this.paint();
   }
 
   /** From within the marker there would be nothing but its lines across the picture. */
@@ -38,5 +41,10 @@ export class ViewpointMarker {
     this.helper?.removeFromParent();
     this.helper?.dispose();
     this.helper = null;
+  }
+
+  private paint(): void {
+    const { color } = this;
+    this.helper?.setColors(color, color, color, color, color);
   }
 }

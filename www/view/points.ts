@@ -1,12 +1,11 @@
-import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Points, ShaderMaterial, Vector2 } from "three";
+import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Group, Points, ShaderMaterial, Vector2 } from "three";
 import type { Cloud } from "../cloud.ts";
+import type { Parts } from "../compare/parts.ts";
 import type { HiddenMode } from "../settings.ts";
 import { type CloudAttributes, display, TINT_SHADER } from "./attributes.ts";
+import type { Theme } from "./theme.ts";
 
-/** Hidden points have a hue of their own; dimmed ones are a dark neutral where nothing stands before them. */
-const HIDDEN = new Color("#a9599c");
-const HIDDEN_DIMMED = new Color("#4a515c");
-/** How much of that color covers a hidden point's own. */
+/** How much of the theme's color for hidden points covers their own. */
 const COVERAGE = 0.7;
 
 /** How much is seen of hidden points that are drawn through the visible ones, and how wide they are at most, in spacings. */
@@ -39,44 +38,61 @@ const vertexShader = /* glsl */ `
 `;
 
 const fragmentShader = /* glsl */ `
-  uniform float until;
+  /* Pixels from the left between which it is drawn. */
+  uniform vec2 between;
   varying vec3 tint;
   varying float size;
 
   void main() {
-    if (gl_FragCoord.x > until) discard;
+    if (gl_FragCoord.x < between.x || gl_FragCoord.x > between.y) discard;
     // Below three pixels a disc and a square look alike.
     if (size > 3.0 && length(gl_PointCoord - 0.5) > 0.5) discard;
     gl_FragColor = vec4(tint, 1.0);
   }
 `;
 
+type Draw = Points<BufferGeometry, ShaderMaterial>;
+
 /**
- * The cloud as two draws of the same points: `solid` for the visible ones, `ghost` for the hidden ones. They share one
- * index buffer, written anew for each answer: first the visible points, then the hidden ones.
+ * The cloud as draws of the same points: `solid` for the visible ones, `ghost` for the hidden ones. They share one index
+ * buffer, written anew for each answer: first the visible points, then the hidden ones, if these are drawn at all.
  *
  *      index   [ visible …… | hidden …………… ]
  *                solid ────   ghost ───────
+ *
+ * Beside a reference they are those of `Parts`: what both see is drawn everywhere, the rest on its own side of the divider.
  */
 export class CloudPoints {
-  readonly solid: Points<BufferGeometry, ShaderMaterial>;
-  readonly ghost: Points<BufferGeometry, ShaderMaterial>;
-  private readonly cloud: Cloud;
+  readonly solid: Draw;
+  readonly ghost: Draw;
+  /** What only ours shows: mostly behind what the reference does. */
+  readonly extra: Draw;
+  /** What else ours and the reference tell apart. */
+  readonly different = new Group();
+  /** Of that, what only the reference shows. */
+  private readonly missing: Draw;
   private readonly order: BufferAttribute;
   private readonly spacing: number;
+  private readonly draws: Draw[];
+  private theme: Theme;
+  private dimmed = false;
   private width = 0;
-  /** Whether the hidden points are drawn through the visible ones: as specks, for both to be seen. */
+  private visible: Uint32Array = new Uint32Array();
+  private hiddenListed = true;
+  /** Whether the hidden points, or what only ours shows, are drawn through the others: as specks, for both to be seen. */
   private throughOthers = true;
-  /** The share of the picture's width, from its left, that hidden points are drawn in. */
-  private until = 1;
+  /** Where the picture is divided, as a share of its width from its left: hidden points are left of it. */
+  private divider = 1;
+  /** Whether what only the reference shows is drawn on both sides. */
+  private fill = false;
 
-  constructor(cloud: Cloud, attributes: CloudAttributes) {
-    this.cloud = cloud;
-    this.order = new BufferAttribute(Uint32Array.from({ length: cloud.count }, (_, i) => i), 1);
+  constructor(cloud: Cloud, attributes: CloudAttributes, theme: Theme) {
+    this.theme = theme;
+    this.order = new BufferAttribute(new Uint32Array(cloud.count), 1);
     this.order.setUsage(DynamicDrawUsage);
     this.spacing = roughSpacing(cloud);
 
-    const draw = () => {
+    const draw = (coverage: number) => {
       const geometry = new BufferGeometry();
       attributes.addTo(geometry);
       geometry.setIndex(this.order);
@@ -88,54 +104,102 @@ export class CloudPoints {
           width: { value: 0 },
           pixels: { value: 1 },
           least: { value: 1 },
-          cover: { value: display(HIDDEN) },
-          coverage: { value: 0 },
-          until: { value: EVERYWHERE },
+          cover: { value: new Color() },
+          coverage: { value: coverage },
+          between: { value: new Vector2(0, EVERYWHERE) },
         },
       });
       const points = new Points(geometry, material);
       points.frustumCulled = false;
       return points;
     };
-    this.solid = draw();
-    this.ghost = draw();
-    this.solid.onBeforeRender = this.ghost.onBeforeRender = (renderer, _scene, camera) => {
-      const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
-      const pixels = (camera.projectionMatrix.elements[5] * height) / 2;
-      for (const { material } of [this.solid, this.ghost]) material.uniforms["pixels"]!.value = pixels;
-      this.ghost.material.uniforms["until"]!.value = this.until * width;
-      const least = leastPixels(cloud.count) * renderer.getPixelRatio();
-      this.solid.material.uniforms["least"]!.value = least;
-      this.ghost.material.uniforms["least"]!.value = this.throughOthers ? least / 1.5 : least;
-    };
+    this.solid = draw(0);
+    this.ghost = draw(COVERAGE);
+    this.extra = draw(1);
+    this.missing = draw(1);
+    const [missing, outside] = [this.missing, draw(0)];
+    this.different.add(missing, outside);
+    this.extra.visible = this.different.visible = false;
+    this.draws = [this.solid, this.extra, missing, outside, this.ghost];
+    for (const each of this.draws) {
+      each.onBeforeRender = (renderer, _scene, camera) => {
+        const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
+        const { uniforms } = each.material;
+        uniforms["pixels"]!.value = (camera.projectionMatrix.elements[5] * height) / 2;
+        const least = leastPixels(cloud.count) * renderer.getPixelRatio();
+        uniforms["least"]!.value = each === this.ghost && this.throughOthers ? least / 1.5 : least;
+        const left = each === this.ghost || (each === missing && !this.fill);
+        const right = each === this.extra || each === outside;
+        const at = this.divider * width;
+        (uniforms["between"]!.value as Vector2).set(right ? at : 0, left ? at : EVERYWHERE);
+      };
+    }
     this.show("off", false);
   }
 
   /** The answer for a viewpoint: ascending indices of the visible points. */
   setVisible(indices: Uint32Array): void {
+    this.visible = indices;
+    this.order.clearUpdateRanges();
+    (this.order.array as Uint32Array).set(indices);
+    this.upload(0, indices.length);
+    this.extra.visible = this.different.visible = false;
+    this.setRanges([indices.length, indices.length, indices.length, indices.length]);
+    this.hiddenListed = false;
+    if (this.ghost.visible) this.listHidden();
+  }
+
+  private listHidden(): void {
+    this.hiddenListed = true;
+    const { visible } = this;
     const order = this.order.array as Uint32Array;
-    order.set(indices);
-    let at = indices.length;
+    let at = visible.length;
     let next = 0;
-    for (const index of indices) {
+    for (let i = 0; i < visible.length; i++) {
+      const index = visible[i]!;
       while (next < index) order[at++] = next++;
       next = index + 1;
     }
-    while (next < this.cloud.count) order[at++] = next++;
+    while (next < order.length) order[at++] = next++;
+    this.upload(visible.length, order.length);
+  }
+
+  /** What of the order has been written anew; three.js forgets the ranges once they are on the graphics card. */
+  private upload(from: number, to: number): void {
+    this.order.addUpdateRange(from, to - from);
     this.order.needsUpdate = true;
-    this.solid.geometry.setDrawRange(0, indices.length);
-    this.ghost.geometry.setDrawRange(indices.length, this.cloud.count - indices.length);
+  }
+
+  /** The answer beside a reference, whose own points `fill` the gaps of ours or stay on their side. Keeps the order for itself. */
+  setParts({ order, ends }: Parts, fill: boolean): void {
+    this.order.array = order;
+    this.order.clearUpdateRanges();
+    this.order.needsUpdate = true;
+    this.hiddenListed = true;
+    this.fill = fill;
+    this.extra.visible = this.different.visible = true;
+    this.setRanges(ends);
   }
 
   /** Hidden points, and up to which share of the picture's width. */
-  show(mode: HiddenMode, frozen: boolean, until = 1): void {
-    const { uniforms } = this.ghost.material;
-    this.until = until;
+  show(mode: HiddenMode, frozen: boolean, divider = 1): void {
+    this.divider = divider;
     this.ghost.visible = mode !== "off";
+    if (this.ghost.visible && !this.hiddenListed) this.listHidden();
     this.throughOthers = !frozen;
-    uniforms["cover"]!.value = display(frozen && mode === "dimmed" ? HIDDEN_DIMMED : HIDDEN);
-    uniforms["coverage"]!.value = COVERAGE;
+    this.dimmed = frozen && mode === "dimmed";
+    this.setTheme(this.theme);
     this.setWidths();
+  }
+
+  setTheme(theme: Theme): void {
+    this.theme = theme;
+    const colors: [Draw, string][] = [
+      [this.ghost, this.dimmed ? theme.hiddenDimmed : theme.hidden],
+      [this.extra, theme.onlyOurs],
+      [this.missing, theme.onlyReference],
+    ];
+    for (const [{ material }, color] of colors) material.uniforms["cover"]!.value = display(color);
   }
 
   /** In multiples of the points' rough distance from one another; the width of a point in the cloud's units. */
@@ -145,13 +209,23 @@ export class CloudPoints {
     return this.width;
   }
 
+  /** One draw after another, and the hidden points in the last. */
+  private setRanges(ends: readonly number[]): void {
+    let from = 0;
+    [...ends, this.order.count].forEach((end, i) => {
+      this.draws[i]!.geometry.setDrawRange(from, end - from);
+      from = end;
+    });
+  }
+
   private setWidths(): void {
-    this.solid.material.uniforms["width"]!.value = this.width;
-    this.ghost.material.uniforms["width"]!.value = this.throughOthers ? Math.min(this.width, THROUGH_WIDTH * this.spacing) : this.width;
+    for (const { material } of this.draws) material.uniforms["width"]!.value = this.width;
+    if (!this.throughOthers) return;
+    for (const { material } of [this.ghost, this.extra]) material.uniforms["width"]!.value = Math.min(this.width, THROUGH_WIDTH * this.spacing);
   }
 
   dispose(): void {
-    for (const { geometry, material } of [this.solid, this.ghost]) {
+    for (const { geometry, material } of this.draws) {
       geometry.dispose();
       material.dispose();
     }

@@ -1,5 +1,7 @@
-import { Color, PerspectiveCamera, Scene, WebGLRenderer } from "three";
+import { PerspectiveCamera, Scene, Vector2, WebGLRenderer } from "three";
+import { display } from "./attributes.ts";
 import { EyeDome } from "./eye-dome.ts";
+import { type Theme, THEMES } from "./theme.ts";
 
 /** The canvas: one camera, the shaded points, those drawn through them, and an overlay of what is drawn among them unshaded. */
 export class Stage {
@@ -17,7 +19,12 @@ export class Stage {
   private readonly canvas: HTMLCanvasElement;
   private readonly renderer: WebGLRenderer;
   private readonly eyeDome: EyeDome;
-  private readonly resizing = new ResizeObserver(() => { this.resize(); });
+  private readonly resizing = new ResizeObserver(() => {
+    this.resize();
+    // A resized canvas is empty; drawing at once avoids a flash.
+    this.frame();
+  });
+  private shape = { width: 1, height: 1 };
   private changed = true;
   private drawnFrom = "";
   /** Half the size of what is to be seen, around the origin. */
@@ -26,10 +33,10 @@ export class Stage {
 
   constructor(canvas: HTMLCanvasElement) {
     this.canvas = canvas;
-    const background = new Color(getComputedStyle(canvas).getPropertyValue("--canvas").trim());
     this.renderer = new WebGLRenderer({ canvas, powerPreference: "high-performance" });
     this.renderer.autoClear = false;
-    this.eyeDome = new EyeDome(background);
+    this.eyeDome = new EyeDome();
+    this.setTheme(THEMES.dark);
     this.resizing.observe(canvas);
     canvas.addEventListener("webglcontextrestored", () => { this.invalidate(); });
     this.resize();
@@ -38,7 +45,17 @@ export class Stage {
 
   /** Of the picture in CSS pixels. */
   get size(): { width: number; height: number } {
-    return { width: this.canvas.clientWidth, height: this.canvas.clientHeight };
+    return this.shape;
+  }
+
+  /** Of the picture in its own pixels. */
+  get resolution(): Vector2 {
+    return this.renderer.getDrawingBufferSize(new Vector2());
+  }
+
+  setTheme({ background }: Theme): void {
+    this.eyeDome.setBackground(display(background));
+    this.invalidate();
   }
 
   setExtent(extent: number): void {
@@ -87,13 +104,13 @@ export class Stage {
   private resize(): void {
     const { clientWidth: width, clientHeight: height } = this.canvas;
     if (width === 0 || height === 0) return;
+    // Asked of the document once: each time it would have to be laid out first.
+    this.shape = { width, height };
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
     this.onResize();
     this.invalidate();
-    // A resized canvas is empty; drawing at once avoids a flash.
-    this.frame();
   }
 
   /** The picture as it is now, as a PNG file. */
@@ -118,10 +135,7 @@ export class Stage {
     this.changed = false;
     this.drawnFrom = from;
 
-    // As tight as the cloud allows: the depth buffer is shared by clouds of a millimeter and of a hundred kilometers.
-    const distance = this.camera.position.length();
-    this.camera.far = distance + 1.1 * this.extent;
-    this.camera.near = Math.max(distance - 1.1 * this.extent, this.camera.far / 5000);
+    Object.assign(this.camera, clipping(this.camera.position.length(), this.extent));
     this.camera.updateProjectionMatrix();
 
     this.eyeDome.render(this.renderer, this.points, this.camera);
@@ -130,6 +144,15 @@ export class Stage {
     }
     this.renderer.render(this.overlay, this.camera);
   }
+}
+
+/**
+ * Between which distances something of that extent, so far away, is drawn. As tight as it allows: the depth buffer is shared
+ * by clouds of a millimeter and of a hundred kilometers.
+ */
+export function clipping(distance: number, extent: number): { near: number; far: number } {
+  const far = distance + 1.1 * extent;
+  return { near: Math.max(distance - 1.1 * extent, far / 5000), far };
 }
 
 /** Whether this browser can draw at all; asked of a canvas of its own, so that nothing is logged where it cannot. */

@@ -1,8 +1,6 @@
-import { BufferAttribute, BufferGeometry, Color, DoubleSide, DynamicDrawUsage, Mesh, ShaderMaterial } from "three";
+import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, ShaderMaterial } from "three";
 import { type CloudAttributes, display, TINT_SHADER } from "./attributes.ts";
-
-/** The inside of the surface, seen when the viewpoint is frozen and the camera behind it. */
-const INSIDE = new Color("#59616b");
+import type { Theme } from "./theme.ts";
 
 const vertexShader = /* glsl */ `
   ${TINT_SHADER}
@@ -20,6 +18,7 @@ const vertexShader = /* glsl */ `
 
 const fragmentShader = /* glsl */ `
   uniform bool lit;
+  /* Of the surface's inside, seen when the viewpoint is frozen and the camera behind it. */
   uniform vec3 inside;
   varying vec3 tint, place;
   varying float bright;
@@ -41,19 +40,23 @@ const fragmentShader = /* glsl */ `
 export class Surface {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
 
-  constructor(attributes: CloudAttributes) {
+  constructor(attributes: CloudAttributes, theme: Theme) {
     const geometry = new BufferGeometry();
     attributes.addTo(geometry);
     geometry.setDrawRange(0, 0);
     const material = new ShaderMaterial({
       vertexShader,
       fragmentShader,
-      uniforms: { ...attributes.uniforms, inside: { value: display(INSIDE) } },
+      uniforms: { ...attributes.uniforms, inside: { value: display(theme.inside) } },
       side: DoubleSide,
     });
     this.mesh = new Mesh(geometry, material);
     this.mesh.frustumCulled = false;
     this.mesh.visible = false;
+  }
+
+  setTheme({ inside }: Theme): void {
+    this.mesh.material.uniforms["inside"]!.value = display(inside);
   }
 
   /** `null` hides the surface. */

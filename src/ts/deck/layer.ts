@@ -32,8 +32,10 @@ interface Own {
 // Not an interface, which has no index signature.
 type State = {
   sight: Sight;
-  /** One number a point: 1 visible, 0 hidden. Undefined until there is an answer. */
+  /** One number a point: 1 visible, 0 hidden. Undefined until there is an answer, then written anew by each. */
   mask: Float32Array | undefined;
+  /** Counts the answers. */
+  version: number;
   /** The data with the mask as an attribute, where it is binary. */
   data: unknown;
 };
@@ -83,7 +85,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
         this.getCurrentLayer()?.raiseError(error, "");
       },
     });
-    this.setState({ sight, mask: undefined, data: undefined });
+    this.setState({ sight, mask: undefined, version: 0, data: undefined });
   }
 
   /** Also when only the camera has moved. @internal */
@@ -100,7 +102,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       const isMoved = typeof triggers === "object" && ("getPosition" in triggers || "all" in triggers);
       if (changeFlags.dataChanged || isMoved) {
         this.setState({ mask: undefined, data: undefined });
-        sight.setPositions(positionsOf(data, getPosition));
+        sight.setPositions(() => positionsOf(data, getPosition));
       }
       const seen = viewpoint === null ? eyeOf(this.context.viewport, this.props) : { from: viewpoint, isDirection: false };
       sight.want({ ...seen, options: visibility });
@@ -116,10 +118,10 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
 
   /** @internal */
   override renderLayers(): Layer {
-    const { mask, data = this.props.data } = this.state;
+    const { mask, version, data = this.props.data } = this.state;
     const { extensions, updateTriggers } = this.props;
     const own = Object.entries(this.props).filter(([name]) => name in PointCloudLayer.defaultProps);
-    const shared = this.getSubLayerProps({ id: "points", updateTriggers: { ...updateTriggers, getFilterValue: mask } }) as object;
+    const shared = this.getSubLayerProps({ id: "points", updateTriggers: { ...updateTriggers, getFilterValue: version } }) as object;
     return new PointCloudLayer({
       ...Object.fromEntries(own),
       ...shared,
@@ -133,12 +135,18 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
 
   /** @internal */
   applyAnswer(answer: Visibility, milliseconds: number): void {
-    const mask = Float32Array.from(answer.mask());
+    const { sight, version } = this.state;
+    let { mask } = this.state;
+    if (mask?.length !== sight.length) {
+      mask = new Float32Array(sight.length);
+    }
+    mask.fill(0);
+    for (const index of answer.indices) mask[index] = 1;
     const data: unknown = this.props.data;
     const withMask = isBinary(data)
       ? { ...data, attributes: { ...data.attributes, getFilterValue: { value: mask, size: 1 } } }
       : undefined;
-    this.setState({ mask, data: withMask });
+    this.setState({ mask, version: version + 1, data: withMask });
     (this.props as unknown as Own).onVisible?.({ count: answer.count, milliseconds });
   }
 }

@@ -1,3 +1,4 @@
+import { HprError } from "../errors.js";
 import type { VisibilityOptions } from "../view-options.js";
 import type { Visibility } from "../visibility.js";
 import { WorkerPointCloud } from "../worker/client.js";
@@ -9,22 +10,59 @@ export interface View {
   options: VisibilityOptions;
 }
 
+interface Listener {
+  /** The answer is recycled afterwards. */
+  answer: (answer: Visibility, milliseconds: number) => void;
+  error: (error: Error) => void;
+}
+
+type ReadPositions = () => Float32Array | Float64Array;
+
 /** A layer's cloud in the worker that all layers share, asked one view at a time: the newest next. */
 export class Sight {
-  readonly #tell: { answer: (answer: Visibility, milliseconds: number) => void; error: (error: Error) => void };
+  readonly #tell: Listener;
+  #read: ReadPositions | undefined;
   #cloud: WorkerPointCloud | undefined;
   #wanted: View | undefined;
   #asked = "";
   #busy = false;
-  /** Which positions it is about: what comes of earlier ones is left alone. */
+  /** The worker was lost, and the next one has not answered yet. */
+  #recovering = false;
+  /** Which cloud it is about: what comes of earlier ones is left alone. */
   #epoch = 0;
 
-  constructor(tell: { answer: (answer: Visibility, milliseconds: number) => void; error: (error: Error) => void }) {
+  constructor(tell: Listener) {
     this.#tell = tell;
   }
 
-  setPositions(positions: Float32Array | Float64Array): void {
+  /** How many points there are. */
+  get length(): number {
+    return this.#cloud?.length ?? 0;
+  }
+
+  /** Throws what reading the positions throws. They are read again when the worker is lost. */
+  setPositions(read: ReadPositions): void {
     this.dispose();
+    this.#recovering = false;
+    this.#read = read;
+    this.#create(read());
+  }
+
+  want(view: View): void {
+    this.#wanted = view;
+    this.#next();
+  }
+
+  dispose(): void {
+    this.#epoch += 1;
+    this.#busy = false;
+    this.#asked = "";
+    this.#read = undefined;
+    void this.#cloud?.dispose();
+    this.#cloud = undefined;
+  }
+
+  #create(positions: Float32Array | Float64Array): void {
     const epoch = this.#epoch;
     WorkerPointCloud.create(positions, { shared: true }).then(
       (cloud) => {
@@ -39,19 +77,6 @@ export class Sight {
         this.#fail(error, epoch);
       },
     );
-  }
-
-  want(view: View): void {
-    this.#wanted = view;
-    this.#next();
-  }
-
-  dispose(): void {
-    this.#epoch += 1;
-    this.#busy = false;
-    this.#asked = "";
-    void this.#cloud?.dispose();
-    this.#cloud = undefined;
   }
 
   #next(): void {
@@ -72,8 +97,9 @@ export class Sight {
     answer.then(
       (visibility) => {
         if (epoch === this.#epoch) {
-          this.#busy = false;
+          this.#busy = this.#recovering = false;
           this.#tell.answer(visibility, performance.now() - begun);
+          cloud.recycle(visibility);
           this.#next();
         }
       },
@@ -84,10 +110,30 @@ export class Sight {
   }
 
   #fail(error: unknown, epoch: number): void {
-    if (epoch === this.#epoch) {
-      this.#busy = false;
-      this.#tell.error(error as Error);
-      this.#next();
+    if (epoch !== this.#epoch) {
+      return;
     }
+    this.#busy = false;
+    if (error instanceof HprError && error.code === "internal") {
+      // With the worker, its clouds are lost.
+      const [read, wasRecovering] = [this.#read, this.#recovering];
+      this.dispose();
+      if (!wasRecovering && this.#createAgain(read)) {
+        return;
+      }
+    }
+    this.#tell.error(error as Error);
+    this.#next();
+  }
+
+  #createAgain(read: ReadPositions | undefined): boolean {
+    try {
+      if (read !== undefined) this.setPositions(read);
+    } catch {
+      // The data has become something else; the layer hears of that, too.
+      return false;
+    }
+    this.#recovering = true;
+    return read !== undefined;
   }
 }

@@ -1,39 +1,35 @@
-import { type Camera, EventDispatcher, type EventListener, type Object3D, type Points } from "three";
+import type { Camera, Object3D, Points } from "three";
 
 import { describe, HprError } from "../errors.js";
-import type { MergeOptions } from "../merge.js";
+import { type Box, extentOf } from "../three/box.js";
 import { Eye, requireUniformScale } from "../three/eye.js";
-import { extent } from "./measure.js";
-import { type Merger, startMerger } from "./merger.js";
-import type { CloudNode } from "./node.js";
+import { Recovery } from "../three/recovery.js";
+import { asError, Reporter } from "../three/reporter.js";
+import { Gathered } from "./gathered.js";
 import { NodeSet } from "./node-set.js";
 import { type HiddenPointNodesFilterOptions, type NodesSettings, readNodesOptions } from "./options.js";
-import { CommonRadius } from "./radius.js";
-import { spacingOf } from "./spacing.js";
 
 /** What a filter of nodes tells its listeners. */
 export interface HiddenPointNodesFilterEvents {
   /**
    * Another answer is drawn: how many points of how many nodes are visible, how long it took
-   * to get, and from where and with which radius (0 where the inversion has none) all were
-   * asked, in the root's space.
+   * to get, from which viewpoint or along which direction (the other one is null) and with
+   * which radius (0 where the inversion has none), in the root's space.
    */
-  change: { count: number; nodes: number; milliseconds: number; viewpoint: number[]; radius: number };
+  change: {
+    count: number;
+    nodes: number;
+    milliseconds: number;
+    viewpoint: number[] | null;
+    direction: number[] | null;
+    radius: number;
+  };
   /**
    * What a node (`points`) or a view (null) is refused for: told once for each node until it
-   * changes, and once for views until there is an answer again.
+   * changes, and once for views until there is an answer again. Without a listener, it is an
+   * unhandled rejection.
    */
   error: { error: Error; points: Points | null };
-}
-
-/** What is asked together. */
-interface Round {
-  nodes: CloudNode[];
-  viewpoint: number[];
-  /** No node is new since the last time, and none to come. */
-  settled: boolean;
-  /** The nodes or the viewpoint are others than the last time. */
-  isNew: boolean;
 }
 
 /**
@@ -41,9 +37,8 @@ interface Round {
  * camera, as tiled viewers need it: potree-core's octrees, point tiles of 3d-tiles-renderer.
  * Nodes may come and go, lie in one another, and have offsets of their own.
  *
- * All nodes are asked from one viewpoint with one radius, each as a cloud of its own, and
- * what they see is merged (`mergeVisible`): exactly as if the cloud had never been split.
- * A node that comes is asked alone, then merged; what was asked before is kept.
+ * What is drawn is, to the bit, what would be drawn of one cloud that had never been split:
+ * nodes that come are appended to it, nodes that go are removed.
  *
  * ```js
  * const filter = new HiddenPointNodesFilter(octree); // or tiles.group
@@ -54,12 +49,11 @@ interface Round {
  * });
  * ```
  *
- * Nodes may move with the root as much as they like; moved within it, they are prepared
- * anew. Nodes that have gone are kept for a while, no more points than are there.
- *
- * Orthographic cameras are refused (`option`).
+ * Nodes may move with the root as much as they like; moved within it, they are read anew.
+ * The options are those of a `HiddenPointFilter`, and mean the cloud of all nodes; so does an
+ * orthographic camera.
  */
-export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilterEvents> {
+export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvents> {
   /**
    * While true, nothing new is asked, wherever the camera goes; an answer on its way is still
    * drawn. New nodes are drawn whole.
@@ -68,22 +62,22 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
 
   readonly #root: Object3D;
   readonly #settings: NodesSettings;
-  readonly #radius: CommonRadius;
   readonly #eye = new Eye();
   readonly #nodes: NodeSet;
-  /** Versions of the set of nodes: the last one that was asked, that had settled, whose spacing is known. */
-  #askedVersion = 0;
-  #settledVersion = 0;
-  #spacingVersion = -1;
-  #asked: MergeOptions | undefined;
-  #merger: Promise<Merger> | undefined;
-  #enabled = true;
+  readonly #gathered: Gathered;
+  readonly #recovery = new Recovery(() => {
+    this.#askedVersion = undefined;
+    this.#next();
+  });
+  /** The set of nodes that was asked last; undefined when it is to be asked again. */
+  #askedVersion: number | undefined;
   #busy = false;
   #visible = 0;
+  /** A view was refused, and nothing has been answered since. */
   #refused = false;
-  #recovering = false;
   #disposed = false;
-  #isHeard = false;
+  /** What listeners are told when everything else is done: they may throw. */
+  #untold: { error: Error; points: Points | null }[] = [];
 
   /**
    * @param root in whose space the nodes are one cloud, and radii are given: an object
@@ -97,32 +91,20 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
     }
     this.#root = root;
     this.#settings = readNodesOptions(options);
-    this.#radius = new CommonRadius(this.#settings.view);
-    this.#nodes = new NodeSet(root, this.#settings, {
-      ready: () => {
-        this.#next();
-      },
-      refused: (error, points) => {
-        this.#refuseNode(error, points);
-      },
+    this.#nodes = new NodeSet(root, this.#settings, (error, points) => {
+      this.#untold.push({ error, points });
     });
+    this.#gathered = new Gathered(this.#settings);
     requireUniformScale(root);
   }
 
   /** While false, everything is drawn and nothing is asked. Default true. */
   get enabled(): boolean {
-    return this.#enabled;
+    return this.#nodes.enabled;
   }
 
   set enabled(enabled: boolean) {
-    this.#enabled = enabled;
-    for (const node of this.#nodes.all()) {
-      if (!enabled) {
-        node.showAll();
-      } else if (this.#nodes.isPresent(node)) {
-        node.show();
-      }
-    }
+    this.#nodes.enabled = enabled;
   }
 
   /** How many points are visible, of all nodes together, in the answer that came last. */
@@ -130,9 +112,12 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
     return this.#visible;
   }
 
-  /** Whether what is drawn is the answer for the nodes and the camera of the last `update`. */
+  /**
+   * Whether nothing is on its way: what is drawn is the answer for the nodes and the camera of
+   * the last `update`, unless that was refused.
+   */
   get settled(): boolean {
-    return !this.#busy && !this.#nodes.isBuilding && !this.#wantsAnswer();
+    return !this.#busy && !this.#recovery.isUnderWay && (this.#recovery.isLost || !this.#wantsAnswer());
   }
 
   /**
@@ -143,199 +128,119 @@ export class HiddenPointNodesFilter extends EventDispatcher<HiddenPointNodesFilt
     if (this.#disposed) {
       return;
     }
-    for (const node of this.#nodes.all()) {
-      node.dimmed?.follow();
-    }
-    if (!this.#enabled || this.frozen) {
-      return;
-    }
     try {
-      this.#eye.look(this.#root, camera);
-      if (this.#eye.isDirection) {
-        throw new HprError("option", "camera: nodes cannot be merged along a direction, as an orthographic camera sees them");
+      this.#nodes.follow();
+      if (!this.enabled || this.frozen) {
+        return;
       }
+      this.#eye.look(this.#root, camera);
       this.#nodes.takeUp();
+      this.#recovery.wish(this.#wantsAnswer());
+      this.#next();
     } catch (error) {
       this.#refuse(error);
-      return;
     }
-    this.#next();
+    this.#tell();
   }
 
-  /** `"change"`: another answer is drawn. `"error"`: without a listener, it is an unhandled rejection. */
-  override addEventListener<T extends keyof HiddenPointNodesFilterEvents>(
-    type: T,
-    listener: EventListener<HiddenPointNodesFilterEvents[T], T, this>,
-  ): void {
-    this.#isHeard ||= type === "error";
-    super.addEventListener(type, listener);
-  }
-
-  /** Draws all nodes as they were, and gives the memory of their clouds back. May be called twice. */
+  /** Draws all nodes as they were, and gives the memory of their cloud back. May be called twice. */
   dispose(): void {
     if (this.#disposed) {
       return;
     }
     this.#disposed = true;
     this.#nodes.dispose();
-    this.#dropMerger();
+    this.#gathered.close();
+    this.#recovery.stop();
   }
 
   #wantsAnswer(): boolean {
-    const { version, isKnown } = this.#nodes;
-    const isNew = this.#eye.isNew || this.#askedVersion !== version || this.#settledVersion !== version;
-    return isNew && isKnown && this.#enabled && !this.frozen && !this.#disposed;
+    const isNew = this.#eye.isNew || this.#askedVersion !== this.#nodes.version;
+    return isNew && this.enabled && !this.frozen && !this.#disposed;
   }
 
   #next(): void {
-    if (this.#busy || !this.#wantsAnswer()) {
-      return;
-    }
-    const { version, isBuilding, epoch } = this.#nodes;
-    const isNewSet = this.#askedVersion !== version;
-    const isNew = isNewSet || this.#eye.isNew;
-    if (!isNew && isBuilding) {
-      return;
-    }
-    const nodes = this.#nodes.ready();
-    const settled = !isNewSet && !isBuilding;
-    this.#eye.extent = extent(nodes.map(({ measure }) => measure!));
-    const viewpoint = this.#eye.ask();
-    this.#askedVersion = version;
-    if (settled || nodes.length === 0) {
-      this.#settledVersion = version;
-    }
-    if (nodes.length === 0) {
-      this.#visible = 0;
+    if (this.#busy || this.#recovery.isLost || !this.#wantsAnswer()) {
       return;
     }
     this.#busy = true;
-    this.#answer({ nodes, viewpoint, settled, isNew }).then(
-      () => {
+    void this.#round().then(
+      (change) => {
         this.#busy = false;
         this.#next();
+        this.#tell();
+        if (change !== undefined && !this.#disposed) {
+          this.dispatchEvent({ type: "change", ...change });
+        }
       },
       (error: unknown) => {
         this.#busy = false;
-        if (epoch === this.#nodes.epoch && !isDisposed(error)) {
-          this.#refuse(error);
-        }
+        this.#refuse(error);
         this.#next();
+        this.#tell();
       },
     );
   }
 
-  async #answer({ nodes, viewpoint, settled, isNew }: Round): Promise<void> {
+  /** Brings the cloud up to date, asks it for the newest view, and draws that. */
+  async #round(): Promise<HiddenPointNodesFilterEvents["change"] | undefined> {
     const begun = performance.now();
-    const options = await this.#chooseRadius(nodes, viewpoint, settled);
-    if (!isNew && JSON.stringify(options) === JSON.stringify(this.#asked)) {
-      return;
-    }
-    const seen = await Promise.all(nodes.map((node) => node.visibleFrom(viewpoint, options)));
-    let first = 0;
-    const parts = nodes.map((node, i) => {
-      const part = node.part(seen[i]!, first);
-      first += node.drawn.total;
-      return part;
+    const gathered = this.#gathered;
+    this.#askedVersion = this.#nodes.version;
+    await gathered.follow(this.#nodes.present(), (error, { points }) => {
+      this.#untold.push({ error, points });
     });
-    const ids = await (await this.#startedMerger()).merge(parts, viewpoint, options);
-    this.#asked = options;
-    if (!this.#disposed) {
-      this.#draw(nodes, ids);
-      const milliseconds = performance.now() - begun;
-      const { radius = 0 } = options;
-      this.dispatchEvent({ type: "change", count: ids.length, nodes: nodes.length, milliseconds, viewpoint, radius });
+    this.#eye.extent = extentOf(this.#nodes.present().flatMap(({ box }): Box[] => (box === undefined ? [] : [box])));
+    const { isDirection } = this.#eye;
+    const from = this.#eye.ask();
+    if (gathered.isEmpty) {
+      this.#visible = 0;
+      return undefined;
     }
-  }
-
-  /** What all nodes are asked with. Their spacing is measured when they have settled. */
-  async #chooseRadius(nodes: CloudNode[], viewpoint: number[], settled: boolean): Promise<MergeOptions> {
-    const radius = this.#radius;
-    const isUnknown = radius.spacing === undefined || (settled && this.#spacingVersion !== this.#askedVersion);
-    if (radius.needsSpacing && isUnknown) {
-      const version = this.#askedVersion;
-      radius.spacing = await spacingOf(nodes, this.#settings);
-      this.#spacingVersion = settled ? version : -1;
+    const answer = await gathered.visibleFrom(from, isDirection);
+    const { count, radius } = answer;
+    if (this.#disposed) {
+      return undefined;
     }
-    return radius.choose(
-      nodes.map(({ measure }) => measure!),
-      viewpoint,
-      settled,
-    );
-  }
-
-  #draw(nodes: CloudNode[], ids: Uint32Array): void {
-    this.#refused = this.#recovering = false;
-    this.#visible = ids.length;
-    let [first, from] = [0, 0];
-    for (const node of nodes) {
-      const next = first + node.drawn.total;
-      let to = from;
-      while (to < ids.length && ids[to]! < next) to++;
-      if (node.state === "ready" && node.drawn.isSame && this.#nodes.isPresent(node)) {
-        const base = first;
-        node.drawn.setVisible(ids.slice(from, to).map((id) => id - base));
-        if (this.#enabled) {
-          node.show();
-        }
+    for (const [node, own] of gathered.split(answer.indices)) {
+      if (this.#nodes.isPresent(node) && node.display.drawn.isSame) {
+        node.display.answer(own);
       }
-      [first, from] = [next, to];
     }
-  }
-
-  #refuseNode(error: Error, points: Points): void {
-    if (this.#disposed || this.#recover(error)) {
-      return;
-    }
-    this.#tell(error, points);
-    this.#next();
+    gathered.recycle(answer);
+    this.#visible = count;
+    this.#refused = false;
+    this.#recovery.answered();
+    const milliseconds = performance.now() - begun;
+    const [viewpoint, direction] = isDirection ? [null, from] : [from, null];
+    return { count, nodes: gathered.nodes, milliseconds, viewpoint, direction, radius };
   }
 
   #refuse(thrown: unknown): void {
-    const error = thrown instanceof Error ? thrown : new Error(String(thrown));
-    if (this.#disposed || this.#recover(error) || this.#refused) {
+    if (this.#disposed) {
       return;
     }
-    this.#refused = true;
-    this.#tell(error, null);
-  }
-
-  /** Once in a row: with the worker, all clouds are lost. */
-  #recover(error: Error): boolean {
-    if (!(error instanceof HprError) || error.code !== "internal" || this.#recovering) {
-      return false;
+    const error = asError(thrown);
+    if (this.#recovery.notices(error)) {
+      this.#gathered.drop();
+      if (this.#recovery.isUnderWay) {
+        return;
+      }
+      // Another view may do better.
+      if (this.#eye.isNew) this.#eye.ask();
     }
-    this.#recovering = true;
-    this.#dropMerger();
-    this.#nodes.rebuild();
-    return true;
-  }
-
-  /** What nobody listens to is reported as any other promise that nobody awaits. */
-  #tell(error: Error, points: Points | null): void {
-    if (!this.#isHeard) {
-      void Promise.reject(error);
+    if (!this.#refused) {
+      this.#refused = true;
+      this.#untold.push({ error, points: null });
     }
-    this.dispatchEvent({ type: "error", error, points });
   }
 
-  #startedMerger(): Promise<Merger> {
-    this.#merger ??= startMerger(this.#settings.inWorker).catch((error: unknown) => {
-      this.#merger = undefined;
-      throw error;
-    });
-    return this.#merger;
+  #tell(): void {
+    for (const told of this.#untold.splice(0)) {
+      if (!this.isHeard) {
+        void Promise.reject(told.error);
+      }
+      this.dispatchEvent({ type: "error", ...told });
+    }
   }
-
-  #dropMerger(): void {
-    const merger = this.#merger;
-    this.#merger = undefined;
-    // One that could not be started has nothing to give back.
-    merger?.then((started) => started.dispose()).catch(() => undefined);
-  }
-}
-
-/** Of a node that changed while it was asked: it is asked again. */
-function isDisposed(error: unknown): boolean {
-  return error instanceof HprError && error.code === "disposed";
 }

@@ -4,202 +4,146 @@ import { isDimmed } from "../three/dimmed.js";
 import { requirePoints } from "../three/options.js";
 import { CloudNode } from "./node.js";
 import type { NodesSettings } from "./options.js";
+import { Places } from "./place.js";
 
-/** What a set of nodes tells whom it belongs to. */
-export interface NodeSetEvents {
-  /** A node is ready to be asked. */
-  ready(): void;
-  refused(error: Error, points: Points): void;
-}
-
-/** The nodes that are there, and some that were: which they are, and their clouds. */
+/** The nodes that are there. Looked at every frame: where nothing changes, nothing is allocated. */
 export class NodeSet {
   readonly #root: Object3D;
   readonly #settings: NodesSettings;
-  readonly #events: NodeSetEvents;
+  readonly #refused: (error: Error, points: Points) => void;
+  readonly #places: Places;
   readonly #nodes = new Map<Points, CloudNode>();
   /** What had a filter already or could not be dimmed: the geometry and the material that it had. */
-  readonly #refusedPoints = new WeakMap<Points, Pick<Points, "geometry" | "material">>();
+  readonly #refusedPoints = new WeakMap<Points, { geometry: unknown; material: unknown }>();
+  #enabled = true;
   #frame = 0;
+  #seen = 0;
   #version = 0;
-  #building = 0;
-  /** Counts the workers that were lost: what they still say is of no interest. */
-  #epoch = 0;
 
-  constructor(root: Object3D, settings: NodesSettings, events: NodeSetEvents) {
+  /** @param refused told of points that cannot be a node, or whose material cannot be dimmed any more. */
+  constructor(root: Object3D, settings: NodesSettings, refused: (error: Error, points: Points) => void) {
     this.#root = root;
     this.#settings = settings;
-    this.#events = events;
+    this.#refused = refused;
+    this.#places = new Places(root);
   }
 
-  /** Grows with every change of the nodes that can be asked. */
+  /** Grows with every change of the nodes. */
   get version(): number {
     return this.#version;
   }
 
-  /** Whether there are clouds that are not ready yet. */
-  get isBuilding(): boolean {
-    return this.#building > 0;
+  /** Whether only what is visible of them is drawn. */
+  get enabled(): boolean {
+    return this.#enabled;
   }
 
-  get epoch(): number {
-    return this.#epoch;
+  set enabled(enabled: boolean) {
+    this.#enabled = enabled;
+    for (const { display } of this.#nodes.values()) display.enabled = enabled;
   }
 
-  /** Whether it was ever told which nodes there are. */
-  get isKnown(): boolean {
-    return this.#frame > 0;
-  }
-
-  /** All that are kept: their drawing is the filter's. */
-  all(): Iterable<CloudNode> {
-    return this.#nodes.values();
+  /** Those that can be asked, or that nobody knows of yet whether they can. */
+  present(): CloudNode[] {
+    return [...this.#nodes.values()].filter(({ isRefused }) => !isRefused);
   }
 
   isPresent(node: CloudNode): boolean {
-    return node.seen === this.#frame;
+    return this.#nodes.get(node.points) === node;
   }
 
-  /** Those that are there and can be asked. */
-  ready(): CloudNode[] {
-    return this.#present().filter(({ state }) => state === "ready");
+  /** Does after the points what was done to them since the last frame. */
+  follow(): void {
+    if (!this.#settings.dim) {
+      return;
+    }
+    for (const { points, display } of this.#nodes.values()) {
+      try {
+        display.follow();
+      } catch (error) {
+        this.#refused(error as Error, points);
+      }
+    }
   }
 
-  /** Notes which nodes are there now. */
+  /** Notes which nodes are there now, and what has become of them. */
   takeUp(): void {
     const { nodes } = this.#settings;
     // What it throws changes nothing.
     const given = nodes === undefined ? undefined : listed(nodes());
     this.#frame += 1;
+    this.#places.next();
+    this.#seen = 0;
     if (given === undefined) {
       this.#takeUpBelow(this.#root);
     } else {
       for (const points of given) this.#takeUpOne(points);
     }
-    let isLeft = false;
-    for (const node of this.#nodes.values()) {
-      if (node.seen === this.#frame - 1) {
-        node.showAll();
-        isLeft = true;
-      }
-    }
-    if (isLeft) {
-      this.#version += 1;
-      this.#forgetOld();
-    }
-  }
-
-  /** Makes all clouds anew: their worker was lost. */
-  rebuild(): void {
-    this.#epoch += 1;
-    for (const node of this.#nodes.values()) {
-      if (this.isPresent(node)) {
-        this.#build(node);
-      } else {
-        node.state = "new";
-      }
+    if (this.#seen < this.#nodes.size) {
+      this.#forgetAbsent();
     }
   }
 
   dispose(): void {
-    for (const node of [...this.#nodes.values()]) {
-      this.#forget(node);
-    }
-  }
-
-  #present(): CloudNode[] {
-    return [...this.#nodes.values()].filter((node) => this.isPresent(node));
+    for (const { display } of this.#nodes.values()) display.dispose();
+    this.#nodes.clear();
   }
 
   #takeUpBelow(object: Object3D): void {
     if (!object.visible) {
       return;
     }
-    if ("isPoints" in object && !isDimmed(object as Points)) {
-      this.#takeUpOne(object as Points);
+    if (isPoints(object)) {
+      this.#takeUpOne(object);
     }
-    for (const child of object.children) {
-      this.#takeUpBelow(child);
-    }
+    const { children } = object;
+    for (let i = 0; i < children.length; i++) this.#takeUpBelow(children[i]!);
   }
 
   #takeUpOne(points: Points): void {
     const node = this.#nodes.get(points) ?? this.#added(points);
-    if (node === undefined) {
-      return;
-    }
-    const isBack = node.seen !== this.#frame - 1;
-    node.seen = this.#frame;
-    if (node.state === "building") {
-      return;
-    }
-    if (node.state === "new" || !node.isUnchanged) {
-      this.#build(node);
-    } else if (isBack && node.state === "ready") {
-      this.#version += 1;
+    if (node !== undefined) {
+      node.seen = this.#frame;
+      this.#seen += 1;
+      if (node.noticeChange()) {
+        this.#version += 1;
+      }
     }
   }
 
   #added(points: Points): CloudNode | undefined {
     const { geometry, material } = points;
     const refused = this.#refusedPoints.get(points);
-    if (refused?.geometry === geometry && refused.material === material) {
+    if (isDimmed(points) || (refused?.geometry === geometry && refused.material === material)) {
       return undefined;
     }
     try {
-      const node = new CloudNode(points, this.#root, this.#settings, (gone) => {
-        if (!this.isPresent(gone)) this.#forget(gone);
-      });
+      const node = new CloudNode(points, this.#places, this.#settings);
+      node.display.enabled = this.#enabled;
       this.#nodes.set(points, node);
+      this.#version += 1;
       return node;
     } catch (error) {
       this.#refusedPoints.set(points, { geometry, material });
-      this.#events.refused(error as Error, points);
+      this.#refused(error as Error, points);
       return undefined;
     }
   }
 
-  #build(node: CloudNode): void {
-    const epoch = this.#epoch;
-    if (!node.drawn.isSame) {
-      node.showAll();
-    }
-    const isOver = () => {
-      this.#building -= 1;
-      this.#version += 1;
-    };
-    this.#building += 1;
+  #forgetAbsent(): void {
     this.#version += 1;
-    node.build().then(
-      () => {
-        isOver();
-        this.#events.ready();
-      },
-      (error: unknown) => {
-        isOver();
-        if (epoch === this.#epoch) {
-          this.#events.refused(error as Error, node.points);
-        }
-      },
-    );
-  }
-
-  /** Those that have been gone for longest, beyond as many points as are there. */
-  #forgetOld(): void {
-    const gone = [...this.#nodes.values()].filter((node) => !this.isPresent(node));
-    let room = this.#present().reduce((sum, { drawn }) => sum + drawn.total, 0);
-    for (const node of gone.sort((a, b) => b.seen - a.seen)) {
-      room -= node.drawn.total;
-      if (room < 0) {
-        this.#forget(node);
+    for (const [points, node] of this.#nodes) {
+      if (node.seen !== this.#frame) {
+        this.#nodes.delete(points);
+        node.display.dispose();
       }
     }
   }
+}
 
-  #forget(node: CloudNode): void {
-    this.#nodes.delete(node.points);
-    node.dispose();
-  }
+/** Asked of every object every frame: `in` would look through its prototypes. */
+function isPoints(object: Object3D): object is Points {
+  return (object as Partial<Points>).isPoints === true;
 }
 
 /** Each once, however often it is listed. */

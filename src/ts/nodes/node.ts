@@ -1,174 +1,103 @@
-import { type BufferGeometry, Matrix4, type Object3D, type Points } from "three";
+import { Matrix4, type Points } from "three";
 
-import { HprError } from "../errors.js";
-import type { MergeOptions, VisiblePart } from "../merge.js";
+import { nonFinite } from "../failure.js";
 import { versionOf } from "../three/attribute.js";
-import { type Cloud, prepareCloud } from "../three/cloud.js";
-import { DimmedPoints } from "../three/dimmed.js";
-import { DrawnPoints, requireUnfiltered } from "../three/drawn-points.js";
-import { type Measure, measure } from "./measure.js";
+import { type Box, boxOf } from "../three/box.js";
+import { Display } from "../three/display.js";
+import { isFiltered, requireUnfiltered } from "../three/drawn-points.js";
 import type { NodesSettings } from "./options.js";
-
-type State = "new" | "building" | "ready" | "refused";
-
-interface Answer {
-  viewpoint: readonly number[];
-  how: string;
-  indices: Uint32Array;
-}
+import type { Place, Places } from "./place.js";
 
 const IDENTITY = new Matrix4();
-/** For what is computed every frame. */
-const scratch = new Matrix4();
 
-/** One node: its points in the root's space, as a cloud of their own, and what of them is visible. */
+/** One node: its points, where they are in the root's space, and what of them is drawn. */
 export class CloudNode {
   readonly points: Points;
-  readonly drawn: DrawnPoints;
-  readonly dimmed: DimmedPoints | undefined;
-  readonly #root: Object3D;
-  readonly #settings: NodesSettings;
-  readonly #geometry: BufferGeometry;
-  readonly #onGone: () => void;
-  state: State = "new";
-  /** When it was last told to be there, in frames. */
+  readonly display: Display;
+  /** In which frame it was there last. */
   seen = -1;
-  measure: Measure | undefined;
-  #place = new Matrix4();
-  /** Counts the clouds that were begun: only what becomes of the last one counts. */
-  #builds = 0;
-  #cloud: Cloud | undefined;
-  #answer: Answer | undefined;
-  #refused: { geometry: BufferGeometry; position: unknown; version: number } | undefined;
+  /** Grows with every change of what it consists of. */
+  revision = 1;
+  box: Box | undefined;
+  readonly #settings: NodesSettings;
+  readonly #places: Places;
+  readonly #place: Place;
+  #placeVersion = -1;
+  /** What it was like when it was refused; it is not asked for until it changes. */
+  #refused: readonly unknown[] | undefined;
+  /** Whether its points were read, in its present revision. */
+  #isRead = false;
 
-  /**
-   * @param onGone called when its geometry is disposed of.
-   * @throws HprError `option` if its geometry has a filter already, or its material cannot be dimmed.
-   */
-  constructor(points: Points, root: Object3D, settings: NodesSettings, onGone: (node: CloudNode) => void) {
+  /** @throws HprError `option` if its geometry has a filter already, or its material cannot be dimmed. */
+  constructor(points: Points, places: Places, settings: NodesSettings) {
     requireUnfiltered(points.geometry);
     this.points = points;
-    this.#root = root;
-    this.#geometry = points.geometry;
-    this.#onGone = () => {
-      onGone(this);
-    };
-    this.#geometry.addEventListener("dispose", this.#onGone);
+    this.display = new Display(points, settings);
     this.#settings = settings;
-    this.drawn = new DrawnPoints(points, settings.dim);
-    this.dimmed = settings.dim ? new DimmedPoints(points, settings.dimMaterial) : undefined;
+    this.#places = places;
+    this.#place = places.of(points);
   }
 
-  /** Whether it is still what its cloud was made of, or what was refused. */
-  get isUnchanged(): boolean {
-    if (this.#refused !== undefined) {
-      const { geometry, position, version } = this.#positions();
-      return geometry === this.#refused.geometry && position === this.#refused.position && version === this.#refused.version;
+  get isRefused(): boolean {
+    return this.#refused !== undefined;
+  }
+
+  /** Whether it has changed since it was read or refused; told once. */
+  noticeChange(): boolean {
+    if (!this.#isRead || this.#isUnchanged()) {
+      return false;
     }
-    return this.drawn.isUnchanged && placeIn(this.#root, this.points, scratch).equals(this.#place);
+    this.revision += 1;
+    this.#isRead = false;
+    this.#refused = undefined;
+    this.display.leaveOthers();
+    return true;
   }
 
-  /** Makes a cloud of the points as they are now. */
-  async build(): Promise<void> {
-    const build = ++this.#builds;
-    const isCurrent = () => build === this.#builds && this.#isBuilding();
-    this.state = "building";
-    this.dropCloud();
-    this.#refused = undefined;
+  /**
+   * The positions of its points in the root's space.
+   *
+   * @throws HprError as `DrawnPoints.take`, and `non-finite`; it is refused then.
+   */
+  read(): Float32Array | Float64Array {
+    this.#isRead = true;
     try {
-      placeIn(this.#root, this.points, this.#place);
-      const read = this.drawn.take(this.#matrix);
-      this.measure = measure(read.numbers);
-      const cloud = await prepareCloud(read, this.#settings);
-      // It may have been left, or be building anew, in the meantime.
-      if (isCurrent()) {
-        this.#cloud = cloud;
-        this.state = "ready";
-      } else {
-        void cloud.dispose();
+      this.#placeVersion = this.#places.versionOf(this.#place);
+      const { numbers } = this.display.drawn.take(this.#matrix);
+      this.box = boxOf(numbers);
+      const { strays, firstStray } = this.box;
+      if (strays > 0 && this.#settings.nonFinite === "error") {
+        throw nonFinite(strays, firstStray);
       }
+      return numbers;
     } catch (error) {
-      if (isCurrent()) {
-        this.state = "refused";
-        this.#refused = this.#positions();
-      }
+      this.display.leave();
+      this.#refused = this.#state();
       throw error;
     }
   }
 
-  /** What of this node alone is visible: asked once for each view. */
-  async visibleFrom(viewpoint: readonly number[], options: MergeOptions): Promise<Uint32Array> {
-    const how = JSON.stringify(options);
-    const known = this.#answer;
-    if (known?.how === how && known.viewpoint.every((x, axis) => x === viewpoint[axis])) {
-      return known.indices;
+  #isUnchanged(): boolean {
+    const refused = this.#refused;
+    if (refused !== undefined) {
+      return this.#state().every((value, i) => Object.is(value, refused[i]));
     }
-    if (this.#cloud === undefined) {
-      throw new HprError("disposed", "this node is being prepared anew");
-    }
-    const { indices } = await this.#cloud.visibleFrom(viewpoint, options);
-    this.#answer = { viewpoint, how, indices };
-    return indices;
-  }
-
-  /** Some points with numbers of their own, for a merge. */
-  part(indices: Uint32Array, first: number): VisiblePart {
-    return { positions: this.positionsOf(indices), ids: indices.map((index) => first + index) };
-  }
-
-  positionsOf(indices: Uint32Array): Float32Array | Float64Array {
-    return this.drawn.positionsOf(indices, this.#matrix);
-  }
-
-  show(): void {
-    this.drawn.show();
-    this.dimmed?.show(this.drawn);
-  }
-
-  showAll(): void {
-    this.drawn.showAll();
-    this.dimmed?.hide();
-  }
-
-  dropCloud(): void {
-    void this.#cloud?.dispose();
-    this.#cloud = this.#answer = undefined;
-  }
-
-  dispose(): void {
-    this.state = "new";
-    this.#geometry.removeEventListener("dispose", this.#onGone);
-    this.dimmed?.dispose();
-    this.drawn.release();
-    this.dropCloud();
+    return this.display.drawn.isUnchanged && this.#places.versionOf(this.#place) === this.#placeVersion;
   }
 
   get #matrix(): readonly number[] | undefined {
-    return this.#place.equals(IDENTITY) ? undefined : this.#place.elements;
+    const { matrix } = this.#place;
+    return matrix.equals(IDENTITY) ? undefined : matrix.elements;
   }
 
-  #positions() {
-    const { geometry } = this.points;
-    const position = geometry.attributes["position"];
-    return { geometry, position, version: position === undefined ? 0 : versionOf(position) };
+  /** What it may be refused for. */
+  #state(): unknown[] {
+    const geometry = this.points.geometry as Partial<Points["geometry"]> | undefined;
+    const position = geometry?.attributes?.["position"];
+    const version = typeof position === "object" && (position as unknown) !== null ? versionOf(position) : 0;
+    // Of another filter's geometry, index and draw range are no concern of this one.
+    const isFree = !isFiltered(geometry);
+    const { index, drawRange } = (isFree ? geometry : undefined) ?? {};
+    return [geometry, position, version, isFree, index, index?.version, drawRange?.start, drawRange?.count];
   }
-
-  #isBuilding(): boolean {
-    return this.state === "building";
-  }
-}
-
-/**
- * Where an object is in the space of another one above it. Not by way of the world, whose
- * rounding would move points apart that are equal in two nodes.
- */
-function placeIn(root: Object3D, object: Object3D, target: Matrix4): Matrix4 {
-  target.identity();
-  for (let at: Object3D | null = object; at !== null && at !== root; at = at.parent) {
-    if (at.matrixAutoUpdate) {
-      at.updateMatrix();
-    }
-    target.premultiply(at.matrix);
-  }
-  return target;
 }

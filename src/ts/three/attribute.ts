@@ -18,8 +18,8 @@ export interface ReadPositions {
 const EXACT_IN_SINGLE = ["Float32Array", "Int8Array", "Uint8Array", "Uint8ClampedArray", "Int16Array", "Uint16Array"];
 
 /** Refuses what has no positions that can be read here. */
-export function requirePositions(attribute: PositionAttribute | GLBufferAttribute | undefined): PositionAttribute {
-  if (attribute === undefined) {
+export function requirePositions(attribute: PositionAttribute | GLBufferAttribute | undefined | null): PositionAttribute {
+  if (typeof attribute !== "object" || attribute === null) {
     throw new HprError("positions-type", "the geometry has no attribute named position");
   }
   if ("isGLBufferAttribute" in attribute) {
@@ -28,8 +28,9 @@ export function requirePositions(attribute: PositionAttribute | GLBufferAttribut
   if (typedArrayType(attribute.array) === undefined) {
     throw new HprError("positions-type", `position has no array any more, but ${describe(attribute.array)}`);
   }
-  if (attribute.itemSize < 3) {
-    throw new HprError("positions-type", `position must have an itemSize of 3, got ${attribute.itemSize}`);
+  const { itemSize, getX } = attribute as Partial<PositionAttribute>;
+  if (!(itemSize! >= 3) || typeof getX !== "function") {
+    throw new HprError("positions-type", `position must be a THREE.BufferAttribute with an itemSize of 3, got ${describe(itemSize)}`);
   }
   return attribute;
 }
@@ -79,19 +80,4 @@ function movePoints(numbers: Float32Array | Float64Array, m: readonly number[]):
       numbers[i + axis] = m[axis]! * x + m[4 + axis]! * y + m[8 + axis]! * z + m[12 + axis]!;
     }
   }
-}
-
-/** The longest side of the box around the points that are finite. */
-export function extentOf(numbers: Float32Array | Float64Array): number {
-  let extent = 0;
-  for (let axis = 0; axis < 3; axis++) {
-    let [low, high] = [Infinity, -Infinity];
-    for (let i = axis; i < numbers.length; i += 3) {
-      const number = numbers[i]!;
-      if (number < low) low = number;
-      if (number > high) high = number;
-    }
-    extent = Math.max(extent, high - low);
-  }
-  return Number.isFinite(extent) ? extent : 0;
 }

@@ -1,6 +1,6 @@
 import { BufferGeometry, type Material, Points, type PointsMaterial } from "three";
 
-import { HprError } from "../errors.js";
+import { describe, HprError } from "../errors.js";
 import type { DrawnPoints } from "./drawn-points.js";
 
 /** What is left of the opacity of hidden points. */
@@ -22,6 +22,8 @@ export class DimmedPoints {
   readonly #child: Points;
   readonly #given: Material | undefined;
   #copied: { from: Material; version: number } | undefined;
+  #refused: { material: unknown } | undefined;
+  #isShown = false;
 
   /** @throws HprError `option` for a material that cannot be dimmed. */
   constructor(points: Points, material: Material | undefined) {
@@ -34,14 +36,21 @@ export class DimmedPoints {
     this.#child.visible = false;
   }
 
-  /** Draws what the order lists after the visible points. */
+  /**
+   * Draws what the order lists after the visible points.
+   *
+   * @throws HprError `option` as `follow`.
+   */
   show(drawn: DrawnPoints): void {
+    if (this.#refused !== undefined && this.#refused.material === this.#points.material) {
+      return;
+    }
     const { geometry } = this.#child;
     if (geometry.index !== drawn.order) {
       geometry.setIndex(drawn.order ?? null);
     }
     geometry.setDrawRange(drawn.visible, drawn.total - drawn.visible);
-    this.#child.visible = true;
+    this.#isShown = true;
     if (this.#child.parent !== this.#points) {
       this.#points.add(this.#child);
     }
@@ -49,26 +58,35 @@ export class DimmedPoints {
   }
 
   hide(): void {
-    this.#child.visible = false;
+    this.#isShown = this.#child.visible = false;
   }
 
-  /** Does after the points whatever was done to them since the last frame. */
+  /**
+   * Does after the points whatever was done to them since the last frame.
+   *
+   * @throws HprError `option` for a material that cannot be dimmed, once: hidden points are not
+   *   drawn then, until there is an answer with another one.
+   */
   follow(): void {
-    if (!this.#child.visible) {
+    const [points, child] = [this.#points, this.#child];
+    const { attributes, boundingSphere = null } = (points.geometry as Partial<BufferGeometry> | undefined) ?? {};
+    if (!this.#isShown || attributes === undefined) {
       return;
     }
-    const [points, child] = [this.#points, this.#child];
+    // Viewers of tiles hide everything before they show something, and place no others' children.
+    child.visible = true;
+    child.matrixWorld.copy(points.matrixWorld);
     child.layers.mask = points.layers.mask;
     child.renderOrder = points.renderOrder;
     child.frustumCulled = points.frustumCulled;
-    this.#share();
+    this.#share(attributes);
+    child.geometry.boundingSphere = boundingSphere;
     if (this.#given !== undefined) {
       return;
     }
     const material = points.material as PointsMaterial;
     if (this.#copied?.from !== material || this.#copied.version !== material.version) {
-      (child.material as Material).dispose();
-      child.material = this.#copy();
+      this.#copyAgain();
       return;
     }
     const copy = child.material as PointsMaterial;
@@ -90,15 +108,27 @@ export class DimmedPoints {
     }
   }
 
-  #share(): void {
-    const [{ attributes, boundingSphere }, own] = [this.#points.geometry, this.#child.geometry];
+  #share(attributes: BufferGeometry["attributes"]): void {
+    const own = this.#child.geometry;
     for (const name in attributes) {
       if (own.attributes[name] !== attributes[name]) own.setAttribute(name, attributes[name]!);
     }
     for (const name in own.attributes) {
       if (!(name in attributes)) own.deleteAttribute(name);
     }
-    own.boundingSphere = boundingSphere;
+  }
+
+  #copyAgain(): void {
+    const { material } = this.#points;
+    try {
+      const copy = this.#copy();
+      (this.#child.material as Material).dispose();
+      this.#child.material = copy;
+    } catch (error) {
+      this.#refused = { material };
+      this.hide();
+      throw error;
+    }
   }
 
   /** Hidden points cover nothing, and shine through each other. */
@@ -114,9 +144,9 @@ export class DimmedPoints {
 }
 
 /** Only three's own materials for points are known to draw what `opacity` and `size` say. */
-function requireDimmable(material: Material | Material[]): PointsMaterial {
-  if (Array.isArray(material) || !("isPointsMaterial" in material || "isPointsNodeMaterial" in material)) {
-    const type = Array.isArray(material) ? "an array of materials" : material.type;
+function requireDimmable(material: unknown): PointsMaterial {
+  const { type = describe(material), isPointsMaterial, isPointsNodeMaterial } = (material ?? {}) as Record<string, string | undefined>;
+  if (!isPointsMaterial && !isPointsNodeMaterial) {
     throw new HprError("option", `mode "dim" needs dimMaterial for points with ${type}, which it does not know how to dim`);
   }
   return material as PointsMaterial;

@@ -61,13 +61,13 @@ export class DrawnPoints {
     if (last === undefined || this.#points.geometry !== last.geometry) {
       return false;
     }
-    const { index, drawRange } = last.geometry;
+    const { index, drawRange, attributes } = last.geometry as Partial<BufferGeometry>;
     const own = this.#shown;
     return (
-      last.geometry.attributes["position"] === last.position &&
+      attributes?.["position"] === last.position &&
       index === (own ? this.#order : last.index) &&
       (last.index === null || last.index.version === last.indexVersion) &&
-      drawRange.start === (own ? 0 : last.start) &&
+      drawRange?.start === (own ? 0 : last.start) &&
       drawRange.count === (own ? this.#visible : last.count)
     );
   }
@@ -156,7 +156,8 @@ export class DrawnPoints {
     if (geometry.index === this.#order) {
       geometry.setIndex(index);
     }
-    if (geometry.drawRange.start === 0 && geometry.drawRange.count === this.#visible) {
+    const range = geometry.drawRange as BufferGeometry["drawRange"] | undefined;
+    if (range?.start === 0 && range.count === this.#visible) {
       geometry.setDrawRange(start, count);
     }
   }
@@ -172,25 +173,33 @@ export class DrawnPoints {
   }
 }
 
-/** Refuses geometries that have a filter. */
-export function requireUnfiltered(geometry: BufferGeometry): void {
-  if (taken.has(geometry)) {
+export function isFiltered(geometry: unknown): boolean {
+  return taken.has(geometry as BufferGeometry);
+}
+
+/** Refuses what is no geometry, and geometries that have a filter. */
+export function requireUnfiltered(geometry: unknown): asserts geometry is BufferGeometry {
+  if (typeof geometry !== "object" || geometry === null || !("isBufferGeometry" in geometry)) {
+    throw new HprError("option", `points: geometry must be a THREE.BufferGeometry, got ${describe(geometry)}`);
+  }
+  if (isFiltered(geometry)) {
     throw new HprError("option", "points: this geometry has a HiddenPointFilter already");
   }
 }
 
 /** Refuses geometries whose points are not where their positions say. */
 function requireFilterable(geometry: BufferGeometry): PositionAttribute {
-  const { attributes, morphAttributes } = geometry;
+  const { attributes = {}, morphAttributes = {} } = geometry as Partial<BufferGeometry>;
   if (Object.values(morphAttributes).some((list) => (list as unknown[] | undefined)?.length)) {
     throw new HprError("option", "points: morphAttributes are not supported: only the graphics card knows where such points are");
   }
-  const instanced = Object.keys(attributes).find((name) => "isInstancedBufferAttribute" in attributes[name]!);
+  const position = requirePositions(attributes["position"]);
+  const instanced = Object.keys(attributes).find((name) => (attributes[name] as { isInstancedBufferAttribute?: true } | null)?.isInstancedBufferAttribute);
   if ("isInstancedBufferGeometry" in geometry || instanced !== undefined) {
     const what = instanced === undefined ? "an InstancedBufferGeometry" : `the instanced attribute ${describe(instanced)}`;
     throw new HprError("option", `points: ${what} is not supported: an index cannot leave out single instances`);
   }
-  return requirePositions(attributes["position"]);
+  return position;
 }
 
 /** What an index and a draw range have drawn, in their order; undefined for everything. */
@@ -199,6 +208,7 @@ function drawnIds(
   index: BufferAttribute | null,
   range: { start: number; count: number },
 ): Uint32Array | undefined {
+  requireDrawable(index, range);
   const start = Math.max(0, range.start);
   const end = Math.min(index?.count ?? length, range.start + range.count);
   const count = Math.max(0, end - start);
@@ -208,12 +218,25 @@ function drawnIds(
   const ids = allocating(`${count} indices`, () => new Uint32Array(count));
   for (let i = 0; i < count; i++) {
     const id = index?.getX(start + i) ?? start + i;
-    if (id >= length) {
+    if (!(id >= 0 && id < length)) {
       throw new HprError("option", `points: index[${start + i}] is ${id}, but there are ${length} positions`);
     }
     ids[i] = id;
   }
   return ids;
+}
+
+/** Refuses what three itself would only fail to draw. */
+function requireDrawable(index: unknown, range: unknown): void {
+  if (index !== null && typeof (index as Partial<BufferAttribute> | undefined)?.getX !== "function") {
+    throw new HprError("option", `points: index must be a THREE.BufferAttribute or null, got ${describe(index)}`);
+  }
+  const { start, count } = (range ?? {}) as { start?: unknown; count?: unknown };
+  for (const [name, value] of Object.entries({ start, count })) {
+    if (typeof value !== "number" || Number.isNaN(value)) {
+      throw new HprError("option", `points: drawRange.${name} must be a number, got ${describe(value)}`);
+    }
+  }
 }
 
 /** Lists what is not visible after what is. */

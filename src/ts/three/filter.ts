@@ -1,19 +1,25 @@
-import { type Camera, EventDispatcher, type EventListener, type Points } from "three";
+import type { Camera, Points } from "three";
 
 import { HprError } from "../errors.js";
 import type { Visibility } from "../visibility.js";
-import { extentOf } from "./attribute.js";
+import { boxOf, extentOf } from "./box.js";
 import { type Cloud, prepareCloud } from "./cloud.js";
-import { DimmedPoints } from "./dimmed.js";
-import { DrawnPoints, requireUnfiltered } from "./drawn-points.js";
+import { Display } from "./display.js";
+import { type DrawnPoints, requireUnfiltered } from "./drawn-points.js";
 import { Eye, requireUniformScale } from "./eye.js";
 import { type FilterSettings, type HiddenPointFilterOptions, readFilterOptions, requirePoints } from "./options.js";
+import { Readiness } from "./readiness.js";
+import { Recovery } from "./recovery.js";
+import { asError, Reporter } from "./reporter.js";
 
 /** What a filter tells its listeners. */
 export interface HiddenPointFilterEvents {
   /** Another answer is drawn: how many points are visible, and how long it took to get. */
   change: { count: number; milliseconds: number };
-  /** What a view or the points were refused for: told once until there is an answer again. */
+  /**
+   * What a view or the points were refused for: told once until there is an answer again.
+   * Without a listener, it is an unhandled rejection.
+   */
   error: { error: Error };
 }
 
@@ -41,33 +47,29 @@ export interface HiddenPointFilterEvents {
  *
  * Morph targets, instances and a scale that is not uniform are refused (`option`).
  */
-export class HiddenPointFilter extends EventDispatcher<HiddenPointFilterEvents> {
+export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
   /** While true, nothing new is asked, wherever the camera goes; an answer on its way is still drawn. */
   frozen = false;
+  readonly #readiness = new Readiness();
   /**
    * Resolves when the points are prepared and, if `update` was called by then, the first
    * answer is drawn. Rejects with what the points or that view are refused for.
    */
-  readonly ready: Promise<void>;
+  readonly ready: Promise<void> = this.#readiness.promise;
 
   readonly #points: Points;
   readonly #settings: FilterSettings;
   readonly #eye = new Eye();
-  readonly #drawn: DrawnPoints;
-  readonly #dimmed: DimmedPoints | undefined;
-  #settle!: { resolve: () => void; reject: (error: Error) => void };
-  #settled = false;
+  readonly #display: Display;
+  readonly #recovery = new Recovery(() => {
+    this.#prepareAgain();
+  });
   #cloud: Cloud | undefined;
-  #enabled = true;
   /** A cloud or an answer is awaited; nothing else is asked for meanwhile. */
   #busy = false;
-  #answered = false;
   /** Something was refused, and nothing has been answered since. */
   #refused = false;
-  /** The worker was lost, and the next one has not answered yet. */
-  #recovering = false;
   #disposed = false;
-  #isHeard = false;
 
   /**
    * @param points whose index and draw range are the filter's from now on.
@@ -81,37 +83,27 @@ export class HiddenPointFilter extends EventDispatcher<HiddenPointFilterEvents> 
     this.#settings = readFilterOptions(options);
     requireUnfiltered(points.geometry);
     requireUniformScale(points);
-    const { dim, dimMaterial } = this.#settings;
-    this.#dimmed = dim ? new DimmedPoints(points, dimMaterial) : undefined;
-    this.#drawn = new DrawnPoints(points, dim);
-    this.ready = new Promise((resolve, reject) => {
-      this.#settle = { resolve, reject };
-    });
+    this.#display = new Display(points, this.#settings);
     try {
       this.#prepare();
     } catch (error) {
-      this.#drawn.release();
+      this.#display.dispose();
       throw error;
     }
   }
 
   /** While false, everything is drawn and nothing is asked. Default true. */
   get enabled(): boolean {
-    return this.#enabled;
+    return this.#display.enabled;
   }
 
   set enabled(enabled: boolean) {
-    this.#enabled = enabled;
-    if (enabled) {
-      this.#show();
-    } else {
-      this.#showAll();
-    }
+    this.#display.enabled = enabled;
   }
 
   /** How many points are drawn, dimmed ones not counted: all of them until there is an answer. */
   get visibleCount(): number {
-    return this.#answered && this.#enabled ? this.#drawn.visible : this.#drawn.total;
+    return this.#display.count;
   }
 
   /**
@@ -123,26 +115,17 @@ export class HiddenPointFilter extends EventDispatcher<HiddenPointFilterEvents> 
     if (this.#disposed) {
       return;
     }
-    this.#dimmed?.follow();
-    if (!this.#enabled || this.frozen) {
-      return;
-    }
     try {
+      this.#display.follow();
+      if (!this.enabled || this.frozen) {
+        return;
+      }
       this.#eye.look(this.#points, camera);
     } catch (error) {
       this.#refuse(error);
       return;
     }
     this.#keepUp();
-  }
-
-  /** `"change"`: another answer is drawn. `"error"`: without a listener, it is an unhandled rejection. */
-  override addEventListener<T extends keyof HiddenPointFilterEvents>(
-    type: T,
-    listener: EventListener<HiddenPointFilterEvents[T], T, this>,
-  ): void {
-    this.#isHeard ||= type === "error";
-    super.addEventListener(type, listener);
   }
 
   /**
@@ -154,18 +137,17 @@ export class HiddenPointFilter extends EventDispatcher<HiddenPointFilterEvents> 
       return;
     }
     this.#disposed = true;
-    this.#dimmed?.dispose();
-    this.#drawn.release();
+    this.#display.dispose();
     this.#dropCloud();
+    this.#recovery.stop();
     // Who has disposed of it knows.
-    this.ready.catch(() => undefined);
-    this.#settle.reject(new HprError("disposed", "this filter has been disposed of"));
+    this.#readiness.reject(new HprError("disposed", "this filter has been disposed of"), true);
   }
 
   /** Takes the points up as they are, and asks for the view if there is one. */
   #prepare(): void {
     const read = this.#drawn.take();
-    this.#eye.extent = extentOf(read.numbers);
+    this.#eye.extent = extentOf([boxOf(read.numbers)]);
     this.#eye.forget();
     this.#dropCloud();
     this.#await(prepareCloud(read, this.#settings), (cloud) => {
@@ -181,24 +163,19 @@ export class HiddenPointFilter extends EventDispatcher<HiddenPointFilterEvents> 
       // A view that comes in the same breath counts.
       queueMicrotask(() => {
         if (!this.#busy) {
-          this.#resolve();
+          this.#readiness.resolve();
         }
       });
     });
   }
 
   #keepUp(): void {
-    const drawn = this.#drawn;
-    if (this.#busy) {
-      if (!drawn.isSame) {
-        // What is awaited is about other points.
-        this.#showAll();
-        drawn.release();
-        this.#answered = false;
-      }
-      return;
-    }
-    if (!drawn.isUnchanged) {
+    const { isUnchanged } = this.#drawn;
+    if (this.#busy || this.#recovery.isLost) {
+      // What is awaited may be about others.
+      this.#display.leaveOthers();
+      this.#recovery.wish(this.#eye.isNew || !isUnchanged);
+    } else if (!isUnchanged) {
       this.#prepareAgain();
     } else if (this.#wantsAnswer()) {
       this.#ask();
@@ -206,10 +183,7 @@ export class HiddenPointFilter extends EventDispatcher<HiddenPointFilterEvents> 
   }
 
   #prepareAgain(): void {
-    if (!this.#drawn.isSame) {
-      this.#answered = false;
-      this.#dimmed?.hide();
-    }
+    this.#display.leaveOthers();
     try {
       this.#prepare();
     } catch (error) {
@@ -218,7 +192,7 @@ export class HiddenPointFilter extends EventDispatcher<HiddenPointFilterEvents> 
   }
 
   #wantsAnswer(): boolean {
-    return this.#cloud !== undefined && this.#enabled && !this.frozen && this.#eye.isNew;
+    return this.#cloud !== undefined && this.enabled && !this.frozen && this.#eye.isNew;
   }
 
   #ask(): void {
@@ -238,37 +212,29 @@ export class HiddenPointFilter extends EventDispatcher<HiddenPointFilterEvents> 
     });
   }
 
-  #apply({ indices, count }: Visibility, begun: number): void {
+  #apply(answer: Visibility, begun: number): void {
     if (this.#disposed || !this.#drawn.isSame) {
       return;
     }
     try {
-      this.#drawn.setVisible(indices);
+      this.#display.answer(answer.indices);
+      this.#cloud?.recycle(answer);
     } catch (error) {
       this.#refuse(error);
       return;
     }
-    this.#answered = true;
-    this.#refused = this.#recovering = false;
-    this.#show();
-    this.#resolve();
+    this.#refused = false;
+    this.#recovery.answered();
+    this.#readiness.resolve();
     const milliseconds = performance.now() - begun;
     if (this.#wantsAnswer()) {
       this.#ask();
     }
-    this.dispatchEvent({ type: "change", count, milliseconds });
+    this.dispatchEvent({ type: "change", count: answer.count, milliseconds });
   }
 
-  #show(): void {
-    if (this.#answered && this.#enabled && !this.#disposed) {
-      this.#drawn.show();
-      this.#dimmed?.show(this.#drawn);
-    }
-  }
-
-  #showAll(): void {
-    this.#drawn.showAll();
-    this.#dimmed?.hide();
+  get #drawn(): DrawnPoints {
+    return this.#display.drawn;
   }
 
   /** Goes on at once with what is there at once. */
@@ -294,34 +260,21 @@ export class HiddenPointFilter extends EventDispatcher<HiddenPointFilterEvents> 
     if (this.#disposed) {
       return;
     }
-    const error = thrown instanceof Error ? thrown : new Error(String(thrown));
-    if (error instanceof HprError && error.code === "internal" && !this.#recovering) {
-      this.#recovering = true;
-      this.#prepareAgain();
-      return;
+    const error = asError(thrown);
+    if (this.#recovery.notices(error)) {
+      this.#dropCloud();
+      if (this.#recovery.isUnderWay) {
+        return;
+      }
+      // Another view may do better.
+      if (this.#eye.isNew) this.#eye.ask();
     }
     if (this.#refused) {
       return;
     }
     this.#refused = true;
-    this.#reject(error);
+    this.#readiness.reject(error, this.isHeard);
     this.dispatchEvent({ type: "error", error });
-  }
-
-  #resolve(): void {
-    this.#settled = true;
-    this.#settle.resolve();
-  }
-
-  /** What nobody listens to is reported as any other promise that nobody awaits. */
-  #reject(error: Error): void {
-    if (this.#isHeard) {
-      this.ready.catch(() => undefined);
-    } else if (this.#settled) {
-      void Promise.reject(error);
-    }
-    this.#settled = true;
-    this.#settle.reject(error);
   }
 
   #dropCloud(): void {

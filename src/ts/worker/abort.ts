@@ -17,21 +17,51 @@ export async function untilAborted<T>(
   }
   // Once aborted, nobody waits for it any more: its failure is no one's concern.
   promise.catch(() => undefined);
-  let abort!: () => void;
+  let forget = () => {};
   const aborted = new Promise<never>((_, reject) => {
-    abort = () => {
+    forget = whenAborted(signal, () => {
       reject(abortError(BY_SIGNAL));
-    };
+    });
   });
-  signal.addEventListener("abort", abort, { once: true });
   try {
-    if (signal.aborted) {
-      abort();
-    }
     return await Promise.race([aborted, promise]);
   } finally {
-    signal.removeEventListener("abort", abort);
+    forget();
   }
+}
+
+interface Waiting {
+  acts: Set<() => void>;
+  listener: () => void;
+}
+
+/** Node takes a signal with more than ten listeners for a leak: whatever waits for one shares a listener. */
+const waiting = new WeakMap<AbortSignal, Waiting>();
+
+/** Acts when the signal aborts, or now if it has, until what is returned is called. */
+function whenAborted(signal: AbortSignal, act: () => void): () => void {
+  let entry = waiting.get(signal);
+  if (entry === undefined) {
+    const acts = new Set<() => void>();
+    const listener = () => {
+      for (const act of [...acts]) act();
+    };
+    signal.addEventListener("abort", listener);
+    entry = { acts, listener };
+    waiting.set(signal, entry);
+  }
+  const { acts, listener } = entry;
+  acts.add(act);
+  if (signal.aborted) {
+    act();
+  }
+  return () => {
+    acts.delete(act);
+    if (acts.size === 0) {
+      signal.removeEventListener("abort", listener);
+      waiting.delete(signal);
+    }
+  };
 }
 
 /** The option `signal`: of this frame or another, or one that works alike. */

@@ -1,12 +1,11 @@
 import { HprError, type HprErrorCode } from "../errors.js";
-import type { Merge } from "../merge.js";
-import type { CloudSettings } from "../options.js";
+import type { CloudSettings, CloudSize } from "../options.js";
 import type { Answers, Query } from "../queries.js";
 
 /**
  * What the page and its worker say to each other. The worker says `"ready"` once. After
  * that, every request about a cloud gets one reply before the next about it is sent; the
- * first is `create`, and `forget` the last, whose reply nobody awaits. `merge` needs no cloud.
+ * first is `create`, and `forget` the last, whose reply nobody awaits.
  */
 export type Request =
   | {
@@ -20,14 +19,8 @@ export type Request =
   | { kind: "append"; positions: Float32Array | Float64Array }
   | { kind: "remove"; indices: Uint32Array }
   | { kind: "forget" }
-  | ({ kind: "merge"; module: WebAssembly.Module } & Merge)
-  | Query;
-
-/** `length` and `skipped` of a cloud. */
-export interface CloudSize {
-  length: number;
-  skipped: number;
-}
+  /** With memory for the answer's indices, where there is some. */
+  | (Query & { spare?: ArrayBuffer | undefined });
 
 /** The value of a reply, by the kind of its request. */
 export interface Replies extends Answers {
@@ -35,7 +28,6 @@ export interface Replies extends Answers {
   append: CloudSize;
   remove: CloudSize;
   forget: object;
-  merge: { ids: Uint32Array<ArrayBuffer> };
 }
 
 export type Reply<Value = unknown> =

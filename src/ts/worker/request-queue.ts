@@ -1,5 +1,6 @@
 import { HprError } from "../errors.js";
 import type { Answers, Query, QueryKind } from "../queries.js";
+import { Spares } from "../spares.js";
 import { abortError, BY_SIGNAL } from "./abort.js";
 import { isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 import { Team } from "./team.js";
@@ -33,6 +34,7 @@ export class RequestQueue implements ThreadEvents {
   #running: Pending | undefined;
   #waiting: Pending[] = [];
   #closed: Error | undefined;
+  readonly #spares = new Spares();
 
   /** Starts so many workers, which act as one, or takes part in the shared one. */
   async start(workers: number | "shared"): Promise<void> {
@@ -75,6 +77,13 @@ export class RequestQueue implements ThreadEvents {
     });
   }
 
+  /** Keeps memory for the indices of answers to come. */
+  recycle(buffer: ArrayBuffer | undefined): void {
+    if (this.#closed === undefined) {
+      this.#spares.keep(buffer);
+    }
+  }
+
   /** Throws what `close` was given, if it was called. */
   requireOpen(): void {
     if (this.#closed !== undefined) {
@@ -85,6 +94,7 @@ export class RequestQueue implements ThreadEvents {
   /** Ends the workers; what is pending, and what still comes, is rejected with `reason`. */
   async close(reason: Error): Promise<void> {
     this.#closed = reason;
+    this.#spares.clear();
     const pending = this.#running === undefined ? this.#waiting : [this.#running, ...this.#waiting];
     this.#running = undefined;
     this.#waiting = [];
@@ -149,7 +159,19 @@ export class RequestQueue implements ThreadEvents {
     this.#running = next;
     this.#team.setBusy(next !== undefined);
     if (next !== undefined) {
-      this.#team.post(next.request);
+      this.#team.post(this.#withSpare(next.request));
+    }
+  }
+
+  #withSpare(request: Request): Request {
+    switch (request.kind) {
+      case "visibleFrom":
+      case "visibleFromDirection":
+      case "visibleFromSeveral":
+      case "reconstruct":
+        return { ...request, spare: this.#spares.take() };
+      default:
+        return request;
     }
   }
 

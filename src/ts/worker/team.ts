@@ -1,6 +1,6 @@
-import { HprError } from "../errors.js";
 import { allocating } from "../memory.js";
 import { failedReply, isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { Sectors } from "./sectors.js";
 import { joinThread } from "./shared-thread.js";
 import type { Thread, ThreadEvents } from "./thread.js";
 
@@ -14,6 +14,7 @@ export class Team {
   readonly #events: ThreadEvents;
   #members: Thread[] = [];
   #starting = 0;
+  readonly #sectors = new Sectors();
   #asked: Request | undefined;
   /** By member; those not asked, or not answered yet, have none. */
   #replies: (Reply | undefined)[] = [];
@@ -61,7 +62,7 @@ export class Team {
     let copies: { request: Request; transfer: ArrayBuffer[] }[];
     const asked = isForAll(request) ? this.#members : this.#members.slice(0, 1);
     try {
-      copies = asked.map((_, number) => copyFor(request, number, asked.length));
+      copies = asked.map((_, number) => copyFor(request, number, asked.length, this.#sectors));
     } catch (thrown) {
       // None of them has been asked, so none has changed.
       queueMicrotask(() => {
@@ -130,9 +131,10 @@ export class Team {
     const failures = replies.filter((reply) => "error" in reply);
     const values = replies.flatMap((reply) => ("value" in reply ? [reply.value] : []));
     const lost = failures.find(({ error }) => error.code === "internal") ?? failures[0];
-    const kind = this.#asked?.kind;
+    const asked = this.#asked;
+    this.#asked = undefined;
     if (lost !== undefined) {
-      const isChange = kind === "append" || kind === "remove";
+      const isChange = asked?.kind === "append" || asked?.kind === "remove";
       if (!isChange || lost.error.code === "internal" || values.length === 0) {
         return lost;
       }
@@ -140,8 +142,8 @@ export class Team {
       this.#dismiss((_, number) => "error" in replies[number]!);
     }
     try {
-      const value = kind === "visibleFrom" ? joined(values as Replies["visibleFrom"][]) : values[0];
-      return { value };
+      const isDivided = asked?.kind === "visibleFrom" && values.length > 1;
+      return { value: isDivided ? this.#sectors.joined(values as Replies["visibleFrom"][], asked.spare) : values[0] };
     } catch (thrown) {
       return failedReply(thrown);
     }
@@ -175,6 +177,7 @@ function copyFor(
   request: Request,
   number: number,
   count: number,
+  sectors: Sectors,
 ): { request: Request; transfer: ArrayBuffer[] } {
   switch (request.kind) {
     case "create":
@@ -186,14 +189,16 @@ function copyFor(
       const indices = ownCopy(request.indices, number);
       return { request: { ...request, indices }, transfer: [indices.buffer as ArrayBuffer] };
     }
-    case "merge": {
-      const { positions, ids } = request;
-      return { request, transfer: [positions.buffer as ArrayBuffer, ids.buffer as ArrayBuffer] };
-    }
-    case "visibleFrom":
-      return { request: count === 1 ? request : { ...request, sector: { number, count } }, transfer: [] };
-    default:
+    case "forget":
       return { request, transfer: [] };
+    case "visibleFrom":
+      if (count > 1) {
+        const spare = sectors.spareFor(number);
+        return { request: { ...request, sector: { number, count }, spare }, transfer: listed(spare) };
+      }
+      return { request, transfer: listed(request.spare) };
+    default:
+      return { request, transfer: listed(request.spare) };
   }
 }
 
@@ -204,37 +209,6 @@ function ownCopy<T extends Float32Array | Float64Array | Uint32Array>(array: T, 
     : allocating(`a copy of ${array.length} numbers for each worker`, () => array.slice() as T);
 }
 
-/** One answer from those of all sectors. */
-function joined(parts: Replies["visibleFrom"][]): Replies["visibleFrom"] {
-  const first = parts[0];
-  if (first === undefined) {
-    throw new HprError("internal", "no worker has answered");
-  }
-  if (parts.length === 1) {
-    return first;
-  }
-  const count = parts.reduce((sum, { indices }) => sum + indices.length, 0);
-  const lists = parts.map(({ indices }) => indices);
-  const indices = allocating(`${count} indices`, () => merged(lists, first.length, count));
-  return { ...first, indices };
-}
-
-/** All of these indices, ascending, by one bit for each index below `length`. */
-function merged(lists: Uint32Array[], length: number, count: number): Uint32Array<ArrayBuffer> {
-  const bits = new Int32Array(Math.ceil(length / 32));
-  for (const list of lists) {
-    for (const index of list) {
-      bits[index >>> 5]! |= 1 << (index & 31);
-    }
-  }
-  const indices = new Uint32Array(count);
-  let next = 0;
-  for (let word = 0; word < bits.length; word++) {
-    let rest = bits[word]!;
-    while (rest !== 0) {
-      indices[next++] = (word << 5) + 31 - Math.clz32(rest & -rest);
-      rest &= rest - 1;
-    }
-  }
-  return indices;
+function listed(buffer: ArrayBuffer | undefined): ArrayBuffer[] {
+  return buffer === undefined ? [] : [buffer];
 }

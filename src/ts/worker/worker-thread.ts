@@ -1,9 +1,8 @@
-import { ask, build, type PointCloud } from "../cloud.js";
-import { performMerge } from "../merge.js";
+import { ask, build, giveMemory, type PointCloud } from "../cloud.js";
 import { importNodeModule } from "../node.js";
+import type { CloudSize } from "../options.js";
 import { initSync } from "../start.js";
 import {
-  type CloudSize,
   failedReply,
   type Letter,
   type Progress,
@@ -33,10 +32,6 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
     clouds.set(number, created);
     return sizeOf(created);
   }
-  if (request.kind === "merge") {
-    initSync(request.module);
-    return { ids: performMerge(request) };
-  }
   const cloud = clouds.get(number);
   if (request.kind === "forget") {
     clouds.delete(number);
@@ -54,12 +49,13 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
       cloud.remove(request.indices);
       return sizeOf(cloud);
     default:
+      giveMemory(cloud, request.spare);
       return ask(cloud, request);
   }
 }
 
-function sizeOf({ length, skipped }: PointCloud): CloudSize {
-  return { length, skipped };
+function sizeOf({ length, skipped, spacing }: PointCloud): CloudSize {
+  return { length, skipped, spacing };
 }
 
 /** Every request gets a reply, whatever is thrown. */

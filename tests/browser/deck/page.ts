@@ -15,8 +15,36 @@ export interface DeckPage {
   values: () => number[];
   set: (props: Props, viewState?: Partial<OrbitViewState>) => void;
   visibleFrom: (viewpoint: number[], positions?: number[]) => Promise<number[]>;
+  /** How many were started. */
+  workers: () => number;
+  /** As if it had died by itself. */
+  killWorker: () => void;
+  /** So many, one after another, as soon as each is asked about a view. */
+  killWorkerWhenAsked: (times?: number) => void;
   pick: (x: number, y: number) => Promise<number | undefined>;
 }
+
+const workers: Worker[] = [];
+let toKill = 0;
+const OwnWorker = Worker;
+globalThis.Worker = class extends OwnWorker {
+  constructor(...args: ConstructorParameters<typeof Worker>) {
+    super(...args);
+    workers.push(this);
+  }
+
+  override postMessage(message: unknown, ...transfer: never[]): void {
+    super.postMessage(message, ...transfer);
+    const { kind } = (message as { content: { kind: string } }).content;
+    if (kind === "visibleFrom" && toKill > 0) {
+      toKill -= 1;
+      this.terminate();
+      setTimeout(() => {
+        kill(this);
+      });
+    }
+  }
+};
 
 const positions = new Float32Array(layers());
 const binary = { length: positions.length / 3, attributes: { getPosition: { value: positions, size: 3 } } };
@@ -55,9 +83,21 @@ const page: DeckPage = {
     await init();
     return [...new PointCloud(of).visibleFrom(viewpoint, { exponent: 3 }).indices];
   },
+  workers: () => workers.length,
+  killWorker: () => {
+    kill(workers.at(-1)!);
+  },
+  killWorkerWhenAsked: (times = 1) => {
+    toKill = times;
+  },
   pick: async (x, y) => (await deck.pickObjectAsync({ x, y, radius: 3 }))?.index,
 };
 (globalThis as unknown as { page: DeckPage }).page = page;
+
+function kill(worker: Worker): void {
+  worker.terminate();
+  worker.dispatchEvent(new ErrorEvent("error", { message: "killed", cancelable: true }));
+}
 
 function layerOf(): VisiblePointCloudLayer {
   return new VisiblePointCloudLayer({

@@ -26,10 +26,10 @@ filter.addEventListener("changed", () => undefined);
 
 const nodes = new HiddenPointNodesFilter(points, { radius: "auto", nodes: () => [points] });
 nodes.addEventListener("change", ({ viewpoint, radius }) => {
-  console.log(viewpoint.length, radius);
+  console.log(viewpoint?.length, radius);
 });
-// @ts-expect-error Other points would be needed.
-new HiddenPointNodesFilter(points, { denoise: 3 });
+// @ts-expect-error There is no such mode.
+new HiddenPointNodesFilter(points, { mode: "fade" });
 
 export function Scan() {
   const ref = useRef<Points>(null);

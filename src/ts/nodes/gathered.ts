@@ -1,0 +1,166 @@
+import { HprError } from "../errors.js";
+import { allocating } from "../memory.js";
+import { type Cloud, prepareCloud } from "../three/cloud.js";
+import { asError } from "../three/reporter.js";
+import type { Visibility } from "../visibility.js";
+import type { CloudNode } from "./node.js";
+import type { NodesSettings } from "./options.js";
+
+/** Which indices of the cloud are a node's, and in which of its revisions. */
+interface Span {
+  first: number;
+  count: number;
+  revision: number;
+}
+
+/** Removed points are kept in mind by the cloud: so many of them may outnumber the others. */
+const FEW = 10_000;
+
+/**
+ * The points of all nodes, in the root's space, as one cloud that they are appended to and
+ * removed from: what it answers is, to the bit, what a cloud would that had never been split.
+ *
+ *      indices   [ node 3 …… | removed …… | node 1 …… | node 7 …… ]
+ */
+export class Gathered {
+  readonly #settings: NodesSettings;
+  #cloud: Cloud | undefined;
+  /** In the order of their indices. */
+  readonly #spans = new Map<CloudNode, Span>();
+  #length = 0;
+  #removed = 0;
+  #isClosed = false;
+
+  constructor(settings: NodesSettings) {
+    this.#settings = settings;
+  }
+
+  get nodes(): number {
+    return this.#spans.size;
+  }
+
+  /** Whether no node has a point. */
+  get isEmpty(): boolean {
+    return this.#length === this.#removed;
+  }
+
+  /**
+   * Makes the cloud that of these nodes. Those that are refused take no part.
+   *
+   * @throws HprError (as a rejection) as the clouds; nothing is left of this one then.
+   */
+  async follow(nodes: readonly CloudNode[], refused: (error: Error, node: CloudNode) => void): Promise<void> {
+    const gone = this.#leave(nodes);
+    if (this.#removed > FEW + this.#length / 2) {
+      this.drop();
+    }
+    try {
+      const positions = this.#read(nodes, refused);
+      if (this.#cloud === undefined) {
+        await this.#create(positions);
+        return;
+      }
+      if (gone.length > 0) {
+        await this.#cloud.remove(gone);
+      }
+      if (positions.length > 0) {
+        await this.#cloud.append(positions);
+      }
+    } catch (error) {
+      this.drop();
+      throw error;
+    }
+  }
+
+  async visibleFrom(from: readonly number[], isDirection: boolean): Promise<Visibility> {
+    const { view } = this.#settings;
+    return isDirection ? this.#cloud!.visibleFromDirection(from, view) : this.#cloud!.visibleFrom(from, view);
+  }
+
+  /** What of these ascending indices is whose, as indices into the node's own points. */
+  *split(indices: Uint32Array): Generator<[node: CloudNode, own: Uint32Array]> {
+    let from = 0;
+    for (const [node, { first, count, revision }] of this.#spans) {
+      while (from < indices.length && indices[from]! < first) from++;
+      let to = from;
+      while (to < indices.length && indices[to]! < first + count) to++;
+      if (node.revision === revision) {
+        yield [node, indices.subarray(from, to).map((index) => index - first)];
+      }
+      from = to;
+    }
+  }
+
+  /** Takes an answer's memory back, once it is split. */
+  recycle(answer: Visibility): void {
+    this.#cloud?.recycle(answer);
+  }
+
+  /** Gives the cloud back; the next one starts from nothing. */
+  drop(): void {
+    void this.#cloud?.dispose();
+    this.#cloud = undefined;
+    this.#spans.clear();
+    this.#length = this.#removed = 0;
+  }
+
+  close(): void {
+    this.#isClosed = true;
+    this.drop();
+  }
+
+  async #create(positions: Float64Array): Promise<void> {
+    if (positions.length === 0) {
+      return;
+    }
+    const cloud = await prepareCloud({ numbers: positions, own: true }, this.#settings);
+    if (this.#isClosed) {
+      void cloud.dispose();
+      throw new HprError("disposed", "this filter has been disposed of");
+    }
+    this.#cloud = cloud;
+  }
+
+  /** Forgets nodes that are not there any more, or are others now: their indices. */
+  #leave(nodes: readonly CloudNode[]): Uint32Array {
+    const present = new Set(nodes);
+    const left = [...this.#spans].filter(([node, { revision }]) => !present.has(node) || node.revision !== revision);
+    const count = left.reduce((sum, [, span]) => sum + span.count, 0);
+    const indices = allocating(`${count} indices`, () => new Uint32Array(count));
+    let at = 0;
+    for (const [node, span] of left) {
+      for (let i = 0; i < span.count; i++) indices[at++] = span.first + i;
+      this.#spans.delete(node);
+    }
+    this.#removed += count;
+    return indices;
+  }
+
+  /** The points of those that are new, which take the next indices. */
+  #read(nodes: readonly CloudNode[], refused: (error: Error, node: CloudNode) => void): Float64Array {
+    const parts: (Float32Array | Float64Array)[] = [];
+    const begun = this.#length;
+    for (const node of nodes) {
+      if (this.#spans.has(node)) {
+        continue;
+      }
+      try {
+        const numbers = node.read();
+        const count = numbers.length / 3;
+        this.#spans.set(node, { first: this.#length, count, revision: node.revision });
+        this.#length += count;
+        parts.push(numbers);
+      } catch (error) {
+        refused(asError(error), node);
+      }
+    }
+    const length = 3 * (this.#length - begun);
+    const positions = allocating(`${length / 3} points`, () => new Float64Array(length));
+    let at = 0;
+    for (const part of parts) {
+      positions.set(part, at);
+      at += part.length;
+    }
+    return positions;
+  }
+}

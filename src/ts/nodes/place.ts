@@ -1,0 +1,135 @@
+import { Matrix4, type Object3D } from "three";
+
+/**
+ * Where an object is in the space of another one above it. Not by way of the world, whose
+ * rounding would move points apart that are equal in two nodes.
+ */
+export class Place {
+  readonly object: Object3D;
+  readonly matrix = new Matrix4();
+  /** Grows when the object moves, or whatever it is in. */
+  version = 0;
+  frame = -1;
+  parent: Object3D | null = null;
+  above: Place | undefined;
+  aboveVersion = 0;
+  readonly #local = new Matrix4();
+  /** What the object's matrix was made of: position, quaternion, scale. */
+  readonly #made = new Float64Array(10).fill(NaN);
+
+  constructor(object: Object3D) {
+    this.object = object;
+  }
+
+  /** Whether the object is elsewhere in its parent than when it was asked last. */
+  isMoved(): boolean {
+    const { object } = this;
+    if (object.matrixAutoUpdate) {
+      if (this.#isMadeOfTheSame()) {
+        return false;
+      }
+      object.updateMatrix();
+    } else {
+      this.#made[0] = NaN;
+    }
+    if (object.matrix.equals(this.#local)) {
+      return false;
+    }
+    this.#local.copy(object.matrix);
+    return true;
+  }
+
+  place(): void {
+    this.matrix.copy(this.#local);
+    if (this.above !== undefined) this.matrix.premultiply(this.above.matrix);
+  }
+
+  /** Composing a matrix takes longer than all the rest of a frame. */
+  #isMadeOfTheSame(): boolean {
+    const { position, quaternion, scale } = this.object;
+    // Older versions of three have none.
+    const { pivot = null } = this.object as { pivot?: unknown };
+    const made = this.#made;
+    const isSame =
+      position.x === made[0] &&
+      position.y === made[1] &&
+      position.z === made[2] &&
+      quaternion.x === made[3] &&
+      quaternion.y === made[4] &&
+      quaternion.z === made[5] &&
+      quaternion.w === made[6] &&
+      scale.x === made[7] &&
+      scale.y === made[8] &&
+      scale.z === made[9];
+    if (!isSame) {
+      position.toArray(made);
+      quaternion.toArray(made, 3);
+      scale.toArray(made, 7);
+    }
+    return isSame && pivot === null;
+  }
+}
+
+/** The places of objects, each looked at once a frame, however many are in it. */
+export class Places {
+  readonly #root: Object3D;
+  readonly #known = new WeakMap<Object3D, Place>();
+  #frame = 0;
+
+  constructor(root: Object3D) {
+    this.#root = root;
+  }
+
+  /** Another frame: things may have moved. */
+  next(): void {
+    this.#frame += 1;
+  }
+
+  of(object: Object3D): Place {
+    let place = this.#known.get(object);
+    if (place === undefined) {
+      place = new Place(object);
+      this.#known.set(object, place);
+    }
+    return place;
+  }
+
+  /** What its version is now. */
+  versionOf(place: Place): number {
+    const { object } = place;
+    if (place.frame === this.#frame || object === this.#root) {
+      return place.version;
+    }
+    place.frame = this.#frame;
+    const isElsewhere = place.parent !== object.parent;
+    if (isElsewhere) {
+      place.parent = object.parent;
+      const holder = this.#holderOf(object);
+      place.above = holder === undefined ? undefined : this.of(holder);
+    }
+    const aboveVersion = place.above === undefined ? 0 : this.versionOf(place.above);
+    const isMoved = place.isMoved();
+    if (isElsewhere || isMoved || aboveVersion !== place.aboveVersion) {
+      place.aboveVersion = aboveVersion;
+      place.version += 1;
+      place.place();
+    }
+    return place.version;
+  }
+
+  /**
+   * What an object's own matrix is relative to, unless that is the root. Octrees of potree-core
+   * (and what it is made of) nest their nodes, but draw each where it is in the octree.
+   */
+  #holderOf(object: Object3D): Object3D | undefined {
+    for (let at = object.parent; at !== null; at = at.parent) {
+      if ("pcoGeometry" in at) {
+        return at === this.#root ? undefined : at;
+      }
+      if (at === this.#root) {
+        break;
+      }
+    }
+    return object.parent === null || object.parent === this.#root ? undefined : object.parent;
+  }
+}

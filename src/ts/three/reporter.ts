@@ -1,0 +1,37 @@
+import { EventDispatcher, type EventListener } from "three";
+
+type Name<Events> = Extract<keyof Events, string>;
+
+/**
+ * Tells its listeners what happens. An error that nobody listens to is reported as any other
+ * promise that nobody awaits: as an unhandled rejection.
+ */
+export abstract class Reporter<Events extends { error: { error: Error } }> extends EventDispatcher<Events> {
+  readonly #heard = new Set<unknown>();
+
+  /** Calls the listener with each event of that type. */
+  override addEventListener<T extends Name<Events>>(type: T, listener: EventListener<Events[T], T, this>): void {
+    if (type === "error") {
+      this.#heard.add(listener);
+    }
+    super.addEventListener(type, listener);
+  }
+
+  /** Calls it no more. */
+  override removeEventListener<T extends Name<Events>>(type: T, listener: EventListener<Events[T], T, this>): void {
+    if (type === "error") {
+      this.#heard.delete(listener);
+    }
+    super.removeEventListener(type, listener);
+  }
+
+  /** Whether anybody listens to errors. */
+  protected get isHeard(): boolean {
+    return this.#heard.size > 0;
+  }
+}
+
+/** Anything may be thrown. */
+export function asError(thrown: unknown): Error {
+  return thrown instanceof Error ? thrown : new Error(String(thrown));
+}

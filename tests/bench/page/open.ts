@@ -1,0 +1,67 @@
+// How long it takes from the navigation to the first picture.
+import type { Browser, BrowserContext, Page } from "playwright-core";
+
+import { median, type Row, type Table } from "../report.js";
+import { newContext, ready, watchedBy, watchedPage } from "./visit.js";
+
+const VISITS = 5;
+const QUERIES = { "dragon, as the page opens": "", "dragon 23k": "?sample=dragon_res3", room: "?sample=room" };
+
+interface Visit {
+  paint: number;
+  picture: number;
+  bytes: number;
+}
+
+export async function timeOpening(browser: Browser, address: string): Promise<Table> {
+  const rows: Row[] = [];
+  for (const [cloud, query] of Object.entries(QUERIES)) {
+    console.error(`${cloud}: opening…`);
+    const [cold, warm]: Visit[][] = [[], []];
+    for (let i = 0; i < VISITS; i++) {
+      // A context of its own has nothing cached; in the same one the second visit has all.
+      const context = await newContext(browser);
+      cold!.push(await visit(context, address + query));
+      warm!.push(await visit(context, address + query));
+      await context.close();
+    }
+    rows.push(row(cloud, "cold", cold!), row(cloud, "warm", warm!));
+  }
+  const note =
+    `Milliseconds from the start of the navigation, served by this machine: to the first contentful paint, and to the end of the first frame that shows an answer. Medians of ${VISITS} visits, and the slowest. ` +
+    "Cold: nothing in the browser's cache; warm: the second visit. Kilobytes are those of the response bodies, uncompressed.";
+  return { title: "First picture", note, rows };
+}
+
+async function visit(context: BrowserContext, address: string): Promise<Visit> {
+  const page = await watchedPage(context);
+  const bytes = countBytes(page);
+  await page.goto(address);
+  await ready(page);
+  await page.waitForFunction(() => ((globalThis as { watched?: { firstPicture?: number } }).watched?.firstPicture ?? 0) > 0);
+  const { firstPicture = NaN } = await watchedBy(page);
+  const paint = await page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime ?? NaN);
+  await page.close();
+  return { paint, picture: firstPicture, bytes: bytes() };
+}
+
+/** Also what the page's workers ask for. */
+function countBytes(page: Page): () => number {
+  let bytes = 0;
+  page.context().on("response", (response) => {
+    if (!response.fromServiceWorker()) bytes += Number(response.headers()["content-length"] ?? 0);
+  });
+  return () => bytes;
+}
+
+function row(cloud: string, cache: string, visits: Visit[]): Row {
+  const pictures = visits.map(({ picture }) => picture);
+  return {
+    cloud,
+    cache,
+    "first contentful paint": median(visits.map(({ paint }) => paint)),
+    "first picture": median(pictures),
+    "slowest first picture": Math.max(...pictures),
+    kB: Math.round(median(visits.map(({ bytes }) => bytes)) / 1000),
+  };
+}

@@ -1,0 +1,76 @@
+// The built page in Chromium, watched from outside.
+import type { Browser, BrowserContext, Page } from "playwright-core";
+
+import { countHoldings } from "../../browser/holdings.js";
+
+export const SIZE = { width: 1280, height: 800 };
+const LONGEST_WAIT = 120_000;
+
+export interface Watched {
+  /** When the first frame that shows an answer had been handed over, in milliseconds since the navigation. */
+  firstPicture?: number;
+  /** By viewpoint: when it was asked, and when its answer was told; to the answer's frame it is the page's own time. */
+  asked: Record<string, number>;
+  answered: { viewpoint: string; at: number }[];
+}
+
+type Watching = typeof globalThis & { watched: Watched };
+
+/** A page that will watch itself from its first moment on. Its draw calls can be left out, where software draws. */
+export async function watchedPage(context: BrowserContext, drawing = true): Promise<Page> {
+  const page = await context.newPage();
+  await countHoldings(page);
+  if (!drawing) {
+    await page.addInitScript(() => {
+      WebGL2RenderingContext.prototype.drawElements = WebGL2RenderingContext.prototype.drawArrays = () => undefined;
+    });
+  }
+  await page.addInitScript(() => {
+    const watched: Watched = { asked: {}, answered: [] };
+    (globalThis as Watching).watched = watched;
+    const methods = Worker.prototype as unknown as Record<string, (...args: unknown[]) => void>;
+    const post = methods["postMessage"]!;
+    methods["postMessage"] = function (...args: unknown[]) {
+      const { content } = (args[0] ?? {}) as { content?: { kind?: string; viewpoint?: ArrayLike<number> } };
+      if (content?.kind === "visibleFrom" && content.viewpoint) watched.asked[Array.from(content.viewpoint).join()] ??= performance.now();
+      post.apply(this, args);
+    };
+    let refilters = "";
+    new MutationObserver(() => {
+      const { dataset } = document.getElementById("status") ?? {};
+      if (dataset?.["refilters"] === undefined || dataset["refilters"] === refilters) return;
+      refilters = dataset["refilters"];
+      watched.answered.push({ viewpoint: dataset["viewpoint"]!, at: performance.now() });
+      // The second frame begins when the first one is done.
+      watched.firstPicture ??= 0;
+      if (watched.firstPicture === 0) requestAnimationFrame(() => requestAnimationFrame((now) => (watched.firstPicture = now)));
+    }).observe(document, { subtree: true, attributes: true, attributeFilter: ["data-refilters"] });
+  });
+  return page;
+}
+
+export function watchedBy(page: Page): Promise<Watched> {
+  return page.evaluate(() => (globalThis as Watching).watched);
+}
+
+export async function ready(page: Page): Promise<void> {
+  await page.locator('#status[data-state="ready"]').waitFor({ state: "attached", timeout: LONGEST_WAIT });
+  await upToDate(page);
+}
+
+/** Until the picture is that of the present settings and camera. */
+export async function upToDate(page: Page): Promise<void> {
+  await page.locator('#status[data-busy="0"]').waitFor({ state: "attached", timeout: LONGEST_WAIT });
+}
+
+/** Until something has been answered that was asked after this is called, and all else with it. */
+export async function answered(page: Page, action: () => Promise<unknown>): Promise<void> {
+  const before = await page.locator("#status").getAttribute("data-refilters");
+  await action();
+  await page.locator(`#status:not([data-refilters="${before}"])`).waitFor({ state: "attached", timeout: LONGEST_WAIT });
+  await upToDate(page);
+}
+
+export async function newContext(browser: Browser): Promise<BrowserContext> {
+  return browser.newContext({ viewport: SIZE, acceptDownloads: true });
+}

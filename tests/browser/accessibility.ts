@@ -1,0 +1,113 @@
+/*
+ * The states of the page that are checked for everybody's access, and axe-core's word on each. Used by
+ * accessibility.test.ts, which wants no violation, and by tests/figures, which writes docs/ACCESSIBILITY.md.
+ */
+import axe, { type AxeResults } from "axe-core";
+import type { BrowserContextOptions, Page } from "playwright-core";
+
+export const TAGS = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"];
+
+interface Step {
+  name: string;
+  /** From the step before to this state. */
+  act: (page: Page) => Promise<void>;
+}
+
+/** One visit: its steps follow one another on one page. */
+export interface Visit {
+  name: string;
+  query: string;
+  options: BrowserContextOptions;
+  steps: Step[];
+}
+
+const nothing = () => Promise.resolve();
+/** Small, and dense enough for a point to be in the middle of the picture. */
+const SMALL = "sample=dragon_res3";
+const PHONE: BrowserContextOptions = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
+const WIDE: BrowserContextOptions = { viewport: { width: 1280, height: 800 } };
+
+const unfolded: Step = {
+  name: "every section unfolded, two lights",
+  act: async (page) => {
+    await page.evaluate(() => { for (const section of document.querySelectorAll("details")) section.open = true; });
+    for (let i = 0; i < 2; i++) await page.getByRole("button", { name: "Add a light" }).click();
+  },
+};
+
+/** Pressed as Enter picks it, in the middle of the picture, so that the cards have something to say. */
+const tools: Step[] = ["Pick", "Measure", "Select", "Label", "Compare", "Export"].map((name) => ({
+  name: `the tool ${name}`,
+  act: async (page) => {
+    const button = page.locator("#tool-bar").getByRole("button", { name });
+    if ((await button.getAttribute("aria-pressed")) !== "true") await button.click();
+    if (name === "Select") await page.getByRole("button", { name: "All in the picture" }).click();
+    if (name === "Pick" || name === "Label") await page.locator("#view").press("Enter");
+    if (name === "Label") {
+      await page.locator("#label-text").fill("Nose");
+      await page.locator("#label-text").press("Enter");
+      await page.locator("#view").press("Enter");
+    }
+  },
+}));
+
+const sheetOfKeys: Step = {
+  name: "the sheet of keys",
+  act: async (page) => {
+    await page.getByRole("button", { name: "Keys", exact: true }).click();
+  },
+};
+
+const refused: Step = {
+  name: "a file that is refused",
+  act: async (page) => {
+    await page.keyboard.press("Escape");
+    await page.locator("#file").setInputFiles({ name: "letter.pdf", mimeType: "", buffer: Buffer.from("%PDF-1.7\n\u0000") });
+    await page.locator('#status[data-state="error"]').waitFor({ state: "attached" });
+  },
+};
+
+const underWay: Step = {
+  name: "loading, to be stopped",
+  act: async (page) => {
+    // The answer never comes.
+    await page.route("**/samples/bunny.bin", nothing);
+    await page.getByRole("button", { name: "Bunny" }).click();
+    await page.getByRole("button", { name: "Stop loading" }).waitFor();
+  },
+};
+
+const sheet: Step = {
+  name: "all controls open",
+  act: async (page) => {
+    await page.getByRole("button", { name: "More controls" }).click();
+  },
+};
+
+const first: Step = { name: "first view", act: nothing };
+
+export const VISITS: Visit[] = (["dark", "light"] as const).flatMap((colorScheme) => [
+  {
+    name: `${colorScheme}, 1280 × 800`,
+    query: `?${SMALL}&hidden=dimmed`,
+    options: { ...WIDE, colorScheme },
+    steps: [first, unfolded, ...tools, sheetOfKeys, refused, underWay],
+  },
+  { name: `${colorScheme}, 390 × 844`, query: `?${SMALL}`, options: { ...PHONE, colorScheme }, steps: [first, sheet, unfolded] },
+  { name: `${colorScheme}, in another page`, query: `?${SMALL}&embed=1`, options: { ...WIDE, colorScheme }, steps: [first] },
+]);
+
+/** What axe-core finds on the page as it is. */
+export async function audit(page: Page): Promise<AxeResults> {
+  if (!(await page.evaluate("'axe' in window"))) await page.evaluate(axe.source);
+  return page.evaluate((tags) => (window as unknown as { axe: typeof axe }).axe.run(document, { runOnly: { type: "tag", values: tags } }), TAGS);
+}
+
+/**
+ * What axe-core leaves open here, rule by rule, and why it is well. Anything else it leaves open has to be looked at.
+ */
+export const JUDGED: Readonly<Record<string, string>> = {
+  "color-contrast":
+    "It does not tell the background of what lies over the cloud, or under the bar that stays while a phone’s sheet scrolls. " +
+    "`tests/browser/contrast.ts` computes the contrast of every text itself, over the cloud with black and with white behind it: none is below 4.5.",
+};

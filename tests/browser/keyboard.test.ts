@@ -1,0 +1,154 @@
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { answered, openReady, PHONE, reached, status, unfold } from "./support.js";
+
+interface Stop {
+  name: string;
+  /** What is wrong with how the focus shows there, or `null`. */
+  flaw: string | null;
+}
+
+/** Where the focus is, and whether one sees it: a ring that stands out (WCAG 1.4.11: 3) around something in sight. */
+async function stop(page: Page): Promise<Stop | null> {
+  return page.evaluate(() => {
+    const element = document.activeElement as HTMLElement | null;
+    if (!element || element === document.body) return null;
+    const name = nameOf(element);
+    // A radio button fills its label, whose ring is seen; the divider shows its ring on its handle.
+    const ringed = element.closest<HTMLElement>(".segmented label") ?? element;
+    const style = element.id === "divider" ? getComputedStyle(element, "::after") : getComputedStyle(ringed);
+    const { left, right, top, bottom, width, height } = ringed.getBoundingClientRect();
+    const flaws = [];
+    if (style.outlineStyle === "none" || Number.parseFloat(style.outlineWidth) < 2) flaws.push("has no ring");
+    if (left < -1 || top < -1 || right > innerWidth + 1 || bottom > innerHeight + 1) flaws.push(`is out of sight (${Math.round(top)} to ${Math.round(bottom)})`);
+    // What lies over the cloud may cover a part of it, but nothing may cover all (WCAG 2.4.11).
+    const shares = [0.1, 0.3, 0.5, 0.7, 0.9];
+    const seen = shares.some((x) => shares.some((y) => ringed.contains(document.elementFromPoint(left + x * width, top + y * height))));
+    if (!seen) flaws.push("is covered");
+    // Inside where the ring is drawn inwards, else the next background around.
+    const inwards = Number.parseFloat(style.outlineOffset) < 0;
+    const ground = groundOf(inwards ? ringed : ringed.parentElement!);
+    const ratio = contrast(style.outlineColor, ground);
+    if (ratio < 3) flaws.push(`has a ring of contrast ${ratio.toFixed(1)}: ${style.outlineColor} on ${ground}`);
+    return { name, flaw: flaws.length > 0 ? `${name} ${flaws.join(", ")}` : null };
+
+    function nameOf(of: Element): string {
+      const radio = of instanceof HTMLInputElement && of.type === "radio";
+      return radio ? `radio ${of.name}` : `${of.tagName} ${of.id || (of as HTMLElement).ariaLabel || of.textContent.trim().slice(0, 30)}`;
+    }
+    function groundOf(from: Element): string {
+      for (let at: Element | null = from; at; at = at.parentElement) {
+        const { backgroundColor } = getComputedStyle(at);
+        if (!backgroundColor.startsWith("rgba")) return backgroundColor;
+      }
+      return "rgb(255, 255, 255)";
+    }
+    function contrast(a: string, b: string): number {
+      const [low, high] = [a, b]
+        .map((css) => css.match(/[\d.]+/g)!.slice(0, 3).map((text) => (Number(text) <= 10.31 ? Number(text) / 3294.6 : ((Number(text) / 255 + 0.055) / 1.055) ** 2.4)))
+        .map(([red, green, blue]) => 0.2126 * red! + 0.7152 * green! + 0.0722 * blue!)
+        .sort((x, y) => x - y);
+      return (high! + 0.05) / (low! + 0.05);
+    }
+  });
+}
+
+/** Everything in sight that a mouse can use, by the names above. */
+async function usable(page: Page): Promise<string[]> {
+  return page.evaluate(() => {
+    const all = [...document.querySelectorAll<HTMLElement>("a[href], button, input, select, summary, [tabindex]")];
+    const found = all.filter((element) => element.checkVisibility() && element.tabIndex >= 0 && !element.matches(":disabled"));
+    const names = found.map((element) =>
+      element instanceof HTMLInputElement && element.type === "radio" ? `radio ${element.name}` : `${element.tagName} ${element.id || element.ariaLabel || element.textContent.trim().slice(0, 30)}`,
+    );
+    return [...new Set(names)];
+  });
+}
+
+const WIDE = { viewport: { width: 1280, height: 800 } };
+const SETTINGS = "?sample=dragon_res3&compare=0.3&light=0,0.25,0.1";
+
+test.for([
+  { ...WIDE, colorScheme: "dark" },
+  { ...WIDE, colorScheme: "light" },
+  { ...PHONE, colorScheme: "light" },
+] as const)("Tab reaches everything, the focus is always seen, and the page lets go of it ($viewport.width px, $colorScheme)", async (options) => {
+  const page = await openReady(SETTINGS, options);
+  if (options.viewport.width < 760) await page.getByRole("button", { name: "More controls" }).click();
+  await page.evaluate(() => {
+    for (const section of document.querySelectorAll("details")) section.open = true;
+    (document.activeElement as HTMLElement).blur();
+  });
+  await page.locator("#tool-bar").getByRole("button", { name: "Label" }).click();
+  await page.locator("#view").press("Enter");
+  const expected = await usable(page);
+  expect(expected.length).toBeGreaterThan(45);
+  // From the beginning of the page.
+  await page.evaluate(() => {
+    const start = document.createElement("span");
+    start.tabIndex = -1;
+    document.body.prepend(start);
+    start.focus();
+    start.remove();
+  });
+  const stops: Stop[] = [];
+  for (let i = 0; i < 2 * expected.length; i++) {
+    await page.keyboard.press("Tab");
+    const here = await stop(page);
+    // Out of the page, and around.
+    if (!here || here.name === stops[0]?.name) break;
+    stops.push(here);
+  }
+  const names = stops.map(({ name }) => name);
+  expect(expected.filter((name) => !names.includes(name)), "not reached").toEqual([]);
+  expect(stops.length, "visited").toBeLessThan(2 * expected.length);
+  expect(stops.flatMap(({ flaw }) => flaw ?? [])).toEqual([]);
+  // And back.
+  await page.keyboard.press("Shift+Tab");
+  expect((await stop(page))?.name).toBe(names.at(-1));
+});
+
+test("F takes the whole screen for the cloud and its tools, and gives it back", async () => {
+  const page = await openReady("?sample=dragon_res4", WIDE);
+  const view = page.locator("#view");
+  const button = page.getByRole("button", { name: "Full screen" });
+  const full = () => page.evaluate(() => document.fullscreenElement !== null);
+  await view.press("f");
+  await expect.poll(full).toBe(true);
+  await expect.poll(() => button.getAttribute("aria-pressed")).toBe("true");
+  expect(await page.locator("#panel").isVisible()).toBe(false);
+  expect((await view.boundingBox())!.width).toBe(await page.evaluate(() => innerWidth));
+  expect(await page.locator("#tool-bar").isVisible()).toBe(true);
+  // Keys and what screen readers are told go on.
+  const before = await status(page);
+  await view.press("ArrowLeft");
+  await answered(page, before);
+  await expect.poll(() => page.locator("#announcement").textContent()).toMatch(/points .* are visible from here/);
+  await button.click();
+  await expect.poll(full).toBe(false);
+  await expect.poll(() => button.getAttribute("aria-pressed")).toBe("false");
+  expect(await page.locator("#panel").isVisible()).toBe(true);
+});
+
+test("where the browser has no full screen there is no button for it", async () => {
+  const page = await openReady("?sample=dragon_res4");
+  await page.addInitScript(() => {
+    Object.defineProperty(document, "fullscreenEnabled", { value: false });
+  });
+  await page.reload();
+  await reached(page, "ready");
+  expect(await page.locator("#full-screen").isVisible()).toBe(false);
+  await page.locator("#view").press("f");
+  expect(await page.evaluate(() => document.fullscreenElement)).toBe(null);
+});
+
+test.for(["reduce", "no-preference"] as const)("while a cloud is loading things move only for those who like it (%s)", async (reducedMotion) => {
+  const page = await openReady("?sample=dragon_res4", { reducedMotion });
+  await page.route("**/samples/bunny.bin", () => undefined);
+  await unfold(page, "Noise");
+  await page.getByRole("button", { name: "Bunny" }).click();
+  await page.getByRole("button", { name: "Stop loading" }).waitFor();
+  const moving = await page.evaluate(() => document.getAnimations().filter((animation) => Number(animation.effect!.getComputedTiming().duration) > 0).length);
+  if (reducedMotion === "reduce") expect(moving).toBe(0);
+  else expect(moving).toBeGreaterThan(0);
+});

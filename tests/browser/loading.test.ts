@@ -1,0 +1,70 @@
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { gzipSync } from "node:zlib";
+import { expect, test } from "vitest";
+import { root } from "../root.js";
+import { browser, openPage, PHONE, reached, site, upToDate } from "./support.js";
+
+/** A sample that is downloaded, and small. */
+const SMALL = "?sample=bunny";
+
+/** What has arrived is compressed already, or is compressed on its way. */
+function onTheWire(name: string): number {
+  const bytes = readFileSync(join(root, "www", "dist", name || "index.html"));
+  return /\.webp$/.test(name) ? bytes.length : gzipSync(bytes, { level: 9 }).length;
+}
+
+test("all that is loaded for the first cloud, three.js, wasm and workers included, is at most 300 kB", async () => {
+  const context = await browser.newContext({ serviceWorkers: "block" });
+  const page = await context.newPage();
+  // When the first answer is there; whatever the page asks for from then on, the first cloud has not waited for.
+  await page.addInitScript(() => {
+    addEventListener("DOMContentLoaded", () => {
+      const element = document.getElementById("status")!;
+      new MutationObserver((_, observer) => {
+        if (element.dataset["state"] !== "ready") return;
+        observer.disconnect();
+        performance.mark("first cloud");
+      }).observe(element, { attributes: true });
+    });
+  });
+  const from = site.asked.length;
+  await page.goto(site.address + SMALL);
+  await reached(page, "ready");
+  await page.waitForFunction(() => document.querySelectorAll("#thumbnails img[src]").length > 0);
+  const later = await page.evaluate(() => {
+    const [{ startTime: ready }] = performance.getEntriesByName("first cloud") as [PerformanceEntry];
+    return performance.getEntriesByType("resource").filter(({ startTime }) => startTime >= ready).map(({ name }) => name);
+  });
+  const asked = site.asked.slice(from).filter((name) => !name.startsWith("samples/") && !later.includes(site.address + name));
+  for (const name of asked) expect(existsSync(join(root, "www", "dist", name || "index.html")), name).toBe(true);
+  const table = asked.map((name) => ({ file: name || "index.html", bytes: onTheWire(name) }));
+  console.table(table);
+  const total = table.reduce((sum, { bytes }) => sum + bytes, 0);
+  console.log(`${total} bytes before the first cloud is on screen`);
+  expect(new Set(asked).size).toBe(asked.length);
+  expect(asked.some((name) => name.endsWith(".wasm"))).toBe(true);
+  expect(total).toBeLessThanOrEqual(300_000);
+  await context.close();
+});
+
+test.for([{ viewport: { width: 1280, height: 800 } }, PHONE])("nothing moves about while the page loads ($viewport.width px)", async (options) => {
+  const page = await openPage("", options);
+  // As a visitor comes: the observer has to be there before anything is drawn.
+  await page.addInitScript(() => {
+    const shifts: { value: number; what: string[] }[] = [];
+    Object.assign(window, { shifts });
+    new PerformanceObserver((list) => {
+      for (const entry of list.getEntries() as (PerformanceEntry & { value: number; sources: { node: Node | null }[] })[]) {
+        shifts.push({ value: entry.value, what: entry.sources.map(({ node }) => (node instanceof Element ? node.id || node.tagName : String(node?.nodeName))) });
+      }
+    }).observe({ type: "layout-shift", buffered: true });
+  });
+  await page.goto(site.address + SMALL);
+  await reached(page, "ready");
+  await upToDate(page);
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  const shifts = await page.evaluate(() => (window as unknown as { shifts: { value: number; what: string[] }[] }).shifts);
+  const sum = shifts.reduce((total, { value }) => total + value, 0);
+  expect(sum, JSON.stringify(shifts)).toBeLessThan(0.02);
+});

@@ -1,0 +1,82 @@
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { countHoldings, type Holdings, holdingsOf, type MemoryUse, memoryOf } from "./holdings.js";
+import { openReady, status, upToDate } from "./support.js";
+
+/** What may come and go with compiled code and the like; one answer's arrays are larger than what is left of it over many. */
+const NOISE = { heap: 600_000, buffers: 60_000 };
+
+/** What the page holds once its timers have run. */
+async function held(page: Page): Promise<MemoryUse & Holdings> {
+  await upToDate(page);
+  await page.waitForTimeout(1200);
+  return { ...(await memoryOf(page)), ...(await holdingsOf(page)) };
+}
+
+function expectNoMore(after: MemoryUse & Holdings, before: MemoryUse & Holdings): void {
+  const { nodes, listeners, workers, objectUrls, webgl } = before;
+  expect.soft(after).toMatchObject({ workers, objectUrls, webgl });
+  expect.soft(after.nodes).toBeLessThanOrEqual(nodes);
+  expect.soft(after.listeners).toBeLessThanOrEqual(listeners);
+  expect.soft(after.heap - before.heap).toBeLessThan(NOISE.heap);
+  expect.soft(after.buffers - before.buffers).toBeLessThan(NOISE.buffers);
+}
+
+async function step(page: Page, key: string): Promise<void> {
+  const { refilters } = await status(page);
+  await page.locator("#view").press(key);
+  await page.waitForFunction((before) => Number(document.getElementById("status")!.dataset["refilters"]) > before, refilters);
+  await upToDate(page);
+}
+
+async function change(page: Page, sample: string, total: number): Promise<void> {
+  await page.selectOption("#sample", sample);
+  await page.locator(`#status[data-state="ready"][data-total="${total}"]`).waitFor({ state: "attached" });
+  await page.locator("#progress").waitFor({ state: "hidden" });
+}
+
+/** Wherever it is folded away. */
+async function press(page: Page, selector: string): Promise<void> {
+  await page.locator(selector).first().evaluate((element: HTMLElement) => { element.click(); });
+  await upToDate(page);
+}
+
+/** Through what can be switched on, and off again. */
+async function around(page: Page): Promise<void> {
+  for (const mode of ["dimmed", "shown", "off"]) await press(page, `[name="hidden"][value="${mode}"]`);
+  for (const color of ["height", "own"]) await page.selectOption("#color", color);
+  await press(page, '[name="show"][value="surface"]');
+  await press(page, "#add-light");
+  await step(page, "ArrowRight");
+  await press(page, "#lights-list button");
+  await press(page, '[name="show"][value="points"]');
+  for (const frozen of [true, false]) await press(page, `#freeze[aria-pressed="${!frozen}"]`);
+  for (const compared of [true, false]) await press(page, `#tool-compare[aria-pressed="${!compared}"]`);
+  await press(page, "#tool-select");
+  await press(page, "#select-all");
+  await press(page, "#select-clear");
+  await press(page, "#tool-measure");
+  for (const end of ["first", "second"]) await page.locator("#view").click({ position: { x: end === "first" ? 180 : 200, y: 200 } });
+  await press(page, "#measure-clear");
+  await press(page, "#tool-measure");
+}
+
+test("what the page holds does not grow with answers, clouds or modes", async () => {
+  // Small, because it is drawn in software.
+  const page = await openReady("?sample=dragon_res4", { viewport: { width: 770, height: 420 } }, countHoldings);
+  await around(page);
+  for (let i = 0; i < 10; i++) await step(page, "ArrowLeft");
+  await change(page, "bunny", 1839);
+  await change(page, "dragon_res4", 5205);
+  const first = await held(page);
+
+  for (let i = 0; i < 30; i++) await step(page, "ArrowLeft");
+  expectNoMore(await held(page), first);
+
+  await around(page);
+  for (let i = 0; i < 3; i++) {
+    await change(page, "bunny", 1839);
+    await change(page, "dragon_res4", 5205);
+  }
+  expectNoMore(await held(page), first);
+});

@@ -1,0 +1,81 @@
+// docs/ACCESSIBILITY.md: what axe-core says of every state of the page that its tests visit.
+import axe, { type AxeResults } from "axe-core";
+
+import { audit, JUDGED, TAGS, VISITS } from "../browser/accessibility.js";
+import { poorContrast } from "../browser/contrast.js";
+import type { Studio } from "./studio.js";
+
+interface Finding {
+  state: string;
+  result: AxeResults;
+  poor: string[];
+}
+
+/** Each visit on a page of its own, each step of it audited. */
+export async function accessibilityText(studio: Studio): Promise<string> {
+  const found: Finding[] = [];
+  for (const { name, query, options, steps } of VISITS) {
+    console.error(`Visiting ${name}…`);
+    await studio.visit(query, options, async (page) => {
+      for (const step of steps) {
+        await step.act(page);
+        found.push({ state: `${name}: ${step.name}`, result: await audit(page), poor: await poorContrast(page) });
+      }
+    });
+  }
+  return text(found);
+}
+
+function text(found: Finding[]): string {
+  const rules = new Map<string, { help: string; tags: string[]; passed: number; violated: string[]; open: string[] }>();
+  const rule = ({ id, help, tags }: AxeResults["passes"][number]) => {
+    const known = rules.get(id) ?? { help, tags, passed: 0, violated: [], open: [] };
+    rules.set(id, known);
+    return known;
+  };
+  for (const { state, result } of found) {
+    for (const passed of result.passes) rule(passed).passed++;
+    for (const violation of result.violations) rule(violation).violated.push(state);
+    for (const open of result.incomplete) rule(open).open.push(state);
+  }
+  const all = [...rules].sort(([a], [b]) => a.localeCompare(b));
+  const violations = all.filter(([, { violated }]) => violated.length > 0);
+  const open = all.filter(([, { open: states }]) => states.length > 0);
+  const poor = found.flatMap(({ state, poor: texts }) => texts.map((one) => `${state}: ${one}`));
+  return [
+    "# Accessibility of the demo page",
+    "",
+    `axe-core ${axe.version}, rules ${TAGS.join(", ")}, in ${found.length} states of the page: both themes, wide, on a phone and in another page.`,
+    "Written by `npm run figures -- accessibility`; `tests/browser/accessibility.test.ts` wants the same result with every landing.",
+    "",
+    `**Violations: ${violations.length}.** ${list(violations.map(([id, { violated }]) => `\`${id}\` (${violated.join("; ")})`))}`,
+    "",
+    `**Texts below 4.5 to 1 (large ones 3 to 1): ${poor.length}.** ${list(poor)}`,
+    "",
+    "## Left open by axe-core, and judged",
+    "",
+    ...(open.length === 0 ? ["Nothing."] : open.map(([id, { open: states }]) => `- \`${id}\` in ${states.length} states. ${JUDGED[id] ?? "Not judged yet."}`)),
+    "",
+    "## What other tests check",
+    "",
+    "- `keyboard.test.ts`: Tab reaches everything at both widths and in both themes, each focus has a ring of at least 3 to 1 in sight, the page lets go of it; full screen; reduced motion.",
+    "- `layout.test.ts`: nothing overlaps, also with text of twice the size, on a phone held sideways and with the system's own colors.",
+    "- `loading.test.ts`: nothing moves about while the page loads.",
+    "- `controls.test.ts`: a new sentence is announced once, after the movement that changes it.",
+    "",
+    "## States",
+    "",
+    ...found.map(({ state, result }) => `- ${state}: ${result.passes.length} rules passed, ${result.violations.length} violated, ${result.incomplete.length} open`),
+    "",
+    "## Rules that passed",
+    "",
+    "| rule | what it asks | states |",
+    "|---|---|---|",
+    ...all.filter(([, { passed }]) => passed > 0).map(([id, { help, passed }]) => `| \`${id}\` | ${help.replaceAll("<", "&lt;")} | ${passed} |`),
+    "",
+  ].join("\n");
+}
+
+function list(items: string[]): string {
+  return items.length === 0 ? "" : items.join(", ");
+}

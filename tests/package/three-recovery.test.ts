@@ -1,0 +1,244 @@
+// What both filters for three.js do when their worker dies, and when they are told rude things.
+import type threads from "node:worker_threads";
+import { init, PointCloud } from "hidden-point-removal";
+import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
+import { HiddenPointFilter } from "hidden-point-removal/three";
+import * as THREE from "three";
+import { afterEach, beforeAll, beforeEach, describe, expect, it, vi } from "vitest";
+
+import { HprError } from "../../src/ts/errors.js";
+import { Recovery } from "../../src/ts/three/recovery.js";
+import { OriginalWorker, replaceWorker } from "./node-workers";
+import { bumpySphere } from "./support";
+import { drawn } from "./three-support";
+
+const sphere = bumpySphere(1, 3000);
+
+beforeAll(() => init());
+
+describe("what was lost is made again", () => {
+  const lost = new HprError("internal", "the worker died");
+  let made = 0;
+  let recovery: Recovery;
+
+  beforeEach(() => {
+    vi.useFakeTimers();
+    made = 0;
+    recovery = new Recovery(() => made++);
+  });
+
+  afterEach(() => {
+    vi.useRealTimers();
+  });
+
+  /** Loses it again and again as soon as it is made, for so many milliseconds. */
+  function lose(milliseconds: number, wish?: boolean): number[] {
+    const times: number[] = [];
+    let before = made;
+    for (let now = 0; now < milliseconds; now += 10) {
+      vi.advanceTimersByTime(10);
+      if (wish !== undefined) recovery.wish(wish);
+      if (made > before) {
+        before = made;
+        times.push(now + 10);
+        recovery.notices(lost);
+      }
+    }
+    return times;
+  }
+
+  it("at once, then after growing delays, then not of itself", () => {
+    expect(recovery.notices(lost)).toBe(true);
+    expect(recovery).toMatchObject({ isLost: true, isUnderWay: true });
+    expect(lose(60_000)).toEqual([10, 210, 1210]);
+    expect(recovery).toMatchObject({ isLost: true, isUnderWay: false });
+  });
+
+  it.each([
+    [true, [10, 210, 1210, 2210, 3210, 4210]],
+    [false, [10, 210, 1210]],
+  ])("then after pauses, while somebody wants it; another view: %s", (isNew, times) => {
+    recovery.notices(lost);
+    expect(lose(5000, isNew)).toEqual(times);
+    expect(lose(isNew ? 999 : 30_000, isNew)).toHaveLength(1);
+  });
+
+  it("at once again when there was an answer in between", () => {
+    recovery.notices(lost);
+    lose(5000);
+    vi.advanceTimersByTime(1000);
+    recovery.wish(true);
+    recovery.answered();
+    expect(recovery.isLost).toBe(false);
+    recovery.notices(lost);
+    expect(lose(5000)).toEqual([10, 210, 1210]);
+  });
+
+  it("not when it was another error, nor after the end", () => {
+    expect(recovery.notices(new HprError("radius", "too small"))).toBe(false);
+    expect(recovery.isLost).toBe(false);
+    recovery.notices(lost);
+    recovery.stop();
+    expect(lose(5000)).toEqual([]);
+  });
+});
+
+/** One cloud, in one piece or as a node, and what is told of its filter. */
+function pointsOf(positions = sphere) {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
+  const points = new THREE.Points(geometry, new THREE.PointsMaterial());
+  const camera = new THREE.PerspectiveCamera();
+  camera.position.set(0, 0, 5);
+  new THREE.Scene().add(new THREE.Group().add(points), camera);
+  return { geometry, points, camera };
+}
+
+const filters: { dispose(): void }[] = [];
+
+afterEach(() => {
+  for (const filter of filters.splice(0)) filter.dispose();
+});
+
+describe.each([
+  ["HiddenPointFilter", (points: THREE.Points, options: object) => new HiddenPointFilter(points, options)],
+  ["HiddenPointNodesFilter", (points: THREE.Points, options: object) => new HiddenPointNodesFilter(points.parent!, options)],
+] as const)("%s", (_, make) => {
+  function filterFor(points: THREE.Points, options: object = {}) {
+    const filter = make(points, options);
+    filters.push(filter);
+    const errors: Error[] = [];
+    const listener = ({ error }: { error: Error }) => {
+      errors.push(error);
+    };
+    filter.addEventListener("error", listener);
+    return { filter, errors, listener };
+  }
+
+  const visibleFrom = (camera: THREE.Camera, positions = sphere) => [...new PointCloud(positions).visibleFrom(camera.position.toArray()).indices];
+  const next = () => new Promise((resolve) => setTimeout(resolve, 1));
+
+  describe("with workers that die as soon as they run", () => {
+    let started = 0;
+    let dying = 0;
+
+    beforeEach(() => {
+      started = 0;
+      replaceWorker(
+        class extends OriginalWorker {
+          constructor(...args: ConstructorParameters<typeof threads.Worker>) {
+            super(...args);
+            if (started++ < dying) this.once("message", () => void this.terminate());
+          }
+        },
+      );
+    });
+
+    afterEach(() => {
+      replaceWorker(OriginalWorker);
+    });
+
+    it("gets over several in a row without a word", async () => {
+      dying = 3;
+      const { points, camera, geometry } = pointsOf();
+      const { filter, errors } = filterFor(points);
+      filter.update(camera);
+      await expect.poll(() => drawn(geometry)).toEqual(visibleFrom(camera));
+      expect(started).toBe(4);
+      expect(errors).toEqual([]);
+    });
+
+    it("says once that there is no end to it, and tries again from another viewpoint", async () => {
+      dying = 4;
+      const { points, camera, geometry } = pointsOf();
+      const { filter, errors } = filterFor(points);
+      filter.update(camera);
+      await expect.poll(() => errors).toHaveLength(1);
+      expect(errors[0]).toMatchObject({ name: "HprError", code: "internal" });
+      for (let frame = 0; frame < 100; frame++) {
+        filter.update(camera);
+        await next();
+      }
+      expect(started).toBe(4);
+      expect(drawn(geometry)).toHaveLength(3000);
+      camera.position.set(5, 1, 0);
+      await expect
+        .poll(() => {
+          filter.update(camera);
+          return drawn(geometry);
+        })
+        .toEqual(visibleFrom(camera));
+      expect(started).toBe(5);
+      expect(errors).toHaveLength(1);
+    });
+  });
+
+  it("reports an error that nobody listens to any more as an unhandled rejection", async () => {
+    const { points, camera } = pointsOf();
+    const { filter, errors, listener } = filterFor(points, { radius: 1 });
+    if ("ready" in filter) await filter.ready;
+    filter.removeEventListener("error", listener);
+    const reject = vi.spyOn(Promise, "reject").mockReturnValue(Promise.resolve());
+    filter.update(camera);
+    await expect.poll(() => reject.mock.calls).toHaveLength(1);
+    expect(reject.mock.calls[0]![0]).toMatchObject({ code: "radius" });
+    reject.mockRestore();
+    expect(errors).toEqual([]);
+  });
+
+  const loose = (object: object) => object as Record<string, unknown>;
+  it.each<[what: string, code: string, words: string, spoil: (points: THREE.Points) => () => void]>([
+    ...[undefined, null, {}, 7].map((value): [string, string, string, (points: THREE.Points) => () => void] => [
+      `a geometry that is ${JSON.stringify(value)}`,
+      "option",
+      "geometry",
+      (points) => replaced(loose(points), "geometry", value),
+    ]),
+    ...[undefined, null, {}, [1, 2, 3], 7].map((value): [string, string, string, (points: THREE.Points) => () => void] => [
+      `positions that are ${JSON.stringify(value)}`,
+      "positions-type",
+      "position",
+      ({ geometry }) => replaced(geometry.attributes, "position", value),
+    ]),
+    ["no attributes", "positions-type", "position", ({ geometry }) => replaced(loose(geometry), "attributes", undefined)],
+    ["an index that is an array", "option", "index", ({ geometry }) => replaced(loose(geometry), "index", [1, 2, 3])],
+    ["an index that is undefined", "option", "index", ({ geometry }) => replaced(loose(geometry), "index", undefined)],
+    ["an index of NaN", "option", "index[1]", ({ geometry }) => replaced(loose(geometry), "index", new THREE.Float32BufferAttribute([0, NaN], 1))],
+    ["no draw range", "option", "drawRange", ({ geometry }) => replaced(loose(geometry), "drawRange", undefined)],
+    ["a draw range of NaN", "option", "drawRange", ({ geometry }) => replaced(loose(geometry), "drawRange", { start: NaN, count: 7 })],
+    ["no material", "option", "dimMaterial", (points) => replaced(loose(points), "material", undefined)],
+    ["a material that cannot be dimmed", "option", "ShaderMaterial", (points) => replaced(loose(points), "material", new THREE.ShaderMaterial())],
+  ])("refuses %s while it filters, once, and goes on when that is over", async (_what, code, words, spoil) => {
+    const { points, camera, geometry } = pointsOf();
+    const { filter, errors } = filterFor(points, { worker: false, mode: "dim" });
+    const update = async () => {
+      filter.update(camera);
+      await next();
+    };
+    filter.update(camera);
+    await expect.poll(() => drawn(geometry)).toEqual(visibleFrom(camera));
+    const mend = spoil(points);
+    for (let frame = 0; frame < 4; frame++) await update();
+    expect(errors).toHaveLength(1);
+    expect(errors[0]).toMatchObject({ name: "HprError", code, message: expect.stringContaining(words) as string });
+    mend();
+    camera.position.set(3, 4, 0);
+    await update();
+    await expect.poll(async () => {
+      await update();
+      return drawn(geometry);
+    }).toEqual(visibleFrom(camera));
+    expect(errors).toHaveLength(1);
+    filter.dispose();
+    expect([geometry.index, geometry.drawRange]).toEqual([null, { start: 0, count: Infinity }]);
+  });
+});
+
+/** Puts another value in a property, and back. */
+function replaced(object: Record<string, unknown>, name: string, value: unknown): () => void {
+  const before = object[name];
+  object[name] = value;
+  return () => {
+    object[name] = name === "index" ? null : name === "drawRange" ? { start: 0, count: Infinity } : before;
+  };
+}

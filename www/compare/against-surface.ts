@@ -1,0 +1,111 @@
+import type { TimedView } from "../ask/inquiry.ts";
+import { Newest } from "../ask/newest.ts";
+import { isSamePlace } from "../ask/question.ts";
+import type { KnownSurface } from "../samples.ts";
+import type { Viewpoint } from "../settings.ts";
+import type { Viewer } from "../viewer.ts";
+import type { TruthAnswer, TruthQuestion } from "./protocol.ts";
+import { Reference, sentenceOf } from "./reference.ts";
+
+/** So many milliseconds the view has to rest before rays are traced. */
+const REST = 300;
+
+/** Ours beside the truth, for as long as it is wanted: rays are traced when the view rests. */
+export class AgainstSurface {
+  result: { truth: TruthAnswer; ours: TimedView } | null = null;
+  problem: string | null = null;
+  /** 0 … 1 while rays are traced. */
+  progress: number | null = null;
+  stopped = false;
+  private readonly viewer: Viewer;
+  private readonly changed: () => void;
+  private readonly surface: KnownSurface;
+  private readonly worker: Reference<TruthQuestion, TruthAnswer>;
+  private readonly origin: Viewpoint;
+  private readonly newest = new Newest<TimedView>((ours) => this.ask(ours));
+  /** The viewpoint of the truth that is known or traced. */
+  private at: Viewpoint | null = null;
+  private asked: TimedView | null = null;
+  private since = -Infinity;
+  private ended = false;
+
+  constructor(viewer: Viewer, surface: KnownSurface, changed: () => void) {
+    this.viewer = viewer;
+    this.changed = changed;
+    // The worker is not where the page is.
+    this.surface = "faces" in surface ? { faces: new URL(surface.faces, document.baseURI).href } : surface;
+    const { positions, cloud } = viewer.scene;
+    // A mesh is traced in f32: as the file has it where it is that, and else, as a map's is, around its middle.
+    const single = positions instanceof Float32Array;
+    this.origin = single ? [0, 0, 0] : cloud.center;
+    this.worker = new Reference(new Worker(new URL("./truth-worker.ts", import.meta.url), { type: "module" }), single ? positions : cloud.local);
+    this.worker.onProgress = (fraction) => {
+      this.progress = fraction;
+      changed();
+    };
+  }
+
+  /** Called every frame. */
+  follow(): void {
+    const { answer, inquiry, cloud } = this.viewer.scene;
+    if (!this.at || !isSamePlace(answer.question.viewpoint, this.at, cloud.radius)) this.leave(answer.question.viewpoint);
+    if (inquiry.busy) this.since = performance.now();
+    const rests = performance.now() - this.since >= REST;
+    // Seen from the same place, the truth is known, and only ours has changed.
+    const due = this.result ? answer !== this.asked : rests && !this.stopped && this.progress === null;
+    if (!due || this.problem !== null) return;
+    this.asked = answer;
+    if (!this.result) {
+      this.progress = 0;
+      this.changed();
+    }
+    this.newest.want(answer);
+  }
+
+  /** Gives up what is being traced, until the view is another or `again`. */
+  stop(): void {
+    this.stopped = true;
+    this.worker.stop();
+    this.changed();
+  }
+
+  again(): void {
+    this.stopped = false;
+  }
+
+  dispose(): void {
+    this.ended = true;
+    this.worker.dispose();
+  }
+
+  /** The view has moved: what was traced belongs to another. */
+  private leave(at: Viewpoint): void {
+    this.at = at;
+    if (this.progress !== null) this.worker.stop();
+    this.result = null;
+    this.stopped = false;
+    this.since = performance.now();
+    this.viewer.showParts(null);
+    this.changed();
+  }
+
+  private async ask(ours: TimedView): Promise<void> {
+    const { question, visibility } = ours;
+    try {
+      const viewpoint = question.viewpoint.map((value, axis) => value - this.origin[axis]!) as Viewpoint;
+      const truth = await this.worker.ask({ surface: this.surface, viewpoint, visible: visibility.indices });
+      if (this.ended) return;
+      // What came for a view that has been left since is not shown.
+      if (truth !== null && !this.stopped && this.at && isSamePlace(this.at, question.viewpoint, this.viewer.scene.cloud.radius)) {
+        this.result = { truth, ours };
+        this.viewer.showParts(truth.parts, true);
+      }
+    } catch (error) {
+      if (this.ended) return;
+      this.problem = `No rays could be traced: ${sentenceOf(error)}`;
+      this.viewer.showParts(null);
+    }
+    this.progress = null;
+    this.changed();
+  }
+}

@@ -1,0 +1,35 @@
+export interface Mesh {
+  positions: Float32Array;
+  /** Three indices each. */
+  triangles: Uint32Array;
+}
+
+/** A patch of surface for 0 … 1 twice, as so many by so many rectangles cut in two. */
+export function grid(columns: number, rows: number, at: (u: number, v: number) => readonly number[]): Mesh {
+  const positions = new Float32Array(3 * (columns + 1) * (rows + 1));
+  const triangles = new Uint32Array(6 * columns * rows);
+  for (let row = 0; row <= rows; row++) {
+    for (let column = 0; column <= columns; column++) {
+      const corner = row * (columns + 1) + column;
+      positions.set(at(column / columns, row / rows), 3 * corner);
+      if (row === rows || column === columns) continue;
+      const [right, up] = [corner + 1, corner + columns + 1];
+      triangles.set([corner, right, up, up, right, up + 1], 6 * (row * columns + column));
+    }
+  }
+  return { positions, triangles };
+}
+
+/** Several meshes as one. */
+export function joined(meshes: readonly Mesh[]): Mesh {
+  const positions = new Float32Array(meshes.reduce((sum, mesh) => sum + mesh.positions.length, 0));
+  const triangles = new Uint32Array(meshes.reduce((sum, mesh) => sum + mesh.triangles.length, 0));
+  let [point, corner] = [0, 0];
+  for (const mesh of meshes) {
+    positions.set(mesh.positions, 3 * point);
+    triangles.set(mesh.triangles.map((index) => index + point), corner);
+    point += mesh.positions.length / 3;
+    corner += mesh.triangles.length;
+  }
+  return { positions, triangles };
+}

@@ -1,0 +1,54 @@
+import { HIDDEN, partsOf, VISIBLE } from "./parts.ts";
+import { oracleFor } from "./oracles.ts";
+import type { KnownSurface } from "../samples.ts";
+import type { TruthAnswer, TruthQuestion } from "./protocol.ts";
+import { receive } from "./receive.ts";
+import type { Oracle } from "./tracer.ts";
+
+/** Messages are looked at, and progress is told, after so many milliseconds; the clock is looked at after so many rays. */
+const TURN = 50;
+const RAYS = 64;
+
+interface Traced {
+  place: string;
+  said: Uint8Array;
+  milliseconds: number;
+}
+
+let oracle: Oracle | null = null;
+/** What was traced last: other settings of ours do not change the truth. */
+let traced: Traced | null = null;
+
+receive(async (positions, { surface, viewpoint, visible: ours }: TruthQuestion, stopped, progress): Promise<TruthAnswer | null> => {
+  const place = viewpoint.join();
+  if (traced?.place !== place) traced = await trace(surface, positions, viewpoint, stopped, progress);
+  if (traced === null) return null;
+  const { said, milliseconds } = traced;
+  return { parts: partsOf(said, ours), visible: said.reduce((sum, one) => sum + one, 0), milliseconds };
+});
+
+async function trace(
+  surface: KnownSurface,
+  positions: Float32Array,
+  viewpoint: readonly number[],
+  stopped: () => boolean,
+  progress: (fraction: number) => void,
+): Promise<Traced | null> {
+  oracle ??= await oracleFor(surface, positions);
+  const { count } = oracle;
+  if (count !== positions.length / 3) throw new Error("its surface is that of another cloud");
+  const sees = oracle.from(viewpoint);
+  const said = new Uint8Array(count);
+  let milliseconds = 0;
+  for (let i = 0; i < count; ) {
+    if (stopped()) return null;
+    const begun = performance.now();
+    while (i < count && performance.now() < begun + TURN) {
+      for (const end = Math.min(count, i + RAYS); i < end; i++) said[i] = sees(i) ? VISIBLE : HIDDEN;
+    }
+    milliseconds += performance.now() - begun;
+    progress(i / count);
+    await new Promise((resolve) => setTimeout(resolve));
+  }
+  return { place: viewpoint.join(), said, milliseconds };
+}

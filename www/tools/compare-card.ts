@@ -1,0 +1,154 @@
+import type { AgainstPicture } from "../compare/against-picture.ts";
+import type { AgainstSurface } from "../compare/against-surface.ts";
+import { byId } from "../panel/dom.ts";
+import { Segmented } from "../panel/segmented.ts";
+import { Slider } from "../panel/slider.ts";
+import type { KnownSurface } from "../samples.ts";
+import type { Against, Store } from "../settings.ts";
+
+const number = new Intl.NumberFormat("en-US");
+
+interface Row {
+  label: string;
+  color?: string;
+  count: number;
+  more: string;
+}
+
+/** What is said on either side of the divider, where it is not that all points are on its left. */
+export interface Sides {
+  left: string;
+  right: string;
+}
+
+/** The choice of what ours is compared with, and the figures of it. */
+export class CompareCard {
+  private readonly card = byId("compare-card");
+  private readonly against: Segmented<Against>;
+  private readonly againstNote = byId("against-note");
+  private readonly splat: Slider;
+  private readonly splatAuto = byId("splat-auto", HTMLButtonElement);
+  private readonly tracing = byId("compare-tracing");
+  private readonly progress = byId("compare-progress", HTMLProgressElement);
+  private readonly stop = byId("compare-stop", HTMLButtonElement);
+  private readonly figures = byId("compare-figures", HTMLTableElement);
+  private readonly result = byId("compare-result");
+  private readonly store: Store;
+
+  /** `onStop`: gives up tracing, or takes it up again. */
+  constructor(store: Store, onStop: () => void) {
+    this.store = store;
+    this.against = new Segmented<Against>("against", (against) => { store.change({ against }); });
+    this.splat = new Slider("splat", (width) => `${width} px`, (splat) => { store.change({ splat }); });
+    this.splatAuto.addEventListener("click", () => { store.change({ splat: "auto" }); });
+    this.stop.addEventListener("click", onStop);
+  }
+
+  /** `null`: nothing is compared. */
+  show(surface: KnownSurface | string | null): void {
+    this.card.hidden = surface === null;
+    if (surface === null) return;
+    const { against, splat } = this.store.current;
+    this.against.value = against;
+    const unknown = typeof surface === "string";
+    this.card.querySelector<HTMLInputElement>('[value="surface"]')!.disabled = unknown;
+    this.againstNote.hidden = !unknown;
+    this.againstNote.textContent = unknown ? `No true surface. ${surface}` : "";
+    byId("splat-choice").hidden = against !== "zbuffer";
+    this.splatAuto.setAttribute("aria-pressed", String(splat === "auto"));
+    if (splat !== "auto") this.splat.value = splat;
+  }
+
+  /** All points: there is nothing to count. */
+  showAll(): void {
+    this.tracing.hidden = true;
+    this.fill([], 0, 0);
+    this.result.textContent = "";
+  }
+
+  showPicture({ result, problem }: AgainstPicture): Sides {
+    this.tracing.hidden = true;
+    if (problem !== null || !result) {
+      this.fill([], 0, 0);
+      this.result.textContent = problem ?? "";
+      return { left: "Z-buffer", right: "Ours" };
+    }
+    const { picture, ours } = result;
+    const [both, onlyOurs, onlyReference, outside] = picture.parts.ends;
+    const [mine, theirs] = [onlyOurs - both, onlyReference - onlyOurs];
+    if (this.store.current.splat === "auto") this.splat.value = picture.splat;
+    const share = (count: number) => percent(count, picture.inside);
+    this.fill(
+      [
+        { label: "Z-buffer", count: picture.visible, more: time(picture.milliseconds) },
+        { label: "Ours", count: onlyOurs, more: time(ours.milliseconds) },
+        { label: "Only the z-buffer", color: "var(--only-reference)", count: theirs, more: share(theirs) },
+        { label: "Only ours", color: "var(--only-ours)", count: mine, more: share(mine) },
+      ],
+      picture.inside,
+      picture.milliseconds,
+    );
+    const beyond = outside - onlyReference;
+    const more = beyond > 0 ? ` Ours sees ${number.format(beyond)} more.` : "";
+    this.result.textContent = `Of the ${number.format(picture.inside)} points in the picture: it knows no others.${more}`;
+    return { left: `Z-buffer: ${number.format(picture.visible)}`, right: `Ours: ${number.format(onlyOurs)}` };
+  }
+
+  showSurface({ result, problem, progress, stopped }: AgainstSurface, total: number): Sides {
+    this.tracing.hidden = (progress === null && !stopped) || problem !== null || result !== null;
+    this.progress.hidden = stopped;
+    this.progress.value = progress ?? 0;
+    this.stop.textContent = stopped ? "Trace rays" : "Stop";
+    if (!result) {
+      this.fill([], 0, 0);
+      this.result.textContent = problem ?? (stopped ? "Tracing was stopped." : "Rays are traced when the view rests.");
+      return { left: "Ours", right: "Ours" };
+    }
+    const { truth, ours } = result;
+    const [both, onlyOurs, onlyReference] = truth.parts.ends;
+    const [wrong, missed] = [onlyOurs - both, onlyReference - onlyOurs];
+    this.fill(
+      [
+        { label: "Rays", count: truth.visible, more: time(truth.milliseconds) },
+        { label: "Ours", count: onlyOurs, more: time(ours.milliseconds) },
+        { label: "Wrongly shown", color: "var(--only-ours)", count: wrong, more: percent(wrong, total) },
+        { label: "Wrongly hidden", color: "var(--only-reference)", count: missed, more: percent(missed, total) },
+      ],
+      total,
+      truth.milliseconds,
+    );
+    this.result.textContent = `Of all ${number.format(total)} points; together ${percent(wrong + missed, total)}.`;
+    return { left: `True: ${number.format(truth.visible)}`, right: `Ours: ${number.format(onlyOurs)}` };
+  }
+
+  private fill(rows: readonly Row[], of: number, milliseconds: number): void {
+    this.figures.hidden = rows.length === 0;
+    this.figures.tBodies[0]!.replaceChildren(...rows.map(rowOf));
+    Object.assign(this.figures.dataset, { counts: rows.map(({ count }) => count).join(), of: String(of), milliseconds: String(milliseconds) });
+  }
+}
+
+function rowOf({ label, color, count, more }: Row): HTMLTableRowElement {
+  const row = document.createElement("tr");
+  const head = document.createElement("th");
+  head.scope = "row";
+  if (color !== undefined) {
+    const swatch = document.createElement("span");
+    swatch.className = "swatch";
+    swatch.style.background = color;
+    head.append(swatch);
+  }
+  head.append(label);
+  row.append(head);
+  for (const text of [number.format(count), more]) row.insertCell().textContent = text;
+  return row;
+}
+
+function percent(count: number, of: number): string {
+  return `${of > 0 ? ((100 * count) / of).toFixed(2) : "0.00"}\u00a0%`;
+}
+
+function time(milliseconds: number): string {
+  if (milliseconds >= 1000) return `${(milliseconds / 1000).toFixed(1)}\u00a0s`;
+  return `${milliseconds < 10 ? milliseconds.toFixed(1) : Math.round(milliseconds)}\u00a0ms`;
+}

@@ -1,0 +1,17 @@
+/** The share of the values below and above which there may be strays, and how many values tell where that is. */
+const STRAYS = 0.01;
+const SAMPLE = 5000;
+
+/** Between which two of a cloud's values nearly all are; two equal ones where nothing else is finite. */
+export function spreadOf(count: number, value: (i: number) => number): [low: number, high: number] {
+  const step = Math.ceil(count / SAMPLE);
+  const sample = new Float64Array(Math.ceil(count / step));
+  let finite = 0;
+  for (let i = 0; i < count; i += step) {
+    const one = value(i);
+    if (Number.isFinite(one)) sample[finite++] = one;
+  }
+  const sorted = sample.subarray(0, finite).sort();
+  const at = (share: number) => sorted[Math.round(share * (finite - 1))] ?? 0;
+  return [at(STRAYS), at(1 - STRAYS)];
+}
