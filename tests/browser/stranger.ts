@@ -60,7 +60,7 @@ export async function settledState(page: Page, id: string): Promise<string> {
 
 /** Something asked of an element in the page. */
 export function element<T, Given = undefined>(page: Page, id: string, ask: (cloud: HiddenPointCloudElement, given: Given) => T | Promise<T>, given?: Given): Promise<T> {
-  return page.locator(`#${id}`).evaluate(ask as never, given) as Promise<T>;
+  return page.locator(`#${id}`).evaluate<T, Given | undefined, HiddenPointCloudElement>(ask as never, given);
 }
 
 export function heardBy(page: Page, id: string, type: string): Promise<Heard["detail"][]> {
