@@ -117,6 +117,8 @@ test.for([
   const bar = (await page.locator("#tool-bar").boundingBox())!;
   expect(bar.y).toBeGreaterThan(view.y + 0.4 * view.height);
   expect(bar.x + bar.width).toBeLessThanOrEqual(view.x + view.width);
+  await page.locator("#tool-export").click();
+  expect(await page.locator("#tool-card").evaluate(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth)).toBeLessThanOrEqual(0);
 });
 
 test("fingers have 44 pixels for everything they can press", async () => {
