@@ -204,6 +204,21 @@ describe("a cloud split into nodes", () => {
     expect(drawnOf(nodes)).toHaveLength(3000);
   });
 
+  it("is that however much of it was removed before", async () => {
+    const nodes = split(dragon(), 10);
+    const scene = sceneOf(nodes);
+    scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0.3, 0.4, 0.5)).toArray());
+    for (let edit = 0; edit < 3; edit++) {
+      for (const { geometry } of nodes) {
+        const position = geometry.attributes["position"] as THREE.BufferAttribute;
+        position.setX(0, position.getX(0) + 1e-3);
+        position.needsUpdate = true;
+      }
+      await settle(scene);
+      expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene));
+    }
+  });
+
   it("may be listed by its viewer, and edited or moved", async () => {
     const nodes = split(bumpySphere(1, 3000), 3);
     let listed = nodes.slice(0, 10);
