@@ -3,9 +3,10 @@ export const BATCH = 8192;
 
 /** Puts pieces together to a file that the browser saves. Between the pieces the page goes on drawing. */
 export async function save(name: string, parts: Iterable<BlobPart>): Promise<void> {
-  const done: BlobPart[] = [];
+  const done: Blob[] = [];
   for (const part of parts) {
-    done.push(part);
+    // Each by itself: text is encoded here, and megabytes of it at the end would hold the page up.
+    done.push(new Blob([part]));
     await new Promise((resolve) => setTimeout(resolve));
   }
   const link = document.createElement("a");

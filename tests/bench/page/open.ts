@@ -4,7 +4,7 @@ import type { Browser, BrowserContext, Page } from "playwright-core";
 import { median, type Row, type Table } from "../report.js";
 import { newContext, ready, watchedBy, watchedPage } from "./visit.js";
 
-const VISITS = 5;
+const VISITS = 3;
 const QUERIES = { "dragon, as the page opens": "", "dragon 23k": "?sample=dragon_res3", room: "?sample=room" };
 
 interface Visit {

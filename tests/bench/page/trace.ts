@@ -27,7 +27,7 @@ interface Event {
   ts: number;
   dur?: number;
   tdur?: number;
-  args: { name?: string; data?: { frames?: { url: string; processId: number }[]; functionName?: string; type?: string } };
+  args: { name?: string; data?: { functionName?: string; type?: string } };
 }
 
 const CATEGORIES = ["-*", "devtools.timeline", "disabled-by-default-devtools.timeline", "v8", "v8.execute", "blink.user_timing"];
@@ -48,12 +48,7 @@ export async function traced(browser: Browser, page: Page, action: () => Promise
 }
 
 function read(events: Event[]): Trace {
-  const started = events.find(({ name }) => name === "TracingStartedInBrowser");
-  const page = started?.args.data?.frames?.find(({ url }) => url.startsWith("http"))?.processId;
-  const own = events.filter(({ pid }) => page === undefined || pid === page);
-  const thread = own.find(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain");
-  if (!thread) throw new Error("The trace does not tell which thread is the page's.");
-  const parts = own.filter(({ ph, tid, pid }) => ph === "X" && tid === thread.tid && pid === thread.pid).sort((a, b) => a.ts - b.ts || (b.dur ?? 0) - (a.dur ?? 0));
+  const parts = ofThePage(events).filter(({ ph }) => ph === "X").sort((a, b) => a.ts - b.ts || (b.dur ?? 0) - (a.dur ?? 0));
   const tasks = parts.filter(({ name }) => name === "RunTask");
   let next = 0;
   return {
@@ -66,6 +61,15 @@ function read(events: Event[]): Trace {
     }),
     frames: parts.filter(({ name }) => name === "FireAnimationFrame").map(({ ts }) => ts / 1000),
   };
+}
+
+/** The browser has other pages' threads, too; none of them draws frames. */
+function ofThePage(events: Event[]): Event[] {
+  const threads = events.filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain");
+  const all = threads.map((thread) => events.filter(({ pid, tid }) => pid === thread.pid && tid === thread.tid));
+  const frames = (own: Event[]) => own.filter(({ name }) => name === "FireAnimationFrame").length;
+  if (all.length === 0) throw new Error("The trace does not tell which thread is the page's.");
+  return all.reduce((a, b) => (frames(b) > frames(a) ? b : a));
 }
 
 function taskOf(task: Event, inside: Event[]): Task {
