@@ -28,7 +28,7 @@ export type HprErrorCode =
  * | `too-large` | more points than supported, or memory refused; everything else goes on working |
  * | `not-initialised` | a synchronous call before `init()` has resolved |
  * | `load` | the wasm (or the worker) could not be fetched, compiled or started |
- * | `disposed` | use after `dispose()`, or of an answer whose `indices` were transferred away |
+ * | `disposed` | use after `dispose()`, or of an answer whose `indices` were recycled or transferred away |
  * | `internal` | a trap inside the wasm, or a worker that died |
  */
 export class HprError extends Error {
