@@ -239,6 +239,7 @@ test("tracing can be stopped and taken up again", async () => {
   await page.getByLabel("True surface").check();
   await page.getByRole("button", { name: "Stop", exact: true }).click();
   expect(await page.locator("#compare-result").textContent()).toBe("Tracing was stopped.");
+  expect(await page.locator("#compare-note span").first().textContent()).toBe("All 5,205 points");
   release();
   await page.getByRole("button", { name: "Trace rays" }).click();
   expect((await figures(page)).of).toBe(5205);

@@ -81,27 +81,36 @@ export class AgainstSurface {
   /** The view has moved: what was traced belongs to another. */
   private leave(at: Viewpoint): void {
     this.at = at;
+    this.since = performance.now();
     if (this.progress !== null) this.worker.stop();
+    if (!this.result && !this.stopped) return;
     this.result = null;
     this.stopped = false;
-    this.since = performance.now();
     this.viewer.showParts(null);
     this.changed();
   }
 
+  private isOver(): boolean {
+    return this.ended;
+  }
+
   private async ask(ours: TimedView): Promise<void> {
+    if (this.ended) return;
     const { question, visibility } = ours;
+    const at = this.at!;
     try {
-      const viewpoint = question.viewpoint.map((value, axis) => value - this.origin[axis]!) as Viewpoint;
-      const truth = await this.worker.ask({ surface: this.surface, viewpoint, visible: visibility.indices });
-      if (this.ended) return;
+      // Exactly that place: one some bits off would be traced anew.
+      const viewpoint = at.map((value, axis) => value - this.origin[axis]!) as Viewpoint;
+      const current = isSamePlace(question.viewpoint, at, this.viewer.scene.cloud.radius);
+      const truth = current ? await this.worker.ask({ surface: this.surface, viewpoint, visible: visibility.indices }) : null;
+      if (this.isOver()) return;
       // What came for a view that has been left since is not shown.
-      if (truth !== null && !this.stopped && this.at && isSamePlace(this.at, question.viewpoint, this.viewer.scene.cloud.radius)) {
+      if (truth !== null && !this.stopped && this.at === at) {
         this.result = { truth, ours };
         this.viewer.showParts(truth.parts, true);
       }
     } catch (error) {
-      if (this.ended) return;
+      if (this.isOver()) return;
       this.problem = `No rays could be traced: ${sentenceOf(error)}`;
       this.viewer.showParts(null);
     }

@@ -66,12 +66,13 @@ export class CompareCard {
     this.result.textContent = "";
   }
 
-  showPicture({ result, problem }: AgainstPicture): Sides {
+  /** `null`: nothing is known yet, and all points are on the left. */
+  showPicture({ result, problem }: AgainstPicture): Sides | null {
     this.tracing.hidden = true;
     if (problem !== null || !result) {
       this.fill([], 0, 0);
       this.result.textContent = problem ?? "";
-      return { left: "Z-buffer", right: "Ours" };
+      return null;
     }
     const { picture, ours } = result;
     const [both, onlyOurs, onlyReference, outside] = picture.parts.ends;
@@ -94,7 +95,8 @@ export class CompareCard {
     return { left: `Z-buffer: ${number.format(picture.visible)}`, right: `Ours: ${number.format(onlyOurs)}` };
   }
 
-  showSurface({ result, problem, progress, stopped }: AgainstSurface, total: number): Sides {
+  /** `null` as above. */
+  showSurface({ result, problem, progress, stopped }: AgainstSurface, total: number): Sides | null {
     this.tracing.hidden = (progress === null && !stopped) || problem !== null || result !== null;
     this.progress.hidden = stopped;
     this.progress.value = progress ?? 0;
@@ -102,7 +104,7 @@ export class CompareCard {
     if (!result) {
       this.fill([], 0, 0);
       this.result.textContent = problem ?? (stopped ? "Tracing was stopped." : "Rays are traced when the view rests.");
-      return { left: "Ours", right: "Ours" };
+      return null;
     }
     const { truth, ours } = result;
     const [both, onlyOurs, onlyReference] = truth.parts.ends;

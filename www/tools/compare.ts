@@ -98,10 +98,17 @@ export class Compare {
 
   private sides(): Sides {
     const { cloud, visible } = this.viewer.scene;
-    if (this.reference instanceof AgainstPicture) return this.card.showPicture(this.reference);
-    if (this.reference instanceof AgainstSurface) return this.card.showSurface(this.reference, cloud.count);
-    this.card.showAll();
+    const known = this.compared(cloud.count);
+    if (known) return known;
     return { left: `All ${number.format(cloud.count)} points`, right: `${number.format(visible.length)} seen from here` };
+  }
+
+  /** Shows the figures; `null` as long as there are none. */
+  private compared(total: number): Sides | null {
+    if (this.reference instanceof AgainstPicture) return this.card.showPicture(this.reference);
+    if (this.reference instanceof AgainstSurface) return this.card.showSurface(this.reference, total);
+    this.card.showAll();
+    return null;
   }
 
   private bindDivider(): void {
