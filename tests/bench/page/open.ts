@@ -1,5 +1,5 @@
 // How long it takes from the navigation to the first picture.
-import type { Browser, BrowserContext, Page } from "playwright-core";
+import type { Browser, BrowserContext } from "playwright-core";
 
 import { median, type Row, type Table } from "../report.js";
 import { newContext, ready, watchedBy, watchedPage } from "./visit.js";
@@ -10,7 +10,6 @@ const QUERIES = { "dragon, as the page opens": "", "dragon 23k": "?sample=dragon
 interface Visit {
   paint: number;
   picture: number;
-  bytes: number;
 }
 
 export async function timeOpening(browser: Browser, address: string): Promise<Table> {
@@ -29,29 +28,19 @@ export async function timeOpening(browser: Browser, address: string): Promise<Ta
   }
   const note =
     `Milliseconds from the start of the navigation, served by this machine: to the first contentful paint, and to the end of the first frame that shows an answer. Medians of ${VISITS} visits, and the slowest. ` +
-    "Cold: nothing in the browser's cache; warm: the second visit. Kilobytes are those of the response bodies, uncompressed.";
+    "Cold: nothing in the browser's cache; warm: the second visit.";
   return { title: "First picture", note, rows };
 }
 
 async function visit(context: BrowserContext, address: string): Promise<Visit> {
   const page = await watchedPage(context);
-  const bytes = countBytes(page);
   await page.goto(address);
   await ready(page);
   await page.waitForFunction(() => ((globalThis as { watched?: { firstPicture?: number } }).watched?.firstPicture ?? 0) > 0);
   const { firstPicture = NaN } = await watchedBy(page);
   const paint = await page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime ?? NaN);
   await page.close();
-  return { paint, picture: firstPicture, bytes: bytes() };
-}
-
-/** Also what the page's workers ask for. */
-function countBytes(page: Page): () => number {
-  let bytes = 0;
-  page.context().on("response", (response) => {
-    if (!response.fromServiceWorker()) bytes += Number(response.headers()["content-length"] ?? 0);
-  });
-  return () => bytes;
+  return { paint, picture: firstPicture };
 }
 
 function row(cloud: string, cache: string, visits: Visit[]): Row {
@@ -62,6 +51,5 @@ function row(cloud: string, cache: string, visits: Visit[]): Row {
     "first contentful paint": median(visits.map(({ paint }) => paint)),
     "first picture": median(pictures),
     "slowest first picture": Math.max(...pictures),
-    kB: Math.round(median(visits.map(({ bytes }) => bytes)) / 1000),
   };
 }
