@@ -1,4 +1,4 @@
-import { readFileSync } from "node:fs";
+import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { BrowserContext, Page } from "playwright-core";
 import { afterEach, beforeEach, expect, test } from "vitest";
@@ -8,7 +8,7 @@ import { servePage, type Site } from "./site.js";
 import { answered, browser, reached, status } from "./support.js";
 
 const DIST = join(root, "www", "dist");
-let extra: Map<string, Uint8Array>;
+let extra: Map<string, Buffer>;
 let site: Site;
 let context: BrowserContext;
 
@@ -79,7 +79,7 @@ test("after the first load the page works without a network; what is not kept is
 });
 
 test("kept are the page's own files and samples that were opened, and no file of the user's", async () => {
-  extra.set("clouds/own.ply", asciiPly(ball(50)));
+  extra.set("clouds/own.ply", Buffer.from(asciiPly(ball(50))));
   const page = await visit();
   await kept(page);
   await page.goto(`${site.address}?src=clouds/own.ply`);
@@ -101,14 +101,17 @@ test("kept are the page's own files and samples that were opened, and no file of
 test("a newer build wins at the next load, and is never mixed with the one before", async () => {
   const old = await visit();
   await kept(old);
-  const page = dist("index.html");
-  const entry = /assets\/index-[\w-]+\.js/.exec(page)![0];
-  const newer = entry.replace("index-", "newer-");
-  const worker = dist("service-worker.js");
-  const version = /"version":\s*"(\w+)"/.exec(worker)![1]!;
-  extra.set("index.html", Buffer.from(page.replaceAll(entry, newer)));
-  extra.set(newer, Buffer.from(`${dist(entry)}\ndocument.documentElement.dataset.build = "newer";`));
-  extra.set("service-worker.js", Buffer.from(worker.replaceAll(entry, newer).replaceAll(version, "newer")));
+  // Another build of the page: all its scripts have other names, and name one another by these.
+  const scripts = readdirSync(join(DIST, "assets")).filter((name) => name.endsWith(".js"));
+  const names = new RegExp(scripts.map((name) => name.replaceAll(".", "\\.")).join("|"), "g");
+  const renamed = (name: string) => dist(name).replaceAll(names, (script) => `newer-${script}`);
+  for (const name of scripts) extra.set(`assets/newer-${name}`, Buffer.from(renamed(`assets/${name}`)));
+  const page = renamed("index.html");
+  const entry = /assets\/newer-index-[\w-]+\.js/.exec(page)![0];
+  extra.set("index.html", Buffer.from(page));
+  extra.set(entry, Buffer.from(`${extra.get(entry)!.toString()}\ndocument.documentElement.dataset.build = "newer";`));
+  const version = /"version":\s*"(\w+)"/.exec(dist("service-worker.js"))![1]!;
+  extra.set("service-worker.js", Buffer.from(renamed("service-worker.js").replaceAll(version, "newer")));
   const build = (tab: Page) => tab.evaluate(() => document.documentElement.dataset["build"] ?? "old");
 
   await old.reload();
@@ -121,7 +124,7 @@ test("a newer build wins at the next load, and is never mixed with the one befor
   await old.close();
 
   const next = await visit();
-  await next.waitForFunction(() => caches.keys().then((names) => names.length === 2));
+  await expect.poll(async () => Object.keys(await stored(next)).sort()).toEqual(["newer", "samples"]);
   site.vanish();
   await next.reload();
   await reached(next, "ready");
