@@ -10,7 +10,7 @@ export class Spares {
     if (buffer !== undefined && buffer.byteLength > 0) {
       this.#buffers.push(buffer);
       this.#buffers.sort((a, b) => b.byteLength - a.byteLength);
-      this.#buffers.length = Math.min(this.#buffers.length, USUAL);
+      this.#buffers.splice(USUAL);
     }
   }
 
@@ -19,7 +19,7 @@ export class Spares {
   }
 
   clear(): void {
-    this.#buffers.length = 0;
+    this.#buffers.splice(0);
   }
 }
 

@@ -128,7 +128,7 @@ export class VisibilityAnswer implements Visibility {
   #readIndices(): Uint32Array {
     const indices = plainView(this.indices, Uint32Array);
     if (indices === undefined) {
-      throw new HprError("disposed", "the indices of this answer are gone: their buffer has been recycled or transferred away");
+      throw new HprError("disposed", "the indices of this answer are gone: recycled or transferred away");
     }
     return indices;
   }

@@ -8,6 +8,9 @@ import type { ThreadEvents } from "./thread.js";
 
 type Kind = Request["kind"];
 
+/** The kinds of requests whose answers have indices. */
+const HAS_INDICES = /^(visibleFrom|reconstruct)/;
+
 interface AskOptions {
   /** May be dropped when a newer request with the same name here comes before it has started. */
   latest?: string | undefined;
@@ -159,19 +162,8 @@ export class RequestQueue implements ThreadEvents {
     this.#running = next;
     this.#team.setBusy(next !== undefined);
     if (next !== undefined) {
-      this.#team.post(this.#withSpare(next.request));
-    }
-  }
-
-  #withSpare(request: Request): Request {
-    switch (request.kind) {
-      case "visibleFrom":
-      case "visibleFromDirection":
-      case "visibleFromSeveral":
-      case "reconstruct":
-        return { ...request, spare: this.#spares.take() };
-      default:
-        return request;
+      const { request } = next;
+      this.#team.post(HAS_INDICES.test(request.kind) ? ({ ...request, spare: this.#spares.take() } as Request) : request);
     }
   }
 
