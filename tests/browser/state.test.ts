@@ -112,7 +112,7 @@ test("?embed=1 is the picture alone", async () => {
   await upToDate(page);
   const box = (await page.locator("#view").boundingBox())!;
   expect(box).toMatchObject({ x: 0, y: 0, width: 1000, height: 700 });
-  for (const chrome of ["#panel", "#lights", "#progress"]) expect(await page.locator(chrome).isVisible()).toBe(false);
+  for (const chrome of ["#panel h1 ~ fieldset", "#sheet", "#lights", "#progress"]) expect(await page.locator(chrome).isVisible()).toBe(false);
   expect((await status(page)).total).toBe(5205);
 });
 
