@@ -58,7 +58,7 @@ function text(found: Finding[]): string {
     "",
     "## What other tests check",
     "",
-    "- `keyboard.test.ts`: Tab reaches everything at both widths and in both themes, each focus has a ring of at least 3 to 1 in sight, the page lets go of it; full screen; reduced motion.",
+    "- `keyboard.test.ts`: Tab reaches everything, wide in the dark theme and on a phone in the light one, each focus has a ring of at least 3 to 1 in sight, the page lets go of it; full screen; reduced motion.",
     "- `layout.test.ts`: nothing overlaps, also with text of twice the size, on a phone held sideways and with the system's own colors.",
     "- `loading.test.ts`: nothing moves about while the page loads.",
     "- `controls.test.ts`: a new sentence is announced once, after the movement that changes it.",
