@@ -295,7 +295,8 @@ test("by keys alone: choose, move the divider, leave; and the card fits its plac
   }
   await page.locator("#divider").focus();
   await page.keyboard.press("ArrowRight");
-  expect(await page.locator("#divider").getAttribute("aria-valuetext")).toMatch(/on the left 44 %, Ours/);
+  // In a window of another shape the camera stands elsewhere, and rays are traced anew.
+  await expect.poll(() => page.locator("#divider").getAttribute("aria-valuetext")).toMatch(/on the left 44 %, Ours/);
   await tool(page, "Compare").click();
   expect(await page.locator("#compare-card").isVisible()).toBe(false);
 });
