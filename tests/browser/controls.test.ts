@@ -159,7 +159,7 @@ test("the sentence is announced once, after the movement", async () => {
   await page.waitForTimeout(1500);
   const announced = await page.evaluateHandle(() => {
     const texts: string[] = [];
-    const region = document.querySelector('[role="status"]')!;
+    const region = document.getElementById("announcement")!;
     new MutationObserver(() => texts.push(region.textContent)).observe(region, { childList: true });
     return texts;
   });

@@ -69,7 +69,7 @@ async function mean(page: Page): Promise<[number, number, number]> {
 }
 
 test("a file's own colors are drawn as they are, also 8-bit ones in 16 bits, and other choices are others", async () => {
-  const page = await openReady("?sample=bunny");
+  const page = await openReady("?sample=bunny", { colorScheme: "dark" });
   // All points are red: whatever is drawn is red.
   const red = text([...near].map((value, i) => `${value}${i % 3 === 2 ? " 250 20 30\n" : " "}`).join(""));
   await open(page, "red.xyz", red);
