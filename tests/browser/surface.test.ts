@@ -56,7 +56,7 @@ test("a surface is that of one viewpoint: others cannot be chosen", async () => 
 });
 
 test("a frozen surface is flown around, with the viewpoint marked", async () => {
-  const page = await openReady(`${SAMPLE}&show=surface`);
+  const page = await openReady(`${SAMPLE}&show=surface&theme=dark`);
   const before = await upToDate(page);
   await page.getByRole("button", { name: "Freeze viewpoint" }).click();
   await drag(page, 250, 0);
