@@ -123,8 +123,15 @@ test("a newer build wins at the next load, and is never mixed with the one befor
   expect(Object.keys(await stored(old)).sort()).toEqual([version, "newer", "samples"].sort());
   await old.close();
 
-  const next = await visit();
-  await expect.poll(async () => Object.keys(await stored(next)).sort()).toEqual(["newer", "samples"]);
+  // A tab is gone a moment after it was closed; one that is opened before that belongs to the old worker, and keeps it.
+  let next = await visit();
+  const takenOver = async () => Object.keys(await stored(next)).sort().join() === "newer,samples";
+  for (let visits = 1; visits < 10 && !(await takenOver()); visits++) {
+    await next.close();
+    await new Promise((resolve) => setTimeout(resolve, 500));
+    next = await visit();
+  }
+  expect(await takenOver()).toBe(true);
   site.vanish();
   await next.reload();
   await reached(next, "ready");
