@@ -47,35 +47,20 @@ export function mergeVisible(
   viewpoint: ArrayLike<number>,
   options: MergeOptions,
 ): Uint32Array {
-  requireInstance();
-  return performMerge(readMerge(parts, viewpoint, options));
+  const instance = requireInstance();
+  const [x, y, z] = readViewpoint(viewpoint, 3) as [number, number, number];
+  const settings = coreOptions(readSettings(options));
+  const { positions, ids } = joined(readParts(parts));
+  return instance.call((bindings) =>
+    positions.BYTES_PER_ELEMENT === 4
+      ? bindings.mergeVisibleF32(positions as Float32Array, ids, x, y, z, settings)
+      : bindings.mergeVisibleF64(positions as Float64Array, ids, x, y, z, settings),
+  );
 }
 
 interface ReadPart {
   positions: Float32Array | Float64Array;
   ids: Uint32Array;
-}
-
-/** What `mergeVisible` was given, read, copied into one and checked for type. */
-interface Merge extends ReadPart {
-  viewpoint: number[];
-  settings: ViewSettings;
-}
-
-function readMerge(parts: unknown, viewpoint: unknown, options: unknown): Merge {
-  const position = readViewpoint(viewpoint, 3);
-  const settings = readSettings(options);
-  return { ...joined(readParts(parts)), viewpoint: position, settings };
-}
-
-function performMerge({ positions, ids, viewpoint, settings }: Merge): Uint32Array<ArrayBuffer> {
-  const [x, y, z] = viewpoint as [number, number, number];
-  const options = coreOptions(settings);
-  return requireInstance().call((bindings) =>
-    positions.BYTES_PER_ELEMENT === 4
-      ? bindings.mergeVisibleF32(positions as Float32Array, ids, x, y, z, options)
-      : bindings.mergeVisibleF64(positions as Float64Array, ids, x, y, z, options),
-  ) as Uint32Array<ArrayBuffer>;
 }
 
 function readSettings(options: unknown): ViewSettings {

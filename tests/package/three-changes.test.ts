@@ -195,6 +195,22 @@ describe.each(VERSIONS)("with %s", (_, load) => {
       expect(filter.visibleCount).toBeLessThan(2000);
     });
 
+    it("that a radius is too small, and goes on to the view that came meanwhile, without another update", async () => {
+      const { points, camera } = sceneOf(adapter, sphere);
+      const filter = filterFor(points, { radius: 5 });
+      const codes = heard(filter);
+      camera.position.z = 2;
+      filter.update(camera);
+      await filter.ready;
+      for (const z of [6, 2.5]) {
+        camera.position.z = z;
+        filter.update(camera);
+      }
+      const { count } = await nextChange(filter);
+      expect(codes).toEqual(["radius"]);
+      expect(count).toBe(new adapter.PointCloud(sphere).visibleFrom([0, 0, 2.5], { radius: 5 }).count);
+    });
+
     it("that a scale has become uneven", async () => {
       const { points, camera } = sceneOf(adapter, sphere);
       const filter = filterFor(points);

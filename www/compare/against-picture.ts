@@ -48,7 +48,6 @@ export class AgainstPicture {
     if (this.ended) return;
     try {
       const width = splat === "auto" ? { spacing: this.viewer.scene.inquiry.spacing } : splat;
-      if (this.isOver()) return;
       const { answer: ours } = this.viewer.scene;
       const picture = pictureFrom(this.viewer, ours.question.viewpoint);
       const answer = await this.worker.ask({ picture, splat: width, visible: ours.visibility.indices });

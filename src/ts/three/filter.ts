@@ -252,6 +252,8 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
       (error: unknown) => {
         this.#busy = false;
         this.#refuse(error);
+        // Nobody may call update again where frames are drawn on demand.
+        if (this.#wantsAnswer()) this.#ask();
       },
     );
   }
