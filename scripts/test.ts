@@ -1,63 +1,80 @@
 // npm test: sets up whatever is missing, then runs every check. A check that
-// fails does not keep the others from running; the last line adds them up.
+// fails does not keep the others from running; the last lines name what failed
+// and add everything up.
+import { buildCheck } from "./checks/build.js";
 import type { Check, Outcome } from "./checks/check.js";
 import { FAIL, PASS, sum } from "./checks/check.js";
-import { buildCheck } from "./checks/build.js";
 import { packagingChecks } from "./checks/packaging.js";
 import { rustChecks } from "./checks/rust.js";
-import { typescriptChecks } from "./checks/typescript.js";
+import { pageCheck, typescriptChecks } from "./checks/typescript.js";
 import { command } from "./lib/command.js";
+import { collected, print } from "./lib/output.js";
 import { Problem } from "./lib/run.js";
 import { setUpForChecks } from "./setup/setup.js";
 
 const setUpCheck: Check = {
   title: "Set-up",
-  vital: true,
   run: async () => {
     await setUpForChecks();
     return PASS;
   },
 };
 
-const CHECKS: Check[] = [setUpCheck, ...rustChecks, buildCheck, ...typescriptChecks, ...packagingChecks];
+/** Two rows of checks beside each other: most use one core, and cargo keeps others of its kind waiting. */
+const BESIDE = [rustChecks, [...typescriptChecks, ...packagingChecks]];
+
+const rows: string[] = [];
+const outcomes = new Map<string, Outcome>();
 
 await command(async () => {
   const started = Date.now();
-  const rows: string[] = [];
-  const outcomes = new Map<string, Outcome>();
-  for (const check of CHECKS) {
-    heading(check.title);
-    const began = Date.now();
-    const outcome = await outcomeOf(check, outcomes);
-    outcomes.set(check.title, outcome);
-    rows.push(`${seconds(began)}  ${check.title}: ${words(outcome)}`);
-    if (check.vital && outcome.failed > 0) break;
+  if ((await outcomeOf(setUpCheck)).failed === 0) {
+    await outcomeOf(buildCheck);
+    await Promise.all(BESIDE.map(inTurn));
+    await outcomeOf(pageCheck);
   }
 
-  heading("Summary");
-  console.log(rows.join("\n"));
-  console.log(`${seconds(started)}  in all\n`);
   const total = sum([...outcomes.values()]);
-  console.log(words(total));
+  heading("Summary");
+  print(`${rows.join("\n")}\n${seconds(started)}  in all\n\n`);
+  for (const failure of total.failures) print(`failed: ${failure}\n`);
+  print(`${words(total)}\n`);
   if (total.failed > 0) process.exitCode = 1;
 });
 
-async function outcomeOf(check: Check, before: Map<string, Outcome>): Promise<Outcome> {
-  const lacking = check.needs?.find((title) => before.get(title)?.failed !== 0);
+/** Shows what each check prints when it has ended, so that nothing else comes in between. */
+async function inTurn(checks: Check[]): Promise<void> {
+  for (const check of checks) {
+    print(`\n… ${check.title}\n`);
+    print((await collected(() => outcomeOf(check))).output);
+  }
+}
+
+async function outcomeOf(check: Check): Promise<Outcome> {
+  heading(check.title);
+  const began = Date.now();
+  const outcome = await tried(check);
+  outcomes.set(check.title, outcome);
+  rows.push(`${seconds(began)}  ${check.title}: ${words(outcome)}`);
+  return outcome;
+}
+
+async function tried(check: Check): Promise<Outcome> {
+  const lacking = check.needs?.find((title) => outcomes.get(title)?.failed !== 0);
   if (lacking !== undefined) {
-    console.log(`Not run, because this failed: ${lacking}`);
+    print(`Not run, because this failed: ${lacking}\n`);
     return FAIL;
   }
   try {
     return await check.run();
   } catch (error) {
-    console.log(error instanceof Problem ? error.message : error);
+    print(`${error instanceof Problem ? error.message : ((error as Error).stack ?? String(error))}\n`);
     return FAIL;
   }
 }
 
 function heading(title: string): void {
-  console.log(`\n=== ${title} ===`);
+  print(`\n=== ${title} ===\n`);
 }
 
 function words({ passed, failed }: Outcome): string {

@@ -4,6 +4,8 @@ import { run } from "../lib/run.js";
 export interface Outcome {
   passed: number;
   failed: number;
+  /** What failed, by name, with the first line of why, as far as the check can tell. */
+  failures?: string[];
 }
 
 /** One heading of `npm test`. */
@@ -11,8 +13,6 @@ export interface Check {
   title: string;
   /** Titles of the checks this one makes no sense without. */
   needs?: string[];
-  /** Nothing after it is tried when it fails. */
-  vital?: boolean;
   run: () => Promise<Outcome>;
 }
 
@@ -25,10 +25,11 @@ export async function checkCommand(name: string, args: string[], env: Record<str
 }
 
 /** Several outcomes as one. */
-export function sum(outcomes: Outcome[]): Outcome {
+export function sum(outcomes: Outcome[]): Required<Outcome> {
   return {
     passed: outcomes.reduce((total, one) => total + one.passed, 0),
     failed: outcomes.reduce((total, one) => total + one.failed, 0),
+    failures: outcomes.flatMap(({ failures = [] }) => failures),
   };
 }
 
@@ -38,5 +39,5 @@ export function sum(outcomes: Outcome[]): Outcome {
  */
 export function counted(ok: boolean, counts: Outcome): Outcome {
   const wrong = !ok || counts.passed === 0;
-  return { passed: counts.passed, failed: Math.max(counts.failed, wrong ? 1 : 0) };
+  return { ...counts, failed: Math.max(counts.failed, wrong ? 1 : 0) };
 }

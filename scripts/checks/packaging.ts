@@ -1,3 +1,4 @@
+import { print } from "../lib/output.js";
 import { run } from "../lib/run.js";
 import { setUpBrowser } from "../setup/browser.js";
 import { BUILD } from "./build.js";
@@ -10,11 +11,6 @@ const WANTED = /^(dist\/.+\.(js|d\.ts|wasm)|README\.md|LICENSE-MIT|LICENSE-APACH
 const INDISPENSABLE = ["dist/index.js", "dist/index.d.ts", "dist/wasm/hpr_bg.wasm", "README.md", "LICENSE-MIT"];
 
 export const packagingChecks: Check[] = [
-  {
-    title: "Packaging: crate",
-    // Builds the crate from what would be uploaded.
-    run: () => checkCommand("cargo", ["package", "--locked", "--allow-dirty"]),
-  },
   {
     title: "Packaging: npm package",
     needs: [BUILD],
@@ -32,22 +28,22 @@ export const packagingChecks: Check[] = [
   {
     title: "Packaging: the npm package in its users' projects",
     needs: [BUILD],
-    run: async () => vitest("tests/consumers", { HPR_CHROMIUM: await setUpBrowser() }),
+    run: async () => vitest("tests/consumers", { env: { HPR_CHROMIUM: await setUpBrowser() } }),
   },
 ];
 
 async function npmPackage(): Promise<Outcome> {
   const { ok, output } = await run("npm", ["pack", "--dry-run", "--json", "--loglevel=error"], { show: "nothing" });
   if (!ok) {
-    console.log(output);
+    print(output);
     return FAIL;
   }
   const files = filesIn(output);
   const unwanted = files.filter((file) => !WANTED.test(file));
   const missing = INDISPENSABLE.filter((file) => !files.includes(file));
-  if (unwanted.length > 0) console.log(`Would be published, but should not: ${unwanted.join(", ")}`);
-  if (missing.length > 0) console.log(`Would not be published, but should: ${missing.join(", ")}`);
-  console.log(`${files.length} files`);
+  if (unwanted.length > 0) print(`Would be published, but should not: ${unwanted.join(", ")}\n`);
+  if (missing.length > 0) print(`Would not be published, but should: ${missing.join(", ")}\n`);
+  print(`${files.length} files\n`);
   return sum([unwanted.length === 0 ? PASS : FAIL, missing.length === 0 ? PASS : FAIL, await rehearsal()]);
 }
 
@@ -56,7 +52,7 @@ async function rehearsal(): Promise<Outcome> {
   const { ok, output } = await run("npm", ["publish", "--dry-run", "--offline"], { show: "nothing" });
   const corrected = output.split("\n").filter((line) => /auto-corrected|errors corrected|npm warn publish "/.test(line));
   if (ok && corrected.length === 0) return PASS;
-  console.log(ok ? corrected.join("\n") : output);
+  print(ok ? corrected.join("\n") : output);
   return FAIL;
 }
 

@@ -31,7 +31,11 @@ export const rustChecks: Check[] = [
   },
   {
     title: "Rust: tests, native",
-    run: () => cargoTest("cargo", ["test", "--locked", "--release", "--no-fail-fast"]),
+    // Without the examples, each of which would be optimized as a whole; clippy has compiled them.
+    run: async () => {
+      const test = (what: string[]) => cargoTest("cargo", ["test", "--locked", "--release", "--no-fail-fast", ...what]);
+      return sum([await test(["--lib", "--tests"]), await test(["--doc"])]);
+    },
   },
   {
     title: "Rust: tests in WebAssembly, under Node",
@@ -46,11 +50,18 @@ export const rustChecks: Check[] = [
     title: "Rust: documentation",
     run: () => checkCommand("cargo", ["doc", "--locked", "--no-deps", "--all-features"], { RUSTDOCFLAGS: "-D warnings" }),
   },
+  {
+    title: "Packaging: crate",
+    // Builds the crate from what would be uploaded.
+    run: () => checkCommand("cargo", ["package", "--locked", "--allow-dirty"]),
+  },
 ];
 
 /** Adds up the `test result:` lines of every test program that ran. */
 async function cargoTest(name: string, args: string[], env: Record<string, string> = {}): Promise<Outcome> {
   const { ok, output } = await run(name, args, { show: "results", env });
   const lines = [...output.matchAll(/test result: .*?(\d+) passed; (\d+) failed/g)];
-  return counted(ok, sum(lines.map(([, passed, failed]) => ({ passed: Number(passed), failed: Number(failed) }))));
+  const counts = sum(lines.map(([, passed, failed]) => ({ passed: Number(passed), failed: Number(failed) })));
+  const failures = [...output.matchAll(/^test (.+) \.\.\. (?:FAILED|FAIL)$/gm)].map(([, test]) => test!);
+  return counted(ok, { ...counts, failures });
 }

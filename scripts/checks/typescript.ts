@@ -1,3 +1,5 @@
+import { availableParallelism } from "node:os";
+
 import { setUpBrowser } from "../setup/browser.js";
 import type { Check, Outcome } from "./check.js";
 import { checkCommand, sum } from "./check.js";
@@ -32,9 +34,11 @@ export const typescriptChecks: Check[] = [
     needs: [BUILD],
     run: () => vitest("tests/package"),
   },
-  {
-    title: "Demo page, in Chromium",
-    needs: [BUILD],
-    run: async () => vitest("tests/browser", { HPR_CHROMIUM: await setUpBrowser() }),
-  },
 ];
+
+export const pageCheck: Check = {
+  title: "Demo page, in Chromium",
+  needs: [BUILD],
+  // Alone on the machine, and each file waits for its browser half of the time.
+  run: async () => vitest("tests/browser", { env: { HPR_CHROMIUM: await setUpBrowser() }, atOnce: availableParallelism() }),
+};

@@ -1,6 +1,7 @@
 import { spawn } from "node:child_process";
 import type { SpawnOptions } from "node:child_process";
 
+import { print } from "./output.js";
 import { environment, root } from "./paths.js";
 
 export interface RunResult {
@@ -21,9 +22,9 @@ interface RunOptions {
 /** Runs a command in the repository's root and waits for it; never throws. */
 export function run(command: string, args: string[], options: RunOptions = {}): Promise<RunResult> {
   const show = options.show ?? "progress";
-  const screen = { progress: process.stderr, results: process.stdout, nothing: undefined }[show];
+  const screen = ({ progress: "stderr", results: "stdout", nothing: undefined } as const)[show];
   // Colors are lost when a command writes to a pipe, unless it is asked for them.
-  const color = screen?.isTTY ? { CARGO_TERM_COLOR: "always", FORCE_COLOR: "1" } : {};
+  const color = screen !== undefined && process[screen].isTTY ? { CARGO_TERM_COLOR: "always", FORCE_COLOR: "1" } : {};
   const settings: SpawnOptions = {
     cwd: root,
     env: environment({ ...color, ...options.env }),
@@ -35,7 +36,7 @@ export function run(command: string, args: string[], options: RunOptions = {}): 
     let output = "";
     const take = (chunk: Buffer): void => {
       output += chunk.toString();
-      screen?.write(chunk);
+      if (screen !== undefined) print(chunk, screen);
     };
     child.stdout?.on("data", take);
     child.stderr?.on("data", take);
@@ -66,7 +67,7 @@ export async function mustRun(
 
 /** Says what is being done, beside the commands' own progress. */
 export function say(message: string): void {
-  console.error(message);
+  print(`${message}\n`, "stderr");
 }
 
 /** Something the person at the keyboard can act on: shown without a stack. */

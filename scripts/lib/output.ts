@@ -1,0 +1,19 @@
+import { AsyncLocalStorage } from "node:async_hooks";
+
+type Stream = "stdout" | "stderr";
+
+const collector = new AsyncLocalStorage<string[]>();
+
+/** Shows text; within `collected`, keeps it. */
+export function print(text: string | Buffer, stream: Stream = "stdout"): void {
+  const parts = collector.getStore();
+  if (parts === undefined) process[stream].write(text);
+  else parts.push(text.toString());
+}
+
+/** Runs an action whose output is wanted in one piece, since others print beside it. */
+export async function collected<T>(action: () => Promise<T>): Promise<{ value: T; output: string }> {
+  const parts: string[] = [];
+  const value = await collector.run(parts, action);
+  return { value, output: parts.join("") };
+}
