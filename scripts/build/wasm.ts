@@ -10,8 +10,8 @@ export const GLUE = ["hpr_bg.js", "hpr_bg.d.ts", "hpr_bg.wasm", "hpr_bg.wasm.d.t
 export async function buildWasm(): Promise<void> {
   const work = {
     name: "wasm",
-    inputs: ["Cargo.toml", "Cargo.lock", "src", "tools/wasm-bindgen", "package-lock.json"],
-    ignore: ["src/ts", "tools/wasm-bindgen/target"],
+    inputs: ["Cargo.toml", "Cargo.lock", "src", "tools/wasm", "package-lock.json"],
+    ignore: ["src/ts", "tools/wasm/target"],
     outputs: GLUE.map((file) => `src/ts/wasm/${file}`),
   };
   const result = await unlessUnchanged(work, async () => {

@@ -12,35 +12,31 @@ const NO_DEBUG_INFO = { CARGO_PROFILE_DEV_DEBUG: "0" };
 
 /** wasm-pack, and the wasm-bindgen commands of the version the crate is locked to. */
 export async function setUpWasmTools(): Promise<void> {
-  await setUpWasmBindgen();
-  await setUpWasmPack();
+  const version = lockedVersion("Cargo.lock");
+  if ((await hasWasmPack()) && (await hasWasmBindgen(version))) return;
+  if (lockedVersion("tools/wasm/Cargo.lock") !== version) {
+    throw new Problem(
+      `Cargo.lock has wasm-bindgen ${version}, but tools/wasm builds another version: ` +
+        "set it in the Cargo.toml there, and run `cargo update` there.",
+    );
+  }
+  say(`Building wasm-bindgen ${version} and wasm-pack (about two minutes)…`);
+  const args = ["install", "--path", inRoot("tools", "wasm"), "--force", ...QUICK_BUILD];
+  await mustRun("cargo", args, "wasm-bindgen and wasm-pack could not be built", { env: NO_DEBUG_INFO });
   // 800 MB that only a new version would look at again.
   rmSync(join(toolsRoot, "build"), { recursive: true, force: true });
 }
 
 /** Both commands have to be of exactly the version the crate is locked to. */
-async function setUpWasmBindgen(): Promise<void> {
-  const version = lockedVersion("Cargo.lock");
+async function hasWasmBindgen(version: string): Promise<boolean> {
   const found = [await versionOf("wasm-bindgen"), await versionOf("wasm-bindgen-test-runner")];
-  if (found.every((one) => one === version)) return;
-  if (lockedVersion("tools/wasm-bindgen/Cargo.lock") !== version) {
-    throw new Problem(
-      `Cargo.lock has wasm-bindgen ${version}, but tools/wasm-bindgen builds another version: ` +
-        "set it in the Cargo.toml there, and run `cargo update` there.",
-    );
-  }
-  say(`Building wasm-bindgen ${version} (about a minute)…`);
-  const args = ["install", "--path", inRoot("tools", "wasm-bindgen"), "--force", ...QUICK_BUILD];
-  await mustRun("cargo", args, "wasm-bindgen could not be built", { env: NO_DEBUG_INFO });
+  return found.every((one) => one === version);
 }
 
 /** Any wasm-pack will do that is not older than the one the build was made with. */
-async function setUpWasmPack(): Promise<void> {
+async function hasWasmPack(): Promise<boolean> {
   const found = await versionOf("wasm-pack");
-  if (found !== undefined && found.localeCompare(WASM_PACK, "en", { numeric: true }) >= 0) return;
-  say(`Installing wasm-pack ${WASM_PACK} (about a minute)…`);
-  const args = ["install", `wasm-pack@${WASM_PACK}`, ...QUICK_BUILD];
-  await mustRun("cargo", args, "wasm-pack could not be installed", { env: NO_DEBUG_INFO });
+  return found !== undefined && found.localeCompare(WASM_PACK, "en", { numeric: true }) >= 0;
 }
 
 async function versionOf(command: string): Promise<string | undefined> {
