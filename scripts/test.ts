@@ -21,7 +21,10 @@ const setUpCheck: Check = {
 };
 
 /** Two rows of checks beside each other: most use one core, and cargo keeps others of its kind waiting. */
-const BESIDE = [rustChecks, [...typescriptChecks, ...packagingChecks]];
+const BESIDE = [
+  [...rustChecks, pageCheck],
+  [...typescriptChecks, ...packagingChecks],
+];
 
 const rows: string[] = [];
 const outcomes = new Map<string, Outcome>();
@@ -31,7 +34,6 @@ await command(async () => {
   if ((await outcomeOf(setUpCheck)).failed === 0) {
     await outcomeOf(buildCheck);
     await Promise.all(BESIDE.map(inTurn));
-    await outcomeOf(pageCheck);
   }
 
   const total = sum([...outcomes.values()]);

@@ -14,7 +14,7 @@ const status = new Status(byId("status"));
 const message = new Message();
 bindSheet();
 
-if (canDraw()) {
+if (canDraw(byId("view", HTMLCanvasElement))) {
   startSession(params, status, message);
 } else {
   const sentence = "This page draws with WebGL 2, which this browser does not offer or has switched off.";

@@ -221,6 +221,26 @@ describe("an answer that is drawn goes back with the next request", () => {
     expect([given[0], given.slice(1).every((bytes) => bytes > 0), given.length]).toEqual([0, true, 4]);
   });
 
+  // Hidden points are listed by the worker, in the same memory.
+  it.each([false, true])("of a filter that dims, with an index of the user's own: %s", async (indexed) => {
+    const adapter = await adapterFor(VERSIONS[0]![1]);
+    const { points, camera, geometry } = sceneOf(adapter, sphere);
+    const own = Array.from({ length: 3000 }, (_, i) => (indexed ? 2999 - i : i));
+    if (indexed) geometry.setIndex(own);
+    const filter = new adapter.HiddenPointFilter(points, { exponent: 3, mode: "dim" });
+    for (const place of places) {
+      camera.position.fromArray(place);
+      const change = nextChange(filter);
+      filter.update(camera);
+      await change;
+      const visible = new Set(direct.visibleFrom(place, { exponent: 3 }).indices);
+      expect(drawn(geometry)).toEqual(own.filter((i) => visible.has(i)));
+      expect(drawn((points.children[0] as typeof points).geometry)).toEqual(own.filter((i) => !visible.has(i)));
+    }
+    filter.dispose();
+    expect(given).toEqual([0, 12_000, 12_000, 12_000]);
+  });
+
   it("of a filter of nodes", async () => {
     const { THREE } = await adapterFor(VERSIONS[0]![1]);
     const { HiddenPointNodesFilter } = await import("hidden-point-removal/nodes");

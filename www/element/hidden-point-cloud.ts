@@ -145,13 +145,15 @@ class HiddenPointCloud extends Base implements Own {
   /** `null` where nothing can be drawn, which is told once. */
   #wake(reading: Reading): Showing | null {
     if (this.#state === "error") return null;
-    if (!canDraw()) {
+    const canvas = this.#frame.newCanvas();
+    if (!canDraw(canvas)) {
+      this.#frame.removeCanvas();
       const problem = new Problem("webgl", "This cloud is drawn with WebGL 2, which this browser does not offer or has switched off.");
       if (!this.#frame.showFallback()) this.#frame.sayError(problem.message);
       this.#fail(problem);
       return null;
     }
-    const showing = new Showing(this.#frame, reading, this.#listener());
+    const showing = new Showing(this.#frame, canvas, reading, this.#listener());
     const pointing = new Pointing(showing.canvas, showing.viewer);
     pointing.onPick((point) => { this.#emit("pick", point); });
     this.#showing = { showing, pointing };

@@ -43,12 +43,12 @@ export class Showing {
   /** Whether the settings are being changed for the attributes. */
   private obeying = false;
 
-  constructor(frame: Frame, reading: Reading, tell: Listener) {
+  constructor(frame: Frame, canvas: HTMLCanvasElement, reading: Reading, tell: Listener) {
     this.frame = frame;
     this.tell = tell;
     this.reading = reading;
     this.store = new Store({ ...USUAL_SETTINGS, ...reading.settings });
-    this.canvas = frame.newCanvas();
+    this.canvas = canvas;
     this.viewer = new Viewer(this.canvas, this.store, true);
     this.viewer.setTheme(themeOf(this.canvas));
     this.moves = new Moves(this.canvas, this.viewer, this.store, () => ({ ...USUAL_SETTINGS, ...this.ready?.usual, ...this.reading.settings }));

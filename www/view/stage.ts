@@ -155,9 +155,10 @@ export function clipping(distance: number, extent: number): { near: number; far:
   return { near: Math.max(distance - 1.1 * extent, far / 5000), far };
 }
 
-/** Whether this browser can draw at all; asked of a canvas of its own, so that nothing is logged where it cannot. */
-export function canDraw(): boolean {
-  const context = document.createElement("canvas").getContext("webgl2");
-  context?.getExtension("WEBGL_lose_context")?.loseContext();
-  return context !== null;
+/** What three.js asks for. */
+const CONTEXT: WebGLContextAttributes = { alpha: true, antialias: false, powerPreference: "high-performance" };
+
+/** Whether this browser can draw on a canvas: asked before three.js, which logs where it cannot, and takes over the context that is made here. */
+export function canDraw(canvas: HTMLCanvasElement): boolean {
+  return canvas.getContext("webgl2", CONTEXT) !== null;
 }

@@ -36,12 +36,13 @@ export class Display {
   }
 
   /**
-   * Draws what is visible: indices into what `drawn` took up, ascending.
+   * Draws what is visible: indices into what `drawn` took up, ascending. `isListed`: where
+   * hidden points are dimmed, their indices follow in memory already.
    *
    * @throws HprError `too-large`, `option`.
    */
-  answer(indices: Uint32Array): void {
-    this.drawn.setVisible(indices);
+  answer(indices: Uint32Array, isListed = false): void {
+    this.drawn.setVisible(indices, isListed);
     this.#isAnswered = true;
     this.#show();
   }

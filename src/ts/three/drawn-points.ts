@@ -1,6 +1,7 @@
 import { BufferAttribute, type BufferGeometry, DynamicDrawUsage, type Points } from "three";
 
 import { describe, HprError } from "../errors.js";
+import { listHidden, orderIn } from "../hidden.js";
 import { allocating } from "../memory.js";
 import { type PositionAttribute, readPositions, type ReadPositions, requirePositions, versionOf } from "./attribute.js";
 
@@ -113,24 +114,25 @@ export class DrawnPoints {
     return readPositions(this.#taken!.position, ids, place).numbers;
   }
 
-  /** Notes what is visible: indices into what `take` told, ascending. */
-  setVisible(indices: Uint32Array): void {
+  /** Notes what is visible: indices into what `take` told, ascending; with `isListed` the hidden ones' follow in memory. */
+  setVisible(indices: Uint32Array, isListed = false): void {
     this.#order ??= allocating(`${this.#total} indices`, () => {
       return new BufferAttribute(new Uint32Array(this.#total), 1).setUsage(DynamicDrawUsage);
     });
     const order = this.#order.array as Uint32Array;
-    const ids = this.#ids;
-    if (ids === undefined) {
-      order.set(indices);
-    } else {
-      for (let i = 0; i < indices.length; i++) order[i] = ids[indices[i]!]!;
+    const all = this.#withHidden;
+    order.set(all && isListed ? orderIn(indices as Uint32Array<ArrayBuffer>, order.length) : indices);
+    if (all && !isListed) {
+      listHidden(order, indices.length);
     }
-    if (this.#withHidden) {
-      listHidden(order, indices, ids);
+    const ids = this.#ids;
+    if (ids !== undefined) {
+      const end = all ? order.length : indices.length;
+      for (let i = 0; i < end; i++) order[i] = ids[order[i]!]!;
     }
     this.#visible = indices.length;
     this.#order.clearUpdateRanges();
-    this.#order.addUpdateRange(0, this.#withHidden ? this.#total : indices.length);
+    this.#order.addUpdateRange(0, all ? this.#total : indices.length);
     this.#order.needsUpdate = true;
     if (this.#shown) {
       this.#taken?.geometry.setDrawRange(0, this.#visible);
@@ -236,20 +238,5 @@ function requireDrawable(index: unknown, range: unknown): void {
     if (typeof value !== "number" || Number.isNaN(value)) {
       throw new HprError("option", `points: drawRange.${name} must be a number, got ${describe(value)}`);
     }
-  }
-}
-
-/** Lists what is not visible after what is. */
-function listHidden(order: Uint32Array, visible: Uint32Array, ids: Uint32Array | undefined): void {
-  const [shown, total] = [visible.length, order.length];
-  let at = shown;
-  let next = 0;
-  for (let i = 0; i <= shown; i++) {
-    const end = i < shown ? visible[i]! : total;
-    while (next < end) order[at++] = next++;
-    next++;
-  }
-  if (ids !== undefined) {
-    for (let i = shown; i < total; i++) order[i] = ids[order[i]!]!;
   }
 }

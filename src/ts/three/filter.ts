@@ -217,7 +217,7 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
       return;
     }
     try {
-      this.#display.answer(answer.indices);
+      this.#display.answer(answer.indices, this.#settings.inWorker);
       this.#cloud?.recycle(answer);
     } catch (error) {
       this.#refuse(error);

@@ -82,6 +82,9 @@ export interface RequestOptions {
 /** How one view is computed, and when it need not be. */
 export interface WorkerVisibilityOptions extends VisibilityOptions, RequestOptions {}
 
+/** From now on the cloud's answers have the hidden points' indices in memory, too (see `hidden.ts`): a cloud of one worker. */
+export let listHiddenToo: (cloud: WorkerPointCloud) => void;
+
 const CREATE_OPTIONS = ["transfer", "workers", "shared", "signal", "onProgress"] as const;
 const REQUEST_OPTIONS = ["latest", "signal"] as const;
 
@@ -105,6 +108,9 @@ export class WorkerPointCloud {
 
   static {
     addDisposeSymbol(this.prototype);
+    listHiddenToo = (cloud) => {
+      cloud.#queue.listing = true;
+    };
   }
 
   private constructor(queue: RequestQueue, settings: CloudSettings, size: CloudSize) {

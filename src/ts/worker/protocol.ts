@@ -19,8 +19,8 @@ export type Request =
   | { kind: "append"; positions: Float32Array | Float64Array }
   | { kind: "remove"; indices: Uint32Array }
   | { kind: "forget" }
-  /** With memory for the answer's indices, where there is some. */
-  | (Query & { spare?: ArrayBuffer | undefined });
+  /** With memory for the answer's indices, where there is some; `listing`: hidden points' after them (see `hidden.ts`). */
+  | (Query & { spare?: ArrayBuffer | undefined; listing?: boolean });
 
 /** The value of a reply, by the kind of its request. */
 export interface Replies extends Answers {

@@ -38,6 +38,8 @@ export class RequestQueue implements ThreadEvents {
   #waiting: Pending[] = [];
   #closed: Error | undefined;
   readonly #spares = new Spares();
+  /** Whether answers list hidden points, too; only for a worker that is alone or shared. */
+  listing = false;
 
   /** Starts so many workers, which act as one, or takes part in the shared one. */
   async start(workers: number | "shared"): Promise<void> {
@@ -163,7 +165,7 @@ export class RequestQueue implements ThreadEvents {
     this.#team.setBusy(next !== undefined);
     if (next !== undefined) {
       const { request } = next;
-      this.#team.post(HAS_INDICES.test(request.kind) ? ({ ...request, spare: this.#spares.take() } as Request) : request);
+      this.#team.post(HAS_INDICES.test(request.kind) ? ({ ...request, spare: this.#spares.take(), listing: this.listing } as Request) : request);
     }
   }
 

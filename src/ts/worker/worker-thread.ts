@@ -1,4 +1,5 @@
 import { ask, build, giveMemory, type PointCloud } from "../cloud.js";
+import { withHidden } from "../hidden.js";
 import { importNodeModule } from "../node.js";
 import type { CloudSize } from "../options.js";
 import { initSync } from "../start.js";
@@ -48,9 +49,14 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
     case "remove":
       cloud.remove(request.indices);
       return sizeOf(cloud);
-    default:
+    default: {
       giveMemory(cloud, request.spare);
-      return ask(cloud, request);
+      const found = ask(cloud, request);
+      if (request.listing === true && "indices" in found) {
+        found.indices = withHidden(found.indices, found.length);
+      }
+      return found;
+    }
   }
 }
 
