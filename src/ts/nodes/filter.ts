@@ -6,6 +6,7 @@ import { Eye, requireUniformScale } from "../three/eye.js";
 import { Recovery } from "../three/recovery.js";
 import { asError, Reporter } from "../three/reporter.js";
 import { Gathered } from "./gathered.js";
+import type { Refused } from "./node.js";
 import { NodeSet } from "./node-set.js";
 import { type HiddenPointNodesFilterOptions, type NodesSettings, readNodesOptions } from "./options.js";
 
@@ -78,6 +79,9 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
   #disposed = false;
   /** What listeners are told when everything else is done: they may throw. */
   #untold: { error: Error; points: Points | null }[] = [];
+  readonly #refuseNode: Refused = (error, points) => {
+    this.#untold.push({ error, points });
+  };
 
   /**
    * @param root in whose space the nodes are one cloud, and radii are given: an object
@@ -91,9 +95,7 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     }
     this.#root = root;
     this.#settings = readNodesOptions(options);
-    this.#nodes = new NodeSet(root, this.#settings, (error, points) => {
-      this.#untold.push({ error, points });
-    });
+    this.#nodes = new NodeSet(root, this.#settings, this.#refuseNode);
     this.#gathered = new Gathered(this.#settings);
     requireUniformScale(root);
   }
@@ -187,9 +189,7 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     const begun = performance.now();
     const gathered = this.#gathered;
     this.#askedVersion = this.#nodes.version;
-    await gathered.follow(this.#nodes.present(), (error, { points }) => {
-      this.#untold.push({ error, points });
-    });
+    await gathered.follow(this.#nodes.present(), this.#refuseNode);
     this.#eye.extent = extentOf(this.#nodes.present().flatMap(({ box }): Box[] => (box === undefined ? [] : [box])));
     const { isDirection } = this.#eye;
     const from = this.#eye.ask();

@@ -3,7 +3,7 @@ import { allocating } from "../memory.js";
 import { type Cloud, prepareCloud } from "../three/cloud.js";
 import { asError } from "../three/reporter.js";
 import type { Visibility } from "../visibility.js";
-import type { CloudNode } from "./node.js";
+import type { CloudNode, Refused } from "./node.js";
 import type { NodesSettings } from "./options.js";
 
 /** Which indices of the cloud are a node's, and in which of its revisions. */
@@ -49,7 +49,7 @@ export class Gathered {
    *
    * @throws HprError (as a rejection) as the clouds; nothing is left of this one then.
    */
-  async follow(nodes: readonly CloudNode[], refused: (error: Error, node: CloudNode) => void): Promise<void> {
+  async follow(nodes: readonly CloudNode[], refused: Refused): Promise<void> {
     const gone = this.#leave(nodes);
     if (this.#removed > FEW + this.#length / 2) {
       this.drop();
@@ -113,7 +113,8 @@ export class Gathered {
     if (positions.length === 0) {
       return;
     }
-    const cloud = await prepareCloud({ numbers: positions, own: true }, this.#settings);
+    // Each node lists its own hidden points.
+    const cloud = await prepareCloud({ numbers: positions, own: true }, { ...this.#settings, dim: false });
     if (this.#isClosed) {
       void cloud.dispose();
       throw new HprError("disposed", "this filter has been disposed of");
@@ -137,7 +138,7 @@ export class Gathered {
   }
 
   /** The points of those that are new, which take the next indices. */
-  #read(nodes: readonly CloudNode[], refused: (error: Error, node: CloudNode) => void): Float64Array {
+  #read(nodes: readonly CloudNode[], refused: Refused): Float64Array {
     const parts: (Float32Array | Float64Array)[] = [];
     const begun = this.#length;
     for (const node of nodes) {
@@ -151,7 +152,7 @@ export class Gathered {
         this.#length += count;
         parts.push(numbers);
       } catch (error) {
-        refused(asError(error), node);
+        refused(asError(error), node.points);
       }
     }
     const length = 3 * (this.#length - begun);

@@ -2,7 +2,7 @@ import type { Object3D, Points } from "three";
 
 import { isDimmed } from "../three/dimmed.js";
 import { requirePoints } from "../three/options.js";
-import { CloudNode } from "./node.js";
+import { CloudNode, type Refused } from "./node.js";
 import type { NodesSettings } from "./options.js";
 import { Places } from "./place.js";
 
@@ -10,7 +10,7 @@ import { Places } from "./place.js";
 export class NodeSet {
   readonly #root: Object3D;
   readonly #settings: NodesSettings;
-  readonly #refused: (error: Error, points: Points) => void;
+  readonly #refused: Refused;
   readonly #places: Places;
   readonly #nodes = new Map<Points, CloudNode>();
   /** What had a filter already or could not be dimmed: the geometry and the material that it had. */
@@ -21,7 +21,7 @@ export class NodeSet {
   #version = 0;
 
   /** @param refused told of points that cannot be a node, or whose material cannot be dimmed any more. */
-  constructor(root: Object3D, settings: NodesSettings, refused: (error: Error, points: Points) => void) {
+  constructor(root: Object3D, settings: NodesSettings, refused: Refused) {
     this.#root = root;
     this.#settings = settings;
     this.#refused = refused;

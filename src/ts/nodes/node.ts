@@ -10,6 +10,9 @@ import type { Place, Places } from "./place.js";
 
 const IDENTITY = new Matrix4();
 
+/** Told of points that cannot be a node. */
+export type Refused = (error: Error, points: Points) => void;
+
 /** One node: its points, where they are in the root's space, and what of them is drawn. */
 export class CloudNode {
   readonly points: Points;
