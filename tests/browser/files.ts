@@ -11,10 +11,10 @@ export async function drop(page: Page, name: string, content: Uint8Array): Promi
   const transfer = await page.evaluateHandle(
     ([fileName, bytes]) => {
       const data = new DataTransfer();
-      data.items.add(new File([Uint8Array.from(bytes)], fileName));
+      data.items.add(new File([Uint8Array.from(atob(bytes), (char) => char.charCodeAt(0))], fileName));
       return data;
     },
-    [name, [...content]] as const,
+    [name, Buffer.from(content).toString("base64")] as const,
   );
   await page.dispatchEvent("#view", "dragover", { dataTransfer: transfer });
   expect(await page.locator("#drop").isVisible()).toBe(true);

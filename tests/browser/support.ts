@@ -148,7 +148,7 @@ export async function drag(page: Page, dx: number, dy: number, button: "left" | 
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
   await page.mouse.move(x, y);
   await page.mouse.down({ button });
-  await page.mouse.move(x + dx, y + dy, { steps: 8 });
+  await page.mouse.move(x + dx, y + dy, { steps: 4 });
   await page.mouse.up({ button });
 }
 
