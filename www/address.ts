@@ -22,11 +22,16 @@ export class Address {
   private readonly store: Store;
   /** `null`: a file from this device, which no address can open. */
   private cloud: { name: CloudName; usual: Usual } | null = null;
+  /** What the address was of before a cloud was chosen that is not there yet. */
+  private before: { cloud: Address["cloud"]; href: string } | null = null;
+  /** Whether the picture is divided only to show what the page is about. */
+  private readonly introducing: () => boolean;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
-  constructor(store: Store, camera: () => CameraPlace | null) {
+  constructor(store: Store, camera: () => CameraPlace | null, introducing: () => boolean) {
     this.store = store;
     this.camera = camera;
+    this.introducing = introducing;
     store.follow(() => {
       this.touch();
     });
@@ -35,16 +40,27 @@ export class Address {
   /** From now on the address is that of this cloud. */
   begin(name: CloudName | null, usual: Usual): void {
     this.cloud = name && { name, usual };
+    this.before = null;
     this.touch();
   }
 
   /** At once, for a cloud that is about to be loaded: what belonged to the one before goes. */
   choose([parameter, value]: CloudName): void {
+    this.before ??= { cloud: this.cloud, href: location.href };
     this.cloud = null;
     const address = new URL(location.href);
     for (const name of ["src", "view", "target", "freeze", "light", "color", "size", "fov", "up"]) address.searchParams.delete(name);
     address.searchParams.set(parameter, value);
     replace(address);
+  }
+
+  /** What was chosen will not come: the cloud before it has stayed, and with it its address. */
+  giveUp(): void {
+    if (!this.before) return;
+    this.cloud = this.before.cloud;
+    replace(new URL(this.before.href));
+    this.before = null;
+    this.touch();
   }
 
   /** Something has changed that the address may have to say. */
@@ -67,7 +83,11 @@ export class Address {
     const { name, usual } = this.cloud;
     const address = new URL(location.href);
     const { searchParams } = address;
-    const values = { ...settingsInAddress(this.store.current, usual), ...cameraInAddress(this.camera()) };
+    const introducing = this.introducing();
+    const settings = introducing ? { ...this.store.current, compare: null } : this.store.current;
+    const values = { ...settingsInAddress(settings, usual), ...cameraInAddress(this.camera()) };
+    // Whoever has done nothing yet is shown it again the next time.
+    if (introducing && address.search === "" && Object.values(values).every((texts) => texts.length === 0)) return;
     searchParams.delete(name[0] === "src" ? "sample" : "src");
     searchParams.set(...name);
     for (const [parameter, texts] of Object.entries(values)) {

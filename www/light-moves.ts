@@ -10,6 +10,10 @@ const TURN = Math.PI / 36;
 const NEARER = 0.92;
 /** Where the first lights come, as parts of the picture's width and height: in sight, and not beside the camera. */
 const SPOTS = [[0.16, 0.16], [0.76, 0.2], [0.2, 0.84], [0.8, 0.84]] as const;
+/** Further ones come nearer and nearer to the middle. */
+const INWARDS = 0.8;
+/** Lights nearer to each other than this share of their distance can't be told apart. */
+const APART = 0.04;
 /** How far away they are, as a share of the distance to what is looked at. */
 const AHEAD = 0.7;
 
@@ -20,9 +24,17 @@ export function addLight(store: Store, viewer: Viewer): void {
   const { lights } = store.current;
   const target = viewer.target ?? cloud.center;
   const like = viewpoint.map((value, axis) => value + AHEAD * (target[axis]! - value)) as Viewpoint;
-  const [x, y] = SPOTS[lights.length % SPOTS.length]!;
   const { width, height } = viewer.stage.size;
-  store.change({ lights: [...lights, placeAt(viewer, x * width, y * height, like)] });
+  const gap = APART * new Vector3(...like).distanceTo(new Vector3(...viewpoint));
+  for (let i = 0, inwards = 1; ; i++, inwards *= i % SPOTS.length === 0 ? INWARDS : 1) {
+    const [x, y] = SPOTS[i % SPOTS.length]!.map((share) => 0.5 + inwards * (share - 0.5)) as [number, number];
+    const place = placeAt(viewer, x * width, y * height, like);
+    const isFree = lights.every((light) => new Vector3(...light).distanceTo(new Vector3(...place)) > gap);
+    // As many tries as lights are enough, unless some of them are in the middle.
+    if (!isFree && i <= 2 * lights.length) continue;
+    store.change({ lights: [...lights, place] });
+    return;
+  }
 }
 
 /** Arrow keys turn a light around the middle of the cloud, plus and minus bring it nearer and farther. */

@@ -45,10 +45,10 @@ export function startSession(params: Params, status: Status, message: Message): 
   const limit = params.points === null ? {} : { limit: params.points };
   /** A view that was asked for stays in the address also where it is the first one. */
   let askedView: AskedView | null = null;
-  const address = new Address(store, () => {
+  const address: Address = new Address(store, () => {
     if (viewer.isHome && viewer.isTargetHome) return askedView && { view: askedView.at, target: askedView.target };
     return { view: viewer.viewpoint, target: viewer.target };
-  });
+  }, () => workshop.introducing);
 
   const picker = new SamplePicker((sample) => {
     const source = fromSample(sample, null);
@@ -64,13 +64,19 @@ export function startSession(params: Params, status: Status, message: Message): 
 
   let shownName = "";
   // Who comes without any wish of their own is shown what this is about.
-  const workshop = new Workshop(viewer, store, { name: () => shownName, link: () => address.link() }, location.search === "");
+  const workshop: Workshop = new Workshop(viewer, store, { name: () => shownName, link: () => address.link() }, location.search === "");
   viewer.onFrame = () => {
     handles.place();
     workshop.place();
   };
   viewer.stage.onCamera = () => {
     address.touch();
+  };
+  viewer.stage.onLost = () => {
+    message.show("The browser has taken the picture away to save memory; it is drawn again as soon as the browser allows, or when you reload the page.");
+  };
+  viewer.stage.onRestored = () => {
+    message.hide();
   };
   store.follow((now) => {
     status.describe(now.freeze !== null);
@@ -180,6 +186,7 @@ export function startSession(params: Params, status: Status, message: Message): 
     const again = source && withoutNonFinite(error, source);
     message.show(sentence, again ? [{ label: "Load without them", run: () => void open(again) }] : []);
     picker.restore();
+    if (source) address.giveUp();
     // Not to leave the page empty where nothing has been opened before.
     const usual = sampleNamed(params.sample);
     if (viewer.cloud === null && source && source.sample !== usual) {

@@ -10,9 +10,14 @@ test("the page opens on the dragon, and every answer while orbiting is the packa
   expect(first.visible).toBeLessThan(first.total);
   expect(first.sentence).toMatch(/^[\d,]+ of 437,645 points \(\d+\s%\) are visible from here, found in [\d.,]+\sms\.$/);
   expect(first).toMatchObject(await answerInNode(positions, first));
+  // Whoever has done nothing yet is shown the divided picture again the next time.
+  await page.locator("#divider").waitFor();
+  await new Promise((resolve) => setTimeout(resolve, 500));
+  expect(new URL(page.url()).search).toBe("");
 
   await drag(page, 180, 40);
   const second = await refiltered(page, first);
+  await expect.poll(() => new URL(page.url()).search).toMatch(/^\?sample=dragon&view=[^&]+$/);
   expect(second.refilters).toBeGreaterThan(first.refilters);
   expect(second.viewpoint).not.toEqual(first.viewpoint);
   expect(second.visible).not.toBe(first.visible);

@@ -161,5 +161,16 @@ test("loading can be stopped, and the cloud that was there stays", async () => {
   await page.keyboard.press("Escape");
   await page.locator("#view").focus();
   await page.keyboard.press("ArrowLeft");
-  expect(await answered(page, after)).toMatchObject({ state: "ready", total: 1839 });
+  const moved = await answered(page, after);
+  expect(moved).toMatchObject({ state: "ready", total: 1839 });
+
+  // So does its address, which a chosen sample would have had.
+  await page.route("**/tile.bin", () => undefined);
+  await page.locator("#sample").selectOption("tile");
+  await expect.poll(() => page.url()).toContain("?sample=tile");
+  await page.getByRole("button", { name: "Stop loading" }).click();
+  await reached(page, "error");
+  expect(page.url()).toContain("?sample=bunny");
+  await page.getByRole("radio", { name: "Dimmed" }).check();
+  await expect.poll(() => page.url()).toContain("hidden=dimmed");
 });

@@ -119,6 +119,12 @@ test("lights are added, dragged, moved by keys, brought to the camera and remove
 
   await page.getByRole("button", { name: "Add a light" }).click();
   expect((await upToDate(page)).lights).toBe(2);
+  // The next one takes the place that is free.
+  await page.getByRole("button", { name: "Remove light 1" }).click();
+  await page.getByRole("button", { name: "Add a light" }).click();
+  expect((await upToDate(page)).lights).toBe(2);
+  const [one, two] = await lightsInAddress(page, 2);
+  expect(one).not.toEqual(two);
   await page.getByRole("button", { name: "Remove light 1" }).click();
   expect((await upToDate(page)).lights).toBe(1);
   await page.getByRole("button", { name: "Remove light 1" }).click();

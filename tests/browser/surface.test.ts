@@ -47,6 +47,14 @@ test("an edge counts in spacings", async () => {
   expect(now).toMatchObject(await expected(now, 2.5 * spacing));
 });
 
+test("a surface may have no triangle at all", async () => {
+  const page = await openReady("?sample=bunny&show=surface&edge=0.2");
+  expect(await upToDate(page)).toMatchObject({ state: "ready", triangles: 0 });
+  await page.getByRole("radio", { name: "Points" }).check();
+  expect(await upToDate(page)).toMatchObject({ state: "ready", show: "points", total: 1839 });
+  expect(await page.locator("#tools").isVisible()).toBe(true);
+});
+
 test("a surface is that of one viewpoint: others cannot be chosen", async () => {
   const page = await openReady(`${SAMPLE}&show=surface&viewpoints=any`);
   const now = await upToDate(page);

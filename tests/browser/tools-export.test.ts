@@ -137,6 +137,20 @@ test("the picture is saved as one sees it, marks included", async () => {
   expect(await differentPixels(page, await picture(page), png.content)).toBeGreaterThan(200);
 });
 
+test("while the browser has taken the picture away, that is said, and none is saved", async () => {
+  const page = await openBall();
+  const context = await page.evaluateHandle(() => document.querySelector<HTMLCanvasElement>("#view")!.getContext("webgl2")!.getExtension("WEBGL_lose_context")!);
+  await context.evaluate((extension) => { extension.loseContext(); });
+  const message = page.locator("#message p");
+  await expect.poll(() => message.textContent()).toMatch(/^The browser has taken the picture away/);
+  await tool(page, "Export").click();
+  await page.getByRole("button", { name: "PNG" }).click();
+  await expect.poll(() => page.locator("#export-result").textContent()).toMatch(/taken the picture away/);
+  await context.evaluate((extension) => { extension.restoreContext(); });
+  await expect.poll(() => message.isVisible()).toBe(false);
+  expect((await saved(page, "PNG")).content.length).toBeGreaterThan(1000);
+});
+
 test("the copied link shows the same cloud, camera and settings", async () => {
   const page = await openReady("?sample=dragon_res4", { permissions: ["clipboard-read", "clipboard-write"] });
   await page.getByLabel("Exponent", { exact: true }).fill("2.5");

@@ -1,7 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { at, clickPoint, everything, lonely, MIDDLE, openBall, place, tool, visible, within } from "./ball.js";
-import { differentPixels, drag, picture, settled, status, upToDate } from "./support.js";
+import { differentPixels, drag, openReady, picture, settled, status, upToDate } from "./support.js";
 
 const [X, Y, Z] = MIDDLE;
 
@@ -32,8 +32,22 @@ test("a click tells a visible point's index and its place in full precision", as
   expect(await page.locator("#marks .ring").count()).toBe(0);
 });
 
+test("where points are drawn large, all of their disc counts", async () => {
+  const page = await openReady("?sample=bunny");
+  await tool(page, "Pick").click();
+  const canvas = (await page.locator("#view").boundingBox())!;
+  for (const x of [0.44, 0.48, 0.52, 0.56]) {
+    for (const y of [0.5, 0.55, 0.6]) {
+      await page.mouse.click(canvas.x + x * canvas.width, canvas.y + y * canvas.height);
+      expect(await page.locator("#pick-result").getAttribute("data-index"), `${x}, ${y}`).toMatch(/^\d+$/);
+    }
+  }
+});
+
 test("hidden points are picked only through the surface", async () => {
   const page = await openBall();
+  // So that none of the visible points is drawn over them.
+  await page.getByLabel("Point size").fill("0.3");
   const seen = new Set(await visible(page));
   const hidden = everything.filter((i) => !seen.has(i));
   const [index] = await lonely(page, hidden, everything);

@@ -16,7 +16,7 @@ export interface PickedPoint {
 
 /**
  * What went wrong. `attribute`: a value that cannot be used, or does not suit the cloud or the place; the usual one is
- * used instead. `source`: the file could not be had, or not be read. `webgl`: the browser cannot draw. The others are
+ * used instead. `source`: the file could not be had, or not be read. `webgl`: the browser cannot draw, or has taken the picture away for the time being. The others are
  * those of the package: `load` (the WebAssembly file or a worker), `too-large`, `internal`.
  */
 export interface HiddenPointCloudError extends Error {

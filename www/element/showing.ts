@@ -58,6 +58,14 @@ export class Showing {
     this.viewer.onError = (error) => {
       tell.refused(problemOf(error, "The view"));
     };
+    this.viewer.stage.onLost = () => {
+      const problem = new Problem("webgl", "The browser has taken this picture away to save memory; it is drawn again as soon as the browser allows.");
+      frame.sayError(problem.message);
+      tell.refused(problem);
+    };
+    this.viewer.stage.onRestored = () => {
+      frame.sayError(null);
+    };
     this.store.follow((now) => {
       if (this.ready && !this.obeying) tell.moved(now);
     });

@@ -25,7 +25,8 @@ export class Compare {
   private readonly card: CompareCard;
   /** What ours is compared with, where that is not simply all points. */
   private reference: AgainstPicture | AgainstSurface | null = null;
-  private introducing: boolean;
+  /** Whether it is there only until the camera moves. */
+  introducing: boolean;
 
   constructor(viewer: Viewer, store: Store, introduce: boolean) {
     this.viewer = viewer;

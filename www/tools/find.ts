@@ -1,3 +1,4 @@
+import { MOST_PIXELS } from "../view/points.ts";
 import type { Viewer } from "../viewer.ts";
 import { Area } from "./area.ts";
 import { Projection } from "./projection.ts";
@@ -12,15 +13,30 @@ export interface Spot {
 /** Points further behind the nearest than so many tolerances are another surface. */
 const LAYER = 4;
 
-/** The point that is meant at a spot: of those within the tolerance that nearest to the spot, on the surface nearest to the camera. */
+/**
+ * The point that is meant at a spot: of those within the tolerance that nearest to the spot, on the surface nearest to the
+ * camera. Where there is none, of those drawn so large that they cover the spot.
+ */
 export function pointAt(viewer: Viewer, { x, y, tolerance }: Spot, through: boolean): number | null {
+  const { pointWidth, pixelRatio } = viewer.stage;
+  const widest = MOST_PIXELS / 2 / pixelRatio;
+  const among = candidates(viewer, through);
+  return (
+    nearestAt(viewer, x, y, among, tolerance, () => tolerance) ??
+    nearestAt(viewer, x, y, among, widest, (at) => Math.min(widest, pointWidth / 2 / at.lengthOf(1)))
+  );
+}
+
+/** Of points that may be off by what `allowed` says of each, at most `most`. */
+function nearestAt(viewer: Viewer, x: number, y: number, among: Uint32Array | null, most: number, allowed: (at: Projection) => number): number | null {
   const found: { index: number; off: number; ahead: number }[] = [];
   let behind = Infinity;
   const at = projectionOf(viewer);
   // A little more than the circle: what is on its rim is decided below.
-  const reach = tolerance + 1;
-  at.each({ left: x - reach, right: x + reach, top: y - reach, bottom: y + reach }, candidates(viewer, through), (index) => {
+  const reach = most + 1;
+  at.each({ left: x - reach, right: x + reach, top: y - reach, bottom: y + reach }, among, (index) => {
     const off = Math.hypot(at.x - x, at.y - y);
+    const tolerance = allowed(at);
     if (off > tolerance) return;
     found.push({ index, off, ahead: at.ahead });
     behind = Math.min(behind, at.ahead + at.lengthOf(LAYER * tolerance));

@@ -41,6 +41,11 @@ export class Tools {
     this.bindKeys({ c: () => { this.compare.toggle(); } }, viewer);
   }
 
+  /** Whether the picture is divided only to show what the page is about. */
+  get introducing(): boolean {
+    return this.compare.introducing;
+  }
+
   /** For a cloud that is shown in the place of another. */
   clear(): void {
     for (const tool of this.tools) tool.clear?.();

@@ -12,15 +12,22 @@ export class Workshop {
   private readonly viewer: Viewer;
   private here: { tools: Tools; plot: Plot } | null = null;
   private coming = false;
+  private readonly introduce: boolean;
   /** The exponent of the automatic radius, as last heard of. */
   private automatic: number | null = null;
 
   constructor(viewer: Viewer, store: Store, actions: ExportActions, introduce: boolean) {
     this.viewer = viewer;
+    this.introduce = introduce;
     this.load = async () => {
       const [{ Tools }, { Plot }] = await Promise.all([import("./tools.ts"), import("./plot.ts")]);
       return { tools: new Tools(viewer, store, actions, introduce), plot: new Plot(viewer, store) };
     };
+  }
+
+  /** Whether the picture is divided only to show what the page is about. */
+  get introducing(): boolean {
+    return this.here ? this.here.tools.introducing : this.introduce;
   }
 
   /** Another cloud is about to be shown. */

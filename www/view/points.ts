@@ -13,7 +13,7 @@ export const THROUGH_OPACITY: Record<HiddenMode, number> = { off: 0, dimmed: 0.4
 const THROUGH_WIDTH = 0.45;
 
 /** Device pixels: above, one near point covers the view. */
-const MOST_PIXELS = 160;
+export const MOST_PIXELS = 160;
 /** Device pixels: further to the right than any picture goes. */
 const EVERYWHERE = 1e9;
 

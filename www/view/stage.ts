@@ -15,6 +15,9 @@ export class Stage {
   onCamera: () => void = () => undefined;
   /** Called when the picture has got another shape, before it is drawn anew. */
   onResize: () => void = () => undefined;
+  /** Called when the browser takes the picture's memory away, as it may at any time, and when it gives it back. */
+  onLost: () => void = () => undefined;
+  onRestored: () => void = () => undefined;
 
   private readonly canvas: HTMLCanvasElement;
   private readonly renderer: WebGLRenderer;
@@ -38,7 +41,11 @@ export class Stage {
     this.eyeDome = new EyeDome();
     this.setTheme(THEMES.dark);
     this.resizing.observe(canvas);
-    canvas.addEventListener("webglcontextrestored", () => { this.invalidate(); });
+    canvas.addEventListener("webglcontextlost", () => { this.onLost(); });
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.invalidate();
+      this.onRestored();
+    });
     this.resize();
     this.renderer.setAnimationLoop(() => { this.frame(); });
   }
@@ -63,7 +70,11 @@ export class Stage {
     this.invalidate();
   }
 
-  /** In the cloud's units. */
+  /** Of a point, in the cloud's units. */
+  get pointWidth(): number {
+    return this.eyeDome.pointWidth;
+  }
+
   setPointWidth(width: number): void {
     this.eyeDome.pointWidth = width;
     this.invalidate();
@@ -97,6 +108,7 @@ export class Stage {
     this.renderer.setAnimationLoop(null);
     this.eyeDome.dispose();
     this.renderer.dispose();
+    this.onLost = () => undefined;
     // Browsers keep only so many pictures alive, and a context goes late by itself.
     this.renderer.forceContextLoss();
   }
@@ -113,8 +125,14 @@ export class Stage {
     this.invalidate();
   }
 
-  /** The picture as it is now, as a PNG file. */
+  /** How many of its own pixels the picture has for each CSS pixel. */
+  get pixelRatio(): number {
+    return this.renderer.getPixelRatio();
+  }
+
+  /** The picture as it is now, as a PNG file; rejects where there is none. */
   snapshot(): Promise<Blob> {
+    if (this.renderer.getContext().isContextLost()) return Promise.reject(new Error("the browser has taken the picture away"));
     // What is drawn is there to be read until the browser has shown it.
     this.invalidate();
     this.frame();

@@ -64,11 +64,11 @@ export class Surface {
     this.mesh.visible = triangles !== null;
     if (!triangles) return;
     const { geometry } = this.mesh;
-    const room = geometry.index?.array.length ?? 0;
+    const last = geometry.index;
     // A little more than needed, so that not each answer of an orbit takes new memory on the graphics card.
-    const index = triangles.length > room ? new BufferAttribute(new Uint32Array(Math.ceil(1.3 * triangles.length)), 1) : geometry.index!;
+    const index = last && triangles.length <= last.array.length ? last : new BufferAttribute(new Uint32Array(Math.ceil(1.3 * triangles.length)), 1);
     (index.array as Uint32Array).set(triangles);
-    if (index !== geometry.index) geometry.setIndex(index.setUsage(DynamicDrawUsage));
+    if (index !== last) geometry.setIndex(index.setUsage(DynamicDrawUsage));
     index.needsUpdate = true;
     geometry.setDrawRange(0, triangles.length);
   }
