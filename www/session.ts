@@ -187,6 +187,8 @@ export function startSession(params: Params, status: Status, message: Message): 
     message.show(sentence, again ? [{ label: "Load without them", run: () => void open(again) }] : []);
     picker.restore();
     if (source) address.giveUp();
+    // What a view is refused for goes with the next answer.
+    else note = sentence;
     // Not to leave the page empty where nothing has been opened before.
     const usual = sampleNamed(params.sample);
     if (viewer.cloud === null && source && source.sample !== usual) {

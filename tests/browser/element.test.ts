@@ -163,7 +163,18 @@ test("a file that is not there, one that is none, and one that comes too late", 
     await cloud.ready;
   });
   expect(await heardBy(page, "a", "load")).toEqual([{ total: 900, notes: [] }]);
-  expect(await page.locator("#a").locator('[part="error"]').isVisible()).toBe(false);
+  const complaint = page.locator("#a").locator('[part="error"]');
+  expect(await complaint.isVisible()).toBe(false);
+
+  // The browser takes the picture away, and gives it back.
+  const context = await page.locator("#a canvas").evaluateHandle((canvas: HTMLCanvasElement) => canvas.getContext("webgl2")!.getExtension("WEBGL_lose_context")!);
+  const taken = await hears(page, "a", "error", () => context.evaluate((extension) => { extension.loseContext(); }));
+  expect(taken).toMatchObject({ code: "webgl", message: expect.stringContaining("taken this picture away") as string });
+  expect(await element(page, "a", (cloud) => cloud.toBlob().catch(String))).toMatch(/taken the picture away/);
+  await context.evaluate((extension) => { extension.restoreContext(); });
+  await expect.poll(() => complaint.isVisible()).toBe(false);
+  expect(await element(page, "a", async (cloud) => (await cloud.toBlob()).size)).toBeGreaterThan(1000);
+
   await element(page, "a", (cloud) => { cloud.src = null; });
   expect(await element(page, "a", ({ state, count, visible }) => [state, count, visible.length])).toEqual(["empty", 0, 0]);
   await expect.poll(() => kept(page)).toEqual({ workers: 0, pictures: 1 });
