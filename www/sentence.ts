@@ -4,11 +4,12 @@ const number = new Intl.NumberFormat("en-US");
 
 /** What people and screen readers are told of an answer. */
 export function sentenceOf({ visibility, quick, milliseconds }: TimedView, total: number, frozen: boolean): string {
-  const where = frozen ? "were visible from the frozen viewpoint" : "are visible from here";
+  const one = visibility.count === 1;
+  const where = frozen ? `${one ? "was" : "were"} visible from the frozen viewpoint` : `${one ? "is" : "are"} visible from here`;
   const time = milliseconds < 10 ? milliseconds.toFixed(1) : number.format(Math.round(milliseconds));
   const share = percent(visibility.count, total);
   const standIn = quick ? ", with the automatic radius while moving" : "";
-  return `${number.format(visibility.count)} of ${number.format(total)} points (${share}) ${where}, found in ${time}\u00a0ms${standIn}.`;
+  return `${number.format(visibility.count)} of ${number.format(total)} ${total === 1 ? "point" : "points"} (${share}) ${where}, found in ${time}\u00a0ms${standIn}.`;
 }
 
 /** Rounded, but neither to none nor to all where that is not so. */

@@ -40,7 +40,7 @@ export const VALUES = {
   theme: written(oneOf<ThemeChoice>("system", "dark", "light"), "system, dark or light, so it is the system’s"),
   view: written(parsePlace, "three numbers x,y,z, so the usual view is used"),
   target: written(parsePlace, "three numbers x,y,z, so the camera looks at the middle"),
-  points: written((text) => whole(MAX_POINTS)(text) || undefined, `an integer from 1 to ${MAX_POINTS}, so it is the last`),
+  points: written((text) => whole(MAX_POINTS)(text) || undefined, `an integer from 1 to ${MAX_POINTS}, so the largest of these is used`),
   embed: written(oneOf("0", "1"), "0 or 1, so the controls are shown"),
 };
 

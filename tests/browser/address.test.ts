@@ -67,6 +67,7 @@ test.for([
   ["freeze=1e300,0,0", /frozen viewpoint in the address is too far away/],
   ["light=1e300,0,0&light=0,1e20,0", /light in the address is too far away/],
   ["denoise=101", /denoise in the address is not an integer from 0 to 100/],
+  ["points=1.5", /number of points in the address is not an integer from 1 to 10000000, so the largest of these is used/],
   ["src=", /names no file after “src=”/],
 ] as const)("?%s is refused with a note, and the sample is seen as usual", async ([query, note]) => {
   const usual = await status(await openReady("?sample=bunny"));
@@ -90,6 +91,13 @@ test("a sample that is picked is in the address", async () => {
   await page.locator("#sample").selectOption("dragon_res4");
   await answered(page, before);
   expect(new URL(page.url()).search).toBe("?sample=dragon_res4&exponent=2");
+});
+
+test("?src of what is no address of a file is refused in a plain sentence", async () => {
+  for (const [src, sentence] of [["//", "“//” is no address of a file."], ["data:text/plain,1", "“data:text/plain,1” is no address of a file."]] as const) {
+    const page = await openPage(`?src=${src}&sample=bunny`);
+    expect((await reached(page, "error")).sentence).toBe(sentence);
+  }
 });
 
 test("?src of a page instead of a cloud is refused in a plain sentence, and the usual sample is there", async () => {

@@ -308,6 +308,12 @@ function flaws(page: Page): Promise<string[]> {
     const card = document.getElementById("compare-card")!;
     const [canvas, bar, box] = [boxOf(document.getElementById("view")!), boxOf(document.getElementById("tool-bar")!), boxOf(card)];
     const found: string[] = [];
+    const slider = document.getElementById("splat")!;
+    if (slider.checkVisibility() && boxOf(slider).width < 100) found.push(`the slider is ${boxOf(slider).width} px wide`);
+    const divider = document.getElementById("divider")!;
+    const grip = getComputedStyle(divider, "::after");
+    const [top, left] = [boxOf(divider).top + Number.parseFloat(grip.top), boxOf(divider).left];
+    if (top + Number.parseFloat(grip.height) > box.top && left < box.right) found.push("the card lies over the divider's grip");
     if (box.left < canvas.left || box.right > canvas.right || box.top < canvas.top || box.bottom > bar.top) found.push("the card leaves its place");
     for (const part of card.querySelectorAll("label, button, th, td")) {
       const { left, right } = boxOf(part);

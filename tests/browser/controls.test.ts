@@ -1,4 +1,6 @@
 import { expect, test } from "vitest";
+import type { TimedView } from "../../www/ask/inquiry.js";
+import { sentenceOf } from "../../www/sentence.js";
 import {
   answerInNode,
   differentPixels,
@@ -151,6 +153,13 @@ test("back to the side that was up at first is back to the first view", async ()
   expect(turned.viewpoint).not.toEqual(inside.viewpoint);
   await page.locator("#up-axis").getByRole("radio", { name: "Y", exact: true }).check();
   expect((await refiltered(page, turned)).viewpoint).toEqual(inside.viewpoint);
+});
+
+test("the sentence tells one point from several", () => {
+  const said = (count: number, total: number, frozen = false) => sentenceOf({ visibility: { count }, quick: false, milliseconds: 3 } as TimedView, total, frozen);
+  expect(said(1, 1)).toMatch(/^1 of 1 point \(100\s%\) is visible from here, /);
+  expect(said(1, 900, true)).toMatch(/^1 of 900 points \(<\s1\s%\) was visible from the frozen viewpoint, /);
+  expect(said(0, 1)).toMatch(/^0 of 1 point \(0\s%\) are visible from here, /);
 });
 
 test("the sentence is announced once, after the movement", async () => {

@@ -155,6 +155,11 @@ test("a file that is not there, one that is none, and one that comes too late", 
   const second = await hears(page, "a", "error", () => element(page, "a", (cloud) => { cloud.src = "clouds/page.ply"; }));
   expect(second).toMatchObject({ code: "source", message: expect.stringContaining("page.ply is not a point cloud") as string });
 
+  // Not the page around.
+  const none = await hears(page, "a", "error", () => element(page, "a", (cloud) => { cloud.src = ""; }));
+  expect(none).toEqual({ code: "attribute", attribute: "src", message: "The attribute src names no file." });
+  expect(await element(page, "a", ({ state }) => state)).toBe("empty");
+
   // The first of these is given up, and never heard of.
   await element(page, "a", async (cloud) => {
     cloud.src = "clouds/b.ply";

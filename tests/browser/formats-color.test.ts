@@ -135,6 +135,10 @@ test("the samples street and tile have classes and intensity, and tile's coordin
     expect(await choices(page)).toEqual(expect.arrayContaining(["Intensity", "Classification"]));
     await page.locator("#color").selectOption("classification");
     expect(await page.locator("#legend").innerText()).toContain(label);
+    const colors = await page.locator("#legend .swatch").evaluateAll((all) => all.map((swatch) => getComputedStyle(swatch).backgroundColor.match(/\d+/g)!.map(Number)));
+    for (const [i, a] of colors.entries()) {
+      for (const b of colors.slice(i + 1)) expect(Math.hypot(...a.map((channel, k) => channel - b[k]!)), `${a.join()} and ${b.join()}`).toBeGreaterThan(45);
+    }
     expect(await page.locator(`#thumbnails [aria-pressed="true"]`).textContent()).toBe(sample === "tile" ? "Map tile" : "Street");
     expect(new URL(page.url()).searchParams.get("sample")).toBe(sample);
     if (sample === "tile") expect(now.viewpoint[1]).toBeGreaterThan(5_400_000);

@@ -154,6 +154,7 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
   ["cut.glb", glb(near).slice(0, 3000), /is broken: it ends before the length its header promises/],
   ["version.glb", edited(glb(near), (view) => { view.setUint32(4, 1, true); }), /is of glTF version 1/],
   ["json.glb", edited(glb(near), (_, bytes) => { bytes.fill(0x21, 20, 60); }), /the description of its scene cannot be read/],
+  ["nothing.gltf", text("{}"), /is broken: it does not say of which version of glTF it is/],
   ["empty.glb", glb([]), /holds no points|is broken/],
   ["parts.gltf", gltf(near, "parts.bin"), /keeps its points in a file of its own \(parts\.bin\)/],
   ["swapped.ply", both(binaryPly(near, "float", true).slice(0, -12 * COUNT), binaryPly(near, "float", false).slice(-12 * COUNT)), /its numbers are big-endian, and its header says that they are not/],

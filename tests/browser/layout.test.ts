@@ -155,6 +155,11 @@ test("with the system's own colors one sees what is chosen", async () => {
   const before = await color();
   await freeze.click();
   expect(await color()).not.toBe(before);
+  // Whatever is pressed has the same color.
+  await page.locator("#tool-pick").click();
+  const pressed = await page.locator('button[aria-pressed="true"]:not(#thumbnails *)').evaluateAll((buttons) => buttons.filter((button) => button.checkVisibility()).map((button) => [button.textContent, getComputedStyle(button).backgroundColor]));
+  expect(pressed.map(([name]) => name)).toEqual(expect.arrayContaining(["Pick", "Automatic", "Unfreeze viewpoint"]));
+  expect(new Set(pressed.map(([, background]) => background)).size).toBe(1);
 });
 
 test("a narrower window still shows the whole cloud, at once and after a reset", async () => {

@@ -140,7 +140,7 @@ test("more neighbors than there are points are said, and nothing breaks", async 
   served.set("clouds/few.ply", asciiPly(ball(20)));
   const page = await openReady("?src=clouds/few.ply&denoise=32");
   expect((await reached(page, "ready")).total).toBe(20);
-  expect(await page.locator("#message p").textContent()).toMatch(/do not suit this cloud.*denoise/);
+  expect(await page.locator("#message p").textContent()).toMatch(/do not suit this cloud .*: noise is told by the 32 nearest of each point, and there are too few points for that\.$/);
   // What the address has set is unfolded.
   await page.locator("#denoise").getByRole("radio", { name: "6", exact: true }).check();
   await upToDate(page);

@@ -129,7 +129,7 @@ test("the picture is saved as one sees it, marks included", async () => {
   const png = await saved(page, "PNG");
   expect(png.name).toBe("utm-picture.png");
   await tool(page, "Export").click();
-  await page.addStyleTag({ content: "#tools, #full-screen { visibility: hidden }" });
+  await page.addStyleTag({ content: "#tools { visibility: hidden }" });
   await page.locator("#view").blur();
   const shown = await picture(page);
   expect(await differentPixels(page, shown, png.content)).toBeLessThan(60);

@@ -1,7 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { at, openBall, place, tool } from "./ball.js";
-import { differentPixels, drag, dragonPositions, inNode, openReady, PHONE, picture, reached, refiltered, settled, status, unfold, upToDate } from "./support.js";
+import { differentPixels, drag, dragonPositions, inNode, openReady, PHONE, picture, refiltered, settled, status, unfold, upToDate } from "./support.js";
 
 /** Where the divider is, in pixels from the left. */
 async function dividerAt(page: Page): Promise<number> {
@@ -126,7 +126,12 @@ test("the question mark opens the sheet with all keys; it keeps the focus and gi
   await page.keyboard.press("Escape");
   expect(await sheet.isVisible()).toBe(false);
   expect(await page.evaluate(() => document.activeElement?.id)).toBe("view");
+  // Where it does not fit, it begins at its beginning.
+  await page.setViewportSize({ width: 320, height: 640 });
   await page.getByRole("button", { name: "Keys" }).click();
+  expect(await sheet.evaluate(({ scrollTop, scrollHeight, clientHeight }) => [scrollTop, scrollHeight > clientHeight])).toEqual([0, true]);
+  await page.keyboard.press("End");
+  await expect.poll(() => sheet.evaluate(({ scrollTop }) => scrollTop)).toBeGreaterThan(0);
   await page.getByRole("button", { name: "Close" }).click();
   expect(await sheet.isVisible()).toBe(false);
 });
@@ -134,13 +139,15 @@ test("the question mark opens the sheet with all keys; it keeps the focus and gi
 test.for([{ viewport: { width: 1280, height: 800 } }, { viewport: { width: 761, height: 600 } }, PHONE, { ...PHONE, viewport: { width: 320, height: 600 } }])(
   "every tool fits the canvas and covers no other ($viewport.width px)",
   async (options) => {
-    const page = await openReady("?sample=dragon_res4", options);
-    for (const name of ["Pick", "Measure", "Select", "Label", "Export"]) {
+    const page = await openReady("?sample=dragon_res4&against=zbuffer", options);
+    expect(await tool(page, "Full screen").isVisible()).toBe(true);
+    for (const name of ["Compare", "Pick", "Measure", "Select", "Label", "Export"]) {
       await tool(page, name).click();
+      if (name === "Compare") await page.locator("#compare-figures td").first().waitFor();
       const flaws = await page.evaluate(() => {
         const boxOf = (element: Element) => element.getBoundingClientRect();
         const canvas = boxOf(document.getElementById("view")!);
-        const shown = [...document.querySelectorAll("#tool-bar button, #tool-card button, #tool-card label, #tool-card output")].filter((element) => element.checkVisibility() && element.textContent !== "");
+        const shown = [...document.querySelectorAll("#tool-bar button, #tool-card button, #tool-card label, #tool-card output, #compare-card :is(button, label), #compare-note span")].filter((element) => element.checkVisibility() && element.textContent !== "");
         const found: string[] = [];
         for (const [i, a] of shown.entries()) {
           const box = boxOf(a);
@@ -156,11 +163,13 @@ test.for([{ viewport: { width: 1280, height: 800 } }, { viewport: { width: 761, 
         return found;
       });
       expect(flaws, name).toEqual([]);
+      // Cards are seen one at a time.
+      if (name === "Compare") await tool(page, name).click();
     }
   },
 );
 
-test("a finger picks", async () => {
+test("a finger picks and labels; a long label stays in the picture, and beside it one can press Remove", async () => {
   const page = await openBall(PHONE);
   await tool(page, "Pick").tap();
   // The point that bulges most towards the viewer is seen for sure.
@@ -168,10 +177,27 @@ test("a finger picks", async () => {
   const { x, y } = await place(page, nearest);
   await page.touchscreen.tap(x, y);
   expect(await page.locator("#pick-result").getAttribute("data-index")).toBe(String(nearest));
+
+  await tool(page, "Label").tap();
+  await page.touchscreen.tap(x, y);
+  const words = "A chimney of the old brickworks that was built, torn down and then built again.";
+  await page.getByLabel("Text of the label").fill(words);
+  await page.keyboard.press("Enter");
+  const text = page.locator("#marks .note text");
+  expect(await text.textContent()).toMatch(/^A chimney .*…$/);
+  const box = (await text.boundingBox())!;
+  expect(box.x).toBeGreaterThanOrEqual(0);
+  expect(box.x + box.width).toBeLessThanOrEqual(PHONE.viewport.width);
+  expect(await page.locator("#label-list span").textContent()).toBe(words);
+  const remove = (await page.locator("#label-list button").boundingBox())!;
+  expect(remove.width).toBeGreaterThan(60);
+  expect(remove.height).toBe(44);
 });
 
-test("?embed=1 has no tools", async () => {
-  const page = await openReady("?sample=dragon_res4&embed=1");
-  await reached(page, "ready");
+test("?embed=1 has no tools, but says what is on either side of the divider", async () => {
+  const page = await openReady("?sample=dragon_res4&embed=1&compare=0.4&against=zbuffer");
   expect(await page.locator("#tools").isVisible()).toBe(false);
+  const note = page.locator("#compare-note span");
+  await expect.poll(() => note.allTextContents()).toEqual([expect.stringMatching(/^Z-buffer: [\d,]+$/), expect.stringMatching(/^Ours: [\d,]+$/)]);
+  for (const side of await note.all()) expect(await side.isVisible()).toBe(true);
 });

@@ -1,4 +1,4 @@
-import { init, ringOfViewpoints, type Inversion as LibraryInversion, type VisibilityOptions } from "hidden-point-removal";
+import { HprError, init, ringOfViewpoints, type Inversion as LibraryInversion, type VisibilityOptions } from "hidden-point-removal";
 import type { WorkerPointCloud } from "hidden-point-removal/worker";
 import type { Viewpoint } from "../settings.ts";
 import type { Method } from "./question.ts";
@@ -18,6 +18,9 @@ export class WorkerCloud {
   }
 
   async options({ radius, inversion, denoise, vote }: Method, viewpoint: Viewpoint): Promise<VisibilityOptions> {
+    const nearest = Math.max(denoise, vote);
+    // Said here, where it can be said plainly: the library names the numbers it takes, which of one point are none.
+    if (nearest > 0 && nearest >= this.points.length) throw new HprError("option", `noise is told by the ${nearest} nearest of each point, and there are too few points for that`);
     return {
       ...(radius === null ? {} : "rule" in radius ? { radius: radius.rule } : "length" in radius ? { radius: radius.length } : radius),
       ...(inversion === "spherical" ? {} : { inversion: await this.inversion(inversion, viewpoint) }),

@@ -54,7 +54,9 @@ export function readAttributes(element: Element): Reading {
     return value;
   };
 
-  const src = element.getAttribute("src");
+  // An empty one is not an address: it would be that of the page around.
+  const src = element.getAttribute("src") || null;
+  if (element.getAttribute("src") === "") refuse("src", "The attribute src names no file.");
   let sample = element.getAttribute("sample");
   if (sample !== null && !SAMPLES.some(({ name }) => name === sample)) {
     refuse("sample", `The attribute sample="${sample}" is not one of ${SAMPLES.map(({ name }) => name).join(", ")}.`);

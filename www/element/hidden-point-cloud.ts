@@ -49,7 +49,7 @@ class HiddenPointCloud extends Base implements Own {
 
   attributeChangedCallback(name: string, before: string | null, now: string | null): void {
     // Writing the same address once more tries it once more.
-    const renamed = name === "src" || (SOURCES.includes(name) && before !== now && !(name === "sample" && this.hasAttribute("src")));
+    const renamed = name === "src" || (SOURCES.includes(name) && before !== now && !(name === "sample" && this.getAttribute("src")));
     if (renamed) this.#renew();
     this.#looks ||= name === "viewpoint" || name === "target";
     this.#touch();

@@ -10,6 +10,7 @@ import { LoadProblem } from "./problem.ts";
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
 
 interface GltfJson {
+  asset?: { version?: unknown };
   buffers?: { uri?: string }[];
   extensionsUsed?: string[];
   extensionsRequired?: string[];
@@ -78,6 +79,7 @@ function jsonOf(name: string, data: ArrayBuffer): GltfJson {
 }
 
 function checkUse(name: string, json: GltfJson, base: string | null): void {
+  if (json.asset?.version === undefined) throw new LoadProblem(`${name} is broken: it does not say of which version of glTF it is.`);
   const used = [...(json.extensionsUsed ?? []), ...(json.extensionsRequired ?? [])];
   if (used.includes("KHR_draco_mesh_compression")) {
     throw new LoadProblem(`${name} is compressed with Draco, which this page does not read. Export it without that compression.`);

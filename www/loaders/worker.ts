@@ -34,6 +34,11 @@ self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
   }
 };
 
+/** As much of it as one reads in a sentence. */
+function shortened(address: string): string {
+  return address.length > 60 ? `${address.slice(0, 60)}…` : address;
+}
+
 async function load(request: LoadRequest): Promise<LoadedCloud> {
   const { name } = request;
   const downloading = (fraction: number | null) => { progress("Downloading", fraction); };
@@ -50,6 +55,8 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
 
   const { limit = MAX_POINTS, skipNonFinite } = request;
   const check = (cloud: LoadedCloud) => checkedCloud(name, cloud, skipNonFinite);
+  // Neither what cannot be read as one, nor what holds its own content (data:).
+  if (request.kind === "url" && !URL.canParse(".", request.url)) throw new LoadProblem(`“${shortened(request.url)}” is no address of a file.`);
   let blob: Blob;
   if (request.kind === "file") {
     blob = request.file;

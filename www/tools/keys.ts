@@ -3,9 +3,15 @@ import { byId } from "../panel/dom.ts";
 /** The sheet with all keys. A modal dialog keeps the focus, closes by Escape and gives the focus back by itself. */
 export function bindKeysSheet(): void {
   const sheet = byId("keys", HTMLDialogElement);
+  const open = () => {
+    sheet.showModal();
+    // Its only button is at its end: the sheet itself has the focus, is read from its beginning and scrolls by keys.
+    sheet.focus();
+    sheet.scrollTop = 0;
+  };
   const toggle = () => {
     if (sheet.open) sheet.close();
-    else sheet.showModal();
+    else open();
   };
   byId("tool-keys").addEventListener("click", toggle);
   byId("keys-close").addEventListener("click", toggle);

@@ -4,6 +4,12 @@ import { Projection } from "./projection.ts";
 
 const SVG = "http://www.w3.org/2000/svg";
 
+/** How far a text is from its point, and from the edge of the picture. */
+const ASIDE = 14;
+const EDGE = 6;
+/** The width that is kept for an ellipsis. */
+const DOTS = 14;
+
 /** Something drawn over the picture that is fastened to points of the cloud. */
 export interface Mark {
   remove(): void;
@@ -52,9 +58,14 @@ export class Marks {
   /** A text beside a point, as long as that is seen. */
   note(index: number, text: string): Mark {
     const label = withText(text);
-    move(label, { x: 14, y: -14 });
-    const element = group("note", [create("line", { x2: 11, y2: -11 }), create("circle", { r: 3, class: "dot" }), label]);
-    return this.fasten({ element, anchors: [index], hides: true, place: ([at]) => { move(element, at!); } });
+    const line = create("line", { y2: -11 });
+    const element = group("note", [line, create("circle", { r: 3, class: "dot" }), label]);
+    const place = ([at]: { x: number; y: number }[]) => {
+      move(element, at!);
+      const side = fit(label, text, at!.x, this.viewer.stage.size.width);
+      set(line, { x2: 11 * side });
+    };
+    return this.fasten({ element, anchors: [index], hides: true, place });
   }
 
   /** Once more where its points are now. Called every frame; does nothing while nothing has moved. */
@@ -115,6 +126,23 @@ function withText(text: string): SVGTextElement {
   const element = create("text", {});
   element.textContent = text;
   return element;
+}
+
+/** Puts a text beside a place, to its left (-1) where its right (1) has too little room and less, and cuts what has none. */
+function fit(label: SVGTextElement, text: string, x: number, width: number): 1 | -1 {
+  label.textContent = text;
+  const length = label.getComputedTextLength();
+  const [left, right] = [x - ASIDE - EDGE, width - x - ASIDE - EDGE];
+  const side = length > right && left > right ? -1 : 1;
+  const room = Math.max(left, right);
+  if (length > room) {
+    let kept = text.length;
+    while (kept > 1 && label.getSubStringLength(0, kept) > room - DOTS) kept--;
+    label.textContent = `${text.slice(0, kept).trimEnd()}…`;
+  }
+  set(label, { "text-anchor": side > 0 ? "start" : "end" });
+  move(label, { x: ASIDE * side, y: -ASIDE });
+  return side;
 }
 
 function move(element: SVGElement, { x, y }: { x: number; y: number }): void {

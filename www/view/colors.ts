@@ -45,6 +45,7 @@ const CLASS_COLORS: Readonly<Record<string, string>> = {
   "high noise": "#c566c9",
   water: "#4f94d4",
   road: "#7f8794",
+  vehicle: "#3f6fe0",
 };
 
 type Rgb = readonly [number, number, number];
