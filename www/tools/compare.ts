@@ -101,7 +101,7 @@ export class Compare {
     const { cloud, visible } = this.viewer.scene;
     const known = this.compared(cloud.count);
     if (known) return known;
-    return { left: `All ${number.format(cloud.count)} points`, right: `${number.format(visible.length)} seen from here` };
+    return { left: cloud.count === 1 ? "The only point" : `All ${number.format(cloud.count)} points`, right: `${number.format(visible.length)} seen from here` };
   }
 
   /** Shows the figures; `null` as long as there are none. */
