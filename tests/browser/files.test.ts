@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { asciiPly, ball, binaryPly, georeferencedBall, meshObj, meshPly, pcd, rows, text, utf16 } from "./clouds.js";
-import { choose, drop } from "./files.js";
+import { choose, openInTurn } from "./files.js";
 import { answered, answerInNode, openReady, status } from "./support.js";
 
 const COUNT = 600;
@@ -31,14 +31,7 @@ const FILES: [string, Uint8Array, Float32Array | Float64Array][] = [
 ];
 
 test("every format opens, chosen or dropped in turn, with the file's own coordinates", async () => {
-  const page = await openReady("?sample=bunny");
-  for (const [i, [name, content, positions]] of FILES.entries()) {
-    const before = await status(page);
-    await (i % 2 === 0 ? choose : drop)(page, name, content);
-    const now = await answered(page, before);
-    expect(now, name).toMatchObject({ state: "ready", total: COUNT, ...(await answerInNode(positions, now)) });
-    expect(await page.locator("#sample option:checked").textContent()).toBe(name);
-  }
+  await openInTurn(await openReady("?sample=bunny"), FILES);
 });
 
 test("up can be chosen, and the cloud is looked at anew", async () => {

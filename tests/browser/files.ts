@@ -1,5 +1,6 @@
 import type { Page } from "playwright-core";
 import { expect } from "vitest";
+import { answered, answerInNode, status } from "./support.js";
 
 /** As by the button. */
 export async function choose(page: Page, name: string, content: Uint8Array): Promise<void> {
@@ -20,4 +21,16 @@ export async function drop(page: Page, name: string, content: Uint8Array): Promi
   expect(await page.locator("#drop").isVisible()).toBe(true);
   await page.dispatchEvent("#view", "drop", { dataTransfer: transfer });
   expect(await page.locator("#drop").isVisible()).toBe(false);
+}
+
+/** Opens files by one way and the other: each is shown without a word, and seen as the package sees it. */
+export async function openInTurn(page: Page, files: readonly [name: string, content: Uint8Array, positions: Float32Array | Float64Array][]): Promise<void> {
+  for (const [i, [name, content, positions]] of files.entries()) {
+    const before = await status(page);
+    await (i % 2 === 0 ? choose : drop)(page, name, content);
+    const now = await answered(page, before);
+    expect(now, name).toMatchObject({ state: "ready", total: positions.length / 3, ...(await answerInNode(positions, now)) });
+    expect(await page.locator("#sample option:checked").textContent()).toBe(name);
+    expect(await page.locator("#message").isVisible(), name).toBe(false);
+  }
 }

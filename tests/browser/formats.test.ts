@@ -2,7 +2,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "vitest";
 import { asciiPly, ball, binaryPly, georeferencedBall, pcd, text } from "./clouds.js";
-import { choose, drop } from "./files.js";
+import { choose, drop, openInTurn } from "./files.js";
 import { glb, gltf, gltfBinary, inMillimeters, las, moved } from "./formats.js";
 import { answered, answerInNode, openReady, reached, served, status } from "./support.js";
 
@@ -29,15 +29,7 @@ const FILES: [string, Uint8Array, Float32Array | Float64Array][] = [
 ];
 
 test("LAS, LAZ, glTF and GLB files open, chosen or dropped in turn, with the file's own coordinates", async () => {
-  const page = await openReady("?sample=bunny");
-  for (const [i, [name, content, positions]] of FILES.entries()) {
-    const before = await status(page);
-    await (i % 2 === 0 ? choose : drop)(page, name, content);
-    const now = await answered(page, before);
-    expect(now, name).toMatchObject({ state: "ready", total: COUNT, ...(await answerInNode(positions, now)) });
-    expect(await page.locator("#sample option:checked").textContent()).toBe(name);
-    expect(await page.locator("#message").isVisible(), name).toBe(false);
-  }
+  await openInTurn(await openReady("?sample=bunny"), FILES);
 });
 
 test("a glTF file's numbers may lie beside it on the web", async () => {
