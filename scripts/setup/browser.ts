@@ -10,11 +10,19 @@ import { aptInstall, canInstallOnDebian } from "./debian.js";
 const SHELL = "chromium-headless-shell";
 const COMMANDS = [SHELL, "chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
+let browser: Promise<string> | undefined;
+
 /**
  * The Chromium the page is tested in: the one HPR_CHROMIUM names, one on the
- * PATH, or Playwright's own; where there is none, one is installed.
+ * PATH, or Playwright's own; where there is none, one is installed. Two checks
+ * that run beside each other ask for it: a second apt-get would find the first
+ * one's lock, and fail.
  */
-export async function setUpBrowser(): Promise<string> {
+export function setUpBrowser(): Promise<string> {
+  return (browser ??= findOrInstall());
+}
+
+async function findOrInstall(): Promise<string> {
   const named = process.env["HPR_CHROMIUM"] !== undefined;
   if (!named && findOnPath(SHELL) === undefined && canInstallOnDebian()) {
     say(`Installing Chromium (${SHELL}) for the page's tests…`);
