@@ -26,7 +26,8 @@ export function addLight(store: Store, viewer: Viewer): void {
   const like = viewpoint.map((value, axis) => value + AHEAD * (target[axis]! - value)) as Viewpoint;
   const { width, height } = viewer.stage.size;
   const gap = APART * new Vector3(...like).distanceTo(new Vector3(...viewpoint));
-  for (let i = 0, inwards = 1; ; i++, inwards *= i % SPOTS.length === 0 ? INWARDS : 1) {
+  for (let i = 0; ; i++) {
+    const inwards = INWARDS ** Math.floor(i / SPOTS.length);
     const [x, y] = SPOTS[i % SPOTS.length]!.map((share) => 0.5 + inwards * (share - 0.5)) as [number, number];
     const place = placeAt(viewer, x * width, y * height, like);
     const isFree = lights.every((light) => new Vector3(...light).distanceTo(new Vector3(...place)) > gap);
