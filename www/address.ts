@@ -18,20 +18,20 @@ const CALM = 300;
 /** Keeps the page's address such that, copied, it shows the same cloud, picture and settings again. */
 export class Address {
   /** The camera's place where that is not the usual one. */
-  private readonly camera: () => CameraPlace | null;
-  private readonly store: Store;
+  readonly #camera: () => CameraPlace | null;
+  readonly #store: Store;
   /** `null`: a file from this device, which no address can open. */
-  private cloud: { name: CloudName; usual: Usual } | null = null;
+  #cloud: { name: CloudName; usual: Usual } | null = null;
   /** What the address was of before a cloud was chosen that is not there yet. */
-  private before: { cloud: Address["cloud"]; href: string } | null = null;
+  #before: { cloud: { name: CloudName; usual: Usual } | null; href: string } | null = null;
   /** Whether the picture is divided only to show what the page is about. */
-  private readonly introducing: () => boolean;
-  private timer: ReturnType<typeof setTimeout> | undefined;
+  readonly #introducing: () => boolean;
+  #timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(store: Store, camera: () => CameraPlace | null, introducing: () => boolean) {
-    this.store = store;
-    this.camera = camera;
-    this.introducing = introducing;
+    this.#store = store;
+    this.#camera = camera;
+    this.#introducing = introducing;
     store.follow(() => {
       this.touch();
     });
@@ -39,15 +39,15 @@ export class Address {
 
   /** From now on the address is that of this cloud. */
   begin(name: CloudName | null, usual: Usual): void {
-    this.cloud = name && { name, usual };
-    this.before = null;
+    this.#cloud = name && { name, usual };
+    this.#before = null;
     this.touch();
   }
 
   /** At once, for a cloud that is about to be loaded: what belonged to the one before goes. */
   choose([parameter, value]: CloudName): void {
-    this.before ??= { cloud: this.cloud, href: location.href };
-    this.cloud = null;
+    this.#before ??= { cloud: this.#cloud, href: location.href };
+    this.#cloud = null;
     const address = new URL(location.href);
     for (const name of ["src", "view", "target", "freeze", "light", "color", "size", "fov", "up"]) address.searchParams.delete(name);
     address.searchParams.set(parameter, value);
@@ -56,36 +56,36 @@ export class Address {
 
   /** What was chosen will not come: the cloud before it has stayed, and with it its address. */
   giveUp(): void {
-    if (!this.before) return;
-    this.cloud = this.before.cloud;
-    replace(new URL(this.before.href));
-    this.before = null;
+    if (!this.#before) return;
+    this.#cloud = this.#before.cloud;
+    replace(new URL(this.#before.href));
+    this.#before = null;
     this.touch();
   }
 
   /** Something has changed that the address may have to say. */
   touch(): void {
-    if (!this.cloud) return;
-    clearTimeout(this.timer);
-    this.timer = setTimeout(() => {
-      this.write();
+    if (!this.#cloud) return;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => {
+      this.#write();
     }, CALM);
   }
 
   /** The page as it is now, for others to open; `null` where no address can. */
   link(): string | null {
-    this.write();
-    return this.cloud && location.href;
+    this.#write();
+    return this.#cloud && location.href;
   }
 
-  private write(): void {
-    if (!this.cloud) return;
-    const { name, usual } = this.cloud;
+  #write(): void {
+    if (!this.#cloud) return;
+    const { name, usual } = this.#cloud;
     const address = new URL(location.href);
     const { searchParams } = address;
-    const introducing = this.introducing();
-    const settings = introducing ? { ...this.store.current, compare: null } : this.store.current;
-    const values = { ...settingsInAddress(settings, usual), ...cameraInAddress(this.camera()) };
+    const introducing = this.#introducing();
+    const settings = introducing ? { ...this.#store.current, compare: null } : this.#store.current;
+    const values = { ...settingsInAddress(settings, usual), ...cameraInAddress(this.#camera()) };
     // Whoever has done nothing yet is shown it again the next time.
     if (introducing && address.search === "" && Object.values(values).every((texts) => texts.length === 0)) return;
     searchParams.delete(name[0] === "src" ? "sample" : "src");

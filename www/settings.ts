@@ -94,26 +94,26 @@ type Listener = (now: Settings, before: Settings) => void;
 
 /** The settings as they are now. Each change makes a new object, so that a setting that is the same object is unchanged. */
 export class Store {
-  private settings: Settings;
-  private readonly listeners: Listener[] = [];
+  #settings: Settings;
+  readonly #listeners: Listener[] = [];
 
   constructor(settings: Settings) {
-    this.settings = settings;
+    this.#settings = settings;
   }
 
   get current(): Settings {
-    return this.settings;
+    return this.#settings;
   }
 
   change(part: Partial<Settings>): void {
-    const before = this.settings;
-    this.settings = { ...before, ...part };
-    for (const listener of this.listeners) listener(this.settings, before);
+    const before = this.#settings;
+    this.#settings = { ...before, ...part };
+    for (const listener of this.#listeners) listener(this.#settings, before);
   }
 
   /** Tells of the settings now and of every change from now on. */
   follow(listener: Listener): void {
-    this.listeners.push(listener);
-    listener(this.settings, this.settings);
+    this.#listeners.push(listener);
+    listener(this.#settings, this.#settings);
   }
 }

@@ -13,52 +13,52 @@ const SETTLED = 1000;
  * readers hear of a new sentence once the movement that changes it has stopped.
  */
 export class Status {
-  private readonly element: HTMLElement;
-  private readonly announcement = byId("announcement");
-  private sentence = "";
-  private timer: ReturnType<typeof setTimeout> | undefined;
-  private announcing: ReturnType<typeof setTimeout> | undefined;
-  private refilters = 0;
-  private last: (TimedView & { total: number }) | null = null;
+  readonly #element: HTMLElement;
+  readonly #announcement = byId("announcement");
+  #sentence = "";
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  #announcing: ReturnType<typeof setTimeout> | undefined;
+  #refilters = 0;
+  #last: (TimedView & { total: number }) | null = null;
   /** Answers to what was asked before this moment do not end a "loading" or an "error". */
-  private since = Infinity;
+  #since = Infinity;
 
   constructor(element: HTMLElement) {
-    this.element = element;
+    this.#element = element;
   }
 
   /** Until `loaded` or `error`, whatever the cloud that is still there has to answer. */
   loading(sentence: string): void {
-    this.since = Infinity;
-    this.element.dataset["state"] = "loading";
+    this.#since = Infinity;
+    this.#element.dataset["state"] = "loading";
     this.busy(true);
-    this.say(sentence);
+    this.#say(sentence);
   }
 
   loaded(): void {
-    this.since = 0;
-    this.interrupt();
+    this.#since = 0;
+    this.#interrupt();
   }
 
   /** The attributes of the cloud that is still there stay, and its next question makes it "ready" again. */
   error(sentence: string): void {
-    this.since = performance.now();
-    this.element.dataset["state"] = "error";
+    this.#since = performance.now();
+    this.#element.dataset["state"] = "error";
     this.busy(false);
-    this.interrupt();
-    this.say(sentence);
+    this.#interrupt();
+    this.#say(sentence);
   }
 
   /** Whether an answer for the present settings and place is still to come. */
   busy(busy: boolean): void {
-    this.element.dataset["busy"] = busy ? "1" : "0";
+    this.#element.dataset["busy"] = busy ? "1" : "0";
   }
 
   /** All attributes are those of this one answer. */
   answer(answer: TimedView, total: number, frozen: boolean): void {
     const { question, visibility, triangles, asked, milliseconds } = answer;
-    this.refilters++;
-    Object.assign(this.element.dataset, {
+    this.#refilters++;
+    Object.assign(this.#element.dataset, {
       total: String(total),
       visible: String(visibility.count),
       viewpoint: String(question.viewpoint),
@@ -68,45 +68,45 @@ export class Status {
       inversion: inversionText(visibility.inversion as Inversion),
       show: question.shape.kind,
       milliseconds: String(milliseconds),
-      refilters: String(this.refilters),
+      refilters: String(this.#refilters),
     });
-    if (triangles) this.element.dataset["triangles"] = String(triangles.length / 3);
-    else delete this.element.dataset["triangles"];
-    if (asked < this.since) return;
-    this.element.dataset["state"] = "ready";
-    this.last = { ...answer, total };
+    if (triangles) this.#element.dataset["triangles"] = String(triangles.length / 3);
+    else delete this.#element.dataset["triangles"];
+    if (asked < this.#since) return;
+    this.#element.dataset["state"] = "ready";
+    this.#last = { ...answer, total };
     this.describe(frozen);
   }
 
   /** How many lights the picture is lit by; without any there is no shadow. */
   lit(lights: number): void {
-    if (lights > 0) this.element.dataset["lights"] = String(lights);
-    else delete this.element.dataset["lights"];
+    if (lights > 0) this.#element.dataset["lights"] = String(lights);
+    else delete this.#element.dataset["lights"];
   }
 
   /** The sentence about the last answer, once more with what has become of the viewpoint. */
   describe(frozen: boolean): void {
-    if (!this.last || this.element.dataset["state"] !== "ready") return;
-    this.say(sentenceOf(this.last, this.last.total, frozen));
+    if (!this.#last || this.#element.dataset["state"] !== "ready") return;
+    this.#say(sentenceOf(this.#last, this.#last.total, frozen));
   }
 
   /** Lets the next sentence be read at once. */
-  private interrupt(): void {
-    clearTimeout(this.timer);
-    this.timer = undefined;
+  #interrupt(): void {
+    clearTimeout(this.#timer);
+    this.#timer = undefined;
   }
 
-  private say(sentence: string): void {
-    this.sentence = sentence;
-    clearTimeout(this.announcing);
-    this.announcing = setTimeout(() => {
-      this.announcement.textContent = sentence;
+  #say(sentence: string): void {
+    this.#sentence = sentence;
+    clearTimeout(this.#announcing);
+    this.#announcing = setTimeout(() => {
+      this.#announcement.textContent = sentence;
     }, SETTLED);
-    if (this.timer !== undefined) return;
-    this.element.textContent = sentence;
-    this.timer = setTimeout(() => {
-      this.timer = undefined;
-      this.element.textContent = this.sentence;
+    if (this.#timer !== undefined) return;
+    this.#element.textContent = sentence;
+    this.#timer = setTimeout(() => {
+      this.#timer = undefined;
+      this.#element.textContent = this.#sentence;
     }, CALM);
   }
 }

@@ -53,92 +53,92 @@ export class Viewer {
   /** Called before each frame. */
   onFrame: () => void = () => undefined;
 
-  private readonly store: Store;
-  private readonly marker: ViewpointMarker;
-  private shown: Shown | null = null;
-  private theme = THEMES.dark;
-  private lit = false;
-  private surfaceShown = false;
+  readonly #store: Store;
+  readonly #marker: ViewpointMarker;
+  #shown: Shown | null = null;
+  #theme = THEMES.dark;
+  #lit = false;
+  #surfaceShown = false;
   /** Whether points are drawn by what a reference says of them. */
-  private compared = false;
+  #compared = false;
 
   /** `polite`: the page around the picture can be scrolled over it. */
   constructor(canvas: HTMLCanvasElement, store: Store, polite: boolean) {
-    this.store = store;
+    this.#store = store;
     this.stage = new Stage(canvas);
     this.navigation = new Navigation(this.stage.camera, canvas, polite);
-    this.marker = new ViewpointMarker(this.stage.overlay);
+    this.#marker = new ViewpointMarker(this.stage.overlay);
     this.stage.onFrame = () => {
-      this.marker.follow(this.stage.camera);
-      this.inquire();
+      this.#marker.follow(this.stage.camera);
+      this.#inquire();
       this.onFrame();
     };
     this.navigation.onMove = () => {
-      this.inquire();
+      this.#inquire();
     };
     // Who has not moved yet goes on seeing the whole cloud; who has stays there.
     this.stage.onResize = () => {
       if (this.isHome) this.reset();
     };
     store.follow((now, before) => {
-      this.apply(now, before);
+      this.#apply(now, before);
     });
   }
 
   /** The cloud on screen. */
   get cloud(): Cloud | null {
-    return this.shown?.cloud ?? null;
+    return this.#shown?.cloud ?? null;
   }
 
   /** What the tools work on; only while there is a cloud. */
   get scene(): Opened & { visible: Uint32Array } {
-    return { ...this.shown!, visible: this.shown!.answer.visibility.indices };
+    return { ...this.#shown!, visible: this.#shown!.answer.visibility.indices };
   }
 
   /** The way one looks from the viewpoint: the camera's, or that of where it stays. */
   get direction(): Quaternion {
-    return this.shown!.frozen ?? this.stage.camera.quaternion;
+    return this.#shown!.frozen ?? this.stage.camera.quaternion;
   }
 
   /** Whether the camera stands where it stood at first. */
   get isHome(): boolean {
-    return this.shown !== null && this.stage.camera.position.equals(this.shown.home.pose.at);
+    return this.#shown !== null && this.stage.camera.position.equals(this.#shown.home.pose.at);
   }
 
   /** Whether it looks at what it looked at first; orbit controls change that by a bit each time. */
   get isTargetHome(): boolean {
-    return this.shown !== null && this.navigation.target.distanceTo(this.shown.home.pose.target) <= 1e-9 * this.shown.cloud.radius;
+    return this.#shown !== null && this.navigation.target.distanceTo(this.#shown.home.pose.target) <= 1e-9 * this.#shown.cloud.radius;
   }
 
   /** The camera's place in the file's coordinates: at home exactly the numbers that were asked for. */
   get viewpoint(): Viewpoint {
-    const { cloud, home } = this.shown!;
+    const { cloud, home } = this.#shown!;
     return this.isHome ? home.viewpoint : inFile(cloud, this.stage.camera.position);
   }
 
   /** What the camera looks at, in the file's coordinates; `null` for the middle of the cloud. */
   get target(): Viewpoint | null {
     const { target } = this.navigation;
-    return target.lengthSq() === 0 ? null : inFile(this.shown!.cloud, target);
+    return target.lengthSq() === 0 ? null : inFile(this.#shown!.cloud, target);
   }
 
   /** Takes the cloud away, so that settings can be made for the next. */
   clear(): void {
-    if (!this.shown) return;
-    this.shown.inquiry.dispose();
-    const { points, mesh } = this.shown;
+    if (!this.#shown) return;
+    this.#shown.inquiry.dispose();
+    const { points, mesh } = this.#shown;
     for (const drawn of [points.solid, points.different, points.extra, points.ghost, mesh.mesh]) drawn.removeFromParent();
     points.dispose();
     mesh.dispose();
-    this.shown = null;
-    this.compared = false;
+    this.#shown = null;
+    this.#compared = false;
     this.stage.invalidate();
   }
 
   /** Ends the picture, its worker and its hold on the canvas, which is of no further use. */
   dispose(): void {
     this.clear();
-    this.marker.remove();
+    this.#marker.remove();
     this.navigation.dispose();
     this.stage.dispose();
   }
@@ -146,18 +146,18 @@ export class Viewer {
   /** Shows a cloud, after `clear`. */
   show(opened: Opened): void {
     const { cloud, inquiry, answer, home } = opened;
-    const attributes = new CloudAttributes(cloud, this.theme);
-    const points = new CloudPoints(cloud, attributes, this.theme);
-    const mesh = new Surface(attributes, this.theme);
-    this.shown = { ...opened, attributes, points, mesh, frozen: null };
+    const attributes = new CloudAttributes(cloud, this.#theme);
+    const points = new CloudPoints(cloud, attributes, this.#theme);
+    const mesh = new Surface(attributes, this.#theme);
+    this.#shown = { ...opened, attributes, points, mesh, frozen: null };
     inquiry.onView = (next) => {
-      this.showAnswer(next);
+      this.#showAnswer(next);
       this.onAnswer(next, cloud.count);
     };
     inquiry.onLight = (light) => {
       attributes.setBrightness(light?.brightness ?? null);
-      this.lit = light !== null;
-      this.setShading();
+      this.#lit = light !== null;
+      this.#setShading();
       this.onLight(light);
     };
     inquiry.onAutomatic = (exponent) => {
@@ -166,115 +166,115 @@ export class Viewer {
     inquiry.onError = (error) => {
       this.onError(error);
     };
-    this.lit = false;
+    this.#lit = false;
     this.onLight(null);
     this.stage.points.add(points.solid, points.different, mesh.mesh);
     this.navigation.setHome(home.pose);
-    this.applyLook(this.store.current);
-    this.placeMarker(this.store.current.freeze);
-    this.setUp(this.store.current.up);
-    this.paint(this.store.current);
+    this.#applyLook(this.#store.current);
+    this.#placeMarker(this.#store.current.freeze);
+    this.#setUp(this.#store.current.up);
+    this.#paint(this.#store.current);
     inquiry.onView(answer);
     // What is wrong with the worker shows in the next answer.
     inquiry.findAutomatic().catch(() => undefined);
-    this.inquire();
+    this.#inquire();
   }
 
   /** Tints the points that are selected. */
   setChosen(indices: Uint32Array): void {
-    this.shown?.attributes.setChosen(indices);
+    this.#shown?.attributes.setChosen(indices);
     this.stage.invalidate();
   }
 
   /** Makes another view the first one, and goes there. */
   setHome(findHome: Opened["findHome"]): void {
-    if (!this.shown) return;
-    this.shown.findHome = findHome;
+    if (!this.#shown) return;
+    this.#shown.findHome = findHome;
     this.reset();
   }
 
   /** Draws the last answer beside a reference until told anew, also while there are newer answers; `null` for those alone. */
   showParts(parts: Parts | null, fill = false): void {
-    if (!this.shown || (!parts && !this.compared)) return;
-    this.compared = parts !== null;
-    if (parts) this.shown.points.setParts(parts, fill);
-    else this.shown.points.setVisible(this.scene.visible);
-    this.setShape();
-    this.applyLook(this.store.current);
+    if (!this.#shown || (!parts && !this.#compared)) return;
+    this.#compared = parts !== null;
+    if (parts) this.#shown.points.setParts(parts, fill);
+    else this.#shown.points.setVisible(this.scene.visible);
+    this.#setShape();
+    this.#applyLook(this.#store.current);
   }
 
   setTheme(theme: Theme): void {
-    this.theme = theme;
+    this.#theme = theme;
     this.stage.setTheme(theme);
-    this.marker.setTheme(theme);
-    if (!this.shown) return;
-    const { attributes, points, mesh } = this.shown;
+    this.#marker.setTheme(theme);
+    if (!this.#shown) return;
+    const { attributes, points, mesh } = this.#shown;
     for (const part of [attributes, points, mesh]) part.setTheme(theme);
-    this.paint(this.store.current);
+    this.#paint(this.#store.current);
   }
 
   /** Looks at the cloud as for the first time. */
   reset(): void {
-    if (!this.shown) return;
-    this.shown.home = this.shown.findHome(this.store.current.up);
-    this.navigation.setHome(this.shown.home.pose);
+    if (!this.#shown) return;
+    this.#shown.home = this.#shown.findHome(this.#store.current.up);
+    this.navigation.setHome(this.#shown.home.pose);
     this.stage.invalidate();
-    this.inquire();
+    this.#inquire();
   }
 
-  private apply(now: Settings, before: Settings): void {
-    if (!this.shown) return;
+  #apply(now: Settings, before: Settings): void {
+    if (!this.#shown) return;
     const turned = now.up !== before.up;
-    if (turned) this.setUp(now.up);
-    if (now.color !== before.color || turned) this.paint(now);
-    if (now.freeze !== before.freeze) this.placeMarker(now.freeze);
-    this.applyLook(now);
+    if (turned) this.#setUp(now.up);
+    if (now.color !== before.color || turned) this.#paint(now);
+    if (now.freeze !== before.freeze) this.#placeMarker(now.freeze);
+    this.#applyLook(now);
     // Upright another way, the cloud is looked at as for the first time.
     if (turned) this.reset();
-    this.inquire();
+    this.#inquire();
   }
 
-  private inquire(): void {
-    if (!this.shown) return;
-    const { inquiry } = this.shown;
-    const settings = this.store.current;
+  #inquire(): void {
+    if (!this.#shown) return;
+    const { inquiry } = this.#shown;
+    const settings = this.#store.current;
     inquiry.follow(settings.freeze ?? this.viewpoint, settings);
     this.onBusy(inquiry.busy);
   }
 
-  private showAnswer(answer: TimedView): void {
+  #showAnswer(answer: TimedView): void {
     const { visibility, triangles } = answer;
-    const { points, mesh } = this.shown!;
-    this.shown!.answer = answer;
-    if (!this.compared) points.setVisible(visibility.indices);
+    const { points, mesh } = this.#shown!;
+    this.#shown!.answer = answer;
+    if (!this.#compared) points.setVisible(visibility.indices);
     mesh.setTriangles(triangles);
-    this.setShape();
+    this.#setShape();
   }
 
   /** The surface in the place of the points, unless they are compared. */
-  private setShape(): void {
-    const { points, mesh, answer } = this.shown!;
-    this.surfaceShown = answer.triangles !== null && !this.compared;
-    mesh.mesh.visible = this.surfaceShown;
-    points.solid.visible = !this.surfaceShown;
-    this.setShading();
+  #setShape(): void {
+    const { points, mesh, answer } = this.#shown!;
+    this.#surfaceShown = answer.triangles !== null && !this.#compared;
+    mesh.mesh.visible = this.#surfaceShown;
+    points.solid.visible = !this.#surfaceShown;
+    this.#setShading();
   }
 
   /** Points have no normals to shade by; a surface has, and light is not to be shaded once more. */
-  private setShading(): void {
-    this.stage.setEyeDome(!this.surfaceShown && !this.lit);
+  #setShading(): void {
+    this.stage.setEyeDome(!this.#surfaceShown && !this.#lit);
   }
 
-  private paint({ color, up }: Settings): void {
-    const { cloud, attributes } = this.shown!;
-    const { tints, legend } = colorBy(color, cloud, up, this.theme);
+  #paint({ color, up }: Settings): void {
+    const { cloud, attributes } = this.#shown!;
+    const { tints, legend } = colorBy(color, cloud, up, this.#theme);
     attributes.setTints(tints);
     this.stage.invalidate();
     this.onLegend(legend);
   }
 
-  private setUp(up: Up): void {
-    this.shown!.attributes.setUp(up);
+  #setUp(up: Up): void {
+    this.#shown!.attributes.setUp(up);
     this.stage.invalidate();
   }
 
@@ -282,32 +282,32 @@ export class Viewer {
    * Points have no size of their own, so nothing of a cloud really covers anything: as long as the viewpoint goes with the
    * camera, hidden points are drawn through the visible ones. Seen from elsewhere, they stand where they are.
    */
-  private applyLook({ hidden: chosen, freeze, compare, size, fieldOfView }: Settings): void {
-    const { points } = this.shown!;
+  #applyLook({ hidden: chosen, freeze, compare, size, fieldOfView }: Settings): void {
+    const { points } = this.#shown!;
     const frozen = freeze !== null;
-    const hidden = compare === null ? chosen : this.compared ? "off" : "shown";
+    const hidden = compare === null ? chosen : this.#compared ? "off" : "shown";
     points.show(hidden, frozen, compare ?? 1);
     (frozen ? this.stage.points : this.stage.through).add(points.ghost, points.extra);
-    this.stage.setThroughOpacity(this.compared ? 1 : THROUGH_OPACITY[hidden]);
+    this.stage.setThroughOpacity(this.#compared ? 1 : THROUGH_OPACITY[hidden]);
     this.stage.setPointWidth(points.setPointSize(size));
     this.stage.setFieldOfView(fieldOfView);
   }
 
   /** Marks where the viewpoint stays, in the direction of the camera if that is there, else of what it looks at. */
-  private placeMarker(freeze: Viewpoint | null): void {
-    this.marker.remove();
-    const { cloud } = this.shown!;
+  #placeMarker(freeze: Viewpoint | null): void {
+    this.#marker.remove();
+    const { cloud } = this.#shown!;
     const { camera } = this.stage;
     if (!freeze) {
-      this.shown!.frozen = null;
+      this.#shown!.frozen = null;
       this.stage.setExtent(cloud.radius);
       return;
     }
     const here = isSamePlace(freeze, this.viewpoint, cloud.radius);
     const at = here ? camera.position : inLocal(cloud, freeze);
     const toTarget = new Quaternion().setFromRotationMatrix(new Matrix4().lookAt(at, this.navigation.target, camera.up));
-    this.shown!.frozen = here ? camera.quaternion.clone() : toTarget;
-    this.marker.place(at, this.shown!.frozen, 0.18 * cloud.radius);
+    this.#shown!.frozen = here ? camera.quaternion.clone() : toTarget;
+    this.#marker.place(at, this.#shown!.frozen, 0.18 * cloud.radius);
     // The marker has to be in the picture too, from wherever one looks back at it.
     this.stage.setExtent(Math.max(cloud.radius, at.length() + 0.2 * cloud.radius));
   }

@@ -15,33 +15,33 @@ export interface MeshPoints {
 }
 
 export class RayTracer {
-  private readonly mesh: Mesh;
-  private readonly tree: MeshBVH;
+  readonly #mesh: Mesh;
+  readonly #tree: MeshBVH;
 
   constructor(mesh: Mesh) {
-    this.mesh = mesh;
+    this.#mesh = mesh;
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(mesh.positions, 3));
     geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
     // Indirect: the triangles keep their order, and so their numbers.
-    this.tree = new MeshBVH(geometry, { indirect: true });
+    this.#tree = new MeshBVH(geometry, { indirect: true });
   }
 
   /** One byte a point: 1 where it sees `target`. */
-  visibleFrom(target: Point, points: MeshPoints = this.mesh): Uint8Array {
+  visibleFrom(target: Point, points: MeshPoints = this.#mesh): Uint8Array {
     const [end, ray] = [new Vector3(...target), new Ray()];
     return Uint8Array.from({ length: points.positions.length / 3 }, (_, i) => {
       ray.origin.fromArray(points.positions, 3 * i);
       ray.direction.subVectors(end, ray.origin);
       const distance = ray.direction.length();
       ray.direction.divideScalar(distance);
-      const hits = this.tree.raycast(ray, DoubleSide, 0, distance);
-      return hits.every(({ faceIndex }) => this.isOwn(faceIndex!, i, points)) ? 1 : 0;
+      const hits = this.#tree.raycast(ray, DoubleSide, 0, distance);
+      return hits.every(({ faceIndex }) => this.#isOwn(faceIndex!, i, points)) ? 1 : 0;
     });
   }
 
-  private isOwn(face: number, point: number, { faces }: MeshPoints): boolean {
-    return faces === undefined ? this.mesh.triangles.subarray(3 * face, 3 * face + 3).includes(point) : faces[point] === face;
+  #isOwn(face: number, point: number, { faces }: MeshPoints): boolean {
+    return faces === undefined ? this.#mesh.triangles.subarray(3 * face, 3 * face + 3).includes(point) : faces[point] === face;
   }
 }
 

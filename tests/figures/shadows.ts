@@ -86,16 +86,16 @@ async function compare(studio: Studio, scene: Scene, { name, title, look, lights
 class Scene {
   readonly cloud: PointCloud;
   readonly positions: Float32Array;
-  private readonly tracer: RayTracer;
+  readonly #tracer: RayTracer;
   /** What the page shows, and spreads the light over. */
-  private readonly surface: Uint32Array;
+  readonly #surface: Uint32Array;
 
   constructor() {
     const mesh = dragonMesh(DRAGON);
     this.positions = mesh.positions;
-    this.tracer = new RayTracer(mesh);
+    this.#tracer = new RayTracer(mesh);
     this.cloud = new PointCloud(mesh.positions);
-    this.surface = this.cloud.reconstruct(VIEWPOINT).triangles;
+    this.#surface = this.cloud.reconstruct(VIEWPOINT).triangles;
   }
 
   /** The rim of a light whose radius is that share of its distance from the middle, as on the page. */
@@ -108,14 +108,14 @@ class Scene {
   exact(lights: Point[]) {
     const reached = new Float32Array(this.cloud.length);
     const errors = lights.map((light) => {
-      const seen = this.tracer.visibleFrom(light);
+      const seen = this.#tracer.visibleFrom(light);
       seen.forEach((one, i) => (reached[i]! += one));
       return errorsOf(this.cloud.visibleFrom(light).mask(), seen);
     });
     const mean = (key: "total" | "falseNegatives" | "falsePositives") => errors.reduce((sum, error) => sum + error[key], 0) / errors.length;
     const brightness = reached.map((lit) => AMBIENT + ((1 - AMBIENT) * lit) / lights.length);
     return {
-      brightness: soften(brightness, this.surface, SMOOTHING),
+      brightness: soften(brightness, this.#surface, SMOOTHING),
       differing: mean("total"),
       dark: mean("falseNegatives"),
       bright: mean("falsePositives"),

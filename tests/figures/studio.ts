@@ -21,14 +21,14 @@ export interface Size {
 const PATIENCE = 240_000;
 
 export class Studio {
-  private readonly site: Site;
-  private readonly browser: Browser;
-  private readonly files: Map<string, Uint8Array>;
+  readonly #site: Site;
+  readonly #browser: Browser;
+  readonly #files: Map<string, Uint8Array>;
 
   private constructor(site: Site, browser: Browser, files: Map<string, Uint8Array>) {
-    this.site = site;
-    this.browser = browser;
-    this.files = files;
+    this.#site = site;
+    this.#browser = browser;
+    this.#files = files;
   }
 
   static async open(): Promise<Studio> {
@@ -37,21 +37,21 @@ export class Studio {
   }
 
   async close(): Promise<void> {
-    await this.browser.close();
-    this.site.close();
+    await this.#browser.close();
+    this.#site.close();
   }
 
   /** Puts a file beside the page, for `src`. */
   serve(name: string, bytes: Uint8Array): void {
-    this.files.set(name, bytes);
+    this.#files.set(name, bytes);
   }
 
   /** The page's canvas. Anything that the page has to complain about is an error. */
   async shoot(query: Query, size: Size): Promise<Shot> {
     const entries = Object.entries(query).flatMap(([name, value]) => [value].flat().map((one) => [name, String(one)]));
     const address = `?${new URLSearchParams([...entries, ["embed", "1"]]).toString()}`;
-    return this.withPage(size, async (page) => {
-      await page.goto(this.site.address + address);
+    return this.#withPage(size, async (page) => {
+      await page.goto(this.#site.address + address);
       await page.locator('#status:is([data-state="ready"][data-busy="0"], [data-state="error"])').waitFor({ state: "attached", timeout: PATIENCE });
       const message = page.locator("#message");
       if (await message.isVisible()) throw new Error(`The page says of ${address}: ${await message.innerText()}`);
@@ -63,7 +63,7 @@ export class Studio {
 
   /** A page of its own that holds `html`, once `prepare` has finished it: a picture of its body. */
   async print(html: string, width: number, prepare: (page: Page) => Promise<void> = () => Promise.resolve()): Promise<Buffer> {
-    return this.withPage({ width, height: 100 }, async (page) => {
+    return this.#withPage({ width, height: 100 }, async (page) => {
       await page.setContent(html);
       await prepare(page);
       return page.locator("body").screenshot();
@@ -72,10 +72,10 @@ export class Studio {
 
   /** The whole page, as visitors have it. */
   async visit(query: string, options: BrowserContextOptions, use: (page: Page) => Promise<void>): Promise<void> {
-    const context = await this.browser.newContext({ ...options, serviceWorkers: "block" });
+    const context = await this.#browser.newContext({ ...options, serviceWorkers: "block" });
     try {
       const page = await context.newPage();
-      await page.goto(this.site.address + query);
+      await page.goto(this.#site.address + query);
       await page.locator('#status[data-state="ready"][data-busy="0"]').waitFor({ state: "attached", timeout: PATIENCE });
       await use(page);
     } finally {
@@ -83,8 +83,8 @@ export class Studio {
     }
   }
 
-  private async withPage<T>(viewport: Size, use: (page: Page) => Promise<T>): Promise<T> {
-    const page = await this.browser.newPage({ viewport });
+  async #withPage<T>(viewport: Size, use: (page: Page) => Promise<T>): Promise<T> {
+    const page = await this.#browser.newPage({ viewport });
     const errors: string[] = [];
     page.on("pageerror", (error) => errors.push(String(error)));
     try {

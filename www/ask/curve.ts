@@ -11,15 +11,15 @@ const REST = 400;
 export class Curve {
   /** By exponent. */
   readonly counts = new Map<number, number>();
-  private readonly inquiry: Inquiry;
-  private readonly size: number;
-  private question: ViewQuestion | null = null;
-  private since = 0;
-  private asking = false;
+  readonly #inquiry: Inquiry;
+  readonly #size: number;
+  #question: ViewQuestion | null = null;
+  #since = 0;
+  #asking = false;
 
   constructor(inquiry: Inquiry, size: number) {
-    this.inquiry = inquiry;
-    this.size = size;
+    this.#inquiry = inquiry;
+    this.#size = size;
   }
 
   /** Called every frame as long as the curve is looked at; `changed` after every change of it. */
@@ -27,30 +27,30 @@ export class Curve {
     const now = performance.now();
     const viewpoints = settings.show === "points" ? settings.viewpoints : "one";
     const question: ViewQuestion = { viewpoint, method: { ...methodOf(settings), radius: null }, shape: { kind: "points", viewpoints } };
-    if (!this.question || !isSameView(question, this.question, this.size)) {
-      this.question = question;
+    if (!this.#question || !isSameView(question, this.#question, this.#size)) {
+      this.#question = question;
       this.counts.clear();
-      this.since = now;
+      this.#since = now;
       changed();
     }
-    if (this.inquiry.busy) this.since = now;
+    if (this.#inquiry.busy) this.#since = now;
     const next = EXPONENTS.find((exponent) => !this.counts.has(exponent));
-    if (next === undefined || this.asking || now - this.since < REST) return;
-    this.asking = true;
-    void this.ask(this.question, next).then(() => {
-      this.asking = false;
+    if (next === undefined || this.#asking || now - this.#since < REST) return;
+    this.#asking = true;
+    void this.#ask(this.#question, next).then(() => {
+      this.#asking = false;
       changed();
     });
   }
 
-  private async ask(question: ViewQuestion, exponent: number): Promise<void> {
+  async #ask(question: ViewQuestion, exponent: number): Promise<void> {
     let count = NaN;
     try {
-      const { visibility, note } = await this.inquiry.aside({ ...question, method: { ...question.method, radius: { exponent } } });
+      const { visibility, note } = await this.#inquiry.aside({ ...question, method: { ...question.method, radius: { exponent } } });
       if (note === null) count = visibility.count;
     } catch {
       // The picture's own questions tell what is wrong; here a point is missing.
     }
-    if (question === this.question) this.counts.set(exponent, count);
+    if (question === this.#question) this.counts.set(exponent, count);
   }
 }

@@ -5,30 +5,30 @@ import type { WorkerCloud } from "./worker-cloud.ts";
  * cannot be stopped within a question, so one that has been overtaken goes on there, heard by nobody. Made when it is needed.
  */
 export class SecondCloud {
-  private readonly make: () => Promise<WorkerCloud>;
-  private made: Promise<WorkerCloud> | null = null;
-  private disposed = false;
+  readonly #make: () => Promise<WorkerCloud>;
+  #made: Promise<WorkerCloud> | null = null;
+  #disposed = false;
 
   constructor(make: () => Promise<WorkerCloud>) {
-    this.make = make;
+    this.#make = make;
   }
 
   /** Rejects with an AbortError when the signal aborts before it is there. */
   async ready(signal: AbortSignal): Promise<WorkerCloud> {
-    if (this.disposed) throw new DOMException("Another cloud is shown.", "AbortError");
-    if (!this.made) {
-      this.made = this.make();
+    if (this.#disposed) throw new DOMException("Another cloud is shown.", "AbortError");
+    if (!this.#made) {
+      this.#made = this.#make();
       // Where it could not be made, the next question tries again.
-      this.made.catch(() => { this.made = null; });
+      this.#made.catch(() => { this.#made = null; });
     }
     const aborted = new Promise<never>((_, reject) => {
       signal.addEventListener("abort", () => { reject(signal.reason as DOMException); });
     });
-    return Promise.race([this.made, aborted]);
+    return Promise.race([this.#made, aborted]);
   }
 
   dispose(): void {
-    this.disposed = true;
-    void this.made?.then(({ points }) => points.dispose(), () => undefined);
+    this.#disposed = true;
+    void this.#made?.then(({ points }) => points.dispose(), () => undefined);
   }
 }

@@ -23,7 +23,7 @@ export class WorkerCloud {
     if (nearest > 0 && nearest >= this.points.length) throw new HprError("option", `noise is told by the ${nearest} nearest of each point, and there are too few points for that`);
     return {
       ...(radius === null ? {} : "rule" in radius ? { radius: radius.rule } : "length" in radius ? { radius: radius.length } : radius),
-      ...(inversion === "spherical" ? {} : { inversion: await this.inversion(inversion, viewpoint) }),
+      ...(inversion === "spherical" ? {} : { inversion: await this.#inversion(inversion, viewpoint) }),
       ...(denoise > 0 ? { denoise } : {}),
       ...(vote > 0 ? { vote } : {}),
     };
@@ -35,16 +35,16 @@ export class WorkerCloud {
     return ringOfViewpoints(viewpoint, this.center, { count, fraction });
   }
 
-  private async inversion(inversion: Exclude<Method["inversion"], "spherical">, viewpoint: Viewpoint): Promise<LibraryInversion> {
+  async #inversion(inversion: Exclude<Method["inversion"], "spherical">, viewpoint: Viewpoint): Promise<LibraryInversion> {
     if ("power" in inversion) {
-      return { power: inversion.power === "auto" ? await this.automaticPower(viewpoint) : inversion.power };
+      return { power: inversion.power === "auto" ? await this.#automaticPower(viewpoint) : inversion.power };
     }
     const { exponential } = inversion;
     return { exponential: exponential === "auto" ? "auto" : exponential * this.points.spacing };
   }
 
   /** The γ that, facing the viewer, lets pits be as deep as the automatic radius does: γ ÷ (γ − 1) = 2R ÷ r at the farthest distance r. */
-  private async automaticPower(viewpoint: Viewpoint): Promise<number> {
+  async #automaticPower(viewpoint: Viewpoint): Promise<number> {
     const { exponent } = await this.points.autoRadius(viewpoint, "auto");
     const diameters = 2 * 10 ** exponent;
     return Math.min(MOST_POWER, diameters / (diameters - 1));

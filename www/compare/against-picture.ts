@@ -11,54 +11,54 @@ export class AgainstPicture {
   /** The z-buffer's last answer, and ours that it stands beside. */
   result: { picture: PictureAnswer; ours: TimedView } | null = null;
   problem: string | null = null;
-  private readonly viewer: Viewer;
-  private readonly changed: () => void;
-  private readonly worker: Reference<PictureQuestion, PictureAnswer>;
-  private readonly newest = new Newest<Settings>((settings) => this.ask(settings));
-  private wanted = "";
-  private ended = false;
+  readonly #viewer: Viewer;
+  readonly #changed: () => void;
+  readonly #worker: Reference<PictureQuestion, PictureAnswer>;
+  readonly #newest = new Newest<Settings>((settings) => this.#ask(settings));
+  #wanted = "";
+  #ended = false;
 
   constructor(viewer: Viewer, changed: () => void) {
-    this.viewer = viewer;
-    this.changed = changed;
-    this.worker = new Reference(new Worker(new URL("./zbuffer-worker.ts", import.meta.url), { type: "module" }), viewer.scene.cloud.local);
+    this.#viewer = viewer;
+    this.#changed = changed;
+    this.#worker = new Reference(new Worker(new URL("./zbuffer-worker.ts", import.meta.url), { type: "module" }), viewer.scene.cloud.local);
   }
 
   /** Called every frame. */
   follow(settings: Settings): void {
-    const { answer } = this.viewer.scene;
-    const { matrix, ...rest } = pictureFrom(this.viewer, answer.question.viewpoint);
+    const { answer } = this.#viewer.scene;
+    const { matrix, ...rest } = pictureFrom(this.#viewer, answer.question.viewpoint);
     // Orbit controls come back some bits off when nothing has moved.
     const wanted = JSON.stringify([answer.asked, matrix.map(Math.fround), rest, settings.splat]);
-    if (wanted === this.wanted || this.problem !== null) return;
-    this.wanted = wanted;
-    this.newest.want(settings);
+    if (wanted === this.#wanted || this.problem !== null) return;
+    this.#wanted = wanted;
+    this.#newest.want(settings);
   }
 
   dispose(): void {
-    this.ended = true;
-    this.worker.dispose();
+    this.#ended = true;
+    this.#worker.dispose();
   }
 
-  private isOver(): boolean {
-    return this.ended;
+  #isOver(): boolean {
+    return this.#ended;
   }
 
-  private async ask({ splat }: Settings): Promise<void> {
-    if (this.ended) return;
+  async #ask({ splat }: Settings): Promise<void> {
+    if (this.#ended) return;
     try {
-      const width = splat === "auto" ? { spacing: this.viewer.scene.inquiry.spacing } : splat;
-      const { answer: ours } = this.viewer.scene;
-      const picture = pictureFrom(this.viewer, ours.question.viewpoint);
-      const answer = await this.worker.ask({ picture, splat: width, visible: ours.visibility.indices });
+      const width = splat === "auto" ? { spacing: this.#viewer.scene.inquiry.spacing } : splat;
+      const { answer: ours } = this.#viewer.scene;
+      const picture = pictureFrom(this.#viewer, ours.question.viewpoint);
+      const answer = await this.#worker.ask({ picture, splat: width, visible: ours.visibility.indices });
       if (answer === null) return;
       this.result = { picture: answer, ours };
-      this.viewer.showParts(answer.parts);
+      this.#viewer.showParts(answer.parts);
     } catch (error) {
-      if (this.isOver()) return;
+      if (this.#isOver()) return;
       this.problem = `The z-buffer could not be computed: ${sentenceOf(error)}`;
-      this.viewer.showParts(null);
+      this.#viewer.showParts(null);
     }
-    this.changed();
+    this.#changed();
   }
 }

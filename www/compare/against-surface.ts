@@ -17,29 +17,29 @@ export class AgainstSurface {
   /** 0 … 1 while rays are traced. */
   progress: number | null = null;
   stopped = false;
-  private readonly viewer: Viewer;
-  private readonly changed: () => void;
-  private readonly surface: KnownSurface;
-  private readonly worker: Reference<TruthQuestion, TruthAnswer>;
-  private readonly origin: Viewpoint;
-  private readonly newest = new Newest<TimedView>((ours) => this.ask(ours));
+  readonly #viewer: Viewer;
+  readonly #changed: () => void;
+  readonly #surface: KnownSurface;
+  readonly #worker: Reference<TruthQuestion, TruthAnswer>;
+  readonly #origin: Viewpoint;
+  readonly #newest = new Newest<TimedView>((ours) => this.#ask(ours));
   /** The viewpoint of the truth that is known or traced. */
-  private at: Viewpoint | null = null;
-  private asked: TimedView | null = null;
-  private since = -Infinity;
-  private ended = false;
+  #at: Viewpoint | null = null;
+  #asked: TimedView | null = null;
+  #since = -Infinity;
+  #ended = false;
 
   constructor(viewer: Viewer, surface: KnownSurface, changed: () => void) {
-    this.viewer = viewer;
-    this.changed = changed;
+    this.#viewer = viewer;
+    this.#changed = changed;
     // The worker is not where the page is.
-    this.surface = "faces" in surface ? { faces: new URL(surface.faces, document.baseURI).href } : surface;
+    this.#surface = "faces" in surface ? { faces: new URL(surface.faces, document.baseURI).href } : surface;
     const { positions, cloud } = viewer.scene;
     // A mesh is traced in f32: as the file has it where it is that, and else, as a map's is, around its middle.
     const single = positions instanceof Float32Array;
-    this.origin = single ? [0, 0, 0] : cloud.center;
-    this.worker = new Reference(new Worker(new URL("./truth-worker.ts", import.meta.url), { type: "module" }), single ? positions : cloud.local);
-    this.worker.onProgress = (fraction) => {
+    this.#origin = single ? [0, 0, 0] : cloud.center;
+    this.#worker = new Reference(new Worker(new URL("./truth-worker.ts", import.meta.url), { type: "module" }), single ? positions : cloud.local);
+    this.#worker.onProgress = (fraction) => {
       this.progress = fraction;
       changed();
     };
@@ -47,26 +47,26 @@ export class AgainstSurface {
 
   /** Called every frame. */
   follow(): void {
-    const { answer, inquiry, cloud } = this.viewer.scene;
-    if (!this.at || !isSamePlace(answer.question.viewpoint, this.at, cloud.radius)) this.leave(answer.question.viewpoint);
-    if (inquiry.busy) this.since = performance.now();
-    const rests = performance.now() - this.since >= REST;
+    const { answer, inquiry, cloud } = this.#viewer.scene;
+    if (!this.#at || !isSamePlace(answer.question.viewpoint, this.#at, cloud.radius)) this.#leave(answer.question.viewpoint);
+    if (inquiry.busy) this.#since = performance.now();
+    const rests = performance.now() - this.#since >= REST;
     // Seen from the same place, the truth is known, and only ours has changed.
-    const due = this.result ? answer !== this.asked : rests && !this.stopped && this.progress === null;
+    const due = this.result ? answer !== this.#asked : rests && !this.stopped && this.progress === null;
     if (!due || this.problem !== null) return;
-    this.asked = answer;
+    this.#asked = answer;
     if (!this.result) {
       this.progress = 0;
-      this.changed();
+      this.#changed();
     }
-    this.newest.want(answer);
+    this.#newest.want(answer);
   }
 
   /** Gives up what is being traced, until the view is another or `again`. */
   stop(): void {
     this.stopped = true;
-    this.worker.stop();
-    this.changed();
+    this.#worker.stop();
+    this.#changed();
   }
 
   again(): void {
@@ -74,47 +74,47 @@ export class AgainstSurface {
   }
 
   dispose(): void {
-    this.ended = true;
-    this.worker.dispose();
+    this.#ended = true;
+    this.#worker.dispose();
   }
 
   /** The view has moved: what was traced belongs to another. */
-  private leave(at: Viewpoint): void {
-    this.at = at;
-    this.since = performance.now();
-    if (this.progress !== null) this.worker.stop();
+  #leave(at: Viewpoint): void {
+    this.#at = at;
+    this.#since = performance.now();
+    if (this.progress !== null) this.#worker.stop();
     if (!this.result && !this.stopped) return;
     this.result = null;
     this.stopped = false;
-    this.viewer.showParts(null);
-    this.changed();
+    this.#viewer.showParts(null);
+    this.#changed();
   }
 
-  private isOver(): boolean {
-    return this.ended;
+  #isOver(): boolean {
+    return this.#ended;
   }
 
-  private async ask(ours: TimedView): Promise<void> {
-    if (this.ended) return;
+  async #ask(ours: TimedView): Promise<void> {
+    if (this.#ended) return;
     const { question, visibility } = ours;
-    const at = this.at!;
+    const at = this.#at!;
     try {
       // Exactly that place: one some bits off would be traced anew.
-      const viewpoint = at.map((value, axis) => value - this.origin[axis]!) as Viewpoint;
-      const current = isSamePlace(question.viewpoint, at, this.viewer.scene.cloud.radius);
-      const truth = current ? await this.worker.ask({ surface: this.surface, viewpoint, visible: visibility.indices }) : null;
-      if (this.isOver()) return;
+      const viewpoint = at.map((value, axis) => value - this.#origin[axis]!) as Viewpoint;
+      const current = isSamePlace(question.viewpoint, at, this.#viewer.scene.cloud.radius);
+      const truth = current ? await this.#worker.ask({ surface: this.#surface, viewpoint, visible: visibility.indices }) : null;
+      if (this.#isOver()) return;
       // What came for a view that has been left since is not shown.
-      if (truth !== null && !this.stopped && this.at === at) {
+      if (truth !== null && !this.stopped && this.#at === at) {
         this.result = { truth, ours };
-        this.viewer.showParts(truth.parts, true);
+        this.#viewer.showParts(truth.parts, true);
       }
     } catch (error) {
-      if (this.isOver()) return;
+      if (this.#isOver()) return;
       this.problem = `No rays could be traced: ${sentenceOf(error)}`;
-      this.viewer.showParts(null);
+      this.#viewer.showParts(null);
     }
     this.progress = null;
-    this.changed();
+    this.#changed();
   }
 }

@@ -6,92 +6,92 @@ const KEYS = "Arrow keys orbit, Shift and arrow keys pan, plus and minus zoom, s
 
 /** What is in the element's shadow: the picture and what is said over it, each with its slot and its part for the page. */
 export class Frame {
-  private readonly root: ShadowRoot;
-  private readonly bar = make("progress", "progress");
-  private readonly loading = words("loading");
-  private readonly error = words("error");
-  private readonly fallback = make("div", "fallback");
-  private readonly live = make("p", "status");
-  private canvas: HTMLCanvasElement | null = null;
-  private label: string | null = null;
-  private announcing: ReturnType<typeof setTimeout> | undefined;
+  readonly #root: ShadowRoot;
+  readonly #bar = make("progress", "progress");
+  readonly #loading = words("loading");
+  readonly #error = words("error");
+  readonly #fallback = make("div", "fallback");
+  readonly #live = make("p", "status");
+  #canvas: HTMLCanvasElement | null = null;
+  #label: string | null = null;
+  #announcing: ReturnType<typeof setTimeout> | undefined;
 
   constructor(root: ShadowRoot) {
-    this.root = root;
+    this.#root = root;
     // Unlike a style element, also where the page's security policy forbids those.
     const sheet = new CSSStyleSheet();
     sheet.replaceSync(style);
     root.adoptedStyleSheets = [sheet];
-    this.bar.max = 1;
-    this.bar.ariaLabel = "Loading";
-    this.fallback.className = "fallback";
-    this.fallback.append(document.createElement("slot"));
-    this.live.className = "unseen";
-    this.live.role = "status";
-    this.bar.hidden = this.loading.hidden = this.error.hidden = this.fallback.hidden = true;
-    root.append(this.bar, this.loading, this.error, this.fallback, this.live);
+    this.#bar.max = 1;
+    this.#bar.ariaLabel = "Loading";
+    this.#fallback.className = "fallback";
+    this.#fallback.append(document.createElement("slot"));
+    this.#live.className = "unseen";
+    this.#live.role = "status";
+    this.#bar.hidden = this.#loading.hidden = this.#error.hidden = this.#fallback.hidden = true;
+    root.append(this.#bar, this.#loading, this.#error, this.#fallback, this.#live);
   }
 
   /** A new one each time: a canvas that has been given up draws no more. */
   newCanvas(): HTMLCanvasElement {
     const canvas = make("canvas", "canvas");
     canvas.tabIndex = 0;
-    this.canvas?.remove();
-    this.canvas = canvas;
-    this.root.prepend(canvas);
-    this.setLabel(this.label);
+    this.#canvas?.remove();
+    this.#canvas = canvas;
+    this.#root.prepend(canvas);
+    this.setLabel(this.#label);
     return canvas;
   }
 
   removeCanvas(): void {
-    this.canvas?.remove();
-    this.canvas = null;
+    this.#canvas?.remove();
+    this.#canvas = null;
   }
 
   setLabel(label: string | null): void {
-    this.label = label;
-    if (this.canvas) this.canvas.ariaLabel = `${label ?? "Point cloud"}. ${KEYS}`;
+    this.#label = label;
+    if (this.#canvas) this.#canvas.ariaLabel = `${label ?? "Point cloud"}. ${KEYS}`;
   }
 
   /** `null`: under way, but nobody knows how far. */
   showProgress(fraction: number | null): void {
-    this.bar.hidden = false;
-    if (fraction === null) this.bar.removeAttribute("value");
-    else this.bar.value = fraction;
+    this.#bar.hidden = false;
+    if (fraction === null) this.#bar.removeAttribute("value");
+    else this.#bar.value = fraction;
   }
 
   hideProgress(): void {
-    this.bar.hidden = true;
+    this.#bar.hidden = true;
   }
 
   /** In the middle, where the picture is empty. */
   sayLoading(sentence: string | null): void {
-    say(this.loading, sentence);
+    say(this.#loading, sentence);
   }
 
   sayError(sentence: string | null): void {
-    say(this.error, sentence);
+    say(this.#error, sentence);
   }
 
   /** What the page has put into the element, in the place of the picture; `false` where that is nothing. */
   showFallback(): boolean {
-    const slot = this.fallback.querySelector("slot")!;
+    const slot = this.#fallback.querySelector("slot")!;
     const filled = slot.assignedNodes().some((node) => node instanceof Element || node.textContent!.trim() !== "");
-    this.fallback.hidden = !filled;
+    this.#fallback.hidden = !filled;
     return filled;
   }
 
   announce(sentence: string): void {
-    clearTimeout(this.announcing);
-    this.announcing = setTimeout(() => {
-      this.live.textContent = sentence;
+    clearTimeout(this.#announcing);
+    this.#announcing = setTimeout(() => {
+      this.#live.textContent = sentence;
     }, SETTLED);
   }
 
   /** Nothing is to be heard any more. */
   hush(): void {
-    clearTimeout(this.announcing);
-    this.live.textContent = "";
+    clearTimeout(this.#announcing);
+    this.#live.textContent = "";
   }
 }
 

@@ -220,16 +220,16 @@ class Settling {
   readonly promise: Promise<void>;
   resolve!: () => void;
   reject!: (problem: Problem) => void;
-  private settled = false;
+  #settled = false;
 
   constructor() {
     this.promise = new Promise((resolve, reject) => {
       this.resolve = () => {
-        this.settled = true;
+        this.#settled = true;
         resolve();
       };
       this.reject = (problem) => {
-        this.settled = true;
+        this.#settled = true;
         reject(problem);
       };
     });
@@ -239,7 +239,7 @@ class Settling {
 
   /** Another one, unless this one still waits. */
   renewed(): Settling {
-    return this.settled ? new Settling() : this;
+    return this.#settled ? new Settling() : this;
   }
 }
 

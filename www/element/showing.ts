@@ -33,27 +33,27 @@ export class Showing {
   readonly viewer: Viewer;
   readonly canvas: HTMLCanvasElement;
   readonly moves: Moves;
-  private readonly store: Store;
-  private readonly frame: Frame;
-  private readonly tell: Listener;
-  private reading: Reading;
-  private ready: Ready | null = null;
-  private loading = new AbortController();
-  private note: string | null = null;
+  readonly #store: Store;
+  readonly #frame: Frame;
+  readonly #tell: Listener;
+  #reading: Reading;
+  #ready: Ready | null = null;
+  #loading = new AbortController();
+  #note: string | null = null;
   /** Whether the settings are being changed for the attributes. */
-  private obeying = false;
+  #obeying = false;
 
   constructor(frame: Frame, canvas: HTMLCanvasElement, reading: Reading, tell: Listener) {
-    this.frame = frame;
-    this.tell = tell;
-    this.reading = reading;
-    this.store = new Store({ ...USUAL_SETTINGS, ...reading.settings });
+    this.#frame = frame;
+    this.#tell = tell;
+    this.#reading = reading;
+    this.#store = new Store({ ...USUAL_SETTINGS, ...reading.settings });
     this.canvas = canvas;
-    this.viewer = new Viewer(this.canvas, this.store, true);
+    this.viewer = new Viewer(this.canvas, this.#store, true);
     this.viewer.setTheme(themeOf(this.canvas));
-    this.moves = new Moves(this.canvas, this.viewer, this.store, () => ({ ...USUAL_SETTINGS, ...this.ready?.usual, ...this.reading.settings }));
+    this.moves = new Moves(this.canvas, this.viewer, this.#store, () => ({ ...USUAL_SETTINGS, ...this.#ready?.usual, ...this.#reading.settings }));
     this.viewer.onAnswer = (answer) => {
-      this.hear(answer);
+      this.#hear(answer);
     };
     this.viewer.onError = (error) => {
       tell.refused(problemOf(error, "The view"));
@@ -66,8 +66,8 @@ export class Showing {
     this.viewer.stage.onRestored = () => {
       frame.sayError(null);
     };
-    this.store.follow((now) => {
-      if (this.ready && !this.obeying) tell.moved(now);
+    this.#store.follow((now) => {
+      if (this.#ready && !this.#obeying) tell.moved(now);
     });
   }
 
@@ -78,43 +78,43 @@ export class Showing {
 
   /** The attributes are others; those of the view may also be the same once more. */
   follow(reading: Reading, look: boolean): void {
-    const before = this.reading;
-    this.reading = reading;
+    const before = this.#reading;
+    this.#reading = reading;
     // What is being loaded comes to it when it is there.
-    if (this.ready) this.apply(before, this.ready, look);
+    if (this.#ready) this.#apply(before, this.#ready, look);
   }
 
   /** Opens what the attributes name, in the place of what is there or on its way. */
   open(): void {
-    this.loading.abort();
-    const { signal } = (this.loading = new AbortController());
-    this.frame.sayError(null);
-    const asked = this.reading;
+    this.#loading.abort();
+    const { signal } = (this.#loading = new AbortController());
+    this.#frame.sayError(null);
+    const asked = this.#reading;
     const { src, sample } = asked;
     if (src === null && sample === null) {
-      this.empty();
+      this.#empty();
       return;
     }
     const name = src === null ? sampleNamed(sample!).label : nameOf(src);
-    if (!this.ready) this.frame.sayLoading(`Loading ${name}.`);
-    this.progress(null);
-    this.load(asked, name, signal).catch((error: unknown) => {
+    if (!this.#ready) this.#frame.sayLoading(`Loading ${name}.`);
+    this.#progress(null);
+    this.#load(asked, name, signal).catch((error: unknown) => {
       if (signal.aborted) return;
       const problem = problemOf(error, name);
-      this.empty();
-      this.frame.sayError(problem.message);
-      this.tell.failed(problem);
+      this.#empty();
+      this.#frame.sayError(problem.message);
+      this.#tell.failed(problem);
     });
   }
 
   dispose(): void {
-    this.loading.abort();
+    this.#loading.abort();
     this.viewer.dispose();
-    this.frame.removeCanvas();
-    this.frame.hush();
+    this.#frame.removeCanvas();
+    this.#frame.hush();
   }
 
-  private async load(asked: Reading, name: string, signal: AbortSignal): Promise<void> {
+  async #load(asked: Reading, name: string, signal: AbortSignal): Promise<void> {
     const sample = asked.src === null ? sampleNamed(asked.sample!) : null;
     const settings = { ...USUAL_SETTINGS, ...asked.settings };
     const ready = await openCloud(
@@ -127,8 +127,8 @@ export class Showing {
         signal,
         onProgress: (step, fraction) => {
           if (signal.aborted) return;
-          if (!this.ready) this.frame.sayLoading(step);
-          this.progress(fraction);
+          if (!this.#ready) this.#frame.sayLoading(step);
+          this.#progress(fraction);
         },
       },
     );
@@ -137,56 +137,56 @@ export class Showing {
       opened.inquiry.dispose();
       return;
     }
-    this.empty();
-    this.obey(() => {
-      this.store.change({ ...settings, ...ready.settings });
+    this.#empty();
+    this.#obey(() => {
+      this.#store.change({ ...settings, ...ready.settings });
       this.viewer.show(opened);
       this.moves.freeze(asked.frozen);
     });
-    this.ready = ready;
-    this.apply(asked, ready, false);
-    this.tell.loaded(opened.cloud.count, notes);
-    for (const refusal of refusals) this.tell.refused(new Problem("attribute", refusal));
-    this.hear(opened.answer);
+    this.#ready = ready;
+    this.#apply(asked, ready, false);
+    this.#tell.loaded(opened.cloud.count, notes);
+    for (const refusal of refusals) this.#tell.refused(new Problem("attribute", refusal));
+    this.#hear(opened.answer);
   }
 
   /** From what the attributes said before to what they say now. */
-  private apply(before: Reading, ready: Ready, look: boolean): void {
-    const { reading } = this;
+  #apply(before: Reading, ready: Ready, look: boolean): void {
+    const reading = this.#reading;
     const changed = changedSettings(before, reading, ready.usual);
     if (changed.color !== undefined) {
       const { color, notes } = usableColor(changed.color, ready.opened.cloud, true);
-      for (const note of notes) this.tell.refused(new Problem("attribute", note, { attribute: "color" }));
+      for (const note of notes) this.#tell.refused(new Problem("attribute", note, { attribute: "color" }));
       changed.color = color;
     }
-    this.obey(() => {
-      if (Object.keys(changed).length > 0) this.store.change(changed);
+    this.#obey(() => {
+      if (Object.keys(changed).length > 0) this.#store.change(changed);
       // What is frozen together with a new view is frozen where one was.
       if (reading.frozen !== before.frozen) this.moves.freeze(reading.frozen);
-      if (look || JSON.stringify(reading.view) !== JSON.stringify(before.view)) this.look(ready);
+      if (look || JSON.stringify(reading.view) !== JSON.stringify(before.view)) this.#look(ready);
     });
     this.viewer.stage.invalidate();
   }
 
   /** Goes to the view that is asked for. */
-  private look(ready: Ready): void {
-    const { view, notes } = inReachOnly(ready.opened.cloud, this.reading.view, {}, ASKED);
-    for (const note of notes) this.tell.refused(new Problem("attribute", note, { attribute: view ? "target" : "viewpoint" }));
+  #look(ready: Ready): void {
+    const { view, notes } = inReachOnly(ready.opened.cloud, this.#reading.view, {}, ASKED);
+    for (const note of notes) this.#tell.refused(new Problem("attribute", note, { attribute: view ? "target" : "viewpoint" }));
     this.viewer.setHome(ready.homeFrom(view));
   }
 
-  private obey(change: () => void): void {
-    this.obeying = true;
+  #obey(change: () => void): void {
+    this.#obeying = true;
     change();
-    this.obeying = false;
+    this.#obeying = false;
   }
 
-  private hear(answer: TimedView): void {
+  #hear(answer: TimedView): void {
     // The first one is told when the cloud is.
-    if (!this.ready) return;
-    if (answer.note !== null && answer.note !== this.note) this.tell.refused(new Problem("attribute", answer.note));
-    this.note = answer.note;
-    this.tell.answered(answer);
+    if (!this.#ready) return;
+    if (answer.note !== null && answer.note !== this.#note) this.#tell.refused(new Problem("attribute", answer.note));
+    this.#note = answer.note;
+    this.#tell.answered(answer);
   }
 
   /** What screen readers are to hear of the last answer. */
@@ -194,21 +194,21 @@ export class Showing {
     return sentenceOf(answer, this.cloud?.count ?? 0, this.moves.frozen);
   }
 
-  private progress(fraction: number | null): void {
-    this.frame.showProgress(fraction);
-    this.tell.progressed(fraction);
+  #progress(fraction: number | null): void {
+    this.#frame.showProgress(fraction);
+    this.#tell.progressed(fraction);
   }
 
-  private quiet(): void {
-    this.frame.hideProgress();
-    this.frame.sayLoading(null);
+  #quiet(): void {
+    this.#frame.hideProgress();
+    this.#frame.sayLoading(null);
   }
 
-  private empty(): void {
-    this.quiet();
+  #empty(): void {
+    this.#quiet();
     this.viewer.clear();
-    this.ready = null;
-    this.note = null;
+    this.#ready = null;
+    this.#note = null;
   }
 }
 

@@ -21,66 +21,66 @@ const number = new Intl.NumberFormat("en-US");
 export class CloudBuilder {
   /** One array for each column, to be written at the index `put` returns. Replaced as they grow. */
   readonly values: Values[];
-  private positions: Float32Array | Float64Array;
-  private kept = 0;
-  private seen = 0;
-  private step = 1;
-  private capacity: number;
-  private readonly limit: number;
-  private readonly columns: readonly Column[];
+  #positions: Float32Array | Float64Array;
+  #kept = 0;
+  #seen = 0;
+  #step = 1;
+  #capacity: number;
+  readonly #limit: number;
+  readonly #columns: readonly Column[];
 
   constructor(precision: "float32" | "float64", columns: readonly Column[], limit: number, expected: number | null) {
-    this.limit = limit;
-    this.columns = columns;
-    if (expected !== null) this.step = Math.max(1, Math.ceil(expected / limit));
-    this.capacity = Math.min(FIRST_CAPACITY, limit);
-    this.positions = newValues(precision, 3 * this.capacity) as Float32Array | Float64Array;
-    this.values = columns.map(({ type }) => newValues(type, this.capacity));
+    this.#limit = limit;
+    this.#columns = columns;
+    if (expected !== null) this.#step = Math.max(1, Math.ceil(expected / limit));
+    this.#capacity = Math.min(FIRST_CAPACITY, limit);
+    this.#positions = newValues(precision, 3 * this.#capacity) as Float32Array | Float64Array;
+    this.values = columns.map(({ type }) => newValues(type, this.#capacity));
   }
 
   /** Counts the next row, and tells whether it is one to `put`. */
   takes(): boolean {
-    const row = this.seen++;
-    if (row % this.step !== 0) return false;
-    if (this.kept < this.limit) return true;
-    this.halve();
-    return row % this.step === 0;
+    const row = this.#seen++;
+    if (row % this.#step !== 0) return false;
+    if (this.#kept < this.#limit) return true;
+    this.#halve();
+    return row % this.#step === 0;
   }
 
   put(x: number, y: number, z: number): number {
-    const at = this.kept++;
-    if (at === this.capacity) this.grow();
-    this.positions[3 * at] = x;
-    this.positions[3 * at + 1] = y;
-    this.positions[3 * at + 2] = z;
+    const at = this.#kept++;
+    if (at === this.#capacity) this.#grow();
+    this.#positions[3 * at] = x;
+    this.#positions[3 * at + 1] = y;
+    this.#positions[3 * at + 2] = z;
     return at;
   }
 
   /** Rows so far, those that were not kept included. */
   get rows(): number {
-    return this.seen;
+    return this.#seen;
   }
 
   finish(): LoadedCloud {
-    const positions = this.positions.slice(0, 3 * this.kept);
-    this.positions = this.positions.subarray(0, 0);
-    const columns = this.columns.map(({ name }, k) => ({ name, values: this.values[k]!.slice(0, this.kept) }));
+    const positions = this.#positions.slice(0, 3 * this.#kept);
+    this.#positions = this.#positions.subarray(0, 0);
+    const columns = this.#columns.map(({ name }, k) => ({ name, values: this.values[k]!.slice(0, this.#kept) }));
     this.values.length = 0;
-    const notes = this.step > 1 ? [`Every ${ordinal(this.step)} of its ${number.format(this.seen)} points is shown.`] : [];
+    const notes = this.#step > 1 ? [`Every ${ordinal(this.#step)} of its ${number.format(this.#seen)} points is shown.`] : [];
     return { positions, ...attributesOf(columns), notes };
   }
 
-  private grow(): void {
-    this.capacity = Math.min(2 * this.capacity, this.limit);
-    this.positions = grown(this.positions, 3 * this.capacity);
-    this.values.forEach((values, k) => (this.values[k] = grown(values, this.capacity)));
+  #grow(): void {
+    this.#capacity = Math.min(2 * this.#capacity, this.#limit);
+    this.#positions = grown(this.#positions, 3 * this.#capacity);
+    this.values.forEach((values, k) => (this.values[k] = grown(values, this.#capacity)));
   }
 
-  private halve(): void {
-    this.step *= 2;
-    this.kept = Math.ceil(this.kept / 2);
-    for (let i = 0; i < this.kept; i++) {
-      this.positions.copyWithin(3 * i, 6 * i, 6 * i + 3);
+  #halve(): void {
+    this.#step *= 2;
+    this.#kept = Math.ceil(this.#kept / 2);
+    for (let i = 0; i < this.#kept; i++) {
+      this.#positions.copyWithin(3 * i, 6 * i, 6 * i + 3);
       for (const values of this.values) values[i] = values[2 * i]!;
     }
   }

@@ -12,23 +12,23 @@ export async function readFaces(reading: Reading, vertices: number): Promise<Uin
 }
 
 class Triangles {
-  private readonly corners: number[] = [];
-  private readonly name: string;
-  private readonly vertices: number;
+  readonly #corners: number[] = [];
+  readonly #name: string;
+  readonly #vertices: number;
 
   constructor(name: string, vertices: number) {
-    this.name = name;
-    this.vertices = vertices;
+    this.#name = name;
+    this.#vertices = vertices;
   }
 
   /** Cut from its first corner. */
   addFace(corners: readonly number[]): void {
-    if (!corners.every((corner) => corner >= 0 && corner < this.vertices)) throw new LoadProblem(`${this.name} has faces between points that it does not have`);
-    for (let i = 2; i < corners.length; i++) this.corners.push(corners[0]!, corners[i - 1]!, corners[i]!);
+    if (!corners.every((corner) => corner >= 0 && corner < this.#vertices)) throw new LoadProblem(`${this.#name} has faces between points that it does not have`);
+    for (let i = 2; i < corners.length; i++) this.#corners.push(corners[0]!, corners[i - 1]!, corners[i]!);
   }
 
   done(): Uint32Array {
-    return Uint32Array.from(this.corners);
+    return Uint32Array.from(this.#corners);
   }
 }
 

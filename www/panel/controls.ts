@@ -19,24 +19,24 @@ import { bindFreeze } from "./viewpoint.ts";
 
 /** All of the panel's controls: they change the settings and show what these are. */
 export class Controls {
-  private readonly radius: RadiusControl;
-  private readonly followInversion: (resolved: Inversion) => void;
-  private readonly followSurface: (answer: ViewAnswer) => void;
-  private readonly color: ColorControl;
+  readonly #radius: RadiusControl;
+  readonly #followInversion: (resolved: Inversion) => void;
+  readonly #followSurface: (answer: ViewAnswer) => void;
+  readonly #color: ColorControl;
   /** What a reset goes back to. */
   usual: Pick<Settings, "fieldOfView"> = USUAL_SETTINGS;
 
   /** `opened`: the settings whose sections are open from the beginning. */
   constructor(viewer: Viewer, store: Store, opened: Settings) {
-    this.radius = new RadiusControl(store);
-    this.followInversion = bindInversion(store);
+    this.#radius = new RadiusControl(store);
+    this.#followInversion = bindInversion(store);
     bindViewpoints(store);
     bindNoise(store);
-    this.followSurface = bindSurface(store);
+    this.#followSurface = bindSurface(store);
     bindShadows(store, viewer);
     bindLook(store);
-    this.color = bindColor(store);
-    viewer.onLegend = this.color.explain;
+    this.#color = bindColor(store);
+    viewer.onLegend = this.#color.explain;
     const moves = new Moves(byId("view", HTMLCanvasElement), viewer, store, () => this.usual, { f: bindFullScreen() });
     bindFreeze(store, moves);
     bindTheme(store, (theme) => {
@@ -51,17 +51,17 @@ export class Controls {
 
   /** For a cloud that is about to be shown. */
   prepare(cloud: Cloud): void {
-    this.color.offer(cloud);
+    this.#color.offer(cloud);
   }
 
   /** Shows what the answer was found with. */
   follow(answer: ViewAnswer): void {
-    this.radius.follow(answer);
-    this.followSurface(answer);
-    this.followInversion(answer.visibility.inversion);
+    this.#radius.follow(answer);
+    this.#followSurface(answer);
+    this.#followInversion(answer.visibility.inversion);
   }
 
   markAutomatic(exponent: number): void {
-    this.radius.markAutomatic(exponent);
+    this.#radius.markAutomatic(exponent);
   }
 }

@@ -2,16 +2,16 @@ import { byId } from "./dom.ts";
 
 /** What is going on, in the middle of the canvas, as long as that is empty. #status says the same to screen readers. */
 export class FirstLoad {
-  private readonly element = byId("first-load");
-  private done = false;
+  readonly #element = byId("first-load");
+  #done = false;
 
   say(sentence: string): void {
-    this.element.hidden = this.done;
-    this.element.textContent = sentence;
+    this.#element.hidden = this.#done;
+    this.#element.textContent = sentence;
   }
 
   hide(): void {
-    this.done = true;
-    this.element.hidden = true;
+    this.#done = true;
+    this.#element.hidden = true;
   }
 }

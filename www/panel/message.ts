@@ -7,39 +7,39 @@ export interface MessageAction {
 
 /** A sentence over the cloud, with what can be done about it. Screen readers hear the same sentence from #status. */
 export class Message {
-  private readonly box = byId("message");
-  private readonly text = this.box.querySelector("p")!;
-  private readonly actions = this.box.querySelector<HTMLElement>(".actions")!;
+  readonly #box = byId("message");
+  readonly #text = this.#box.querySelector("p")!;
+  readonly #actions = this.#box.querySelector<HTMLElement>(".actions")!;
 
   constructor() {
     document.addEventListener("keydown", (event) => {
-      if (event.key === "Escape" && !this.box.hidden) this.dismiss();
+      if (event.key === "Escape" && !this.#box.hidden) this.#dismiss();
     });
   }
 
   show(sentence: string, actions: MessageAction[] = []): void {
-    this.text.textContent = sentence;
+    this.#text.textContent = sentence;
     const dismiss = { label: "Dismiss", run: () => undefined };
-    this.actions.replaceChildren(...[...actions, dismiss].map((action) => this.button(action)));
-    this.box.hidden = false;
+    this.#actions.replaceChildren(...[...actions, dismiss].map((action) => this.#button(action)));
+    this.#box.hidden = false;
   }
 
   hide(): void {
-    this.box.hidden = true;
+    this.#box.hidden = true;
   }
 
   /** The focus must not go with the button. */
-  private dismiss(): void {
-    if (this.box.contains(document.activeElement)) byId("view").focus();
+  #dismiss(): void {
+    if (this.#box.contains(document.activeElement)) byId("view").focus();
     this.hide();
   }
 
-  private button({ label, run }: MessageAction): HTMLButtonElement {
+  #button({ label, run }: MessageAction): HTMLButtonElement {
     const button = document.createElement("button");
     button.type = "button";
     button.textContent = label;
     button.addEventListener("click", () => {
-      this.dismiss();
+      this.#dismiss();
       run();
     });
     return button;

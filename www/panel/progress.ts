@@ -2,23 +2,23 @@ import { byId } from "./dom.ts";
 
 /** The bar along the top of the cloud while one is loading, and the button that stops it. */
 export class Progress {
-  private readonly bar = byId("progress", HTMLProgressElement);
-  private readonly cancel = byId("cancel", HTMLButtonElement);
+  readonly #bar = byId("progress", HTMLProgressElement);
+  readonly #cancel = byId("cancel", HTMLButtonElement);
 
   constructor(onCancel: () => void) {
-    this.cancel.addEventListener("click", onCancel);
+    this.#cancel.addEventListener("click", onCancel);
   }
 
   /** `null`: under way, but nobody knows how far. */
   show(fraction: number | null): void {
-    this.bar.hidden = this.cancel.hidden = false;
-    if (fraction === null) this.bar.removeAttribute("value");
-    else this.bar.value = fraction;
+    this.#bar.hidden = this.#cancel.hidden = false;
+    if (fraction === null) this.#bar.removeAttribute("value");
+    else this.#bar.value = fraction;
   }
 
   hide(): void {
     // The focus must not go with the button.
-    if (document.activeElement === this.cancel) byId("view").focus();
-    this.bar.hidden = this.cancel.hidden = true;
+    if (document.activeElement === this.#cancel) byId("view").focus();
+    this.#bar.hidden = this.#cancel.hidden = true;
   }
 }

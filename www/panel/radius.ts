@@ -15,21 +15,21 @@ const NOTES: Record<Choice, string> = {
 
 /** How the radius is chosen; moving the slider is choosing it by hand. */
 export class RadiusControl {
-  private readonly store: Store;
-  private readonly slider: Slider;
+  readonly #store: Store;
+  readonly #slider: Slider;
 
   constructor(store: Store) {
-    this.store = store;
-    this.slider = new Slider("exponent", (value) => value.toFixed(2), (exponent) => {
+    this.#store = store;
+    this.#slider = new Slider("exponent", (value) => value.toFixed(2), (exponent) => {
       store.change({ radius: { exponent } });
     });
-    this.slider.clear();
+    this.#slider.clear();
     const buttons = [...byId("radius").querySelectorAll("button")];
     for (const button of buttons) {
       button.addEventListener("click", () => {
         const choice = button.value as Choice;
         if (choice !== "hand") store.change({ radius: { rule: choice } });
-        else if (choiceOf(store) !== "hand") store.change({ radius: { exponent: this.slider.value } });
+        else if (choiceOf(store) !== "hand") store.change({ radius: { exponent: this.#slider.value } });
       });
     }
     const group = byId("radius-choice", HTMLFieldSetElement);
@@ -40,19 +40,19 @@ export class RadiusControl {
       group.disabled = inversion !== "spherical";
       note.textContent = inversion === "spherical" ? NOTES[choice] : "Only the spherical flip has a radius.";
       note.hidden = note.textContent === "";
-      if ("exponent" in radius) this.slider.value = radius.exponent;
+      if ("exponent" in radius) this.#slider.value = radius.exponent;
     });
   }
 
   /** The exponent of an answer: unless it is set by hand the slider follows it. */
   follow({ question, visibility }: ViewAnswer): void {
-    const { radius, inversion } = this.store.current;
-    if (isAutomatic(question.method)) this.slider.mark(visibility.exponent);
-    if (inversion === "spherical" && !("exponent" in radius)) this.slider.value = visibility.exponent;
+    const { radius, inversion } = this.#store.current;
+    if (isAutomatic(question.method)) this.#slider.mark(visibility.exponent);
+    if (inversion === "spherical" && !("exponent" in radius)) this.#slider.value = visibility.exponent;
   }
 
   markAutomatic(exponent: number): void {
-    this.slider.mark(exponent);
+    this.#slider.mark(exponent);
   }
 }
 

@@ -6,65 +6,65 @@ const THUMBNAIL = { width: 84, height: 56 };
 
 /** Small pictures of some samples, the list of all, and the line under it that says where the current cloud is from. */
 export class SamplePicker {
-  private readonly select = byId("sample", HTMLSelectElement);
-  private readonly credit = byId("credit");
-  private readonly thumbnails = byId("thumbnails");
+  readonly #select = byId("sample", HTMLSelectElement);
+  readonly #credit = byId("credit");
+  readonly #thumbnails = byId("thumbnails");
   /** The value of the entry that is on screen. */
-  private shown: string | null = null;
+  #shown: string | null = null;
 
   constructor(onPick: (sample: Sample) => void) {
-    this.select.append(...SAMPLES.map(({ name, label }) => new Option(label, name)));
-    this.thumbnails.append(...SAMPLES.filter((sample) => sample.picture).map((sample) => thumbnail(sample, () => { onPick(sample); })));
-    this.select.addEventListener("change", () => {
+    this.#select.append(...SAMPLES.map(({ name, label }) => new Option(label, name)));
+    this.#thumbnails.append(...SAMPLES.filter((sample) => sample.picture).map((sample) => thumbnail(sample, () => { onPick(sample); })));
+    this.#select.addEventListener("change", () => {
       // The entry for one's own file stands for what is shown already.
-      if (this.select.value !== "") onPick(sampleNamed(this.select.value));
+      if (this.#select.value !== "") onPick(sampleNamed(this.#select.value));
     });
   }
 
   showSample(sample: Sample): void {
-    void this.showPictures();
-    this.removeOwn();
-    this.select.value = this.shown = sample.name;
-    this.mark(sample.name);
-    this.credit.replaceChildren(`${sample.credit.text} `);
+    void this.#showPictures();
+    this.#removeOwn();
+    this.#select.value = this.#shown = sample.name;
+    this.#mark(sample.name);
+    this.#credit.replaceChildren(`${sample.credit.text} `);
     if (!sample.credit.link) return;
     const link = document.createElement("a");
     link.href = sample.credit.link.href;
     link.textContent = sample.credit.link.text;
-    this.credit.append(link);
+    this.#credit.append(link);
   }
 
   showOwn(name: string): void {
-    void this.showPictures();
-    this.removeOwn();
-    this.select.prepend(new Option(name, "", true, true));
-    this.shown = "";
-    this.mark(null);
-    this.credit.textContent = "";
+    void this.#showPictures();
+    this.#removeOwn();
+    this.#select.prepend(new Option(name, "", true, true));
+    this.#shown = "";
+    this.#mark(null);
+    this.#credit.textContent = "";
   }
 
   /** After a cloud that could not be opened: back to the one that is still there. */
   restore(): void {
-    void this.showPictures();
-    this.select.value = this.shown ?? "";
+    void this.#showPictures();
+    this.#select.value = this.#shown ?? "";
   }
 
   /** Not before the first cloud is there, or is known not to come: until then it has the line to itself. */
-  private async showPictures(): Promise<void> {
+  async #showPictures(): Promise<void> {
     await nextFrame();
-    for (const button of this.thumbnails.querySelectorAll("button")) {
+    for (const button of this.#thumbnails.querySelectorAll("button")) {
       const image = button.querySelector("img")!;
       if (!image.hasAttribute("src")) image.src = `thumbnails/${button.dataset["sample"]}.webp`;
     }
   }
 
   /** Presses the picture of the sample that is on screen. */
-  private mark(name: string | null): void {
-    for (const button of this.thumbnails.children) button.setAttribute("aria-pressed", String((button as HTMLElement).dataset["sample"] === name));
+  #mark(name: string | null): void {
+    for (const button of this.#thumbnails.children) button.setAttribute("aria-pressed", String((button as HTMLElement).dataset["sample"] === name));
   }
 
-  private removeOwn(): void {
-    this.select.querySelector('option[value=""]')?.remove();
+  #removeOwn(): void {
+    this.#select.querySelector('option[value=""]')?.remove();
   }
 }
 

@@ -2,11 +2,11 @@ import { byId } from "./dom.ts";
 
 /** A row of radio buttons of which one is chosen. */
 export class Segmented<Value extends string> {
-  private readonly inputs: HTMLInputElement[];
+  readonly #inputs: HTMLInputElement[];
 
   constructor(id: string, onChange: (value: Value) => void) {
-    this.inputs = [...byId(id).querySelectorAll("input")];
-    for (const input of this.inputs) {
+    this.#inputs = [...byId(id).querySelectorAll("input")];
+    for (const input of this.#inputs) {
       input.addEventListener("change", () => {
         onChange(input.value as Value);
       });
@@ -14,12 +14,12 @@ export class Segmented<Value extends string> {
   }
 
   get value(): Value {
-    return this.inputs.find((input) => input.checked)!.value as Value;
+    return this.#inputs.find((input) => input.checked)!.value as Value;
   }
 
   /** A value that no button stands for leaves none chosen. */
   set value(value: Value) {
-    for (const input of this.inputs) input.checked = input.value === value;
+    for (const input of this.#inputs) input.checked = input.value === value;
   }
 }
 

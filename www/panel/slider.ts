@@ -2,45 +2,45 @@ import { byId } from "./dom.ts";
 
 /** A range input with its value written beside its label, in the output `id`-value. */
 export class Slider {
-  private readonly input: HTMLInputElement;
-  private readonly output: HTMLOutputElement;
-  private readonly format: (value: number) => string;
+  readonly #input: HTMLInputElement;
+  readonly #output: HTMLOutputElement;
+  readonly #format: (value: number) => string;
 
   constructor(id: string, format: (value: number) => string, onInput: (value: number) => void) {
-    this.input = byId(id, HTMLInputElement);
-    this.output = byId(`${id}-value`, HTMLOutputElement);
-    this.format = format;
-    this.input.addEventListener("input", () => {
-      this.show(this.value);
+    this.#input = byId(id, HTMLInputElement);
+    this.#output = byId(`${id}-value`, HTMLOutputElement);
+    this.#format = format;
+    this.#input.addEventListener("input", () => {
+      this.#show(this.value);
       onInput(this.value);
     });
-    this.show(this.value);
+    this.#show(this.value);
   }
 
   get value(): number {
-    return this.input.valueAsNumber;
+    return this.#input.valueAsNumber;
   }
 
   /** The knob stops at the ends of its range; what is written is the value itself. */
   set value(value: number) {
-    this.input.value = String(value);
-    this.show(value);
+    this.#input.value = String(value);
+    this.#show(value);
   }
 
   /** Marks a value under the track of a slider of the class `marked`. */
   mark(value: number): void {
-    const { min, max } = this.input;
+    const { min, max } = this.#input;
     const share = (value - Number(min)) / (Number(max) - Number(min));
-    this.input.parentElement!.style.setProperty("--mark", String(Math.min(1, Math.max(0, share))));
+    this.#input.parentElement!.style.setProperty("--mark", String(Math.min(1, Math.max(0, share))));
   }
 
   /** Until there is a value to write. */
   clear(): void {
-    this.output.textContent = "";
+    this.#output.textContent = "";
   }
 
-  private show(value: number): void {
-    this.output.textContent = this.format(value);
-    this.input.ariaValueText = this.output.textContent;
+  #show(value: number): void {
+    this.#output.textContent = this.#format(value);
+    this.#input.ariaValueText = this.#output.textContent;
   }
 }

@@ -23,63 +23,63 @@ export interface Sides {
 
 /** The choice of what ours is compared with, and the figures of it. */
 export class CompareCard {
-  private readonly card = byId("compare-card");
-  private readonly against: Segmented<Against>;
-  private readonly againstNote = byId("against-note");
-  private readonly splat: Slider;
-  private readonly splatAuto = byId("splat-auto", HTMLButtonElement);
-  private readonly tracing = byId("compare-tracing");
-  private readonly progress = byId("compare-progress", HTMLProgressElement);
-  private readonly stop = byId("compare-stop", HTMLButtonElement);
-  private readonly figures = byId("compare-figures", HTMLTableElement);
-  private readonly result = byId("compare-result");
-  private readonly store: Store;
+  readonly #card = byId("compare-card");
+  readonly #against: Segmented<Against>;
+  readonly #againstNote = byId("against-note");
+  readonly #splat: Slider;
+  readonly #splatAuto = byId("splat-auto", HTMLButtonElement);
+  readonly #tracing = byId("compare-tracing");
+  readonly #progress = byId("compare-progress", HTMLProgressElement);
+  readonly #stop = byId("compare-stop", HTMLButtonElement);
+  readonly #figures = byId("compare-figures", HTMLTableElement);
+  readonly #result = byId("compare-result");
+  readonly #store: Store;
 
   /** `onStop`: gives up tracing, or takes it up again. */
   constructor(store: Store, onStop: () => void) {
-    this.store = store;
-    this.against = new Segmented<Against>("against", (against) => { store.change({ against }); });
-    this.splat = new Slider("splat", (width) => `${width} px`, (splat) => { store.change({ splat }); });
-    this.splatAuto.addEventListener("click", () => { store.change({ splat: "auto" }); });
-    this.stop.addEventListener("click", onStop);
+    this.#store = store;
+    this.#against = new Segmented<Against>("against", (against) => { store.change({ against }); });
+    this.#splat = new Slider("splat", (width) => `${width} px`, (splat) => { store.change({ splat }); });
+    this.#splatAuto.addEventListener("click", () => { store.change({ splat: "auto" }); });
+    this.#stop.addEventListener("click", onStop);
   }
 
   /** `null`: nothing is compared. */
   show(surface: KnownSurface | string | null): void {
-    this.card.hidden = surface === null;
+    this.#card.hidden = surface === null;
     if (surface === null) return;
-    const { against, splat } = this.store.current;
-    this.against.value = against;
+    const { against, splat } = this.#store.current;
+    this.#against.value = against;
     const unknown = typeof surface === "string";
-    this.card.querySelector<HTMLInputElement>('[value="surface"]')!.disabled = unknown;
-    this.againstNote.hidden = !unknown;
-    this.againstNote.textContent = unknown ? `No true surface. ${surface}` : "";
+    this.#card.querySelector<HTMLInputElement>('[value="surface"]')!.disabled = unknown;
+    this.#againstNote.hidden = !unknown;
+    this.#againstNote.textContent = unknown ? `No true surface. ${surface}` : "";
     byId("splat-choice").hidden = against !== "zbuffer";
-    this.splatAuto.setAttribute("aria-pressed", String(splat === "auto"));
-    if (splat !== "auto") this.splat.value = splat;
+    this.#splatAuto.setAttribute("aria-pressed", String(splat === "auto"));
+    if (splat !== "auto") this.#splat.value = splat;
   }
 
   /** All points: there is nothing to count. */
   showAll(): void {
-    this.tracing.hidden = true;
-    this.fill([], 0, 0);
-    this.result.textContent = "";
+    this.#tracing.hidden = true;
+    this.#fill([], 0, 0);
+    this.#result.textContent = "";
   }
 
   /** `null`: nothing is known yet, and all points are on the left. */
   showPicture({ result, problem }: AgainstPicture): Sides | null {
-    this.tracing.hidden = true;
+    this.#tracing.hidden = true;
     if (problem !== null || !result) {
-      this.fill([], 0, 0);
-      this.result.textContent = problem ?? "";
+      this.#fill([], 0, 0);
+      this.#result.textContent = problem ?? "";
       return null;
     }
     const { picture, ours } = result;
     const [both, onlyOurs, onlyReference, outside] = picture.parts.ends;
     const [mine, theirs] = [onlyOurs - both, onlyReference - onlyOurs];
-    if (this.store.current.splat === "auto") this.splat.value = picture.splat;
+    if (this.#store.current.splat === "auto") this.#splat.value = picture.splat;
     const share = (count: number) => percent(count, picture.inside);
-    this.fill(
+    this.#fill(
       [
         { label: "Z-buffer", count: picture.visible, more: time(picture.milliseconds) },
         { label: "Ours", count: onlyOurs, more: time(ours.milliseconds) },
@@ -91,25 +91,25 @@ export class CompareCard {
     );
     const beyond = outside - onlyReference;
     const more = beyond > 0 ? ` Ours sees ${number.format(beyond)} more.` : "";
-    this.result.textContent = `Of the ${number.format(picture.inside)} points in the picture: it knows no others.${more}`;
+    this.#result.textContent = `Of the ${number.format(picture.inside)} points in the picture: it knows no others.${more}`;
     return { left: `Z-buffer: ${number.format(picture.visible)}`, right: `Ours: ${number.format(onlyOurs)}` };
   }
 
   /** `null` as above. */
   showSurface({ result, problem, progress, stopped }: AgainstSurface, total: number): Sides | null {
-    this.tracing.hidden = (progress === null && !stopped) || problem !== null || result !== null;
-    this.progress.hidden = stopped;
-    this.progress.value = progress ?? 0;
-    this.stop.textContent = stopped ? "Trace rays" : "Stop";
+    this.#tracing.hidden = (progress === null && !stopped) || problem !== null || result !== null;
+    this.#progress.hidden = stopped;
+    this.#progress.value = progress ?? 0;
+    this.#stop.textContent = stopped ? "Trace rays" : "Stop";
     if (!result) {
-      this.fill([], 0, 0);
-      this.result.textContent = problem ?? (stopped ? "Tracing was stopped." : "Rays are traced when the view rests.");
+      this.#fill([], 0, 0);
+      this.#result.textContent = problem ?? (stopped ? "Tracing was stopped." : "Rays are traced when the view rests.");
       return null;
     }
     const { truth, ours } = result;
     const [both, onlyOurs, onlyReference] = truth.parts.ends;
     const [wrong, missed] = [onlyOurs - both, onlyReference - onlyOurs];
-    this.fill(
+    this.#fill(
       [
         { label: "Rays", count: truth.visible, more: time(truth.milliseconds) },
         { label: "Ours", count: onlyOurs, more: time(ours.milliseconds) },
@@ -119,14 +119,14 @@ export class CompareCard {
       total,
       truth.milliseconds,
     );
-    this.result.textContent = `Of all ${number.format(total)} points; together ${percent(wrong + missed, total)}.`;
+    this.#result.textContent = `Of all ${number.format(total)} points; together ${percent(wrong + missed, total)}.`;
     return { left: `True: ${number.format(truth.visible)}`, right: `Ours: ${number.format(onlyOurs)}` };
   }
 
-  private fill(rows: readonly Row[], of: number, milliseconds: number): void {
-    this.figures.hidden = rows.length === 0;
-    this.figures.tBodies[0]!.replaceChildren(...rows.map(rowOf));
-    Object.assign(this.figures.dataset, { counts: rows.map(({ count }) => count).join(), of: String(of), milliseconds: String(milliseconds) });
+  #fill(rows: readonly Row[], of: number, milliseconds: number): void {
+    this.#figures.hidden = rows.length === 0;
+    this.#figures.tBodies[0]!.replaceChildren(...rows.map(rowOf));
+    Object.assign(this.#figures.dataset, { counts: rows.map(({ count }) => count).join(), of: String(of), milliseconds: String(milliseconds) });
   }
 }
 

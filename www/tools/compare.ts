@@ -18,29 +18,29 @@ const number = new Intl.NumberFormat("en-US");
  * there from the beginning, with all points to its left and without its card, until the camera moves for the first time.
  */
 export class Compare {
-  private readonly viewer: Viewer;
-  private readonly store: Store;
-  private readonly divider = byId("divider");
-  private readonly note = byId("compare-note");
-  private readonly card: CompareCard;
+  readonly #viewer: Viewer;
+  readonly #store: Store;
+  readonly #divider = byId("divider");
+  readonly #note = byId("compare-note");
+  readonly #card: CompareCard;
   /** What ours is compared with, where that is not simply all points. */
-  private reference: AgainstPicture | AgainstSurface | null = null;
+  #reference: AgainstPicture | AgainstSurface | null = null;
   /** Whether it is there only until the camera moves. */
   introducing: boolean;
 
   constructor(viewer: Viewer, store: Store, introduce: boolean) {
-    this.viewer = viewer;
-    this.store = store;
+    this.#viewer = viewer;
+    this.#store = store;
     this.introducing = introduce;
-    this.card = new CompareCard(store, () => {
-      if (!(this.reference instanceof AgainstSurface)) return;
-      if (this.reference.stopped) this.reference.again();
-      else this.reference.stop();
+    this.#card = new CompareCard(store, () => {
+      if (!(this.#reference instanceof AgainstSurface)) return;
+      if (this.#reference.stopped) this.#reference.again();
+      else this.#reference.stop();
     });
     if (introduce) store.change({ compare: FIRST });
     const button = byId("tool-compare");
     button.addEventListener("click", () => { this.toggle(); });
-    this.bindDivider();
+    this.#bindDivider();
     store.follow((now, before) => {
       button.setAttribute("aria-pressed", String(now.compare !== null));
       if (now.against !== before.against || (now.compare === null) !== (before.compare === null)) this.drop();
@@ -50,71 +50,71 @@ export class Compare {
 
   toggle(): void {
     this.introducing = false;
-    this.store.change({ compare: this.store.current.compare === null ? FIRST : null });
+    this.#store.change({ compare: this.#store.current.compare === null ? FIRST : null });
   }
 
   /** The cloud goes, or something else is compared. */
   drop(): void {
-    this.reference?.dispose();
-    this.reference = null;
-    this.viewer.showParts(null);
+    this.#reference?.dispose();
+    this.#reference = null;
+    this.#viewer.showParts(null);
   }
 
   /** Says once more what is on either side. */
   follow(): void {
-    const { compare } = this.store.current;
-    const idle = compare === null || this.viewer.cloud === null;
-    this.divider.hidden = this.note.hidden = idle;
-    this.card.show(idle || this.introducing ? null : this.viewer.scene.surface);
+    const { compare } = this.#store.current;
+    const idle = compare === null || this.#viewer.cloud === null;
+    this.#divider.hidden = this.#note.hidden = idle;
+    this.#card.show(idle || this.introducing ? null : this.#viewer.scene.surface);
     if (idle) return;
-    const [left, right] = this.note.children;
-    const sides = this.sides();
+    const [left, right] = this.#note.children;
+    const sides = this.#sides();
     left!.textContent = sides.left;
     right!.textContent = sides.right;
-    this.note.style.setProperty("--at", `${100 * compare}%`);
-    this.divider.style.left = `${100 * compare}%`;
-    this.divider.ariaValueNow = String(Math.round(100 * compare));
-    this.divider.ariaValueText = `${sides.left} on the left ${this.divider.ariaValueNow} %, ${sides.right} on the right`;
+    this.#note.style.setProperty("--at", `${100 * compare}%`);
+    this.#divider.style.left = `${100 * compare}%`;
+    this.#divider.ariaValueNow = String(Math.round(100 * compare));
+    this.#divider.ariaValueText = `${sides.left} on the left ${this.#divider.ariaValueNow} %, ${sides.right} on the right`;
   }
 
   /** Called every frame. */
   place(): void {
-    if (this.viewer.cloud === null) return;
-    if (this.introducing && !this.viewer.isHome) {
+    if (this.#viewer.cloud === null) return;
+    if (this.introducing && !this.#viewer.isHome) {
       this.introducing = false;
-      this.store.change({ compare: null });
+      this.#store.change({ compare: null });
     }
-    const { current } = this.store;
+    const { current } = this.#store;
     if (current.compare === null) return;
-    this.reference ??= this.begin(current);
-    this.reference?.follow(current);
+    this.#reference ??= this.#begin(current);
+    this.#reference?.follow(current);
   }
 
-  private begin({ against }: Settings): AgainstPicture | AgainstSurface | null {
-    const { surface } = this.viewer.scene;
+  #begin({ against }: Settings): AgainstPicture | AgainstSurface | null {
+    const { surface } = this.#viewer.scene;
     const changed = () => { this.follow(); };
-    if (against === "zbuffer") return new AgainstPicture(this.viewer, changed);
-    return against === "surface" && typeof surface !== "string" ? new AgainstSurface(this.viewer, surface, changed) : null;
+    if (against === "zbuffer") return new AgainstPicture(this.#viewer, changed);
+    return against === "surface" && typeof surface !== "string" ? new AgainstSurface(this.#viewer, surface, changed) : null;
   }
 
-  private sides(): Sides {
-    const { cloud, visible } = this.viewer.scene;
-    const known = this.compared(cloud.count);
+  #sides(): Sides {
+    const { cloud, visible } = this.#viewer.scene;
+    const known = this.#compared(cloud.count);
     if (known) return known;
     return { left: cloud.count === 1 ? "The only point" : `All ${number.format(cloud.count)} points`, right: `${number.format(visible.length)} seen from here` };
   }
 
   /** Shows the figures; `null` as long as there are none. */
-  private compared(total: number): Sides | null {
-    if (this.reference instanceof AgainstPicture) return this.card.showPicture(this.reference);
-    if (this.reference instanceof AgainstSurface) return this.card.showSurface(this.reference, total);
-    this.card.showAll();
+  #compared(total: number): Sides | null {
+    if (this.#reference instanceof AgainstPicture) return this.#card.showPicture(this.#reference);
+    if (this.#reference instanceof AgainstSurface) return this.#card.showSurface(this.#reference, total);
+    this.#card.showAll();
     return null;
   }
 
-  private bindDivider(): void {
-    const { divider } = this;
-    const moveTo = (share: number) => { this.store.change({ compare: Math.min(1, Math.max(0, share)) }); };
+  #bindDivider(): void {
+    const divider = this.#divider;
+    const moveTo = (share: number) => { this.#store.change({ compare: Math.min(1, Math.max(0, share)) }); };
     divider.addEventListener("pointerdown", (event) => { divider.setPointerCapture(event.pointerId); });
     divider.addEventListener("pointermove", (event) => {
       if (!divider.hasPointerCapture(event.pointerId)) return;
@@ -122,7 +122,7 @@ export class Compare {
       moveTo((event.clientX - left) / width);
     });
     divider.addEventListener("keydown", (event) => {
-      const { compare } = this.store.current;
+      const { compare } = this.#store.current;
       if (compare === null || event.ctrlKey || event.metaKey || event.altKey) return;
       const places: Record<string, number> = {
         ArrowLeft: compare - STEP,

@@ -16,72 +16,73 @@ export interface ExportActions {
 export class Export implements Tool {
   readonly name = "export";
   readonly uses = "nothing";
-  private readonly bench: Bench;
-  private readonly selected: () => Uint32Array;
-  private readonly actions: ExportActions;
-  private readonly output = byId("export-result");
-  private readonly what = new Segmented<"visible" | "selection">("export-what", () => undefined);
+  readonly #bench: Bench;
+  readonly #selected: () => Uint32Array;
+  readonly #actions: ExportActions;
+  readonly #output = byId("export-result");
+  readonly #what = new Segmented<"visible" | "selection">("export-what", () => undefined);
 
   constructor(bench: Bench, selected: () => Uint32Array, actions: ExportActions) {
-    this.bench = bench;
-    this.selected = selected;
-    this.actions = actions;
-    this.bind("export-ply", "ply", () => this.ply());
-    this.bind("export-json", "json", () => this.json());
-    this.bind("export-csv", "csv", () => this.csv());
-    this.bind("export-png", "png", async () => [await pictureWithMarks(bench.viewer.stage, bench.marks.svg)]);
-    byId("copy-link").addEventListener("click", () => void this.copyLink());
+    this.#bench = bench;
+    this.#selected = selected;
+    this.#actions = actions;
+    this.#bind("export-ply", "ply", () => this.#ply());
+    this.#bind("export-json", "json", () => this.#json());
+    this.#bind("export-csv", "csv", () => this.#csv());
+    this.#bind("export-png", "png", async () => [await pictureWithMarks(bench.viewer.stage, bench.marks.svg)]);
+    byId("copy-link").addEventListener("click", () => void this.#copyLink());
   }
 
   /** Offers the selection while there is one. */
   open(): void {
-    this.output.textContent = "";
-    const none = this.selected().length === 0;
+    this.#output.textContent = "";
+    const none = this.#selected().length === 0;
     byId("export-what", HTMLFieldSetElement).hidden = none;
-    if (none) this.what.value = "visible";
+    if (none) this.#what.value = "visible";
   }
 
   clear(): void {
     this.open();
   }
 
-  private get indices(): Uint32Array {
-    return this.what.value === "selection" ? this.selected() : this.bench.viewer.scene.visible;
+  get #indices(): Uint32Array {
+    return this.#what.value === "selection" ? this.#selected() : this.#bench.viewer.scene.visible;
   }
 
-  private bind(id: string, ending: string, parts: () => Iterable<BlobPart> | Promise<Iterable<BlobPart>>): void {
+  #bind(id: string, ending: string, parts: () => Iterable<BlobPart> | Promise<Iterable<BlobPart>>): void {
     const button = byId(id, HTMLButtonElement);
     button.addEventListener("click", () => {
-      if (!this.bench.viewer.cloud) return;
-      const stem = this.actions.name().toLowerCase().replace(/\.\w{1,4}$/, "").replace(/[^\p{L}\p{N}]+/gu, "-").replace(/^-+|-+$/g, "");
-      const file = `${stem || "cloud"}-${ending === "png" ? "picture" : this.what.value}.${ending}`;
+      if (!this.#bench.viewer.cloud) return;
+      const stem = this.#actions.name().toLowerCase().replace(/\.\w{1,4}$/, "").replace(/[^\p{L}\p{N}]+/gu, "-").replace(/^-+|-+$/g, "");
+      const file = `${stem || "cloud"}-${ending === "png" ? "picture" : this.#what.value}.${ending}`;
       button.disabled = true;
       void (async () => {
         try {
           await save(file, await parts());
-          this.output.textContent = `Saved as ${file}.`;
+          this.#output.textContent = `Saved as ${file}.`;
         } catch (error) {
-          this.output.textContent = `Could not be saved: ${error instanceof Error ? error.message : String(error)}.`;
+          this.#output.textContent = `Could not be saved: ${error instanceof Error ? error.message : String(error)}.`;
         }
         button.disabled = false;
       })();
     });
   }
 
-  private async ply(): Promise<Iterable<BlobPart>> {
+  async #ply(): Promise<Iterable<BlobPart>> {
     const { plyParts } = await import("./ply.ts");
-    const { cloud, positions, answer } = this.bench.viewer.scene;
-    const { what, indices } = this;
+    const { cloud, positions, answer } = this.#bench.viewer.scene;
+    const what = this.#what;
+    const indices = this.#indices;
     const comments = [`${what.value === "visible" ? "Visible" : "Selected"} points: ${indices.length} of ${cloud.count}`, ...seenFrom(answer)];
     return plyParts({ positions, colors: cloud.colors, fields: cloud.attributes, indices, comments });
   }
 
-  private *json(): Iterable<BlobPart> {
-    const { cloud, answer } = this.bench.viewer.scene;
+  *#json(): Iterable<BlobPart> {
+    const { cloud, answer } = this.#bench.viewer.scene;
     const { question, visibility } = answer;
     const head = {
-      cloud: this.actions.name(),
-      points: this.what.value,
+      cloud: this.#actions.name(),
+      points: this.#what.value,
       total: cloud.count,
       viewpoint: question.viewpoint,
       radius: visibility.radius,
@@ -90,25 +91,25 @@ export class Export implements Tool {
     };
     yield JSON.stringify(head).slice(0, -1);
     yield ',"indices":[';
-    yield* joined(this.indices, ",", String);
+    yield* joined(this.#indices, ",", String);
     yield "]}\n";
   }
 
-  private *csv(): Iterable<BlobPart> {
-    const { positions } = this.bench.viewer.scene;
+  *#csv(): Iterable<BlobPart> {
+    const { positions } = this.#bench.viewer.scene;
     yield "index,x,y,z\n";
-    yield* joined(this.indices, "\n", (index) => `${index},${positions[3 * index]!},${positions[3 * index + 1]!},${positions[3 * index + 2]!}`);
+    yield* joined(this.#indices, "\n", (index) => `${index},${positions[3 * index]!},${positions[3 * index + 1]!},${positions[3 * index + 2]!}`);
     yield "\n";
   }
 
-  private async copyLink(): Promise<void> {
-    const link = this.actions.link();
+  async #copyLink(): Promise<void> {
+    const link = this.#actions.link();
     if (link === null) {
-      this.output.textContent = "No link can open this cloud: it is a file on your device, or still being loaded.";
+      this.#output.textContent = "No link can open this cloud: it is a file on your device, or still being loaded.";
       return;
     }
     const copied = await copy(link);
-    this.output.textContent = copied ? "The link is copied." : "The browser does not let this page copy; the link is the page’s address.";
+    this.#output.textContent = copied ? "The link is copied." : "The browser does not let this page copy; the link is the page’s address.";
   }
 }
 

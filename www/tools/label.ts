@@ -8,66 +8,66 @@ import type { Bench, Tool } from "./tool.ts";
 export class Label implements Tool {
   readonly name = "label";
   readonly uses = "clicks";
-  private readonly bench: Bench;
-  private readonly form = byId("label-form", HTMLFormElement);
-  private readonly input = byId("label-text", HTMLInputElement);
-  private readonly output = byId("label-result");
-  private readonly list = byId("label-list");
-  private begun: { index: number; mark: Mark } | null = null;
-  private labels: Mark[] = [];
+  readonly #bench: Bench;
+  readonly #form = byId("label-form", HTMLFormElement);
+  readonly #input = byId("label-text", HTMLInputElement);
+  readonly #output = byId("label-result");
+  readonly #list = byId("label-list");
+  #begun: { index: number; mark: Mark } | null = null;
+  #labels: Mark[] = [];
 
   constructor(bench: Bench) {
-    this.bench = bench;
-    this.form.addEventListener("submit", (event) => {
+    this.#bench = bench;
+    this.#form.addEventListener("submit", (event) => {
       event.preventDefault();
-      const text = this.input.value.trim();
-      if (this.begun && text !== "") this.add(this.begun.index, text);
-      this.drop();
+      const text = this.#input.value.trim();
+      if (this.#begun && text !== "") this.#add(this.#begun.index, text);
+      this.#drop();
       byId("view").focus();
     });
   }
 
   click(spot: Spot): void {
-    const { viewer, marks, through } = this.bench;
+    const { viewer, marks, through } = this.#bench;
     const index = pointAt(viewer, spot, through());
-    this.drop();
+    this.#drop();
     if (index === null) {
-      this.output.textContent = through() ? NO_POINT.any : NO_POINT.visible;
+      this.#output.textContent = through() ? NO_POINT.any : NO_POINT.visible;
       return;
     }
-    this.begun = { index, mark: marks.ring(index) };
-    this.output.textContent = `Text for point ${index}`;
-    this.form.hidden = false;
-    this.input.focus();
+    this.#begun = { index, mark: marks.ring(index) };
+    this.#output.textContent = `Text for point ${index}`;
+    this.#form.hidden = false;
+    this.#input.focus();
   }
 
   cancel(): boolean {
-    const begun = this.begun !== null;
-    this.drop();
+    const begun = this.#begun !== null;
+    this.#drop();
     return begun;
   }
 
   leave(): void {
-    this.drop();
+    this.#drop();
   }
 
   clear(): void {
-    this.drop();
-    for (const label of this.labels.splice(0)) label.remove();
-    this.list.replaceChildren();
+    this.#drop();
+    for (const label of this.#labels.splice(0)) label.remove();
+    this.#list.replaceChildren();
   }
 
-  private drop(): void {
-    this.begun?.mark.remove();
-    this.begun = null;
-    this.input.value = "";
-    this.form.hidden = true;
-    this.output.textContent = "Click the point to be labeled.";
+  #drop(): void {
+    this.#begun?.mark.remove();
+    this.#begun = null;
+    this.#input.value = "";
+    this.#form.hidden = true;
+    this.#output.textContent = "Click the point to be labeled.";
   }
 
-  private add(index: number, text: string): void {
-    const mark = this.bench.marks.note(index, text);
-    this.labels.push(mark);
+  #add(index: number, text: string): void {
+    const mark = this.#bench.marks.note(index, text);
+    this.#labels.push(mark);
     const entry = document.createElement("li");
     const name = document.createElement("span");
     name.textContent = text;
@@ -77,11 +77,11 @@ export class Label implements Tool {
     remove.ariaLabel = `Remove the label ${text}`;
     remove.addEventListener("click", () => {
       mark.remove();
-      this.labels = this.labels.filter((label) => label !== mark);
+      this.#labels = this.#labels.filter((label) => label !== mark);
       entry.remove();
       byId("view").focus();
     });
     entry.append(name, remove);
-    this.list.append(entry);
+    this.#list.append(entry);
   }
 }

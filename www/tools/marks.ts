@@ -26,19 +26,19 @@ interface Fastened {
 /** Marks over the picture: they go with their points, and show whether these are seen from here. */
 export class Marks {
   readonly svg: SVGSVGElement;
-  private readonly viewer: Viewer;
-  private readonly all = new Set<Fastened>();
-  private placed = "";
+  readonly #viewer: Viewer;
+  readonly #all = new Set<Fastened>();
+  #placed = "";
 
   constructor(svg: SVGSVGElement, viewer: Viewer) {
     this.svg = svg;
-    this.viewer = viewer;
+    this.#viewer = viewer;
   }
 
   /** A ring around a point. */
   ring(index: number): Mark {
     const element = group("ring", [create("circle", { r: 9, class: "under" }), create("circle", { r: 9 }), create("circle", { r: 2, class: "dot" })]);
-    return this.fasten({ element, anchors: [index], hides: false, place: ([at]) => { move(element, at!); } });
+    return this.#fasten({ element, anchors: [index], hides: false, place: ([at]) => { move(element, at!); } });
   }
 
   /** A line between two points with a text at its middle. */
@@ -52,7 +52,7 @@ export class Marks {
       for (const [i, dot] of dots.entries()) move(dot, [a!, b!][i]!);
       move(label, { x: (a!.x + b!.x) / 2, y: (a!.y + b!.y) / 2 - 10 });
     };
-    return this.fasten({ element, anchors: [from, to], hides: false, place });
+    return this.#fasten({ element, anchors: [from, to], hides: false, place });
   }
 
   /** A text beside a point, as long as that is seen. */
@@ -62,22 +62,22 @@ export class Marks {
     const element = group("note", [line, create("circle", { r: 3, class: "dot" }), label]);
     const place = ([at]: { x: number; y: number }[]) => {
       move(element, at!);
-      const side = fit(label, text, at!.x, this.viewer.stage.size.width);
+      const side = fit(label, text, at!.x, this.#viewer.stage.size.width);
       set(line, { x2: 11 * side });
     };
-    return this.fasten({ element, anchors: [index], hides: true, place });
+    return this.#fasten({ element, anchors: [index], hides: true, place });
   }
 
   /** Once more where its points are now. Called every frame; does nothing while nothing has moved. */
   place(): void {
-    if (this.all.size === 0 || !this.viewer.cloud) return;
-    const { camera, size } = this.viewer.stage;
+    if (this.#all.size === 0 || !this.#viewer.cloud) return;
+    const { camera, size } = this.#viewer.stage;
     const now = [camera.matrixWorld.elements, camera.projectionMatrix.elements[5], size.width, size.height].join();
-    if (now === this.placed) return;
-    this.placed = now;
-    const { cloud, visible } = this.viewer.scene;
+    if (now === this.#placed) return;
+    this.#placed = now;
+    const { cloud, visible } = this.#viewer.scene;
     const at = new Projection(cloud.local, camera, size);
-    for (const { element, anchors, hides, place } of this.all) {
+    for (const { element, anchors, hides, place } of this.#all) {
       const ends = anchors.map((index) => ({ inPicture: at.to(index), ahead: at.ahead, x: at.x, y: at.y }));
       const seen = anchors.every((index) => includes(visible, index));
       const shown = (seen || !hides) && ends.every(({ ahead }) => ahead > 0) && ends.some(({ inPicture }) => inPicture);
@@ -89,18 +89,18 @@ export class Marks {
 
   /** Other points are visible now, or there are other marks. */
   invalidate(): void {
-    this.placed = "";
+    this.#placed = "";
     this.place();
   }
 
-  private fasten(mark: Fastened): Mark {
+  #fasten(mark: Fastened): Mark {
     this.svg.append(mark.element);
-    this.all.add(mark);
+    this.#all.add(mark);
     this.invalidate();
     return {
       remove: () => {
         mark.element.remove();
-        this.all.delete(mark);
+        this.#all.delete(mark);
       },
     };
   }

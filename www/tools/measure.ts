@@ -8,43 +8,43 @@ import type { Bench, Tool } from "./tool.ts";
 export class Measure implements Tool {
   readonly name = "measure";
   readonly uses = "clicks";
-  private readonly bench: Bench;
-  private readonly output = byId("measure-result");
-  private readonly remove = byId("measure-clear", HTMLButtonElement);
-  private from: { index: number; mark: Mark } | null = null;
-  private lines: Mark[] = [];
+  readonly #bench: Bench;
+  readonly #output = byId("measure-result");
+  readonly #remove = byId("measure-clear", HTMLButtonElement);
+  #from: { index: number; mark: Mark } | null = null;
+  #lines: Mark[] = [];
 
   constructor(bench: Bench) {
-    this.bench = bench;
-    this.remove.addEventListener("click", () => {
+    this.#bench = bench;
+    this.#remove.addEventListener("click", () => {
       this.clear();
       byId("view").focus();
     });
   }
 
   click(spot: Spot): void {
-    const { viewer, marks, through } = this.bench;
+    const { viewer, marks, through } = this.#bench;
     const index = pointAt(viewer, spot, through());
     if (index === null) {
-      this.output.textContent = through() ? NO_POINT.any : NO_POINT.visible;
-    } else if (!this.from) {
-      this.from = { index, mark: marks.ring(index) };
-      this.output.textContent = "Now the second point.";
+      this.#output.textContent = through() ? NO_POINT.any : NO_POINT.visible;
+    } else if (!this.#from) {
+      this.#from = { index, mark: marks.ring(index) };
+      this.#output.textContent = "Now the second point.";
     } else {
-      const distance = this.distance(this.from.index, index);
+      const distance = this.#distance(this.#from.index, index);
       const text = distanceText(distance);
-      this.lines.push(marks.line(this.from.index, index, text));
-      this.drop();
-      this.output.textContent = `Distance ${text}`;
-      this.output.dataset["distance"] = String(distance);
-      this.remove.hidden = false;
+      this.#lines.push(marks.line(this.#from.index, index, text));
+      this.#drop();
+      this.#output.textContent = `Distance ${text}`;
+      this.#output.dataset["distance"] = String(distance);
+      this.#remove.hidden = false;
     }
   }
 
   cancel(): boolean {
-    const begun = this.from !== null;
-    this.drop();
-    if (begun) this.output.textContent = "Click two points.";
+    const begun = this.#from !== null;
+    this.#drop();
+    if (begun) this.#output.textContent = "Click two points.";
     return begun;
   }
 
@@ -53,20 +53,20 @@ export class Measure implements Tool {
   }
 
   clear(): void {
-    this.drop();
-    for (const line of this.lines.splice(0)) line.remove();
-    this.output.textContent = "Click two points.";
-    delete this.output.dataset["distance"];
-    this.remove.hidden = true;
+    this.#drop();
+    for (const line of this.#lines.splice(0)) line.remove();
+    this.#output.textContent = "Click two points.";
+    delete this.#output.dataset["distance"];
+    this.#remove.hidden = true;
   }
 
-  private drop(): void {
-    this.from?.mark.remove();
-    this.from = null;
+  #drop(): void {
+    this.#from?.mark.remove();
+    this.#from = null;
   }
 
-  private distance(a: number, b: number): number {
-    const { positions } = this.bench.viewer.scene;
+  #distance(a: number, b: number): number {
+    const { positions } = this.#bench.viewer.scene;
     return Math.hypot(...[0, 1, 2].map((axis) => positions[3 * a + axis]! - positions[3 * b + axis]!));
   }
 }

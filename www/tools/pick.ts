@@ -10,38 +10,38 @@ export const NO_POINT = { visible: "No visible point there.", any: "No point the
 export class Pick implements Tool {
   readonly name = "pick";
   readonly uses = "clicks";
-  private readonly bench: Bench;
-  private readonly output = byId("pick-result");
-  private readonly copy = byId("pick-copy", HTMLButtonElement);
-  private mark: Mark | null = null;
+  readonly #bench: Bench;
+  readonly #output = byId("pick-result");
+  readonly #copy = byId("pick-copy", HTMLButtonElement);
+  #mark: Mark | null = null;
 
   constructor(bench: Bench) {
-    this.bench = bench;
-    this.copy.addEventListener("click", () => {
-      void copy(this.output.dataset["place"]!).then((copied) => {
-        this.copy.textContent = copied ? "Copied" : "The browser forbids it";
+    this.#bench = bench;
+    this.#copy.addEventListener("click", () => {
+      void copy(this.#output.dataset["place"]!).then((copied) => {
+        this.#copy.textContent = copied ? "Copied" : "The browser forbids it";
       });
     });
   }
 
   click(spot: Spot): void {
-    const { viewer, marks, through } = this.bench;
+    const { viewer, marks, through } = this.#bench;
     const index = pointAt(viewer, spot, through());
     this.clear();
     if (index === null) {
-      this.output.textContent = through() ? NO_POINT.any : NO_POINT.visible;
+      this.#output.textContent = through() ? NO_POINT.any : NO_POINT.visible;
       return;
     }
     const place = [0, 1, 2].map((axis) => viewer.scene.positions[3 * index + axis]!);
-    this.output.replaceChildren(...["x", "y", "z"].map((axis, i) => row(axis, String(place[i]))), row("index", String(index)));
-    this.output.dataset["index"] = String(index);
-    this.output.dataset["place"] = place.join(", ");
-    this.copy.hidden = false;
-    this.mark = marks.ring(index);
+    this.#output.replaceChildren(...["x", "y", "z"].map((axis, i) => row(axis, String(place[i]))), row("index", String(index)));
+    this.#output.dataset["index"] = String(index);
+    this.#output.dataset["place"] = place.join(", ");
+    this.#copy.hidden = false;
+    this.#mark = marks.ring(index);
   }
 
   cancel(): boolean {
-    const picked = this.mark !== null;
+    const picked = this.#mark !== null;
     this.clear();
     return picked;
   }
@@ -51,13 +51,13 @@ export class Pick implements Tool {
   }
 
   clear(): void {
-    this.mark?.remove();
-    this.mark = null;
-    this.output.textContent = "Click a point.";
-    delete this.output.dataset["index"];
-    delete this.output.dataset["place"];
-    this.copy.hidden = true;
-    this.copy.textContent = "Copy";
+    this.#mark?.remove();
+    this.#mark = null;
+    this.#output.textContent = "Click a point.";
+    delete this.#output.dataset["index"];
+    delete this.#output.dataset["place"];
+    this.#copy.hidden = true;
+    this.#copy.textContent = "Copy";
   }
 }
 

@@ -11,18 +11,18 @@ const MOST = 6;
 
 /** The share of visible points against the exponent, for the view as it is; a click chooses the exponent. */
 export class Plot {
-  private readonly viewer: Viewer;
-  private readonly store: Store;
-  private readonly section = byId("plot-section", HTMLDetailsElement);
-  private readonly drawing = document.querySelector<SVGSVGElement>("#plot")!;
-  private readonly note = byId("plot-note");
-  private curve: Curve | null = null;
+  readonly #viewer: Viewer;
+  readonly #store: Store;
+  readonly #section = byId("plot-section", HTMLDetailsElement);
+  readonly #drawing = document.querySelector<SVGSVGElement>("#plot")!;
+  readonly #note = byId("plot-note");
+  #curve: Curve | null = null;
 
   constructor(viewer: Viewer, store: Store) {
-    this.viewer = viewer;
-    this.store = store;
-    this.drawing.addEventListener("click", (event) => {
-      const { x } = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.drawing.getScreenCTM()!.inverse());
+    this.#viewer = viewer;
+    this.#store = store;
+    this.#drawing.addEventListener("click", (event) => {
+      const { x } = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.#drawing.getScreenCTM()!.inverse());
       const exponent = ((x - FRAME.left) / (FRAME.right - FRAME.left)) * MOST;
       // As fine as the slider.
       const step = Math.round(20 * Math.min(MOST, Math.max(0, exponent))) / 20;
@@ -32,44 +32,44 @@ export class Plot {
 
   /** For a cloud that has come in the place of another. */
   clear(): void {
-    const { inquiry, cloud } = this.viewer.scene;
-    this.curve = new Curve(inquiry, cloud.radius);
-    this.draw();
+    const { inquiry, cloud } = this.#viewer.scene;
+    this.#curve = new Curve(inquiry, cloud.radius);
+    this.#draw();
   }
 
   /** Called every frame. */
   follow(): void {
-    const { current } = this.store;
-    if (!this.section.open || !this.section.checkVisibility() || !this.curve || !this.viewer.cloud) return;
+    const { current } = this.#store;
+    if (!this.#section.open || !this.#section.checkVisibility() || !this.#curve || !this.#viewer.cloud) return;
     const spherical = current.inversion === "spherical";
-    this.drawing.classList.toggle("idle", !spherical);
-    if (spherical) this.curve.follow(current.freeze ?? this.viewer.viewpoint, current, () => { this.draw(); });
-    else this.note.textContent = "Only the spherical flip has a radius.";
+    this.#drawing.classList.toggle("idle", !spherical);
+    if (spherical) this.#curve.follow(current.freeze ?? this.#viewer.viewpoint, current, () => { this.#draw(); });
+    else this.#note.textContent = "Only the spherical flip has a radius.";
   }
 
   /** Shows the radius that an answer was found with. */
   answer({ question, visibility }: TimedView): void {
-    place(this.drawing, "now", visibility.exponent);
+    place(this.#drawing, "now", visibility.exponent);
     if (isAutomatic(question.method)) this.markAutomatic(visibility.exponent);
   }
 
   markAutomatic(exponent: number): void {
-    place(this.drawing, "automatic", exponent);
+    place(this.#drawing, "automatic", exponent);
   }
 
-  private draw(): void {
-    const { counts } = this.curve!;
-    const total = this.viewer.scene.cloud.count;
+  #draw(): void {
+    const { counts } = this.#curve!;
+    const total = this.#viewer.scene.cloud.count;
     const points = [...counts]
       .filter(([, count]) => !Number.isNaN(count))
       .map(([exponent, count]) => ({ exponent, share: count / total }))
       .sort((a, b) => a.exponent - b.exponent);
     const y = (share: number) => FRAME.bottom - share * (FRAME.bottom - FRAME.top);
-    this.drawing.querySelector(".curve")!.setAttribute("points", points.map(({ exponent, share }) => `${across(exponent)},${y(share)}`).join(" "));
-    this.drawing.querySelector(".dots")!.innerHTML = points.map(({ exponent, share }) => `<circle cx="${across(exponent)}" cy="${y(share)}" r="2.5"><title>${exponent}: ${percent(share)}</title></circle>`).join("");
-    this.drawing.dataset["points"] = String(points.length);
-    this.drawing.ariaLabel = `Visible share by exponent: ${points.map(({ exponent, share }) => `${exponent}: ${percent(share)}`).join(", ") || "not yet known"}`;
-    this.note.textContent = "Exponent: log₁₀ of radius ÷ farthest distance. Dashed: the automatic one. A click chooses.";
+    this.#drawing.querySelector(".curve")!.setAttribute("points", points.map(({ exponent, share }) => `${across(exponent)},${y(share)}`).join(" "));
+    this.#drawing.querySelector(".dots")!.innerHTML = points.map(({ exponent, share }) => `<circle cx="${across(exponent)}" cy="${y(share)}" r="2.5"><title>${exponent}: ${percent(share)}</title></circle>`).join("");
+    this.#drawing.dataset["points"] = String(points.length);
+    this.#drawing.ariaLabel = `Visible share by exponent: ${points.map(({ exponent, share }) => `${exponent}: ${percent(share)}`).join(", ") || "not yet known"}`;
+    this.#note.textContent = "Exponent: log₁₀ of radius ÷ farthest distance. Dashed: the automatic one. A click chooses.";
   }
 }
 

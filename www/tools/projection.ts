@@ -14,38 +14,40 @@ export class Projection {
   y = 0;
   /** How far ahead of the camera. */
   ahead = 0;
-  private readonly local: Float32Array;
-  private readonly matrix: Matrix4["elements"];
-  private readonly width: number;
-  private readonly height: number;
+  readonly #local: Float32Array;
+  readonly #matrix: Matrix4["elements"];
+  readonly #width: number;
+  readonly #height: number;
   /** Pixels that a unit has at distance 1. */
-  private readonly pixels: number;
+  readonly #pixels: number;
 
   constructor(local: Float32Array, camera: PerspectiveCamera, { width, height }: { width: number; height: number }) {
-    this.local = local;
-    this.matrix = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
-    this.width = width;
-    this.height = height;
-    this.pixels = (camera.projectionMatrix.elements[5] * height) / 2;
+    this.#local = local;
+    this.#matrix = new Matrix4().multiplyMatrices(camera.projectionMatrix, camera.matrixWorldInverse).elements;
+    this.#width = width;
+    this.#height = height;
+    this.#pixels = (camera.projectionMatrix.elements[5] * height) / 2;
   }
 
   /** Goes to a point; `false` for what is behind the camera or out of the picture. */
   to(index: number): boolean {
-    const m = this.matrix;
-    const x = this.local[3 * index]!;
-    const y = this.local[3 * index + 1]!;
-    const z = this.local[3 * index + 2]!;
+    const m = this.#matrix;
+    const x = this.#local[3 * index]!;
+    const y = this.#local[3 * index + 1]!;
+    const z = this.#local[3 * index + 2]!;
     this.ahead = m[3] * x + m[7] * y + m[11] * z + m[15];
     if (this.ahead <= 0) return false;
-    this.x = (0.5 + (0.5 * (m[0] * x + m[4] * y + m[8] * z + m[12])) / this.ahead) * this.width;
-    this.y = (0.5 - (0.5 * (m[1] * x + m[5] * y + m[9] * z + m[13])) / this.ahead) * this.height;
-    return this.x >= 0 && this.y >= 0 && this.x <= this.width && this.y <= this.height;
+    this.x = (0.5 + (0.5 * (m[0] * x + m[4] * y + m[8] * z + m[12])) / this.ahead) * this.#width;
+    this.y = (0.5 - (0.5 * (m[1] * x + m[5] * y + m[9] * z + m[13])) / this.ahead) * this.#height;
+    return this.x >= 0 && this.y >= 0 && this.x <= this.#width && this.y <= this.#height;
   }
 
   /** Goes to those of the points, or of all of them, that are in the picture and in a box of it. */
   each(box: Box, indices: Uint32Array | null, visit: (index: number) => void): void {
-    const { local, width, height } = this;
-    const [a, b, , d, e, f, , h, i, j, , l, m, n, , p] = this.matrix;
+    const local = this.#local;
+    const width = this.#width;
+    const height = this.#height;
+    const [a, b, , d, e, f, , h, i, j, , l, m, n, , p] = this.#matrix;
     // In shares of the picture from its middle, times how far ahead: nothing is divided for what is elsewhere.
     const [left, right] = [Math.max(-1, (2 * box.left) / width - 1), Math.min(1, (2 * box.right) / width - 1)];
     const [top, bottom] = [Math.min(1, 1 - (2 * box.top) / height), Math.max(-1, 1 - (2 * box.bottom) / height)];
@@ -70,6 +72,6 @@ export class Projection {
 
   /** The length of so many pixels at the point's distance. */
   lengthOf(pixels: number): number {
-    return (pixels * this.ahead) / this.pixels;
+    return (pixels * this.ahead) / this.#pixels;
   }
 }

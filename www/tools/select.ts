@@ -14,77 +14,77 @@ export class Select implements Tool {
   readonly uses = "drags";
   /** Called when other points are selected. */
   onChange: () => void = () => undefined;
-  private readonly bench: Bench;
-  private readonly output = byId("select-result");
-  private readonly remove = byId("select-clear", HTMLButtonElement);
-  private readonly outline = document.createElementNS("http://www.w3.org/2000/svg", "polygon");
-  private readonly shape = new Segmented<"lasso" | "box">("select-shape", () => undefined);
-  private readonly drags: { cancel: () => boolean };
-  private chosen: Uint32Array = new Uint32Array();
+  readonly #bench: Bench;
+  readonly #output = byId("select-result");
+  readonly #remove = byId("select-clear", HTMLButtonElement);
+  readonly #outline = document.createElementNS("http://www.w3.org/2000/svg", "polygon");
+  readonly #shape = new Segmented<"lasso" | "box">("select-shape", () => undefined);
+  readonly #drags: { cancel: () => boolean };
+  #chosen: Uint32Array = new Uint32Array();
 
   constructor(bench: Bench, canvas: HTMLElement, active: () => boolean) {
-    this.bench = bench;
-    this.outline.classList.add("outline");
-    bench.marks.svg.append(this.outline);
-    this.drags = onDrag(canvas, () => active() && bench.viewer.cloud !== null, {
+    this.#bench = bench;
+    this.#outline.classList.add("outline");
+    bench.marks.svg.append(this.#outline);
+    this.#drags = onDrag(canvas, () => active() && bench.viewer.cloud !== null, {
       drag: (path) => {
-        this.draw(this.line(path));
+        this.#draw(this.#line(path));
       },
       end: (path, event) => {
-        this.draw([]);
-        const found = path.length > 1 ? pointsWithin(bench.viewer, this.line(path), bench.through()) : new Uint32Array();
-        this.choose(event.shiftKey ? joined(this.chosen, found) : event.altKey ? without(this.chosen, found) : found);
+        this.#draw([]);
+        const found = path.length > 1 ? pointsWithin(bench.viewer, this.#line(path), bench.through()) : new Uint32Array();
+        this.#choose(event.shiftKey ? joined(this.#chosen, found) : event.altKey ? without(this.#chosen, found) : found);
       },
     });
-    this.remove.addEventListener("click", () => {
-      this.choose(new Uint32Array());
+    this.#remove.addEventListener("click", () => {
+      this.#choose(new Uint32Array());
       byId("view").focus();
     });
     byId("select-all").addEventListener("click", () => {
       const { width, height } = bench.viewer.stage.size;
-      this.choose(pointsWithin(bench.viewer, box({ x: 0, y: 0 }, { x: width + 1, y: height + 1 }), bench.through()));
+      this.#choose(pointsWithin(bench.viewer, box({ x: 0, y: 0 }, { x: width + 1, y: height + 1 }), bench.through()));
     });
   }
 
   /** Ascending. */
   get indices(): Uint32Array {
-    return this.chosen;
+    return this.#chosen;
   }
 
   leave(): void {
-    this.drags.cancel();
-    this.draw([]);
+    this.#drags.cancel();
+    this.#draw([]);
   }
 
   cancel(): boolean {
-    this.draw([]);
-    if (this.drags.cancel()) return true;
-    const some = this.chosen.length > 0;
-    this.choose(new Uint32Array());
+    this.#draw([]);
+    if (this.#drags.cancel()) return true;
+    const some = this.#chosen.length > 0;
+    this.#choose(new Uint32Array());
     return some;
   }
 
   clear(): void {
     this.leave();
-    this.choose(new Uint32Array());
+    this.#choose(new Uint32Array());
   }
 
-  private choose(indices: Uint32Array): void {
-    this.chosen = indices;
-    this.bench.viewer.setChosen(indices);
+  #choose(indices: Uint32Array): void {
+    this.#chosen = indices;
+    this.#bench.viewer.setChosen(indices);
     const { length } = indices;
-    this.output.textContent = length === 0 ? "Draw around points." : `${number.format(length)} ${length === 1 ? "point" : "points"} selected`;
-    this.output.dataset["count"] = String(length);
-    this.remove.hidden = length === 0;
+    this.#output.textContent = length === 0 ? "Draw around points." : `${number.format(length)} ${length === 1 ? "point" : "points"} selected`;
+    this.#output.dataset["count"] = String(length);
+    this.#remove.hidden = length === 0;
     this.onChange();
   }
 
-  private line(path: Place[]): Place[] {
-    return this.shape.value === "lasso" ? path : box(path[0]!, path.at(-1)!);
+  #line(path: Place[]): Place[] {
+    return this.#shape.value === "lasso" ? path : box(path[0]!, path.at(-1)!);
   }
 
-  private draw(line: Place[]): void {
-    this.outline.setAttribute("points", line.map(({ x, y }) => `${x},${y}`).join(" "));
+  #draw(line: Place[]): void {
+    this.#outline.setAttribute("points", line.map(({ x, y }) => `${x},${y}`).join(" "));
   }
 }
 

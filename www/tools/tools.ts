@@ -14,66 +14,66 @@ import type { Bench, Tool } from "./tool.ts";
 
 /** The bar over the cloud: at most one of its tools is at work, and has the clicks or the drags. */
 export class Tools {
-  private readonly tools: Tool[];
-  private readonly marks: Marks;
-  private readonly stage = byId("stage");
-  private readonly canvas = byId("view", HTMLCanvasElement);
-  private readonly through = byId("through", HTMLInputElement);
-  private readonly compare: Compare;
-  private active: Tool | null = null;
+  readonly #tools: Tool[];
+  readonly #marks: Marks;
+  readonly #stage = byId("stage");
+  readonly #canvas = byId("view", HTMLCanvasElement);
+  readonly #through = byId("through", HTMLInputElement);
+  readonly #compare: Compare;
+  #active: Tool | null = null;
 
   constructor(viewer: Viewer, store: Store, actions: ExportActions, introduce: boolean) {
-    this.marks = new Marks(document.querySelector<SVGSVGElement>("#marks")!, viewer);
-    const bench: Bench = { viewer, marks: this.marks, through: () => this.through.checked };
-    const select: Select = new Select(bench, this.canvas, () => this.active === select);
+    this.#marks = new Marks(document.querySelector<SVGSVGElement>("#marks")!, viewer);
+    const bench: Bench = { viewer, marks: this.#marks, through: () => this.#through.checked };
+    const select: Select = new Select(bench, this.#canvas, () => this.#active === select);
     const exports = new Export(bench, () => select.indices, actions);
     select.onChange = () => { exports.open(); };
-    this.tools = [new Pick(bench), new Measure(bench), select, new Label(bench), exports];
-    for (const tool of this.tools) {
-      byId(`tool-${tool.name}`).addEventListener("click", () => { this.toggle(tool); });
+    this.#tools = [new Pick(bench), new Measure(bench), select, new Label(bench), exports];
+    for (const tool of this.#tools) {
+      byId(`tool-${tool.name}`).addEventListener("click", () => { this.#toggle(tool); });
     }
-    onClick(this.canvas, (spot) => {
-      if (viewer.cloud) this.active?.click?.(spot);
+    onClick(this.#canvas, (spot) => {
+      if (viewer.cloud) this.#active?.click?.(spot);
     });
-    this.compare = new Compare(viewer, store, introduce);
+    this.#compare = new Compare(viewer, store, introduce);
     bindKeysSheet();
     byId("tools").hidden = false;
-    this.bindKeys({ c: () => { this.compare.toggle(); } }, viewer);
+    this.#bindKeys({ c: () => { this.#compare.toggle(); } }, viewer);
   }
 
   /** Whether the picture is divided only to show what the page is about. */
   get introducing(): boolean {
-    return this.compare.introducing;
+    return this.#compare.introducing;
   }
 
   /** For a cloud that is shown in the place of another. */
   clear(): void {
-    for (const tool of this.tools) tool.clear?.();
-    this.compare.drop();
+    for (const tool of this.#tools) tool.clear?.();
+    this.#compare.drop();
   }
 
   /** Other points are visible. */
   follow(): void {
-    this.marks.invalidate();
-    this.compare.follow();
+    this.#marks.invalidate();
+    this.#compare.follow();
   }
 
   /** Called every frame. */
   place(): void {
-    this.marks.place();
-    this.compare.place();
+    this.#marks.place();
+    this.#compare.place();
   }
 
-  private toggle(tool: Tool): void {
-    this.show(this.active === tool ? null : tool);
+  #toggle(tool: Tool): void {
+    this.#show(this.#active === tool ? null : tool);
   }
 
-  private show(active: Tool | null): void {
-    this.active?.leave?.();
-    this.active = active;
-    if (active) this.stage.dataset["uses"] = active.uses;
-    else delete this.stage.dataset["uses"];
-    for (const tool of this.tools) {
+  #show(active: Tool | null): void {
+    this.#active?.leave?.();
+    this.#active = active;
+    if (active) this.#stage.dataset["uses"] = active.uses;
+    else delete this.#stage.dataset["uses"];
+    for (const tool of this.#tools) {
       byId(`tool-${tool.name}`).setAttribute("aria-pressed", String(tool === active));
       byId(`${tool.name}-card`).hidden = tool !== active;
     }
@@ -82,10 +82,10 @@ export class Tools {
     active?.open?.();
   }
 
-  private bindKeys(others: Record<string, () => void>, viewer: Viewer): void {
+  #bindKeys(others: Record<string, () => void>, viewer: Viewer): void {
     const keys: Record<string, () => void> = { ...others };
-    for (const tool of this.tools) keys[tool.name[0]!] = () => { this.toggle(tool); };
-    this.canvas.addEventListener("keydown", (event) => {
+    for (const tool of this.#tools) keys[tool.name[0]!] = () => { this.#toggle(tool); };
+    this.#canvas.addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
       // In a frame of another page there are no tools.
       if (!byId("tools").checkVisibility()) return;
@@ -95,14 +95,14 @@ export class Tools {
       } else if (viewer.cloud) {
         // Else the same press would send off the form that has just got the focus.
         event.preventDefault();
-        this.active?.click?.({ x: width / 2, y: height / 2, tolerance: TOLERANCE });
+        this.#active?.click?.({ x: width / 2, y: height / 2, tolerance: TOLERANCE });
       }
     });
-    this.stage.addEventListener("keydown", (event) => {
-      if (event.key !== "Escape" || !this.active) return;
+    this.#stage.addEventListener("keydown", (event) => {
+      if (event.key !== "Escape" || !this.#active) return;
       // First what has been begun, then the tool itself.
-      if (!this.active.cancel?.()) this.show(null);
-      this.canvas.focus();
+      if (!this.#active.cancel?.()) this.#show(null);
+      this.#canvas.focus();
     });
   }
 }

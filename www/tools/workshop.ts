@@ -8,18 +8,18 @@ import type { Tools } from "./tools.ts";
 
 /** The tools over the cloud and the plot. They are loaded once the first cloud is there, which does not wait for them. */
 export class Workshop {
-  private readonly load: () => Promise<{ tools: Tools; plot: Plot }>;
-  private readonly viewer: Viewer;
-  private here: { tools: Tools; plot: Plot } | null = null;
-  private coming = false;
-  private readonly introduce: boolean;
+  readonly #load: () => Promise<{ tools: Tools; plot: Plot }>;
+  readonly #viewer: Viewer;
+  #here: { tools: Tools; plot: Plot } | null = null;
+  #coming = false;
+  readonly #introduce: boolean;
   /** The exponent of the automatic radius, as last heard of. */
-  private automatic: number | null = null;
+  #automatic: number | null = null;
 
   constructor(viewer: Viewer, store: Store, actions: ExportActions, introduce: boolean) {
-    this.viewer = viewer;
-    this.introduce = introduce;
-    this.load = async () => {
+    this.#viewer = viewer;
+    this.#introduce = introduce;
+    this.#load = async () => {
       const [{ Tools }, { Plot }] = await Promise.all([import("./tools.ts"), import("./plot.ts")]);
       return { tools: new Tools(viewer, store, actions, introduce), plot: new Plot(viewer, store) };
     };
@@ -27,47 +27,47 @@ export class Workshop {
 
   /** Whether the picture is divided only to show what the page is about. */
   get introducing(): boolean {
-    return this.here ? this.here.tools.introducing : this.introduce;
+    return this.#here ? this.#here.tools.introducing : this.#introduce;
   }
 
   /** Another cloud is about to be shown. */
   clear(): void {
-    this.here?.tools.clear();
+    this.#here?.tools.clear();
   }
 
   /** A cloud is shown. Rejects where the tools cannot be had. */
   async begin(): Promise<void> {
-    if (this.here) {
-      this.here.plot.clear();
+    if (this.#here) {
+      this.#here.plot.clear();
       return;
     }
-    if (this.coming) return;
-    this.coming = true;
+    if (this.#coming) return;
+    this.#coming = true;
     try {
       await nextFrame();
-      this.here = await this.load();
+      this.#here = await this.#load();
     } finally {
-      this.coming = false;
+      this.#coming = false;
     }
-    this.here.plot.clear();
-    this.here.tools.follow();
-    this.here.plot.answer(this.viewer.scene.answer);
-    if (this.automatic !== null) this.here.plot.markAutomatic(this.automatic);
+    this.#here.plot.clear();
+    this.#here.tools.follow();
+    this.#here.plot.answer(this.#viewer.scene.answer);
+    if (this.#automatic !== null) this.#here.plot.markAutomatic(this.#automatic);
   }
 
   /** Called every frame. */
   place(): void {
-    this.here?.tools.place();
-    this.here?.plot.follow();
+    this.#here?.tools.place();
+    this.#here?.plot.follow();
   }
 
   answer(answer: TimedView): void {
-    this.here?.tools.follow();
-    this.here?.plot.answer(answer);
+    this.#here?.tools.follow();
+    this.#here?.plot.answer(answer);
   }
 
   markAutomatic(exponent: number): void {
-    this.automatic = exponent;
-    this.here?.plot.markAutomatic(exponent);
+    this.#automatic = exponent;
+    this.#here?.plot.markAutomatic(exponent);
   }
 }

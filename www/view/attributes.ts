@@ -42,20 +42,20 @@ export class CloudAttributes {
     chosenColor: { value: new Color() },
     colored: { value: false },
   };
-  private readonly local: Float32Array;
-  private readonly bounds: Sphere;
-  private readonly geometries: BufferGeometry[] = [];
-  private readonly position: BufferAttribute;
-  private readonly ownColors: Uint8Array | null;
-  private color: BufferAttribute | null = null;
-  private brightness: BufferAttribute | null = null;
-  private chosen: BufferAttribute | null = null;
+  readonly #local: Float32Array;
+  readonly #bounds: Sphere;
+  readonly #geometries: BufferGeometry[] = [];
+  readonly #position: BufferAttribute;
+  readonly #ownColors: Uint8Array | null;
+  #color: BufferAttribute | null = null;
+  #brightness: BufferAttribute | null = null;
+  #chosen: BufferAttribute | null = null;
 
   constructor({ local, colors, radius }: Cloud, theme: Theme) {
-    this.local = local;
-    this.bounds = new Sphere(new Vector3(), radius);
-    this.position = new BufferAttribute(local, 3);
-    this.ownColors = colors;
+    this.#local = local;
+    this.#bounds = new Sphere(new Vector3(), radius);
+    this.#position = new BufferAttribute(local, 3);
+    this.#ownColors = colors;
     this.setTints(null);
     this.setTheme(theme);
   }
@@ -68,59 +68,59 @@ export class CloudAttributes {
 
   /** Gives a geometry the cloud's points as vertices. */
   addTo(geometry: BufferGeometry): void {
-    geometry.setAttribute("position", this.position);
-    if (this.color) geometry.setAttribute("color", this.color);
-    if (this.brightness) geometry.setAttribute("brightness", this.brightness);
-    if (this.chosen) geometry.setAttribute("chosen", this.chosen);
+    geometry.setAttribute("position", this.#position);
+    if (this.#color) geometry.setAttribute("color", this.#color);
+    if (this.#brightness) geometry.setAttribute("brightness", this.#brightness);
+    if (this.#chosen) geometry.setAttribute("chosen", this.#chosen);
     // Else three.js looks for it, in all points, and for each geometry anew.
-    geometry.boundingSphere = this.bounds;
-    this.geometries.push(geometry);
+    geometry.boundingSphere = this.#bounds;
+    this.#geometries.push(geometry);
   }
 
   /** The points that are selected. */
   setChosen(indices: Uint32Array): void {
-    if (!this.chosen) {
+    if (!this.#chosen) {
       if (indices.length === 0) return;
-      this.chosen = new BufferAttribute(new Uint8Array(this.local.length / 3), 1, true).setUsage(DynamicDrawUsage);
-      for (const geometry of this.geometries) geometry.setAttribute("chosen", this.chosen);
+      this.#chosen = new BufferAttribute(new Uint8Array(this.#local.length / 3), 1, true).setUsage(DynamicDrawUsage);
+      for (const geometry of this.#geometries) geometry.setAttribute("chosen", this.#chosen);
     }
-    const marks = this.chosen.array as Uint8Array;
+    const marks = this.#chosen.array as Uint8Array;
     marks.fill(0);
     for (const index of indices) marks[index] = 255;
-    this.chosen.needsUpdate = true;
+    this.#chosen.needsUpdate = true;
   }
 
   setUp(up: Up): void {
     this.uniforms.up.value.set(...upVector(up));
-    this.uniforms.heights.value.copy(rampHeights(this.local, this.uniforms.up.value));
+    this.uniforms.heights.value.copy(rampHeights(this.#local, this.uniforms.up.value));
   }
 
   /** Three bytes a point; `null` for the file's own colors, or two tones where it has none. */
   setTints(tints: Uint8Array | null): void {
-    const colors = tints ?? this.ownColors;
+    const colors = tints ?? this.#ownColors;
     this.uniforms.colored.value = colors !== null;
     if (!colors) return;
-    if (this.color) {
-      (this.color.array as Uint8Array).set(colors);
-      this.color.needsUpdate = true;
+    if (this.#color) {
+      (this.#color.array as Uint8Array).set(colors);
+      this.#color.needsUpdate = true;
       return;
     }
     // A copy: what is written here must not change the file's own.
-    this.color = new BufferAttribute(colors.slice(), 3, true).setUsage(DynamicDrawUsage);
-    for (const geometry of this.geometries) geometry.setAttribute("color", this.color);
+    this.#color = new BufferAttribute(colors.slice(), 3, true).setUsage(DynamicDrawUsage);
+    for (const geometry of this.#geometries) geometry.setAttribute("color", this.#color);
   }
 
   /** One number from 0 to 1 a point; `null` for no lights. */
   setBrightness(brightness: Float32Array | null): void {
     this.uniforms.lit.value = brightness !== null;
     if (!brightness) return;
-    if (this.brightness) {
-      (this.brightness.array as Float32Array).set(brightness);
-      this.brightness.needsUpdate = true;
+    if (this.#brightness) {
+      (this.#brightness.array as Float32Array).set(brightness);
+      this.#brightness.needsUpdate = true;
       return;
     }
-    this.brightness = new BufferAttribute(brightness, 1).setUsage(DynamicDrawUsage);
-    for (const geometry of this.geometries) geometry.setAttribute("brightness", this.brightness);
+    this.#brightness = new BufferAttribute(brightness, 1).setUsage(DynamicDrawUsage);
+    for (const geometry of this.#geometries) geometry.setAttribute("brightness", this.#brightness);
   }
 }
 

@@ -82,29 +82,29 @@ export class EyeDome {
   pointWidth = 1;
   /** Off where something else tells the shape: the picture is drawn as it is. */
   enabled = true;
-  private readonly target: WebGLRenderTarget;
-  private readonly material: ShaderMaterial;
-  private readonly screen = new Scene();
-  private readonly cover: Mesh;
-  private readonly camera = new OrthographicCamera();
-  private readonly size = new Vector2();
-  private readonly planes = new Vector2();
+  readonly #target: WebGLRenderTarget;
+  readonly #material: ShaderMaterial;
+  readonly #screen = new Scene();
+  readonly #cover: Mesh;
+  readonly #camera = new OrthographicCamera();
+  readonly #size = new Vector2();
+  readonly #planes = new Vector2();
 
   constructor() {
-    this.target = new WebGLRenderTarget(1, 1, {
+    this.#target = new WebGLRenderTarget(1, 1, {
       minFilter: NearestFilter,
       magFilter: NearestFilter,
       depthTexture: new DepthTexture(1, 1),
     });
-    this.material = new ShaderMaterial({
+    this.#material = new ShaderMaterial({
       vertexShader,
       fragmentShader,
       glslVersion: GLSL3,
       transparent: true,
       uniforms: {
-        colors: { value: this.target.texture },
-        depths: { value: this.target.depthTexture },
-        planes: { value: this.planes },
+        colors: { value: this.#target.texture },
+        depths: { value: this.#target.depthTexture },
+        planes: { value: this.#planes },
         background: { value: new Color() },
         reach: { value: REACH },
         strength: { value: STRENGTH },
@@ -116,57 +116,57 @@ export class EyeDome {
     // One triangle that covers the screen.
     const triangle = new BufferGeometry();
     triangle.setAttribute("position", new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
-    this.cover = new Mesh(triangle, this.material);
-    this.cover.frustumCulled = false;
-    this.screen.add(this.cover);
+    this.#cover = new Mesh(triangle, this.#material);
+    this.#cover.frustumCulled = false;
+    this.#screen.add(this.#cover);
   }
 
   /** In display colors. */
   setBackground(color: Color): void {
-    this.material.uniforms["background"]!.value = color;
+    this.#material.uniforms["background"]!.value = color;
   }
 
   /** Draws the scene shaded onto the screen; its depths go along, so that more can be drawn among the points. */
   render(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
-    this.shade(renderer, scene, camera);
-    this.draw(renderer, null);
+    this.#shade(renderer, scene, camera);
+    this.#draw(renderer, null);
   }
 
   /** Draws a scene over the one before, however near that is: as one layer, however many points lie behind one another. */
   renderOver(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera, opacity: number): void {
-    this.shade(renderer, scene, camera);
-    this.draw(renderer, opacity);
+    this.#shade(renderer, scene, camera);
+    this.#draw(renderer, opacity);
   }
 
   dispose(): void {
-    this.cover.geometry.dispose();
-    this.material.dispose();
-    this.target.depthTexture?.dispose();
-    this.target.dispose();
+    this.#cover.geometry.dispose();
+    this.#material.dispose();
+    this.#target.depthTexture?.dispose();
+    this.#target.dispose();
   }
 
-  private shade(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
-    renderer.getDrawingBufferSize(this.size);
-    if (this.target.width !== this.size.x || this.target.height !== this.size.y) this.target.setSize(this.size.x, this.size.y);
-    renderer.setRenderTarget(this.target);
+  #shade(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
+    renderer.getDrawingBufferSize(this.#size);
+    if (this.#target.width !== this.#size.x || this.#target.height !== this.#size.y) this.#target.setSize(this.#size.x, this.#size.y);
+    renderer.setRenderTarget(this.#target);
     renderer.clear();
     renderer.render(scene, camera);
     renderer.setRenderTarget(null);
-    this.planes.set(camera.near, camera.far);
-    this.material.uniforms["reach"]!.value = REACH * renderer.getPixelRatio();
-    this.material.uniforms["strength"]!.value = this.enabled ? STRENGTH : 0;
+    this.#planes.set(camera.near, camera.far);
+    this.#material.uniforms["reach"]!.value = REACH * renderer.getPixelRatio();
+    this.#material.uniforms["strength"]!.value = this.enabled ? STRENGTH : 0;
     // The distance at which a point is as wide as SOFT_FROM pixels; nearer ones are wider in proportion.
-    const pixels = (camera.projectionMatrix.elements[5] * this.size.y) / 2;
-    this.material.uniforms["softness"]!.value = (this.pointWidth * pixels) / SOFT_FROM;
+    const pixels = (camera.projectionMatrix.elements[5] * this.#size.y) / 2;
+    this.#material.uniforms["softness"]!.value = (this.pointWidth * pixels) / SOFT_FROM;
   }
 
   /** Onto the screen: with `null` in the place of what is there, else as a layer of that opacity. */
-  private draw(renderer: WebGLRenderer, layer: number | null): void {
-    const { uniforms } = this.material;
+  #draw(renderer: WebGLRenderer, layer: number | null): void {
+    const { uniforms } = this.#material;
     uniforms["layer"]!.value = layer !== null;
     uniforms["opacity"]!.value = layer ?? 1;
-    this.material.depthTest = this.material.depthWrite = layer === null;
+    this.#material.depthTest = this.#material.depthWrite = layer === null;
     if (layer === null) renderer.clear();
-    renderer.render(this.screen, this.camera);
+    renderer.render(this.#screen, this.#camera);
   }
 }

@@ -5,56 +5,56 @@ import { placeAt, project } from "./place.ts";
 
 /** A handle over the picture for each light: dragged across the picture, or moved around the cloud by keys. */
 export class LightHandles {
-  private readonly container: HTMLElement;
-  private readonly viewer: Viewer;
-  private readonly store: Store;
+  readonly #container: HTMLElement;
+  readonly #viewer: Viewer;
+  readonly #store: Store;
 
   constructor(container: HTMLElement, viewer: Viewer, store: Store) {
-    this.container = container;
-    this.viewer = viewer;
-    this.store = store;
+    this.#container = container;
+    this.#viewer = viewer;
+    this.#store = store;
     store.follow(({ lights }) => {
-      while (this.handles.length > lights.length) this.handles.at(-1)!.remove();
-      for (let i = this.handles.length; i < lights.length; i++) container.append(this.handle(i));
+      while (this.#handles.length > lights.length) this.#handles.at(-1)!.remove();
+      for (let i = this.#handles.length; i < lights.length; i++) container.append(this.#handle(i));
       this.place();
     });
   }
 
   /** Puts the handles where their lights are in the picture; out of it there is none. */
   place(): void {
-    const { lights } = this.store.current;
-    const { width, height } = this.viewer.stage.size;
-    for (const [i, handle] of this.handles.entries()) {
-      const at = this.viewer.cloud && project(this.viewer, lights[i]!);
+    const { lights } = this.#store.current;
+    const { width, height } = this.#viewer.stage.size;
+    for (const [i, handle] of this.#handles.entries()) {
+      const at = this.#viewer.cloud && project(this.#viewer, lights[i]!);
       const inPicture = at && at.x >= 0 && at.y >= 0 && at.x <= width && at.y <= height;
       handle.hidden = !inPicture;
       if (inPicture) handle.style.translate = `${at.x}px ${at.y}px`;
     }
   }
 
-  private get handles(): HTMLButtonElement[] {
-    return [...this.container.children] as HTMLButtonElement[];
+  get #handles(): HTMLButtonElement[] {
+    return [...this.#container.children] as HTMLButtonElement[];
   }
 
-  private handle(i: number): HTMLButtonElement {
+  #handle(i: number): HTMLButtonElement {
     const handle = document.createElement("button");
     handle.type = "button";
     handle.textContent = String(i + 1);
     handle.ariaLabel = `Light ${i + 1}: drag it, or move it with the arrow keys, plus and minus`;
     handle.addEventListener("keydown", (event) => {
-      lightByKey(event, i, this.store, this.viewer);
+      lightByKey(event, i, this.#store, this.#viewer);
     });
     handle.addEventListener("pointerdown", (event) => {
       handle.setPointerCapture(event.pointerId);
     });
     handle.addEventListener("pointermove", (event) => {
       if (!handle.hasPointerCapture(event.pointerId)) return;
-      const { left, top, width, height } = this.container.getBoundingClientRect();
-      const lights = [...this.store.current.lights];
+      const { left, top, width, height } = this.#container.getBoundingClientRect();
+      const lights = [...this.#store.current.lights];
       // Not out of the picture, where nobody could take hold of it again.
       const [x, y] = [clamp(event.clientX - left, width), clamp(event.clientY - top, height)];
-      lights[i] = placeAt(this.viewer, x, y, lights[i]!);
-      this.store.change({ lights });
+      lights[i] = placeAt(this.#viewer, x, y, lights[i]!);
+      this.#store.change({ lights });
     });
     return handle;
   }

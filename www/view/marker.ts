@@ -3,14 +3,14 @@ import type { Theme } from "./theme.ts";
 
 /** Where the frozen viewpoint is: a small camera in the accent color, of a fixed share of the cloud's size. */
 export class ViewpointMarker {
-  private readonly parent: Object3D;
-  private helper: CameraHelper | null = null;
-  private readonly at = new Vector3();
-  private size = 0;
-  private color = new Color();
+  readonly #parent: Object3D;
+  #helper: CameraHelper | null = null;
+  readonly #at = new Vector3();
+  #size = 0;
+  #color = new Color();
 
   constructor(parent: Object3D) {
-    this.parent = parent;
+    this.#parent = parent;
   }
 
   place(at: Vector3, direction: Quaternion, size: number): void {
@@ -19,32 +19,32 @@ export class ViewpointMarker {
     standing.position.copy(at);
     standing.quaternion.copy(direction);
     standing.updateMatrixWorld();
-    this.at.copy(at);
-    this.size = size;
-    this.helper = new CameraHelper(standing);
-    this.helper.visible = false;
-    this.paint();
-    this.parent.add(this.helper);
+    this.#at.copy(at);
+    this.#size = size;
+    this.#helper = new CameraHelper(standing);
+    this.#helper.visible = false;
+    this.#paint();
+    this.#parent.add(this.#helper);
   }
 
   setTheme({ accent }: Theme): void {
-    this.color = new Color(accent);
-    this.paint();
+    this.#color = new Color(accent);
+    this.#paint();
   }
 
   /** From within the marker there would be nothing but its lines across the picture. */
   follow(camera: PerspectiveCamera): void {
-    if (this.helper) this.helper.visible = camera.position.distanceTo(this.at) > this.size;
+    if (this.#helper) this.#helper.visible = camera.position.distanceTo(this.#at) > this.#size;
   }
 
   remove(): void {
-    this.helper?.removeFromParent();
-    this.helper?.dispose();
-    this.helper = null;
+    this.#helper?.removeFromParent();
+    this.#helper?.dispose();
+    this.#helper = null;
   }
 
-  private paint(): void {
-    const { color } = this;
-    this.helper?.setColors(color, color, color, color, color);
+  #paint(): void {
+    const color = this.#color;
+    this.#helper?.setColors(color, color, color, color, color);
   }
 }

@@ -70,32 +70,32 @@ export class CloudPoints {
   /** What else ours and the reference tell apart. */
   readonly different = new Group();
   /** Of that, what only the reference shows. */
-  private readonly missing: Draw;
-  private readonly order: BufferAttribute;
-  private readonly spacing: number;
-  private readonly draws: Draw[];
-  private theme: Theme;
-  private dimmed = false;
-  private width = 0;
-  private visible: Uint32Array = new Uint32Array();
-  private hiddenListed = true;
+  readonly #missing: Draw;
+  readonly #order: BufferAttribute;
+  readonly #spacing: number;
+  readonly #draws: Draw[];
+  #theme: Theme;
+  #dimmed = false;
+  #width = 0;
+  #visible: Uint32Array = new Uint32Array();
+  #hiddenListed = true;
   /** Whether the hidden points, or what only ours shows, are drawn through the others: as specks, for both to be seen. */
-  private throughOthers = true;
+  #throughOthers = true;
   /** Where the picture is divided, as a share of its width from its left: hidden points are left of it. */
-  private divider = 1;
+  #divider = 1;
   /** Whether what only the reference shows is drawn on both sides. */
-  private fill = false;
+  #fill = false;
 
   constructor(cloud: Cloud, attributes: CloudAttributes, theme: Theme) {
-    this.theme = theme;
-    this.order = new BufferAttribute(new Uint32Array(cloud.count), 1);
-    this.order.setUsage(DynamicDrawUsage);
-    this.spacing = roughSpacing(cloud);
+    this.#theme = theme;
+    this.#order = new BufferAttribute(new Uint32Array(cloud.count), 1);
+    this.#order.setUsage(DynamicDrawUsage);
+    this.#spacing = roughSpacing(cloud);
 
     const draw = (coverage: number) => {
       const geometry = new BufferGeometry();
       attributes.addTo(geometry);
-      geometry.setIndex(this.order);
+      geometry.setIndex(this.#order);
       const material = new ShaderMaterial({
         vertexShader,
         fragmentShader,
@@ -116,21 +116,21 @@ export class CloudPoints {
     this.solid = draw(0);
     this.ghost = draw(COVERAGE);
     this.extra = draw(1);
-    this.missing = draw(1);
-    const [missing, outside] = [this.missing, draw(0)];
+    this.#missing = draw(1);
+    const [missing, outside] = [this.#missing, draw(0)];
     this.different.add(missing, outside);
     this.extra.visible = this.different.visible = false;
-    this.draws = [this.solid, this.extra, missing, outside, this.ghost];
-    for (const each of this.draws) {
+    this.#draws = [this.solid, this.extra, missing, outside, this.ghost];
+    for (const each of this.#draws) {
       each.onBeforeRender = (renderer, _scene, camera) => {
         const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
         const { uniforms } = each.material;
         uniforms["pixels"]!.value = (camera.projectionMatrix.elements[5] * height) / 2;
         const least = leastPixels(cloud.count) * renderer.getPixelRatio();
-        uniforms["least"]!.value = each === this.ghost && this.throughOthers ? least / 1.5 : least;
-        const left = each === this.ghost || (each === missing && !this.fill);
+        uniforms["least"]!.value = each === this.ghost && this.#throughOthers ? least / 1.5 : least;
+        const left = each === this.ghost || (each === missing && !this.#fill);
         const right = each === this.extra || each === outside;
-        const at = this.divider * width;
+        const at = this.#divider * width;
         (uniforms["between"]!.value as Vector2).set(right ? at : 0, left ? at : EVERYWHERE);
       };
     }
@@ -139,20 +139,20 @@ export class CloudPoints {
 
   /** The answer for a viewpoint: ascending indices of the visible points. */
   setVisible(indices: Uint32Array): void {
-    this.visible = indices;
-    this.order.clearUpdateRanges();
-    (this.order.array as Uint32Array).set(indices);
-    this.upload(0, indices.length);
+    this.#visible = indices;
+    this.#order.clearUpdateRanges();
+    (this.#order.array as Uint32Array).set(indices);
+    this.#upload(0, indices.length);
     this.extra.visible = this.different.visible = false;
-    this.setRanges([indices.length, indices.length, indices.length, indices.length]);
-    this.hiddenListed = false;
-    if (this.ghost.visible) this.listHidden();
+    this.#setRanges([indices.length, indices.length, indices.length, indices.length]);
+    this.#hiddenListed = false;
+    if (this.ghost.visible) this.#listHidden();
   }
 
-  private listHidden(): void {
-    this.hiddenListed = true;
-    const { visible } = this;
-    const order = this.order.array as Uint32Array;
+  #listHidden(): void {
+    this.#hiddenListed = true;
+    const visible = this.#visible;
+    const order = this.#order.array as Uint32Array;
     let at = visible.length;
     let next = 0;
     for (let i = 0; i < visible.length; i++) {
@@ -161,71 +161,71 @@ export class CloudPoints {
       next = index + 1;
     }
     while (next < order.length) order[at++] = next++;
-    this.upload(visible.length, order.length);
+    this.#upload(visible.length, order.length);
   }
 
   /** What of the order has been written anew; three.js forgets the ranges once they are on the graphics card. */
-  private upload(from: number, to: number): void {
-    this.order.addUpdateRange(from, to - from);
-    this.order.needsUpdate = true;
+  #upload(from: number, to: number): void {
+    this.#order.addUpdateRange(from, to - from);
+    this.#order.needsUpdate = true;
   }
 
   /** The answer beside a reference, whose own points `fill` the gaps of ours or stay on their side. Keeps the order for itself. */
   setParts({ order, ends }: Parts, fill: boolean): void {
-    this.order.array = order;
-    this.order.clearUpdateRanges();
-    this.order.needsUpdate = true;
-    this.hiddenListed = true;
-    this.fill = fill;
+    this.#order.array = order;
+    this.#order.clearUpdateRanges();
+    this.#order.needsUpdate = true;
+    this.#hiddenListed = true;
+    this.#fill = fill;
     this.extra.visible = this.different.visible = true;
-    this.setRanges(ends);
+    this.#setRanges(ends);
   }
 
   /** Hidden points, and up to which share of the picture's width. */
   show(mode: HiddenMode, frozen: boolean, divider = 1): void {
-    this.divider = divider;
+    this.#divider = divider;
     this.ghost.visible = mode !== "off";
-    if (this.ghost.visible && !this.hiddenListed) this.listHidden();
-    this.throughOthers = !frozen;
-    this.dimmed = frozen && mode === "dimmed";
-    this.setTheme(this.theme);
-    this.setWidths();
+    if (this.ghost.visible && !this.#hiddenListed) this.#listHidden();
+    this.#throughOthers = !frozen;
+    this.#dimmed = frozen && mode === "dimmed";
+    this.setTheme(this.#theme);
+    this.#setWidths();
   }
 
   setTheme(theme: Theme): void {
-    this.theme = theme;
+    this.#theme = theme;
     const colors: [Draw, string][] = [
-      [this.ghost, this.dimmed ? theme.hiddenDimmed : theme.hidden],
+      [this.ghost, this.#dimmed ? theme.hiddenDimmed : theme.hidden],
       [this.extra, theme.onlyOurs],
-      [this.missing, theme.onlyReference],
+      [this.#missing, theme.onlyReference],
     ];
     for (const [{ material }, color] of colors) material.uniforms["cover"]!.value = display(color);
   }
 
   /** In multiples of the points' rough distance from one another; the width of a point in the cloud's units. */
   setPointSize(size: number): number {
-    this.width = size * this.spacing;
-    this.setWidths();
-    return this.width;
+    this.#width = size * this.#spacing;
+    this.#setWidths();
+    return this.#width;
   }
 
   /** One draw after another, and the hidden points in the last. */
-  private setRanges(ends: readonly number[]): void {
+  #setRanges(ends: readonly number[]): void {
     let from = 0;
-    [...ends, this.order.count].forEach((end, i) => {
-      this.draws[i]!.geometry.setDrawRange(from, end - from);
+    [...ends, this.#order.count].forEach((end, i) => {
+      this.#draws[i]!.geometry.setDrawRange(from, end - from);
       from = end;
     });
   }
 
-  private setWidths(): void {
-    for (const { material } of this.draws) material.uniforms["width"]!.value = this.width;
-    if (!this.throughOthers) return;
-    for (const { material } of [this.ghost, this.extra]) material.uniforms["width"]!.value = Math.min(this.width, THROUGH_WIDTH * this.spacing);
+  #setWidths(): void {
+    for (const { material } of this.#draws) material.uniforms["width"]!.value = this.#width;
+    if (!this.#throughOthers) return;
+    for (const { material } of [this.ghost, this.extra]) material.uniforms["width"]!.value = Math.min(this.#width, THROUGH_WIDTH * this.#spacing);
   }
 
   dispose(): void {
-    for (const { geometry, material } of this.draws) {
+    for (const { geometry, material } of this.#draws) {
       geometry.dispose();
       material.dispose();
     }

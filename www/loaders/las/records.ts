@@ -14,34 +14,34 @@ const number = new Intl.NumberFormat("en-US");
 
 /** Takes the points of a LAS file as its records come, from wherever they come. */
 export class RecordTaker {
-  private readonly header: LasHeader;
-  private readonly builder: CloudBuilder;
-  private outside = 0;
+  readonly #header: LasHeader;
+  readonly #builder: CloudBuilder;
+  #outside = 0;
 
   constructor(header: LasHeader, limit: number, expected = header.count) {
-    this.header = header;
-    this.builder = new CloudBuilder("float64", header.columns, limit, expected);
+    this.#header = header;
+    this.#builder = new CloudBuilder("float64", header.columns, limit, expected);
   }
 
   take(view: DataView, at: number): void {
-    if (!this.builder.takes()) return;
-    const { scale, offset, low, high, columns } = this.header;
+    if (!this.#builder.takes()) return;
+    const { scale, offset, low, high, columns } = this.#header;
     const x = view.getInt32(at, true) * scale[0] + offset[0];
     const y = view.getInt32(at + 4, true) * scale[1] + offset[1];
     const z = view.getInt32(at + 8, true) * scale[2] + offset[2];
     // By a step of the scale more: the header's bounds are rounded, too.
     const isOutside = (value: number, axis: 0 | 1 | 2) => value < low[axis] - scale[axis] || value > high[axis] + scale[axis];
-    if (isOutside(x, 0) || isOutside(y, 1) || isOutside(z, 2)) this.outside++;
-    const i = this.builder.put(x, y, z);
-    for (let k = 0; k < columns.length; k++) this.builder.values[k]![i] = columns[k]!.read(view, at);
+    if (isOutside(x, 0) || isOutside(y, 1) || isOutside(z, 2)) this.#outside++;
+    const i = this.#builder.put(x, y, z);
+    for (let k = 0; k < columns.length; k++) this.#builder.values[k]![i] = columns[k]!.read(view, at);
   }
 
   finish(): LoadedCloud {
-    const cloud = this.builder.finish();
+    const cloud = this.#builder.finish();
     const attributes = cloud.attributes!.map((attribute) => (attribute.name === "classification" ? { ...attribute, labels: CLASSES } : attribute));
     const notes = [...cloud.notes!];
-    if (this.outside > 0) {
-      notes.push(`${number.format(this.outside)} of its points lie outside the bounds that its header gives: the header is wrong, or the points are damaged.`);
+    if (this.#outside > 0) {
+      notes.push(`${number.format(this.#outside)} of its points lie outside the bounds that its header gives: the header is wrong, or the points are damaged.`);
     }
     return { ...cloud, attributes, notes };
   }
