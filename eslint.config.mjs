@@ -12,6 +12,11 @@ export default defineConfig(
     rules: {
       // Loops over flat arrays know that the index is in range; the compiler cannot.
       "@typescript-eslint/no-non-null-assertion": "off",
+      // Private members are written with `#`, which also holds when the program runs.
+      "no-restricted-syntax": [
+        "error",
+        { selector: ":matches(PropertyDefinition, MethodDefinition[kind!='constructor'])[accessibility='private']", message: "Write #name." },
+      ],
       // Numbers read well in messages without `String(…)` around them.
       "@typescript-eslint/restrict-template-expressions": ["error", { allowNumber: true }],
     },

@@ -24,6 +24,10 @@ export const typescriptChecks: Check[] = [
     run: () => checkCommand("eslint", ["--max-warnings", "0", "."]),
   },
   {
+    title: "TypeScript, CSS, HTML: formatting",
+    run: () => checkCommand("prettier", ["--check", "."]),
+  },
+  {
     title: "TypeScript: documentation",
     needs: [BUILD],
     // Every name a user can write has to be explained, and every link to lead somewhere.
