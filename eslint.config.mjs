@@ -15,7 +15,10 @@ export default defineConfig(
       // Private members are written with `#`, which also holds when the program runs.
       "no-restricted-syntax": [
         "error",
-        { selector: ":matches(PropertyDefinition, MethodDefinition[kind!='constructor'])[accessibility='private']", message: "Write #name." },
+        {
+          selector: ":matches(PropertyDefinition, MethodDefinition[kind!='constructor'])[accessibility='private']",
+          message: "Write #name.",
+        },
       ],
       // Numbers read well in messages without `String(…)` around them.
       "@typescript-eslint/restrict-template-expressions": ["error", { allowNumber: true }],

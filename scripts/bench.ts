@@ -11,7 +11,11 @@ import { setUpForBuild } from "./setup/setup.js";
 await command(async () => {
   await setUpForBuild();
   await build();
-  await mustRun("cargo", ["build", "--locked", "--release", "--example", "bench_native"], "The native benchmark does not build");
+  await mustRun(
+    "cargo",
+    ["build", "--locked", "--release", "--example", "bench_native"],
+    "The native benchmark does not build",
+  );
   await mustRun("tsc", ["-p", "tests/bench"], "The benchmarks do not compile");
   const args = [inRoot("target", "bench", "tests", "bench", "main.js"), ...process.argv.slice(3)];
   const browser = findBrowser();

@@ -49,7 +49,8 @@ export class Address {
     this.#before ??= { cloud: this.#cloud, href: location.href };
     this.#cloud = null;
     const address = new URL(location.href);
-    for (const name of ["src", "view", "target", "freeze", "light", "color", "size", "fov", "up"]) address.searchParams.delete(name);
+    for (const name of ["src", "view", "target", "freeze", "light", "color", "size", "fov", "up"])
+      address.searchParams.delete(name);
     address.searchParams.set(parameter, value);
     replace(address);
   }

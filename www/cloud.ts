@@ -66,7 +66,15 @@ export function prepareCloud({ positions, colors, attributes = [], ...said }: Lo
   const size = high.map((value, axis) => value - low[axis]!) as [number, number, number];
   const radius = Math.hypot(...size) / 2;
   // A single point, or many equal ones, still need a distance to be looked at from.
-  const cloud = { colors, attributes, count: positions.length / 3, center, local, size, radius: radius > 0 ? radius : 1 };
+  const cloud = {
+    colors,
+    attributes,
+    count: positions.length / 3,
+    center,
+    local,
+    size,
+    radius: radius > 0 ? radius : 1,
+  };
   return { cloud, positions, copy: positions.slice(), ...said };
 }
 

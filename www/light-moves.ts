@@ -9,7 +9,12 @@ import type { Viewer } from "./viewer.ts";
 const TURN = Math.PI / 36;
 const NEARER = 0.92;
 /** Where the first lights come, as parts of the picture's width and height: in sight, and not beside the camera. */
-const SPOTS = [[0.16, 0.16], [0.76, 0.2], [0.2, 0.84], [0.8, 0.84]] as const;
+const SPOTS = [
+  [0.16, 0.16],
+  [0.76, 0.2],
+  [0.2, 0.84],
+  [0.8, 0.84],
+] as const;
 /** Further ones come nearer and nearer to the middle. */
 const INWARDS = 0.8;
 /** Lights nearer to each other than this share of their distance can't be told apart. */
@@ -52,7 +57,10 @@ export function lightByKey(event: KeyboardEvent, i: number, store: Store, viewer
   // Straight above there is no side to turn to but the camera's.
   if (around.lengthSq() < 1e-9 * place.lengthSq()) around.setFromMatrixColumn(viewer.stage.camera.matrixWorld, 0);
   const [sideways, upwards, farther] = step;
-  place.applyAxisAngle(up, sideways * TURN).applyAxisAngle(around.normalize(), upwards * TURN).multiplyScalar(farther);
+  place
+    .applyAxisAngle(up, sideways * TURN)
+    .applyAxisAngle(around.normalize(), upwards * TURN)
+    .multiplyScalar(farther);
   lights[i] = inFile(cloud, place);
   store.change({ lights });
 }

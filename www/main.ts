@@ -8,7 +8,10 @@ import { startSession } from "./session.ts";
 import { Status } from "./status.ts";
 import { canDraw } from "./view/stage.ts";
 
-const params = readParams(location.search, SAMPLES.map((sample) => sample.name));
+const params = readParams(
+  location.search,
+  SAMPLES.map((sample) => sample.name),
+);
 if (params.embed) showEmbedded();
 const status = new Status(byId("status"));
 const message = new Message();

@@ -12,7 +12,13 @@ export class Moves {
   readonly #usual: () => Pick<Settings, "fieldOfView">;
 
   /** Also gives the canvas its keys, those of the navigation and `more` besides. */
-  constructor(canvas: HTMLCanvasElement, viewer: Viewer, store: Store, usual: () => Pick<Settings, "fieldOfView">, more: Record<string, () => void> = {}) {
+  constructor(
+    canvas: HTMLCanvasElement,
+    viewer: Viewer,
+    store: Store,
+    usual: () => Pick<Settings, "fieldOfView">,
+    more: Record<string, () => void> = {},
+  ) {
     this.#viewer = viewer;
     this.#store = store;
     this.#usual = usual;
@@ -22,9 +28,15 @@ export class Moves {
     };
     const keys: Record<string, () => void> = {
       ...more,
-      v: () => { this.freeze(!this.frozen); },
-      r: () => { this.reset(); },
-      h: () => { this.#nextHidden(); },
+      v: () => {
+        this.freeze(!this.frozen);
+      },
+      r: () => {
+        this.reset();
+      },
+      h: () => {
+        this.#nextHidden();
+      },
     };
     canvas.addEventListener("keydown", (event) => {
       if (!event.ctrlKey && !event.metaKey && !event.altKey) keys[event.key.toLowerCase()]?.();
@@ -37,7 +49,8 @@ export class Moves {
 
   /** Keeps the viewpoint where it is while the camera moves on, or lets it go with the camera again. */
   freeze(frozen: boolean): void {
-    if (this.#viewer.cloud && frozen !== this.frozen) this.#store.change({ freeze: frozen ? this.#viewer.viewpoint : null });
+    if (this.#viewer.cloud && frozen !== this.frozen)
+      this.#store.change({ freeze: frozen ? this.#viewer.viewpoint : null });
   }
 
   /** Looks at the cloud as for the first time. */

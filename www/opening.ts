@@ -53,7 +53,10 @@ export interface Ready {
 const SHARED_BELOW = 200_000;
 
 /** From what is wished for to a cloud with its first answer. Nothing is shown yet, and what fails leaves nothing behind. */
-export async function openCloud({ request, sample, view: wanted, settings: wished }: Wish, place: Place): Promise<Ready> {
+export async function openCloud(
+  { request, sample, view: wanted, settings: wished }: Wish,
+  place: Place,
+): Promise<Ready> {
   const { signal, onProgress } = place;
   const { cloud, positions, copy, ...loaded } = await loadCloud(request, signal, (step, fraction) => {
     onProgress(`${step} ${request.name}.`, fraction);
@@ -61,11 +64,26 @@ export async function openCloud({ request, sample, view: wanted, settings: wishe
   onProgress(`Finding the visible points of ${request.name}.`, null);
   const usual = usualLook(sample, request.name, cloud.count, loaded.taken?.up);
   const { view, places, notes: farNotes } = inReachOnly(cloud, wanted, wished, place.asked);
-  const own: Partial<Settings> = { ...usual, freeze: null, lights: [], ...radiusFor(place.settings()), ...wished, ...places };
-  const { color, notes: colorNote } = usableColor(own.color ?? place.settings().color, cloud, wished.color !== undefined);
+  const own: Partial<Settings> = {
+    ...usual,
+    freeze: null,
+    lights: [],
+    ...radiusFor(place.settings()),
+    ...wished,
+    ...places,
+  };
+  const { color, notes: colorNote } = usableColor(
+    own.color ?? place.settings().color,
+    cloud,
+    wished.color !== undefined,
+  );
   own.color = color;
   const surface = surfaceOf(request, sample, loaded.isMesh);
-  const { against, notes: againstNote } = usableAgainst(own.against ?? place.settings().against, surface, wished.against !== undefined);
+  const { against, notes: againstNote } = usableAgainst(
+    own.against ?? place.settings().against,
+    surface,
+    wished.against !== undefined,
+  );
   own.against = against;
 
   const { fieldOfView: fov, up } = { ...usual, ...wished };
@@ -78,14 +96,26 @@ export async function openCloud({ request, sample, view: wanted, settings: wishe
   const home = homeFrom(view)(up);
 
   // The page keeps the file's own coordinates for the tools.
-  const worker = await WorkerPointCloud.create(copy, { signal, transfer: true, shared: place.shared && cloud.count < SHARED_BELOW });
+  const worker = await WorkerPointCloud.create(copy, {
+    signal,
+    transfer: true,
+    shared: place.shared && cloud.count < SHARED_BELOW,
+  });
   const another = async () => new WorkerCloud(await WorkerPointCloud.create(positions, { workers: 1 }), cloud.center);
   const inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), another, cloud.radius);
   try {
     const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...place.settings(), ...own });
     signal.throwIfAborted();
     const opened = { cloud, positions, inquiry, home, answer, findHome: homeFrom(view), surface };
-    return { opened, settings: own, usual, view, homeFrom, refusals: [...farNotes, ...colorNote, ...againstNote], notes: loaded.notes ?? [] };
+    return {
+      opened,
+      settings: own,
+      usual,
+      view,
+      homeFrom,
+      refusals: [...farNotes, ...colorNote, ...againstNote],
+      notes: loaded.notes ?? [],
+    };
   } catch (error) {
     inquiry.dispose();
     throw error;
@@ -107,9 +137,16 @@ function surfaceOf(request: LoadRequest, sample: Sample | null, isMesh = false):
 }
 
 /** Of some clouds no surface is known that ours could be compared with. */
-function usableAgainst(against: Against, surface: KnownSurface | string, asked: boolean): { against: Against; notes: string[] } {
+function usableAgainst(
+  against: Against,
+  surface: KnownSurface | string,
+  asked: boolean,
+): { against: Against; notes: string[] } {
   if (against !== "surface" || typeof surface !== "string") return { against, notes: [] };
-  return { against: "all", notes: asked ? [`There is no true surface to compare with, so all points are. ${surface}`] : [] };
+  return {
+    against: "all",
+    notes: asked ? [`There is no true surface to compare with, so all points are. ${surface}`] : [],
+  };
 }
 
 /** A radius in units of the cloud before means nothing to the next one. */

@@ -36,7 +36,8 @@ export function readParams(search: string, samples: readonly string[]): Params {
     const text = query.get(name);
     const { parse, refusal } = VALUES[name] as Written<ValueOf<Name>>;
     const value = text === null ? undefined : parse(text);
-    if (text !== null && value === undefined) notes.push(`The ${WORDS[name] ?? name} in the address is not ${refusal}.`);
+    if (text !== null && value === undefined)
+      notes.push(`The ${WORDS[name] ?? name} in the address is not ${refusal}.`);
     return value;
   };
 
@@ -48,7 +49,9 @@ export function readParams(search: string, samples: readonly string[]): Params {
   }
   const lights = query.getAll("light").map(parsePlace);
   if (lights.length > MOST_LIGHTS || lights.includes(undefined)) {
-    notes.push(`A light in the address is not three numbers x,y,z, or is one more than ${MOST_LIGHTS}; it is left out.`);
+    notes.push(
+      `A light in the address is not three numbers x,y,z, or is one more than ${MOST_LIGHTS}; it is left out.`,
+    );
   }
 
   const settings: Record<keyof Settings, unknown> = {

@@ -39,9 +39,30 @@ interface Wing {
   points: number;
 }
 
-const MAIN: Wing = { root: [2.4, -0.1, 1.1], tip: [-2.4, -0.25, 5.4], chords: [5.4, 1.6], thickness: 0.11, rings: 13, points: 32 };
-const TAILPLANE: Wing = { root: [-4.6, 0.05, 0.9], tip: [-6.6, 0.0, 3.0], chords: [2.4, 1.1], thickness: 0.1, rings: 8, points: 20 };
-const FIN: Wing = { root: [-3.9, 0.8, 0], tip: [-6.4, 3.2, 0], chords: [3.1, 1.3], thickness: 0.1, rings: 10, points: 22 };
+const MAIN: Wing = {
+  root: [2.4, -0.1, 1.1],
+  tip: [-2.4, -0.25, 5.4],
+  chords: [5.4, 1.6],
+  thickness: 0.11,
+  rings: 13,
+  points: 32,
+};
+const TAILPLANE: Wing = {
+  root: [-4.6, 0.05, 0.9],
+  tip: [-6.6, 0.0, 3.0],
+  chords: [2.4, 1.1],
+  thickness: 0.1,
+  rings: 8,
+  points: 20,
+};
+const FIN: Wing = {
+  root: [-3.9, 0.8, 0],
+  tip: [-6.4, 3.2, 0],
+  chords: [3.1, 1.3],
+  thickness: 0.1,
+  rings: 10,
+  points: 22,
+};
 
 /** What is covered by one skin: its rings in a row, and how many points each has. */
 interface Body {
@@ -50,7 +71,9 @@ interface Body {
 }
 
 export function makeRings(): LoadedCloud {
-  const points = bodies().flatMap(({ rings, points: count }) => rings.flatMap((ring) => Array.from({ length: count }, (_, i) => ring(i / count))));
+  const points = bodies().flatMap(({ rings, points: count }) =>
+    rings.flatMap((ring) => Array.from({ length: count }, (_, i) => ring(i / count))),
+  );
   return { positions: Float32Array.from(points.flat()), colors: null };
 }
 
@@ -74,17 +97,25 @@ export function skinOfRings(): Uint32Array {
 
 function bodies(): Body[] {
   const wings = [MAIN, mirrored(MAIN), TAILPLANE, mirrored(TAILPLANE), FIN];
-  return [{ rings: fuselage(), points: FUSELAGE_POINTS }, ...wings.map((wing) => ({ rings: ribs(wing), points: wing.points }))];
+  return [
+    { rings: fuselage(), points: FUSELAGE_POINTS },
+    ...wings.map((wing) => ({ rings: ribs(wing), points: wing.points })),
+  ];
 }
 
 function fuselage(): Ring[] {
   const [nose, tail] = [FUSELAGE[0]![0], FUSELAGE.at(-1)![0]];
   return Array.from({ length: FUSELAGE_RINGS }, (_, i) => {
     const x = nose + ((tail - nose) * i) / (FUSELAGE_RINGS - 1);
-    const behind = Math.max(1, FUSELAGE.findIndex((station) => station[0] <= x + 1e-9));
+    const behind = Math.max(
+      1,
+      FUSELAGE.findIndex((station) => station[0] <= x + 1e-9),
+    );
     const [a, b] = [FUSELAGE[behind - 1]!, FUSELAGE[behind]!];
     const share = (a[0] - x) / (a[0] - b[0]);
-    const [y, height, width] = ([1, 2, 3] as const).map((column) => a[column] + share * (b[column] - a[column])) as Vector;
+    const [y, height, width] = ([1, 2, 3] as const).map(
+      (column) => a[column] + share * (b[column] - a[column]),
+    ) as Vector;
     return (turn) => [x, y + height * Math.cos(2 * Math.PI * turn), width * Math.sin(2 * Math.PI * turn)];
   });
 }

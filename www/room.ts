@@ -166,7 +166,7 @@ function bookcase(random: () => number): Surface[] {
     const y = 0.05 + shelf * 0.38;
     parts.push(...box([2.68, y, -2.07], [0.3, 0.025, 1.32], WALNUT));
     if (shelf === 5) break;
-    for (let z = -2.05; z < -0.95; ) {
+    for (let z = -2.05; z < -0.95;) {
       const width = 0.025 + 0.035 * random();
       const height = 0.2 + 0.11 * random();
       const color = BOOKS[Math.floor(random() * BOOKS.length)]!;

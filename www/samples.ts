@@ -120,7 +120,12 @@ export function sampleNamed(name: string): Sample {
 }
 
 /** What a cloud is seen with where nobody has said anything else. */
-export function usualLook(sample: Sample | null, name: string, count: number, taken: Up | undefined): Pick<Settings, "size" | "fieldOfView" | "up"> {
+export function usualLook(
+  sample: Sample | null,
+  name: string,
+  count: number,
+  taken: Up | undefined,
+): Pick<Settings, "size" | "fieldOfView" | "up"> {
   return {
     // The fewer the points, the wider they are on screen: at the size that closes a dense surface they would be scales on a sparse one.
     size: sample?.pointSize ?? (count < 20_000 ? 1.4 : count < 200_000 ? 2 : 3),

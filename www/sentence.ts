@@ -5,7 +5,9 @@ const number = new Intl.NumberFormat("en-US");
 /** What people and screen readers are told of an answer. */
 export function sentenceOf({ visibility, quick, milliseconds }: TimedView, total: number, frozen: boolean): string {
   const one = visibility.count === 1;
-  const where = frozen ? `${one ? "was" : "were"} visible from the frozen viewpoint` : `${one ? "is" : "are"} visible from here`;
+  const where = frozen
+    ? `${one ? "was" : "were"} visible from the frozen viewpoint`
+    : `${one ? "is" : "are"} visible from here`;
   const time = milliseconds < 10 ? milliseconds.toFixed(1) : number.format(Math.round(milliseconds));
   const share = percent(visibility.count, total);
   const standIn = quick ? ", with the automatic radius while moving" : "";

@@ -45,10 +45,14 @@ export function startSession(params: Params, status: Status, message: Message): 
   const limit = params.points === null ? {} : { limit: params.points };
   /** A view that was asked for stays in the address also where it is the first one. */
   let askedView: AskedView | null = null;
-  const address: Address = new Address(store, () => {
-    if (viewer.isHome && viewer.isTargetHome) return askedView && { view: askedView.at, target: askedView.target };
-    return { view: viewer.viewpoint, target: viewer.target };
-  }, () => workshop.introducing);
+  const address: Address = new Address(
+    store,
+    () => {
+      if (viewer.isHome && viewer.isTargetHome) return askedView && { view: askedView.at, target: askedView.target };
+      return { view: viewer.viewpoint, target: viewer.target };
+    },
+    () => workshop.introducing,
+  );
 
   const picker = new SamplePicker((sample) => {
     const source = fromSample(sample, null);
@@ -56,7 +60,15 @@ export function startSession(params: Params, status: Status, message: Message): 
     void open(source);
   });
   onFile({
-    open: (file, notes) => void open({ request: { kind: "file", name: file.name, file, skipNonFinite: false, ...limit }, sample: null, name: null, view: null, settings: {}, notes }),
+    open: (file, notes) =>
+      void open({
+        request: { kind: "file", name: file.name, file, skipNonFinite: false, ...limit },
+        sample: null,
+        name: null,
+        view: null,
+        settings: {},
+        notes,
+      }),
     refuse: (sentence) => {
       message.show(sentence);
     },
@@ -64,7 +76,12 @@ export function startSession(params: Params, status: Status, message: Message): 
 
   let shownName = "";
   // Who comes without any wish of their own is shown what this is about.
-  const workshop: Workshop = new Workshop(viewer, store, { name: () => shownName, link: () => address.link() }, location.search === "");
+  const workshop: Workshop = new Workshop(
+    viewer,
+    store,
+    { name: () => shownName, link: () => address.link() },
+    location.search === "",
+  );
   viewer.onFrame = () => {
     handles.place();
     workshop.place();
@@ -73,7 +90,9 @@ export function startSession(params: Params, status: Status, message: Message): 
     address.touch();
   };
   viewer.stage.onLost = () => {
-    message.show("The browser has taken the picture away to save memory; it is drawn again as soon as the browser allows, or when you reload the page.");
+    message.show(
+      "The browser has taken the picture away to save memory; it is drawn again as soon as the browser allows, or when you reload the page.",
+    );
   };
   viewer.stage.onRestored = () => {
     message.hide();
@@ -108,7 +127,8 @@ export function startSession(params: Params, status: Status, message: Message): 
     refuse(error, "The visible points could not be found");
   };
   const view = params.view && { at: params.view, target: params.target };
-  const first = params.src === null ? fromSample(sampleNamed(params.sample), view) : fromAddress(params.src, view, limit);
+  const first =
+    params.src === null ? fromSample(sampleNamed(params.sample), view) : fromAddress(params.src, view, limit);
   void open({ ...first, settings: params.settings, notes: params.notes });
 
   /** Loads a cloud beside the one on screen; it takes that one's place once the first answer is there. */
@@ -200,7 +220,14 @@ export function startSession(params: Params, status: Status, message: Message): 
 }
 
 function fromSample(sample: Sample, view: AskedView | null): Source {
-  return { request: requestFor(sample, document.baseURI), sample, name: ["sample", sample.name], view, settings: {}, notes: [] };
+  return {
+    request: requestFor(sample, document.baseURI),
+    sample,
+    name: ["sample", sample.name],
+    view,
+    settings: {},
+    notes: [],
+  };
 }
 
 function fromAddress(address: string, view: AskedView | null, limit: { limit?: number }): Source {
@@ -214,7 +241,8 @@ function fromAddress(address: string, view: AskedView | null, limit: { limit?: n
 /** The same once more, where the points without a position were all that was wrong. */
 function withoutNonFinite(error: unknown, source: Source): Source | null {
   const { request } = source;
-  const possible = error instanceof LoadProblem && error.nonFinite > 0 && (request.kind === "file" || request.kind === "url");
+  const possible =
+    error instanceof LoadProblem && error.nonFinite > 0 && (request.kind === "file" || request.kind === "url");
   return possible ? { ...source, request: { ...request, skipNonFinite: true } } : null;
 }
 
@@ -222,6 +250,7 @@ function plain(error: unknown): string {
   if (error instanceof HprError && error.code === "load") {
     return "a part of this page (its WebAssembly file or worker) could not be loaded; reload the page to try again";
   }
-  if (error instanceof HprError && error.code === "too-large") return "it needs more memory than the browser gives to a page";
+  if (error instanceof HprError && error.code === "too-large")
+    return "it needs more memory than the browser gives to a page";
   return error instanceof Error ? error.message.replace(/\.$/, "") : String(error);
 }

@@ -1,7 +1,16 @@
 import type { Up } from "./cloud.ts";
 import { MOST_SPLAT } from "./compare/zbuffer.ts";
 import { MAX_POINTS } from "./loaders/limits.ts";
-import type { Against, HiddenMode, Inversion, Radius, Settings, ThemeChoice, Viewpoint, Viewpoints } from "./settings.ts";
+import type {
+  Against,
+  HiddenMode,
+  Inversion,
+  Radius,
+  Settings,
+  ThemeChoice,
+  Viewpoint,
+  Viewpoints,
+} from "./settings.ts";
 
 /** How a value is written as text, and how a sentence ends about a text that is none: "is not …". */
 export interface Written<T> {
@@ -20,7 +29,10 @@ const MOST_NEIGHBORS = 100;
 export const VALUES = {
   exponent: written(within(0, MOST_EXPONENT), `a number from 0 to ${MOST_EXPONENT}, so the automatic one is used`),
   radius: written(parseRadius, "auto, search, opposite or a positive number, so the automatic one is used"),
-  inversion: written(parseInversion, `spherical, exponential, exponential:c with a positive c or power:γ with γ above 1 and at most ${MOST_POWER}, so it is spherical`),
+  inversion: written(
+    parseInversion,
+    `spherical, exponential, exponential:c with a positive c or power:γ with γ above 1 and at most ${MOST_POWER}, so it is spherical`,
+  ),
   viewpoints: written(oneOf<Viewpoints>("one", "any", "two"), "one, any or two, so it is one"),
   denoise: written(whole(MOST_NEIGHBORS), `an integer from 0 to ${MOST_NEIGHBORS}, so noise is left as it is`),
   vote: written(whole(MOST_NEIGHBORS), `an integer from 0 to ${MOST_NEIGHBORS}, so there is no vote`),
@@ -40,7 +52,10 @@ export const VALUES = {
   theme: written(oneOf<ThemeChoice>("system", "dark", "light"), "system, dark or light, so it is the system’s"),
   view: written(parsePlace, "three numbers x,y,z, so the usual view is used"),
   target: written(parsePlace, "three numbers x,y,z, so the camera looks at the middle"),
-  points: written((text) => whole(MAX_POINTS)(text) || undefined, `an integer from 1 to ${MAX_POINTS}, so the largest of these is used`),
+  points: written(
+    (text) => whole(MAX_POINTS)(text) || undefined,
+    `an integer from 1 to ${MAX_POINTS}, so the largest of these is used`,
+  ),
   embed: written(oneOf("0", "1"), "0 or 1, so the controls are shown"),
 };
 

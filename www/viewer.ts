@@ -107,7 +107,10 @@ export class Viewer {
 
   /** Whether it looks at what it looked at first; orbit controls change that by a bit each time. */
   get isTargetHome(): boolean {
-    return this.#shown !== null && this.navigation.target.distanceTo(this.#shown.home.pose.target) <= 1e-9 * this.#shown.cloud.radius;
+    return (
+      this.#shown !== null &&
+      this.navigation.target.distanceTo(this.#shown.home.pose.target) <= 1e-9 * this.#shown.cloud.radius
+    );
   }
 
   /** The camera's place in the file's coordinates: at home exactly the numbers that were asked for. */
@@ -127,7 +130,8 @@ export class Viewer {
     if (!this.#shown) return;
     this.#shown.inquiry.dispose();
     const { points, mesh } = this.#shown;
-    for (const drawn of [points.solid, points.different, points.extra, points.ghost, mesh.mesh]) drawn.removeFromParent();
+    for (const drawn of [points.solid, points.different, points.extra, points.ghost, mesh.mesh])
+      drawn.removeFromParent();
     points.dispose();
     mesh.dispose();
     this.#shown = null;
@@ -305,7 +309,9 @@ export class Viewer {
     }
     const here = isSamePlace(freeze, this.viewpoint, cloud.radius);
     const at = here ? camera.position : inLocal(cloud, freeze);
-    const toTarget = new Quaternion().setFromRotationMatrix(new Matrix4().lookAt(at, this.navigation.target, camera.up));
+    const toTarget = new Quaternion().setFromRotationMatrix(
+      new Matrix4().lookAt(at, this.navigation.target, camera.up),
+    );
     this.#shown!.frozen = here ? camera.quaternion.clone() : toTarget;
     this.#marker.place(at, this.#shown!.frozen, 0.18 * cloud.radius);
     // The marker has to be in the picture too, from wherever one looks back at it.

@@ -11,7 +11,10 @@ export async function buildDemo(): Promise<void> {
   };
   const result = await unlessUnchanged(work, async () => {
     // The page first: it empties the folder.
-    for (const [what, config] of [["demo page", "www/vite.config.ts"], ["element", "www/element/vite.config.ts"]] as const) {
+    for (const [what, config] of [
+      ["demo page", "www/vite.config.ts"],
+      ["element", "www/element/vite.config.ts"],
+    ] as const) {
       say(`Building the ${what}…`);
       const options = ["--config", config, "--configLoader", "runner", "--logLevel", "warn"];
       await mustRun("vite", ["build", "www", ...options], `The ${what} could not be built`);

@@ -21,7 +21,17 @@ export async function buildWasm(): Promise<void> {
     // and its types are those of hpr_bg.js.
     // no-install: wasm-pack would download tools; ours are on the PATH, and
     // wasm-opt comes from the npm package binaryen.
-    const args = ["--log-level", "error", "build", "--target", "bundler", "--release", "--mode", "no-install", "--no-pack"];
+    const args = [
+      "--log-level",
+      "error",
+      "build",
+      "--target",
+      "bundler",
+      "--release",
+      "--mode",
+      "no-install",
+      "--no-pack",
+    ];
     args.push("--out-dir", "target/wasm-pack", "--out-name", "hpr", "--", "--features", "wasm", "--locked");
     await mustRun("wasm-pack", args, "The WebAssembly module could not be built");
     mkdirSync(inRoot("src/ts/wasm"), { recursive: true });

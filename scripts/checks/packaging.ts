@@ -50,7 +50,9 @@ async function npmPackage(): Promise<Outcome> {
 /** Publishing, up to the point where something would be sent; npm says there what it would have to put right. */
 async function rehearsal(): Promise<Outcome> {
   const { ok, output } = await run("npm", ["publish", "--dry-run", "--offline"], { show: "nothing" });
-  const corrected = output.split("\n").filter((line) => /auto-corrected|errors corrected|npm warn publish "/.test(line));
+  const corrected = output
+    .split("\n")
+    .filter((line) => /auto-corrected|errors corrected|npm warn publish "/.test(line));
   if (ok && corrected.length === 0) return PASS;
   print(ok ? corrected.join("\n") : output);
   return FAIL;

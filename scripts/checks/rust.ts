@@ -48,7 +48,8 @@ export const rustChecks: Check[] = [
   },
   {
     title: "Rust: documentation",
-    run: () => checkCommand("cargo", ["doc", "--locked", "--no-deps", "--all-features"], { RUSTDOCFLAGS: "-D warnings" }),
+    run: () =>
+      checkCommand("cargo", ["doc", "--locked", "--no-deps", "--all-features"], { RUSTDOCFLAGS: "-D warnings" }),
   },
   {
     title: "Packaging: crate",

@@ -44,5 +44,6 @@ export const pageCheck: Check = {
   title: "Demo page, in Chromium",
   needs: [BUILD],
   // Alone on the machine for most of it, and each file waits for its browser half of the time.
-  run: async () => vitest("tests/browser", { env: { HPR_CHROMIUM: await setUpBrowser() }, atOnce: availableParallelism() }),
+  run: async () =>
+    vitest("tests/browser", { env: { HPR_CHROMIUM: await setUpBrowser() }, atOnce: availableParallelism() }),
 };

@@ -2,7 +2,15 @@
 import { addDisposeSymbol } from "./dispose-symbol.js";
 import { HprError } from "./errors.js";
 import { type Instance, requireInstance } from "./instance.js";
-import { CLOUD_OPTIONS, type CloudSettings, cloudSettings, type CloudSize, givenOptions, pick, type PointCloudOptions } from "./options.js";
+import {
+  CLOUD_OPTIONS,
+  type CloudSettings,
+  cloudSettings,
+  type CloudSize,
+  givenOptions,
+  pick,
+  type PointCloudOptions,
+} from "./options.js";
 import { perform } from "./perform.js";
 import { packed, type Positions, readIndices, readPositions } from "./positions.js";
 import {
@@ -32,11 +40,7 @@ import {
 } from "./visibility.js";
 
 /** A cloud whose building is followed: `progress` is told which share of it is done, and must not throw. */
-export let build: (
-  positions: Positions,
-  options: PointCloudOptions,
-  progress: (share: number) => void,
-) => PointCloud;
+export let build: (positions: Positions, options: PointCloudOptions, progress: (share: number) => void) => PointCloud;
 
 /** Asks what was read before, maybe in another thread. */
 export let ask: <K extends QueryKind>(cloud: PointCloud, query: Query<K>) => Answers[K];
@@ -188,11 +192,7 @@ export class PointCloud {
    * @param k from 1 to the number of viewpoints.
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
-  visibleFromAtLeast(
-    k: number,
-    viewpoints: readonly ArrayLike<number>[],
-    options?: VisibilityOptions,
-  ): Visibility {
+  visibleFromAtLeast(k: number, viewpoints: readonly ArrayLike<number>[], options?: VisibilityOptions): Visibility {
     this.#requireHandle();
     const given = givenOptions(options, VIEW_OPTIONS);
     return new VisibilityAnswer(this.#ask(severalQuery(this.#settings.dimension, viewpoints, given, { k })));

@@ -47,8 +47,7 @@ async function compileAddress(address: string | URL): Promise<WebAssembly.Module
   if (file === undefined) {
     return compileResponse(await fetch(address));
   }
-  const { readFile } =
-    await importNodeModule<typeof import("node:fs/promises")>("node:fs/promises");
+  const { readFile } = await importNodeModule<typeof import("node:fs/promises")>("node:fs/promises");
   return WebAssembly.compile(await readFile(file));
 }
 
@@ -87,9 +86,7 @@ export function bytesOf(input: unknown): ArrayBuffer | Uint8Array<ArrayBuffer> {
   if (typeTag(input) === "ArrayBuffer") {
     return input as ArrayBuffer;
   }
-  throw new TypeError(
-    `expected a URL, a Response, the bytes or a WebAssembly.Module, got ${describe(input)}`,
-  );
+  throw new TypeError(`expected a URL, a Response, the bytes or a WebAssembly.Module, got ${describe(input)}`);
 }
 
 export function isModule(input: unknown): input is WasmModule {

@@ -24,7 +24,8 @@ const MESSAGES = {
   distanceOverflow: (farthest) => `the farthest distance (${farthest}) exceeds the range of f64`,
   exponentInvalid: (exponent) => `exponent must be finite and at least 0, got ${exponent}`,
   tooManyPoints: (count, limit) => `${count} points exceed the limit of ${limit}`,
-  mergeRadius: () => "merging needs the radius, in the cloud's units, or the exponential scale that all parts were seen with",
+  mergeRadius: () =>
+    "merging needs the radius, in the cloud's units, or the exponential scale that all parts were seen with",
   idsLength: (part, positions, ids) => `part ${part} has ${positions} positions, but ${ids} ids`,
   indexOutOfRange: (index, length) => `index ${index} is out of range for a cloud of length ${length}`,
   outOfMemory: () => "not enough memory for this cloud",

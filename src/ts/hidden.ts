@@ -17,7 +17,9 @@ export function listHidden(order: Uint32Array, visible: number): void {
  * where there is room.
  */
 export function withHidden(indices: Uint32Array<ArrayBuffer>, length: number): Uint32Array<ArrayBuffer> {
-  const order = fits(indices, length) ? orderIn(indices, length) : allocating(`${length} indices`, () => new Uint32Array(length));
+  const order = fits(indices, length)
+    ? orderIn(indices, length)
+    : allocating(`${length} indices`, () => new Uint32Array(length));
   if (order.buffer !== indices.buffer) {
     order.set(indices);
   }

@@ -45,10 +45,7 @@ const MAX_DIMENSION = 64;
  * Refuses what is in none of the groups of names. Has no prototype, so that
  * nothing but what was given can be read from it.
  */
-export function givenOptions(
-  options: unknown,
-  ...groups: readonly (readonly string[])[]
-): Record<string, unknown> {
+export function givenOptions(options: unknown, ...groups: readonly (readonly string[])[]): Record<string, unknown> {
   const given = Object.create(null) as Record<string, unknown>;
   if (options === undefined) {
     return given;
@@ -97,10 +94,7 @@ function namesIn(options: object, known: readonly string[]): Set<string | symbol
 }
 
 /** Those of the given options that are in one group of names. */
-export function pick(
-  given: Record<string, unknown>,
-  names: readonly string[],
-): Record<string, unknown> {
+export function pick(given: Record<string, unknown>, names: readonly string[]): Record<string, unknown> {
   const picked = Object.create(null) as Record<string, unknown>;
   for (const name of names) {
     picked[name] = given[name];
@@ -119,12 +113,7 @@ export function cloudSettings(given: Record<string, unknown>): CloudSettings {
 }
 
 /** An option that is an integer in a range, if it was given. */
-export function integer(
-  given: Record<string, unknown>,
-  name: string,
-  least: number,
-  most: number,
-): number | undefined {
+export function integer(given: Record<string, unknown>, name: string, least: number, most: number): number | undefined {
   const value = given[name];
   if (value === undefined) {
     return undefined;

@@ -36,9 +36,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
   visibleFromDirection: (target, { direction, settings }) => {
     const [x, y, z] = direction as [number, number, number];
     const options = coreOptions(settings, target.spares);
-    const answer = target.instance.call((bindings) =>
-      bindings.visibleFromDirection(target.handle, x, y, z, options),
-    );
+    const answer = target.instance.call((bindings) => bindings.visibleFromDirection(target.handle, x, y, z, options));
     return found(target, settings, answer);
   },
 
@@ -65,9 +63,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
   reconstruct: (target, { viewpoint, settings, maxEdge }) => {
     const [x, y, z] = viewpoint as [number, number, number];
     const options = coreOptions(settings, target.spares);
-    const answer = target.instance.call((bindings) =>
-      bindings.reconstruct(target.handle, x, y, z, options, maxEdge),
-    );
+    const answer = target.instance.call((bindings) => bindings.reconstruct(target.handle, x, y, z, options, maxEdge));
     return { ...found(target, settings, answer), triangles: answer.triangles };
   },
 

@@ -93,11 +93,7 @@ export const ILLUMINATION_OPTIONS = [...VIEW_OPTIONS, "triangles", "smoothing", 
 
 type GivenOptions = Record<string, unknown>;
 
-export function viewQuery(
-  dimension: number,
-  viewpoint: unknown,
-  given: GivenOptions,
-): Query<"visibleFrom"> {
+export function viewQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"visibleFrom"> {
   const position = readViewpoint(viewpoint, dimension);
   const settings = viewSettings(given, dimension);
   // Votes, moved points and other inversions have no bounds that hold from far away.
@@ -143,22 +139,14 @@ export function radiusQuery(dimension: number, viewpoint: unknown, rule: unknown
   return { kind: "autoRadius", viewpoint: readViewpoint(viewpoint, dimension), settings: ruleSettings(rule) };
 }
 
-export function reconstructionQuery(
-  dimension: number,
-  viewpoint: unknown,
-  given: GivenOptions,
-): Query<"reconstruct"> {
+export function reconstructionQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"reconstruct"> {
   requireSpace("reconstruct", dimension);
   const position = readViewpoint(viewpoint, dimension);
   const maxEdge = number(given, "maxEdge");
   return { kind: "reconstruct", viewpoint: position, settings: viewSettings(given, dimension), maxEdge };
 }
 
-export function illuminationQuery(
-  dimension: number,
-  lights: unknown,
-  given: GivenOptions,
-): Query<"illuminate"> {
+export function illuminationQuery(dimension: number, lights: unknown, given: GivenOptions): Query<"illuminate"> {
   requireSpace("illuminate", dimension);
   const positions = readViewpoints(lights, dimension, "lights");
   return {

@@ -1,8 +1,5 @@
 export { HprError, type HprErrorCode } from "./errors.js";
-export {
-  useHiddenPointFilter,
-  type UseHiddenPointFilterOptions,
-} from "./react-three-fiber/use-hidden-point-filter.js";
+export { useHiddenPointFilter, type UseHiddenPointFilterOptions } from "./react-three-fiber/use-hidden-point-filter.js";
 export { VisiblePoints, type VisiblePointsProps } from "./react-three-fiber/visible-points.js";
 export type { HiddenPointFilter } from "./three/filter.js";
 export type { HiddenPointFilterOptions } from "./three/options.js";

@@ -14,10 +14,7 @@ export type RadiusRule = "auto" | "search" | "opposite";
 export type Inversion = "spherical" | { power: number } | { exponential: number | "auto" };
 
 /** An inversion with numbers only, as an answer tells it. */
-export type ResolvedInversion =
-  | "spherical"
-  | { readonly power: number }
-  | { readonly exponential: number };
+export type ResolvedInversion = "spherical" | { readonly power: number } | { readonly exponential: number };
 
 /**
  * How one view is computed. At most one of `radius` and `exponent` may be given. With an
@@ -120,10 +117,7 @@ function chosenRadius(given: Record<string, unknown>): Pick<ViewSettings, "rule"
     return { rule: Rule.radius, size: radius };
   }
   if (radius !== undefined && !isRule(radius)) {
-    throw new HprError(
-      "option",
-      `radius must be a number, "auto", "search" or "opposite", got ${describe(radius)}`,
-    );
+    throw new HprError("option", `radius must be a number, "auto", "search" or "opposite", got ${describe(radius)}`);
   }
   return { rule: Rule[radius ?? "auto"], size: 0 };
 }

@@ -47,7 +47,12 @@ export const CLOUDS: Record<string, () => Cloud | undefined> = {
   ...loaders(DRAGONS, dragon),
   bunny,
   "bunny-36k": bunny36k,
-  room: () => ({ name: "room", positions: makeRoom().positions, source: "makeRoom, seed 20070802, seen from inside", distance: INSIDE }),
+  room: () => ({
+    name: "room",
+    positions: makeRoom().positions,
+    source: "makeRoom, seed 20070802, seen from inside",
+    distance: INSIDE,
+  }),
   sphere: () => generated("sphere", sphere, 100_000, 1),
   uneven: () => generated("uneven", unevenSurface, 200_000, 2),
   georeferenced: () => generated("georeferenced", terrainUtm, 250_000, 3),

@@ -54,7 +54,11 @@ export function unevenSurface(count: number, seed: number): Float32Array {
 
 export function sphere(count: number, seed: number): Float32Array {
   const random = seeded(seed);
-  return surface(count, () => 1, () => direction(2 * random() - 1, random()));
+  return surface(
+    count,
+    () => 1,
+    () => direction(2 * random() - 1, random()),
+  );
 }
 
 function surface(count: number, radius: (u: Direction) => number, next: () => Direction): Float32Array {

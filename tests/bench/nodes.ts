@@ -47,7 +47,8 @@ async function row(cloud: Cloud, along: number): Promise<Row> {
     const start = performance.now();
     const { indices } = unsplit.visibleFrom(viewpoint!);
     together!.push(performance.now() - start);
-    if (digestOf(indices) !== digestOf(drawnOf(nodes))) throw new WrongAnswer(`${nodes.length} nodes answer otherwise than the cloud in one piece`);
+    if (digestOf(indices) !== digestOf(drawnOf(nodes)))
+      throw new WrongAnswer(`${nodes.length} nodes answer otherwise than the cloud in one piece`);
     split_!.push(milliseconds);
     visible = indices.length;
   }
@@ -82,7 +83,8 @@ async function row(cloud: Cloud, along: number): Promise<Row> {
 function split(positions: Cloud["positions"], along: number): { nodes: Points[]; whole: Float64Array } {
   const bounds = [0, 1, 2].map((axis) => {
     let [low, high] = [Infinity, -Infinity];
-    for (let i = axis; i < positions.length; i += 3) [low, high] = [Math.min(low, positions[i]!), Math.max(high, positions[i]!)];
+    for (let i = axis; i < positions.length; i += 3)
+      [low, high] = [Math.min(low, positions[i]!), Math.max(high, positions[i]!)];
     return { low, side: high - low };
   });
   const side = (Math.max(...bounds.map((bound) => bound.side)) / along) * 1.0001;
@@ -110,7 +112,10 @@ function split(positions: Cloud["positions"], along: number): { nodes: Points[];
 function drawnOf(nodes: Points[]): Uint32Array {
   let first = 0;
   const ids = nodes.flatMap(({ geometry }) => {
-    const shown = Array.from((geometry.index!.array as Uint32Array).subarray(0, geometry.drawRange.count), (id) => first + id);
+    const shown = Array.from(
+      (geometry.index!.array as Uint32Array).subarray(0, geometry.drawRange.count),
+      (id) => first + id,
+    );
     first += geometry.attributes["position"]!.count;
     return shown;
   });

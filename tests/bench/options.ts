@@ -40,7 +40,17 @@ export interface BenchOptions {
 /** Throws an Error that says what is wrong with the arguments. */
 export function readOptions(args: string[]): BenchOptions {
   const flag = { type: "boolean", default: false } as const;
-  const flags = { speed: flag, workers: flag, linear: flag, adapter: flag, memory: flag, page: flag, soak: flag, fidelity: flag, all: flag };
+  const flags = {
+    speed: flag,
+    workers: flag,
+    linear: flag,
+    adapter: flag,
+    memory: flag,
+    page: flag,
+    soak: flag,
+    fidelity: flag,
+    all: flag,
+  };
   const options = { ...flags, peers: flag, json: flag, write: flag, clouds: { type: "string" } } as const;
   const { values } = parseArgs({ args, options });
   const asked = SECTIONS.filter((section) => values[section] || (values.all && !ALONE.has(section)));

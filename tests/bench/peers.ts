@@ -47,7 +47,11 @@ const OTHER_ROUNDING = 1e-3;
 
 /** The hulls of JavaScript, and with `python` those of SciPy and Open3D. */
 export function peers(python: boolean): Peer[] {
-  return [javascriptPeer("three", "three.js"), javascriptPeer("quickhull3d", "quickhull3d"), ...(python ? pythonPeers() : [])];
+  return [
+    javascriptPeer("three", "three.js"),
+    javascriptPeer("quickhull3d", "quickhull3d"),
+    ...(python ? pythonPeers() : []),
+  ];
 }
 
 /** Runs a peer on a view and checks the library's answer against its hull. */
@@ -128,7 +132,10 @@ function pythonPeers(): Peer[] {
     const run = ({ cloud, viewpoint, radius }: View, out: string): string | undefined => {
       const runs = cloud.positions.length / 3 < LARGE ? 3 : 1;
       const args = [module, ...writeCloud(cloud), viewpoint.join(), String(radius), String(runs), out];
-      return ask("python3", [join(root, "tests", "bench", "peers.py"), ...args], { timeout: PEER_LIMIT_MS, env: python.env });
+      return ask("python3", [join(root, "tests", "bench", "peers.py"), ...args], {
+        timeout: PEER_LIMIT_MS,
+        env: python.env,
+      });
     };
     return [{ name, version: python.version, takes: () => true, run, sameFlip }];
   });

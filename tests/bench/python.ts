@@ -19,7 +19,10 @@ export function withPython(module: string, packages: string[]): Python | undefin
   const env = { PYTHONPATH: local };
   const found = (): Python | undefined => {
     const script = `import ${module}; print(${module}.__version__)`;
-    const { status, stdout } = spawnSync("python3", ["-c", script], { encoding: "utf8", env: { ...process.env, ...env } });
+    const { status, stdout } = spawnSync("python3", ["-c", script], {
+      encoding: "utf8",
+      env: { ...process.env, ...env },
+    });
     return status === 0 ? { env, version: stdout.trim() } : undefined;
   };
   for (const name of packages) {

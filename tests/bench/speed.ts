@@ -79,7 +79,8 @@ function coldRow(cloud: Cloud, { exponent }: Task, outcomes: Outcomes): Row {
 
 function movingRow(cloud: Cloud, { exponent }: Task, engine: string, { paths }: Outcome): Row {
   const row: Row = { cloud: cloud.name, points: cloud.positions.length / 3, exponent, engine };
-  const milliseconds = (answers: Outcome["paths"][number]["cold"]): number => median(answers.map((answer) => answer.milliseconds));
+  const milliseconds = (answers: Outcome["paths"][number]["cold"]): number =>
+    median(answers.map((answer) => answer.milliseconds));
   row["cold ms"] = milliseconds(paths.flatMap(({ cold }) => cold));
   paths.forEach(({ moving, cold }, p) => {
     row[`${STEPS[p]!}° ms`] = milliseconds(moving);

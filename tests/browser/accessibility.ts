@@ -32,7 +32,9 @@ const WIDE: BrowserContextOptions = { viewport: { width: 1280, height: 800 } };
 const unfolded: Step = {
   name: "every section unfolded, two lights",
   act: async (page) => {
-    await page.evaluate(() => { for (const section of document.querySelectorAll("details")) section.open = true; });
+    await page.evaluate(() => {
+      for (const section of document.querySelectorAll("details")) section.open = true;
+    });
     for (let i = 0; i < 2; i++) await page.getByRole("button", { name: "Add a light" }).click();
   },
 };
@@ -64,7 +66,9 @@ const refused: Step = {
   name: "a file that is refused",
   act: async (page) => {
     await page.keyboard.press("Escape");
-    await page.locator("#file").setInputFiles({ name: "letter.pdf", mimeType: "", buffer: Buffer.from("%PDF-1.7\n\u0000") });
+    await page
+      .locator("#file")
+      .setInputFiles({ name: "letter.pdf", mimeType: "", buffer: Buffer.from("%PDF-1.7\n\u0000") });
     await page.locator('#status[data-state="error"]').waitFor({ state: "attached" });
   },
 };
@@ -89,7 +93,12 @@ const sheet: Step = {
 const first: Step = { name: "first view", act: nothing };
 
 export const VISITS: Visit[] = [
-  { name: "1280 × 800", query: `?${SMALL}&hidden=dimmed`, options: WIDE, steps: [first, unfolded, ...tools, sheetOfKeys, refused, underWay] },
+  {
+    name: "1280 × 800",
+    query: `?${SMALL}&hidden=dimmed`,
+    options: WIDE,
+    steps: [first, unfolded, ...tools, sheetOfKeys, refused, underWay],
+  },
   { name: "390 × 844", query: `?${SMALL}`, options: PHONE, steps: [first, sheet, unfolded] },
   { name: "in another page", query: `?${SMALL}&embed=1`, options: WIDE, steps: [first] },
 ];
@@ -108,10 +117,16 @@ export async function audit(page: Page): Promise<Audit[]> {
   const auditIn = async (theme: "dark" | "light", runOnly: RunOnly): Promise<Audit> => {
     await page.emulateMedia({ colorScheme: theme });
     await page.locator(`:root[data-theme="${theme}"]`).waitFor();
-    const result = await page.evaluate((only) => (window as unknown as { axe: typeof axe }).axe.run(document, { runOnly: only }), runOnly);
+    const result = await page.evaluate(
+      (only) => (window as unknown as { axe: typeof axe }).axe.run(document, { runOnly: only }),
+      runOnly,
+    );
     return { theme, result, poor: await poorContrast(page) };
   };
-  return [await auditIn("light", { type: "rule", values: COLOR_RULES }), await auditIn("dark", { type: "tag", values: TAGS })];
+  return [
+    await auditIn("light", { type: "rule", values: COLOR_RULES }),
+    await auditIn("dark", { type: "tag", values: TAGS }),
+  ];
 }
 
 /**

@@ -72,13 +72,23 @@ describe.each([
       const [positions, colors]: number[][] = [[], []];
       for (let i = 0; i < 4000; i++) {
         const [r, turn] = [Math.sqrt((i + 0.5) / 4000), 2.399963 * i];
-        positions!.push(r * Math.cos(turn), r * Math.sin(turn), 0, 1.4 * r * Math.cos(turn + 1), 1.4 * r * Math.sin(turn + 1), -2);
+        positions!.push(
+          r * Math.cos(turn),
+          r * Math.sin(turn),
+          0,
+          1.4 * r * Math.cos(turn + 1),
+          1.4 * r * Math.sin(turn + 1),
+          -2,
+        );
         colors!.push(1, 0, 0, 0, 1, 0);
       }
       const geometry = new THREE.BufferGeometry();
       geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(positions!), 3));
       geometry.setAttribute("color", new THREE.BufferAttribute(new Float32Array(colors!), 3));
-      const points = new THREE.Points(geometry, new THREE.PointsMaterial({ size: 1, sizeAttenuation: false, vertexColors: true }));
+      const points = new THREE.Points(
+        geometry,
+        new THREE.PointsMaterial({ size: 1, sizeAttenuation: false, vertexColors: true }),
+      );
       const scene = new THREE.Scene().add(points);
       const camera = new THREE.PerspectiveCamera(40, 1, 0.1, 100);
       camera.position.set(0, 0, 5);

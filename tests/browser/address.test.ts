@@ -2,7 +2,18 @@ import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { expect, test } from "vitest";
 import { asciiPly, ball } from "./clouds.js";
-import { answered, answerInNode, dragonPositions, openPage, openReady, reached, refiltered, served, settled, status } from "./support.js";
+import {
+  answered,
+  answerInNode,
+  dragonPositions,
+  openPage,
+  openReady,
+  reached,
+  refiltered,
+  served,
+  settled,
+  status,
+} from "./support.js";
 
 const bunny = createRequire(import.meta.url)("bunny") as { positions: number[][] };
 
@@ -20,7 +31,8 @@ test.for([
   expect(visible).toBeLessThan(total);
   expect(await page.locator("#sample").inputValue()).toBe(name);
   expect(await page.locator("#credit").textContent()).toMatch(
-    { bunny: /public domain/, room: /Generated/ }[name as string] ?? /Stanford Computer Graphics Laboratory.*no commercial use/,
+    { bunny: /public domain/, room: /Generated/ }[name as string] ??
+      /Stanford Computer Graphics Laboratory.*no commercial use/,
   );
 });
 
@@ -67,7 +79,10 @@ test.for([
   ["freeze=1e300,0,0", /frozen viewpoint in the address is too far away/],
   ["light=1e300,0,0&light=0,1e20,0", /light in the address is too far away/],
   ["denoise=101", /denoise in the address is not an integer from 0 to 100/],
-  ["points=1.5", /number of points in the address is not an integer from 1 to 10000000, so the largest of these is used/],
+  [
+    "points=1.5",
+    /number of points in the address is not an integer from 1 to 10000000, so the largest of these is used/,
+  ],
   ["src=", /names no file after “src=”/],
 ] as const)("?%s is refused with a note, and the sample is seen as usual", async ([query, note]) => {
   const usual = await status(await openReady("?sample=bunny"));
@@ -94,7 +109,10 @@ test("a sample that is picked is in the address", async () => {
 });
 
 test("?src of what is no address of a file is refused in a plain sentence", async () => {
-  for (const [src, sentence] of [["//", "“//” is no address of a file."], ["data:text/plain,1", "“data:text/plain,1” is no address of a file."]] as const) {
+  for (const [src, sentence] of [
+    ["//", "“//” is no address of a file."],
+    ["data:text/plain,1", "“data:text/plain,1” is no address of a file."],
+  ] as const) {
     const page = await openPage(`?src=${src}&sample=bunny`);
     expect((await reached(page, "error")).sentence).toBe(sentence);
   }

@@ -14,14 +14,22 @@ export const DISTANCE = 9;
 const FRONT = [X, Y, Z + DISTANCE];
 
 /** The page with the ball, or with a file of it made by the test. */
-export async function openBall(options: BrowserContextOptions = {}, view: readonly number[] = FRONT, file = binaryPly(positions, "double", true)): Promise<Page> {
+export async function openBall(
+  options: BrowserContextOptions = {},
+  view: readonly number[] = FRONT,
+  file = binaryPly(positions, "double", true),
+): Promise<Page> {
   served.set("clouds/utm.ply", file);
   const page = await openReady(`?src=clouds/utm.ply&up=y&view=${view.join()}&target=${MIDDLE.join()}`, options);
   await upToDate(page);
   return page;
 }
 
-export const at = (index: number): [number, number, number] => [positions[3 * index]!, positions[3 * index + 1]!, positions[3 * index + 2]!];
+export const at = (index: number): [number, number, number] => [
+  positions[3 * index]!,
+  positions[3 * index + 1]!,
+  positions[3 * index + 2]!,
+];
 
 /** Where a point is on the screen, seen from FRONT. */
 export async function place(page: Page, index: number): Promise<{ x: number; y: number }> {
@@ -56,10 +64,16 @@ export const everything = Array.from({ length: COUNT }, (_, i) => i);
 export const tool = (page: Page, name: string) => page.locator("#tool-bar").getByRole("button", { name });
 
 /** The points of `among` within a box on the screen. */
-export async function within(page: Page, among: number[], box: { left: number; top: number; right: number; bottom: number }): Promise<number[]> {
-  const inside = await Promise.all(among.map(async (i) => {
-    const { x, y } = await place(page, i);
-    return x > box.left && x < box.right && y > box.top && y < box.bottom;
-  }));
+export async function within(
+  page: Page,
+  among: number[],
+  box: { left: number; top: number; right: number; bottom: number },
+): Promise<number[]> {
+  const inside = await Promise.all(
+    among.map(async (i) => {
+      const { x, y } = await place(page, i);
+      return x > box.left && x < box.right && y > box.top && y < box.bottom;
+    }),
+  );
   return among.filter((_, i) => inside[i]);
 }

@@ -24,7 +24,11 @@ export function georeferencedBall(count: number): Float64Array {
 }
 
 export function rows(positions: ArrayLike<number>): number[][] {
-  return Array.from({ length: positions.length / 3 }, (_, i) => [positions[3 * i]!, positions[3 * i + 1]!, positions[3 * i + 2]!]);
+  return Array.from({ length: positions.length / 3 }, (_, i) => [
+    positions[3 * i]!,
+    positions[3 * i + 1]!,
+    positions[3 * i + 2]!,
+  ]);
 }
 
 export function text(content: string): Uint8Array {
@@ -51,23 +55,41 @@ function numbers(values: ArrayLike<number>, bytes: 4 | 8, littleEndian = true): 
 
 function plyHeader(format: string, type: string, count: number, more = "", end = "\n"): string {
   const axes = ["x", "y", "z"].map((axis) => `property ${type} ${axis}`);
-  return ["ply", `format ${format} 1.0`, `element vertex ${count}`, ...axes, ...(more ? [more] : []), "end_header", ""].join(end);
+  return [
+    "ply",
+    `format ${format} 1.0`,
+    `element vertex ${count}`,
+    ...axes,
+    ...(more ? [more] : []),
+    "end_header",
+    "",
+  ].join(end);
 }
 
 export function asciiPly(positions: ArrayLike<number>, claimed = positions.length / 3): Uint8Array {
-  return text(plyHeader("ascii", "float", claimed) + rows(positions).map((row) => row.join(" ")).join("\n") + "\n");
+  return text(
+    plyHeader("ascii", "float", claimed) +
+      rows(positions)
+        .map((row) => row.join(" "))
+        .join("\n") +
+      "\n",
+  );
 }
 
 /** A mesh whose faces have colors of their own, behind Windows line ends. */
 export function meshPly(positions: ArrayLike<number>): Uint8Array {
-  const faces = "element face 2\r\nproperty list uchar int vertex_indices\r\nproperty uchar red\r\nproperty uchar green\r\nproperty uchar blue";
+  const faces =
+    "element face 2\r\nproperty list uchar int vertex_indices\r\nproperty uchar red\r\nproperty uchar green\r\nproperty uchar blue";
   const body = [...rows(positions).map((row) => row.join(" ")), "3 0 1 2 255 0 0", "3 2 1 3 0 255 0", ""].join("\r\n");
   return text(plyHeader("ascii", "float", positions.length / 3, faces, "\r\n") + body);
 }
 
 export function binaryPly(positions: ArrayLike<number>, type: "float" | "double", littleEndian: boolean): Uint8Array {
   const format = littleEndian ? "binary_little_endian" : "binary_big_endian";
-  return joined(text(plyHeader(format, type, positions.length / 3)), numbers(positions, type === "float" ? 4 : 8, littleEndian));
+  return joined(
+    text(plyHeader(format, type, positions.length / 3)),
+    numbers(positions, type === "float" ? 4 : 8, littleEndian),
+  );
 }
 
 export function pcd(positions: ArrayLike<number>, kind: "ascii" | "binary" | "binary_compressed"): Uint8Array {
@@ -75,10 +97,23 @@ export function pcd(positions: ArrayLike<number>, kind: "ascii" | "binary" | "bi
   const header = text(
     ["# .PCD v0.7 - Point Cloud Data file format", "VERSION 0.7", "FIELDS x y z", "SIZE 4 4 4", "TYPE F F F", "COUNT 1 1 1", `WIDTH ${count}`, "HEIGHT 1", "VIEWPOINT 0 0 0 1 0 0 0", `POINTS ${count}`, `DATA ${kind}`, ""].join("\n"),
   ); // prettier-ignore
-  if (kind === "ascii") return joined(header, text(rows(positions).map((row) => row.join(" ")).join("\n") + "\n"));
+  if (kind === "ascii")
+    return joined(
+      header,
+      text(
+        rows(positions)
+          .map((row) => row.join(" "))
+          .join("\n") + "\n",
+      ),
+    );
   if (kind === "binary") return joined(header, numbers(positions, 4));
   // Compressed files go field by field: all x, all y, all z.
-  const fields = [0, 1, 2].map((axis) => numbers(rows(positions).map((row) => row[axis]!), 4));
+  const fields = [0, 1, 2].map((axis) =>
+    numbers(
+      rows(positions).map((row) => row[axis]!),
+      4,
+    ),
+  );
   const plain = joined(...fields);
   const packed = literalLzf(plain);
   return joined(header, new Uint8Array(Uint32Array.of(packed.length, plain.length).buffer), packed);

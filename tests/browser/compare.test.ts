@@ -14,9 +14,25 @@ import { Projected, zBuffer } from "../../www/compare/zbuffer.js";
 import { DISTANCE, MIDDLE, openBall, positions as ballPositions, tool } from "./ball.js";
 import { ball, binaryPly, text } from "./clouds.js";
 import { choose } from "./files.js";
-import { drag, EVERY_PIXEL, inNode, middleOf, openReady, picture, differentPixels, refiltered, served, type Status, status, upToDate } from "./support.js";
+import {
+  drag,
+  EVERY_PIXEL,
+  inNode,
+  middleOf,
+  openReady,
+  picture,
+  differentPixels,
+  refiltered,
+  served,
+  type Status,
+  status,
+  upToDate,
+} from "./support.js";
 
-const { positions: corners, cells } = createRequire(import.meta.url)("bunny") as { positions: number[][]; cells: number[][] };
+const { positions: corners, cells } = createRequire(import.meta.url)("bunny") as {
+  positions: number[][];
+  cells: number[][];
+};
 const bunny: Mesh = { positions: Float32Array.from(corners.flat()), triangles: Uint32Array.from(cells.flat()) };
 const TOLERANCE = 1.75;
 /** Drawn by software, a picture takes its time. */
@@ -30,7 +46,11 @@ interface Screen {
 }
 
 /** The definition, point by point and pixel by pixel: 2 out of the picture, 1 where no splat over a point's own pixel is much nearer, else 0. */
-function slowly(seen: { x: number; y: number; depth: number }[], { width, height, pixels }: Screen, splat: number): number[] {
+function slowly(
+  seen: { x: number; y: number; depth: number }[],
+  { width, height, pixels }: Screen,
+  splat: number,
+): number[] {
   const inside = ({ x, y, depth }: (typeof seen)[number]) => depth > 0 && x >= 0 && x < width && y >= 0 && y < height;
   const covers = (other: (typeof seen)[number], column: number, row: number) => {
     const [across, down] = [column + 0.5 - other.x, row + 0.5 - other.y];
@@ -39,26 +59,42 @@ function slowly(seen: { x: number; y: number; depth: number }[], { width, height
   return seen.map((own) => {
     if (!inside(own)) return 2;
     const [column, row] = [Math.floor(own.x), Math.floor(own.y)];
-    const nearest = Math.min(...seen.filter((other) => inside(other) && covers(other, column, row)).map(({ depth }) => depth));
+    const nearest = Math.min(
+      ...seen.filter((other) => inside(other) && covers(other, column, row)).map(({ depth }) => depth),
+    );
     return own.depth - (TOLERANCE * splat * own.depth) / pixels <= nearest ? 1 : 0;
   });
 }
 
 /** The figures of the card, once there are others than `before`. */
-async function figures(page: Page, before = ""): Promise<{ counts: number[]; of: number; milliseconds: number; text: string }> {
+async function figures(
+  page: Page,
+  before = "",
+): Promise<{ counts: number[]; of: number; milliseconds: number; text: string }> {
   const table = page.locator("#compare-figures");
   await expect.poll(() => table.getAttribute("data-counts")).toMatch(/\d+,\d+/);
   await expect.poll(() => table.getAttribute("data-counts")).not.toBe(before);
   return table.evaluate((element: HTMLElement) => {
     const { counts, of, milliseconds } = element.dataset;
-    return { counts: counts!.split(",").map(Number), of: Number(of), milliseconds: Number(milliseconds), text: counts! };
+    return {
+      counts: counts!.split(",").map(Number),
+      of: Number(of),
+      milliseconds: Number(milliseconds),
+      text: counts!,
+    };
   });
 }
 
 test.for([1, 2, 3, 4, 9, 24])("the z-buffer says what its definition says (splats of %i pixels)", (splat) => {
   // A bumpy ball before a wall, in part out of the picture and behind the camera at the origin, which looks along −z.
   const wall = grid(12, 12, (u, v) => [20 * u - 10, 16 * v - 8, -14]).positions;
-  const local = Float32Array.from([...ball(400).map((value, i) => value - (i % 3 === 2 ? 5 : 0)), ...wall, 0.5, 0.5, 3]);
+  const local = Float32Array.from([
+    ...ball(400).map((value, i) => value - (i % 3 === 2 ? 5 : 0)),
+    ...wall,
+    0.5,
+    0.5,
+    3,
+  ]);
   const [width, height, pixels] = [160, 120, 150];
   const matrix = [(2 * pixels) / width, 0, 0, 0, 0, (2 * pixels) / height, 0, 0, 0, 0, -1, -1, 0, 0, -0.2, 0];
   const said = zBuffer(new Projected(local, { matrix, width, height, near: 0.1, pixels }), splat);
@@ -67,7 +103,8 @@ test.for([1, 2, 3, 4, 9, 24])("the z-buffer says what its definition says (splat
     return { x: width / 2 + (x * pixels) / depth, y: height / 2 - (y * pixels) / depth, depth };
   });
   expect([...said]).toEqual(slowly(seen, { width, height, pixels }, splat));
-  for (const kind of [0, 1, 2]) expect(said.filter((one) => one === kind).length, `points said to be ${kind}`).toBeGreaterThan(3);
+  for (const kind of [0, 1, 2])
+    expect(said.filter((one) => one === kind).length, `points said to be ${kind}`).toBeGreaterThan(3);
 });
 
 test("points are parted by what either says of them", () => {
@@ -90,24 +127,40 @@ test("the airplane's skin is closed: each edge has two triangles", () => {
 test("faces of one's own files are read and cut into triangles", async () => {
   const read = (content: string | Uint8Array, vertices = 5) => {
     const blob = new Blob([typeof content === "string" ? content : new Uint8Array(content)]);
-    return readFaces({ name: "mesh", blob, limit: Infinity, onProgress: () => undefined }, vertices).then((triangles) => [...triangles]);
+    return readFaces({ name: "mesh", blob, limit: Infinity, onProgress: () => undefined }, vertices).then(
+      (triangles) => [...triangles],
+    );
   };
   const obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1/1 2//1 3\nf -4 -3 -2 -1\nv 0 0 1\nf 1 2 3 4 5\n";
   expect(await read(obj)).toEqual([0, 1, 2, 0, 1, 2, 0, 2, 3, 0, 1, 2, 0, 2, 3, 0, 3, 4]);
-  const header = (format: string) => `ply\nformat ${format} 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 2\nproperty uchar flag\nproperty list uchar int vertex_indices\nend_header\n`;
-  expect(await read(`${header("ascii")}${"0 0 0\n".repeat(5)}\n7 3 0 1 2\n7 4 1 2 3 4\n`)).toEqual([0, 1, 2, 1, 2, 3, 1, 3, 4]);
+  const header = (format: string) =>
+    `ply\nformat ${format} 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\nelement face 2\nproperty uchar flag\nproperty list uchar int vertex_indices\nend_header\n`;
+  expect(await read(`${header("ascii")}${"0 0 0\n".repeat(5)}\n7 3 0 1 2\n7 4 1 2 3 4\n`)).toEqual([
+    0, 1, 2, 1, 2, 3, 1, 3, 4,
+  ]);
   const rows = new DataView(new ArrayBuffer(60 + 14 + 18));
   let at = 60;
-  for (const face of [[0, 1, 2], [1, 2, 3, 4]]) {
+  for (const face of [
+    [0, 1, 2],
+    [1, 2, 3, 4],
+  ]) {
     rows.setUint8(at, 7);
     rows.setUint8(at + 1, face.length);
-    face.forEach((corner, i) => { rows.setInt32(at + 2 + 4 * i, corner, true); });
+    face.forEach((corner, i) => {
+      rows.setInt32(at + 2 + 4 * i, corner, true);
+    });
     at += 2 + 4 * face.length;
   }
-  expect(await read(Buffer.concat([text(header("binary_little_endian")), new Uint8Array(rows.buffer)]))).toEqual([0, 1, 2, 1, 2, 3, 1, 3, 4]);
+  expect(await read(Buffer.concat([text(header("binary_little_endian")), new Uint8Array(rows.buffer)]))).toEqual([
+    0, 1, 2, 1, 2, 3, 1, 3, 4,
+  ]);
   await expect(read(obj, 4)).rejects.toThrow("mesh has faces between points that it does not have");
-  await expect(read(`${header("ascii")}${"0 0 0\n".repeat(5)}7 3 0 1 2\n`)).rejects.toThrow("ends before its last face");
-  await expect(read(Buffer.concat([text(header("binary_little_endian")), new Uint8Array(rows.buffer, 0, 80)]))).rejects.toThrow();
+  await expect(read(`${header("ascii")}${"0 0 0\n".repeat(5)}7 3 0 1 2\n`)).rejects.toThrow(
+    "ends before its last face",
+  );
+  await expect(
+    read(Buffer.concat([text(header("binary_little_endian")), new Uint8Array(rows.buffer, 0, 80)])),
+  ).rejects.toThrow();
 });
 
 test("of the street a scanner saw all that its own beams met", async () => {
@@ -129,7 +182,9 @@ test("in the room the ceiling is seen and the floor under the rug is not, also w
   expect(room.count).toBe(positions.length / 3);
   const sees = room.from([-0.2, 2.4, 0.3]);
   const share = (like: (x: number, y: number, z: number) => boolean) => {
-    const chosen = Array.from({ length: room.count }, (_, i) => i).filter((i) => like(positions[3 * i]!, positions[3 * i + 1]!, positions[3 * i + 2]!));
+    const chosen = Array.from({ length: room.count }, (_, i) => i).filter((i) =>
+      like(positions[3 * i]!, positions[3 * i + 1]!, positions[3 * i + 2]!),
+    );
     expect(chosen.length).toBeGreaterThan(1000);
     return chosen.filter(sees).length / chosen.length;
   };
@@ -158,13 +213,20 @@ test("ours beside the z-buffer: the counts are those of its definition, live, an
     const ours = await inNode(ballPositions, (cloud) => cloud.visibleFrom(viewpoint).mask());
     const count = (test: (i: number) => boolean) => said.filter((kind, i) => kind !== 2 && test(i)).length;
     return {
-      counts: [count((i) => said[i] === 1), count((i) => ours[i] === 1), count((i) => said[i] === 1 && ours[i] === 0), count((i) => said[i] === 0 && ours[i] === 1)],
+      counts: [
+        count((i) => said[i] === 1),
+        count((i) => ours[i] === 1),
+        count((i) => said[i] === 1 && ours[i] === 0),
+        count((i) => said[i] === 0 && ours[i] === 1),
+      ],
       of: count(() => true),
     };
   };
   await expect.poll(async () => (await figures(page)).counts).toEqual((await expected(before, 24)).counts);
   expect(await figures(page)).toMatchObject(await expected(before, 24));
-  expect(await page.locator("#compare-note span").first().textContent()).toBe(`Z-buffer: ${(await figures(page)).counts[0]}`);
+  expect(await page.locator("#compare-note span").first().textContent()).toBe(
+    `Z-buffer: ${(await figures(page)).counts[0]}`,
+  );
   // Comparing asks nothing of the picture's own questions.
   expect(await status(page)).toEqual(before);
   await expect.poll(() => page.url()).toMatch(/compare=0\.42&against=zbuffer&splat=24/);
@@ -192,7 +254,15 @@ async function bunnyTruth({ viewpoint, radius, total }: Status) {
   const mask = await inNode(bunny.positions, (cloud) => cloud.visibleFrom(viewpoint, { radius }).mask());
   const { falsePositives, falseNegatives } = errorsOf(mask, seen);
   const sum = (values: Uint8Array) => values.reduce((one, other) => one + other, 0);
-  return { counts: [sum(seen), sum(mask), Math.round((falsePositives * total) / 100), Math.round((falseNegatives * total) / 100)], shares: [falsePositives, falseNegatives] };
+  return {
+    counts: [
+      sum(seen),
+      sum(mask),
+      Math.round((falsePositives * total) / 100),
+      Math.round((falseNegatives * total) / 100),
+    ],
+    shares: [falsePositives, falseNegatives],
+  };
 }
 
 test("ours beside the true surface: false positives and negatives, in color, for each view and setting", async () => {
@@ -203,8 +273,12 @@ test("ours beside the true surface: false positives and negatives, in color, for
   expect(shown).toMatchObject({ counts: truth.counts, of: 1839 });
   expect(Math.min(...truth.counts.slice(2))).toBeGreaterThan(0);
   const rows = page.locator("#compare-figures tr");
-  expect(await rows.nth(2).innerText()).toMatch(new RegExp(`Wrongly shown\\s+${truth.counts[2]}\\s+${truth.shares[0]!.toFixed(2)}\\s%`));
-  expect(await rows.nth(3).innerText()).toMatch(new RegExp(`Wrongly hidden\\s+${truth.counts[3]}\\s+${truth.shares[1]!.toFixed(2)}\\s%`));
+  expect(await rows.nth(2).innerText()).toMatch(
+    new RegExp(`Wrongly shown\\s+${truth.counts[2]}\\s+${truth.shares[0]!.toFixed(2)}\\s%`),
+  );
+  expect(await rows.nth(3).innerText()).toMatch(
+    new RegExp(`Wrongly hidden\\s+${truth.counts[3]}\\s+${truth.shares[1]!.toFixed(2)}\\s%`),
+  );
   const colored = await picture(page);
 
   // Another radius: the same truth, not traced again.
@@ -248,10 +322,14 @@ test("tracing can be stopped and taken up again", async () => {
 test("where no surface is known, the choice is not offered and says why", async () => {
   served.set("clouds/ball.ply", binaryPly(ball(300), "float", true));
   const page = await openReady("?src=clouds/ball.ply&compare=0.5&against=surface", SMALL);
-  expect(await page.locator("#message p").textContent()).toBe("There is no true surface to compare with, so all points are. It is known of samples, and of PLY and OBJ meshes that are shown whole.");
+  expect(await page.locator("#message p").textContent()).toBe(
+    "There is no true surface to compare with, so all points are. It is known of samples, and of PLY and OBJ meshes that are shown whole.",
+  );
   expect(await page.getByLabel("True surface").isDisabled()).toBe(true);
   expect(await page.getByRole("radio", { name: "All points" }).isChecked()).toBe(true);
-  expect(await page.locator("#against-note").textContent()).toBe("No true surface. It is known of samples, and of PLY and OBJ meshes that are shown whole.");
+  expect(await page.locator("#against-note").textContent()).toBe(
+    "No true surface. It is known of samples, and of PLY and OBJ meshes that are shown whole.",
+  );
   await expect.poll(() => page.url()).not.toContain("against");
 
   // The choice goes from cloud to cloud where it can.
@@ -262,7 +340,10 @@ test("where no surface is known, the choice is not offered and says why", async 
   const samples = await figures(page);
 
   // The same mesh as a file: traced alike.
-  const obj = [...corners.map((corner) => `v ${Array.from(Float32Array.from(corner)).join(" ")}`), ...cells.map((cell) => `f ${cell.map((corner) => corner + 1).join(" ")}`)];
+  const obj = [
+    ...corners.map((corner) => `v ${Array.from(Float32Array.from(corner)).join(" ")}`),
+    ...cells.map((cell) => `f ${cell.map((corner) => corner + 1).join(" ")}`),
+  ];
   await choose(page, "own.obj", text(obj.join("\n")));
   await expect.poll(() => page.locator("#sample option:checked").textContent()).toBe("own.obj");
   await expect.poll(async () => (await figures(page)).counts).toEqual((await bunnyTruth(await upToDate(page))).counts);
@@ -274,8 +355,12 @@ test("where no surface is known, the choice is not offered and says why", async 
 });
 
 test("what the address asks for and cannot be is named in a sentence", () => {
-  for (const query of ["against=mesh", "splat=0", "splat=2.5", "splat=65"]) expect(readParams(query, ["bunny"]).notes, query).toEqual([expect.stringMatching(/in the address is not/)]);
-  expect(readParams("against=surface&splat=7", ["bunny"])).toMatchObject({ notes: [], settings: { against: "surface", splat: 7 } });
+  for (const query of ["against=mesh", "splat=0", "splat=2.5", "splat=65"])
+    expect(readParams(query, ["bunny"]).notes, query).toEqual([expect.stringMatching(/in the address is not/)]);
+  expect(readParams("against=surface&splat=7", ["bunny"])).toMatchObject({
+    notes: [],
+    settings: { against: "surface", splat: 7 },
+  });
 });
 
 test("by keys alone: choose, move the divider, leave; and the card fits its place at any width", async () => {
@@ -288,7 +373,11 @@ test("by keys alone: choose, move the divider, leave; and the card fits its plac
     await page.keyboard.press("ArrowRight");
     expect(await page.getByLabel(choice).isChecked()).toBe(true);
     last = (await figures(page, last)).text;
-    for (const [width, height] of [[320, 600], [390, 844], [1280, 800]] as const) {
+    for (const [width, height] of [
+      [320, 600],
+      [390, 844],
+      [1280, 800],
+    ] as const) {
       await page.setViewportSize({ width, height });
       expect(await flaws(page), `${choice}, ${width} px`).toEqual([]);
     }
@@ -306,18 +395,26 @@ function flaws(page: Page): Promise<string[]> {
   return page.evaluate(() => {
     const boxOf = (element: Element) => element.getBoundingClientRect();
     const card = document.getElementById("compare-card")!;
-    const [canvas, bar, box] = [boxOf(document.getElementById("view")!), boxOf(document.getElementById("tool-bar")!), boxOf(card)];
+    const [canvas, bar, box] = [
+      boxOf(document.getElementById("view")!),
+      boxOf(document.getElementById("tool-bar")!),
+      boxOf(card),
+    ];
     const found: string[] = [];
     const slider = document.getElementById("splat")!;
-    if (slider.checkVisibility() && boxOf(slider).width < 100) found.push(`the slider is ${boxOf(slider).width} px wide`);
+    if (slider.checkVisibility() && boxOf(slider).width < 100)
+      found.push(`the slider is ${boxOf(slider).width} px wide`);
     const divider = document.getElementById("divider")!;
     const grip = getComputedStyle(divider, "::after");
     const [top, left] = [boxOf(divider).top + Number.parseFloat(grip.top), boxOf(divider).left];
-    if (top + Number.parseFloat(grip.height) > box.top && left < box.right) found.push("the card lies over the divider's grip");
-    if (box.left < canvas.left || box.right > canvas.right || box.top < canvas.top || box.bottom > bar.top) found.push("the card leaves its place");
+    if (top + Number.parseFloat(grip.height) > box.top && left < box.right)
+      found.push("the card lies over the divider's grip");
+    if (box.left < canvas.left || box.right > canvas.right || box.top < canvas.top || box.bottom > bar.top)
+      found.push("the card leaves its place");
     for (const part of card.querySelectorAll("label, button, th, td")) {
       const { left, right } = boxOf(part);
-      if (part.checkVisibility() && (left < box.left || right > box.right || part.scrollWidth > part.clientWidth + 1)) found.push(`${part.textContent} is cut off`);
+      if (part.checkVisibility() && (left < box.left || right > box.right || part.scrollWidth > part.clientWidth + 1))
+        found.push(`${part.textContent} is cut off`);
     }
     return found;
   });

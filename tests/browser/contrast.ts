@@ -16,9 +16,12 @@ export async function poorContrast(page: Page): Promise<string[]> {
       const [r, g, b, a] = context.getImageData(0, 0, 1, 1).data;
       return [r!, g!, b!, a! / 255];
     };
-    const over = (top: Color, below: Color): Color => [0, 1, 2].map((i) => top[3] * top[i]! + (1 - top[3]) * below[i]!).concat(1) as Color;
+    const over = (top: Color, below: Color): Color =>
+      [0, 1, 2].map((i) => top[3] * top[i]! + (1 - top[3]) * below[i]!).concat(1) as Color;
     const luminance = (color: Color) => {
-      const [r, g, b] = color.slice(0, 3).map((value) => (value <= 10.31475 ? value / 3294.6 : ((value / 255 + 0.055) / 1.055) ** 2.4));
+      const [r, g, b] = color
+        .slice(0, 3)
+        .map((value) => (value <= 10.31475 ? value / 3294.6 : ((value / 255 + 0.055) / 1.055) ** 2.4));
       return 0.2126 * r! + 0.7152 * g! + 0.0722 * b!;
     };
     const ratio = (a: Color, b: Color) => {
@@ -33,7 +36,10 @@ export async function poorContrast(page: Page): Promise<string[]> {
         layers.push(layer);
         if (layer[3] === 1) break;
       }
-      const cloud: Color[] = [[0, 0, 0, 1], [255, 255, 255, 1]];
+      const cloud: Color[] = [
+        [0, 0, 0, 1],
+        [255, 255, 255, 1],
+      ];
       return cloud.map((ground) => layers.reduceRight((below, layer) => over(layer, below), ground));
     };
 
@@ -43,16 +49,26 @@ export async function poorContrast(page: Page): Promise<string[]> {
       const element = node.parentElement!;
       const text = node.textContent!.trim();
       // A disabled control is exempt, as is what only screen readers are told.
-      if (text === "" || element.closest("script, style, noscript, option, .unseen, :disabled, .idle") || !element.checkVisibility()) continue;
+      if (
+        text === "" ||
+        element.closest("script, style, noscript, option, .unseen, :disabled, .idle") ||
+        !element.checkVisibility()
+      )
+        continue;
       // The empty canvas, before there is a cloud.
       if (element.id === "first-load") continue;
       const style = getComputedStyle(element);
       const svg = element instanceof SVGElement;
       const edge = svg && style.stroke !== "none" ? [parse(style.stroke)] : null;
-      const worst = Math.min(...(edge ?? behind(element)).map((ground) => ratio(parse(svg ? style.fill : style.color), ground)));
+      const worst = Math.min(
+        ...(edge ?? behind(element)).map((ground) => ratio(parse(svg ? style.fill : style.color), ground)),
+      );
       const size = Number.parseFloat(style.fontSize);
       const large = size >= 24 || (size >= 18.66 && Number(style.fontWeight) >= 700);
-      if (worst < (large ? 3 : 4.5)) found.push(`“${text.slice(0, 30)}” in ${element.tagName}#${element.id || element.parentElement!.id}: ${worst.toFixed(2)}`);
+      if (worst < (large ? 3 : 4.5))
+        found.push(
+          `“${text.slice(0, 30)}” in ${element.tagName}#${element.id || element.parentElement!.id}: ${worst.toFixed(2)}`,
+        );
     }
     return found;
   });

@@ -73,25 +73,32 @@ test("keys in the panel's fields do not move the camera", async () => {
   expect(await settled(page)).toEqual(before);
 });
 
-test.for(["dragon_res3", "bunny"])("hidden points of %s are off, dimmed or shown, and that re-filters nothing", async (sample) => {
-  const page = await openReady(`?sample=${sample}`);
-  const before = await settled(page);
-  const off = await picture(page);
-  await page.getByRole("radio", { name: "Dimmed" }).check();
-  const dimmed = await picture(page);
-  await page.getByRole("radio", { name: "Shown" }).check();
-  const shown = await picture(page);
-  for (const [a, b] of [[off, dimmed], [dimmed, shown], [off, shown]] as const) {
-    expect(await differentPixels(page, a, b)).toBeGreaterThan(2000);
-  }
-  await page.locator("#view").focus();
-  await page.keyboard.press("h");
-  await expect.poll(() => page.getByRole("radio", { name: "Off" }).isChecked()).toBe(true);
-  // Without the ring of the keyboard focus.
-  await page.locator("#view").blur();
-  expect(await differentPixels(page, off, await picture(page))).toBe(0);
-  expect(await settled(page)).toEqual(before);
-});
+test.for(["dragon_res3", "bunny"])(
+  "hidden points of %s are off, dimmed or shown, and that re-filters nothing",
+  async (sample) => {
+    const page = await openReady(`?sample=${sample}`);
+    const before = await settled(page);
+    const off = await picture(page);
+    await page.getByRole("radio", { name: "Dimmed" }).check();
+    const dimmed = await picture(page);
+    await page.getByRole("radio", { name: "Shown" }).check();
+    const shown = await picture(page);
+    for (const [a, b] of [
+      [off, dimmed],
+      [dimmed, shown],
+      [off, shown],
+    ] as const) {
+      expect(await differentPixels(page, a, b)).toBeGreaterThan(2000);
+    }
+    await page.locator("#view").focus();
+    await page.keyboard.press("h");
+    await expect.poll(() => page.getByRole("radio", { name: "Off" }).isChecked()).toBe(true);
+    // Without the ring of the keyboard focus.
+    await page.locator("#view").blur();
+    expect(await differentPixels(page, off, await picture(page))).toBe(0);
+    expect(await settled(page)).toEqual(before);
+  },
+);
 
 test("a frozen viewpoint stays while the camera flies around, and is let go again", async () => {
   const page = await openReady(SAMPLE);
@@ -156,7 +163,8 @@ test("back to the side that was up at first is back to the first view", async ()
 });
 
 test("the sentence tells one point from several", () => {
-  const said = (count: number, total: number, frozen = false) => sentenceOf({ visibility: { count }, quick: false, milliseconds: 3 } as TimedView, total, frozen);
+  const said = (count: number, total: number, frozen = false) =>
+    sentenceOf({ visibility: { count }, quick: false, milliseconds: 3 } as TimedView, total, frozen);
   expect(said(1, 1)).toMatch(/^1 of 1 point \(100\s%\) is visible from here, /);
   expect(said(1, 900, true)).toMatch(/^1 of 900 points \(<\s1\s%\) was visible from the frozen viewpoint, /);
   expect(said(0, 1)).toMatch(/^0 of 1 point \(0\s%\) are visible from here, /);

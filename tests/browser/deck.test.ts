@@ -142,7 +142,11 @@ it("says when the next worker is lost, too, and asks no more", async () => {
     set({}, { rotationX: 90, rotationOrbit: 0 });
   });
   await inPage(() => new Promise((resolve) => setTimeout(resolve, 300)));
-  expect(await inPage(({ errors, workers, answers }) => [errors, workers(), answers.length])).toEqual([["internal"], 2, 1]);
+  expect(await inPage(({ errors, workers, answers }) => [errors, workers(), answers.length])).toEqual([
+    ["internal"],
+    2,
+    1,
+  ]);
   // Other data is asked about in a worker of its own.
   await inPage(({ set }) => {
     set({ data: { length: 1, attributes: { getPosition: { value: new Float32Array(3), size: 3 } } } as never });

@@ -1,5 +1,15 @@
 import { expect, test } from "vitest";
-import { answered, answerInNode, drag, dragonPositions, openReady, refiltered, settled, status, upToDate } from "./support.js";
+import {
+  answered,
+  answerInNode,
+  drag,
+  dragonPositions,
+  openReady,
+  refiltered,
+  settled,
+  status,
+  upToDate,
+} from "./support.js";
 
 test("the page opens on the dragon, and every answer while orbiting is the package's own", async () => {
   const positions = dragonPositions();
@@ -69,6 +79,9 @@ test("a slow question that the camera leaves behind does not hold up the next an
   expect(next.viewpoint).not.toEqual(quick.viewpoint);
   // The rule is then asked where the camera has come to rest.
   const last = await upToDate(page);
-  expect(last).toMatchObject({ viewpoint: next.viewpoint, ...(await answerInNode(dragonPositions("_res2"), next, { radius: "opposite" })) });
+  expect(last).toMatchObject({
+    viewpoint: next.viewpoint,
+    ...(await answerInNode(dragonPositions("_res2"), next, { radius: "opposite" })),
+  });
   expect(last.evaluations).toBeGreaterThan(10);
 });

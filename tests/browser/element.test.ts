@@ -16,7 +16,8 @@ const DIST = join(root, "www/dist");
 const positions = ball(900);
 /** Larger, and elsewhere. */
 const other = ball(1300).map((value, i) => 3 * value + [10, 20, 30][i % 3]!);
-const TWO = '<hidden-point-cloud id="a" src="clouds/a.ply" exponent="2" viewpoint="1,2,9"></hidden-point-cloud><hidden-point-cloud id="b" src="clouds/b.ply"></hidden-point-cloud>';
+const TWO =
+  '<hidden-point-cloud id="a" src="clouds/a.ply" exponent="2" viewpoint="1,2,9"></hidden-point-cloud><hidden-point-cloud id="b" src="clouds/b.ply"></hidden-point-cloud>';
 
 let elsewhere: Site;
 
@@ -37,19 +38,29 @@ async function openTwo(): Promise<Page> {
 }
 
 function seenBy(page: Page, id: string) {
-  return element(page, id, ({ count, visible, visibleCount, viewpoint }) => ({ count, visible: [...visible], visibleCount, viewpoint: viewpoint! }));
+  return element(page, id, ({ count, visible, visibleCount, viewpoint }) => ({
+    count,
+    visible: [...visible],
+    visibleCount,
+    viewpoint: viewpoint!,
+  }));
 }
 
 /** Workers and pictures that there are. */
 async function kept(page: Page): Promise<{ workers: number; pictures: number }> {
-  return { workers: page.workers().length, pictures: await page.evaluate(() => (globalThis as unknown as { livePictures: () => number }).livePictures()) };
+  return {
+    workers: page.workers().length,
+    pictures: await page.evaluate(() => (globalThis as unknown as { livePictures: () => number }).livePictures()),
+  };
 }
 
 test("two elements from another origin, under a strict policy, answer as the package does, in one worker", async () => {
   const page = await openTwo();
   const [a, b] = [await seenBy(page, "a"), await seenBy(page, "b")];
   expect(a.viewpoint).toEqual([1, 2, 9]);
-  expect(a.visible).toEqual(await inNode(positions, (cloud) => [...cloud.visibleFrom([1, 2, 9], { exponent: 2 }).indices]));
+  expect(a.visible).toEqual(
+    await inNode(positions, (cloud) => [...cloud.visibleFrom([1, 2, 9], { exponent: 2 }).indices]),
+  );
   expect(b.visible).toEqual(await inNode(other, (cloud) => [...cloud.visibleFrom(b.viewpoint).indices]));
   expect([a.count, a.visibleCount, b.count]).toEqual([900, a.visible.length, 1300]);
   expect(await heardBy(page, "a", "load")).toEqual([{ total: 900, notes: [] }]);
@@ -87,8 +98,20 @@ test("what is removed is given up, what comes back starts again, what is moved s
       b.remove();
     });
     await expect.poll(() => kept(page)).toEqual({ workers: 0, pictures: 0 });
-    expect(await page.evaluate(() => (globalThis as unknown as { removed: { count: number; state: string }[] }).removed.map(({ count, state }) => [count, state]))).toEqual([[0, "empty"], [0, "empty"]]);
-    await page.evaluate(() => { document.body.append(...(globalThis as unknown as { removed: Node[] }).removed); });
+    expect(
+      await page.evaluate(() =>
+        (globalThis as unknown as { removed: { count: number; state: string }[] }).removed.map(({ count, state }) => [
+          count,
+          state,
+        ]),
+      ),
+    ).toEqual([
+      [0, "empty"],
+      [0, "empty"],
+    ]);
+    await page.evaluate(() => {
+      document.body.append(...(globalThis as unknown as { removed: Node[] }).removed);
+    });
     expect(await Promise.all([settledState(page, "a"), settledState(page, "b")])).toEqual(["ready", "ready"]);
     await expect.poll(() => kept(page)).toEqual({ workers: 1, pictures: 2 });
     expect((await seenBy(page, "a")).count).toBe(900);
@@ -101,23 +124,85 @@ test("attributes and properties are followed, and what they cannot be is told", 
   const change = (act: () => Promise<unknown>) => hears(page, "a", "change", act);
   const options = async (ask: object) => inNode(positions, (cloud) => cloud.visibleFrom([1, 2, 9], ask).count);
 
-  expect((await change(() => element(page, "a", (cloud) => { cloud.exponent = 4; }))).count).toBe(await options({ exponent: 4 }));
+  expect(
+    (
+      await change(() =>
+        element(page, "a", (cloud) => {
+          cloud.exponent = 4;
+        }),
+      )
+    ).count,
+  ).toBe(await options({ exponent: 4 }));
   expect(await page.locator("#a").getAttribute("exponent")).toBe("4");
-  expect((await change(() => element(page, "a", (cloud) => { cloud.removeAttribute("exponent"); cloud.radius = "search"; }))).count).toBe(await options({ radius: "search" }));
-  expect(await change(() => element(page, "a", (cloud) => { cloud.radius = 250; }))).toMatchObject({ count: await options({ radius: 250 }), radius: 250 });
-  expect((await change(() => element(page, "a", (cloud) => { cloud.inversion = "power:1.5"; }))).count).toBe(await options({ inversion: { power: 1.5 } }));
-  expect((await change(() => element(page, "a", (cloud) => { cloud.inversion = cloud.radius = null; }))).count).toBe(await options({}));
-  expect((await change(() => element(page, "a", (cloud) => { cloud.viewpoint = [9, 0, 3]; cloud.target = [0, 1, 0]; }))).viewpoint).toEqual([9, 0, 3]);
+  expect(
+    (
+      await change(() =>
+        element(page, "a", (cloud) => {
+          cloud.removeAttribute("exponent");
+          cloud.radius = "search";
+        }),
+      )
+    ).count,
+  ).toBe(await options({ radius: "search" }));
+  expect(
+    await change(() =>
+      element(page, "a", (cloud) => {
+        cloud.radius = 250;
+      }),
+    ),
+  ).toMatchObject({ count: await options({ radius: 250 }), radius: 250 });
+  expect(
+    (
+      await change(() =>
+        element(page, "a", (cloud) => {
+          cloud.inversion = "power:1.5";
+        }),
+      )
+    ).count,
+  ).toBe(await options({ inversion: { power: 1.5 } }));
+  expect(
+    (
+      await change(() =>
+        element(page, "a", (cloud) => {
+          cloud.inversion = cloud.radius = null;
+        }),
+      )
+    ).count,
+  ).toBe(await options({}));
+  expect(
+    (
+      await change(() =>
+        element(page, "a", (cloud) => {
+          cloud.viewpoint = [9, 0, 3];
+          cloud.target = [0, 1, 0];
+        }),
+      )
+    ).viewpoint,
+  ).toEqual([9, 0, 3]);
   expect(await element(page, "a", ({ target }) => target)).toEqual([0, 1, 0]);
 
   // A frozen viewpoint stays when the camera goes.
-  await element(page, "a", async (cloud) => { cloud.frozen = true; await Promise.resolve(); cloud.viewpoint = [-9, 1, 0]; });
+  await element(page, "a", async (cloud) => {
+    cloud.frozen = true;
+    await Promise.resolve();
+    cloud.viewpoint = [-9, 1, 0];
+  });
   expect(await element(page, "a", ({ viewpoint }) => viewpoint)).toEqual([-9, 1, 0]);
   expect((await heardBy(page, "a", "change")).at(-1)!.viewpoint).toEqual([9, 0, 3]);
-  expect((await change(() => element(page, "a", (cloud) => { cloud.frozen = false; }))).viewpoint).toEqual([-9, 1, 0]);
+  expect(
+    (
+      await change(() =>
+        element(page, "a", (cloud) => {
+          cloud.frozen = false;
+        }),
+      )
+    ).viewpoint,
+  ).toEqual([-9, 1, 0]);
 
   // The keys of the page, and attributes that follow them.
-  await element(page, "a", (cloud) => { cloud.focus(); });
+  await element(page, "a", (cloud) => {
+    cloud.focus();
+  });
   await page.keyboard.press("h");
   await page.keyboard.press("v");
   expect(await element(page, "a", ({ hiddenPoints, frozen }) => [hiddenPoints, frozen])).toEqual(["dimmed", true]);
@@ -126,18 +211,57 @@ test("attributes and properties are followed, and what they cannot be is told", 
   expect((await change(() => page.keyboard.press("ArrowLeft"))).viewpoint).not.toEqual([-9, 1, 0]);
   expect((await change(() => page.keyboard.press("r"))).viewpoint).toEqual([-9, 1, 0]);
 
-  const wrong = { exponent: "7", radius: "-1", inversion: "power:17", "hidden-points": "some", viewpoint: "1,2", "point-size": "0", fov: "400", up: "x", sample: "dragon", color: "smell" };
+  const wrong = {
+    exponent: "7",
+    radius: "-1",
+    inversion: "power:17",
+    "hidden-points": "some",
+    viewpoint: "1,2",
+    "point-size": "0",
+    fov: "400",
+    up: "x",
+    sample: "dragon",
+    color: "smell",
+  };
   for (const [name, value] of Object.entries(wrong)) {
-    const error = await hears(page, "a", "error", () => element(page, "a", (cloud, given) => { cloud.setAttribute(...given); }, [name, value] as [string, string]));
+    const error = await hears(page, "a", "error", () =>
+      element(
+        page,
+        "a",
+        (cloud, given) => {
+          cloud.setAttribute(...given);
+        },
+        [name, value] as [string, string],
+      ),
+    );
     expect(error, name).toMatchObject({ code: "attribute", attribute: name });
     expect(error.message).toContain(value === "dragon" ? "exclude" : value);
   }
   expect((await heardBy(page, "a", "error")).map(({ attribute }) => attribute)).toEqual(Object.keys(wrong));
-  expect(await element(page, "a", ({ state, count, exponent, hiddenPoints, up }) => [state, count, exponent, hiddenPoints, up])).toEqual(["ready", 900, null, "off", null]);
-  const far = await hears(page, "a", "error", () => element(page, "a", (cloud) => { cloud.viewpoint = [1e300, 0, 0]; }));
-  expect(far).toMatchObject({ attribute: "viewpoint", message: expect.stringMatching(/^The view that is asked for is too far away/) as string });
+  expect(
+    await element(page, "a", ({ state, count, exponent, hiddenPoints, up }) => [
+      state,
+      count,
+      exponent,
+      hiddenPoints,
+      up,
+    ]),
+  ).toEqual(["ready", 900, null, "off", null]);
+  const far = await hears(page, "a", "error", () =>
+    element(page, "a", (cloud) => {
+      cloud.viewpoint = [1e300, 0, 0];
+    }),
+  );
+  expect(far).toMatchObject({
+    attribute: "viewpoint",
+    message: expect.stringMatching(/^The view that is asked for is too far away/) as string,
+  });
   // A radius that is a number, but none for this cloud.
-  const small = await hears(page, "a", "error", () => element(page, "a", (cloud) => { cloud.radius = 0.001; }));
+  const small = await hears(page, "a", "error", () =>
+    element(page, "a", (cloud) => {
+      cloud.radius = 0.001;
+    }),
+  );
   expect(small).toMatchObject({ code: "attribute" });
   expect(small.message).toMatch(/do not suit/);
 });
@@ -145,18 +269,36 @@ test("attributes and properties are followed, and what they cannot be is told", 
 test("a file that is not there, one that is none, and one that comes too late", async () => {
   provoke(/404/);
   served.set("clouds/page.ply", Buffer.from("<!doctype html>"));
-  const page = await openStranger(elsewhere.address, '<hidden-point-cloud id="a" src="clouds/none.ply"><p>Text</p></hidden-point-cloud>');
-  const refused = await element(page, "a", (cloud) => cloud.ready.catch((error: unknown) => (error as { code: string }).code));
+  const page = await openStranger(
+    elsewhere.address,
+    '<hidden-point-cloud id="a" src="clouds/none.ply"><p>Text</p></hidden-point-cloud>',
+  );
+  const refused = await element(page, "a", (cloud) =>
+    cloud.ready.catch((error: unknown) => (error as { code: string }).code),
+  );
   expect(refused).toBe("source");
-  expect(await heardBy(page, "a", "error")).toEqual([{ code: "source", attribute: undefined, message: "none.ply could not be downloaded: the server answered 404." }]);
+  expect(await heardBy(page, "a", "error")).toEqual([
+    { code: "source", attribute: undefined, message: "none.ply could not be downloaded: the server answered 404." },
+  ]);
   expect(await element(page, "a", ({ state, count }) => [state, count])).toEqual(["error", 0]);
   expect(await page.locator("#a").locator('[part="error"]').textContent()).toContain("404");
 
-  const second = await hears(page, "a", "error", () => element(page, "a", (cloud) => { cloud.src = "clouds/page.ply"; }));
-  expect(second).toMatchObject({ code: "source", message: expect.stringContaining("page.ply is not a point cloud") as string });
+  const second = await hears(page, "a", "error", () =>
+    element(page, "a", (cloud) => {
+      cloud.src = "clouds/page.ply";
+    }),
+  );
+  expect(second).toMatchObject({
+    code: "source",
+    message: expect.stringContaining("page.ply is not a point cloud") as string,
+  });
 
   // Not the page around.
-  const none = await hears(page, "a", "error", () => element(page, "a", (cloud) => { cloud.src = ""; }));
+  const none = await hears(page, "a", "error", () =>
+    element(page, "a", (cloud) => {
+      cloud.src = "";
+    }),
+  );
   expect(none).toEqual({ code: "attribute", attribute: "src", message: "The attribute src names no file." });
   expect(await element(page, "a", ({ state }) => state)).toBe("empty");
 
@@ -172,16 +314,30 @@ test("a file that is not there, one that is none, and one that comes too late", 
   expect(await complaint.isVisible()).toBe(false);
 
   // The browser takes the picture away, and gives it back.
-  const context = await page.locator("#a canvas").evaluateHandle((canvas: HTMLCanvasElement) => canvas.getContext("webgl2")!.getExtension("WEBGL_lose_context")!);
-  const taken = await hears(page, "a", "error", () => context.evaluate((extension) => { extension.loseContext(); }));
+  const context = await page
+    .locator("#a canvas")
+    .evaluateHandle((canvas: HTMLCanvasElement) => canvas.getContext("webgl2")!.getExtension("WEBGL_lose_context")!);
+  const taken = await hears(page, "a", "error", () =>
+    context.evaluate((extension) => {
+      extension.loseContext();
+    }),
+  );
   expect(taken).toMatchObject({ code: "webgl", message: expect.stringContaining("taken this picture away") as string });
   expect(await element(page, "a", (cloud) => cloud.toBlob().catch(String))).toMatch(/taken the picture away/);
-  await context.evaluate((extension) => { extension.restoreContext(); });
+  await context.evaluate((extension) => {
+    extension.restoreContext();
+  });
   await expect.poll(() => complaint.isVisible()).toBe(false);
   expect(await element(page, "a", async (cloud) => (await cloud.toBlob()).size)).toBeGreaterThan(1000);
 
-  await element(page, "a", (cloud) => { cloud.src = null; });
-  expect(await element(page, "a", ({ state, count, visible }) => [state, count, visible.length])).toEqual(["empty", 0, 0]);
+  await element(page, "a", (cloud) => {
+    cloud.src = null;
+  });
+  expect(await element(page, "a", ({ state, count, visible }) => [state, count, visible.length])).toEqual([
+    "empty",
+    0,
+    0,
+  ]);
   await expect.poll(() => kept(page)).toEqual({ workers: 0, pictures: 1 });
 });
 
@@ -197,7 +353,11 @@ test("visible points are picked and hidden ones are not, and the page around scr
       places.push(cloud.pick(...at));
       others.push(cloud.pick(...at, { through: true, tolerance: 3 }));
     }
-    return { visible: [...cloud.visible], hits: places.filter((point) => point !== null), through: others.filter((point) => point !== null) };
+    return {
+      visible: [...cloud.visible],
+      hits: places.filter((point) => point !== null),
+      through: others.filter((point) => point !== null),
+    };
   });
   expect(hits.length).toBeGreaterThan(20);
   for (const { index, position, visible: seen } of hits) {
@@ -212,29 +372,49 @@ test("visible points are picked and hidden ones are not, and the page around scr
   const spot = (await element(page, "a", (cloud, place) => cloud.project(place), position))!;
   expect(await element(page, "a", (cloud, { x, y }) => cloud.pick(x, y, { tolerance: 0.5 })?.index, spot)).toBe(index);
   expect((await hears(page, "a", "pick", () => page.mouse.click(spot.x, spot.y))).index).toBe(index);
-  expect(await element(page, "a", (cloud) => { try { cloud.pick(NaN, 0); return ""; } catch (error) { return String(error); } })).toMatch(/TypeError/);
+  expect(
+    await element(page, "a", (cloud) => {
+      try {
+        cloud.pick(NaN, 0);
+        return "";
+      } catch (error) {
+        return String(error);
+      }
+    }),
+  ).toMatch(/TypeError/);
 
   // The click has given it the focus: the wheel zooms.
   const zoomed = await hears(page, "a", "change", () => page.mouse.wheel(0, 120));
   expect(zoomed.viewpoint).not.toEqual([1, 2, 9]);
   expect(await page.evaluate(() => scrollY)).toBe(0);
-  await page.evaluate(() => { (document.activeElement as HTMLElement).blur(); });
+  await page.evaluate(() => {
+    (document.activeElement as HTMLElement).blur();
+  });
   const before = await element(page, "a", ({ viewpoint }) => viewpoint);
   await page.mouse.wheel(0, 120);
   await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(0);
   expect(await element(page, "a", ({ viewpoint }) => viewpoint)).toEqual(before);
-  expect(await element(page, "a", (cloud) => cloud.shadowRoot!.querySelector("canvas")!.style.touchAction)).toBe("pan-y");
+  expect(await element(page, "a", (cloud) => cloud.shadowRoot!.querySelector("canvas")!.style.touchAction)).toBe(
+    "pan-y",
+  );
 });
 
 test("one who does not see it is told what it is, and with announce what is visible", async () => {
-  const page = await openStranger(elsewhere.address, '<hidden-point-cloud id="a" sample="bunny" label="A rabbit" announce></hidden-point-cloud>');
+  const page = await openStranger(
+    elsewhere.address,
+    '<hidden-point-cloud id="a" sample="bunny" label="A rabbit" announce></hidden-point-cloud>',
+  );
   await settledState(page, "a");
   const canvas = page.locator("#a").locator("canvas");
   expect(await canvas.getAttribute("aria-label")).toMatch(/^A rabbit\. Arrow keys orbit/);
   await page.keyboard.press("Tab");
   expect(await element(page, "a", (cloud) => cloud.shadowRoot!.activeElement?.localName)).toBe("canvas");
-  await expect.poll(() => page.locator("#a").getByRole("status").textContent()).toMatch(/^[\d,]+ of 1,839 points .* are visible from here/);
-  await element(page, "a", (cloud) => { cloud.announce = false; });
+  await expect
+    .poll(() => page.locator("#a").getByRole("status").textContent())
+    .toMatch(/^[\d,]+ of 1,839 points .* are visible from here/);
+  await element(page, "a", (cloud) => {
+    cloud.announce = false;
+  });
   expect(await page.locator("#a").getByRole("status").textContent()).toBe("");
 });
 
@@ -245,19 +425,34 @@ test("until its first cloud it asks for 287 kB, three.js and the WebAssembly inc
     if (request.url().startsWith(elsewhere.address)) asked.add(request.url().slice(elsewhere.address.length));
   });
   await page.reload();
-  await page.evaluate((body) => { document.body.innerHTML = body; }, TWO);
+  await page.evaluate((body) => {
+    document.body.innerHTML = body;
+  }, TWO);
   expect(await settledState(page, "a")).toBe("ready");
-  const sizes = Object.fromEntries([...asked].map((name) => [name, gzipSync(readFileSync(join(DIST, name)), { level: 9 }).length]));
+  const sizes = Object.fromEntries(
+    [...asked].map((name) => [name, gzipSync(readFileSync(join(DIST, name)), { level: 9 }).length]),
+  );
   const sum = Object.values(sizes).reduce((total, size) => total + size, 0);
   // The module, the package's worker and wasm; workers ask for their own scripts, and the loader for the format.
-  expect(Object.keys(sizes)).toEqual(expect.arrayContaining(["hidden-point-cloud.js", expect.stringMatching(/hpr_bg.*\.wasm/) as string]));
+  expect(Object.keys(sizes)).toEqual(
+    expect.arrayContaining(["hidden-point-cloud.js", expect.stringMatching(/hpr_bg.*\.wasm/) as string]),
+  );
   expect(sum).toBeLessThanOrEqual(287_000);
 });
 
 test("a server can import it, and its types are beside it", () => {
   const address = pathToFileURL(join(DIST, "hidden-point-cloud.js")).href;
-  const names = execFileSync(process.execPath, ["--input-type=module", "-e", `console.log(Object.keys(await import("${address}")).join())`], { encoding: "utf8" });
+  const names = execFileSync(
+    process.execPath,
+    ["--input-type=module", "-e", `console.log(Object.keys(await import("${address}")).join())`],
+    { encoding: "utf8" },
+  );
   expect(names.trim()).toBe("HiddenPointCloudElement");
   const types = readFileSync(join(DIST, "hidden-point-cloud.d.ts"), "utf8");
-  for (const name of ["export interface HiddenPointCloudElement extends HTMLElement", "HTMLElementTagNameMap", "export declare const HiddenPointCloudElement"]) expect(types).toContain(name);
+  for (const name of [
+    "export interface HiddenPointCloudElement extends HTMLElement",
+    "HTMLElementTagNameMap",
+    "export declare const HiddenPointCloudElement",
+  ])
+    expect(types).toContain(name);
 });

@@ -25,7 +25,10 @@ afterAll(() => {
 
 /** What stands in the document, as a page would have it, but for the module, which `openStranger` brings. */
 function body(html: string): string {
-  return html.replace(/<script.*<\/script>/, "").replace("<hidden-point-cloud ", '<hidden-point-cloud id="scan" ').replaceAll(SCAN, elsewhere.address);
+  return html
+    .replace(/<script.*<\/script>/, "")
+    .replace("<hidden-point-cloud ", '<hidden-point-cloud id="scan" ')
+    .replaceAll(SCAN, elsewhere.address);
 }
 
 test("the first element and its script do what they say", async () => {
@@ -38,7 +41,11 @@ test("the first element and its script do what they say", async () => {
   await expect.poll(() => lines).toEqual(promised(script!));
   await expect.poll(() => element(page, "scan", ({ viewpoint }) => viewpoint)).toEqual([6, 6, 1]);
 
-  const answer = await element(page, "scan", ({ exponent, hiddenPoints, visibleCount }) => [exponent, hiddenPoints, visibleCount]);
+  const answer = await element(page, "scan", ({ exponent, hiddenPoints, visibleCount }) => [
+    exponent,
+    hiddenPoints,
+    visibleCount,
+  ]);
   await page.reload();
   expect(await settledState(page, "scan")).toBe("ready");
   const from = await element(page, "scan", ({ viewpoint }) => viewpoint!);
@@ -60,13 +67,20 @@ test("its style and its slots are the page's", async () => {
     return [...context.getImageData(0, 0, 1, 1).data];
   });
   expect(corner).toEqual([0x20, 0x24, 0x2b, 255]);
-  await element(page, "scan", (cloud) => { cloud.src = "http://[";});
+  await element(page, "scan", (cloud) => {
+    cloud.src = "http://[";
+  });
   await page.getByText("The scan is not available.").waitFor();
   expect(await page.getByText("One moment").isVisible()).toBe(false);
 });
 
 test("the frame has its keys and leaves the page its scroll", async () => {
-  served.set("framed.html", Buffer.from(`<!doctype html><html lang="en"><head><title>Framed</title><link rel="icon" href="data:,"></head><body>${body(framed!)}<div style="height: 3000px"></div></body></html>`));
+  served.set(
+    "framed.html",
+    Buffer.from(
+      `<!doctype html><html lang="en"><head><title>Framed</title><link rel="icon" href="data:,"></head><body>${body(framed!)}<div style="height: 3000px"></div></body></html>`,
+    ),
+  );
   const page = await openPage("framed.html");
   const frame = page.frameLocator("iframe");
   const told = frame.locator("#status");
@@ -79,7 +93,9 @@ test("the frame has its keys and leaves the page its scroll", async () => {
   await page.mouse.wheel(0, 100);
   await expect.poll(() => page.evaluate(() => scrollY)).toBeGreaterThan(50);
   expect(await viewpoint()).toBe(first);
-  await page.evaluate(() => { scrollTo(0, 0); });
+  await page.evaluate(() => {
+    scrollTo(0, 0);
+  });
   await page.mouse.click(400, 200);
   await page.mouse.wheel(0, 100);
   await expect.poll(viewpoint).not.toBe(first);

@@ -6,7 +6,10 @@ import { answered, answerInNode, openReady, status } from "./support.js";
 const COUNT = 600;
 const near = ball(COUNT);
 const far = georeferencedBall(COUNT);
-const lines = (positions: ArrayLike<number>, separator: string) => rows(positions).map((row) => row.join(separator)).join("\n");
+const lines = (positions: ArrayLike<number>, separator: string) =>
+  rows(positions)
+    .map((row) => row.join(separator))
+    .join("\n");
 
 const FILES: [string, Uint8Array, Float32Array | Float64Array][] = [
   ["ascii.ply", asciiPly(near), near],
@@ -21,11 +24,35 @@ const FILES: [string, Uint8Array, Float32Array | Float64Array][] = [
   ["utm.xyz", text(lines(far, " ")), far],
   ["colored.txt", text(`# x y z r g b\n${lines(near, "\t").replaceAll("\n", "\t200\t100\t50\n")}\t1\t2\t3\n`), near],
   ["counted.txt", text(`${COUNT}\n${lines(far, " ").replaceAll("\n", " 17 200 100 50\n")} 17 1 2 3\n`), far],
-  ["table.csv", text(`id,z,"Y",x\r\n${rows(far).map(([x, y, z], i) => `${i},${z},${y},${x}`).join("\r\n")}`), far],
-  ["survey.csv", text(`point_id,time,x_m,y_m,z_m\n${rows(far).map((row, i) => `${i},${i / 8},${row.join()}`).join("\n")}`), far],
+  [
+    "table.csv",
+    text(
+      `id,z,"Y",x\r\n${rows(far)
+        .map(([x, y, z], i) => `${i},${z},${y},${x}`)
+        .join("\r\n")}`,
+    ),
+    far,
+  ],
+  [
+    "survey.csv",
+    text(
+      `point_id,time,x_m,y_m,z_m\n${rows(far)
+        .map((row, i) => `${i},${i / 8},${row.join()}`)
+        .join("\n")}`,
+    ),
+    far,
+  ],
   ["units.txt", text(`//X [m] Y [m] Z [m]\n${lines(far, " ")}`), far],
   ["wide.csv", utf16(`x,y,z\r\n${lines(near, ",")}`), near],
-  ["capitals.ply", text(new TextDecoder().decode(asciiPly(near)).replace(/float ([xyz])/g, (_, axis: string) => `float ${axis.toUpperCase()}`)), near],
+  [
+    "capitals.ply",
+    text(
+      new TextDecoder()
+        .decode(asciiPly(near))
+        .replace(/float ([xyz])/g, (_, axis: string) => `float ${axis.toUpperCase()}`),
+    ),
+    near,
+  ],
   ["european.csv", text(lines(far, ";").replaceAll(".", ",")), far],
   ["mesh.obj", meshObj(far), far],
 ];
@@ -49,17 +76,26 @@ test("up can be chosen, and the cloud is looked at anew", async () => {
 test("a depth camera's cloud is seen upright from where it was taken", async () => {
   const page = await openReady("?sample=bunny");
   const before = await status(page);
-  const content = new TextDecoder().decode(pcd(near, "ascii")).replace("WIDTH 600\nHEIGHT 1\nVIEWPOINT 0 0 0", "WIDTH 30\nHEIGHT 20\nVIEWPOINT 1 2 -9");
+  const content = new TextDecoder()
+    .decode(pcd(near, "ascii"))
+    .replace("WIDTH 600\nHEIGHT 1\nVIEWPOINT 0 0 0", "WIDTH 30\nHEIGHT 20\nVIEWPOINT 1 2 -9");
   await choose(page, "kinect.pcd", text(content));
   const now = await answered(page, before);
-  expect(now).toMatchObject({ state: "ready", total: COUNT, viewpoint: [1, 2, -9], ...(await answerInNode(near, now)) });
+  expect(now).toMatchObject({
+    state: "ready",
+    total: COUNT,
+    viewpoint: [1, 2, -9],
+    ...(await answerInNode(near, now)),
+  });
   expect(await page.locator("#up-axis input:checked").inputValue()).toBe("-y");
 });
 
 test("of several dropped files the first is opened, and what is no file is named", async () => {
   const page = await openReady("?sample=bunny");
   const dropped = async (make: (data: DataTransfer) => void) => {
-    const transfer = await page.evaluateHandle(`(() => { const data = new DataTransfer(); (${String(make)})(data); return data; })()`);
+    const transfer = await page.evaluateHandle(
+      `(() => { const data = new DataTransfer(); (${String(make)})(data); return data; })()`,
+    );
     await page.dispatchEvent("#view", "drop", { dataTransfer: transfer });
   };
   await dropped((data) => {
@@ -97,7 +133,11 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
   ["flat.ply", text("ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"), /no x, y and z/],
   ["none.ply", asciiPly([]), /holds no points/],
   ["boast.ply", asciiPly(near, 4_000_000_000), /ends before the 4,000,000,000 points/],
-  ["boast.pcd", text("VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 100000\nHEIGHT 100000\nDATA binary\n"), /ends before the 10,000,000,000 points/],
+  [
+    "boast.pcd",
+    text("VERSION 0.7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 100000\nHEIGHT 100000\nDATA binary\n"),
+    /ends before the 10,000,000,000 points/,
+  ],
   ["cut.pcd", pcd(near, "binary").slice(0, 3000), /is broken: it ends before the 600 points/],
   ["cut-packed.pcd", pcd(near, "binary_compressed").slice(0, 3000), /is broken: it ends before the 600 points/],
   ["headless.pcd", text("VERSION 0.7\nFIELDS x y z\n"), /is broken: its PCD header has no end/],
@@ -108,8 +148,16 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
   ["picture.xyz", png, /is not a point cloud this page knows/],
   ["page.pcd", text("<!doctype html><title>404</title>"), /is not a point cloud: it does not begin like a PCD file/],
   ["letter.txt", text("Dear all,\n\nthank you for 3 nice days.\n\nYours, Ada\n"), /does not look like a point cloud/],
-  ["nameless.csv", text("id,time,a,b,c\n1,2,3,4,5\n2,3,4,5,6\n"), /does not say which columns are x, y and z: its header is “id,time,a,b,c”/],
-  ["comma.ply", text(new TextDecoder().decode(asciiPly([0.5, 1.5, 2.5])).replace(/(\d)\.(5)/g, "$1,$2")), /its numbers have commas/],
+  [
+    "nameless.csv",
+    text("id,time,a,b,c\n1,2,3,4,5\n2,3,4,5,6\n"),
+    /does not say which columns are x, y and z: its header is “id,time,a,b,c”/,
+  ],
+  [
+    "comma.ply",
+    text(new TextDecoder().decode(asciiPly([0.5, 1.5, 2.5])).replace(/(\d)\.(5)/g, "$1,$2")),
+    /its numbers have commas/,
+  ],
   ["first.xyz", text(`nan nan nan\n${lines(near, " ")}`), /has 1 of 601 points without a position/],
   ["short.obj", text("v 1 2 3\nv 4 5\n"), /a vertex line has fewer than three numbers \(“v 4 5”\)/],
   ["stumble.csv", text("x,y,z\n1,2,3\n4,five,6\n"), /line 3 is not a point/],

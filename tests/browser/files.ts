@@ -24,12 +24,19 @@ export async function drop(page: Page, name: string, content: Uint8Array): Promi
 }
 
 /** Opens files by one way and the other: each is shown without a word, and seen as the package sees it. */
-export async function openInTurn(page: Page, files: readonly [name: string, content: Uint8Array, positions: Float32Array | Float64Array][]): Promise<void> {
+export async function openInTurn(
+  page: Page,
+  files: readonly [name: string, content: Uint8Array, positions: Float32Array | Float64Array][],
+): Promise<void> {
   for (const [i, [name, content, positions]] of files.entries()) {
     const before = await status(page);
     await (i % 2 === 0 ? choose : drop)(page, name, content);
     const now = await answered(page, before);
-    expect(now, name).toMatchObject({ state: "ready", total: positions.length / 3, ...(await answerInNode(positions, now)) });
+    expect(now, name).toMatchObject({
+      state: "ready",
+      total: positions.length / 3,
+      ...(await answerInNode(positions, now)),
+    });
     expect(await page.locator("#sample option:checked").textContent()).toBe(name);
     expect(await page.locator("#message").isVisible(), name).toBe(false);
   }

@@ -25,7 +25,11 @@ test("intensity, classes and what else a file has can be colored by, in every fo
   expect(await choices(page)).toEqual(["Two tones", "One color", "Height"]);
   for (const [name, content, extra] of [
     ["usual.las", las(far), ["Intensity", "Classification"]],
-    ["extra.las", las(far, { minor: 4, format: 7, extra: "height_above_ground" }), ["Intensity", "Classification", "Height above ground"]],
+    [
+      "extra.las",
+      las(far, { minor: 4, format: 7, extra: "height_above_ground" }),
+      ["Intensity", "Classification", "Height above ground"],
+    ],
     ["ball.laz", laz, ["Intensity", "Classification"]],
     ["table.csv", table(near), ["Intensity", "Class"]],
     ["cloud.ply", attributedPly(near), ["Intensity", "Class"]],
@@ -40,9 +44,15 @@ test("intensity, classes and what else a file has can be colored by, in every fo
     const entries = await page.locator("#legend li").allInnerTexts();
     const words = entries.map((entry) => entry.split(/\s*\n\s*/));
     const named = extra[1] === "Classification";
-    expect(words, name).toEqual([[named ? "ground" : "2", "200"], [named ? "high vegetation" : "5", "200"], [named ? "building" : "6", "200"]]);
+    expect(words, name).toEqual([
+      [named ? "ground" : "2", "200"],
+      [named ? "high vegetation" : "5", "200"],
+      [named ? "building" : "6", "200"],
+    ]);
     await page.locator("#color").selectOption({ label: "Intensity" });
-    const ends = (await page.locator("#legend").innerText()).split(/\s*\n\s*/).map((number) => Number(number.replace(",", "")));
+    const ends = (await page.locator("#legend").innerText())
+      .split(/\s*\n\s*/)
+      .map((number) => Number(number.replace(",", "")));
     // From the least but one in a hundred to the largest but one in a hundred of 0 … 4095.
     expect(ends[0], name).toBeGreaterThanOrEqual(0);
     expect(ends[0], name).toBeLessThan(100);
@@ -111,12 +121,15 @@ test("the address says what a cloud is colored by, and is told when it cannot be
   expect(await page.locator("#message").isVisible()).toBe(false);
 
   const asked = await openReady("?src=usual.las&color=mood");
-  expect(await asked.locator("#message p").textContent()).toBe("It has nothing called “mood” to be colored by, so it has its usual colors.");
+  expect(await asked.locator("#message p").textContent()).toBe(
+    "It has nothing called “mood” to be colored by, so it has its usual colors.",
+  );
 });
 
 test("heights are those of the file's own coordinates, with the side up that is up", async () => {
   const page = await openReady("?sample=tile&color=height");
-  const ends = async () => (await page.locator("#legend").innerText()).split(/\s*\n\s*/).map((number) => Number(number.replaceAll(",", "")));
+  const ends = async () =>
+    (await page.locator("#legend").innerText()).split(/\s*\n\s*/).map((number) => Number(number.replaceAll(",", "")));
   const [low, high] = await ends();
   expect(low).toBeGreaterThan(420);
   expect(high).toBeLessThan(490);
@@ -126,20 +139,33 @@ test("heights are those of the file's own coordinates, with the side up that is 
 });
 
 test("the samples street and tile have classes and intensity, and tile's coordinates are those of a map", async () => {
-  for (const [sample, least, label] of [["street", 150_000, "behind glass"], ["tile", 200_000, "high vegetation"]] as const) {
+  for (const [sample, least, label] of [
+    ["street", 150_000, "behind glass"],
+    ["tile", 200_000, "high vegetation"],
+  ] as const) {
     const page = await openReady("?sample=bunny");
     const before = await status(page);
-    await page.locator("#thumbnails").getByRole("button", { name: sample === "tile" ? "Map tile" : "Street" }).click();
+    await page
+      .locator("#thumbnails")
+      .getByRole("button", { name: sample === "tile" ? "Map tile" : "Street" })
+      .click();
     const now = await answered(page, before);
     expect(now.total).toBeGreaterThan(least);
     expect(await choices(page)).toEqual(expect.arrayContaining(["Intensity", "Classification"]));
     await page.locator("#color").selectOption("classification");
     expect(await page.locator("#legend").innerText()).toContain(label);
-    const colors = await page.locator("#legend .swatch").evaluateAll((all) => all.map((swatch) => getComputedStyle(swatch).backgroundColor.match(/\d+/g)!.map(Number)));
+    const colors = await page
+      .locator("#legend .swatch")
+      .evaluateAll((all) => all.map((swatch) => getComputedStyle(swatch).backgroundColor.match(/\d+/g)!.map(Number)));
     for (const [i, a] of colors.entries()) {
-      for (const b of colors.slice(i + 1)) expect(Math.hypot(...a.map((channel, k) => channel - b[k]!)), `${a.join()} and ${b.join()}`).toBeGreaterThan(45);
+      for (const b of colors.slice(i + 1))
+        expect(Math.hypot(...a.map((channel, k) => channel - b[k]!)), `${a.join()} and ${b.join()}`).toBeGreaterThan(
+          45,
+        );
     }
-    expect(await page.locator(`#thumbnails [aria-pressed="true"]`).textContent()).toBe(sample === "tile" ? "Map tile" : "Street");
+    expect(await page.locator(`#thumbnails [aria-pressed="true"]`).textContent()).toBe(
+      sample === "tile" ? "Map tile" : "Street",
+    );
     expect(new URL(page.url()).searchParams.get("sample")).toBe(sample);
     if (sample === "tile") expect(now.viewpoint[1]).toBeGreaterThan(5_400_000);
     else expect(now.viewpoint[2]).toBeCloseTo(1.65, 6);
@@ -151,13 +177,18 @@ test("loading can be stopped, and the cloud that was there stays", async () => {
   const before = await status(page);
   // So many points take long enough to be stopped.
   const content = las(far, { format: 0, claimed: 30_000_000 });
-  await page.evaluate((bytes) => {
-    const points = Uint8Array.from(bytes.slice(227));
-    const many = new Blob(Array.from({ length: 1000 }, () => points));
-    const data = new DataTransfer();
-    data.items.add(new File([Uint8Array.from(bytes.slice(0, 227)), ...Array.from({ length: 50 }, () => many)], "large.las"));
-    document.getElementById("view")!.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true }));
-  }, [...content]);
+  await page.evaluate(
+    (bytes) => {
+      const points = Uint8Array.from(bytes.slice(227));
+      const many = new Blob(Array.from({ length: 1000 }, () => points));
+      const data = new DataTransfer();
+      data.items.add(
+        new File([Uint8Array.from(bytes.slice(0, 227)), ...Array.from({ length: 50 }, () => many)], "large.las"),
+      );
+      document.getElementById("view")!.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true }));
+    },
+    [...content],
+  );
   await page.getByRole("button", { name: "Stop loading" }).click();
   const after = await reached(page, "error");
   expect(after).toEqual({ ...before, state: "error", sentence: "large.las was not opened: its loading was stopped." });

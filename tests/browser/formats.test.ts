@@ -24,7 +24,11 @@ const FILES: [string, Uint8Array, Float32Array | Float64Array][] = [
   ["points.glb", glb(near), moved(near)],
   ["colored.glb", glb(near, { colors: true }), moved(near)],
   ["mesh.glb", glb(near, { mode: 4 }), moved(near)],
-  ["twice.glb", glb(near.subarray(0, 900), { twice: true }), Float64Array.of(...moved(near.subarray(0, 900)), ...moved(near.subarray(0, 900).map((value) => 2 * value)))],
+  [
+    "twice.glb",
+    glb(near.subarray(0, 900), { twice: true }),
+    Float64Array.of(...moved(near.subarray(0, 900)), ...moved(near.subarray(0, 900).map((value) => 2 * value))),
+  ],
   ["text.gltf", gltf(near), moved(near)],
 ];
 
@@ -61,13 +65,16 @@ test("of more points than allowed, an octree shows its coarser levels", async ()
   const now = await status(page);
   const coarse = octree.filter((_, i) => Math.floor(i / 3) % 3 === 0);
   expect(now).toMatchObject({ total: 1000, ...(await answerInNode(coarse, now)) });
-  expect(await page.locator("#message p").textContent()).toBe("1,000 of its 3,000 points are shown, those of its coarser levels.");
+  expect(await page.locator("#message p").textContent()).toBe(
+    "1,000 of its 3,000 points are shown, those of its coarser levels.",
+  );
 
   const least = await openReady("?src=ranged/octree.copc.laz&points=250");
   expect(await status(least)).toMatchObject({ total: 250 });
 });
 
-const every = (step: number, positions: Float32Array | Float64Array) => positions.filter((_, i) => Math.floor(i / 3) % step === 0);
+const every = (step: number, positions: Float32Array | Float64Array) =>
+  positions.filter((_, i) => Math.floor(i / 3) % step === 0);
 
 test("of more points than allowed, every so manyth is shown, and the page says so", async () => {
   const lines = [...near].map((value, i) => `${value}${i % 3 === 2 ? "\n" : " "}`).join("");
@@ -126,32 +133,118 @@ const tree = fixture("octree.copc.laz");
 
 const REFUSED: [string, Uint8Array, RegExp][] = [
   ["cut.las", las(far).slice(0, 9000), /is broken: it ends before the 600 points its header promises/],
-  ["boast.las", las(far, { minor: 4, format: 6, claimed: 1e12 }), /is broken: it ends before the 1,000,000,000,000 points/],
+  [
+    "boast.las",
+    las(far, { minor: 4, format: 6, claimed: 1e12 }),
+    /is broken: it ends before the 1,000,000,000,000 points/,
+  ],
   ["stub.las", las(far).slice(0, 100), /is broken: it ends within its LAS header/],
   ["none.las", las([]), /holds no points/],
-  ["version.las", edited(las(far), (view) => { view.setUint8(25, 9); }), /is of LAS version 1\.9/],
-  ["format.las", edited(las(far), (view) => { view.setUint8(104, 33); }), /has LAS points of an unknown format \(33\)/],
-  ["rows.las", edited(las(far), (view) => { view.setUint16(105, 12, true); }), /points are shorter than their format/],
-  ["header.las", edited(las(far), (view) => { view.setUint32(96, 4e9, true); }), /points would begin behind its end/],
-  ["scale.las", edited(las(far), (view) => { view.setFloat64(139, NaN, true); }), /has no usable scale and offset/],
-  ["offset.las", edited(las(far), (view) => { view.setUint16(94, 3, true); }), /the sizes in its LAS header cannot be/],
+  [
+    "version.las",
+    edited(las(far), (view) => {
+      view.setUint8(25, 9);
+    }),
+    /is of LAS version 1\.9/,
+  ],
+  [
+    "format.las",
+    edited(las(far), (view) => {
+      view.setUint8(104, 33);
+    }),
+    /has LAS points of an unknown format \(33\)/,
+  ],
+  [
+    "rows.las",
+    edited(las(far), (view) => {
+      view.setUint16(105, 12, true);
+    }),
+    /points are shorter than their format/,
+  ],
+  [
+    "header.las",
+    edited(las(far), (view) => {
+      view.setUint32(96, 4e9, true);
+    }),
+    /points would begin behind its end/,
+  ],
+  [
+    "scale.las",
+    edited(las(far), (view) => {
+      view.setFloat64(139, NaN, true);
+    }),
+    /has no usable scale and offset/,
+  ],
+  [
+    "offset.las",
+    edited(las(far), (view) => {
+      view.setUint16(94, 3, true);
+    }),
+    /the sizes in its LAS header cannot be/,
+  ],
   ["swapped.las", text("FSAL and so on"), /is not a point cloud: it does not begin like a LAS file/],
   ["cut.laz", laz.slice(0, 3000), /is broken: it ends before the 600 points/],
   ["cut-layers.laz", layers.slice(0, 4000), /is broken: it ends before the 600 points/],
-  ["chunks.laz", edited(laz, (view) => { view.setUint32(Number(view.getBigInt64(view.getUint32(96, true), true)) + 4, 4e9, true); }), /compressed points cannot be decompressed/],
+  [
+    "chunks.laz",
+    edited(laz, (view) => {
+      view.setUint32(Number(view.getBigInt64(view.getUint32(96, true), true)) + 4, 4e9, true);
+    }),
+    /compressed points cannot be decompressed/,
+  ],
   ["cut.copc.laz", tree.slice(0, 30_000), /is broken: /],
-  ["tree.copc.laz", edited(tree, (view) => { view.setBigUint64(375 + 54 + 40, 7n, true); }), /is broken: /],
-  ["draco.glb", glb(near, { required: ["KHR_draco_mesh_compression"] }), /is compressed with Draco, which this page does not read/],
-  ["unknown.glb", glb(near, { required: ["EXT_of_tomorrow"] }), /needs what this page does not know \(EXT_of_tomorrow\)/],
+  [
+    "tree.copc.laz",
+    edited(tree, (view) => {
+      view.setBigUint64(375 + 54 + 40, 7n, true);
+    }),
+    /is broken: /,
+  ],
+  [
+    "draco.glb",
+    glb(near, { required: ["KHR_draco_mesh_compression"] }),
+    /is compressed with Draco, which this page does not read/,
+  ],
+  [
+    "unknown.glb",
+    glb(near, { required: ["EXT_of_tomorrow"] }),
+    /needs what this page does not know \(EXT_of_tomorrow\)/,
+  ],
   ["cut.glb", glb(near).slice(0, 3000), /is broken: it ends before the length its header promises/],
-  ["version.glb", edited(glb(near), (view) => { view.setUint32(4, 1, true); }), /is of glTF version 1/],
-  ["json.glb", edited(glb(near), (_, bytes) => { bytes.fill(0x21, 20, 60); }), /the description of its scene cannot be read/],
+  [
+    "version.glb",
+    edited(glb(near), (view) => {
+      view.setUint32(4, 1, true);
+    }),
+    /is of glTF version 1/,
+  ],
+  [
+    "json.glb",
+    edited(glb(near), (_, bytes) => {
+      bytes.fill(0x21, 20, 60);
+    }),
+    /the description of its scene cannot be read/,
+  ],
   ["nothing.gltf", text("{}"), /is broken: it does not say of which version of glTF it is/],
   ["empty.glb", glb([]), /holds no points|is broken/],
   ["parts.gltf", gltf(near, "parts.bin"), /keeps its points in a file of its own \(parts\.bin\)/],
-  ["swapped.ply", both(binaryPly(near, "float", true).slice(0, -12 * COUNT), binaryPly(near, "float", false).slice(-12 * COUNT)), /its numbers are big-endian, and its header says that they are not/],
-  ["swapped.pcd", both(pcd(near, "binary").slice(0, -12 * COUNT), binaryPly(near, "float", false).slice(-12 * COUNT)), /its numbers are big-endian/],
-  ["packed.pcd", edited(pcd(near, "binary_compressed"), (_, bytes) => { bytes.fill(0xff, 1000, 1400); }), /its compressed points cannot be unpacked/],
+  [
+    "swapped.ply",
+    both(binaryPly(near, "float", true).slice(0, -12 * COUNT), binaryPly(near, "float", false).slice(-12 * COUNT)),
+    /its numbers are big-endian, and its header says that they are not/,
+  ],
+  [
+    "swapped.pcd",
+    both(pcd(near, "binary").slice(0, -12 * COUNT), binaryPly(near, "float", false).slice(-12 * COUNT)),
+    /its numbers are big-endian/,
+  ],
+  [
+    "packed.pcd",
+    edited(pcd(near, "binary_compressed"), (_, bytes) => {
+      bytes.fill(0xff, 1000, 1400);
+    }),
+    /its compressed points cannot be unpacked/,
+  ],
 ];
 
 test("what is broken is refused in a plain sentence, and the page stays usable", async () => {
@@ -172,7 +265,10 @@ test("what is broken is refused in a plain sentence, and the page stays usable",
 
 test("damaged points are refused, or said to be outside the bounds that the file gives", async () => {
   const page = await openReady("?sample=bunny");
-  const damaged = (content: Uint8Array, from: number) => edited(content, (_, bytes) => { bytes.fill(0x5a, from, from + 200); });
+  const damaged = (content: Uint8Array, from: number) =>
+    edited(content, (_, bytes) => {
+      bytes.fill(0x5a, from, from + 200);
+    });
   for (const [name, content] of [
     ["damaged.laz", damaged(laz, 2000)],
     ["damaged-layers.laz", damaged(layers, 1500)],
@@ -180,8 +276,14 @@ test("damaged points are refused, or said to be outside the bounds that the file
     ["damaged.copc.laz", damaged(tree, new DataView(tree.buffer).getUint32(96, true) + 200)],
   ] as const) {
     await choose(page, name, content);
-    await page.locator("#message").filter({ hasText: name }).or(page.locator("#message").filter({ hasText: "outside the bounds" })).waitFor();
-    expect(await page.locator("#message p").textContent()).toMatch(/cannot be decompressed|is broken|of its points lie outside the bounds that its header gives/);
+    await page
+      .locator("#message")
+      .filter({ hasText: name })
+      .or(page.locator("#message").filter({ hasText: "outside the bounds" }))
+      .waitFor();
+    expect(await page.locator("#message p").textContent()).toMatch(
+      /cannot be decompressed|is broken|of its points lie outside the bounds that its header gives/,
+    );
     await page.keyboard.press("Escape");
     const before = await status(page);
     await choose(page, "sound.laz", laz);

@@ -23,7 +23,10 @@ const COLOR: Partial<Record<number, number>> = { 2: 20, 3: 28, 7: 30, 8: 30 };
 
 /** Positions as a LAS file gives them back: whole millimeters, to the last bit. */
 export function inMillimeters(positions: ArrayLike<number>): Float64Array {
-  return Float64Array.from(positions, (value, i) => Math.round((value - OFFSET[i % 3]!) / SCALE) * SCALE + OFFSET[i % 3]!);
+  return Float64Array.from(
+    positions,
+    (value, i) => Math.round((value - OFFSET[i % 3]!) / SCALE) * SCALE + OFFSET[i % 3]!,
+  );
 }
 
 /** What the n-th point has besides its place. */
@@ -31,7 +34,10 @@ export const intensityOf = (i: number) => (i * 37) % 4096;
 export const classOf = (i: number) => [2, 5, 6][i % 3]!;
 export const colorOf = (i: number): [number, number, number] => [i % 256, (2 * i) % 256, 255 - (i % 256)];
 
-export function las(positions: ArrayLike<number>, { minor = 2, format = 3, claimed, extra, smallColors = false }: LasOptions = {}): Uint8Array {
+export function las(
+  positions: ArrayLike<number>,
+  { minor = 2, format = 3, claimed, extra, smallColors = false }: LasOptions = {},
+): Uint8Array {
   const points = rows(positions);
   const headerBytes = minor === 4 ? 375 : minor === 3 ? 235 : 227;
   const start = headerBytes + (extra === undefined ? 0 : 54 + 192);
@@ -65,12 +71,17 @@ export function las(positions: ArrayLike<number>, { minor = 2, format = 3, claim
   }
   points.forEach((point, i) => {
     const at = start + rowBytes * i;
-    point.forEach((value, axis) => { view.setInt32(at + 4 * axis, Math.round((value - OFFSET[axis]!) / SCALE), true); });
+    point.forEach((value, axis) => {
+      view.setInt32(at + 4 * axis, Math.round((value - OFFSET[axis]!) / SCALE), true);
+    });
     view.setUint16(at + 12, intensityOf(i), true);
     view.setUint8(at + 14, format < 6 ? 0b1001 : 0b10001);
     view.setUint8(at + (format < 6 ? 15 : 16), classOf(i));
     const color = COLOR[format];
-    if (color !== undefined) colorOf(i).forEach((value, k) => { view.setUint16(at + color + 2 * k, smallColors ? value : 257 * value, true); });
+    if (color !== undefined)
+      colorOf(i).forEach((value, k) => {
+        view.setUint16(at + color + 2 * k, smallColors ? value : 257 * value, true);
+      });
     if (extra !== undefined) view.setFloat32(at + RECORD[format], i / 7, true);
   });
   return bytes;
@@ -88,15 +99,28 @@ export interface GlbOptions {
 /** A scene whose node moves its points by OFFSET: their own coordinates are small, as f32 wants them. */
 export function glb(positions: ArrayLike<number>, options: GlbOptions = {}): Uint8Array {
   const { json, binary } = gltfParts(positions, options);
-  const text = padded(new TextEncoder().encode(JSON.stringify({ ...json, buffers: [{ byteLength: binary.length }] })), 0x20);
+  const text = padded(
+    new TextEncoder().encode(JSON.stringify({ ...json, buffers: [{ byteLength: binary.length }] })),
+    0x20,
+  );
   const header = Uint32Array.of(0x46546c67, 2, 12 + 8 + text.length + 8 + binary.length, text.length, 0x4e4f534a);
-  return new Uint8Array(Buffer.concat([new Uint8Array(header.buffer), text, new Uint8Array(Uint32Array.of(binary.length, 0x004e4942).buffer), binary]));
+  return new Uint8Array(
+    Buffer.concat([
+      new Uint8Array(header.buffer),
+      text,
+      new Uint8Array(Uint32Array.of(binary.length, 0x004e4942).buffer),
+      binary,
+    ]),
+  );
 }
 
 /** The same as text, with its numbers in it or, with `uri`, elsewhere. */
 export function gltf(positions: ArrayLike<number>, uri?: string): Uint8Array {
   const { json, binary } = gltfParts(positions, {});
-  const buffer = { byteLength: binary.length, uri: uri ?? `data:application/octet-stream;base64,${Buffer.from(binary).toString("base64")}` };
+  const buffer = {
+    byteLength: binary.length,
+    uri: uri ?? `data:application/octet-stream;base64,${Buffer.from(binary).toString("base64")}`,
+  };
   return new TextEncoder().encode(JSON.stringify({ ...json, buffers: [buffer] }));
 }
 
@@ -113,19 +137,26 @@ export function moved(positions: ArrayLike<number>): Float64Array {
   return Float64Array.from(positions, (value, i) => Math.fround(value) + NODE_AT[i % 3]!);
 }
 
-function gltfParts(positions: ArrayLike<number>, { mode = 0, colors = false, required = [], twice = false }: GlbOptions) {
+function gltfParts(
+  positions: ArrayLike<number>,
+  { mode = 0, colors = false, required = [], twice = false }: GlbOptions,
+) {
   const count = positions.length / 3;
   const numbers = Float32Array.from(positions);
   const bytes = Uint8Array.from({ length: 4 * count }, (_, i) => (i % 4 === 3 ? 255 : colorOf(i >> 2)[i % 4]!));
   const binary = new Uint8Array(Buffer.concat([new Uint8Array(numbers.buffer), colors ? bytes : new Uint8Array()]));
-  const range = (pick: (...values: number[]) => number) => [0, 1, 2].map((axis) => pick(...numbers.filter((_, i) => i % 3 === axis)));
+  const range = (pick: (...values: number[]) => number) =>
+    [0, 1, 2].map((axis) => pick(...numbers.filter((_, i) => i % 3 === axis)));
   const json = {
     asset: { version: "2.0" },
     extensionsUsed: required,
     extensionsRequired: required,
     scene: 0,
     scenes: [{ nodes: twice ? [0, 1] : [0] }],
-    nodes: [{ mesh: 0, translation: NODE_AT }, { mesh: 0, translation: NODE_AT, scale: [2, 2, 2] }].slice(0, twice ? 2 : 1),
+    nodes: [
+      { mesh: 0, translation: NODE_AT },
+      { mesh: 0, translation: NODE_AT, scale: [2, 2, 2] },
+    ].slice(0, twice ? 2 : 1),
     meshes: [{ primitives: [{ attributes: { POSITION: 0, ...(colors ? { COLOR_0: 1 } : {}) }, mode, material: 0 }] }],
     // A picture that is nowhere: it must not be asked for.
     materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }],
@@ -157,14 +188,34 @@ export function table(positions: ArrayLike<number>): Uint8Array {
 
 /** The same as a PLY file. */
 export function attributedPly(positions: ArrayLike<number>): Uint8Array {
-  const properties = ["float x", "float y", "float z", "ushort scalar_intensity", "uchar class", "uchar red", "uchar green", "uchar blue"];
-  const header = ["ply", "format binary_little_endian 1.0", `element vertex ${positions.length / 3}`, ...properties.map((property) => `property ${property}`), "end_header", ""].join("\n");
+  const properties = [
+    "float x",
+    "float y",
+    "float z",
+    "ushort scalar_intensity",
+    "uchar class",
+    "uchar red",
+    "uchar green",
+    "uchar blue",
+  ];
+  const header = [
+    "ply",
+    "format binary_little_endian 1.0",
+    `element vertex ${positions.length / 3}`,
+    ...properties.map((property) => `property ${property}`),
+    "end_header",
+    "",
+  ].join("\n");
   const rowBytes = 18;
   const view = new DataView(new ArrayBuffer(rowBytes * (positions.length / 3)));
   rows(positions).forEach((point, i) => {
-    point.forEach((value, axis) => { view.setFloat32(rowBytes * i + 4 * axis, value, true); });
+    point.forEach((value, axis) => {
+      view.setFloat32(rowBytes * i + 4 * axis, value, true);
+    });
     view.setUint16(rowBytes * i + 12, intensityOf(i), true);
-    [classOf(i), ...colorOf(i)].forEach((value, k) => { view.setUint8(rowBytes * i + 14 + k, value); });
+    [classOf(i), ...colorOf(i)].forEach((value, k) => {
+      view.setUint8(rowBytes * i + 14 + k, value);
+    });
   });
   return new Uint8Array(Buffer.concat([new TextEncoder().encode(header), new Uint8Array(view.buffer)]));
 }
@@ -172,10 +223,23 @@ export function attributedPly(positions: ArrayLike<number>): Uint8Array {
 /** The same as a PCD file, whose colors are four bytes that call themselves a float. */
 export function attributedPcd(positions: ArrayLike<number>): Uint8Array {
   const count = positions.length / 3;
-  const header = ["VERSION 0.7", "FIELDS x y z rgb intensity class", "SIZE 4 4 4 4 4 4", "TYPE F F F F F U", "COUNT 1 1 1 1 1 1", `WIDTH ${count}`, "HEIGHT 1", `POINTS ${count}`, "DATA binary", ""].join("\n");
+  const header = [
+    "VERSION 0.7",
+    "FIELDS x y z rgb intensity class",
+    "SIZE 4 4 4 4 4 4",
+    "TYPE F F F F F U",
+    "COUNT 1 1 1 1 1 1",
+    `WIDTH ${count}`,
+    "HEIGHT 1",
+    `POINTS ${count}`,
+    "DATA binary",
+    "",
+  ].join("\n");
   const view = new DataView(new ArrayBuffer(24 * count));
   rows(positions).forEach((point, i) => {
-    point.forEach((value, axis) => { view.setFloat32(24 * i + 4 * axis, value, true); });
+    point.forEach((value, axis) => {
+      view.setFloat32(24 * i + 4 * axis, value, true);
+    });
     const [red, green, blue] = colorOf(i);
     // 255 above the colors makes a float of them that is not a number.
     view.setUint32(24 * i + 12, ((255 << 24) | (red << 16) | (green << 8) | blue) >>> 0, true);

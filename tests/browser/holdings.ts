@@ -26,12 +26,22 @@ export async function countHoldings(page: Page): Promise<void> {
     };
     for (const kind of ["Buffer", "Texture", "Program", "Shader", "Framebuffer", "Renderbuffer", "VertexArray"]) {
       holdings.webgl[kind] = 0;
-      wrap(WebGL2RenderingContext.prototype, `create${kind}`, () => { holdings.webgl[kind]! += 1; });
-      wrap(WebGL2RenderingContext.prototype, `delete${kind}`, () => { holdings.webgl[kind]! -= 1; });
+      wrap(WebGL2RenderingContext.prototype, `create${kind}`, () => {
+        holdings.webgl[kind]! += 1;
+      });
+      wrap(WebGL2RenderingContext.prototype, `delete${kind}`, () => {
+        holdings.webgl[kind]! -= 1;
+      });
     }
-    wrap(URL, "createObjectURL", () => { holdings.objectUrls += 1; });
-    wrap(URL, "revokeObjectURL", () => { holdings.objectUrls -= 1; });
-    wrap(Worker.prototype, "terminate", () => { holdings.workers -= 1; });
+    wrap(URL, "createObjectURL", () => {
+      holdings.objectUrls += 1;
+    });
+    wrap(URL, "revokeObjectURL", () => {
+      holdings.objectUrls -= 1;
+    });
+    wrap(Worker.prototype, "terminate", () => {
+      holdings.workers -= 1;
+    });
     globalThis.Worker = class extends Worker {
       constructor(...args: ConstructorParameters<typeof Worker>) {
         super(...args);
@@ -61,9 +71,19 @@ export async function memoryOf(page: Page): Promise<MemoryUse> {
     // What only a finalizer lets go of is gone with the second.
     await session.send("HeapProfiler.collectGarbage");
     await session.send("HeapProfiler.collectGarbage");
-    const heap = (await session.send("Runtime.getHeapUsage")) as { usedSize: number; embedderHeapUsedSize: number; backingStorageSize: number };
+    const heap = (await session.send("Runtime.getHeapUsage")) as {
+      usedSize: number;
+      embedderHeapUsedSize: number;
+      backingStorageSize: number;
+    };
     const { nodes, jsEventListeners } = await session.send("Memory.getDOMCounters");
-    return { heap: heap.usedSize, embedder: heap.embedderHeapUsedSize, buffers: heap.backingStorageSize, nodes, listeners: jsEventListeners };
+    return {
+      heap: heap.usedSize,
+      embedder: heap.embedderHeapUsedSize,
+      buffers: heap.backingStorageSize,
+      nodes,
+      listeners: jsEventListeners,
+    };
   } finally {
     await session.detach();
   }

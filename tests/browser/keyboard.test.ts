@@ -20,10 +20,13 @@ async function stop(page: Page): Promise<Stop | null> {
     const { left, right, top, bottom, width, height } = ringed.getBoundingClientRect();
     const flaws = [];
     if (style.outlineStyle === "none" || Number.parseFloat(style.outlineWidth) < 2) flaws.push("has no ring");
-    if (left < -1 || top < -1 || right > innerWidth + 1 || bottom > innerHeight + 1) flaws.push(`is out of sight (${Math.round(top)} to ${Math.round(bottom)})`);
+    if (left < -1 || top < -1 || right > innerWidth + 1 || bottom > innerHeight + 1)
+      flaws.push(`is out of sight (${Math.round(top)} to ${Math.round(bottom)})`);
     // What lies over the cloud may cover a part of it, but nothing may cover all (WCAG 2.4.11).
     const shares = [0.1, 0.3, 0.5, 0.7, 0.9];
-    const seen = shares.some((x) => shares.some((y) => ringed.contains(document.elementFromPoint(left + x * width, top + y * height))));
+    const seen = shares.some((x) =>
+      shares.some((y) => ringed.contains(document.elementFromPoint(left + x * width, top + y * height))),
+    );
     if (!seen) flaws.push("is covered");
     // Inside where the ring is drawn inwards, else the next background around.
     const inwards = Number.parseFloat(style.outlineOffset) < 0;
@@ -34,7 +37,9 @@ async function stop(page: Page): Promise<Stop | null> {
 
     function nameOf(of: Element): string {
       const radio = of instanceof HTMLInputElement && of.type === "radio";
-      return radio ? `radio ${of.name}` : `${of.tagName} ${of.id || (of as HTMLElement).ariaLabel || of.textContent.trim().slice(0, 30)}`;
+      return radio
+        ? `radio ${of.name}`
+        : `${of.tagName} ${of.id || (of as HTMLElement).ariaLabel || of.textContent.trim().slice(0, 30)}`;
     }
     function groundOf(from: Element): string {
       for (let at: Element | null = from; at; at = at.parentElement) {
@@ -45,7 +50,14 @@ async function stop(page: Page): Promise<Stop | null> {
     }
     function contrast(a: string, b: string): number {
       const [low, high] = [a, b]
-        .map((css) => css.match(/[\d.]+/g)!.slice(0, 3).map((text) => (Number(text) <= 10.31 ? Number(text) / 3294.6 : ((Number(text) / 255 + 0.055) / 1.055) ** 2.4)))
+        .map((css) =>
+          css
+            .match(/[\d.]+/g)!
+            .slice(0, 3)
+            .map((text) =>
+              Number(text) <= 10.31 ? Number(text) / 3294.6 : ((Number(text) / 255 + 0.055) / 1.055) ** 2.4,
+            ),
+        )
         .map(([red, green, blue]) => 0.2126 * red! + 0.7152 * green! + 0.0722 * blue!)
         .sort((x, y) => x - y);
       return (high! + 0.05) / (low! + 0.05);
@@ -57,9 +69,13 @@ async function stop(page: Page): Promise<Stop | null> {
 async function usable(page: Page): Promise<string[]> {
   return page.evaluate(() => {
     const all = [...document.querySelectorAll<HTMLElement>("a[href], button, input, select, summary, [tabindex]")];
-    const found = all.filter((element) => element.checkVisibility() && element.tabIndex >= 0 && !element.matches(":disabled"));
+    const found = all.filter(
+      (element) => element.checkVisibility() && element.tabIndex >= 0 && !element.matches(":disabled"),
+    );
     const names = found.map((element) =>
-      element instanceof HTMLInputElement && element.type === "radio" ? `radio ${element.name}` : `${element.tagName} ${element.id || element.ariaLabel || element.textContent.trim().slice(0, 30)}`,
+      element instanceof HTMLInputElement && element.type === "radio"
+        ? `radio ${element.name}`
+        : `${element.tagName} ${element.id || element.ariaLabel || element.textContent.trim().slice(0, 30)}`,
     );
     return [...new Set(names)];
   });
@@ -71,41 +87,47 @@ const SETTINGS = "?sample=dragon_res3&compare=0.3&light=0,0.25,0.1";
 test.for([
   { ...WIDE, colorScheme: "dark" },
   { ...PHONE, colorScheme: "light" },
-] as const)("Tab reaches everything, the focus is always seen, and the page lets go of it ($viewport.width px, $colorScheme)", async (options) => {
-  const page = await openReady(SETTINGS, options);
-  if (options.viewport.width < 760) await page.getByRole("button", { name: "More controls" }).click();
-  await page.evaluate(() => {
-    for (const section of document.querySelectorAll("details")) section.open = true;
-    (document.activeElement as HTMLElement).blur();
-  });
-  await page.locator("#tool-bar").getByRole("button", { name: "Label" }).click();
-  await page.locator("#view").press("Enter");
-  const expected = await usable(page);
-  expect(expected.length).toBeGreaterThan(45);
-  // From the beginning of the page.
-  await page.evaluate(() => {
-    const start = document.createElement("span");
-    start.tabIndex = -1;
-    document.body.prepend(start);
-    start.focus();
-    start.remove();
-  });
-  const stops: Stop[] = [];
-  for (let i = 0; i < 2 * expected.length; i++) {
-    await page.keyboard.press("Tab");
-    const here = await stop(page);
-    // Out of the page, and around.
-    if (!here || here.name === stops[0]?.name) break;
-    stops.push(here);
-  }
-  const names = stops.map(({ name }) => name);
-  expect(expected.filter((name) => !names.includes(name)), "not reached").toEqual([]);
-  expect(stops.length, "visited").toBeLessThan(2 * expected.length);
-  expect(stops.flatMap(({ flaw }) => flaw ?? [])).toEqual([]);
-  // And back.
-  await page.keyboard.press("Shift+Tab");
-  expect((await stop(page))?.name).toBe(names.at(-1));
-});
+] as const)(
+  "Tab reaches everything, the focus is always seen, and the page lets go of it ($viewport.width px, $colorScheme)",
+  async (options) => {
+    const page = await openReady(SETTINGS, options);
+    if (options.viewport.width < 760) await page.getByRole("button", { name: "More controls" }).click();
+    await page.evaluate(() => {
+      for (const section of document.querySelectorAll("details")) section.open = true;
+      (document.activeElement as HTMLElement).blur();
+    });
+    await page.locator("#tool-bar").getByRole("button", { name: "Label" }).click();
+    await page.locator("#view").press("Enter");
+    const expected = await usable(page);
+    expect(expected.length).toBeGreaterThan(45);
+    // From the beginning of the page.
+    await page.evaluate(() => {
+      const start = document.createElement("span");
+      start.tabIndex = -1;
+      document.body.prepend(start);
+      start.focus();
+      start.remove();
+    });
+    const stops: Stop[] = [];
+    for (let i = 0; i < 2 * expected.length; i++) {
+      await page.keyboard.press("Tab");
+      const here = await stop(page);
+      // Out of the page, and around.
+      if (!here || here.name === stops[0]?.name) break;
+      stops.push(here);
+    }
+    const names = stops.map(({ name }) => name);
+    expect(
+      expected.filter((name) => !names.includes(name)),
+      "not reached",
+    ).toEqual([]);
+    expect(stops.length, "visited").toBeLessThan(2 * expected.length);
+    expect(stops.flatMap(({ flaw }) => flaw ?? [])).toEqual([]);
+    // And back.
+    await page.keyboard.press("Shift+Tab");
+    expect((await stop(page))?.name).toBe(names.at(-1));
+  },
+);
 
 test("F takes the whole screen for the cloud and its tools, and gives it back", async () => {
   const page = await openReady("?sample=dragon_res4", WIDE);
@@ -146,7 +168,12 @@ test("while a cloud is loading things move only for those who like it", async ()
   await page.route("**/samples/bunny.bin", () => undefined);
   await page.getByRole("button", { name: "Bunny" }).click();
   await page.getByRole("button", { name: "Stop loading" }).waitFor();
-  const moving = () => page.evaluate(() => document.getAnimations().filter((animation) => Number(animation.effect!.getComputedTiming().duration) > 0).length);
+  const moving = () =>
+    page.evaluate(
+      () =>
+        document.getAnimations().filter((animation) => Number(animation.effect!.getComputedTiming().duration) > 0)
+          .length,
+    );
   expect(await moving()).toBe(0);
   await page.emulateMedia({ reducedMotion: "no-preference" });
   expect(await moving()).toBeGreaterThan(0);

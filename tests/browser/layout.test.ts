@@ -5,17 +5,37 @@ import { openPage, openReady, PHONE, reached, refiltered, settled, status } from
 /** Controls and texts in sight that lie over one another, are cut off at the side, or have no name. */
 async function flaws(page: Page): Promise<string[]> {
   return page.evaluate(() => {
-    const shown = [...document.querySelectorAll<HTMLElement>("#view, #status, #panel button, #panel select, #panel legend, #panel output, .slider > label, .slider input, .segmented label, .choices button, summary, #lights-list li, #panel h2, .note, #message")]
+    const shown = [
+      ...document.querySelectorAll<HTMLElement>(
+        "#view, #status, #panel button, #panel select, #panel legend, #panel output, .slider > label, .slider input, .segmented label, .choices button, summary, #lights-list li, #panel h2, .note, #message",
+      ),
+    ]
       .filter((element) => element.checkVisibility())
-      .map((element) => ({ element, box: element.getBoundingClientRect(), name: `${element.tagName} ${element.id || element.textContent.trim().slice(0, 24)}` }));
+      .map((element) => ({
+        element,
+        box: element.getBoundingClientRect(),
+        name: `${element.tagName} ${element.id || element.textContent.trim().slice(0, 24)}`,
+      }));
     const found: string[] = [];
     for (const [i, a] of shown.entries()) {
       if (a.box.left < -0.5 || a.box.right > innerWidth + 0.5) found.push(`${a.name} reaches out of the page`);
-      if (a.element.scrollWidth > a.element.clientWidth + 1 && a.element.clientWidth > 0 && a.element.tagName === "BUTTON") found.push(`${a.name} is cut off`);
+      if (
+        a.element.scrollWidth > a.element.clientWidth + 1 &&
+        a.element.clientWidth > 0 &&
+        a.element.tagName === "BUTTON"
+      )
+        found.push(`${a.name} is cut off`);
       for (const b of shown.slice(i + 1)) {
-        if (a.element.contains(b.element) || b.element.contains(a.element) || a.element.id === "view" && b.element.id === "message") continue;
+        if (
+          a.element.contains(b.element) ||
+          b.element.contains(a.element) ||
+          (a.element.id === "view" && b.element.id === "message")
+        )
+          continue;
         // A sheet that scrolls lies under the bar that stays.
-        const over = Math.min(a.box.right, b.box.right) - Math.max(a.box.left, b.box.left) > 1.5 && Math.min(a.box.bottom, b.box.bottom) - Math.max(a.box.top, b.box.top) > 1.5;
+        const over =
+          Math.min(a.box.right, b.box.right) - Math.max(a.box.left, b.box.left) > 1.5 &&
+          Math.min(a.box.bottom, b.box.bottom) - Math.max(a.box.top, b.box.top) > 1.5;
         if (over) found.push(`${a.name} lies over ${b.name}`);
       }
     }
@@ -32,22 +52,30 @@ test.for([1280, 1000, 761])("at %i px nothing overlaps and every control has a l
   expect(await flaws(page)).toEqual([]);
 });
 
-test.for([{ viewport: { width: 1280, height: 800 } }, { viewport: { width: 761, height: 700 } }, PHONE])("with every section unfolded and two lights nothing overlaps ($viewport.width px)", async (options) => {
-  const page = await openReady("?sample=dragon_res4&light=0,0.3,0.2&light=0.1,0.2,0.2&inversion=exponential&show=surface", options);
-  await page.evaluate(() => {
-    document.getElementById("panel")!.classList.add("open");
-    for (const section of document.querySelectorAll("details")) section.open = true;
-  });
-  expect(await flaws(page)).toEqual([]);
-  // The slider and its button are in one row.
-  const [slider, automatic] = await Promise.all(["#scale", "#scale-auto"].map((id) => page.locator(id).boundingBox()));
-  expect(automatic!.x).toBeGreaterThan(slider!.x + slider!.width);
-  await page.getByRole("radio", { name: "Power" }).check();
-  await page.locator("#panel").evaluate((panel) => {
-    panel.scrollTop = 0;
-  });
-  expect(await flaws(page)).toEqual([]);
-});
+test.for([{ viewport: { width: 1280, height: 800 } }, { viewport: { width: 761, height: 700 } }, PHONE])(
+  "with every section unfolded and two lights nothing overlaps ($viewport.width px)",
+  async (options) => {
+    const page = await openReady(
+      "?sample=dragon_res4&light=0,0.3,0.2&light=0.1,0.2,0.2&inversion=exponential&show=surface",
+      options,
+    );
+    await page.evaluate(() => {
+      document.getElementById("panel")!.classList.add("open");
+      for (const section of document.querySelectorAll("details")) section.open = true;
+    });
+    expect(await flaws(page)).toEqual([]);
+    // The slider and its button are in one row.
+    const [slider, automatic] = await Promise.all(
+      ["#scale", "#scale-auto"].map((id) => page.locator(id).boundingBox()),
+    );
+    expect(automatic!.x).toBeGreaterThan(slider!.x + slider!.width);
+    await page.getByRole("radio", { name: "Power" }).check();
+    await page.locator("#panel").evaluate((panel) => {
+      panel.scrollTop = 0;
+    });
+    expect(await flaws(page)).toEqual([]);
+  },
+);
 
 test("on a phone the panel is a bar that opens upwards, and nothing overlaps", async () => {
   const page = await openReady("?sample=dragon_res4", PHONE);
@@ -71,7 +99,8 @@ test("one finger orbits", async () => {
   const touch = await page.context().newCDPSession(page);
   const at = (x: number, y: number) => ({ touchPoints: [{ x, y }] });
   await touch.send("Input.dispatchTouchEvent", { type: "touchStart", ...at(200, 300) });
-  for (let step = 1; step <= 6; step++) await touch.send("Input.dispatchTouchEvent", { type: "touchMove", ...at(200 - 15 * step, 300) });
+  for (let step = 1; step <= 6; step++)
+    await touch.send("Input.dispatchTouchEvent", { type: "touchMove", ...at(200 - 15 * step, 300) });
   await touch.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
   expect((await refiltered(page, before)).viewpoint).not.toEqual(before.viewpoint);
 });
@@ -96,13 +125,23 @@ test("keyboard focus is seen", async () => {
 test.for([
   { name: "a phone held sideways", options: { ...PHONE, viewport: { width: 844, height: 390 } }, text: 16 },
   { name: "text of twice the size", options: { viewport: { width: 1280, height: 800 } }, text: 32 },
-  { name: "everything of twice the size", options: { viewport: { width: 640, height: 400 }, deviceScaleFactor: 2 }, text: 16 },
-  { name: "the system's own colors", options: { viewport: { width: 1280, height: 800 }, forcedColors: "active" }, text: 16 },
+  {
+    name: "everything of twice the size",
+    options: { viewport: { width: 640, height: 400 }, deviceScaleFactor: 2 },
+    text: 16,
+  },
+  {
+    name: "the system's own colors",
+    options: { viewport: { width: 1280, height: 800 }, forcedColors: "active" },
+    text: 16,
+  },
 ] as const)("with $name nothing overlaps or is cut off", async ({ options, text }) => {
   const page = await openPage("?sample=bunny", options);
   await (await page.context().newCDPSession(page)).send("Page.setFontSizes", { fontSizes: { standard: text } });
   await reached(page, "ready");
-  expect(await page.evaluate(() => Number.parseFloat(getComputedStyle(document.documentElement).fontSize))).toBe(0.9375 * text);
+  expect(await page.evaluate(() => Number.parseFloat(getComputedStyle(document.documentElement).fontSize))).toBe(
+    0.9375 * text,
+  );
   await page.locator("#tools").waitFor();
   for (const open of [false, true]) {
     await page.evaluate((unfolded) => {
@@ -112,13 +151,17 @@ test.for([
     expect(await flaws(page)).toEqual([]);
   }
   // The cloud keeps room for itself, and its tools stay within it.
-  await page.evaluate(() => { document.getElementById("panel")!.classList.remove("open"); });
+  await page.evaluate(() => {
+    document.getElementById("panel")!.classList.remove("open");
+  });
   const view = (await page.locator("#view").boundingBox())!;
   const bar = (await page.locator("#tool-bar").boundingBox())!;
   expect(bar.y).toBeGreaterThan(view.y + 0.4 * view.height);
   expect(bar.x + bar.width).toBeLessThanOrEqual(view.x + view.width);
   await page.locator("#tool-export").click();
-  expect(await page.locator("#tool-card").evaluate(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth)).toBeLessThanOrEqual(0);
+  expect(
+    await page.locator("#tool-card").evaluate(({ scrollWidth, clientWidth }) => scrollWidth - clientWidth),
+  ).toBeLessThanOrEqual(0);
 });
 
 test("fingers have 44 pixels for everything they can press", async () => {
@@ -126,11 +169,16 @@ test("fingers have 44 pixels for everything they can press", async () => {
   const small = await page.evaluate(() => {
     document.getElementById("panel")!.classList.add("open");
     for (const section of document.querySelectorAll("details")) section.open = true;
-    const all = [...document.querySelectorAll<HTMLElement>("button, select, summary, .segmented label, input[type=range], #through-choice")].filter((element) => element.checkVisibility());
+    const all = [
+      ...document.querySelectorAll<HTMLElement>(
+        "button, select, summary, .segmented label, input[type=range], #through-choice",
+      ),
+    ].filter((element) => element.checkVisibility());
     return all.flatMap((element) => {
       const { width, height } = element.getBoundingClientRect();
       // A light's handle takes more than what is seen of it.
-      const more = element.parentElement!.id === "lights" ? -2 * Number.parseFloat(getComputedStyle(element, "::after").top) : 0;
+      const more =
+        element.parentElement!.id === "lights" ? -2 * Number.parseFloat(getComputedStyle(element, "::after").top) : 0;
       return Math.min(width, height) + more < 43.9 ? `${element.id || element.textContent}: ${width} × ${height}` : [];
     });
   });
@@ -148,7 +196,10 @@ test("without WebGL a plain sentence says so", async () => {
 
 test("with the system's own colors one sees what is chosen", async () => {
   const page = await openReady("?sample=dragon_res4", { forcedColors: "active" });
-  const background = (text: string) => page.locator("#hidden-points label", { hasText: text }).evaluate((label) => getComputedStyle(label).backgroundColor);
+  const background = (text: string) =>
+    page
+      .locator("#hidden-points label", { hasText: text })
+      .evaluate((label) => getComputedStyle(label).backgroundColor);
   expect(await background("Off")).not.toBe(await background("Dimmed"));
   const freeze = page.getByRole("button", { name: "Freeze viewpoint" });
   const color = () => freeze.evaluate((button) => getComputedStyle(button).backgroundColor);
@@ -157,7 +208,13 @@ test("with the system's own colors one sees what is chosen", async () => {
   expect(await color()).not.toBe(before);
   // Whatever is pressed has the same color.
   await page.locator("#tool-pick").click();
-  const pressed = await page.locator('button[aria-pressed="true"]:not(#thumbnails *)').evaluateAll((buttons) => buttons.filter((button) => button.checkVisibility()).map((button) => [button.textContent, getComputedStyle(button).backgroundColor]));
+  const pressed = await page
+    .locator('button[aria-pressed="true"]:not(#thumbnails *)')
+    .evaluateAll((buttons) =>
+      buttons
+        .filter((button) => button.checkVisibility())
+        .map((button) => [button.textContent, getComputedStyle(button).backgroundColor]),
+    );
   expect(pressed.map(([name]) => name)).toEqual(expect.arrayContaining(["Pick", "Automatic", "Unfreeze viewpoint"]));
   expect(new Set(pressed.map(([, background]) => background)).size).toBe(1);
 });

@@ -34,9 +34,14 @@ test("all that is loaded for the first cloud, three.js, wasm and workers include
   await page.waitForFunction(() => document.querySelectorAll("#thumbnails img[src]").length > 0);
   const later = await page.evaluate(() => {
     const [{ startTime: ready }] = performance.getEntriesByName("first cloud") as [PerformanceEntry];
-    return performance.getEntriesByType("resource").filter(({ startTime }) => startTime >= ready).map(({ name }) => name);
+    return performance
+      .getEntriesByType("resource")
+      .filter(({ startTime }) => startTime >= ready)
+      .map(({ name }) => name);
   });
-  const asked = site.asked.slice(from).filter((name) => !name.startsWith("samples/") && !later.includes(site.address + name));
+  const asked = site.asked
+    .slice(from)
+    .filter((name) => !name.startsWith("samples/") && !later.includes(site.address + name));
   for (const name of asked) expect(existsSync(join(root, "www", "dist", name || "index.html")), name).toBe(true);
   const table = asked.map((name) => ({ file: name || "index.html", bytes: onTheWire(name) }));
   console.table(table);
@@ -48,23 +53,36 @@ test("all that is loaded for the first cloud, three.js, wasm and workers include
   await context.close();
 });
 
-test.for([{ viewport: { width: 1280, height: 800 } }, PHONE])("nothing moves about while the page loads ($viewport.width px)", async (options) => {
-  const page = await openPage("", options);
-  // As a visitor comes: the observer has to be there before anything is drawn.
-  await page.addInitScript(() => {
-    const shifts: { value: number; what: string[] }[] = [];
-    Object.assign(window, { shifts });
-    new PerformanceObserver((list) => {
-      for (const entry of list.getEntries() as (PerformanceEntry & { value: number; sources: { node: Node | null }[] })[]) {
-        shifts.push({ value: entry.value, what: entry.sources.map(({ node }) => (node instanceof Element ? node.id || node.tagName : String(node?.nodeName))) });
-      }
-    }).observe({ type: "layout-shift", buffered: true });
-  });
-  await page.goto(site.address + SMALL);
-  await reached(page, "ready");
-  await upToDate(page);
-  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
-  const shifts = await page.evaluate(() => (window as unknown as { shifts: { value: number; what: string[] }[] }).shifts);
-  const sum = shifts.reduce((total, { value }) => total + value, 0);
-  expect(sum, JSON.stringify(shifts)).toBeLessThan(0.02);
-});
+test.for([{ viewport: { width: 1280, height: 800 } }, PHONE])(
+  "nothing moves about while the page loads ($viewport.width px)",
+  async (options) => {
+    const page = await openPage("", options);
+    // As a visitor comes: the observer has to be there before anything is drawn.
+    await page.addInitScript(() => {
+      const shifts: { value: number; what: string[] }[] = [];
+      Object.assign(window, { shifts });
+      new PerformanceObserver((list) => {
+        for (const entry of list.getEntries() as (PerformanceEntry & {
+          value: number;
+          sources: { node: Node | null }[];
+        })[]) {
+          shifts.push({
+            value: entry.value,
+            what: entry.sources.map(({ node }) =>
+              node instanceof Element ? node.id || node.tagName : String(node?.nodeName),
+            ),
+          });
+        }
+      }).observe({ type: "layout-shift", buffered: true });
+    });
+    await page.goto(site.address + SMALL);
+    await reached(page, "ready");
+    await upToDate(page);
+    await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+    const shifts = await page.evaluate(
+      () => (window as unknown as { shifts: { value: number; what: string[] }[] }).shifts,
+    );
+    const sum = shifts.reduce((total, { value }) => total + value, 0);
+    expect(sum, JSON.stringify(shifts)).toBeLessThan(0.02);
+  },
+);

@@ -2,7 +2,20 @@ import type { VisibilityOptions } from "hidden-point-removal";
 import { ringOfViewpoints } from "hidden-point-removal";
 import { expect, test } from "vitest";
 import { ball, asciiPly } from "./clouds.js";
-import { answerInNode, drag, dragonPositions, inNode, middleOf, openReady, reached, served, status, type Status, unfold, upToDate } from "./support.js";
+import {
+  answerInNode,
+  drag,
+  dragonPositions,
+  inNode,
+  middleOf,
+  openReady,
+  reached,
+  served,
+  status,
+  type Status,
+  unfold,
+  upToDate,
+} from "./support.js";
 
 const SAMPLE = "?sample=dragon_res4";
 const positions = dragonPositions("_res4");
@@ -30,7 +43,10 @@ test("the radius is found by any of the rules, and kept by hand", async () => {
   const byHand = await upToDate(page);
   expect(byHand).toMatchObject(await answerInNode(positions, byHand, { exponent: 1.5 }));
   // The mark on the track stays where the automatic radius is, from 0 to 6.
-  const mark = () => page.locator(".slider:has(#exponent)").evaluate((slider) => Number(getComputedStyle(slider).getPropertyValue("--mark")));
+  const mark = () =>
+    page
+      .locator(".slider:has(#exponent)")
+      .evaluate((slider) => Number(getComputedStyle(slider).getPropertyValue("--mark")));
   await expect.poll(mark).toBeCloseTo(automatic.exponent / 6, 6);
 });
 
@@ -41,7 +57,9 @@ test("while the camera moves the automatic radius stands in for a slow rule", as
   const evaluations = await page.evaluateHandle(() => {
     const seen: string[] = [];
     const line = document.getElementById("status")!;
-    new MutationObserver(() => seen.push(line.dataset["evaluations"]!)).observe(line, { attributeFilter: ["data-evaluations"] });
+    new MutationObserver(() => seen.push(line.dataset["evaluations"]!)).observe(line, {
+      attributeFilter: ["data-evaluations"],
+    });
     return seen;
   });
   await drag(page, 120, 20);
@@ -58,7 +76,10 @@ test("a radius in the cloud's units is used as it is; one that is too small is s
   expect(await upToDate(page)).toMatchObject(await expected(await status(page), { radius: 25 }));
   // Also where the first answer is by hand, the mark is at the automatic exponent.
   const { exponent } = await inNode(positions, (cloud) => cloud.autoRadius([0.1, 0.2, 0.3]));
-  const mark = () => page.locator(".slider:has(#exponent)").evaluate((slider) => Number(getComputedStyle(slider).getPropertyValue("--mark")));
+  const mark = () =>
+    page
+      .locator(".slider:has(#exponent)")
+      .evaluate((slider) => Number(getComputedStyle(slider).getPropertyValue("--mark")));
   await expect.poll(mark).toBeCloseTo(exponent / 6, 6);
   const small = await openReady(`${SAMPLE}&view=0.1,0.2,0.3&radius=0.01`);
   const now = await upToDate(small);
@@ -71,7 +92,9 @@ test("exponential flipping has its own parameter and no radius", async () => {
   await unfold(page, "Flip and viewpoints");
   await page.getByRole("radio", { name: "Exponential" }).check();
   const now = await upToDate(page);
-  const automatic = await inNode(positions, (cloud) => cloud.visibleFrom(now.viewpoint, { inversion: { exponential: "auto" } }));
+  const automatic = await inNode(positions, (cloud) =>
+    cloud.visibleFrom(now.viewpoint, { inversion: { exponential: "auto" } }),
+  );
   expect(now.visible).toBe(automatic.count);
   const { exponential } = automatic.inversion as { exponential: number };
   expect(now.inversion).toBe(`exponential:${exponential}`);
@@ -84,7 +107,9 @@ test("exponential flipping has its own parameter and no radius", async () => {
   const larger = await upToDate(page);
   const c = Number(larger.inversion.split(":")[1]);
   expect(c / exponential).toBeCloseTo(10 ** -0.5 / 0.07, 2);
-  expect(larger.visible).toBe(await inNode(positions, (cloud) => cloud.visibleFrom(larger.viewpoint, { inversion: { exponential: c } }).count));
+  expect(larger.visible).toBe(
+    await inNode(positions, (cloud) => cloud.visibleFrom(larger.viewpoint, { inversion: { exponential: c } }).count),
+  );
   await page.locator("#scale-auto").click();
   expect((await upToDate(page)).visible).toBe(now.visible);
 });
@@ -97,7 +122,8 @@ test("flipping by a power starts where pits are seen as deep as with the automat
   const now = await upToDate(page);
   const power = Number(now.inversion.split(":")[1]);
   expect(power / (power - 1)).toBeCloseTo(2 * 10 ** exponent, 0);
-  const count = (of: Status, gamma: number) => inNode(positions, (cloud) => cloud.visibleFrom(of.viewpoint, { inversion: { power: gamma } }).count);
+  const count = (of: Status, gamma: number) =>
+    inNode(positions, (cloud) => cloud.visibleFrom(of.viewpoint, { inversion: { power: gamma } }).count);
   expect(now.visible).toBe(await count(now, power));
 
   await page.getByLabel("γ in d^−γ").fill("0");
@@ -110,7 +136,10 @@ test("several viewpoints give the union, or what two of them see", async () => {
   const page = await openReady(SAMPLE);
   await unfold(page, "Flip and viewpoints");
   const one = await status(page);
-  const five = (viewpoint: number[]) => [viewpoint, ...ringOfViewpoints(viewpoint, middleOf(positions), { count: 4, fraction: 0.05 })];
+  const five = (viewpoint: number[]) => [
+    viewpoint,
+    ...ringOfViewpoints(viewpoint, middleOf(positions), { count: 4, fraction: 0.05 }),
+  ];
 
   await page.getByRole("radio", { name: "Any of 5" }).check();
   const any = await upToDate(page);
@@ -140,7 +169,9 @@ test("more neighbors than there are points are said, and nothing breaks", async 
   served.set("clouds/few.ply", asciiPly(ball(20)));
   const page = await openReady("?src=clouds/few.ply&denoise=32");
   expect((await reached(page, "ready")).total).toBe(20);
-  expect(await page.locator("#message p").textContent()).toMatch(/do not suit this cloud .*: noise is told by the 32 nearest of each point, and there are too few points for that\.$/);
+  expect(await page.locator("#message p").textContent()).toMatch(
+    /do not suit this cloud .*: noise is told by the 32 nearest of each point, and there are too few points for that\.$/,
+  );
   // What the address has set is unfolded.
   await page.locator("#denoise").getByRole("radio", { name: "6", exact: true }).check();
   await upToDate(page);

@@ -41,9 +41,16 @@ async function kept(page: Page): Promise<void> {
 async function stored(page: Page): Promise<Record<string, string[]>> {
   const stores = await page.evaluate(async () => {
     const names = await caches.keys();
-    return Promise.all(names.map(async (name) => [name, (await (await caches.open(name)).keys()).map(({ url }) => url)] as const));
+    return Promise.all(
+      names.map(async (name) => [name, (await (await caches.open(name)).keys()).map(({ url }) => url)] as const),
+    );
   });
-  return Object.fromEntries(stores.map(([name, addresses]) => [name.split(" ").at(-1)!, addresses.map((address) => address.replace(site.address, ""))]));
+  return Object.fromEntries(
+    stores.map(([name, addresses]) => [
+      name.split(" ").at(-1)!,
+      addresses.map((address) => address.replace(site.address, "")),
+    ]),
+  );
 }
 
 function dist(name: string): string {
@@ -84,7 +91,9 @@ test("kept are the page's own files and samples that were opened, and no file of
   await kept(page);
   await page.goto(`${site.address}?src=clouds/own.ply`);
   await reached(page, "ready");
-  await page.locator("#file").setInputFiles({ name: "mine.ply", mimeType: "", buffer: Buffer.from(asciiPly(ball(60))) });
+  await page
+    .locator("#file")
+    .setInputFiles({ name: "mine.ply", mimeType: "", buffer: Buffer.from(asciiPly(ball(60))) });
   await page.locator('#status[data-total="60"]').waitFor({ state: "attached" });
 
   const { samples, ...stores } = await stored(page);
@@ -92,7 +101,8 @@ test("kept are the page's own files and samples that were opened, and no file of
   expect(Object.keys(stores)).toHaveLength(1);
   const own = Object.values(stores)[0]!;
   expect(own).toContain("");
-  for (const name of own) expect(name === "" || /^(assets|thumbnails)\/[\w.-]+$|^icon\.svg$|^page\.webmanifest$/.test(name), name).toBe(true);
+  for (const name of own)
+    expect(name === "" || /^(assets|thumbnails)\/[\w.-]+$|^icon\.svg$|^page\.webmanifest$/.test(name), name).toBe(true);
   // Nothing of it was asked for before the cloud was there.
   const first = site.asked.indexOf("service-worker.js");
   expect(first).toBeGreaterThan(site.asked.indexOf("samples/bunny.bin"));
@@ -119,13 +129,18 @@ test("a newer build wins at the next load, and is never mixed with the one befor
   expect(await build(old)).toBe("newer");
   // The new one waits, complete, until no page of the old one is open.
   await old.evaluate(() => navigator.serviceWorker.getRegistration().then((registration) => registration!.update()));
-  await old.waitForFunction(() => navigator.serviceWorker.getRegistration().then((registration) => registration!.waiting !== null));
+  await old.waitForFunction(() =>
+    navigator.serviceWorker.getRegistration().then((registration) => registration!.waiting !== null),
+  );
   expect(Object.keys(await stored(old)).sort()).toEqual([version, "newer", "samples"].sort());
   await old.close();
 
   // A tab is gone a moment after it was closed; one that is opened before that belongs to the old worker, and keeps it.
   let next = await visit();
-  const takenOver = async () => Object.keys(await stored(next)).sort().join() === "newer,samples";
+  const takenOver = async () =>
+    Object.keys(await stored(next))
+      .sort()
+      .join() === "newer,samples";
   for (let visits = 1; visits < 10 && !(await takenOver()); visits++) {
     await next.close();
     await new Promise((resolve) => setTimeout(resolve, 500));

@@ -63,14 +63,16 @@ it("draws what is visible, in a frame that it asked for", async () => {
     state.invalidate();
   });
   // One frame to ask, another to draw the answer.
-  await page.waitForFunction(
-    ([frames, changes]) => {
-      const { app } = globalThis as unknown as { app: App };
-      return app.frames >= frames! + 2 && app.changes.length === changes! + 1;
-    },
-    before,
-  );
-  expect(await inPage(({ points }) => [...(points!.geometry.index!.array as Uint32Array).subarray(0, 1000)].filter((i) => i % 2 === 0).length)).toBeLessThan(200);
+  await page.waitForFunction(([frames, changes]) => {
+    const { app } = globalThis as unknown as { app: App };
+    return app.frames >= frames! + 2 && app.changes.length === changes! + 1;
+  }, before);
+  expect(
+    await inPage(
+      ({ points }) =>
+        [...(points!.geometry.index!.array as Uint32Array).subarray(0, 1000)].filter((i) => i % 2 === 0).length,
+    ),
+  ).toBeLessThan(200);
   expect(failures).toEqual([]);
 });
 

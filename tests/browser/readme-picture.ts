@@ -49,7 +49,9 @@ site.close();
 function sideBySide(canvasPage: Page, sources: Half[]): Promise<string> {
   return canvasPage.evaluate(async (parts) => {
     const bitmaps = await Promise.all(
-      parts.map(async ({ image: source }) => createImageBitmap(await (await fetch(`data:image/png;base64,${source}`)).blob())),
+      parts.map(async ({ image: source }) =>
+        createImageBitmap(await (await fetch(`data:image/png;base64,${source}`)).blob()),
+      ),
     );
     const canvas = document.createElement("canvas");
     canvas.width = bitmaps.reduce((sum, bitmap) => sum + bitmap.width, 0);

@@ -24,20 +24,29 @@ afterAll(async () => {
   site.close();
 });
 
-it.each(blocks("docs/RECIPES.md", "jsx").map((code, i) => [i, code] as const))("page %i prints what it says", async (i, code) => {
-  const source = join(root, "target/recipes", `page-${i}`);
-  mkdirSync(source, { recursive: true });
-  writeFileSync(join(source, "page.jsx"), code);
-  const html = '<link rel="icon" href="data:,"><div id="root" style="height: 300px"></div><script type="module" src="./page.jsx"></script>';
-  writeFileSync(join(source, "index.html"), `<!doctype html>${html}`);
-  const path = await builtFrom(source, `recipe-${i}`);
+it.each(blocks("docs/RECIPES.md", "jsx").map((code, i) => [i, code] as const))(
+  "page %i prints what it says",
+  async (i, code) => {
+    const source = join(root, "target/recipes", `page-${i}`);
+    mkdirSync(source, { recursive: true });
+    writeFileSync(join(source, "page.jsx"), code);
+    const html =
+      '<link rel="icon" href="data:,"><div id="root" style="height: 300px"></div><script type="module" src="./page.jsx"></script>';
+    writeFileSync(join(source, "index.html"), `<!doctype html>${html}`);
+    const path = await builtFrom(source, `recipe-${i}`);
 
-  const page = await browser.newPage();
-  const [lines, failures]: string[][] = [[], []];
-  page.on("console", (message) => message.type() === "log" && lines!.push(message.text()));
-  page.on("pageerror", (error) => failures!.push(String(error)));
-  await page.goto(site.address + path);
-  await vi.waitFor(() => { expect(lines).toEqual(promised(code)); }, { timeout: 60_000 });
-  expect(failures).toEqual([]);
-  await page.close();
-});
+    const page = await browser.newPage();
+    const [lines, failures]: string[][] = [[], []];
+    page.on("console", (message) => message.type() === "log" && lines!.push(message.text()));
+    page.on("pageerror", (error) => failures!.push(String(error)));
+    await page.goto(site.address + path);
+    await vi.waitFor(
+      () => {
+        expect(lines).toEqual(promised(code));
+      },
+      { timeout: 60_000 },
+    );
+    expect(failures).toEqual([]);
+    await page.close();
+  },
+);

@@ -1,7 +1,17 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { asciiPly } from "./clouds.js";
-import { brightness, differentPixels, EVERY_PIXEL, openReady, picture, served, status, unfold, upToDate } from "./support.js";
+import {
+  brightness,
+  differentPixels,
+  EVERY_PIXEL,
+  openReady,
+  picture,
+  served,
+  status,
+  unfold,
+  upToDate,
+} from "./support.js";
 
 /** A wall of two by two, and a small plate before its middle. */
 function wall(): number[] {
@@ -115,7 +125,9 @@ test("lights are added, dragged, moved by keys, brought to the camera and remove
   await expect.poll(async () => (await lightsInAddress(page, 1))[0]).not.toEqual(viewpoint);
   const [beside] = await lightsInAddress(page, 1);
   expect(beside).not.toEqual(viewpoint);
-  expect(Math.hypot(...beside!.map((value, axis) => value - viewpoint[axis]!))).toBeLessThan(0.1 * Math.hypot(...viewpoint));
+  expect(Math.hypot(...beside!.map((value, axis) => value - viewpoint[axis]!))).toBeLessThan(
+    0.1 * Math.hypot(...viewpoint),
+  );
 
   await page.getByRole("button", { name: "Add a light" }).click();
   expect((await upToDate(page)).lights).toBe(2);

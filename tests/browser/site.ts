@@ -31,7 +31,10 @@ export interface Site {
 }
 
 /** Serves the built page, and `extra` files beside it or in the place of its own; with `headers` such as those that let other sites have them. */
-export async function servePage(extra: ReadonlyMap<string, Uint8Array> = new Map(), headers: Record<string, string> = {}): Promise<Site> {
+export async function servePage(
+  extra: ReadonlyMap<string, Uint8Array> = new Map(),
+  headers: Record<string, string> = {},
+): Promise<Site> {
   const asked: string[] = [];
   const server = createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url!, "http://localhost").pathname);
@@ -46,7 +49,10 @@ export async function servePage(extra: ReadonlyMap<string, Uint8Array> = new Map
       response.end(body.subarray(Number(range[1]), Number(range[2]) + 1));
       return;
     }
-    response.writeHead(body ? 200 : 404, { ...headers, "content-type": TYPES[extname(file)] ?? "application/octet-stream" });
+    response.writeHead(body ? 200 : 404, {
+      ...headers,
+      "content-type": TYPES[extname(file)] ?? "application/octet-stream",
+    });
     response.end(body);
   });
   await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));

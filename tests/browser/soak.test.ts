@@ -25,7 +25,10 @@ function expectNoMore(after: MemoryUse & Holdings, before: MemoryUse & Holdings)
 async function step(page: Page, key: string): Promise<void> {
   const { refilters } = await status(page);
   await page.locator("#view").press(key);
-  await page.waitForFunction((before) => Number(document.getElementById("status")!.dataset["refilters"]) > before, refilters);
+  await page.waitForFunction(
+    (before) => Number(document.getElementById("status")!.dataset["refilters"]) > before,
+    refilters,
+  );
   await upToDate(page);
 }
 
@@ -37,7 +40,12 @@ async function change(page: Page, sample: string, total: number): Promise<void> 
 
 /** Wherever it is folded away. */
 async function press(page: Page, selector: string): Promise<void> {
-  await page.locator(selector).first().evaluate((element: HTMLElement) => { element.click(); });
+  await page
+    .locator(selector)
+    .first()
+    .evaluate((element: HTMLElement) => {
+      element.click();
+    });
   await upToDate(page);
 }
 
@@ -56,7 +64,8 @@ async function around(page: Page): Promise<void> {
   await press(page, "#select-all");
   await press(page, "#select-clear");
   await press(page, "#tool-measure");
-  for (const end of ["first", "second"]) await page.locator("#view").click({ position: { x: end === "first" ? 180 : 200, y: 200 } });
+  for (const end of ["first", "second"])
+    await page.locator("#view").click({ position: { x: end === "first" ? 180 : 200, y: 200 } });
   await press(page, "#measure-clear");
   await press(page, "#tool-measure");
 }

@@ -7,7 +7,13 @@ import { expect, test } from "vitest";
 test("the server of npm start has the samples the first time it runs", async () => {
   const publicDir = mkdtempSync(join(tmpdir(), "hpr-public-"));
   const root = join(import.meta.dirname, "../../www");
-  const server = await createServer({ root, publicDir, configLoader: "runner", logLevel: "error", server: { host: "127.0.0.1", port: 0 } });
+  const server = await createServer({
+    root,
+    publicDir,
+    configLoader: "runner",
+    logLevel: "error",
+    server: { host: "127.0.0.1", port: 0 },
+  });
   try {
     await server.listen();
     const bunny = await fetch(new URL("samples/bunny.bin", server.resolvedUrls!.local[0]));

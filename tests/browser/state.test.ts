@@ -28,7 +28,17 @@ test("the address, copied, shows the same cloud, camera and settings again", asy
   await drag(page, 90, 40);
   const query = await written(page);
   expect(query).toMatch(/^\?sample=dragon_res4&/);
-  for (const part of ["show=surface", "edge=8", "soft=0.2", "inversion=exponential", "hidden=dimmed", "size=2", "fov=30", "light=", "view="]) {
+  for (const part of [
+    "show=surface",
+    "edge=8",
+    "soft=0.2",
+    "inversion=exponential",
+    "hidden=dimmed",
+    "size=2",
+    "fov=30",
+    "light=",
+    "view=",
+  ]) {
     expect(query).toContain(part);
   }
   const before = same(await upToDate(page));
@@ -52,7 +62,8 @@ test("points, a rule, a ring, noise, a frozen viewpoint and a side that is up co
   await page.getByRole("button", { name: "Freeze viewpoint" }).click();
   await drag(page, 120, 0);
   const query = await written(page);
-  for (const part of ["radius=search", "viewpoints=two", "denoise=6", "up=z", "freeze=", "view="]) expect(query).toContain(part);
+  for (const part of ["radius=search", "viewpoints=two", "denoise=6", "up=z", "freeze=", "view="])
+    expect(query).toContain(part);
   const again = await openReady(query);
   expect(same(await upToDate(again))).toEqual(same(await upToDate(page)));
   expect(await again.getByRole("button", { name: "Unfreeze viewpoint" }).isVisible()).toBe(true);
@@ -83,7 +94,26 @@ test("everything the address cannot have is named", async () => {
     "?sample=bunny&radius=-1&inversion=power:17&viewpoints=six&denoise=1.5&vote=x&show=mesh&edge=0&light=1,2&soft=2&ambient=-1&smoothing=z&freeze=1&hidden=maybe&size=0&fov=400&up=x&target=1,2&embed=yes",
   );
   const message = (await page.locator("#message p").textContent())!;
-  const named = [/radius/, /inversion/, /viewpoints/, /denoise/, /vote/, /kind of picture/, /longest edge/, /light/, /softness/, /ambient/, /smoothing/, /frozen viewpoint/, /hidden points/, /point size/, /field of view/, /side that is up/, /target/, /embed/];
+  const named = [
+    /radius/,
+    /inversion/,
+    /viewpoints/,
+    /denoise/,
+    /vote/,
+    /kind of picture/,
+    /longest edge/,
+    /light/,
+    /softness/,
+    /ambient/,
+    /smoothing/,
+    /frozen viewpoint/,
+    /hidden points/,
+    /point size/,
+    /field of view/,
+    /side that is up/,
+    /target/,
+    /embed/,
+  ];
   for (const name of named) expect(message).toMatch(name);
   const usual = await openReady("?sample=bunny");
   expect(same(await upToDate(page))).toEqual(same(await status(usual)));
@@ -112,7 +142,8 @@ test("?embed=1 is the picture alone", async () => {
   await upToDate(page);
   const box = (await page.locator("#view").boundingBox())!;
   expect(box).toMatchObject({ x: 0, y: 0, width: 1000, height: 700 });
-  for (const chrome of ["#sheet", "#hidden-points", "#tools", "#lights", "#progress"]) expect(await page.locator(chrome).isVisible()).toBe(false);
+  for (const chrome of ["#sheet", "#hidden-points", "#tools", "#lights", "#progress"])
+    expect(await page.locator(chrome).isVisible()).toBe(false);
   expect((await status(page)).total).toBe(5205);
 
   // Screen readers hear of it; tools that nobody sees do not take the drags; the link shows all of it as it is.
@@ -122,7 +153,10 @@ test("?embed=1 is the picture alone", async () => {
   await page.keyboard.press("ArrowLeft");
   expect(await page.locator("#stage").getAttribute("data-uses")).toBeNull();
   const now = await written(page);
-  const [whole] = await Promise.all([page.context().waitForEvent("page"), page.getByRole("link", { name: "Whole page" }).click()]);
+  const [whole] = await Promise.all([
+    page.context().waitForEvent("page"),
+    page.getByRole("link", { name: "Whole page" }).click(),
+  ]);
   expect(new URL(whole.url()).search).toBe(now.replace("&embed=1", ""));
 });
 

@@ -10,7 +10,16 @@ import { openPage, served } from "./support.js";
 export interface Heard {
   id: string;
   type: string;
-  detail: { total?: number; count?: number; viewpoint?: [number, number, number]; radius?: number; index?: number; code?: string; attribute?: string; message?: string };
+  detail: {
+    total?: number;
+    count?: number;
+    viewpoint?: [number, number, number];
+    radius?: number;
+    index?: number;
+    code?: string;
+    attribute?: string;
+    message?: string;
+  };
 }
 
 const SCRIPT = `
@@ -46,7 +55,10 @@ export async function openStranger(address: string, body: string, more = ""): Pr
   const head = `<meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="${policyFor(new URL(address).origin)}"><link rel="icon" href="data:,">`;
   const scripts = `<script src="stranger.js"></script><script type="module" src="${address}hidden-point-cloud.js"></script>`;
   served.set("stranger.js", Buffer.from(SCRIPT));
-  served.set("stranger.html", Buffer.from(`<!doctype html><html lang="en"><head>${head}${scripts}</head><body>${body}${more}</body></html>`));
+  served.set(
+    "stranger.html",
+    Buffer.from(`<!doctype html><html lang="en"><head>${head}${scripts}</head><body>${body}${more}</body></html>`),
+  );
   return openPage("stranger.html");
 }
 
@@ -59,23 +71,38 @@ export async function settledState(page: Page, id: string): Promise<string> {
 }
 
 /** Something asked of an element in the page. */
-export function element<T, Given = undefined>(page: Page, id: string, ask: (cloud: HiddenPointCloudElement, given: Given) => T | Promise<T>, given?: Given): Promise<T> {
+export function element<T, Given = undefined>(
+  page: Page,
+  id: string,
+  ask: (cloud: HiddenPointCloudElement, given: Given) => T | Promise<T>,
+  given?: Given,
+): Promise<T> {
   return page.locator(`#${id}`).evaluate<T, Given | undefined, HiddenPointCloudElement>(ask as never, given);
 }
 
 export function heardBy(page: Page, id: string, type: string): Promise<Heard["detail"][]> {
   return page.evaluate(
-    ([who, what]) => (globalThis as unknown as { heard: Heard[] }).heard.filter((told) => told.id === who && told.type === what).map(({ detail }) => detail),
+    ([who, what]) =>
+      (globalThis as unknown as { heard: Heard[] }).heard
+        .filter((told) => told.id === who && told.type === what)
+        .map(({ detail }) => detail),
     [id, type] as const,
   );
 }
 
 /** Waits until the element tells something of that kind once more, while `act` is done. */
-export async function hears(page: Page, id: string, type: string, act: () => Promise<unknown>): Promise<Heard["detail"]> {
+export async function hears(
+  page: Page,
+  id: string,
+  type: string,
+  act: () => Promise<unknown>,
+): Promise<Heard["detail"]> {
   const before = (await heardBy(page, id, type)).length;
   await act();
   await page.waitForFunction(
-    ([who, what, count]) => (globalThis as unknown as { heard: Heard[] }).heard.filter((told) => told.id === who && told.type === what).length > count,
+    ([who, what, count]) =>
+      (globalThis as unknown as { heard: Heard[] }).heard.filter((told) => told.id === who && told.type === what)
+        .length > count,
     [id, type, before] as const,
     { timeout: 60_000 },
   );

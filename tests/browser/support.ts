@@ -46,10 +46,19 @@ export function provoke(pattern: RegExp): void {
 }
 
 /** `prepare`: done with the page before it is opened. */
-export async function openPage(query = "", options: BrowserContextOptions = {}, prepare?: (page: Page) => Promise<void>): Promise<Page> {
+export async function openPage(
+  query = "",
+  options: BrowserContextOptions = {},
+  prepare?: (page: Page) => Promise<void>,
+): Promise<Page> {
   // Each page is the first visit: what stays between visits has tests of its own (offline.test.ts).
   // Nearly all time goes into drawing in software: a quarter of the pixels, in a layout that is the same, takes half of it.
-  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, deviceScaleFactor: 0.5, serviceWorkers: "block", ...options });
+  const context = await browser.newContext({
+    viewport: { width: 1000, height: 700 },
+    deviceScaleFactor: 0.5,
+    serviceWorkers: "block",
+    ...options,
+  });
   const page = await context.newPage();
   pages.push(page);
   page.on("console", (message) => {
@@ -62,7 +71,11 @@ export async function openPage(query = "", options: BrowserContextOptions = {}, 
 }
 
 /** Opens the page and waits until its cloud is there. */
-export async function openReady(query = "", options: BrowserContextOptions = {}, prepare?: (page: Page) => Promise<void>): Promise<Page> {
+export async function openReady(
+  query = "",
+  options: BrowserContextOptions = {},
+  prepare?: (page: Page) => Promise<void>,
+): Promise<Page> {
   const page = await openPage(query, options, prepare);
   await reached(page, "ready");
   return page;
@@ -91,7 +104,14 @@ export async function status(page: Page): Promise<Status> {
   return page.locator("#status").evaluate((element: HTMLElement) => {
     const { state, viewpoint, show, inversion, ...numbers } = element.dataset;
     const values = Object.fromEntries(Object.entries(numbers).map(([name, value]) => [name, Number(value)]));
-    return { ...values, state, show, inversion, viewpoint: viewpoint?.split(",").map(Number), sentence: element.textContent } as unknown as Status;
+    return {
+      ...values,
+      state,
+      show,
+      inversion,
+      viewpoint: viewpoint?.split(",").map(Number),
+      sentence: element.textContent,
+    } as unknown as Status;
   });
 }
 
@@ -122,7 +142,7 @@ export async function settled(page: Page): Promise<Status> {
     const { dataset } = document.getElementById("status")!;
     const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
     let last = dataset["refilters"];
-    for (let quiet = 0; quiet < 10; ) {
+    for (let quiet = 0; quiet < 10;) {
       await frame();
       quiet = dataset["refilters"] === last && dataset["busy"] === "0" ? quiet + 1 : 0;
       last = dataset["refilters"];
@@ -184,7 +204,8 @@ export function dragonPositions(resolution = ""): Float32Array {
 export function middleOf(positions: ArrayLike<number>): number[] {
   return [0, 1, 2].map((axis) => {
     let [low, high] = [Infinity, -Infinity];
-    for (let i = axis; i < positions.length; i += 3) [low, high] = [Math.min(low, positions[i]!), Math.max(high, positions[i]!)];
+    for (let i = axis; i < positions.length; i += 3)
+      [low, high] = [Math.min(low, positions[i]!), Math.max(high, positions[i]!)];
     return low / 2 + high / 2;
   });
 }

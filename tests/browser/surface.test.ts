@@ -1,5 +1,16 @@
 import { expect, test } from "vitest";
-import { differentPixels, drag, dragonPositions, inNode, openReady, picture, status, type Status, unfold, upToDate } from "./support.js";
+import {
+  differentPixels,
+  drag,
+  dragonPositions,
+  inNode,
+  openReady,
+  picture,
+  status,
+  type Status,
+  unfold,
+  upToDate,
+} from "./support.js";
 
 const SAMPLE = "?sample=dragon_res4";
 const positions = dragonPositions("_res4");
@@ -19,7 +30,9 @@ test("the surface is that of the library, also while orbiting, and its edges can
   expect(surface.show).toBe("surface");
   expect(surface).toMatchObject(await expected(surface));
   expect(await differentPixels(page, points, await picture(page))).toBeGreaterThan(5000);
-  expect(await page.locator("#surface-note").textContent()).toContain(new Intl.NumberFormat("en-US").format(surface.triangles!));
+  expect(await page.locator("#surface-note").textContent()).toContain(
+    new Intl.NumberFormat("en-US").format(surface.triangles!),
+  );
 
   await drag(page, 150, 30);
   const orbited = await upToDate(page);
@@ -43,7 +56,12 @@ test("the surface is that of the library, also while orbiting, and its edges can
 test("an edge counts in spacings", async () => {
   const page = await openReady(`${SAMPLE}&show=surface&edge=2.5`);
   const now = await upToDate(page);
-  const spacing = await inNode(positions, (cloud) => (cloud.visibleFrom(now.viewpoint, { inversion: { exponential: "auto" } }).inversion as { exponential: number }).exponential / 0.07);
+  const spacing = await inNode(
+    positions,
+    (cloud) =>
+      (cloud.visibleFrom(now.viewpoint, { inversion: { exponential: "auto" } }).inversion as { exponential: number })
+        .exponential / 0.07,
+  );
   expect(now).toMatchObject(await expected(now, 2.5 * spacing));
 });
 
@@ -69,7 +87,11 @@ test("a frozen surface is flown around, with the viewpoint marked", async () => 
   await page.getByRole("button", { name: "Freeze viewpoint" }).click();
   await drag(page, 250, 0);
   const turned = await upToDate(page);
-  expect(turned).toMatchObject({ viewpoint: before.viewpoint, triangles: before.triangles, refilters: before.refilters });
+  expect(turned).toMatchObject({
+    viewpoint: before.viewpoint,
+    triangles: before.triangles,
+    refilters: before.refilters,
+  });
   // Backwards, until the marker is in the picture: its accent color is nowhere else.
   const accent = async () => {
     const image = (await picture(page)).toString("base64");

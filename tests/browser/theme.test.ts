@@ -13,7 +13,11 @@ const OTHER: Record<ThemeName, ThemeName> = { dark: "light", light: "dark" };
 async function colors(page: Page): Promise<Record<string, string>> {
   const corner = await pixel(page, await picture(page), 4, 4);
   const own = await page.evaluate(() => {
-    const hex = (css: string) => `#${css.match(/\d+/g)!.map((value) => Number(value).toString(16).padStart(2, "0")).join("")}`;
+    const hex = (css: string) =>
+      `#${css
+        .match(/\d+/g)!
+        .map((value) => Number(value).toString(16).padStart(2, "0"))
+        .join("")}`;
     return {
       body: hex(getComputedStyle(document.body).backgroundColor),
       scheme: getComputedStyle(document.documentElement).colorScheme,

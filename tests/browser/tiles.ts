@@ -38,10 +38,12 @@ function cellOf(name: string, corner: Point, side: number, points: Point[], leve
     const number = BITS.reduce((sum, bit, axis) => sum + (point[axis]! >= corner[axis]! + half ? bit : 0), 0);
     eighths.set(number, [...(eighths.get(number) ?? []), point]);
   }
-  const children = [...eighths].sort(([a], [b]) => a - b).map(([number, inside]) => {
-    const low = corner.map((x, axis) => x + (number & BITS[axis]! ? half : 0));
-    return cellOf(`${name}${number}`, low, half, inside, levels - 1);
-  });
+  const children = [...eighths]
+    .sort(([a], [b]) => a - b)
+    .map(([number, inside]) => {
+      const low = corner.map((x, axis) => x + (number & BITS[axis]! ? half : 0));
+      return cellOf(`${name}${number}`, low, half, inside, levels - 1);
+    });
   return { name, corner, side, points: points.filter((_, i) => i % 5 === 0), children };
 }
 
@@ -57,12 +59,20 @@ function cellsBelow(root: Cell): Cell[] {
 export function potreeFiles(): Files {
   const cells = cellsBelow(rootCell());
   const hierarchy = Buffer.alloc(22 * cells.length);
-  const octree = Buffer.from(Int32Array.from(cells.flatMap(({ points }) => points.flat()), (x) => x / UNIT).buffer);
+  const octree = Buffer.from(
+    Int32Array.from(
+      cells.flatMap(({ points }) => points.flat()),
+      (x) => x / UNIT,
+    ).buffer,
+  );
   let offset = 0;
   cells.forEach(({ points, children }, i) => {
     const size = 12 * points.length;
     hierarchy.writeUInt8(children.length === 0 ? 1 : 0, 22 * i);
-    hierarchy.writeUInt8(children.reduce((mask, { name }) => mask | (1 << Number(name.at(-1))), 0), 22 * i + 1);
+    hierarchy.writeUInt8(
+      children.reduce((mask, { name }) => mask | (1 << Number(name.at(-1))), 0),
+      22 * i + 1,
+    );
     hierarchy.writeUInt32LE(points.length, 22 * i + 2);
     hierarchy.writeBigInt64LE(BigInt(offset), 22 * i + 6);
     hierarchy.writeBigInt64LE(BigInt(size), 22 * i + 14);

@@ -9,7 +9,12 @@ const COLOR = (index: number) => [index % 256, (7 * index) % 256, 255 - (index %
 /** The ball with a color and an intensity for each point, as some scanner might write it. */
 function coloredPly(): Uint8Array {
   const head = ["ply", "format binary_little_endian 1.0", `element vertex ${everything.length}`];
-  const properties = ["x", "y", "z"].map((axis) => `property double ${axis}`).concat(["red", "green", "blue"].map((channel) => `property uchar ${channel}`), "property ushort intensity");
+  const properties = ["x", "y", "z"]
+    .map((axis) => `property double ${axis}`)
+    .concat(
+      ["red", "green", "blue"].map((channel) => `property uchar ${channel}`),
+      "property ushort intensity",
+    );
   const body = Buffer.alloc(29 * everything.length);
   for (const index of everything) {
     for (const [axis, value] of at(index).entries()) body.writeDoubleLE(value, 29 * index + 8 * axis);
@@ -43,7 +48,13 @@ function readPly(file: Buffer): Ply {
   const next = (type: string) => {
     const bytes = { double: 8, float: 4, ushort: 2 }[type] ?? 1;
     offset += bytes;
-    return bytes === 8 ? file.readDoubleLE(offset - 8) : bytes === 4 ? file.readFloatLE(offset - 4) : bytes === 2 ? file.readUInt16LE(offset - 2) : file.readUInt8(offset - 1);
+    return bytes === 8
+      ? file.readDoubleLE(offset - 8)
+      : bytes === 4
+        ? file.readFloatLE(offset - 4)
+        : bytes === 2
+          ? file.readUInt16LE(offset - 2)
+          : file.readUInt8(offset - 1);
   };
   const rows = Array.from({ length: count }, () => properties.map((property) => next(property.split(" ")[0]!)));
   expect(offset).toBe(file.length);
@@ -58,16 +69,38 @@ test("the visible points, saved as PLY, JSON and CSV, are the package's own, wit
   const ply = await saved(page, "PLY");
   expect(ply.name).toBe("utm-visible.ply");
   const { properties, comments, rows } = readPly(ply.content);
-  expect(properties).toEqual(["double x", "double y", "double z", "uchar red", "uchar green", "uchar blue", "ushort intensity"]);
+  expect(properties).toEqual([
+    "double x",
+    "double y",
+    "double z",
+    "uchar red",
+    "uchar green",
+    "uchar blue",
+    "ushort intensity",
+  ]);
   expect(rows).toEqual(seen.map((index) => [...at(index), ...COLOR(index), 100 * index]));
   const { viewpoint, radius } = await status(page);
-  expect(comments).toEqual([`comment Visible points: ${seen.length} of 600`, `comment Seen from ${viewpoint.join(" ")}`, `comment Radius ${radius}`]);
+  expect(comments).toEqual([
+    `comment Visible points: ${seen.length} of 600`,
+    `comment Seen from ${viewpoint.join(" ")}`,
+    `comment Radius ${radius}`,
+  ]);
 
   const json = await saved(page, "JSON");
   expect(json.name).toBe("utm-visible.json");
-  expect(JSON.parse(json.content.toString())).toMatchObject({ cloud: "utm.ply", points: "visible", total: 600, viewpoint, radius, inversion: "spherical", indices: seen });
+  expect(JSON.parse(json.content.toString())).toMatchObject({
+    cloud: "utm.ply",
+    points: "visible",
+    total: 600,
+    viewpoint,
+    radius,
+    inversion: "spherical",
+    indices: seen,
+  });
   const csv = await saved(page, "CSV");
-  expect(csv.content.toString()).toBe(["index,x,y,z", ...seen.map((index) => [index, ...at(index)].join()), ""].join("\n"));
+  expect(csv.content.toString()).toBe(
+    ["index,x,y,z", ...seen.map((index) => [index, ...at(index)].join()), ""].join("\n"),
+  );
 
   // Opened again, the file is a cloud of as many points.
   const before = await status(page);
@@ -109,7 +142,9 @@ test("single precision stays single: a sample's points are saved bit by bit", as
   expect(properties).toEqual(["float x", "float y", "float z"]);
   const { visible: count } = await status(page);
   expect(rows.length).toBe(count);
-  const sample = await page.evaluate(async () => [...new Float32Array(await (await fetch("samples/bunny.bin")).arrayBuffer())]);
+  const sample = await page.evaluate(async () => [
+    ...new Float32Array(await (await fetch("samples/bunny.bin")).arrayBuffer()),
+  ]);
   const { indices } = JSON.parse((await saved(page, "JSON")).content.toString()) as { indices: number[] };
   expect(rows).toEqual(indices.map((index) => sample.slice(3 * index, 3 * index + 3)));
 });
@@ -121,7 +156,12 @@ test("the picture is saved as one sees it, marks included", async () => {
   const canvas = (await page.locator("#view").boundingBox())!;
   for (const shift of [-60, 60]) {
     // Wherever the next visible point is.
-    const places = await within(page, seen, { left: canvas.x + canvas.width / 2 + shift - 40, right: canvas.x + canvas.width / 2 + shift + 40, top: canvas.y + canvas.height / 2 - 40, bottom: canvas.y + canvas.height / 2 + 40 });
+    const places = await within(page, seen, {
+      left: canvas.x + canvas.width / 2 + shift - 40,
+      right: canvas.x + canvas.width / 2 + shift + 40,
+      top: canvas.y + canvas.height / 2 - 40,
+      bottom: canvas.y + canvas.height / 2 + 40,
+    });
     await clickPoint(page, places[0]!);
   }
   expect(await page.locator("#marks .measure").count()).toBe(1);
@@ -139,14 +179,20 @@ test("the picture is saved as one sees it, marks included", async () => {
 
 test("while the browser has taken the picture away, that is said, and none is saved", async () => {
   const page = await openBall();
-  const context = await page.evaluateHandle(() => document.querySelector<HTMLCanvasElement>("#view")!.getContext("webgl2")!.getExtension("WEBGL_lose_context")!);
-  await context.evaluate((extension) => { extension.loseContext(); });
+  const context = await page.evaluateHandle(() =>
+    document.querySelector<HTMLCanvasElement>("#view")!.getContext("webgl2")!.getExtension("WEBGL_lose_context")!,
+  );
+  await context.evaluate((extension) => {
+    extension.loseContext();
+  });
   const message = page.locator("#message p");
   await expect.poll(() => message.textContent()).toMatch(/^The browser has taken the picture away/);
   await tool(page, "Export").click();
   await page.getByRole("button", { name: "PNG" }).click();
   await expect.poll(() => page.locator("#export-result").textContent()).toMatch(/taken the picture away/);
-  await context.evaluate((extension) => { extension.restoreContext(); });
+  await context.evaluate((extension) => {
+    extension.restoreContext();
+  });
   await expect.poll(() => message.isVisible()).toBe(false);
   expect((await saved(page, "PNG")).content.length).toBeGreaterThan(1000);
 });
@@ -165,11 +211,19 @@ test("the copied link shows the same cloud, camera and settings", async () => {
   const before = await status(page);
   const again = await openReady(new URL(link).search);
   const { visible: count, viewpoint, radius } = await upToDate(again);
-  expect({ count, viewpoint, radius }).toEqual({ count: before.visible, viewpoint: before.viewpoint, radius: before.radius });
-  expect(await again.locator("#divider").getAttribute("aria-valuenow")).toBe(await page.locator("#divider").getAttribute("aria-valuenow"));
+  expect({ count, viewpoint, radius }).toEqual({
+    count: before.visible,
+    viewpoint: before.viewpoint,
+    radius: before.radius,
+  });
+  expect(await again.locator("#divider").getAttribute("aria-valuenow")).toBe(
+    await page.locator("#divider").getAttribute("aria-valuenow"),
+  );
 
   // No link opens a file on somebody's device.
-  await page.locator("#file").setInputFiles({ name: "own.xyz", mimeType: "", buffer: Buffer.from("0 0 0\n1 0 0\n0 1 0\n0 0 1\n") });
+  await page
+    .locator("#file")
+    .setInputFiles({ name: "own.xyz", mimeType: "", buffer: Buffer.from("0 0 0\n1 0 0\n0 1 0\n0 0 1\n") });
   await page.locator('#status[data-total="4"]').waitFor();
   await page.getByRole("button", { name: "Copy link" }).click();
   await expect.poll(() => page.locator("#export-result").textContent()).toMatch(/^No link can open/);

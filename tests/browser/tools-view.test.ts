@@ -1,7 +1,20 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { at, openBall, place, tool } from "./ball.js";
-import { differentPixels, drag, dragonPositions, inNode, openReady, PHONE, picture, refiltered, settled, status, unfold, upToDate } from "./support.js";
+import {
+  differentPixels,
+  drag,
+  dragonPositions,
+  inNode,
+  openReady,
+  PHONE,
+  picture,
+  refiltered,
+  settled,
+  status,
+  unfold,
+  upToDate,
+} from "./support.js";
 
 /** Where the divider is, in pixels from the left. */
 async function dividerAt(page: Page): Promise<number> {
@@ -27,7 +40,10 @@ test("the divider shows all points to its left and visible ones to its right, by
   await tool(page, "Compare").click();
   expect(await dividerAt(page)).toBeLessThan(x);
   const note = page.locator("#compare-note span");
-  expect(await note.allTextContents()).toEqual(["All 22,998 points", `${before.visible.toLocaleString("en-US")} seen from here`]);
+  expect(await note.allTextContents()).toEqual([
+    "All 22,998 points",
+    `${before.visible.toLocaleString("en-US")} seen from here`,
+  ]);
 
   await divider.hover();
   await page.mouse.down();
@@ -76,7 +92,9 @@ test("the bare page opens divided until the camera is first moved, and stays so 
 
 test("a divider that cannot be is named", async () => {
   const page = await openReady("?sample=dragon_res4&compare=2");
-  expect(await page.locator("#message p").textContent()).toBe("The place of the divider in the address is not a number from 0 to 1, so the picture is not divided.");
+  expect(await page.locator("#message p").textContent()).toBe(
+    "The place of the divider in the address is not a number from 0 to 1, so the picture is not divided.",
+  );
   expect(await page.locator("#divider").isVisible()).toBe(false);
 });
 
@@ -89,7 +107,10 @@ test("the plot is the visible share of this view at each exponent, and a click c
   const shares = () => plot.locator("circle title").allTextContents();
   const expected = ({ viewpoint }: { viewpoint: number[] }) =>
     inNode(dragonPositions("_res4"), (cloud) => {
-      return Array.from({ length: 13 }, (_, i) => `${i / 2}: ${((100 * cloud.visibleFrom(viewpoint, { exponent: i / 2 }).count) / 5205).toFixed(1)} %`);
+      return Array.from(
+        { length: 13 },
+        (_, i) => `${i / 2}: ${((100 * cloud.visibleFrom(viewpoint, { exponent: i / 2 }).count) / 5205).toFixed(1)} %`,
+      );
     });
   await complete();
   expect(await shares()).toEqual(await expected(before));
@@ -107,7 +128,9 @@ test("the plot is the visible share of this view at each exponent, and a click c
   await plot.click({ position: { x: ((34 + 238 / 3) / 280) * box.width, y: box.height / 2 } });
   const chosen = await refiltered(page, moved);
   expect(chosen.exponent).toBeCloseTo(2, 1);
-  expect(await page.getByLabel("Exponent", { exact: true }).inputValue()).toBe(String(Number(chosen.exponent.toFixed(2))));
+  expect(await page.getByLabel("Exponent", { exact: true }).inputValue()).toBe(
+    String(Number(chosen.exponent.toFixed(2))),
+  );
   // The automatic one stays where it was.
   expect(await plot.locator(".automatic").evaluate((line) => Number(line.getAttribute("x1")))).toBeCloseTo(mark, 6);
 });
@@ -118,10 +141,16 @@ test("the question mark opens the sheet with all keys; it keeps the focus and gi
   await page.keyboard.press("?");
   const sheet = page.getByRole("dialog", { name: "Mouse, touch and keys" });
   expect(await sheet.isVisible()).toBe(true);
-  for (const key of ["P", "M", "L", "S", "C", "E", "F", "H", "R", "?", "Esc"]) expect(await sheet.locator("kbd").allTextContents()).toContain(key);
+  for (const key of ["P", "M", "L", "S", "C", "E", "F", "H", "R", "?", "Esc"])
+    expect(await sheet.locator("kbd").allTextContents()).toContain(key);
   for (let i = 0; i < 5; i++) {
     await page.keyboard.press("Tab");
-    expect(await page.evaluate(() => document.activeElement === document.body || document.getElementById("keys")!.contains(document.activeElement))).toBe(true);
+    expect(
+      await page.evaluate(
+        () =>
+          document.activeElement === document.body || document.getElementById("keys")!.contains(document.activeElement),
+      ),
+    ).toBe(true);
   }
   await page.keyboard.press("Escape");
   expect(await sheet.isVisible()).toBe(false);
@@ -129,45 +158,57 @@ test("the question mark opens the sheet with all keys; it keeps the focus and gi
   // Where it does not fit, it begins at its beginning.
   await page.setViewportSize({ width: 320, height: 640 });
   await page.getByRole("button", { name: "Keys" }).click();
-  expect(await sheet.evaluate(({ scrollTop, scrollHeight, clientHeight }) => [scrollTop, scrollHeight > clientHeight])).toEqual([0, true]);
+  expect(
+    await sheet.evaluate(({ scrollTop, scrollHeight, clientHeight }) => [scrollTop, scrollHeight > clientHeight]),
+  ).toEqual([0, true]);
   await page.keyboard.press("End");
   await expect.poll(() => sheet.evaluate(({ scrollTop }) => scrollTop)).toBeGreaterThan(0);
   await page.getByRole("button", { name: "Close" }).click();
   expect(await sheet.isVisible()).toBe(false);
 });
 
-test.for([{ viewport: { width: 1280, height: 800 } }, { viewport: { width: 761, height: 600 } }, PHONE, { ...PHONE, viewport: { width: 320, height: 600 } }])(
-  "every tool fits the canvas and covers no other ($viewport.width px)",
-  async (options) => {
-    const page = await openReady("?sample=dragon_res4&against=zbuffer", options);
-    expect(await tool(page, "Full screen").isVisible()).toBe(true);
-    for (const name of ["Compare", "Pick", "Measure", "Select", "Label", "Export"]) {
-      await tool(page, name).click();
-      if (name === "Compare") await page.locator("#compare-figures td").first().waitFor();
-      const flaws = await page.evaluate(() => {
-        const boxOf = (element: Element) => element.getBoundingClientRect();
-        const canvas = boxOf(document.getElementById("view")!);
-        const shown = [...document.querySelectorAll("#tool-bar button, #tool-card button, #tool-card label, #tool-card output, #compare-card :is(button, label), #compare-note span")].filter((element) => element.checkVisibility() && element.textContent !== "");
-        const found: string[] = [];
-        for (const [i, a] of shown.entries()) {
-          const box = boxOf(a);
-          if (box.left < canvas.left || box.right > canvas.right || box.bottom > canvas.bottom || box.top < canvas.top) found.push(`${a.textContent} leaves the canvas`);
-          if (a.matches("#tool-bar button") && (box.width < 44 || box.height < 44)) found.push(`${a.textContent} is too small`);
-          if (a.scrollWidth > a.clientWidth + 1 && a.matches("button")) found.push(`${a.textContent} is cut off`);
-          for (const b of shown.slice(i + 1)) {
-            const other = boxOf(b);
-            const over = Math.min(box.right, other.right) - Math.max(box.left, other.left) > 1.5 && Math.min(box.bottom, other.bottom) - Math.max(box.top, other.top) > 1.5;
-            if (over) found.push(`${a.textContent} lies over ${b.textContent}`);
-          }
+test.for([
+  { viewport: { width: 1280, height: 800 } },
+  { viewport: { width: 761, height: 600 } },
+  PHONE,
+  { ...PHONE, viewport: { width: 320, height: 600 } },
+])("every tool fits the canvas and covers no other ($viewport.width px)", async (options) => {
+  const page = await openReady("?sample=dragon_res4&against=zbuffer", options);
+  expect(await tool(page, "Full screen").isVisible()).toBe(true);
+  for (const name of ["Compare", "Pick", "Measure", "Select", "Label", "Export"]) {
+    await tool(page, name).click();
+    if (name === "Compare") await page.locator("#compare-figures td").first().waitFor();
+    const flaws = await page.evaluate(() => {
+      const boxOf = (element: Element) => element.getBoundingClientRect();
+      const canvas = boxOf(document.getElementById("view")!);
+      const shown = [
+        ...document.querySelectorAll(
+          "#tool-bar button, #tool-card button, #tool-card label, #tool-card output, #compare-card :is(button, label), #compare-note span",
+        ),
+      ].filter((element) => element.checkVisibility() && element.textContent !== "");
+      const found: string[] = [];
+      for (const [i, a] of shown.entries()) {
+        const box = boxOf(a);
+        if (box.left < canvas.left || box.right > canvas.right || box.bottom > canvas.bottom || box.top < canvas.top)
+          found.push(`${a.textContent} leaves the canvas`);
+        if (a.matches("#tool-bar button") && (box.width < 44 || box.height < 44))
+          found.push(`${a.textContent} is too small`);
+        if (a.scrollWidth > a.clientWidth + 1 && a.matches("button")) found.push(`${a.textContent} is cut off`);
+        for (const b of shown.slice(i + 1)) {
+          const other = boxOf(b);
+          const over =
+            Math.min(box.right, other.right) - Math.max(box.left, other.left) > 1.5 &&
+            Math.min(box.bottom, other.bottom) - Math.max(box.top, other.top) > 1.5;
+          if (over) found.push(`${a.textContent} lies over ${b.textContent}`);
         }
-        return found;
-      });
-      expect(flaws, name).toEqual([]);
-      // Cards are seen one at a time.
-      if (name === "Compare") await tool(page, name).click();
-    }
-  },
-);
+      }
+      return found;
+    });
+    expect(flaws, name).toEqual([]);
+    // Cards are seen one at a time.
+    if (name === "Compare") await tool(page, name).click();
+  }
+});
 
 test("a finger picks and labels; a long label stays in the picture, and beside it one can press Remove", async () => {
   const page = await openBall(PHONE);
@@ -198,6 +239,8 @@ test("?embed=1 has no tools, but says what is on either side of the divider", as
   const page = await openReady("?sample=dragon_res4&embed=1&compare=0.4&against=zbuffer");
   expect(await page.locator("#tools").isVisible()).toBe(false);
   const note = page.locator("#compare-note span");
-  await expect.poll(() => note.allTextContents()).toEqual([expect.stringMatching(/^Z-buffer: [\d,]+$/), expect.stringMatching(/^Ours: [\d,]+$/)]);
+  await expect
+    .poll(() => note.allTextContents())
+    .toEqual([expect.stringMatching(/^Z-buffer: [\d,]+$/), expect.stringMatching(/^Ours: [\d,]+$/)]);
   for (const side of await note.all()) expect(await side.isVisible()).toBe(true);
 });

@@ -5,7 +5,6 @@ import { differentPixels, drag, openReady, picture, settled, status, upToDate } 
 
 const [X, Y, Z] = MIDDLE;
 
-
 test("a click tells a visible point's index and its place in full precision", async () => {
   const page = await openBall();
   const seen = await visible(page);
@@ -14,7 +13,10 @@ test("a click tells a visible point's index and its place in full precision", as
   const result = page.locator("#pick-result");
   for (const index of [first!, second!]) {
     await clickPoint(page, index);
-    expect(await result.locator("span").allTextContents()).toEqual([...["x", "y", "z"].map((axis, i) => `${axis} ${at(index)[i]!}`), `index ${index}`]);
+    expect(await result.locator("span").allTextContents()).toEqual([
+      ...["x", "y", "z"].map((axis, i) => `${axis} ${at(index)[i]!}`),
+      `index ${index}`,
+    ]);
     const { x, y } = await place(page, index);
     const ring = (await page.locator("#marks .ring").boundingBox())!;
     expect(ring.x + ring.width / 2).toBeCloseTo(x, 0);
@@ -93,7 +95,10 @@ test("two clicks measure a distance in the file's units, as often as one likes",
   const texts = [distance(a!, b!), distance(a!, c!)].map((value) => String(Number(value.toPrecision(6))));
   expect(await page.locator("#marks .measure text").allTextContents()).toEqual(texts);
   // The line goes from point to point.
-  const ends = await page.locator("#marks .measure line").last().evaluate((line) => ["x1", "y1", "x2", "y2"].map((name) => Number(line.getAttribute(name))));
+  const ends = await page
+    .locator("#marks .measure line")
+    .last()
+    .evaluate((line) => ["x1", "y1", "x2", "y2"].map((name) => Number(line.getAttribute(name))));
   const [from, to] = [await place(page, a!), await place(page, c!)];
   for (const [i, value] of [from.x, from.y, to.x, to.y].entries()) expect(ends[i]).toBeCloseTo(value, 0);
 
@@ -107,7 +112,10 @@ test("two clicks measure a distance in the file's units, as often as one likes",
   expect(await page.locator("#marks .measure").count()).toBe(0);
 });
 
-async function dragBox(page: Page, { left, top, right, bottom }: { left: number; top: number; right: number; bottom: number }): Promise<void> {
+async function dragBox(
+  page: Page,
+  { left, top, right, bottom }: { left: number; top: number; right: number; bottom: number },
+): Promise<void> {
   await page.mouse.move(left, top);
   await page.mouse.down();
   await page.mouse.move(right, bottom, { steps: 4 });
@@ -156,7 +164,9 @@ test("box and lasso select visible points, or all through the surface; the camer
   await page.mouse.move(half.left, half.bottom, { steps: 5 });
   await page.mouse.up();
   const places = await Promise.all(inside.map((i) => place(page, i)));
-  const triangle = places.filter((at) => (at.x - half.left) / (half.right - half.left) + (at.y - half.top) / (half.bottom - half.top) < 1);
+  const triangle = places.filter(
+    (at) => (at.x - half.left) / (half.right - half.left) + (at.y - half.top) / (half.bottom - half.top) < 1,
+  );
   expect(await count()).toBe(triangle.length);
 
   await page.getByRole("button", { name: "All in the picture" }).click();

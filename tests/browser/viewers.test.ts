@@ -44,7 +44,9 @@ async function pageWith(files: Files): Promise<Page> {
   await page.route("**/tiles/*", (route) => {
     const body = files.get(new URL(route.request().url()).pathname.split("/").at(-1)!)!;
     const [, from, to] = /^bytes=(\d+)-(\d+)$/.exec(route.request().headers()["range"] ?? "") ?? [];
-    return from === undefined ? route.fulfill({ body }) : route.fulfill({ status: 206, body: body.subarray(Number(from), Number(to) + 1) });
+    return from === undefined
+      ? route.fulfill({ body })
+      : route.fulfill({ status: 206, body: body.subarray(Number(from), Number(to) + 1) });
   });
   await page.goto(site.address);
   await page.waitForFunction(() => "modules" in globalThis);
@@ -75,13 +77,23 @@ describe.each([
           const potree = new modules["potree-core"].Potree();
           const octree = await potree.loadPointCloud("metadata.json", `${location.href}tiles/`);
           octree.minNodePixelSize = 0;
-          return { root: octree, choose: () => { potree.updatePointClouds([octree], camera, renderer); } };
+          return {
+            root: octree,
+            choose: () => {
+              potree.updatePointClouds([octree], camera, renderer);
+            },
+          };
         }
         const tiles = new modules["3d-tiles-renderer/three"].TilesRenderer(`${location.href}tiles/tileset.json`);
         tiles.errorTarget = 1e-6;
         tiles.setCamera(camera);
         tiles.setResolutionFromRenderer(camera, renderer);
-        return { root: tiles.group, choose: () => { tiles.update(); } };
+        return {
+          root: tiles.group,
+          choose: () => {
+            tiles.update();
+          },
+        };
       }
       const { root, choose } = await open();
       scene.add(root);
@@ -93,7 +105,10 @@ describe.each([
         camera.updateMatrixWorld();
       };
 
-      const filter = new adapter.HiddenPointNodesFilter(root, { mode: "dim", dimMaterial: new THREE.PointsMaterial({ color: "red" }) });
+      const filter = new adapter.HiddenPointNodesFilter(root, {
+        mode: "dim",
+        dimMaterial: new THREE.PointsMaterial({ color: "red" }),
+      });
       const errors: string[] = [];
       filter.addEventListener("error", ({ error }) => errors.push(error.message));
       const asked: (number[] | null)[] = [];
@@ -118,18 +133,25 @@ describe.each([
         const inverse = root.matrixWorld.clone().invert();
         const [positions, ids]: number[][] = [[], []];
         for (const { geometry, matrixWorld } of shown()) {
-          const offset = new THREE.Vector3().setFromMatrixPosition(inverse.clone().multiply(matrixWorld)).toArray().map((x) => Math.round(x * 1024) / 1024);
+          const offset = new THREE.Vector3()
+            .setFromMatrixPosition(inverse.clone().multiply(matrixWorld))
+            .toArray()
+            .map((x) => Math.round(x * 1024) / 1024);
           const first = positions!.length / 3;
           const { array, count } = geometry.attributes["position"] as BufferAttribute;
           for (let i = 0; i < 3 * count; i++) positions!.push(array[i]! + offset[i % 3]!);
           const { index, drawRange } = geometry;
-          for (let i = 0; i < Math.min(drawRange.count, index?.count ?? count); i++) ids!.push(first + (index?.getX(i) ?? i));
+          for (let i = 0; i < Math.min(drawRange.count, index?.count ?? count); i++)
+            ids!.push(first + (index?.getX(i) ?? i));
         }
         return { positions: positions!, ids: ids! };
       };
       await hpr.init();
       const views = [];
-      for (const [x, y, z] of [[0, 0, 6], [5, 2, -1]] as const) {
+      for (const [x, y, z] of [
+        [0, 0, 6],
+        [5, 2, -1],
+      ] as const) {
         place(x, y, z);
         const before = asked.length;
         do await frame();
@@ -138,8 +160,19 @@ describe.each([
         renderer.render(scene, camera);
         const { positions, ids } = drawn();
         const expected = [...new hpr.PointCloud(positions).visibleFrom(asked.at(-1)!).indices];
-        const children = shown().flatMap((node) => node.children.filter((child) => isDimmed(child)).map((child) => child.visible && child.matrixWorld.equals(node.matrixWorld)));
-        views.push({ count: filter.visibleCount, isSame: String(ids) === String(expected), positions: positions.length / 3, first: positions.slice(0, 3), nodes: shown().length, children });
+        const children = shown().flatMap((node) =>
+          node.children
+            .filter((child) => isDimmed(child))
+            .map((child) => child.visible && child.matrixWorld.equals(node.matrixWorld)),
+        );
+        views.push({
+          count: filter.visibleCount,
+          isSame: String(ids) === String(expected),
+          positions: positions.length / 3,
+          first: positions.slice(0, 3),
+          nodes: shown().length,
+          children,
+        });
       }
       const all = drawn().positions;
       filter.dispose();
@@ -161,7 +194,13 @@ describe.each([
     const offset = viewer === "potree-core" ? [-2, -2, -2] : [100, -20, 3];
     const sorted = (points: number[][]) => points.map(String).sort();
     const positions = Array.from({ length: 6000 }, (_, i) => found.all.slice(3 * i, 3 * i + 3));
-    expect(sorted(positions.map((point) => point.map((x, axis) => (viewer === "potree-core" ? x + offset[axis]! : x - offset[axis]!))))).toEqual(sorted(cloud()));
+    expect(
+      sorted(
+        positions.map((point) =>
+          point.map((x, axis) => (viewer === "potree-core" ? x + offset[axis]! : x - offset[axis]!)),
+        ),
+      ),
+    ).toEqual(sorted(cloud()));
     expect(found.afterwards).toBe(6000);
     await page.close();
   });

@@ -18,7 +18,11 @@ export const bundlers = (visit: Visit): Consumer[] => [
     name: "Vite, development server",
     version: vite.version,
     run: async () => {
-      const server = await vite.createServer({ ...BARE, root: project("vite"), server: { host: "127.0.0.1", port: 0, ws: false } });
+      const server = await vite.createServer({
+        ...BARE,
+        root: project("vite"),
+        server: { host: "127.0.0.1", port: 0, ws: false },
+      });
       try {
         await server.listen();
         return await visit(server.resolvedUrls!.local[0]!);
@@ -91,7 +95,11 @@ export const bundlers = (visit: Visit): Consumer[] => [
     name: "esbuild, wasm address given",
     version: esbuild.version,
     run: async () => {
-      await buildWithEsbuild({ entryPoints: { main: "explicit.js", "worker-thread": WORKER }, format: "esm", outdir: "built" });
+      await buildWithEsbuild({
+        entryPoints: { main: "explicit.js", "worker-thread": WORKER },
+        format: "esm",
+        outdir: "built",
+      });
       const pages = { "index.html": html('<script type="module" src="main.js"></script>') };
       await using site = await serve(project("esbuild", "built"), { pages });
       return await visit(`${site.address}index.html`);

@@ -30,7 +30,12 @@ afterAll(async () => {
 
 const visit: Visit = (address) => visitWith(browser, address);
 
-const all: Consumer[] = [...bundlers(visit), ...pages(visit, `Chromium ${browser.version()}`), ...otherBrowsers, ...nodeScripts];
+const all: Consumer[] = [
+  ...bundlers(visit),
+  ...pages(visit, `Chromium ${browser.version()}`),
+  ...otherBrowsers,
+  ...nodeScripts,
+];
 
 it.for(all)("$name ($version)", async ({ name, version, lacking, run }, { skip }) => {
   const row = (result: string) => table.push(`${name.padEnd(48)} ${version.padEnd(26)} ${result}`);

@@ -28,8 +28,16 @@ describe("the wasm", () => {
   const faults: [name: string, says: RegExp, prepare: (page: Page) => Promise<unknown>][] = [
     ["is not there", /404/, (page) => page.route(WASM, (route) => route.fulfill({ status: 404, body: "nothing" }))],
     // As servers do that answer everything with the page of an application.
-    ["is a page", /magic/, (page) => page.route(WASM, (route) => route.fulfill({ contentType: "text/html", body: PAGE }))],
-    ["is a page that says it were wasm", /magic/, (page) => page.route(WASM, (route) => route.fulfill({ contentType: "application/wasm", body: PAGE }))],
+    [
+      "is a page",
+      /magic/,
+      (page) => page.route(WASM, (route) => route.fulfill({ contentType: "text/html", body: PAGE })),
+    ],
+    [
+      "is a page that says it were wasm",
+      /magic/,
+      (page) => page.route(WASM, (route) => route.fulfill({ contentType: "application/wasm", body: PAGE })),
+    ],
     ["cannot be reached", /fetch/, (page) => page.route(WASM, (route) => route.abort("internetdisconnected"))],
   ];
   it.each(faults)("%s: load, with its address and the ways out", async (_, says, prepare) => {

@@ -9,7 +9,10 @@ import { points, viewpoint } from "./question";
 export const nodeScripts: Consumer[] = [
   script("Node, import", "esm.mjs"),
   script("Node, ./inline", "inline.mjs"),
-  { ...script("Node, require of an ES module", "required.cjs"), ...(canRequire() ? {} : { lacking: "this Node cannot require ES modules" }) },
+  {
+    ...script("Node, require of an ES module", "required.cjs"),
+    ...(canRequire() ? {} : { lacking: "this Node cannot require ES modules" }),
+  },
   script("a server that renders pages", "server-side.mjs"),
   elsewhere("Deno", ["deno", "run", "--allow-all", "--node-modules-dir=manual"]),
   elsewhere("Bun", ["bun"]),
@@ -18,17 +21,32 @@ export const nodeScripts: Consumer[] = [
     version: process.version,
     run: () => {
       // One number a line beside the position: which line it is.
-      const lines = Array.from({ length: points.length / 3 }, (_, i) => [...points.subarray(3 * i, 3 * i + 3), i].join(" "));
+      const lines = Array.from({ length: points.length / 3 }, (_, i) =>
+        [...points.subarray(3 * i, 3 * i + 3), i].join(" "),
+      );
       writeFileSync(project("cloud.xyz"), `${lines.join("\n")}\n`);
       const args = ["--offline", "hidden-point-removal", "cloud.xyz", "--from", viewpoint.join(","), "-o", "-"];
-      const printed = execFileSync("npx", args, { cwd: project(), encoding: "utf8", stdio: "pipe", shell: process.platform === "win32" });
-      const visible = printed.trim().split("\n").map((line) => Number(line.split(" ")[3]));
+      const printed = execFileSync("npx", args, {
+        cwd: project(),
+        encoding: "utf8",
+        stdio: "pipe",
+        shell: process.platform === "win32",
+      });
+      const visible = printed
+        .trim()
+        .split("\n")
+        .map((line) => Number(line.split(" ")[3]));
       return Promise.resolve({ here: visible, there: visible });
     },
   },
 ];
 
-function script(name: string, file: string, command = [process.execPath, "--no-warnings"], version = process.version): Consumer {
+function script(
+  name: string,
+  file: string,
+  command = [process.execPath, "--no-warnings"],
+  version = process.version,
+): Consumer {
   return {
     name,
     version,
@@ -43,8 +61,12 @@ function script(name: string, file: string, command = [process.execPath, "--no-w
 
 /** The same script where another runtime is installed. */
 function elsewhere(name: string, command: string[]): Consumer {
-  const { stdout, status } = spawnSync(command[0]!, ["--version"], { encoding: "utf8", shell: process.platform === "win32" });
-  if (status !== 0) return { ...script(name, "esm.mjs", command, ""), lacking: `there is no ${command[0]!} on the PATH` };
+  const { stdout, status } = spawnSync(command[0]!, ["--version"], {
+    encoding: "utf8",
+    shell: process.platform === "win32",
+  });
+  if (status !== 0)
+    return { ...script(name, "esm.mjs", command, ""), lacking: `there is no ${command[0]!} on the PATH` };
   return script(name, "esm.mjs", command, /\d+\.\d+\.\d+/.exec(stdout)?.[0]);
 }
 

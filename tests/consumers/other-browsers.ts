@@ -88,7 +88,11 @@ function webkit(): Browser {
   const libraries = "/usr/lib/x86_64-linux-gnu";
   const folder = existsSync(libraries) ? readdirSync(libraries).find((one) => /^webkit2gtk-4/.test(one)) : undefined;
   const command = ["xvfb-run", "--auto-servernum", join(libraries, folder ?? "", "MiniBrowser")];
-  return { name: "WebKitGTK", command: () => command, version: folder === undefined ? undefined : versionOf(...command) };
+  return {
+    name: "WebKitGTK",
+    command: () => command,
+    version: folder === undefined ? undefined : versionOf(...command),
+  };
 }
 
 function versionOf(program = "", ...args: string[]): string | undefined {

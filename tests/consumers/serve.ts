@@ -12,7 +12,8 @@ const TYPES: Record<string, string> = {
 
 /** Headers of a page that runs nothing but its own files, and WebAssembly. */
 export const STRICT = {
-  "content-security-policy": "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; object-src 'none'; base-uri 'none'",
+  "content-security-policy":
+    "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; object-src 'none'; base-uri 'none'",
 };
 
 /** A page with a place for the answer. */

@@ -3,7 +3,11 @@ import type { Browser, Page } from "playwright-core";
 import type { Answered } from "./consumer";
 
 /** Opens a page and waits for what it writes into its `<output>`. */
-export async function visitWith(browser: Browser, address: string, prepare?: (page: Page) => Promise<unknown>): Promise<Answered> {
+export async function visitWith(
+  browser: Browser,
+  address: string,
+  prepare?: (page: Page) => Promise<unknown>,
+): Promise<Answered> {
   const page = await browser.newPage();
   const complaints: string[] = [];
   page.on("console", (message) => complaints.push(message.text()));

@@ -33,8 +33,17 @@ export function curves({ name, positions, views }: Labelled, exponents = EXPONEN
         const visibility = ask({ cloud, viewpoint, middle: center, diagonal: 2 * radius });
         return { rule, exponent: visibility.exponent, ...errorsOf(visibility.mask(), seen) };
       };
-      const at = (exponent: number) => ({ exponent, ...errorsOf(cloud.visibleFrom(viewpoint, { exponent }).mask(), seen) });
-      return { name, points: cloud.length, views: 1, errors: exponents.map(at), rules: [AUTOMATIC, SEARCH, PAPERS_RULE].map(by) };
+      const at = (exponent: number) => ({
+        exponent,
+        ...errorsOf(cloud.visibleFrom(viewpoint, { exponent }).mask(), seen),
+      });
+      return {
+        name,
+        points: cloud.length,
+        views: 1,
+        errors: exponents.map(at),
+        rules: [AUTOMATIC, SEARCH, PAPERS_RULE].map(by),
+      };
     });
   } finally {
     cloud.dispose();
@@ -48,7 +57,13 @@ export function meanCurve(all: Curve[]): Curve {
   const mean = <T extends AtRadius>(like: T, pick: (curve: Curve) => AtRadius): T => {
     const picked = all.map(pick);
     const of = (key: keyof AtRadius) => picked.reduce((sum, item) => sum + item[key], 0) / picked.length;
-    return { ...like, exponent: of("exponent"), falsePositives: of("falsePositives"), falseNegatives: of("falseNegatives"), total: of("total") };
+    return {
+      ...like,
+      exponent: of("exponent"),
+      falsePositives: of("falsePositives"),
+      falseNegatives: of("falseNegatives"),
+      total: of("total"),
+    };
   };
   return {
     ...first,

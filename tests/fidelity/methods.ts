@@ -38,7 +38,11 @@ export const METHODS: Method[] = [
   several("at least 2 of 5, exp(c/d)", ({ cloud }, ring) => cloud.visibleFromAtLeast(2, ring, exponential)),
   several("at least 2 of 5, automatic", ({ cloud }, ring) => cloud.visibleFromAtLeast(2, ring)),
   ...[2, 3, 4].map((exponent) => one(`exponent ${exponent}`, { exponent })),
-  { name: "R = 100 × box diagonal", viewpoints: 1, ask: ({ cloud, viewpoint, diagonal }) => cloud.visibleFrom(viewpoint, { radius: 100 * diagonal }) },
+  {
+    name: "R = 100 × box diagonal",
+    viewpoints: 1,
+    ask: ({ cloud, viewpoint, diagonal }) => cloud.visibleFrom(viewpoint, { radius: 100 * diagonal }),
+  },
 ];
 
 const DENOISED: VisibilityOptions = { denoise: 32, vote: 16 };
@@ -61,7 +65,10 @@ export function one(name: string, options: VisibilityOptions): Method {
 }
 
 function several(name: string, ask: (subject: Subject, ring: number[][]) => Visibility): Method {
-  const ring = ({ viewpoint, middle }: Subject) => [viewpoint, ...ringOfViewpoints(viewpoint, middle, { count: AROUND })];
+  const ring = ({ viewpoint, middle }: Subject) => [
+    viewpoint,
+    ...ringOfViewpoints(viewpoint, middle, { count: AROUND }),
+  ];
   return { name, viewpoints: AROUND + 1, ask: (subject) => ask(subject, ring(subject)) };
 }
 

@@ -41,7 +41,9 @@ export class RayTracer {
   }
 
   #isOwn(face: number, point: number, { faces }: MeshPoints): boolean {
-    return faces === undefined ? this.#mesh.triangles.subarray(3 * face, 3 * face + 3).includes(point) : faces[point] === face;
+    return faces === undefined
+      ? this.#mesh.triangles.subarray(3 * face, 3 * face + 3).includes(point)
+      : faces[point] === face;
   }
 }
 

@@ -30,7 +30,12 @@ export function room(): Mesh {
 }
 
 /** `count` random points on the faces, as many a unit of area as `density` says, all the same by default. */
-export function scatter(mesh: Mesh, count: number, seed: number, density: (place: Point) => number = () => 1): MeshPoints {
+export function scatter(
+  mesh: Mesh,
+  count: number,
+  seed: number,
+  density: (place: Point) => number = () => 1,
+): MeshPoints {
   const random = seeded(seed);
   const corners = (face: number) => Array.from({ length: 3 }, (_, i) => corner(mesh, 3 * face + i));
   const weights = Float64Array.from({ length: mesh.triangles.length / 3 }, (_, face) => {

@@ -30,7 +30,11 @@ function compared(title: string, clouds: Labelled[], say: (message: string) => v
   const views = all.filter(({ method }) => method === AUTOMATIC.name).length;
   return [
     { title, note: `${clouds.length} clouds, ${views} views. ${EXPLAINED}`, rows: rows(all) },
-    ...scored.map(({ labelled, scores }) => ({ title: `${title}: ${described(labelled)}`, note: "", rows: rows(scores) })),
+    ...scored.map(({ labelled, scores }) => ({
+      title: `${title}: ${described(labelled)}`,
+      note: "",
+      rows: rows(scores),
+    })),
   ];
 }
 

@@ -51,7 +51,9 @@ export function* scanned(): Generator<Labelled> {
       positions: cloud.positions,
       views: views.flatMap(({ viewpoint }, i) => {
         const known = best[`${name}/${i}`];
-        return known === undefined ? [] : [{ viewpoint, seen: bytes.subarray(i * count, (i + 1) * count), best: known.lin_best }];
+        return known === undefined
+          ? []
+          : [{ viewpoint, seen: bytes.subarray(i * count, (i + 1) * count), best: known.lin_best }];
       }),
     };
   }
@@ -75,12 +77,21 @@ export function* generated(): Generator<Labelled> {
   const ring = torus();
   for (const count of [5_000, 20_000, 80_000]) yield fromOutside("torus", ring, scatter(ring, count, 11));
   // Twenty times as dense at one end as at the other.
-  yield fromOutside("torus, uneven 20:1", ring, scatter(ring, 20_000, 12, ([x]) => 20 ** (x / 2.8)));
+  yield fromOutside(
+    "torus, uneven 20:1",
+    ring,
+    scatter(ring, 20_000, 12, ([x]) => 20 ** (x / 2.8)),
+  );
   const bumpy = bumpySphere();
   for (const count of [10_000, 40_000]) yield fromOutside("bumpy sphere", bumpy, scatter(bumpy, count, 13));
-  yield fromOutside("bumpy sphere, uneven 20:1", bumpy, scatter(bumpy, 40_000, 14, ([x]) => 20 ** (x / 2)));
+  yield fromOutside(
+    "bumpy sphere, uneven 20:1",
+    bumpy,
+    scatter(bumpy, 40_000, 14, ([x]) => 20 ** (x / 2)),
+  );
   const furnished = room();
-  for (const count of [20_000, 100_000]) yield traced("room, from inside", furnished, scatter(furnished, count, 15), INSIDE);
+  for (const count of [20_000, 100_000])
+    yield traced("room, from inside", furnished, scatter(furnished, count, 15), INSIDE);
 }
 
 /** Standing between the furniture, in meters. */

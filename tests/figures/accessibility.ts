@@ -18,7 +18,8 @@ export async function accessibilityText(studio: Studio): Promise<string> {
     await studio.visit(query, options, async (page) => {
       for (const step of steps) {
         await step.act(page);
-        for (const { theme, result, poor } of await audit(page)) found.push({ state: `${name}, ${theme}: ${step.name}`, result, poor });
+        for (const { theme, result, poor } of await audit(page))
+          found.push({ state: `${name}, ${theme}: ${step.name}`, result, poor });
       }
     });
   }
@@ -54,7 +55,11 @@ function text(found: Finding[]): string {
     "",
     "## Left open by axe-core, and judged",
     "",
-    ...(open.length === 0 ? ["Nothing."] : open.map(([id, { open: states }]) => `- \`${id}\` in ${states.length} states. ${JUDGED[id] ?? "Not judged yet."}`)),
+    ...(open.length === 0
+      ? ["Nothing."]
+      : open.map(
+          ([id, { open: states }]) => `- \`${id}\` in ${states.length} states. ${JUDGED[id] ?? "Not judged yet."}`,
+        )),
     "",
     "## What other tests check",
     "",
@@ -65,13 +70,18 @@ function text(found: Finding[]): string {
     "",
     "## States",
     "",
-    ...found.map(({ state, result }) => `- ${state}: ${result.passes.length} rules passed, ${result.violations.length} violated, ${result.incomplete.length} open`),
+    ...found.map(
+      ({ state, result }) =>
+        `- ${state}: ${result.passes.length} rules passed, ${result.violations.length} violated, ${result.incomplete.length} open`,
+    ),
     "",
     "## Rules that passed",
     "",
     "| rule | what it asks | states |",
     "|---|---|---|",
-    ...all.filter(([, { passed }]) => passed > 0).map(([id, { help, passed }]) => `| \`${id}\` | ${help.replaceAll("<", "&lt;")} | ${passed} |`),
+    ...all
+      .filter(([, { passed }]) => passed > 0)
+      .map(([id, { help, passed }]) => `| \`${id}\` | ${help.replaceAll("<", "&lt;")} | ${passed} |`),
     "",
   ].join("\n");
 }

@@ -31,8 +31,16 @@ export const errorPlot: Maker = async (studio) => {
     const mean = meanCurve(all);
     const name = `${labelled.name}, ${count(labelled.positions.length / 3)} points`;
     return [
-      { title: `${name}: one view`, curve: all[0]!, words: `from (${labelled.views[0]!.viewpoint.map(digits).join(", ")}): ${chosen(all[0]!)}` },
-      { title: `${name}: mean of ${all.length} views`, curve: mean, words: `on average: ${chosen(mean)}, the best exponent for all views ${least(mean)}` },
+      {
+        title: `${name}: one view`,
+        curve: all[0]!,
+        words: `from (${labelled.views[0]!.viewpoint.map(digits).join(", ")}): ${chosen(all[0]!)}`,
+      },
+      {
+        title: `${name}: mean of ${all.length} views`,
+        curve: mean,
+        words: `on average: ${chosen(mean)}, the best exponent for all views ${least(mean)}`,
+      },
     ];
   });
   if (panels.length === 0) return [];
@@ -71,11 +79,17 @@ function draw(panels: Panel[]): void {
     ["false positives", "falsePositives", "#c2410c"],
     ["false negatives", "falseNegatives", "#2563a8"],
   ] as const;
-  const colors: Record<string, string> = { automatic: "#15803d", "antipodal search": "#7e3fb3", "the paper's rule": "#a16207" };
+  const colors: Record<string, string> = {
+    automatic: "#15803d",
+    "antipodal search": "#7e3fb3",
+    "the paper's rule": "#a16207",
+  };
   const color = { domain: kinds.map(([kind]) => kind), range: kinds.map(([, , shade]) => shade) };
   document.body.append(Plot.legend({ color, style: { fontSize: "14px" } }));
   for (const { title, curve } of panels) {
-    const lines = kinds.flatMap(([kind, key]) => curve.errors.map((at) => ({ kind, exponent: at.exponent, percent: at[key] })));
+    const lines = kinds.flatMap(([kind, key]) =>
+      curve.errors.map((at) => ({ kind, exponent: at.exponent, percent: at[key] })),
+    );
     // Close ones are to be read, too: the first stands to the left of its line, the others to the right and lower.
     const rules = curve.rules.toSorted((a, b) => a.exponent - b.exponent);
     const plot = Plot.plot({
@@ -85,13 +99,30 @@ function draw(panels: Panel[]): void {
       marginTop: 8,
       marginBottom: 48,
       style: { fontSize: "13px", background: "white" },
-      x: { domain: [1, 5.5], label: "log₁₀ (R ÷ farthest distance)", labelAnchor: "center", labelOffset: 38, labelArrow: "none", ticks: 9 },
+      x: {
+        domain: [1, 5.5],
+        label: "log₁₀ (R ÷ farthest distance)",
+        labelAnchor: "center",
+        labelOffset: 38,
+        labelArrow: "none",
+        ticks: 9,
+      },
       y: { domain: [0, 30], label: "% of all points", labelAnchor: "center", labelArrow: "none", grid: true, ticks: 6 },
       color,
       marks: [
-        Plot.ruleX(curve.rules, { x: "exponent", stroke: ({ rule }: { rule: string }) => colors[rule], strokeDasharray: "4 3" }),
+        Plot.ruleX(curve.rules, {
+          x: "exponent",
+          stroke: ({ rule }: { rule: string }) => colors[rule],
+          strokeDasharray: "4 3",
+        }),
         Plot.line(lines, { x: "exponent", y: "percent", stroke: "kind", strokeWidth: 2, clip: true }),
-        Plot.dot(curve.rules, { x: "exponent", y: "total", fill: ({ rule }: { rule: string }) => colors[rule], r: 4.5, stroke: "white" }),
+        Plot.dot(curve.rules, {
+          x: "exponent",
+          y: "total",
+          fill: ({ rule }: { rule: string }) => colors[rule],
+          r: 4.5,
+          stroke: "white",
+        }),
         ...rules.map((chosen, i) =>
           Plot.text([chosen], {
             x: "exponent",

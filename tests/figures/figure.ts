@@ -33,7 +33,12 @@ const STYLE = `
 `;
 
 /** Panels of one size in rows, each with its label above. */
-export async function sheet(studio: Studio, panels: Panel[], columns: number, { width, height }: Size): Promise<Buffer> {
+export async function sheet(
+  studio: Studio,
+  panels: Panel[],
+  columns: number,
+  { width, height }: Size,
+): Promise<Buffer> {
   const cells = panels.map(({ label, png }) => {
     const source = `data:image/png;base64,${png.toString("base64")}`;
     return `<figure><figcaption>${label}</figcaption><img src="${source}" width="${width}" height="${height}"></figure>`;

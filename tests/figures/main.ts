@@ -17,7 +17,13 @@ import { reconstruction } from "./reconstruction.js";
 import { shadows } from "./shadows.js";
 import { Studio } from "./studio.js";
 
-const MAKERS: Record<string, Maker> = { "before-after": beforeAfter, errors: errorPlot, radius, reconstruction, shadows };
+const MAKERS: Record<string, Maker> = {
+  "before-after": beforeAfter,
+  errors: errorPlot,
+  radius,
+  reconstruction,
+  shadows,
+};
 /** What is written, not drawn. */
 const FIDELITY = "fidelity";
 const ACCESSIBILITY = "accessibility";
@@ -26,17 +32,23 @@ const FOLDER = join(root, "tests", "figures");
 const names = process.argv.length > 2 ? process.argv.slice(2) : [...Object.keys(MAKERS), FIDELITY, ACCESSIBILITY];
 const unknown = names.find((name) => name !== FIDELITY && name !== ACCESSIBILITY && !(name in MAKERS));
 if (unknown !== undefined) {
-  console.error(`There is no figure named ${unknown}. There are: ${[...Object.keys(MAKERS), FIDELITY, ACCESSIBILITY].join(", ")}.`);
+  console.error(
+    `There is no figure named ${unknown}. There are: ${[...Object.keys(MAKERS), FIDELITY, ACCESSIBILITY].join(", ")}.`,
+  );
   process.exit(2);
 }
 await init();
 await draw(names.filter((name) => name in MAKERS));
 if (names.includes(FIDELITY)) measureFidelity();
-if (names.includes(ACCESSIBILITY)) await withStudio(async (studio) => { write("../../docs/ACCESSIBILITY.md", await accessibilityText(studio)); });
+if (names.includes(ACCESSIBILITY))
+  await withStudio(async (studio) => {
+    write("../../docs/ACCESSIBILITY.md", await accessibilityText(studio));
+  });
 
 function measureFidelity(): void {
   const text = fidelityText(console.error);
-  if (text === undefined) console.error("FIDELITY.md is left as it is. `npm run bench -- --fidelity` scores what is there.");
+  if (text === undefined)
+    console.error("FIDELITY.md is left as it is. `npm run bench -- --fidelity` scores what is there.");
   else write("FIDELITY.md", text);
 }
 

@@ -3,7 +3,15 @@ export function pointPly(positions: Float32Array | Float64Array, brightness?: Fl
   const count = positions.length / 3;
   const colors = brightness === undefined ? [] : ["red", "green", "blue"].map((name) => `property uchar ${name}`);
   const axes = ["x", "y", "z"].map((name) => `property float ${name}`);
-  const header = ["ply", "format binary_little_endian 1.0", `element vertex ${count}`, ...axes, ...colors, "end_header", ""];
+  const header = [
+    "ply",
+    "format binary_little_endian 1.0",
+    `element vertex ${count}`,
+    ...axes,
+    ...colors,
+    "end_header",
+    "",
+  ];
   const start = Buffer.from(header.join("\n"));
   const stride = 12 + colors.length;
   const body = Buffer.alloc(stride * count);

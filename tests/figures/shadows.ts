@@ -34,7 +34,8 @@ const LIGHTINGS: Lighting[] = [
   {
     name: "shadows",
     title: "Shadows of one light (paper: Figs. 15 and 16)",
-    look: "The head's shadow on the neck and those between the coils are where they should be; the operator's are a little larger and more ragged. " +
+    look:
+      "The head's shadow on the neck and those between the coils are where they should be; the operator's are a little larger and more ragged. " +
       "The specks on the right are rays that start in a dent of the mesh.",
     lights: [LEFT],
     soft: 0,
@@ -67,12 +68,24 @@ export const shadows: Maker = async (studio) => {
 async function compare(studio: Studio, scene: Scene, { name, title, look, lights, soft }: Lighting): Promise<Figure> {
   const all = lights.flatMap((light) => [light, ...(soft > 0 ? scene.rim(light, soft) : [])]);
   const exact = scene.exact(all);
-  studio.serve("exact.ply", pointPly(scene.positions, exact.brightness.map((x) => LIT * x)));
+  studio.serve(
+    "exact.ply",
+    pointPly(
+      scene.positions,
+      exact.brightness.map((x) => LIT * x),
+    ),
+  );
   const query = { show: "surface", view: VIEWPOINT.join(","), light: lights.map((light) => light.join(",")) };
   // With nothing but ambient light the page shows the file's own shades.
   const panels = [
-    { label: "by hidden-point removal", png: (await studio.shoot({ ...query, src: "lit.ply", soft, ambient: AMBIENT, smoothing: SMOOTHING }, PANEL)).png },
-    { label: "by rays against the mesh", png: (await studio.shoot({ ...query, src: "exact.ply", ambient: 1 }, PANEL)).png },
+    {
+      label: "by hidden-point removal",
+      png: (await studio.shoot({ ...query, src: "lit.ply", soft, ambient: AMBIENT, smoothing: SMOOTHING }, PANEL)).png,
+    },
+    {
+      label: "by rays against the mesh",
+      png: (await studio.shoot({ ...query, src: "exact.ply", ambient: 1 }, PANEL)).png,
+    },
   ];
   const places = lights.map((light) => `(${light.join(", ")})`).join(" and ");
   const caption =
@@ -112,7 +125,8 @@ class Scene {
       seen.forEach((one, i) => (reached[i]! += one));
       return errorsOf(this.cloud.visibleFrom(light).mask(), seen);
     });
-    const mean = (key: "total" | "falseNegatives" | "falsePositives") => errors.reduce((sum, error) => sum + error[key], 0) / errors.length;
+    const mean = (key: "total" | "falseNegatives" | "falsePositives") =>
+      errors.reduce((sum, error) => sum + error[key], 0) / errors.length;
     const brightness = reached.map((lit) => AMBIENT + ((1 - AMBIENT) * lit) / lights.length);
     return {
       brightness: soften(brightness, this.#surface, SMOOTHING),

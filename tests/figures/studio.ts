@@ -52,17 +52,25 @@ export class Studio {
     const address = `?${new URLSearchParams([...entries, ["embed", "1"]]).toString()}`;
     return this.#withPage(size, async (page) => {
       await page.goto(this.#site.address + address);
-      await page.locator('#status:is([data-state="ready"][data-busy="0"], [data-state="error"])').waitFor({ state: "attached", timeout: PATIENCE });
+      await page
+        .locator('#status:is([data-state="ready"][data-busy="0"], [data-state="error"])')
+        .waitFor({ state: "attached", timeout: PATIENCE });
       const message = page.locator("#message");
       if (await message.isVisible()) throw new Error(`The page says of ${address}: ${await message.innerText()}`);
       await twoFrames(page);
-      const status = await page.locator("#status").evaluate((element: HTMLElement) => Object.fromEntries(Object.entries(element.dataset)));
+      const status = await page
+        .locator("#status")
+        .evaluate((element: HTMLElement) => Object.fromEntries(Object.entries(element.dataset)));
       return { png: await page.locator("#view").screenshot({ timeout: PATIENCE }), status };
     });
   }
 
   /** A page of its own that holds `html`, once `prepare` has finished it: a picture of its body. */
-  async print(html: string, width: number, prepare: (page: Page) => Promise<void> = () => Promise.resolve()): Promise<Buffer> {
+  async print(
+    html: string,
+    width: number,
+    prepare: (page: Page) => Promise<void> = () => Promise.resolve(),
+  ): Promise<Buffer> {
     return this.#withPage({ width, height: 100 }, async (page) => {
       await page.setContent(html);
       await prepare(page);
@@ -76,7 +84,9 @@ export class Studio {
     try {
       const page = await context.newPage();
       await page.goto(this.#site.address + query);
-      await page.locator('#status[data-state="ready"][data-busy="0"]').waitFor({ state: "attached", timeout: PATIENCE });
+      await page
+        .locator('#status[data-state="ready"][data-busy="0"]')
+        .waitFor({ state: "attached", timeout: PATIENCE });
       await use(page);
     } finally {
       await context.close();

@@ -7,7 +7,12 @@ import { bumpySphere, bunny, cappedWasm, freshPackage, pointsAt, randomNumbers, 
 const { PointCloud, hiddenPointRemoval } = await readyPackage();
 
 const sphere = bumpySphere(1, 2000);
-const viewpoints = [[0, 0, 5], [3, -2, 1], [0.1, 0.2, -0.1], [-40, 7, 1000]];
+const viewpoints = [
+  [0, 0, 5],
+  [3, -2, 1],
+  [0.1, 0.2, -0.1],
+  [-40, 7, 1000],
+];
 const bunnyPositions = bunny();
 
 describe("an answer", () => {
@@ -25,9 +30,7 @@ describe("an answer", () => {
 
   it("says how the points were flipped", () => {
     const farthest = Math.max(
-      ...Array.from({ length: 2000 }, (_, i) =>
-        Math.hypot(sphere[3 * i]!, sphere[3 * i + 1]!, sphere[3 * i + 2]! - 5),
-      ),
+      ...Array.from({ length: 2000 }, (_, i) => Math.hypot(sphere[3 * i]!, sphere[3 * i + 1]!, sphere[3 * i + 2]! - 5)),
     );
     expect(visible.inversion).toBe("spherical");
     expect(visible.evaluations).toBe(0);
@@ -167,7 +170,9 @@ describe("positions", () => {
 
 describe("the spacing", () => {
   const meanOfNearest = (positions: ArrayLike<number>, dimension: number) => {
-    const points = Array.from({ length: positions.length / dimension }, (_, i) => Array.from({ length: dimension }, (_, axis) => positions[dimension * i + axis]!));
+    const points = Array.from({ length: positions.length / dimension }, (_, i) =>
+      Array.from({ length: dimension }, (_, axis) => positions[dimension * i + axis]!),
+    );
     const means = points.map((p) => {
       const distances = points.filter((q) => q !== p).map((q) => Math.hypot(...q.map((x, axis) => x - p[axis]!)));
       const nearest = distances.sort((a, b) => a - b).slice(0, 6);
@@ -176,20 +181,23 @@ describe("the spacing", () => {
     return means.reduce((sum, mean) => sum + mean, 0) / means.length;
   };
 
-  it.each([2, 3, 4])("is the mean distance to the 6 nearest others in %d dimensions, whatever is appended and removed", (dimension) => {
-    const numbers = sphere.subarray(0, 450 * dimension);
-    const cloud = new PointCloud(numbers.subarray(0, 300 * dimension), { dimension });
-    const expectSpacing = (of: ArrayLike<number>) => {
-      expect(cloud.spacing).toBeCloseTo(meanOfNearest(of, dimension), 12);
-    };
-    expectSpacing(numbers.subarray(0, 300 * dimension));
-    cloud.append(numbers.subarray(300 * dimension));
-    expectSpacing(numbers);
-    cloud.remove(Array.from({ length: 445 }, (_, i) => i));
-    expectSpacing(numbers.subarray(445 * dimension));
-    cloud.remove([445, 446, 447, 448]);
-    expect(cloud.spacing).toBe(0);
-  });
+  it.each([2, 3, 4])(
+    "is the mean distance to the 6 nearest others in %d dimensions, whatever is appended and removed",
+    (dimension) => {
+      const numbers = sphere.subarray(0, 450 * dimension);
+      const cloud = new PointCloud(numbers.subarray(0, 300 * dimension), { dimension });
+      const expectSpacing = (of: ArrayLike<number>) => {
+        expect(cloud.spacing).toBeCloseTo(meanOfNearest(of, dimension), 12);
+      };
+      expectSpacing(numbers.subarray(0, 300 * dimension));
+      cloud.append(numbers.subarray(300 * dimension));
+      expectSpacing(numbers);
+      cloud.remove(Array.from({ length: 445 }, (_, i) => i));
+      expectSpacing(numbers.subarray(445 * dimension));
+      cloud.remove([445, 446, 447, 448]);
+      expect(cloud.spacing).toBe(0);
+    },
+  );
 
   it("is the one that the automatic scale is a part of", () => {
     const cloud = new PointCloud([...sphere, ...sphere, NaN, 0, 0], { nonFinite: "skip" });
@@ -213,7 +221,12 @@ describe("a viewpoint", () => {
 describe("the bunny", () => {
   const single = new PointCloud(bunnyPositions);
   const double = new PointCloud(Float64Array.from(bunnyPositions));
-  const views = [[0, 5, 20], [-15, 4, -3], [0, 30, 0], [-1.5, 5, 0]];
+  const views = [
+    [0, 5, 20],
+    [-15, 4, -3],
+    [0, 30, 0],
+    [-1.5, 5, 0],
+  ];
 
   it.each(views)("looks the same in single and double precision from %d, %d, %d", (...viewpoint) => {
     const visible = single.visibleFrom(viewpoint);
@@ -280,7 +293,9 @@ describe("memory", () => {
       await new Promise((next) => setTimeout(next));
     }
     const hoard: unknown[] = [];
-    const fill = () => { for (let i = 0; i < 30; i++) hoard.push(new small.PointCloud(points)); };
+    const fill = () => {
+      for (let i = 0; i < 30; i++) hoard.push(new small.PointCloud(points));
+    };
     expect(fill).toThrow(expect.objectContaining({ code: "too-large" }));
   });
 });

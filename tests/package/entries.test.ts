@@ -14,7 +14,14 @@ const gzipped = (bytes: Uint8Array) => gzipSync(bytes, { level: 9 }).length;
 
 async function sizeOf(file: string): Promise<number> {
   const entry = join(import.meta.dirname, "../../dist", file);
-  const { outputFiles } = await build({ entryPoints: [entry], bundle: true, minify: true, format: "esm", write: false, external: PEERS });
+  const { outputFiles } = await build({
+    entryPoints: [entry],
+    bundle: true,
+    minify: true,
+    format: "esm",
+    write: false,
+    external: PEERS,
+  });
   return gzipped(outputFiles[0]!.contents);
 }
 

@@ -8,8 +8,7 @@ const { PointCloud, hiddenPointRemoval, HprError } = hpr;
 const sphere = bumpySphere(1, 500);
 const farAway = [0, 0, 5];
 const loose = (value: unknown) => value as never;
-const newCloud = (positions: unknown, options?: unknown) => () =>
-  new PointCloud(loose(positions), loose(options));
+const newCloud = (positions: unknown, options?: unknown) => () => new PointCloud(loose(positions), loose(options));
 const view = (viewpoint: unknown, options?: unknown) => () =>
   new PointCloud(sphere).visibleFrom(loose(viewpoint), loose(options));
 const autoRadius = (viewpoint: unknown, rule?: unknown) => () =>
@@ -102,7 +101,11 @@ const refusals: [code: string, names: RegExp, call: () => unknown][] = [
   ["option", /inversion exponential.*infinity/, view(farAway, { inversion: { exponential: Infinity } })],
   ["option", /exponent.*inversion power/, view(farAway, { exponent: 2, inversion: { power: 2 } })],
   ["option", /radius.*"search".*inversion power/, view(farAway, { radius: "search", inversion: { power: 2 } })],
-  ["option", /radius.*"opposite".*exponential/, view(farAway, { radius: "opposite", inversion: { exponential: "auto" } })],
+  [
+    "option",
+    /radius.*"opposite".*exponential/,
+    view(farAway, { radius: "opposite", inversion: { exponential: "auto" } }),
+  ],
   ["option", /exponent.*inversion exponential/, view(farAway, { exponent: 2, inversion: { exponential: 1 } })],
   ["option", /radius.*inversion exponential/, view(farAway, { radius: 100, inversion: { exponential: 1 } })],
   ["radius", /farthest/, view(farAway, { radius: 1, inversion: { power: 2 } })],
@@ -129,9 +132,25 @@ const refusals: [code: string, names: RegExp, call: () => unknown][] = [
   ["option", /got 7/, remove(7)],
   ["option", /"12"/, remove("12")],
   ["option", /"foo"/, () => hiddenPointRemoval(sphere, farAway, loose({ foo: 1 }))],
-  ["option", /maskInto.*500.*499/, () => { new PointCloud(sphere).visibleFrom(farAway).maskInto(new Uint8Array(499)); }],
-  ["option", /maskInto.*Uint8Array.*Float32Array/, () => { new PointCloud(sphere).visibleFrom(farAway).maskInto(loose(new Float32Array(500))); }],
-  ["option", /indicesInto.*length 1/, () => new PointCloud(sphere).visibleFrom(farAway).indicesInto(new Uint32Array(1))],
+  [
+    "option",
+    /maskInto.*500.*499/,
+    () => {
+      new PointCloud(sphere).visibleFrom(farAway).maskInto(new Uint8Array(499));
+    },
+  ],
+  [
+    "option",
+    /maskInto.*Uint8Array.*Float32Array/,
+    () => {
+      new PointCloud(sphere).visibleFrom(farAway).maskInto(loose(new Float32Array(500)));
+    },
+  ],
+  [
+    "option",
+    /indicesInto.*length 1/,
+    () => new PointCloud(sphere).visibleFrom(farAway).indicesInto(new Uint32Array(1)),
+  ],
 ];
 
 describe("what is refused", () => {
@@ -164,12 +183,18 @@ describe("messages of the core", () => {
     ["the viewpoint must be finite, got 0, NaN, 5.5", view([0, NaN, 5.5])],
     ["radius must be finite and positive, got infinity", view(farAway, { radius: Infinity })],
     ["radius must be finite and positive, got -0", view(farAway, { radius: -0 })],
-    ["radius 0.0000012 is smaller than the distance of the farthest point, 5", () =>
-      hiddenPointRemoval([3, 4, 0], [0, 0, 0], { radius: 1.2e-6 })],
-    ["radius 1.2e-7 is smaller than the distance of the farthest point, 5", () =>
-      hiddenPointRemoval([3, 4, 0], [0, 0, 0], { radius: 1.2e-7 })],
-    ["twice the radius 1.5e308 exceeds the range of f64 (the farthest distance is 5)", () =>
-      hiddenPointRemoval([3, 4, 0], [0, 0, 0], { radius: 1.5e308 })],
+    [
+      "radius 0.0000012 is smaller than the distance of the farthest point, 5",
+      () => hiddenPointRemoval([3, 4, 0], [0, 0, 0], { radius: 1.2e-6 }),
+    ],
+    [
+      "radius 1.2e-7 is smaller than the distance of the farthest point, 5",
+      () => hiddenPointRemoval([3, 4, 0], [0, 0, 0], { radius: 1.2e-7 }),
+    ],
+    [
+      "twice the radius 1.5e308 exceeds the range of f64 (the farthest distance is 5)",
+      () => hiddenPointRemoval([3, 4, 0], [0, 0, 0], { radius: 1.5e308 }),
+    ],
     ["the farthest distance (infinity) exceeds the range of f64", () => hiddenPointRemoval([1e200, 0, 0], [0, 0, 0])],
     ["exponent must be finite and at least 0, got -100000000000000000000", view(farAway, { exponent: -1e20 })],
     ["exponent must be finite and at least 0, got -1e21", view(farAway, { exponent: -1e21 })],
@@ -203,8 +228,14 @@ describe("lists of no viewpoints", () => {
   it.each(refused)("are refused as one viewpoint is: %o", async (options, inHyperspace) => {
     const one = await problemOf(() => space.visibleFrom([0, 0, 0], options));
     expect(one).toBeInstanceOf(HprError);
-    const [any, lit] = [await problemOf(() => space.visibleFromAny([], options)), await problemOf(() => space.illuminate([], options))];
-    const said = ({ code, message }: { code?: string; message: string }) => [code, message.replace(/\(the farthest distance is .*\)/, "")];
+    const [any, lit] = [
+      await problemOf(() => space.visibleFromAny([], options)),
+      await problemOf(() => space.illuminate([], options)),
+    ];
+    const said = ({ code, message }: { code?: string; message: string }) => [
+      code,
+      message.replace(/\(the farthest distance is .*\)/, ""),
+    ];
     expect([said(any), said(lit)]).toEqual([said(one), said(one)]);
     if (inHyperspace) {
       const alone = await problemOf(() => hyper.visibleFrom([0, 0, 0, 0], options));
@@ -213,7 +244,13 @@ describe("lists of no viewpoints", () => {
   });
 
   it("are answered with what one viewpoint is answered with", () => {
-    for (const options of [{ radius: 1e-9 }, { exponent: 0 }, { inversion: { power: 2 } }, { denoise: 6, vote: 6 }, { radius: "search" as const }]) {
+    for (const options of [
+      { radius: 1e-9 },
+      { exponent: 0 },
+      { inversion: { power: 2 } },
+      { denoise: 6, vote: 6 },
+      { radius: "search" as const },
+    ]) {
       expect(space.visibleFromAny([], options).count).toBe(0);
       expect(space.illuminate([], options)).toEqual(new Float32Array(500));
     }
@@ -227,8 +264,20 @@ describe("disposed", () => {
     cloud.dispose();
     expect((await problemOf(() => cloud.visibleFrom(farAway))).code).toBe("disposed");
     expect((await problemOf(() => cloud.autoRadius(farAway))).code).toBe("disposed");
-    expect((await problemOf(() => { cloud.append(sphere); })).code).toBe("disposed");
-    expect((await problemOf(() => { cloud.remove([0]); })).code).toBe("disposed");
+    expect(
+      (
+        await problemOf(() => {
+          cloud.append(sphere);
+        })
+      ).code,
+    ).toBe("disposed");
+    expect(
+      (
+        await problemOf(() => {
+          cloud.remove([0]);
+        })
+      ).code,
+    ).toBe("disposed");
   });
 
   it("does not touch other clouds, whose memory comes and goes", () => {
@@ -248,10 +297,7 @@ describe("disposed", () => {
 describe("not-initialised", () => {
   it("is answered by every synchronous call until init() has resolved", async () => {
     const fresh = await freshPackage();
-    const calls = [
-      () => new fresh.PointCloud(sphere),
-      () => fresh.hiddenPointRemoval(sphere, farAway),
-    ];
+    const calls = [() => new fresh.PointCloud(sphere), () => fresh.hiddenPointRemoval(sphere, farAway)];
     for (const call of calls) expect((await problemOf(call)).code).toBe("not-initialised");
     const starting = fresh.init();
     for (const call of calls) {
@@ -282,9 +328,15 @@ describe("too-large", () => {
     const before = cloud.visibleFrom(farAway);
     const filler = new small.PointCloud(bumpySphere(2, 50_000));
     for (const change of [
-      () => { cloud.append(bumpySphere(3, 100_000)); },
-      () => { cloud.append([...bumpySphere(3, 100_000)]); },
-      () => { cloud.remove(new Uint32Array(1_000_000)); },
+      () => {
+        cloud.append(bumpySphere(3, 100_000));
+      },
+      () => {
+        cloud.append([...bumpySphere(3, 100_000)]);
+      },
+      () => {
+        cloud.remove(new Uint32Array(1_000_000));
+      },
     ]) {
       expect((await problemOf(change)).code).toBe("too-large");
       expect(cloud).toHaveLength(500);

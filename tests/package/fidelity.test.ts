@@ -33,7 +33,9 @@ describe("rays", () => {
   test("see of a ball what faces the viewpoint", () => {
     const mesh = ball(120, 60);
     const seen = new RayTracer(mesh).visibleFrom(VIEWPOINT);
-    const facing = Array.from(seen, (_, i) => point(mesh.positions, i).reduce((sum, x, axis) => sum + x * VIEWPOINT[axis]!, -1));
+    const facing = Array.from(seen, (_, i) =>
+      point(mesh.positions, i).reduce((sum, x, axis) => sum + x * VIEWPOINT[axis]!, -1),
+    );
     // A ball of flat faces has its silhouette a little elsewhere. At its poles many vertices are one place, each with faces of its own.
     const isPole = (i: number) => Math.abs(mesh.positions[3 * i + 2]!) > 0.999999;
     const sure = facing.flatMap((height, i) => (Math.abs(height) > 0.1 && !isPole(i) ? [i] : []));
@@ -44,7 +46,10 @@ describe("rays", () => {
   test("see of a floor what the ball does not shade", () => {
     const mesh = joined([ball(120, 60), floor]);
     const onFloor = scatter(floor, 4000, 1);
-    const seen = new RayTracer(mesh).visibleFrom(VIEWPOINT, { ...onFloor, faces: onFloor.faces!.map((face) => face + 2 * 120 * 60) });
+    const seen = new RayTracer(mesh).visibleFrom(VIEWPOINT, {
+      ...onFloor,
+      faces: onFloor.faces!.map((face) => face + 2 * 120 * 60),
+    });
     let [shaded, lit] = [0, 0];
     seen.forEach((label, i) => {
       const p = point(onFloor.positions, i);
@@ -83,7 +88,10 @@ describe("a ball seen from two places", () => {
     const mesh = ball(120, 60);
     const points = scatter(mesh, 3000, 3);
     const tracer = new RayTracer(mesh);
-    const views = [[0, 0, 3] as Point, [1, -1, 2] as Point].map((viewpoint) => ({ viewpoint, seen: tracer.visibleFrom(viewpoint, points) }));
+    const views = [[0, 0, 3] as Point, [1, -1, 2] as Point].map((viewpoint) => ({
+      viewpoint,
+      seen: tracer.visibleFrom(viewpoint, points),
+    }));
     labelled = { name: "ball", positions: points.positions, views };
   });
 
@@ -102,8 +110,14 @@ describe("a ball seen from two places", () => {
     const mean = meanCurve(both);
     expect(mean.views).toBe(2);
     const of = (pick: (curve: Curve) => number) => (pick(both[0]!) + pick(both[1]!)) / 2;
-    expect(mean.errors[2]!.total).toBeCloseTo(of(({ errors }) => errors[2]!.total), 12);
-    expect(mean.rules[2]!.exponent).toBeCloseTo(of(({ rules }) => rules[2]!.exponent), 12);
+    expect(mean.errors[2]!.total).toBeCloseTo(
+      of(({ errors }) => errors[2]!.total),
+      12,
+    );
+    expect(mean.rules[2]!.exponent).toBeCloseTo(
+      of(({ rules }) => rules[2]!.exponent),
+      12,
+    );
   });
 
   test("every way of asking is scored against the best R", () => {
@@ -112,7 +126,8 @@ describe("a ball seen from two places", () => {
     const automatic = scores.filter(({ method }) => method === AUTOMATIC.name);
     expect(automatic.every(({ total, ratio, hulls }) => total < 5 && ratio! < 2 && hulls === 1)).toBe(true);
     // The best of so many exponents is at least as good as a few of them.
-    for (const { method, ratio } of scores) if (/^exponent [234]$/.test(method)) expect(ratio).toBeGreaterThanOrEqual(1);
+    for (const { method, ratio } of scores)
+      if (/^exponent [234]$/.test(method)) expect(ratio).toBeGreaterThanOrEqual(1);
   });
 });
 
@@ -125,7 +140,9 @@ test("light is softened as the library softens it", () => {
   const soft = cloud.illuminate([light], { ...options, smoothing: 3 });
   cloud.dispose();
   expect(new Set(hard)).toEqual(new Set([0.25, 1]));
-  soften(hard, mesh.triangles, 3).forEach((x, i) => { expect(x).toBeCloseTo(soft[i]!, 6); });
+  soften(hard, mesh.triangles, 3).forEach((x, i) => {
+    expect(x).toBeCloseTo(soft[i]!, 6);
+  });
 });
 
 test("a figure's section takes the place of the one before, and the others stay", () => {

@@ -7,7 +7,12 @@ const loose = (value: unknown) => value as never;
 
 describe("the paper's bounds", () => {
   it("on curvature are those of Lemma 4.3", () => {
-    for (const [R, r, beta] of [[100, 5, Math.PI / 2], [100, 5, 1], [3, 3, 0.4], [1e4, 20, 2.5]] as const) {
+    for (const [R, r, beta] of [
+      [100, 5, Math.PI / 2],
+      [100, 5, 1],
+      [3, 3, 0.4],
+      [1e4, 20, 2.5],
+    ] as const) {
       const cot = 1 / Math.tan(beta);
       const above = 4 * R * (2 * R - r) * cot ** 2 + 2 * R * r;
       const below = (4 * R * r - 4 * R * R + (r - 2 * R) ** 2 / Math.sin(beta) ** 2) ** 1.5;
@@ -49,7 +54,9 @@ describe("simdEnabled", () => {
 it("nothing answers before init() has resolved", async () => {
   const fresh = await freshPackage();
   const calls = [
-    () => fresh.simdEnabled(), () => fresh.radiusBound(1, 1, 1), () => fresh.permissibleCurvature(1, 1, 1),
+    () => fresh.simdEnabled(),
+    () => fresh.radiusBound(1, 1, 1),
+    () => fresh.permissibleCurvature(1, 1, 1),
     () => fresh.ringOfViewpoints([0, 0, 5], [0, 0, 0]),
   ];
   for (const call of calls) expect((await problemOf(call)).code).toBe("not-initialised");

@@ -105,7 +105,11 @@ describe("sizes beyond every limit", () => {
     const names = /268435457 points.*268435456/;
     await expectRefusal("too-large", names, () => new PointCloud(tooMany));
     await expectRefusal("too-large", names, () => WorkerPointCloud.create(tooMany));
-    await expectRefusal("too-large", /2\d{9} coordinates|limit/, () => new PointCloud({ length: 2 ** 32 }, { stride: 64 }));
+    await expectRefusal(
+      "too-large",
+      /2\d{9} coordinates|limit/,
+      () => new PointCloud({ length: 2 ** 32 }, { stride: 64 }),
+    );
   });
 
   it.each([2 ** 32, 2 ** 53 - 1])("are refused as a stride, too: %d", async (stride) => {
@@ -118,24 +122,91 @@ describe("sizes beyond every limit", () => {
 
 describe("arguments that act while they are read", () => {
   const reading: [name: string, ask: (cloud: InstanceType<typeof PointCloud>, act: () => unknown) => unknown][] = [
-    ["a viewpoint", (cloud, act) => cloud.visibleFrom({ length: 3, get 0() { act(); return 0; }, 1: 0, 2: 5 })],
-    ["options", (cloud, act) => cloud.visibleFrom(farAway, { get exponent() { act(); return 1; } })],
-    ["the viewpoint of autoRadius", (cloud, act) => cloud.autoRadius({ length: 3, 0: 0, 1: 0, get 2() { act(); return 5; } })],
+    [
+      "a viewpoint",
+      (cloud, act) =>
+        cloud.visibleFrom({
+          length: 3,
+          get 0() {
+            act();
+            return 0;
+          },
+          1: 0,
+          2: 5,
+        }),
+    ],
+    [
+      "options",
+      (cloud, act) =>
+        cloud.visibleFrom(farAway, {
+          get exponent() {
+            act();
+            return 1;
+          },
+        }),
+    ],
+    [
+      "the viewpoint of autoRadius",
+      (cloud, act) =>
+        cloud.autoRadius({
+          length: 3,
+          0: 0,
+          1: 0,
+          get 2() {
+            act();
+            return 5;
+          },
+        }),
+    ],
   ];
   it.each(reading)("cannot make a cloud answer that was disposed of: %s", async (_, ask) => {
     const cloud = new PointCloud(sphere);
-    await expectRefusal("disposed", /disposed/, () => ask(cloud, () => { cloud.dispose(); }));
+    await expectRefusal("disposed", /disposed/, () =>
+      ask(cloud, () => {
+        cloud.dispose();
+      }),
+    );
 
     // Another cloud that takes its place does not answer for it.
     const other = new PointCloud(sphere);
-    const replace = () => { other.dispose(); new PointCloud([7, 7, 7]); };
+    const replace = () => {
+      other.dispose();
+      new PointCloud([7, 7, 7]);
+    };
     await expectRefusal("disposed", /disposed/, () => ask(other, replace));
   });
 
   it.each([
-    ["positions", (thrown: Error) => new PointCloud({ length: 3, get 0(): number { throw thrown; }, 1: 0, 2: 0 })],
-    ["a viewpoint", (thrown: Error) => witness.visibleFrom({ get length(): number { throw thrown; } })],
-    ["options", (thrown: Error) => witness.visibleFrom(farAway, { get radius(): number { throw thrown; } })],
+    [
+      "positions",
+      (thrown: Error) =>
+        new PointCloud({
+          length: 3,
+          get 0(): number {
+            throw thrown;
+          },
+          1: 0,
+          2: 0,
+        }),
+    ],
+    [
+      "a viewpoint",
+      (thrown: Error) =>
+        witness.visibleFrom({
+          get length(): number {
+            throw thrown;
+          },
+        }),
+    ],
+    [
+      "options",
+      (thrown: Error) =>
+        witness.visibleFrom(farAway, {
+          get radius(): number {
+            throw thrown;
+          },
+        }),
+    ],
   ])("have what they throw passed on: %s", async (_, call) => {
     const thrown = new RangeError("mine");
     expect(await problemOf(() => call(thrown))).toBe(thrown);
@@ -143,13 +214,26 @@ describe("arguments that act while they are read", () => {
 
   it("are asked for their length once", () => {
     let length = 0;
-    expect(new PointCloud({ get length() { return (length += 3); }, 0: 1, 1: 1, 2: 1 })).toHaveLength(1);
+    expect(
+      new PointCloud({
+        get length() {
+          return (length += 3);
+        },
+        0: 1,
+        1: 1,
+        2: 1,
+      }),
+    ).toHaveLength(1);
   });
 
   it("may be revoked, or refuse to say what they are", async () => {
     const { proxy, revoke } = Proxy.revocable([], {});
     revoke();
-    const secretive = { get [Symbol.toStringTag](): string { throw new Error("no"); } };
+    const secretive = {
+      get [Symbol.toStringTag](): string {
+        throw new Error("no");
+      },
+    };
     await expectRefusal("option", /unknown/, () => new PointCloud(sphere, loose(proxy)));
     await expectRefusal("positions-type", /unknown/, () => new PointCloud(loose(secretive)));
     await expectRefusal("positions-type", /positions\[0\]/, () => new PointCloud(loose([proxy, 1, 1])));
@@ -162,22 +246,26 @@ describe("arguments that act while they are read", () => {
 describe("options", () => {
   const polluted: object = Object.prototype;
 
-  it.each([["radius", 1], ["exponent", 3], ["stride", 9], ["nonFinite", "skip"], ["latest", 7], ["foo", 7]])(
-    "are not those of Object.prototype: %s",
-    async (name, value) => {
-      withOwn(polluted, name, { value, enumerable: true, writable: true });
-      try {
-        expect(new PointCloud(sphere).visibleFrom(farAway)).toEqual(expected);
-        expect(new PointCloud(sphere, {}).visibleFrom(farAway, {})).toEqual(expected);
-        expect(hiddenPointRemoval(sphere, farAway, { dimension: 3 })).toEqual(expected);
-        const cloud = await WorkerPointCloud.create(sphere);
-        expect(await cloud.visibleFrom(farAway, {})).toEqual(expected);
-        await cloud.dispose();
-      } finally {
-        Reflect.deleteProperty(polluted, name);
-      }
-    },
-  );
+  it.each([
+    ["radius", 1],
+    ["exponent", 3],
+    ["stride", 9],
+    ["nonFinite", "skip"],
+    ["latest", 7],
+    ["foo", 7],
+  ])("are not those of Object.prototype: %s", async (name, value) => {
+    withOwn(polluted, name, { value, enumerable: true, writable: true });
+    try {
+      expect(new PointCloud(sphere).visibleFrom(farAway)).toEqual(expected);
+      expect(new PointCloud(sphere, {}).visibleFrom(farAway, {})).toEqual(expected);
+      expect(hiddenPointRemoval(sphere, farAway, { dimension: 3 })).toEqual(expected);
+      const cloud = await WorkerPointCloud.create(sphere);
+      expect(await cloud.visibleFrom(farAway, {})).toEqual(expected);
+      await cloud.dispose();
+    } finally {
+      Reflect.deleteProperty(polluted, name);
+    }
+  });
 
   class Settings {
     get exponent() {
@@ -218,7 +306,9 @@ describe("an answer", () => {
     transferredAway(answer.indices);
     const target = new Uint8Array(500).fill(9);
     await expectRefusal("disposed", /transferred/, () => answer.mask());
-    await expectRefusal("disposed", /transferred/, () => { answer.maskInto(target); });
+    await expectRefusal("disposed", /transferred/, () => {
+      answer.maskInto(target);
+    });
     await expectRefusal("disposed", /transferred/, () => answer.indicesInto(new Uint32Array(500)));
     expect(target.every((byte) => byte === 9)).toBe(true);
     expect(answer.count).toBe(expected.count);
@@ -232,12 +322,20 @@ describe("an answer", () => {
     expect(expected.indicesInto(indices)).toBe(expected.count);
     expect([...indices.subarray(0, expected.count)]).toEqual([...expected.indices]);
 
-    await expectRefusal("option", /DataView$/, () => { expected.maskInto(loose(new DataView(new ArrayBuffer(500)))); });
-    await expectRefusal("option", /length 0/, () => { expected.maskInto(transferredAway(new Uint8Array(500))); });
+    await expectRefusal("option", /DataView$/, () => {
+      expected.maskInto(loose(new DataView(new ArrayBuffer(500))));
+    });
+    await expectRefusal("option", /length 0/, () => {
+      expected.maskInto(transferredAway(new Uint8Array(500)));
+    });
     const pretender = { __proto__: Uint8Array.prototype, length: 500 };
-    await expectRefusal("option", /maskInto/, () => { expected.maskInto(loose(pretender)); });
+    await expectRefusal("option", /maskInto/, () => {
+      expected.maskInto(loose(pretender));
+    });
     const none = new PointCloud([]).visibleFrom(farAway);
-    await expectRefusal("option", /maskInto/, () => { none.maskInto(transferredAway(new Uint8Array(1))); });
+    await expectRefusal("option", /maskInto/, () => {
+      none.maskInto(transferredAway(new Uint8Array(1)));
+    });
   });
 });
 
@@ -266,14 +364,24 @@ describe("signals", () => {
     const note = (reason: unknown) => unhandled.push(reason);
     process.on("unhandledRejection", note);
     const half = { aborted: false, addEventListener: null };
-    const raising = { aborted: false, addEventListener: () => { throw new RangeError("mine"); }, removeEventListener: () => undefined };
+    const raising = {
+      aborted: false,
+      addEventListener: () => {
+        throw new RangeError("mine");
+      },
+      removeEventListener: () => undefined,
+    };
     const remote = await WorkerPointCloud.create(sphere);
     for (const signal of [{}, half, { aborted: false, addEventListener: () => undefined }, null]) {
       await expectRefusal("option", /signal/, () => WorkerPointCloud.create(sphere, { signal: loose(signal) }));
       await expectRefusal("option", /signal/, () => remote.visibleFrom(farAway, { signal: loose(signal) }));
     }
-    expect(await problemOf(() => WorkerPointCloud.create(sphere, { signal: loose(raising) }))).toBeInstanceOf(RangeError);
-    expect(await problemOf(() => remote.visibleFrom([0, 0, NaN], { signal: loose(raising) }))).toBeInstanceOf(RangeError);
+    expect(await problemOf(() => WorkerPointCloud.create(sphere, { signal: loose(raising) }))).toBeInstanceOf(
+      RangeError,
+    );
+    expect(await problemOf(() => remote.visibleFrom([0, 0, NaN], { signal: loose(raising) }))).toBeInstanceOf(
+      RangeError,
+    );
     expect((await remote.visibleFrom(farAway)).count).toBe(expected.count);
     await remote.dispose();
     await later();
@@ -297,9 +405,16 @@ describe("init, called with something else while it is starting,", () => {
   it("tries that once the first has failed", async () => {
     const fresh = await freshPackage();
     const bytes = new Uint8Array(3);
-    const outcomes = await Promise.allSettled([fresh.init(bytes), fresh.init(bytes), fresh.init("/nowhere.wasm"), fresh.init()]);
+    const outcomes = await Promise.allSettled([
+      fresh.init(bytes),
+      fresh.init(bytes),
+      fresh.init("/nowhere.wasm"),
+      fresh.init(),
+    ]);
     expect(outcomes.map(({ status }) => status)).toEqual(["rejected", "rejected", "rejected", "fulfilled"]);
-    const [first, second, third] = outcomes.map((one) => (one.status === "rejected" ? (one.reason as Error).message : ""));
+    const [first, second, third] = outcomes.map((one) =>
+      one.status === "rejected" ? (one.reason as Error).message : "",
+    );
     expect(second).toBe(first);
     expect(third).toContain("/nowhere.wasm");
     expect(fresh.hiddenPointRemoval(sphere, farAway)).toEqual(expected);

@@ -125,7 +125,13 @@ describe("initSync", () => {
 
   it.each([undefined, "hpr.wasm", new Uint8Array(3)])("answers load to %s, and may be tried again", async (input) => {
     const fresh = await freshPackage();
-    expect((await problemOf(() => { fresh.initSync(input as never); })).code).toBe("load");
+    expect(
+      (
+        await problemOf(() => {
+          fresh.initSync(input as never);
+        })
+      ).code,
+    ).toBe("load");
     fresh.initSync(wasmBytes());
     expectToWork(fresh);
   });

@@ -47,7 +47,8 @@ describe("parts that were seen with one radius", () => {
     ["an exponential of its own scale", { inversion: { exponential: "auto" } }],
   ])("merge with the inversion that the answer tells: %s", (_, options) => {
     const whole = new PointCloud(sphere).visibleFrom(farAway, options);
-    const together = whole.radius > 0 ? { radius: whole.radius, inversion: whole.inversion } : { inversion: whole.inversion };
+    const together =
+      whole.radius > 0 ? { radius: whole.radius, inversion: whole.inversion } : { inversion: whole.inversion };
     const parts = [0, 1500].map((first) => {
       const own = sphere.subarray(3 * first, 3 * first + 4500);
       const { indices } = new PointCloud(own).visibleFrom(farAway, together);

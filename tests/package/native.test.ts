@@ -29,7 +29,10 @@ function visibleNatively(positions: Float64Array, viewpoint: number[]): number[]
   writeFileSync(file, lines.join("\n"));
   const example = ["run", "--quiet", "--locked", "--release", "--example", "filter_xyz"];
   const kept = cargo(...example, "--", file, viewpoint.join(","));
-  return kept.trim().split("\n").map((line) => Number(line.split(" ")[3]));
+  return kept
+    .trim()
+    .split("\n")
+    .map((line) => Number(line.split(" ")[3]));
 }
 
 /** The same cloud, far from the origin, as maps have it. */

@@ -26,7 +26,9 @@ export function nodeOf(points: number[][], corner: number[]): THREE.Points {
 
 /** A cloud cut into cells of a grid with so many along the longest side of its box. */
 export function split(positions: ArrayLike<number>, along: number): THREE.Points[] {
-  const points = Array.from({ length: positions.length / 3 }, (_, i) => [0, 1, 2].map((axis) => positions[3 * i + axis]!));
+  const points = Array.from({ length: positions.length / 3 }, (_, i) =>
+    [0, 1, 2].map((axis) => positions[3 * i + axis]!),
+  );
   const low = [0, 1, 2].map((axis) => points.reduce((least, point) => Math.min(least, point[axis]!), Infinity));
   const high = [0, 1, 2].map((axis) => points.reduce((most, point) => Math.max(most, point[axis]!), -Infinity));
   const side = (Math.max(...high.map((x, axis) => x - low[axis]!)) / along) * 1.0001;

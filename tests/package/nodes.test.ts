@@ -3,7 +3,11 @@ import { syncBuiltinESMExports } from "node:module";
 import threads from "node:worker_threads";
 import * as THREE from "three";
 import { init, PointCloud, type VisibilityOptions } from "hidden-point-removal";
-import { HiddenPointNodesFilter, type HiddenPointNodesFilterEvents, type HiddenPointNodesFilterOptions } from "hidden-point-removal/nodes";
+import {
+  HiddenPointNodesFilter,
+  type HiddenPointNodesFilterEvents,
+  type HiddenPointNodesFilterOptions,
+} from "hidden-point-removal/nodes";
 import { HiddenPointFilter } from "hidden-point-removal/three";
 import { afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 
@@ -42,14 +46,24 @@ async function settle({ filter, camera }: { filter: HiddenPointNodesFilter; came
 }
 
 /** What the unsplit cloud answers from where, or along which direction, the nodes were asked. */
-function answerOf(nodes: THREE.Points[], { root, camera, changes }: Omit<Scene, "camera"> & { camera: THREE.Camera }, options?: VisibilityOptions): number[] {
+function answerOf(
+  nodes: THREE.Points[],
+  { root, camera, changes }: Omit<Scene, "camera"> & { camera: THREE.Camera },
+  options?: VisibilityOptions,
+): number[] {
   const { viewpoint, direction, radius } = changes.at(-1)!;
   const cloud = new PointCloud(whole(nodes));
-  const seen = direction === null ? root.worldToLocal(camera.position.clone()) : new THREE.Vector3(0, 0, -1).transformDirection(camera.matrixWorld).transformDirection(root.matrixWorld.clone().invert());
+  const seen =
+    direction === null
+      ? root.worldToLocal(camera.position.clone())
+      : new THREE.Vector3(0, 0, -1)
+          .transformDirection(camera.matrixWorld)
+          .transformDirection(root.matrixWorld.clone().invert());
   seen.toArray().forEach((x, axis) => {
     expect((viewpoint ?? direction)![axis]).toBeCloseTo(x, 9);
   });
-  const answer = direction === null ? cloud.visibleFrom(viewpoint!, options) : cloud.visibleFromDirection(direction, options);
+  const answer =
+    direction === null ? cloud.visibleFrom(viewpoint!, options) : cloud.visibleFromDirection(direction, options);
   expect(radius).toBe(answer.radius);
   return [...answer.indices];
 }
@@ -60,7 +74,11 @@ describe("a cloud split into nodes", () => {
     expect(nodes.length).toBeGreaterThan(50);
     const scene = sceneOf(nodes, { worker });
     const { camera, root, changes } = scene;
-    for (const place of [[0.3, 0.4, 0.5], [-0.05, 0.12, 0.1], [-0.02, 0.13, 0.0]]) {
+    for (const place of [
+      [0.3, 0.4, 0.5],
+      [-0.05, 0.12, 0.1],
+      [-0.02, 0.13, 0.0],
+    ]) {
       camera.position.fromArray(root.localToWorld(new THREE.Vector3().fromArray(place)).toArray());
       await settle(scene);
       const { count, nodes: asked } = changes.at(-1)!;
@@ -99,7 +117,9 @@ describe("a cloud split into nodes", () => {
   it("may consist of levels of detail that lie in one another", async () => {
     const positions = bumpySphere(3, 9000);
     const levels = [0, 1, 2].flatMap((level) => {
-      const part = Float32Array.from(positions.filter((_, i) => [0, 1, 1, 2, 2, 2, 2, 2, 2][Math.floor(i / 3) % 9] === level));
+      const part = Float32Array.from(
+        positions.filter((_, i) => [0, 1, 1, 2, 2, 2, 2, 2, 2][Math.floor(i / 3) % 9] === level),
+      );
       return split(part, [1, 3, 6][level]!);
     });
     // As octrees nest them: each node below another one.
@@ -142,27 +162,30 @@ describe("a cloud split into nodes", () => {
     expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene, options));
   });
 
-  it.each([["nothing else", {}], ...views] satisfies typeof views)("is seen by an orthographic camera with %s as one cloud is", async (_, options) => {
-    const nodes = split(bumpySphere(5, 4000), 5);
-    const scene = sceneOf(nodes, options);
-    const camera = new THREE.OrthographicCamera();
-    const { filter, changes } = scene;
-    for (const turn of [0.3, 1.3]) {
-      camera.rotation.set(turn, 0.4, 0.5);
-      camera.updateMatrixWorld();
+  it.each([["nothing else", {}], ...views] satisfies typeof views)(
+    "is seen by an orthographic camera with %s as one cloud is",
+    async (_, options) => {
+      const nodes = split(bumpySphere(5, 4000), 5);
+      const scene = sceneOf(nodes, options);
+      const camera = new THREE.OrthographicCamera();
+      const { filter, changes } = scene;
+      for (const turn of [0.3, 1.3]) {
+        camera.rotation.set(turn, 0.4, 0.5);
+        camera.updateMatrixWorld();
+        await settle({ filter, camera });
+        expect(drawnOf(nodes)).toEqual(answerOf(nodes, { ...scene, camera }, options));
+      }
+      expect(changes.map(({ viewpoint }) => viewpoint)).toEqual([null, null]);
+      // Panning asks nothing, a viewpoint does.
+      camera.position.set(3, 4, 5);
       await settle({ filter, camera });
-      expect(drawnOf(nodes)).toEqual(answerOf(nodes, { ...scene, camera }, options));
-    }
-    expect(changes.map(({ viewpoint }) => viewpoint)).toEqual([null, null]);
-    // Panning asks nothing, a viewpoint does.
-    camera.position.set(3, 4, 5);
-    await settle({ filter, camera });
-    expect(changes).toHaveLength(2);
-    scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(2, 3, 4)).toArray());
-    await settle(scene);
-    expect(changes.at(-1)!.direction).toBeNull();
-    expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene, options));
-  });
+      expect(changes).toHaveLength(2);
+      scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(2, 3, 4)).toArray());
+      await settle(scene);
+      expect(changes.at(-1)!.direction).toBeNull();
+      expect(drawnOf(nodes)).toEqual(answerOf(nodes, scene, options));
+    },
+  );
 
   it("is asked again only for what is new", async () => {
     const nodes = split(dragon(), 10);
@@ -323,7 +346,9 @@ it("takes a node that is listed twice for one, and comes to rest", async () => {
 describe("refuses", () => {
   const codes = (filter: HiddenPointNodesFilter) => {
     const told: string[] = [];
-    filter.addEventListener("error", ({ error, points }) => told.push(`${(error as { code?: string }).code ?? error.message} ${points?.name ?? "view"}`));
+    filter.addEventListener("error", ({ error, points }) =>
+      told.push(`${(error as { code?: string }).code ?? error.message} ${points?.name ?? "view"}`),
+    );
     return told;
   };
 
@@ -340,7 +365,9 @@ describe("refuses", () => {
 
   it("what is no root, or stretched", () => {
     for (const root of [{}, null, undefined]) {
-      expect(() => new HiddenPointNodesFilter(root as never)).toThrow(expect.objectContaining({ code: "option", message: expect.stringMatching(/root/) as string }));
+      expect(() => new HiddenPointNodesFilter(root as never)).toThrow(
+        expect.objectContaining({ code: "option", message: expect.stringMatching(/root/) as string }),
+      );
     }
     const root = new THREE.Group();
     root.scale.x = 2;
@@ -374,7 +401,13 @@ describe("refuses", () => {
 
   it("a node, once, and goes on with the others", async () => {
     const nodes = split(bumpySphere(1, 3000), 3);
-    const broken = nodeOf([[0, 0, 0], [NaN, 0, 0]], [0, 0, 0]);
+    const broken = nodeOf(
+      [
+        [0, 0, 0],
+        [NaN, 0, 0],
+      ],
+      [0, 0, 0],
+    );
     broken.name = "broken";
     const morphing = nodeOf([[0, 0, 0]], [0, 0, 0]);
     morphing.name = "morphing";

@@ -73,7 +73,13 @@ describe("an inversion", () => {
 
   it("hides the farther of two points on one ray, and says what it was asked", () => {
     const two = new PointCloud([0, 0, 1, 0, 0, 2]);
-    for (const inversion of ["spherical", { power: 16 }, { power: 1.0001 }, { exponential: 1e-3 }, { exponential: "auto" }] as const) {
+    for (const inversion of [
+      "spherical",
+      { power: 16 },
+      { power: 1.0001 },
+      { exponential: 1e-3 },
+      { exponential: "auto" },
+    ] as const) {
       expect([...two.visibleFrom(farAway, { inversion }).indices]).toEqual([1]);
     }
     expect(two.visibleFrom(farAway, { radius: "auto", inversion: "spherical" }).inversion).toBe("spherical");
@@ -91,8 +97,15 @@ describe("noise", () => {
     const k = 7;
     const voted = Array.from({ length: plain.length }, (_, i) => {
       const distance = (j: number) =>
-        Math.hypot(noisy[3 * i]! - noisy[3 * j]!, noisy[3 * i + 1]! - noisy[3 * j + 1]!, noisy[3 * i + 2]! - noisy[3 * j + 2]!);
-      const nearest = [...plain.keys()].filter((j) => j !== i).sort((a, b) => distance(a) - distance(b)).slice(0, k);
+        Math.hypot(
+          noisy[3 * i]! - noisy[3 * j]!,
+          noisy[3 * i + 1]! - noisy[3 * j + 1]!,
+          noisy[3 * i + 2]! - noisy[3 * j + 2]!,
+        );
+      const nearest = [...plain.keys()]
+        .filter((j) => j !== i)
+        .sort((a, b) => distance(a) - distance(b))
+        .slice(0, k);
       const seen = [i, ...nearest].filter((j) => plain[j] === 1).length;
       return seen > 0.4 * (k + 1) ? 1 : 0;
     });
@@ -110,9 +123,14 @@ describe("noise", () => {
   });
 
   it("changes nothing in a plane, where points are on theirs already", () => {
-    const lattice = Float32Array.from({ length: 300 }, (_, i) => [Math.floor(i / 30), Math.floor(i / 3) % 10, 0][i % 3]!);
+    const lattice = Float32Array.from(
+      { length: 300 },
+      (_, i) => [Math.floor(i / 30), Math.floor(i / 3) % 10, 0][i % 3]!,
+    );
     const flat = new PointCloud(lattice);
     const options = { radius: 1000 };
-    expect(flat.visibleFrom(farAway, { ...options, denoise: 8 }).indices).toEqual(flat.visibleFrom(farAway, options).indices);
+    expect(flat.visibleFrom(farAway, { ...options, denoise: 8 }).indices).toEqual(
+      flat.visibleFrom(farAway, options).indices,
+    );
   });
 });

@@ -30,7 +30,11 @@ describe("a reconstruction", () => {
     expect(whole.indices).toEqual(visible.indices);
     expect(whole.mask()).toEqual(visible.mask());
     expect(whole).toMatchObject({
-      count: visible.count, radius: visible.radius, exponent: visible.exponent, evaluations: 0, inversion: "spherical",
+      count: visible.count,
+      radius: visible.radius,
+      exponent: visible.exponent,
+      evaluations: 0,
+      inversion: "spherical",
     });
     expect(whole.triangles).toBeInstanceOf(Uint32Array);
     expect(whole.triangles.buffer.byteLength).toBe(whole.triangles.byteLength);
@@ -57,7 +61,9 @@ describe("a reconstruction", () => {
       expect(indices).toEqual(whole.indices);
     }
     // The automatic c is 0.07 spacings.
-    const { exponential } = cloud.visibleFrom(viewpoint, { inversion: { exponential: "auto" } }).inversion as { exponential: number };
+    const { exponential } = cloud.visibleFrom(viewpoint, { inversion: { exponential: "auto" } }).inversion as {
+      exponential: number;
+    };
     const spacing = exponential / 0.07;
     const usual = listed(cloud.reconstruct(viewpoint).triangles).map(longest);
     expect(usual).toHaveLength(triangles.filter((corners) => longest(corners) <= 5 * spacing).length);
@@ -65,7 +71,13 @@ describe("a reconstruction", () => {
   });
 
   it("takes the options of a view", () => {
-    for (const options of [{ exponent: 3 }, { radius: "search" }, { inversion: { power: 1.5 } }, { vote: 6 }, { denoise: 8 }] as const) {
+    for (const options of [
+      { exponent: 3 },
+      { radius: "search" },
+      { inversion: { power: 1.5 } },
+      { vote: 6 },
+      { denoise: 8 },
+    ] as const) {
       const mesh = cloud.reconstruct(viewpoint, options);
       expect(mesh.indices).toEqual(cloud.visibleFrom(viewpoint, options).indices);
       const visible = mesh.mask();
@@ -127,9 +139,13 @@ describe("light", () => {
     let expected = [...lit.illuminate(light, { smoothing: 0 })];
     expect(new Set(expected)).toEqual(new Set([0, 1]));
     for (const smoothing of [1, 2, 3]) {
-      expected = expected.map((own, i) => (own + others[i]!.reduce((sum, j) => sum + expected[j]!, 0)) / (others[i]!.length + 1));
+      expected = expected.map(
+        (own, i) => (own + others[i]!.reduce((sum, j) => sum + expected[j]!, 0)) / (others[i]!.length + 1),
+      );
       const soft = lit.illuminate(light, { smoothing, triangles });
-      soft.forEach((value, i) => { expect(value).toBeCloseTo(expected[i]!, 6); });
+      soft.forEach((value, i) => {
+        expect(value).toBeCloseTo(expected[i]!, 6);
+      });
     }
     expect(lit.illuminate(light, { triangles })).toEqual(lit.illuminate(light, { smoothing: 1, triangles }));
     expect(triangles).toEqual(Uint32Array.of(0, 1, 2, 1, 3, 2));
@@ -140,7 +156,10 @@ describe("light", () => {
     const soft = cloud.illuminate(lights);
     for (const i of [0, 100, 777, 1838]) {
       const distance = (j: number) => Math.hypot(...minus(at(i), at(j)));
-      const nearest = [...hard.keys()].filter((j) => j !== i).sort((a, b) => distance(a) - distance(b)).slice(0, 6);
+      const nearest = [...hard.keys()]
+        .filter((j) => j !== i)
+        .sort((a, b) => distance(a) - distance(b))
+        .slice(0, 6);
       expect(soft[i]).toBeCloseTo([i, ...nearest].reduce((sum, j) => sum + hard[j]!, 0) / 7, 5);
     }
     expect(cloud.illuminate(lights, { smoothing: 1 })).toEqual(soft);
@@ -167,7 +186,12 @@ describe("light", () => {
   });
 
   it("takes the options of a view", () => {
-    for (const options of [{ exponent: 2.5 }, { inversion: { exponential: "auto" } }, { vote: 6 }, { denoise: 6 }] as const) {
+    for (const options of [
+      { exponent: 2.5 },
+      { inversion: { exponential: "auto" } },
+      { vote: 6 },
+      { denoise: 6 },
+    ] as const) {
       const brightness = cloud.illuminate([viewpoint], { ...options, smoothing: 0 });
       expect([...brightness]).toEqual([...cloud.visibleFrom(viewpoint, options).mask()]);
     }
@@ -213,8 +237,12 @@ describe("what is refused", () => {
     const gone = new PointCloud([1, 2, 3]);
     gone.dispose();
     const calls = [
-      () => gone.reconstruct([0, 0, 5]), () => gone.illuminate([]), () => gone.visibleFromAny([]),
-      () => gone.visibleFromAtLeast(1, [[0, 0, 5]]), () => gone.visibleFromDirection([0, 0, 1]), () => gone.autoRadius([0, 0, 5], "search"),
+      () => gone.reconstruct([0, 0, 5]),
+      () => gone.illuminate([]),
+      () => gone.visibleFromAny([]),
+      () => gone.visibleFromAtLeast(1, [[0, 0, 5]]),
+      () => gone.visibleFromDirection([0, 0, 1]),
+      () => gone.autoRadius([0, 0, 5], "search"),
     ];
     for (const call of calls) expect((await problemOf(call)).code).toBe("disposed");
   });

@@ -10,7 +10,14 @@ const viewpoint = [0.5, -1, 5];
 const viewpoints = [viewpoint, Float32Array.of(4, 0, 1), [0.1, 0, 0.2]];
 const triangles = Uint32Array.of(0, 1, 2, 2, 1, 3);
 
-type Method = "visibleFrom" | "visibleFromDirection" | "visibleFromAny" | "visibleFromAtLeast" | "autoRadius" | "reconstruct" | "illuminate";
+type Method =
+  | "visibleFrom"
+  | "visibleFromDirection"
+  | "visibleFromAny"
+  | "visibleFromAtLeast"
+  | "autoRadius"
+  | "reconstruct"
+  | "illuminate";
 /** What both clouds have; each call gives a value, or a promise of it. */
 type Cloud = { [M in Method]: (...args: never[]) => unknown };
 type Call = [method: Method, ...args: unknown[]];
@@ -46,7 +53,9 @@ describe.each([1, 3])("with %d workers", (workers) => {
     const cloud = await WorkerPointCloud.create(sphere, { workers });
     for (const round of ["as built", "changed"]) {
       const answers = await Promise.all(calls.map((call) => ask(cloud, call)));
-      calls.forEach((call, i) => { expect(answers[i], `${round}: ${call[0]}`).toEqual(ask(direct, call)); });
+      calls.forEach((call, i) => {
+        expect(answers[i], `${round}: ${call[0]}`).toEqual(ask(direct, call));
+      });
       const [more, gone] = [bumpySphere(2, 100), [5, 17, 2501]];
       direct.append(more);
       direct.remove(gone);
@@ -64,8 +73,12 @@ describe.each([1, 3])("with %d workers", (workers) => {
     expect(cloud).toHaveLength(480 / dimension);
     const [near, far] = [0.5, 4].map((x) => new Array<number>(dimension).fill(x)) as [number[], number[]];
     const asked: Call[] = [
-      ["visibleFrom", far], ["visibleFrom", near, { inversion: { power: 3 } }], ["visibleFrom", far, { radius: "search" }],
-      ["visibleFromAny", [near, far]], ["visibleFromAtLeast", 2, [near, far]], ["autoRadius", far, "opposite"],
+      ["visibleFrom", far],
+      ["visibleFrom", near, { inversion: { power: 3 } }],
+      ["visibleFrom", far, { radius: "search" }],
+      ["visibleFromAny", [near, far]],
+      ["visibleFromAtLeast", 2, [near, far]],
+      ["autoRadius", far, "opposite"],
     ];
     for (const call of asked) expect(await ask(cloud, call)).toEqual(ask(direct, call));
     await cloud.dispose();

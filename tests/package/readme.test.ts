@@ -46,7 +46,18 @@ describe("commands", () => {
     writeFileSync(join(scratch, "cloud.xyz"), "0 0 1 a\n0 0 2 b\n1 0 0 c\n");
     const { stdout, status } = spawnSync(
       "cargo",
-      ["run", "--quiet", "--locked", "--release", "--manifest-path", join(root, "Cargo.toml"), "--example", example, "--", ...args.split(" ")],
+      [
+        "run",
+        "--quiet",
+        "--locked",
+        "--release",
+        "--manifest-path",
+        join(root, "Cargo.toml"),
+        "--example",
+        example,
+        "--",
+        ...args.split(" "),
+      ],
       { cwd: scratch, encoding: "utf8", env: { ...process.env, CARGO_TARGET_DIR: join(root, "target") } },
     );
     expect(status).toBe(0);

@@ -17,7 +17,10 @@ type Reconstruction = ReturnType<Cloud["reconstruct"]>;
 const sphere = bumpySphere(1, 3000);
 const direct = new PointCloud(sphere);
 /** More is visible from farther away. */
-const [near, farAway] = [[0, 0, 1.5], [0, 0, 5]];
+const [near, farAway] = [
+  [0, 0, 1.5],
+  [0, 0, 5],
+];
 const loose = (value: unknown) => value as never;
 
 const started: threads.Worker[] = [];
@@ -148,7 +151,10 @@ it.each([
 ])("answers that are kept never change, whatever becomes of others (order %d, %d workers)", async (seed, workers) => {
   const random = randomNumbers(seed);
   const pick = (count: number) => Math.floor(random() * count);
-  const clouds = [await WorkerPointCloud.create(sphere, { workers }), await WorkerPointCloud.create(sphere, { shared: true })];
+  const clouds = [
+    await WorkerPointCloud.create(sphere, { workers }),
+    await WorkerPointCloud.create(sphere, { shared: true }),
+  ];
   const places = Array.from({ length: 12 }, (_, i) => [Math.sin(i), Math.cos(2 * i), 1.5 + i / 4]);
   const expected = new Map(places.map((place) => [place, direct.visibleFrom(place).indices]));
   const kept: { answer: Answer; place: number[] }[] = [];
@@ -204,7 +210,12 @@ it("memory that a worker takes along when it dies is missed by nobody", async ()
 });
 
 describe("an answer that is drawn goes back with the next request", () => {
-  const places = [[0, 0, 5], [0, 0.1, 5], [0, 0.2, 5], [0, 0.3, 5]];
+  const places = [
+    [0, 0, 5],
+    [0, 0.1, 5],
+    [0, 0.2, 5],
+    [0, 0.3, 5],
+  ];
 
   it("of a filter", async () => {
     const adapter = await adapterFor(VERSIONS[0]![1]);

@@ -66,7 +66,9 @@ it("gives a cloud's memory back when it leaves", async () => {
 });
 
 it("a worker that dies takes all of its clouds along, and the next gets a new one", async () => {
-  const [first, second] = await Promise.all([1, 2].map((seed) => WorkerPointCloud.create(bumpySphere(seed, 900), { shared: true })));
+  const [first, second] = await Promise.all(
+    [1, 2].map((seed) => WorkerPointCloud.create(bumpySphere(seed, 900), { shared: true })),
+  );
   const pending = problemOf(() => first!.visibleFrom(farAway));
   await [...running][0]!.terminate();
   expect((await pending).code).toBe("internal");

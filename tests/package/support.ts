@@ -34,9 +34,7 @@ export function trappingWasm(name: string): Uint8Array<ArrayBuffer> {
 /** The package's wasm, except that its memory is refused growth beyond so many 64 KiB pages. */
 export function cappedWasm(pages: number): Uint8Array<ArrayBuffer> {
   const module = binaryen.readBinary(wasmBytes());
-  const capped = binaryen.parseText(
-    module.emitText().replace(/\(memory (\S+) (\d+)\)/, `(memory $1 $2 ${pages})`),
-  );
+  const capped = binaryen.parseText(module.emitText().replace(/\(memory (\S+) (\d+)\)/, `(memory $1 $2 ${pages})`));
   capped.setFeatures(module.getFeatures());
   return new Uint8Array(capped.emitBinary());
 }

@@ -3,7 +3,16 @@ import { afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 
 import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
 import { bumpySphere, problemOf } from "./support";
-import { type Adapter, adapterFor, drawn, type Filter, nextChange, type Scene, sceneOf, VERSIONS } from "./three-support";
+import {
+  type Adapter,
+  adapterFor,
+  drawn,
+  type Filter,
+  nextChange,
+  type Scene,
+  sceneOf,
+  VERSIONS,
+} from "./three-support";
 
 const sphere = bumpySphere(1, 3000);
 const other = bumpySphere(2, 2000);
@@ -46,12 +55,18 @@ describe.each(VERSIONS)("with %s", (_, load) => {
     it.each<[what: string, code: string, words: string, spoil: (scene: Scene) => unknown]>([
       ["a mesh", "option", "THREE.Points", () => new adapter.THREE.Mesh()],
       ["nothing", "option", "THREE.Points", () => undefined],
-      ["morph targets", "option", "morphAttributes", ({ geometry }) => void (geometry.morphAttributes["position"] = [attribute(sphere)])],
+      [
+        "morph targets",
+        "option",
+        "morphAttributes",
+        ({ geometry }) => void (geometry.morphAttributes["position"] = [attribute(sphere)]),
+      ],
       [
         "an instanced geometry",
         "option",
         "InstancedBufferGeometry",
-        ({ points, geometry }) => void (points.geometry = new adapter.THREE.InstancedBufferGeometry().copy(loose(geometry))),
+        ({ points, geometry }) =>
+          void (points.geometry = new adapter.THREE.InstancedBufferGeometry().copy(loose(geometry))),
       ],
       [
         "an instanced attribute",
@@ -73,7 +88,12 @@ describe.each(VERSIONS)("with %s", (_, load) => {
       ],
       ["a scale of zero", "option", "scale", ({ points }) => void points.scale.setScalar(0)],
       ["no positions", "positions-type", "position", ({ geometry }) => void geometry.deleteAttribute("position")],
-      ["positions of two numbers", "positions-type", "itemSize", ({ geometry }) => void geometry.setAttribute("position", attribute(sphere, 2))],
+      [
+        "positions of two numbers",
+        "positions-type",
+        "itemSize",
+        ({ geometry }) => void geometry.setAttribute("position", attribute(sphere, 2)),
+      ],
       [
         "positions that were given away",
         "positions-type",
@@ -174,26 +194,29 @@ describe.each(VERSIONS)("with %s", (_, load) => {
       return codes;
     }
 
-    it.each([true, false])("that a radius is too small, and goes on where it is not, with worker: %s", async (worker) => {
-      const { points, camera, geometry } = sceneOf(adapter, sphere);
-      const filter = filterFor(points, { radius: 5, worker });
-      const codes = heard(filter);
-      filter.update(camera);
-      expect((await problemOf(() => filter.ready)).code).toBe("radius");
-      for (let i = 0; i < 20; i++) {
-        camera.position.z += 1;
+    it.each([true, false])(
+      "that a radius is too small, and goes on where it is not, with worker: %s",
+      async (worker) => {
+        const { points, camera, geometry } = sceneOf(adapter, sphere);
+        const filter = filterFor(points, { radius: 5, worker });
+        const codes = heard(filter);
         filter.update(camera);
-        await new Promise((resolve) => setTimeout(resolve));
-      }
-      camera.position.z = 2;
-      filter.update(camera);
-      await expect.poll(() => drawn(geometry).length).toBeLessThan(2000);
-      expect(codes).toEqual(["radius"]);
-      camera.position.z = 6;
-      filter.update(camera);
-      await expect.poll(() => codes).toEqual(["radius", "radius"]);
-      expect(filter.visibleCount).toBeLessThan(2000);
-    });
+        expect((await problemOf(() => filter.ready)).code).toBe("radius");
+        for (let i = 0; i < 20; i++) {
+          camera.position.z += 1;
+          filter.update(camera);
+          await new Promise((resolve) => setTimeout(resolve));
+        }
+        camera.position.z = 2;
+        filter.update(camera);
+        await expect.poll(() => drawn(geometry).length).toBeLessThan(2000);
+        expect(codes).toEqual(["radius"]);
+        camera.position.z = 6;
+        filter.update(camera);
+        await expect.poll(() => codes).toEqual(["radius", "radius"]);
+        expect(filter.visibleCount).toBeLessThan(2000);
+      },
+    );
 
     it("that a radius is too small, and goes on to the view that came meanwhile, without another update", async () => {
       const { points, camera } = sceneOf(adapter, sphere);
@@ -283,7 +306,10 @@ describe.each(VERSIONS)("with %s", (_, load) => {
     });
 
     const changes: [what: string, change: (scene: Scene) => void][] = [
-      ["another attribute", ({ geometry }) => void geometry.setAttribute("position", new adapter.THREE.BufferAttribute(other, 3))],
+      [
+        "another attribute",
+        ({ geometry }) => void geometry.setAttribute("position", new adapter.THREE.BufferAttribute(other, 3)),
+      ],
       [
         "another geometry",
         (scene) => {

@@ -102,7 +102,10 @@ afterEach(() => {
 
 describe.each([
   ["HiddenPointFilter", (points: THREE.Points, options: object) => new HiddenPointFilter(points, options)],
-  ["HiddenPointNodesFilter", (points: THREE.Points, options: object) => new HiddenPointNodesFilter(points.parent!, options)],
+  [
+    "HiddenPointNodesFilter",
+    (points: THREE.Points, options: object) => new HiddenPointNodesFilter(points.parent!, options),
+  ],
 ] as const)("%s", (_, make) => {
   function filterFor(points: THREE.Points, options: object = {}) {
     const filter = make(points, options);
@@ -115,7 +118,9 @@ describe.each([
     return { filter, errors, listener };
   }
 
-  const visibleFrom = (camera: THREE.Camera, positions = sphere) => [...new PointCloud(positions).visibleFrom(camera.position.toArray()).indices];
+  const visibleFrom = (camera: THREE.Camera, positions = sphere) => [
+    ...new PointCloud(positions).visibleFrom(camera.position.toArray()).indices,
+  ];
   const next = () => new Promise((resolve) => setTimeout(resolve, 1));
 
   describe("with workers that die as soon as they run", () => {
@@ -194,20 +199,42 @@ describe.each([
       "geometry",
       (points) => replaced(loose(points), "geometry", value),
     ]),
-    ...[undefined, null, {}, [1, 2, 3], 7].map((value): [string, string, string, (points: THREE.Points) => () => void] => [
-      `positions that are ${JSON.stringify(value)}`,
+    ...[undefined, null, {}, [1, 2, 3], 7].map(
+      (value): [string, string, string, (points: THREE.Points) => () => void] => [
+        `positions that are ${JSON.stringify(value)}`,
+        "positions-type",
+        "position",
+        ({ geometry }) => replaced(geometry.attributes, "position", value),
+      ],
+    ),
+    [
+      "no attributes",
       "positions-type",
       "position",
-      ({ geometry }) => replaced(geometry.attributes, "position", value),
-    ]),
-    ["no attributes", "positions-type", "position", ({ geometry }) => replaced(loose(geometry), "attributes", undefined)],
+      ({ geometry }) => replaced(loose(geometry), "attributes", undefined),
+    ],
     ["an index that is an array", "option", "index", ({ geometry }) => replaced(loose(geometry), "index", [1, 2, 3])],
     ["an index that is undefined", "option", "index", ({ geometry }) => replaced(loose(geometry), "index", undefined)],
-    ["an index of NaN", "option", "index[1]", ({ geometry }) => replaced(loose(geometry), "index", new THREE.Float32BufferAttribute([0, NaN], 1))],
+    [
+      "an index of NaN",
+      "option",
+      "index[1]",
+      ({ geometry }) => replaced(loose(geometry), "index", new THREE.Float32BufferAttribute([0, NaN], 1)),
+    ],
     ["no draw range", "option", "drawRange", ({ geometry }) => replaced(loose(geometry), "drawRange", undefined)],
-    ["a draw range of NaN", "option", "drawRange", ({ geometry }) => replaced(loose(geometry), "drawRange", { start: NaN, count: 7 })],
+    [
+      "a draw range of NaN",
+      "option",
+      "drawRange",
+      ({ geometry }) => replaced(loose(geometry), "drawRange", { start: NaN, count: 7 }),
+    ],
     ["no material", "option", "dimMaterial", (points) => replaced(loose(points), "material", undefined)],
-    ["a material that cannot be dimmed", "option", "ShaderMaterial", (points) => replaced(loose(points), "material", new THREE.ShaderMaterial())],
+    [
+      "a material that cannot be dimmed",
+      "option",
+      "ShaderMaterial",
+      (points) => replaced(loose(points), "material", new THREE.ShaderMaterial()),
+    ],
   ])("refuses %s while it filters, once, and goes on when that is over", async (_what, code, words, spoil) => {
     const { points, camera, geometry } = pointsOf();
     const { filter, errors } = filterFor(points, { worker: false, mode: "dim" });
@@ -224,10 +251,12 @@ describe.each([
     mend();
     camera.position.set(3, 4, 0);
     await update();
-    await expect.poll(async () => {
-      await update();
-      return drawn(geometry);
-    }).toEqual(visibleFrom(camera));
+    await expect
+      .poll(async () => {
+        await update();
+        return drawn(geometry);
+      })
+      .toEqual(visibleFrom(camera));
     expect(errors).toHaveLength(1);
     filter.dispose();
     expect([geometry.index, geometry.drawRange]).toEqual([null, { start: 0, count: Infinity }]);

@@ -2,7 +2,16 @@
 import { afterEach, beforeAll, describe, expect, it } from "vitest";
 
 import { bumpySphere, randomNumbers } from "./support";
-import { type Adapter, adapterFor, drawn, type Filter, nextChange, type Scene, sceneOf, VERSIONS } from "./three-support";
+import {
+  type Adapter,
+  adapterFor,
+  drawn,
+  type Filter,
+  nextChange,
+  type Scene,
+  sceneOf,
+  VERSIONS,
+} from "./three-support";
 
 const sphere = bumpySphere(1, 3000);
 
@@ -19,7 +28,10 @@ describe.each(VERSIONS)("with %s", (name, load) => {
     for (const filter of filters.splice(0)) filter.dispose();
   });
 
-  function filterFor(points: Scene["points"], options?: ConstructorParameters<Adapter["HiddenPointFilter"]>[1]): Filter {
+  function filterFor(
+    points: Scene["points"],
+    options?: ConstructorParameters<Adapter["HiddenPointFilter"]>[1],
+  ): Filter {
     const filter = new adapter.HiddenPointFilter(points, options);
     filters.push(filter);
     return filter;
@@ -118,7 +130,13 @@ describe.each(VERSIONS)("with %s", (name, load) => {
     it.each<[name: string, answers: number, change: (scene: Scene) => void]>([
       ["nothing happens", 0, () => undefined],
       ["a perspective camera turns", 0, ({ camera }) => camera.rotation.set(1, 2, 3)],
-      ["its field of view changes", 0, ({ camera }) => { Object.assign(camera, { fov: 20, zoom: 3 }).updateProjectionMatrix(); }],
+      [
+        "its field of view changes",
+        0,
+        ({ camera }) => {
+          Object.assign(camera, { fov: 20, zoom: 3 }).updateProjectionMatrix();
+        },
+      ],
       ["it moves", 1, ({ camera }) => camera.position.setX(0.1)],
       ["it moves a little", 1, ({ camera }) => camera.position.setX(1e-6)],
       ["the points move", 1, ({ points }) => points.position.set(0, 1, 0)],
@@ -138,12 +156,24 @@ describe.each(VERSIONS)("with %s", (name, load) => {
       ["the camera's group moves", 1, ({ scene, camera }) => scene.add(group().add(camera).translateX(1))],
     ])("when %s: %i", (_, answers, change) => {
       const scene = sceneOf(adapter, sphere);
-      expect(answersAfter(scene, scene.camera, () => { change(scene); })).toBe(answers);
+      expect(
+        answersAfter(scene, scene.camera, () => {
+          change(scene);
+        }),
+      ).toBe(answers);
     });
 
-    it.each<[name: string, answers: number, change: (camera: InstanceType<Adapter["THREE"]["OrthographicCamera"]>) => void]>([
+    it.each<
+      [name: string, answers: number, change: (camera: InstanceType<Adapter["THREE"]["OrthographicCamera"]>) => void]
+    >([
       ["pans", 0, (camera) => camera.position.set(3, 4, 5)],
-      ["zooms", 0, (camera) => { Object.assign(camera, { zoom: 3 }).updateProjectionMatrix(); }],
+      [
+        "zooms",
+        0,
+        (camera) => {
+          Object.assign(camera, { zoom: 3 }).updateProjectionMatrix();
+        },
+      ],
       ["rolls about its own axis", 0, (camera) => camera.rotateZ(1)],
       ["turns", 1, (camera) => camera.rotateX(0.1)],
     ])("when an orthographic camera %s: %i", (_, answers, change) => {
@@ -151,7 +181,11 @@ describe.each(VERSIONS)("with %s", (name, load) => {
       const camera = new adapter.THREE.OrthographicCamera(-2, 2, 2, -2);
       scene.scene.add(camera);
       camera.rotation.set(0.4, 0.5, 0.6);
-      expect(answersAfter(scene, camera, () => { change(camera); })).toBe(answers);
+      expect(
+        answersAfter(scene, camera, () => {
+          change(camera);
+        }),
+      ).toBe(answers);
     });
   });
 
@@ -198,20 +232,36 @@ describe.each(VERSIONS)("with %s", (name, load) => {
   it("reads the positions of every kind of attribute as three does", () => {
     const { THREE } = adapter;
     const random = randomNumbers(7);
-    const integers = (range: number, signed = true) => Float64Array.from({ length: 3 * 500 }, () => Math.floor((random() - (signed ? 0.5 : 0)) * range));
+    const integers = (range: number, signed = true) =>
+      Float64Array.from({ length: 3 * 500 }, () => Math.floor((random() - (signed ? 0.5 : 0)) * range));
     const doubles = Float64Array.from(sphere, (x, i) => x + (i % 3 === 0 ? 500_000 : 4_500_000) + 1e-7);
-    const interleaved = new THREE.InterleavedBuffer(Float32Array.from({ length: 7 * 1000 }, () => random() - 0.5), 7);
-    type Attribute = InstanceType<Adapter["THREE"]["BufferAttribute"]> | InstanceType<Adapter["THREE"]["InterleavedBufferAttribute"]>;
+    const interleaved = new THREE.InterleavedBuffer(
+      Float32Array.from({ length: 7 * 1000 }, () => random() - 0.5),
+      7,
+    );
+    type Attribute =
+      InstanceType<Adapter["THREE"]["BufferAttribute"]> | InstanceType<Adapter["THREE"]["InterleavedBufferAttribute"]>;
     const attributes: Attribute[] = [
       new THREE.BufferAttribute(doubles, 3),
       new THREE.InterleavedBufferAttribute(interleaved, 3, 2),
-      new THREE.InterleavedBufferAttribute(new THREE.InterleavedBuffer(Int16Array.from(integers(60_000)), 3), 3, 0, true),
+      new THREE.InterleavedBufferAttribute(
+        new THREE.InterleavedBuffer(Int16Array.from(integers(60_000)), 3),
+        3,
+        0,
+        true,
+      ),
       new THREE.BufferAttribute(Int16Array.from(integers(60_000)), 3, true),
       new THREE.BufferAttribute(Uint16Array.from(integers(60_000, false)), 3, true),
       new THREE.BufferAttribute(Uint8Array.from(integers(250, false)), 3),
       new THREE.BufferAttribute(Int32Array.from(integers(2 ** 31)), 3),
-      new THREE.Float16BufferAttribute(Uint16Array.from({ length: 1500 }, () => THREE.DataUtils.toHalfFloat(random())), 3),
-      new THREE.BufferAttribute(Float32Array.from({ length: 4 * 1000 }, () => random() - 0.5), 4),
+      new THREE.Float16BufferAttribute(
+        Uint16Array.from({ length: 1500 }, () => THREE.DataUtils.toHalfFloat(random())),
+        3,
+      ),
+      new THREE.BufferAttribute(
+        Float32Array.from({ length: 4 * 1000 }, () => random() - 0.5),
+        4,
+      ),
     ];
     for (const attribute of attributes) {
       const { points, camera, geometry } = sceneOf(adapter, sphere);

@@ -39,7 +39,12 @@ describe("a trap", () => {
   const restarts: [name: string, restart: (hpr: Awaited<ReturnType<typeof freshPackage>>) => unknown][] = [
     ["init()", (hpr) => hpr.init()],
     ["init() with bytes", (hpr) => hpr.init(wasmBytes())],
-    ["initSync()", (hpr) => { hpr.initSync(wasmBytes()); }],
+    [
+      "initSync()",
+      (hpr) => {
+        hpr.initSync(wasmBytes());
+      },
+    ],
   ];
   it.each(restarts)("is over after %s: new clouds work, old ones do not touch them", async (_, restart) => {
     const { hpr, cloud, other } = await trapped();

@@ -24,14 +24,27 @@ const browser = ["lib.es2022.d.ts", "lib.dom.d.ts"];
 
 describe("the published types compile, all declarations checked,", () => {
   it.each<[name: string, options: ts.CompilerOptions]>([
-    ["as node16 resolves them", { module: ModuleKind.Node16, moduleResolution: ModuleResolutionKind.Node16, lib: browser }],
+    [
+      "as node16 resolves them",
+      { module: ModuleKind.Node16, moduleResolution: ModuleResolutionKind.Node16, lib: browser },
+    ],
     ["as nodenext resolves them", { module: ModuleKind.NodeNext, lib: browser }],
-    ["as bundlers resolve them", { module: ModuleKind.ESNext, moduleResolution: ModuleResolutionKind.Bundler, lib: browser }],
+    [
+      "as bundlers resolve them",
+      { module: ModuleKind.ESNext, moduleResolution: ModuleResolutionKind.Bundler, lib: browser },
+    ],
     [
       "in a web worker",
-      { module: ModuleKind.ESNext, moduleResolution: ModuleResolutionKind.Bundler, lib: ["lib.es2022.d.ts", "lib.webworker.d.ts"] },
+      {
+        module: ModuleKind.ESNext,
+        moduleResolution: ModuleResolutionKind.Bundler,
+        lib: ["lib.es2022.d.ts", "lib.webworker.d.ts"],
+      },
     ],
-    ["under Node, without the browser's types", { module: ModuleKind.NodeNext, lib: ["lib.es2022.d.ts"], types: ["node"] }],
+    [
+      "under Node, without the browser's types",
+      { module: ModuleKind.NodeNext, lib: ["lib.es2022.d.ts"], types: ["node"] },
+    ],
     [
       "where optional properties are exact",
       { module: ModuleKind.NodeNext, lib: browser, exactOptionalPropertyTypes: true, noUncheckedIndexedAccess: true },

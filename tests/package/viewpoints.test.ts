@@ -87,7 +87,10 @@ describe("a ring of viewpoints", () => {
     const target = [0.5, 1, -1];
     const toTarget = target.map((x, axis) => x - viewpoint[axis]!);
     const distance = Math.hypot(...toTarget);
-    for (const [options, count, fraction] of [[undefined, 4, 0.05], [{ count: 7, fraction: 0.5 }, 7, 0.5]] as const) {
+    for (const [options, count, fraction] of [
+      [undefined, 4, 0.05],
+      [{ count: 7, fraction: 0.5 }, 7, 0.5],
+    ] as const) {
       const ring = ringOfViewpoints(viewpoint, target, options);
       expect(ring).toHaveLength(count);
       const spokes = ring.map((place) => place.map((x, axis) => x - viewpoint[axis]!));
@@ -96,14 +99,20 @@ describe("a ring of viewpoints", () => {
         expect(Math.hypot(...spoke)).toBeCloseTo(fraction * distance, 12);
         expect(spoke.reduce((sum, x, axis) => sum + x * toTarget[axis]!, 0)).toBeCloseTo(0, 12);
         expect(Math.hypot(...spoke.map((x, axis) => x - next[axis]!))).toBeCloseTo(
-          2 * fraction * distance * Math.sin(Math.PI / count), 12);
+          2 * fraction * distance * Math.sin(Math.PI / count),
+          12,
+        );
       });
     }
   });
 });
 
 describe("a direction", () => {
-  it.each([[0, 0, -1], [1, 2, -0.5], [-3e200, 1e200, 0]])("is the limit of viewpoints far away: %d %d %d", (...direction) => {
+  it.each([
+    [0, 0, -1],
+    [1, 2, -0.5],
+    [-3e200, 1e200, 0],
+  ])("is the limit of viewpoints far away: %d %d %d", (...direction) => {
     const most = Math.max(...direction.map(Math.abs));
     const scaled = direction.map((x) => x / most);
     const unit = scaled.map((x) => x / Math.hypot(...scaled));

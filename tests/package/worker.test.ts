@@ -278,7 +278,11 @@ describe("requests given up", () => {
       cloud.reconstruct(farAway, options),
       cloud.illuminate([farAway], options),
     ];
-    const [first, second, third] = [frame(), frame(), frame()].map(settled) as [Promise<string[]>, Promise<string[]>, Promise<string[]>];
+    const [first, second, third] = [frame(), frame(), frame()].map(settled) as [
+      Promise<string[]>,
+      Promise<string[]>,
+      Promise<string[]>,
+    ];
     const none = new Array<string>(7).fill("aborted");
     const all = new Array<string>(7).fill("answered");
     // The very first had begun.

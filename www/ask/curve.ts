@@ -26,7 +26,11 @@ export class Curve {
   follow(viewpoint: Viewpoint, settings: Settings, changed: () => void): void {
     const now = performance.now();
     const viewpoints = settings.show === "points" ? settings.viewpoints : "one";
-    const question: ViewQuestion = { viewpoint, method: { ...methodOf(settings), radius: null }, shape: { kind: "points", viewpoints } };
+    const question: ViewQuestion = {
+      viewpoint,
+      method: { ...methodOf(settings), radius: null },
+      shape: { kind: "points", viewpoints },
+    };
     if (!this.#question || !isSameView(question, this.#question, this.#size)) {
       this.#question = question;
       this.counts.clear();
@@ -46,7 +50,10 @@ export class Curve {
   async #ask(question: ViewQuestion, exponent: number): Promise<void> {
     let count = NaN;
     try {
-      const { visibility, note } = await this.#inquiry.aside({ ...question, method: { ...question.method, radius: { exponent } } });
+      const { visibility, note } = await this.#inquiry.aside({
+        ...question,
+        method: { ...question.method, radius: { exponent } },
+      });
       if (note === null) count = visibility.count;
     } catch {
       // The picture's own questions tell what is wrong; here a point is missing.

@@ -83,8 +83,10 @@ export class Inquiry {
   /** Called every frame and after every change; does nothing while the questions stay the same. */
   follow(viewpoint: Viewpoint, settings: Settings): void {
     const now = performance.now();
-    if (!this.#viewpoint || !isSamePlace(viewpoint, this.#viewpoint.at, this.#size)) this.#viewpoint = { at: viewpoint, since: now };
-    if (this.#lamps?.at !== settings.lights) this.#lamps = { at: settings.lights, since: this.#lamps ? now : -Infinity };
+    if (!this.#viewpoint || !isSamePlace(viewpoint, this.#viewpoint.at, this.#size))
+      this.#viewpoint = { at: viewpoint, since: now };
+    if (this.#lamps?.at !== settings.lights)
+      this.#lamps = { at: settings.lights, since: this.#lamps ? now : -Infinity };
     const moving = now - this.#viewpoint.since < REST;
 
     const view: ViewQuestion = { viewpoint, method: methodOf(settings), shape: shapeOf(settings) };
@@ -164,7 +166,10 @@ export class Inquiry {
   }
 
   /** Where a question is asked, and what gives it up: an answer that comes soon is shown also where the camera has moved on. */
-  async #placeFor({ method }: { method: Method }, overtaken: AbortSignal): Promise<[WorkerCloud, AbortSignal | undefined]> {
+  async #placeFor(
+    { method }: { method: Method },
+    overtaken: AbortSignal,
+  ): Promise<[WorkerCloud, AbortSignal | undefined]> {
     return isSlow(method) ? [await this.#second.ready(overtaken), overtaken] : [this.#cloud, undefined];
   }
 

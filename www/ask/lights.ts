@@ -13,13 +13,18 @@ export interface LightAnswer {
 const RIM = 8;
 
 /** How bright the lights make every point, whether the viewer sees it or not. */
-export async function askLight(cloud: WorkerCloud, question: LightQuestion, signal?: AbortSignal): Promise<LightAnswer> {
+export async function askLight(
+  cloud: WorkerCloud,
+  question: LightQuestion,
+  signal?: AbortSignal,
+): Promise<LightAnswer> {
   const { lights, soft, ambient, smoothing, method, mesh } = question;
   const rims = soft > 0 ? await Promise.all(lights.map((light) => cloud.ring(light, RIM, soft))) : [];
   const all = [...lights, ...rims.flat()];
   const { value, note } = await orUsual(
     () => cloud.options(method, lights[0]!),
-    (options) => cloud.points.illuminate(all, { ...options, signal, ambient, smoothing, ...(mesh ? { triangles: mesh } : {}) }),
+    (options) =>
+      cloud.points.illuminate(all, { ...options, signal, ambient, smoothing, ...(mesh ? { triangles: mesh } : {}) }),
   );
   return { question, brightness: value, note };
 }

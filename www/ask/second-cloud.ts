@@ -19,16 +19,23 @@ export class SecondCloud {
     if (!this.#made) {
       this.#made = this.#make();
       // Where it could not be made, the next question tries again.
-      this.#made.catch(() => { this.#made = null; });
+      this.#made.catch(() => {
+        this.#made = null;
+      });
     }
     const aborted = new Promise<never>((_, reject) => {
-      signal.addEventListener("abort", () => { reject(signal.reason as DOMException); });
+      signal.addEventListener("abort", () => {
+        reject(signal.reason as DOMException);
+      });
     });
     return Promise.race([this.#made, aborted]);
   }
 
   dispose(): void {
     this.#disposed = true;
-    void this.#made?.then(({ points }) => points.dispose(), () => undefined);
+    void this.#made?.then(
+      ({ points }) => points.dispose(),
+      () => undefined,
+    );
   }
 }

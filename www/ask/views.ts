@@ -20,7 +20,10 @@ const RING = { count: 4, fraction: 0.05 };
 /** What is seen from a viewpoint. Where the settings do not suit the cloud or the place, the library's defaults answer. */
 export async function askView(cloud: WorkerCloud, question: ViewQuestion, signal?: AbortSignal): Promise<ViewAnswer> {
   const { viewpoint, method, shape } = question;
-  const { value, note } = await orUsual(() => cloud.options(method, viewpoint), (options) => see(cloud, viewpoint, shape, { ...options, signal }));
+  const { value, note } = await orUsual(
+    () => cloud.options(method, viewpoint),
+    (options) => see(cloud, viewpoint, shape, { ...options, signal }),
+  );
   return { question, ...value, note };
 }
 
@@ -45,12 +48,17 @@ async function see(
   options: VisibilityOptions & RequestOptions,
 ): Promise<Pick<ViewAnswer, "visibility" | "triangles">> {
   if (shape.kind === "surface") {
-    const maxEdge = shape.edge === USUAL_EDGE ? undefined : shape.edge === Infinity ? Infinity : shape.edge * cloud.points.spacing;
+    const maxEdge =
+      shape.edge === USUAL_EDGE ? undefined : shape.edge === Infinity ? Infinity : shape.edge * cloud.points.spacing;
     const surface = await cloud.points.reconstruct(viewpoint, { ...options, maxEdge });
     return { visibility: surface, triangles: surface.triangles };
   }
-  if (shape.viewpoints === "one") return { visibility: await cloud.points.visibleFrom(viewpoint, options), triangles: null };
+  if (shape.viewpoints === "one")
+    return { visibility: await cloud.points.visibleFrom(viewpoint, options), triangles: null };
   const five = [viewpoint, ...(await cloud.ring(viewpoint, RING.count, RING.fraction))];
-  const visibility = shape.viewpoints === "any" ? cloud.points.visibleFromAny(five, options) : cloud.points.visibleFromAtLeast(2, five, options);
+  const visibility =
+    shape.viewpoints === "any"
+      ? cloud.points.visibleFromAny(five, options)
+      : cloud.points.visibleFromAtLeast(2, five, options);
   return { visibility: await visibility, triangles: null };
 }

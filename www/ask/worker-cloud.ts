@@ -1,4 +1,10 @@
-import { HprError, init, ringOfViewpoints, type Inversion as LibraryInversion, type VisibilityOptions } from "hidden-point-removal";
+import {
+  HprError,
+  init,
+  ringOfViewpoints,
+  type Inversion as LibraryInversion,
+  type VisibilityOptions,
+} from "hidden-point-removal";
 import type { WorkerPointCloud } from "hidden-point-removal/worker";
 import type { Viewpoint } from "../settings.ts";
 import type { Method } from "./question.ts";
@@ -20,9 +26,19 @@ export class WorkerCloud {
   async options({ radius, inversion, denoise, vote }: Method, viewpoint: Viewpoint): Promise<VisibilityOptions> {
     const nearest = Math.max(denoise, vote);
     // Said here, where it can be said plainly: the library names the numbers it takes, which of one point are none.
-    if (nearest > 0 && nearest >= this.points.length) throw new HprError("option", `noise is told by the ${nearest} nearest of each point, and there are too few points for that`);
+    if (nearest > 0 && nearest >= this.points.length)
+      throw new HprError(
+        "option",
+        `noise is told by the ${nearest} nearest of each point, and there are too few points for that`,
+      );
     return {
-      ...(radius === null ? {} : "rule" in radius ? { radius: radius.rule } : "length" in radius ? { radius: radius.length } : radius),
+      ...(radius === null
+        ? {}
+        : "rule" in radius
+          ? { radius: radius.rule }
+          : "length" in radius
+            ? { radius: radius.length }
+            : radius),
       ...(inversion === "spherical" ? {} : { inversion: await this.#inversion(inversion, viewpoint) }),
       ...(denoise > 0 ? { denoise } : {}),
       ...(vote > 0 ? { vote } : {}),
@@ -35,7 +51,10 @@ export class WorkerCloud {
     return ringOfViewpoints(viewpoint, this.center, { count, fraction });
   }
 
-  async #inversion(inversion: Exclude<Method["inversion"], "spherical">, viewpoint: Viewpoint): Promise<LibraryInversion> {
+  async #inversion(
+    inversion: Exclude<Method["inversion"], "spherical">,
+    viewpoint: Viewpoint,
+  ): Promise<LibraryInversion> {
     if ("power" in inversion) {
       return { power: inversion.power === "auto" ? await this.#automaticPower(viewpoint) : inversion.power };
     }

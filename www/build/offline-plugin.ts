@@ -26,7 +26,11 @@ export function offline(): Plugin {
         const built = Object.keys(bundle);
         const copied = readdirSync(publicDir, { recursive: true, withFileTypes: true })
           .filter((entry) => entry.isFile())
-          .map((entry) => join(entry.parentPath, entry.name).slice(publicDir.length + 1).replaceAll("\\", "/"));
+          .map((entry) =>
+            join(entry.parentPath, entry.name)
+              .slice(publicDir.length + 1)
+              .replaceAll("\\", "/"),
+          );
         const files = [...built, ...copied].sort();
         const source = readFileSync(SOURCE, "utf8");
         const page = bundle[PAGE];
@@ -44,7 +48,11 @@ export function offline(): Plugin {
           samples: copied.filter((name) => name.startsWith(SAMPLES)),
         };
         const { code } = await transformWithOxc(source, SOURCE, { target: "es2022" });
-        this.emitFile({ type: "asset", fileName: "service-worker.js", source: `const BUILD = ${JSON.stringify(build)};\n${code}` });
+        this.emitFile({
+          type: "asset",
+          fileName: "service-worker.js",
+          source: `const BUILD = ${JSON.stringify(build)};\n${code}`,
+        });
       },
     },
   };

@@ -21,7 +21,10 @@ export class AgainstPicture {
   constructor(viewer: Viewer, changed: () => void) {
     this.#viewer = viewer;
     this.#changed = changed;
-    this.#worker = new Reference(new Worker(new URL("./zbuffer-worker.ts", import.meta.url), { type: "module" }), viewer.scene.cloud.local);
+    this.#worker = new Reference(
+      new Worker(new URL("./zbuffer-worker.ts", import.meta.url), { type: "module" }),
+      viewer.scene.cloud.local,
+    );
   }
 
   /** Called every frame. */

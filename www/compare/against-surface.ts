@@ -38,7 +38,10 @@ export class AgainstSurface {
     // A mesh is traced in f32: as the file has it where it is that, and else, as a map's is, around its middle.
     const single = positions instanceof Float32Array;
     this.#origin = single ? [0, 0, 0] : cloud.center;
-    this.#worker = new Reference(new Worker(new URL("./truth-worker.ts", import.meta.url), { type: "module" }), single ? positions : cloud.local);
+    this.#worker = new Reference(
+      new Worker(new URL("./truth-worker.ts", import.meta.url), { type: "module" }),
+      single ? positions : cloud.local,
+    );
     this.#worker.onProgress = (fraction) => {
       this.progress = fraction;
       changed();
@@ -48,7 +51,8 @@ export class AgainstSurface {
   /** Called every frame. */
   follow(): void {
     const { answer, inquiry, cloud } = this.#viewer.scene;
-    if (!this.#at || !isSamePlace(answer.question.viewpoint, this.#at, cloud.radius)) this.#leave(answer.question.viewpoint);
+    if (!this.#at || !isSamePlace(answer.question.viewpoint, this.#at, cloud.radius))
+      this.#leave(answer.question.viewpoint);
     if (inquiry.busy) this.#since = performance.now();
     const rests = performance.now() - this.#since >= REST;
     // Seen from the same place, the truth is known, and only ours has changed.
@@ -102,7 +106,9 @@ export class AgainstSurface {
       // Exactly that place: one some bits off would be traced anew.
       const viewpoint = at.map((value, axis) => value - this.#origin[axis]!) as Viewpoint;
       const current = isSamePlace(question.viewpoint, at, this.#viewer.scene.cloud.radius);
-      const truth = current ? await this.#worker.ask({ surface: this.#surface, viewpoint, visible: visibility.indices }) : null;
+      const truth = current
+        ? await this.#worker.ask({ surface: this.#surface, viewpoint, visible: visibility.indices })
+        : null;
       if (this.#isOver()) return;
       // What came for a view that has been left since is not shown.
       if (truth !== null && !this.stopped && this.#at === at) {

@@ -27,7 +27,10 @@ export function joined(meshes: readonly Mesh[]): Mesh {
   let [point, corner] = [0, 0];
   for (const mesh of meshes) {
     positions.set(mesh.positions, 3 * point);
-    triangles.set(mesh.triangles.map((index) => index + point), corner);
+    triangles.set(
+      mesh.triangles.map((index) => index + point),
+      corner,
+    );
     point += mesh.positions.length / 3;
     corner += mesh.triangles.length;
   }

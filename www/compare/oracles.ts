@@ -14,7 +14,10 @@ export async function oracleFor(surface: KnownSurface, positions: Float32Array):
   if ("file" in surface) {
     const name = "Its file";
     const blob = typeof surface.file === "string" ? await download(name, surface.file, () => undefined) : surface.file;
-    return meshOracle({ positions, triangles: await readFaces({ name, blob, limit: Infinity, onProgress: () => undefined }, positions.length / 3) });
+    return meshOracle({
+      positions,
+      triangles: await readFaces({ name, blob, limit: Infinity, onProgress: () => undefined }, positions.length / 3),
+    });
   }
   return { rings, room, street }[surface.shape]();
 }
@@ -22,7 +25,9 @@ export async function oracleFor(surface: KnownSurface, positions: Float32Array):
 /** Three indices of vertices a face, little-endian and packed. */
 async function facesAt(url: string): Promise<Uint32Array> {
   const packed = await download("The surface", url, () => undefined);
-  return new Uint32Array(await new Response(packed.stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer());
+  return new Uint32Array(
+    await new Response(packed.stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer(),
+  );
 }
 
 function rings(): Oracle {

@@ -27,7 +27,13 @@ export function partsOf(said: Uint8Array, ours: Uint32Array): Parts {
     sizes[kind]!++;
   }
   let end = 0;
-  const [both, onlyOurs, onlyReference, outside] = sizes.map((size) => (end += size)) as [number, number, number, number, number];
+  const [both, onlyOurs, onlyReference, outside] = sizes.map((size) => (end += size)) as [
+    number,
+    number,
+    number,
+    number,
+    number,
+  ];
   const at = [0, both, onlyOurs, onlyReference, outside];
   const order = new Uint32Array(said.length);
   for (let i = 0; i < kinds.length; i++) order[at[kinds[i]!]!++] = i;

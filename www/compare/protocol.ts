@@ -3,9 +3,16 @@ import type { KnownSurface } from "../samples.ts";
 import type { Picture } from "./zbuffer.ts";
 
 /** What the page tells a worker that holds a reference: the cloud, in pieces so that sending it holds nothing up, then questions one at a time. */
-export type Told<Question> = { kind: "points"; count: number; at: number; points: Float32Array } | { kind: "ask"; question: Question } | { kind: "stop" };
+export type Told<Question> =
+  | { kind: "points"; count: number; at: number; points: Float32Array }
+  | { kind: "ask"; question: Question }
+  | { kind: "stop" };
 
-export type Reply<Answer> = { kind: "progress"; fraction: number } | { kind: "answer"; answer: Answer } | { kind: "stopped" } | { kind: "problem"; sentence: string };
+export type Reply<Answer> =
+  | { kind: "progress"; fraction: number }
+  | { kind: "answer"; answer: Answer }
+  | { kind: "stopped" }
+  | { kind: "problem"; sentence: string };
 
 export interface PictureQuestion {
   picture: Picture;

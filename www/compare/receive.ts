@@ -3,11 +3,18 @@ import type { Parts } from "./parts.ts";
 import type { Reply, Told } from "./protocol.ts";
 
 /** A worker's way to answer: `null` when it has given up, since `stopped` said so. */
-type Ask<Question> = (positions: Float32Array, question: Question, stopped: () => boolean, progress: (fraction: number) => void) => Promise<{ parts: Parts } | null>;
+type Ask<Question> = (
+  positions: Float32Array,
+  question: Question,
+  stopped: () => boolean,
+  progress: (fraction: number) => void,
+) => Promise<{ parts: Parts } | null>;
 
 /** A worker's side: gathers the cloud and answers about it. */
 export function receive(ask: Ask<never>): void {
-  const post = (reply: Reply<{ parts: Parts }>, moved: Transferable[] = []) => { self.postMessage(reply, { transfer: moved }); };
+  const post = (reply: Reply<{ parts: Parts }>, moved: Transferable[] = []) => {
+    self.postMessage(reply, { transfer: moved });
+  };
   let positions = new Float32Array();
   let turn = 0;
   self.onmessage = async ({ data: told }: MessageEvent<Told<never>>) => {
@@ -19,7 +26,14 @@ export function receive(ask: Ask<never>): void {
     const own = ++turn;
     if (told.kind === "stop") return;
     try {
-      const answer = await ask(positions, told.question, () => turn !== own, (fraction) => { post({ kind: "progress", fraction }); });
+      const answer = await ask(
+        positions,
+        told.question,
+        () => turn !== own,
+        (fraction) => {
+          post({ kind: "progress", fraction });
+        },
+      );
       if (answer === null) post({ kind: "stopped" });
       else post({ kind: "answer", answer }, [answer.parts.order.buffer]);
     } catch (error) {

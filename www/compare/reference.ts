@@ -21,7 +21,13 @@ export class Reference<Question, Answer> {
     };
     worker.onerror = (event) => {
       event.preventDefault();
-      this.#settle()?.reject(new Error(event instanceof ErrorEvent ? "the browser ran out of memory or stopped it" : "a part of this page could not be loaded"));
+      this.#settle()?.reject(
+        new Error(
+          event instanceof ErrorEvent
+            ? "the browser ran out of memory or stopped it"
+            : "a part of this page could not be loaded",
+        ),
+      );
     };
     this.#sent = this.#send(positions);
   }

@@ -32,7 +32,8 @@ export function meshOracle(mesh: Mesh, on: OnFaces | null = null): Oracle {
   const positions = on ? on.positions : mesh.positions;
   const isOwn = on
     ? (face: number, point: number) => on.faces[point] === face
-    : (face: number, point: number) => triangles[3 * face] === point || triangles[3 * face + 1] === point || triangles[3 * face + 2] === point;
+    : (face: number, point: number) =>
+        triangles[3 * face] === point || triangles[3 * face + 1] === point || triangles[3 * face + 2] === point;
 
   const ray = new Ray();
   return {

@@ -19,13 +19,20 @@ let oracle: Oracle | null = null;
 /** What was traced last: other settings of ours do not change the truth. */
 let traced: Traced | null = null;
 
-receive(async (positions, { surface, viewpoint, visible: ours }: TruthQuestion, stopped, progress): Promise<TruthAnswer | null> => {
-  const place = viewpoint.join();
-  if (traced?.place !== place) traced = await trace(surface, positions, viewpoint, stopped, progress);
-  if (traced === null) return null;
-  const { said, milliseconds } = traced;
-  return { parts: partsOf(said, ours), visible: said.reduce((sum, one) => sum + one, 0), milliseconds };
-});
+receive(
+  async (
+    positions,
+    { surface, viewpoint, visible: ours }: TruthQuestion,
+    stopped,
+    progress,
+  ): Promise<TruthAnswer | null> => {
+    const place = viewpoint.join();
+    if (traced?.place !== place) traced = await trace(surface, positions, viewpoint, stopped, progress);
+    if (traced === null) return null;
+    const { said, milliseconds } = traced;
+    return { parts: partsOf(said, ours), visible: said.reduce((sum, one) => sum + one, 0), milliseconds };
+  },
+);
 
 async function trace(
   surface: KnownSurface,
@@ -40,7 +47,7 @@ async function trace(
   const sees = oracle.from(viewpoint);
   const said = new Uint8Array(count);
   let milliseconds = 0;
-  for (let i = 0; i < count; ) {
+  for (let i = 0; i < count;) {
     if (stopped()) return null;
     const begun = performance.now();
     while (i < count && performance.now() < begun + TURN) {

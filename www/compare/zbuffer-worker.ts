@@ -13,5 +13,11 @@ receive((positions, { picture, splat, visible: ours }: PictureQuestion): Promise
   const said = zBuffer(projected, width);
   const milliseconds = known - asked + (performance.now() - chosen);
   const count = (kind: number) => said.reduce((sum, one) => sum + (one === kind ? 1 : 0), 0);
-  return Promise.resolve({ parts: partsOf(said, ours), splat: width, inside: said.length - count(OUTSIDE), visible: count(VISIBLE), milliseconds });
+  return Promise.resolve({
+    parts: partsOf(said, ours),
+    splat: width,
+    inside: said.length - count(OUTSIDE),
+    visible: count(VISIBLE),
+    milliseconds,
+  });
 });

@@ -62,7 +62,10 @@ export class Projected {
   splatFor(spacing: number): number {
     const inside = this.depth.filter((depth) => depth > 0);
     const step = Math.ceil(inside.length / SAMPLE);
-    const depths = Float64Array.from({ length: Math.floor(inside.length / step) || 0 }, (_, i) => inside[i * step]!).sort();
+    const depths = Float64Array.from(
+      { length: Math.floor(inside.length / step) || 0 },
+      (_, i) => inside[i * step]!,
+    ).sort();
     if (depths.length === 0) return 1;
     const middle = depths[depths.length >> 1]!;
     return Math.max(1, Math.min(MOST_SPLAT, Math.round((SPACINGS * spacing * this.picture.pixels) / middle)));

@@ -99,13 +99,21 @@ export interface HiddenPointCloudElement extends HTMLElement {
     listener: (this: HiddenPointCloudElement, event: HiddenPointCloudEventMap[Type]) => unknown,
     options?: boolean | AddEventListenerOptions,
   ): void;
-  addEventListener(type: string, listener: EventListenerOrEventListenerObject | null, options?: boolean | AddEventListenerOptions): void;
+  addEventListener(
+    type: string,
+    listener: EventListenerOrEventListenerObject | null,
+    options?: boolean | AddEventListenerOptions,
+  ): void;
   removeEventListener<Type extends keyof HiddenPointCloudEventMap>(
     type: Type,
     listener: (this: HiddenPointCloudElement, event: HiddenPointCloudEventMap[Type]) => unknown,
     options?: boolean | EventListenerOptions,
   ): void;
-  removeEventListener(type: string, listener: EventListenerOrEventListenerObject | null, options?: boolean | EventListenerOptions): void;
+  removeEventListener(
+    type: string,
+    listener: EventListenerOrEventListenerObject | null,
+    options?: boolean | EventListenerOptions,
+  ): void;
 }
 
 /** To be made by `document.createElement`, or with `new`. Importing the module defines the element. */

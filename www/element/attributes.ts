@@ -22,7 +22,9 @@ export type WrittenAttribute = keyof typeof WRITTEN_AS;
 
 /** Those that say which points there are. */
 export const SOURCES: readonly string[] = ["src", "sample", "limit", "skip-non-finite"];
-export const ATTRIBUTES: readonly string[] = [...new Set([...SOURCES, ...Object.keys(WRITTEN_AS), "frozen", "color", "label", "announce"])];
+export const ATTRIBUTES: readonly string[] = [
+  ...new Set([...SOURCES, ...Object.keys(WRITTEN_AS), "frozen", "color", "label", "announce"]),
+];
 
 /** What the attributes say together. */
 export interface Reading {
@@ -39,18 +41,23 @@ export interface Reading {
 }
 
 /** What an attribute says; `undefined` where it is not there, or says nothing that can be used. */
-export function valueOf<Name extends WrittenAttribute>(element: Element, attribute: Name): ValueOf<(typeof WRITTEN_AS)[Name]> | undefined {
+export function valueOf<Name extends WrittenAttribute>(
+  element: Element,
+  attribute: Name,
+): ValueOf<(typeof WRITTEN_AS)[Name]> | undefined {
   const text = element.getAttribute(attribute);
   return text === null ? undefined : writtenAs(attribute).parse(text);
 }
 
 export function readAttributes(element: Element): Reading {
   const problems = new Map<string, Problem>();
-  const refuse = (attribute: string, sentence: string) => problems.set(attribute, new Problem("attribute", sentence, { attribute }));
+  const refuse = (attribute: string, sentence: string) =>
+    problems.set(attribute, new Problem("attribute", sentence, { attribute }));
   const read = <Name extends WrittenAttribute>(attribute: Name) => {
     const value = valueOf(element, attribute);
     const text = element.getAttribute(attribute);
-    if (text !== null && value === undefined) refuse(attribute, `The attribute ${attribute}="${text}" is not ${writtenAs(attribute).refusal}.`);
+    if (text !== null && value === undefined)
+      refuse(attribute, `The attribute ${attribute}="${text}" is not ${writtenAs(attribute).refusal}.`);
     return value;
   };
 
@@ -62,12 +69,15 @@ export function readAttributes(element: Element): Reading {
     refuse("sample", `The attribute sample="${sample}" is not one of ${SAMPLES.map(({ name }) => name).join(", ")}.`);
     sample = null;
   }
-  if (src !== null && element.hasAttribute("sample")) refuse("sample", "The attributes src and sample exclude each other, so src is used.");
+  if (src !== null && element.hasAttribute("sample"))
+    refuse("sample", "The attributes src and sample exclude each other, so src is used.");
 
   const [exponent, radius] = [read("exponent"), read("radius")];
-  if (exponent !== undefined && radius !== undefined) refuse("radius", "The attributes exponent and radius exclude each other, so exponent is used.");
+  if (exponent !== undefined && radius !== undefined)
+    refuse("radius", "The attributes exponent and radius exclude each other, so exponent is used.");
   const [at, target] = [read("viewpoint"), read("target")];
-  if (target && !element.hasAttribute("viewpoint")) refuse("target", "The attribute target needs a viewpoint to be looked at from, so the usual view is used.");
+  if (target && !element.hasAttribute("viewpoint"))
+    refuse("target", "The attribute target needs a viewpoint to be looked at from, so the usual view is used.");
   const settings: Partial<Record<keyof Settings, unknown>> = {
     radius: exponent === undefined ? radius : { exponent },
     inversion: read("inversion"),
@@ -97,7 +107,9 @@ export function readAttributes(element: Element): Reading {
 export function changedSettings(before: Reading, now: Reading, usual: Partial<Settings>): Partial<Settings> {
   const whole = ({ settings }: Reading): Settings => ({ ...USUAL_SETTINGS, ...usual, ...settings });
   const [old, next] = [whole(before), whole(now)];
-  const changed = Object.entries(next).filter(([name, value]) => JSON.stringify(value) !== JSON.stringify(old[name as keyof Settings]));
+  const changed = Object.entries(next).filter(
+    ([name, value]) => JSON.stringify(value) !== JSON.stringify(old[name as keyof Settings]),
+  );
   return Object.fromEntries(changed);
 }
 

@@ -2,7 +2,8 @@ import style from "./element.css?inline";
 
 /** Screen readers hear of a new sentence when it has stood for so many milliseconds. */
 const SETTLED = 1000;
-const KEYS = "Arrow keys orbit, Shift and arrow keys pan, plus and minus zoom, square brackets change the field of view, F freezes the viewpoint, H shows hidden points, R resets the view, Enter picks the point in the middle.";
+const KEYS =
+  "Arrow keys orbit, Shift and arrow keys pan, plus and minus zoom, square brackets change the field of view, F freezes the viewpoint, H shows hidden points, R resets the view, Enter picks the point in the middle.";
 
 /** What is in the element's shadow: the picture and what is said over it, each with its slot and its part for the page. */
 export class Frame {

@@ -9,7 +9,21 @@ import { adoptEarly, placeOf, reflect, write } from "./properties.ts";
 import { type Listener, Showing } from "./showing.ts";
 
 type Events = Api.HiddenPointCloudEventMap;
-type Reflected = Exclude<keyof Api.HiddenPointCloudElement, keyof HTMLElement | "viewpoint" | "target" | "state" | "ready" | "count" | "visibleCount" | "visible" | "reset" | "pick" | "project" | "toBlob">;
+type Reflected = Exclude<
+  keyof Api.HiddenPointCloudElement,
+  | keyof HTMLElement
+  | "viewpoint"
+  | "target"
+  | "state"
+  | "ready"
+  | "count"
+  | "visibleCount"
+  | "visible"
+  | "reset"
+  | "pick"
+  | "project"
+  | "toBlob"
+>;
 type Own = Omit<Api.HiddenPointCloudElement, keyof HTMLElement | Reflected>;
 
 /** Where there are no elements, as on a server, importing this does no more than define the class. */
@@ -49,7 +63,8 @@ class HiddenPointCloud extends Base implements Own {
 
   attributeChangedCallback(name: string, before: string | null, now: string | null): void {
     // Writing the same address once more tries it once more.
-    const renamed = name === "src" || (SOURCES.includes(name) && before !== now && !(name === "sample" && this.getAttribute("src")));
+    const renamed =
+      name === "src" || (SOURCES.includes(name) && before !== now && !(name === "sample" && this.getAttribute("src")));
     if (renamed) this.#renew();
     this.#looks ||= name === "viewpoint" || name === "target";
     this.#touch();
@@ -148,14 +163,19 @@ class HiddenPointCloud extends Base implements Own {
     const canvas = this.#frame.newCanvas();
     if (!canDraw(canvas)) {
       this.#frame.removeCanvas();
-      const problem = new Problem("webgl", "This cloud is drawn with WebGL 2, which this browser does not offer or has switched off.");
+      const problem = new Problem(
+        "webgl",
+        "This cloud is drawn with WebGL 2, which this browser does not offer or has switched off.",
+      );
       if (!this.#frame.showFallback()) this.#frame.sayError(problem.message);
       this.#fail(problem);
       return null;
     }
     const showing = new Showing(this.#frame, canvas, reading, this.#listener());
     const pointing = new Pointing(showing.canvas, showing.viewer);
-    pointing.onPick((point) => { this.#emit("pick", point); });
+    pointing.onPick((point) => {
+      this.#emit("pick", point);
+    });
     this.#showing = { showing, pointing };
     return showing;
   }
@@ -179,10 +199,18 @@ class HiddenPointCloud extends Base implements Own {
         this.#emit("load", { total, notes });
         this.#ready.resolve();
       },
-      failed: (problem) => { this.#fail(problem); },
-      answered: (answer) => { this.#answer(answer); },
-      progressed: (fraction) => { this.#emit("progress", { fraction }); },
-      refused: (problem) => { this.#emit("error", { error: problem }); },
+      failed: (problem) => {
+        this.#fail(problem);
+      },
+      answered: (answer) => {
+        this.#answer(answer);
+      },
+      progressed: (fraction) => {
+        this.#emit("progress", { fraction });
+      },
+      refused: (problem) => {
+        this.#emit("error", { error: problem });
+      },
       moved: ({ hidden, freeze }) => {
         if (hidden !== (valueOf(this, "hidden-points") ?? "off")) this.setAttribute("hidden-points", hidden);
         this.toggleAttribute("frozen", freeze !== null);
@@ -193,7 +221,12 @@ class HiddenPointCloud extends Base implements Own {
   #answer(answer: TimedView): void {
     const { question, visibility, milliseconds } = answer;
     if (this.hasAttribute("announce")) this.#frame.announce(this.#showing!.showing.sentence(answer));
-    this.#emit("change", { count: visibility.count, viewpoint: [...question.viewpoint], radius: visibility.radius, milliseconds });
+    this.#emit("change", {
+      count: visibility.count,
+      viewpoint: [...question.viewpoint],
+      radius: visibility.radius,
+      milliseconds,
+    });
   }
 
   #fail(problem: Problem): void {
@@ -205,7 +238,9 @@ class HiddenPointCloud extends Base implements Own {
 
   /** Not once more those that have been told, as long as the attribute says the same. */
   #newProblems({ problems }: Reading): Problem[] {
-    const fresh = [...problems].filter(([attribute, { message }]) => this.#told.get(attribute) !== message).map(([, problem]) => problem);
+    const fresh = [...problems]
+      .filter(([attribute, { message }]) => this.#told.get(attribute) !== message)
+      .map(([, problem]) => problem);
     this.#told = new Map([...problems].map(([attribute, { message }]) => [attribute, message]));
     return fresh;
   }

@@ -23,7 +23,11 @@ export class Pointing {
     if (![clientX, clientY, tolerance].every(Number.isFinite)) throw new TypeError("expected finite numbers");
     if (!this.#viewer.cloud) return null;
     const { left, top, scale } = this.#frame;
-    const index = pointAt(this.#viewer, { x: (clientX - left) / scale, y: (clientY - top) / scale, tolerance }, through);
+    const index = pointAt(
+      this.#viewer,
+      { x: (clientX - left) / scale, y: (clientY - top) / scale, tolerance },
+      through,
+    );
     return index === null ? null : this.#point(index);
   }
 

@@ -27,7 +27,11 @@ function value(attribute: WrittenAttribute, otherwise: unknown = null): Reflecte
 
 /** As written, where that can be used. */
 function word(attribute: WrittenAttribute): Reflected {
-  return { attribute, get: (element) => (valueOf(element, attribute) === undefined ? null : element.getAttribute(attribute)), text: plainly };
+  return {
+    attribute,
+    get: (element) => (valueOf(element, attribute) === undefined ? null : element.getAttribute(attribute)),
+    text: plainly,
+  };
 }
 
 /** A rule's name, or a number. */

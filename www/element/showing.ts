@@ -51,7 +51,11 @@ export class Showing {
     this.canvas = canvas;
     this.viewer = new Viewer(this.canvas, this.#store, true);
     this.viewer.setTheme(themeOf(this.canvas));
-    this.moves = new Moves(this.canvas, this.viewer, this.#store, () => ({ ...USUAL_SETTINGS, ...this.#ready?.usual, ...this.#reading.settings }));
+    this.moves = new Moves(this.canvas, this.viewer, this.#store, () => ({
+      ...USUAL_SETTINGS,
+      ...this.#ready?.usual,
+      ...this.#reading.settings,
+    }));
     this.viewer.onAnswer = (answer) => {
       this.#hear(answer);
     };
@@ -59,7 +63,10 @@ export class Showing {
       tell.refused(problemOf(error, "The view"));
     };
     this.viewer.stage.onLost = () => {
-      const problem = new Problem("webgl", "The browser has taken this picture away to save memory; it is drawn again as soon as the browser allows.");
+      const problem = new Problem(
+        "webgl",
+        "The browser has taken this picture away to save memory; it is drawn again as soon as the browser allows.",
+      );
       frame.sayError(problem.message);
       tell.refused(problem);
     };
@@ -118,7 +125,12 @@ export class Showing {
     const sample = asked.src === null ? sampleNamed(asked.sample!) : null;
     const settings = { ...USUAL_SETTINGS, ...asked.settings };
     const ready = await openCloud(
-      { request: sample ? requestFor(sample, import.meta.url) : fileRequest(asked, name), sample, view: asked.view, settings: asked.settings },
+      {
+        request: sample ? requestFor(sample, import.meta.url) : fileRequest(asked, name),
+        sample,
+        view: asked.view,
+        settings: asked.settings,
+      },
       {
         settings: () => settings,
         aspect: () => this.viewer.stage.camera.aspect,
@@ -171,7 +183,8 @@ export class Showing {
   /** Goes to the view that is asked for. */
   #look(ready: Ready): void {
     const { view, notes } = inReachOnly(ready.opened.cloud, this.#reading.view, {}, ASKED);
-    for (const note of notes) this.#tell.refused(new Problem("attribute", note, { attribute: view ? "target" : "viewpoint" }));
+    for (const note of notes)
+      this.#tell.refused(new Problem("attribute", note, { attribute: view ? "target" : "viewpoint" }));
     this.viewer.setHome(ready.homeFrom(view));
   }
 
@@ -213,7 +226,8 @@ export class Showing {
 }
 
 function fileRequest({ src, limit, skipNonFinite }: Reading, name: string): LoadRequest {
-  if (!URL.canParse(src!, document.baseURI)) throw new Problem("source", `${name} could not be downloaded: “${src}” is no address.`);
+  if (!URL.canParse(src!, document.baseURI))
+    throw new Problem("source", `${name} could not be downloaded: “${src}” is no address.`);
   const url = new URL(src!, document.baseURI).href;
   return { kind: "url", name, url, skipNonFinite, ...(limit === undefined ? {} : { limit }) };
 }

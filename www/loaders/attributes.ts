@@ -6,11 +6,14 @@ const MOST_ATTRIBUTES = 8;
 const MOST_CATEGORIES = 64;
 
 /** Directions, opacities and what describes splats say nothing as a color. */
-const NOT_FOR_EYES = /^(n[xyz]|normal_?[xyz]|scalar_n[xyz]|a|alpha|opacity|f_(dc|rest)_\d+|rot_\d+|scale_\d+|padding|_)$/i;
+const NOT_FOR_EYES =
+  /^(n[xyz]|normal_?[xyz]|scalar_n[xyz]|a|alpha|opacity|f_(dc|rest)_\d+|rot_\d+|scale_\d+|padding|_)$/i;
 const CATEGORY = /class|label|segment|cluster|category|return|source|ring|object|instance/i;
 
 /** Of the columns a file has: its colors, and what else its points can be colored by. */
-export function attributesOf(columns: readonly { name: string; values: Values }[]): Pick<LoadedCloud, "colors" | "attributes"> {
+export function attributesOf(
+  columns: readonly { name: string; values: Values }[],
+): Pick<LoadedCloud, "colors" | "attributes"> {
   const named = (name: string) => columns.find((column) => column.name === name)?.values;
   const [red, green, blue] = [named("red"), named("green"), named("blue")];
   const attributes: Attribute[] = [];

@@ -12,7 +12,11 @@ export interface Reading {
 const BLOCK = 1 << 24;
 
 /** A file's bytes from `start`, a piece at a time: of a large file only that piece is in memory. */
-export async function* blocks({ name, blob, onProgress }: Reading, start: number, multipleOf = 1): AsyncGenerator<ArrayBuffer> {
+export async function* blocks(
+  { name, blob, onProgress }: Reading,
+  start: number,
+  multipleOf = 1,
+): AsyncGenerator<ArrayBuffer> {
   const length = Math.max(1, Math.floor(BLOCK / multipleOf)) * multipleOf;
   for (let at = start; at < blob.size; at += length) {
     onProgress(at / blob.size);

@@ -66,7 +66,8 @@ export class CloudBuilder {
     this.#positions = this.#positions.subarray(0, 0);
     const columns = this.#columns.map(({ name }, k) => ({ name, values: this.values[k]!.slice(0, this.#kept) }));
     this.values.length = 0;
-    const notes = this.#step > 1 ? [`Every ${ordinal(this.#step)} of its ${number.format(this.#seen)} points is shown.`] : [];
+    const notes =
+      this.#step > 1 ? [`Every ${ordinal(this.#step)} of its ${number.format(this.#seen)} points is shown.`] : [];
     return { positions, ...attributesOf(columns), notes };
   }
 

@@ -7,7 +7,12 @@ const MAX_DOWNLOAD = 4_000_000_000;
  * Fetches a file whole, telling how far it is where the server says how long it is. `unreachable`: why nothing of it can be
  * had, if that is known.
  */
-export async function download(name: string, url: string, onProgress: (fraction: number | null) => void, unreachable?: string): Promise<Blob> {
+export async function download(
+  name: string,
+  url: string,
+  onProgress: (fraction: number | null) => void,
+  unreachable?: string,
+): Promise<Blob> {
   return receive(name, await ask(name, url, { unreachable }), onProgress);
 }
 
@@ -32,7 +37,8 @@ export async function downloadRanges(
     read: async (from, to) => {
       if (to <= head.length) return head.subarray(from, to);
       const response = await ask(name, url, { range: [from, to] });
-      if (response.status !== 206) throw new LoadProblem(`${name} could not be downloaded: the server no longer sends parts of it.`);
+      if (response.status !== 206)
+        throw new LoadProblem(`${name} could not be downloaded: the server no longer sends parts of it.`);
       return bodyOf(name, response);
     },
   };
@@ -96,5 +102,6 @@ function brokeOff(name: string): LoadProblem {
 }
 
 function checkSize(name: string, bytes: number): void {
-  if (bytes > MAX_DOWNLOAD) throw new LoadProblem(`${name} is too large to be downloaded: more than ${MAX_DOWNLOAD / 1e9} GB.`);
+  if (bytes > MAX_DOWNLOAD)
+    throw new LoadProblem(`${name} is too large to be downloaded: more than ${MAX_DOWNLOAD / 1e9} GB.`);
 }

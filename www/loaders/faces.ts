@@ -23,7 +23,8 @@ class Triangles {
 
   /** Cut from its first corner. */
   addFace(corners: readonly number[]): void {
-    if (!corners.every((corner) => corner >= 0 && corner < this.#vertices)) throw new LoadProblem(`${this.#name} has faces between points that it does not have`);
+    if (!corners.every((corner) => corner >= 0 && corner < this.#vertices))
+      throw new LoadProblem(`${this.#name} has faces between points that it does not have`);
     for (let i = 2; i < corners.length; i++) this.#corners.push(corners[0]!, corners[i - 1]!, corners[i]!);
   }
 
@@ -37,7 +38,8 @@ async function readPlyFaces(reading: Reading, triangles: Triangles): Promise<voi
   const { format, elements, end } = await readPlyHeader(reading);
   const at = elements.findIndex((element) => element.name === "face");
   const { count, properties } = elements[at]!;
-  const isCorners = ({ name: called, list }: PlyElement["properties"][number]) => list !== null && /^vertex_ind(ex|ices)$/.test(called);
+  const isCorners = ({ name: called, list }: PlyElement["properties"][number]) =>
+    list !== null && /^vertex_ind(ex|ices)$/.test(called);
   if (!properties.some(isCorners)) throw new LoadProblem(`${name} does not say which points its faces have`);
 
   if (format === "ascii") {
@@ -69,7 +71,8 @@ async function readPlyFaces(reading: Reading, triangles: Triangles): Promise<voi
       const length = list ? numberReader(list, 0, littleEndian)(view, place) : 1;
       place += list ? bytesOf(list) : 0;
       const corner = numberReader(type, 0, littleEndian);
-      if (isCorners(property)) triangles.addFace(Array.from({ length }, (_, i) => corner(view, place + i * bytesOf(type))));
+      if (isCorners(property))
+        triangles.addFace(Array.from({ length }, (_, i) => corner(view, place + i * bytesOf(type))));
       place += length * bytesOf(type);
     }
   }
@@ -82,7 +85,11 @@ async function readObjFaces(reading: Reading, triangles: Triangles): Promise<voi
     for (const line of some) {
       if (/^\s*v\s/.test(line)) vertices++;
       if (!/^\s*f\s/.test(line)) continue;
-      const numbers = line.trim().split(/\s+/).slice(1).map((corner) => Number.parseInt(corner, 10));
+      const numbers = line
+        .trim()
+        .split(/\s+/)
+        .slice(1)
+        .map((corner) => Number.parseInt(corner, 10));
       triangles.addFace(numbers.map((number) => (number < 0 ? vertices + number : number - 1)));
     }
   }

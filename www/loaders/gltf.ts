@@ -1,4 +1,17 @@
-import { type BufferAttribute, type BufferGeometry, Color, type InstancedMesh, type InterleavedBufferAttribute, LoadingManager, Matrix4, type Mesh, MeshBasicMaterial, type Object3D, SRGBColorSpace, Vector3 } from "three";
+import {
+  type BufferAttribute,
+  type BufferGeometry,
+  Color,
+  type InstancedMesh,
+  type InterleavedBufferAttribute,
+  LoadingManager,
+  Matrix4,
+  type Mesh,
+  MeshBasicMaterial,
+  type Object3D,
+  SRGBColorSpace,
+  Vector3,
+} from "three";
 import { type GLTF, GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { MeshoptDecoder } from "three/addons/libs/meshopt_decoder.module.js";
 import type { LoadedCloud } from "../cloud.ts";
@@ -17,7 +30,8 @@ interface GltfJson {
 }
 
 /** What a file may need: three's loader brings it along, or it has nothing to do with where points are. */
-const UNDERSTOOD = /^(KHR_(mesh_quantization|meshopt_compression|materials_|texture_|lights_|animation_|xmp)|EXT_(meshopt_compression|mesh_gpu_instancing|texture_))/;
+const UNDERSTOOD =
+  /^(KHR_(mesh_quantization|meshopt_compression|materials_|texture_|lights_|animation_|xmp)|EXT_(meshopt_compression|mesh_gpu_instancing|texture_))/;
 
 /** What has vertices in a scene, and where it stands: once for each of its instances. */
 interface Placed {
@@ -39,7 +53,10 @@ export async function readGltf(reading: Reading, base: string | null): Promise<L
 
   const colored = placed.length > 0 && placed.every(({ geometry }) => "color" in geometry.attributes);
   const extras = extraColumns(placed);
-  const columns: Column[] = [...(colored ? ["red", "green", "blue"].map((column): Column => ({ name: column, type: "uint8" })) : []), ...extras];
+  const columns: Column[] = [
+    ...(colored ? ["red", "green", "blue"].map((column): Column => ({ name: column, type: "uint8" })) : []),
+    ...extras,
+  ];
   const builder = new CloudBuilder("float64", columns, limit, total);
   const first = colored ? 3 : 0;
   const point = new Vector3();
@@ -55,7 +72,9 @@ export async function readGltf(reading: Reading, base: string | null): Promise<L
         if (colored) {
           // A file's colors are linear light.
           new Color().fromBufferAttribute(attributes["color"] as BufferAttribute, vertex).getRGB(shown, SRGBColorSpace);
-          [shown.r, shown.g, shown.b].forEach((value, channel) => (builder.values[channel]![i] = Math.round(255 * Math.min(1, Math.max(0, value)))));
+          [shown.r, shown.g, shown.b].forEach(
+            (value, channel) => (builder.values[channel]![i] = Math.round(255 * Math.min(1, Math.max(0, value)))),
+          );
         }
         extras.forEach((extra, k) => (builder.values[first + k]![i] = attributes[extra.attribute]!.getX(vertex)));
       }
@@ -68,8 +87,10 @@ export async function readGltf(reading: Reading, base: string | null): Promise<L
 function jsonOf(name: string, data: ArrayBuffer): GltfJson {
   const view = new DataView(data);
   const binary = view.byteLength >= 20 && view.getUint32(0, true) === 0x46546c67;
-  if (binary && view.getUint32(4, true) !== 2) throw new LoadProblem(`${name} is of glTF version ${view.getUint32(4, true)}, and this page knows 2.`);
-  if (binary && view.getUint32(8, true) > view.byteLength) throw new LoadProblem(`${name} is broken: it ends before the length its header promises.`);
+  if (binary && view.getUint32(4, true) !== 2)
+    throw new LoadProblem(`${name} is of glTF version ${view.getUint32(4, true)}, and this page knows 2.`);
+  if (binary && view.getUint32(8, true) > view.byteLength)
+    throw new LoadProblem(`${name} is broken: it ends before the length its header promises.`);
   try {
     const text = binary ? new Uint8Array(data, 20, view.getUint32(12, true)) : new Uint8Array(data);
     return JSON.parse(new TextDecoder().decode(text)) as GltfJson;
@@ -79,16 +100,21 @@ function jsonOf(name: string, data: ArrayBuffer): GltfJson {
 }
 
 function checkUse(name: string, json: GltfJson, base: string | null): void {
-  if (json.asset?.version === undefined) throw new LoadProblem(`${name} is broken: it does not say of which version of glTF it is.`);
+  if (json.asset?.version === undefined)
+    throw new LoadProblem(`${name} is broken: it does not say of which version of glTF it is.`);
   const used = [...(json.extensionsUsed ?? []), ...(json.extensionsRequired ?? [])];
   if (used.includes("KHR_draco_mesh_compression")) {
-    throw new LoadProblem(`${name} is compressed with Draco, which this page does not read. Export it without that compression.`);
+    throw new LoadProblem(
+      `${name} is compressed with Draco, which this page does not read. Export it without that compression.`,
+    );
   }
   const unknown = json.extensionsRequired?.find((extension) => !UNDERSTOOD.test(extension));
   if (unknown !== undefined) throw new LoadProblem(`${name} needs what this page does not know (${unknown}).`);
   const elsewhere = json.buffers?.find(({ uri }) => uri !== undefined && !uri.startsWith("data:"));
   if (elsewhere && base === null) {
-    throw new LoadProblem(`${name} keeps its points in a file of its own (${elsewhere.uri}). Export it as one GLB file.`);
+    throw new LoadProblem(
+      `${name} keeps its points in a file of its own (${elsewhere.uri}). Export it as one GLB file.`,
+    );
   }
 }
 
@@ -99,7 +125,9 @@ async function parse(name: string, data: ArrayBuffer, base: string | null): Prom
   try {
     return await loader.parseAsync(data, base ?? "");
   } catch (error) {
-    throw new LoadProblem(`${name} is broken or uses what this page does not know: ${error instanceof Error ? error.message.replace(/^THREE\.\w+: |\.$/g, "") : "it could not be read"}.`);
+    throw new LoadProblem(
+      `${name} is broken or uses what this page does not know: ${error instanceof Error ? error.message.replace(/^THREE\.\w+: |\.$/g, "") : "it could not be read"}.`,
+    );
   }
 }
 
@@ -136,6 +164,10 @@ function position({ geometry }: Placed): BufferAttribute {
 function extraColumns(placed: readonly Placed[]): (Column & { attribute: string })[] {
   const names = Object.keys(placed[0]?.geometry.attributes ?? {}).filter((name) => name.startsWith("_"));
   return names
-    .filter((name) => placed.every(({ geometry }) => (geometry.attributes as Record<string, Attribute | undefined>)[name]?.itemSize === 1))
+    .filter((name) =>
+      placed.every(
+        ({ geometry }) => (geometry.attributes as Record<string, Attribute | undefined>)[name]?.itemSize === 1,
+      ),
+    )
     .map((attribute) => ({ name: attribute.slice(1), attribute, type: "float32" }));
 }

@@ -26,7 +26,11 @@ export function loadCloud(
       event.preventDefault();
       // Only an error of a worker that runs says where it happened.
       const running = event instanceof ErrorEvent;
-      reject(running ? new LoadProblem(`${request.name} could not be read: the browser ran out of memory or stopped the loader.`) : missingPart(request.name));
+      reject(
+        running
+          ? new LoadProblem(`${request.name} could not be read: the browser ran out of memory or stopped the loader.`)
+          : missingPart(request.name),
+      );
     };
     worker.postMessage(request);
   }).finally(end);
@@ -39,7 +43,9 @@ export function loadCloud(
 function startWorker(): { worker: Worker; end: () => void } {
   const { href, origin } = new URL(script, import.meta.url);
   const foreign = origin !== location.origin;
-  const address = foreign ? URL.createObjectURL(new Blob([`import ${JSON.stringify(href)};`], { type: "text/javascript" })) : href;
+  const address = foreign
+    ? URL.createObjectURL(new Blob([`import ${JSON.stringify(href)};`], { type: "text/javascript" }))
+    : href;
   const worker = new Worker(address, { type: "module" });
   const end = () => {
     worker.terminate();

@@ -41,7 +41,9 @@ export function checkedCloud(name: string, cloud: LoadedCloud, skipNonFinite: bo
 }
 
 function isFiniteAt(positions: LoadedCloud["positions"], i: number): boolean {
-  return Number.isFinite(positions[3 * i]) && Number.isFinite(positions[3 * i + 1]) && Number.isFinite(positions[3 * i + 2]);
+  return (
+    Number.isFinite(positions[3 * i]) && Number.isFinite(positions[3 * i + 1]) && Number.isFinite(positions[3 * i + 2])
+  );
 }
 
 function countNonFinite(positions: LoadedCloud["positions"]): number {
@@ -65,7 +67,8 @@ function withoutNonFinite(cloud: LoadedCloud, count: number): LoadedCloud {
 
 function picked<T extends Values>(values: T, kept: Uint32Array, width: number): T {
   const result = new (values.constructor as new (length: number) => T)(width * kept.length);
-  for (let i = 0; i < kept.length; i++) for (let k = 0; k < width; k++) result[width * i + k] = values[width * kept[i]! + k]!;
+  for (let i = 0; i < kept.length; i++)
+    for (let k = 0; k < width; k++) result[width * i + k] = values[width * kept[i]! + k]!;
   return result;
 }
 

@@ -31,7 +31,9 @@ export async function readPcd(reading: Reading): Promise<LoadedCloud> {
 function headerOf(name: string, data: ArrayBuffer): PcdHeader {
   const broken = (why: string) => new LoadProblem(`${name} is broken: ${why}.`);
   // Latin-1 keeps one character a byte, so that a position in the text is a position in the file.
-  const match = /^([\s\S]*?(?:^|[\r\n])DATA[ \t]+(\w+)[ \t]*)(\r\n|\r|\n|$)/i.exec(new TextDecoder("latin1").decode(data));
+  const match = /^([\s\S]*?(?:^|[\r\n])DATA[ \t]+(\w+)[ \t]*)(\r\n|\r|\n|$)/i.exec(
+    new TextDecoder("latin1").decode(data),
+  );
   if (!match) throw broken("its PCD header has no end");
   const kind = match[2]!.toLowerCase();
   if (kind !== "ascii" && kind !== "binary" && kind !== "binary_compressed") {
@@ -47,11 +49,15 @@ function headerOf(name: string, data: ArrayBuffer): PcdHeader {
   const sizes = (entries.get("SIZE") ?? []).map(Number);
   const types = entries.get("TYPE") ?? [];
   const counts = entries.has("COUNT") ? entries.get("COUNT")!.map(Number) : names.map(() => 1);
-  const count = entries.has("POINTS") ? Number(entries.get("POINTS")![0]) : Number(entries.get("WIDTH")?.[0]) * Number(entries.get("HEIGHT")?.[0]);
+  const count = entries.has("POINTS")
+    ? Number(entries.get("POINTS")![0])
+    : Number(entries.get("WIDTH")?.[0]) * Number(entries.get("HEIGHT")?.[0]);
   if (!["x", "y", "z"].every((axis) => names.includes(axis))) throw broken("its PCD header names no x, y and z");
-  if ([sizes, types, counts].some((line) => line.length !== names.length)) throw broken("the lines of its PCD header do not match");
+  if ([sizes, types, counts].some((line) => line.length !== names.length))
+    throw broken("the lines of its PCD header do not match");
   if (!Number.isSafeInteger(count) || count < 0) throw broken("its PCD header does not say how many points there are");
-  if (![...sizes, ...counts].every((value) => Number.isInteger(value) && value >= 0)) throw broken("a size in its PCD header is not a number");
+  if (![...sizes, ...counts].every((value) => Number.isInteger(value) && value >= 0))
+    throw broken("a size in its PCD header is not a number");
 
   const fields: Field[] = [];
   let [offset, word] = [0, 0];
@@ -66,7 +72,9 @@ function headerOf(name: string, data: ArrayBuffer): PcdHeader {
   });
   const position = ["x", "y", "z"].map((axis) => fields.find((field) => field.name === axis));
   if (position.includes(undefined)) throw broken("the x, y and z of its PCD header are no numbers");
-  const others = fields.filter((field) => !position.includes(field)).sort((a, b) => Number(/^rgba?$/.test(b.name)) - Number(/^rgba?$/.test(a.name)));
+  const others = fields
+    .filter((field) => !position.includes(field))
+    .sort((a, b) => Number(/^rgba?$/.test(b.name)) - Number(/^rgba?$/.test(a.name)));
   const rows = { start: match[0].length, count, position: position as [Field, Field, Field], others };
   return { kind, rows, rowBytes: offset, entries };
 }

@@ -85,7 +85,8 @@ function elementsOf(name: string, headerLines: readonly string[]): PlyElement[] 
   const elements: PlyElement[] = [];
   const typeOf = (word: string | undefined): NumberType => {
     const type = TYPES[word ?? ""];
-    if (!type) throw new LoadProblem(`${name} is broken: its PLY header has a property of unknown type (${word ?? "none"}).`);
+    if (!type)
+      throw new LoadProblem(`${name} is broken: its PLY header has a property of unknown type (${word ?? "none"}).`);
     return type;
   };
   for (const line of headerLines) {
@@ -98,7 +99,11 @@ function elementsOf(name: string, headerLines: readonly string[]): PlyElement[] 
       elements.push({ name: words[1] ?? "", count, properties: [] });
     } else if (words[0] === "property" && elements.length > 0) {
       const isList = words[1] === "list";
-      const property = { name: words[isList ? 4 : 2] ?? "", type: typeOf(words[isList ? 3 : 1]), list: isList ? typeOf(words[2]) : null };
+      const property = {
+        name: words[isList ? 4 : 2] ?? "",
+        type: typeOf(words[isList ? 3 : 1]),
+        list: isList ? typeOf(words[2]) : null,
+      };
       elements[elements.length - 1]!.properties.push(property);
     }
   }
@@ -111,19 +116,28 @@ function fieldsOf(name: string, count: number, properties: readonly Property[]) 
     const offset = rowBytes;
     rowBytes += bytesOf(property.type);
     const lower = property.name.toLowerCase();
-    const called = NAMES[lower] ?? (/^(x|y|z|red|green|blue)$/.test(lower) ? lower : property.name.replace(/^scalar_/, ""));
+    const called =
+      NAMES[lower] ?? (/^(x|y|z|red|green|blue)$/.test(lower) ? lower : property.name.replace(/^scalar_/, ""));
     return { name: called, type: property.type, offset, word };
   });
   const position = ["x", "y", "z"].map((axis) => fields.find((field) => field.name === axis));
   if (position.includes(undefined)) {
-    throw new LoadProblem(count === 0 ? `${name} holds no points.` : `${name} is a PLY file whose vertices have no x, y and z.`);
+    throw new LoadProblem(
+      count === 0 ? `${name} holds no points.` : `${name} is a PLY file whose vertices have no x, y and z.`,
+    );
   }
   const others = fields.filter((field) => !position.includes(field));
   return { position: position as [Field, Field, Field], others, rowBytes };
 }
 
 /** Where an element of a binary file begins, behind others whose lists may have any length. */
-export async function passOver({ name, blob }: Reading, start: number, before: readonly PlyElement[], littleEndian: boolean, promised: number): Promise<number> {
+export async function passOver(
+  { name, blob }: Reading,
+  start: number,
+  before: readonly PlyElement[],
+  littleEndian: boolean,
+  promised: number,
+): Promise<number> {
   if (before.length === 0) return start;
   const view = new DataView(await bytes(name, blob, start, blob.size));
   let at = 0;

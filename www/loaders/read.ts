@@ -12,7 +12,8 @@ export async function readFile(reading: Reading, base: string | null): Promise<L
   } catch (error) {
     if (error instanceof LoadProblem) throw error;
     if (error instanceof TypeError && error.message.includes("import")) throw missingPart(name);
-    if (error instanceof RangeError) throw new LoadProblem(`${name} could not be read: it is broken, or there is too little memory for it.`);
+    if (error instanceof RangeError)
+      throw new LoadProblem(`${name} could not be read: it is broken, or there is too little memory for it.`);
     // Whatever a loader trips over, it was the file: a size, an offset or a number that cannot be.
     throw new LoadProblem(`${name} is broken and could not be read.`);
   }
@@ -25,17 +26,22 @@ async function readBy(reading: Reading, base: string | null): Promise<LoadedClou
   const start = new TextDecoder("latin1").decode(data);
   const ending = /\.([a-z0-9]+)$/i.exec(name)?.[1]?.toLowerCase() ?? "";
   if (start.startsWith("LASF")) return (await import("./las/las.ts")).readLas(reading);
-  if (start.startsWith("glTF") || (ending === "gltf" && /^\s*(ï»¿)?\{/.test(start))) return (await import("./gltf.ts")).readGltf(reading, base);
+  if (start.startsWith("glTF") || (ending === "gltf" && /^\s*(ï»¿)?\{/.test(start)))
+    return (await import("./gltf.ts")).readGltf(reading, base);
   if (/^ply\s/.test(start)) return (await import("./ply.ts")).readPly(reading);
-  if (/^(#.*\.PCD|VERSION\s|FIELDS\s)/m.test(start) && ending !== "obj") return (await import("./pcd.ts")).readPcd(reading);
+  if (/^(#.*\.PCD|VERSION\s|FIELDS\s)/m.test(start) && ending !== "obj")
+    return (await import("./pcd.ts")).readPcd(reading);
   if (/^(ply|pcd|las|laz|gltf|glb)$/.test(ending)) {
     const format = { gltf: "glTF", glb: "GLB" }[ending] ?? ending.toUpperCase();
     throw new LoadProblem(`${name} is not a point cloud: it does not begin like a ${format} file.`);
   }
   const encoding = encodingOf(data);
-  if (encoding === "utf-8" && looksBinary(start)) throw new LoadProblem(`${name} is not a point cloud this page knows. It opens ${FORMATS} files.`);
+  if (encoding === "utf-8" && looksBinary(start))
+    throw new LoadProblem(`${name} is not a point cloud this page knows. It opens ${FORMATS} files.`);
   const isObj = ending === "obj" || /^v[ \t]+[-+.\d]/m.test(start);
-  return isObj ? (await import("./obj.ts")).readObj(reading, encoding) : (await import("./xyz.ts")).readXyz(reading, encoding);
+  return isObj
+    ? (await import("./obj.ts")).readObj(reading, encoding)
+    : (await import("./xyz.ts")).readXyz(reading, encoding);
 }
 
 /** By the mark at its beginning: some spreadsheets export text of two bytes a character. */

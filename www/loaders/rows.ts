@@ -26,13 +26,22 @@ export interface Rows {
 /** Rows looked at to tell which byte order they are in. */
 const SAMPLE = 1000;
 
-export async function readBinaryRows(reading: Reading, rows: Rows, rowBytes: number, littleEndian = true): Promise<LoadedCloud> {
+export async function readBinaryRows(
+  reading: Reading,
+  rows: Rows,
+  rowBytes: number,
+  littleEndian = true,
+): Promise<LoadedCloud> {
   const { start, count, position, others } = rows;
   if (count * rowBytes > reading.blob.size - start) throw endsEarly(reading.name, count);
   await checkByteOrder(reading, rows, rowBytes, littleEndian);
 
   const builder = builderFor(reading, rows);
-  const [x, y, z] = position.map(({ type, offset }) => numberReader(type, offset, littleEndian)) as [NumberReader, NumberReader, NumberReader];
+  const [x, y, z] = position.map(({ type, offset }) => numberReader(type, offset, littleEndian)) as [
+    NumberReader,
+    NumberReader,
+    NumberReader,
+  ];
   const readers = others.map(({ type, offset }) => numberReader(type, offset, littleEndian));
   await eachRow(reading, { start, rowBytes, count }, (view, at) => {
     if (!builder.takes()) return;
@@ -56,13 +65,21 @@ export async function readTextRows(reading: Reading, rows: Rows): Promise<Loaded
       const trimmed = line.trim();
       if (trimmed === "" || toSkip-- > 0 || !builder.takes()) continue;
       const row = trimmed.split(/\s+/);
-      if (/\d,\d/.test(trimmed)) throw new LoadProblem(`${name} is broken: its numbers have commas (“${trimmed.slice(0, 40)}”), which such a file writes as points.`);
-      if (short !== null) throw new LoadProblem(`${name} is broken: a line has fewer numbers than its header promises (“${short}”).`);
+      if (/\d,\d/.test(trimmed))
+        throw new LoadProblem(
+          `${name} is broken: its numbers have commas (“${trimmed.slice(0, 40)}”), which such a file writes as points.`,
+        );
+      if (short !== null)
+        throw new LoadProblem(`${name} is broken: a line has fewer numbers than its header promises (“${short}”).`);
       if (row.length < words) {
         short = trimmed.slice(0, 40);
         continue;
       }
-      const i = builder.put(Number(row[position[0].word]), Number(row[position[1].word]), Number(row[position[2].word]));
+      const i = builder.put(
+        Number(row[position[0].word]),
+        Number(row[position[1].word]),
+        Number(row[position[2].word]),
+      );
       for (let k = 0; k < others.length; k++) builder.values[k]![i] = Number(row[others[k]!.word]);
     }
   }
@@ -71,7 +88,9 @@ export async function readTextRows(reading: Reading, rows: Rows): Promise<Loaded
 }
 
 export function endsEarly(name: string, promised: number): LoadProblem {
-  return new LoadProblem(`${name} is broken: it ends before the ${promised.toLocaleString("en-US")} points its header promises.`);
+  return new LoadProblem(
+    `${name} is broken: it ends before the ${promised.toLocaleString("en-US")} points its header promises.`,
+  );
 }
 
 function builderFor({ limit }: Reading, { position, others, count }: Rows): CloudBuilder {
@@ -82,7 +101,12 @@ function builderFor({ limit }: Reading, { position, others, count }: Rows): Clou
 }
 
 /** Numbers read in the wrong order of bytes are all but never ones that anybody measures. */
-async function checkByteOrder({ name, blob }: Reading, { start, count, position }: Rows, rowBytes: number, littleEndian: boolean): Promise<void> {
+async function checkByteOrder(
+  { name, blob }: Reading,
+  { start, count, position }: Rows,
+  rowBytes: number,
+  littleEndian: boolean,
+): Promise<void> {
   const view = new DataView(await bytes(name, blob, start, start + Math.min(count, SAMPLE) * rowBytes));
   const odd = (little: boolean) => {
     let number = 0;

@@ -7,7 +7,9 @@ import { LoadProblem } from "./problem.ts";
 import type { LoadReply, LoadRequest } from "./protocol.ts";
 import { readFile } from "./read.ts";
 
-const post = (reply: LoadReply, transfer: Transferable[] = []) => { self.postMessage(reply, { transfer }); };
+const post = (reply: LoadReply, transfer: Transferable[] = []) => {
+  self.postMessage(reply, { transfer });
+};
 
 /** Why a sample cannot be had: those that have been opened before are (offline/service-worker.ts). */
 const NOT_KEPT = "there is no connection, and it has not been opened on this device before";
@@ -27,9 +29,13 @@ self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
     const prepared = prepareCloud(await load(request));
     const { positions, copy, cloud } = prepared;
     const arrays = [positions, copy, cloud.local, cloud.colors, ...cloud.attributes.map(({ values }) => values)];
-    post({ kind: "cloud", prepared }, arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : [])));
+    post(
+      { kind: "cloud", prepared },
+      arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : [])),
+    );
   } catch (error) {
-    const problem = error instanceof LoadProblem ? error : new LoadProblem(`${request.name} could not be read: ${String(error)}.`);
+    const problem =
+      error instanceof LoadProblem ? error : new LoadProblem(`${request.name} could not be read: ${String(error)}.`);
     post({ kind: "problem", sentence: problem.message, nonFinite: problem.nonFinite });
   }
 };
@@ -41,7 +47,9 @@ function shortened(address: string): string {
 
 async function load(request: LoadRequest): Promise<LoadedCloud> {
   const { name } = request;
-  const downloading = (fraction: number | null) => { progress("Downloading", fraction); };
+  const downloading = (fraction: number | null) => {
+    progress("Downloading", fraction);
+  };
   if (request.kind === "shape") {
     progress("Making", null);
     return SHAPES[request.shape]();
@@ -49,14 +57,16 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   if (request.kind === "sample") {
     const data = await (await download(name, request.url, downloading, NOT_KEPT)).arrayBuffer();
     // A server that answers with a page for what it does not have.
-    if (data.byteLength % 12 !== 0) throw new LoadProblem(`${name} could not be downloaded: the server sent something else.`);
+    if (data.byteLength % 12 !== 0)
+      throw new LoadProblem(`${name} could not be downloaded: the server sent something else.`);
     return { positions: new Float32Array(data), colors: null };
   }
 
   const { limit = MAX_POINTS, skipNonFinite } = request;
   const check = (cloud: LoadedCloud) => checkedCloud(name, cloud, skipNonFinite);
   // Neither what cannot be read as one, nor what holds its own content (data:).
-  if (request.kind === "url" && !URL.canParse(".", request.url)) throw new LoadProblem(`“${shortened(request.url)}” is no address of a file.`);
+  if (request.kind === "url" && !URL.canParse(".", request.url))
+    throw new LoadProblem(`“${shortened(request.url)}” is no address of a file.`);
   let blob: Blob;
   if (request.kind === "file") {
     blob = request.file;
@@ -72,6 +82,10 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   }
   if (blob.size === 0) throw new LoadProblem(`${name} is empty.`);
   progress("Reading", null);
-  const onProgress = (fraction: number) => { progress("Reading", fraction); };
-  return check(await readFile({ name, blob, limit, onProgress }, request.kind === "url" ? new URL(".", request.url).href : null));
+  const onProgress = (fraction: number) => {
+    progress("Reading", fraction);
+  };
+  return check(
+    await readFile({ name, blob, limit, onProgress }, request.kind === "url" ? new URL(".", request.url).href : null),
+  );
 }

@@ -32,17 +32,25 @@ export async function readXyz(reading: Reading, encoding: string): Promise<Loade
   for await (const some of lines(reading, 0, encoding)) {
     found ??= findLayout(name, some);
     const { layout, first } = found;
-    builder ??= new CloudBuilder("float64", layout.others.map((column) => ({ name: column.name, type: "float32" })), limit, null);
+    builder ??= new CloudBuilder(
+      "float64",
+      layout.others.map((column) => ({ name: column.name, type: "float32" })),
+      limit,
+      null,
+    );
     for (const text of some) {
       const line = text.trim();
       if (number++ < first || line === "" || isComment(line) || !builder.takes()) continue;
       const words = split(line, layout);
       const [x, y, z] = layout.position.map((column) => coordinate(words[column]));
       if (x === null || y === null || z === null) {
-        throw new LoadProblem(`${name} does not look like a point cloud: line ${number} is not a point (“${line.slice(0, 40)}”).`);
+        throw new LoadProblem(
+          `${name} does not look like a point cloud: line ${number} is not a point (“${line.slice(0, 40)}”).`,
+        );
       }
       const i = builder.put(x!, y!, z!);
-      for (let k = 0; k < layout.others.length; k++) builder.values[k]![i] = coordinate(words[layout.others[k]!.column]) ?? NaN;
+      for (let k = 0; k < layout.others.length; k++)
+        builder.values[k]![i] = coordinate(words[layout.others[k]!.column]) ?? NaN;
     }
   }
   return builder!.finish();
@@ -71,7 +79,10 @@ function findLayout(name: string, lines: string[]): { layout: Layout; first: num
     if (line === "" || /^\d+$/.test(line)) continue;
     const writing = separators(line);
     const words = split(line, writing);
-    const isPoint = words.length >= 3 && words.every((word) => NUMBER.test(word) || NO_NUMBER.test(word)) && words.some((word) => word !== "");
+    const isPoint =
+      words.length >= 3 &&
+      words.every((word) => NUMBER.test(word) || NO_NUMBER.test(word)) &&
+      words.some((word) => word !== "");
     if (isPoint || (header !== "" && words.filter((word) => NUMBER.test(word)).length >= 3)) {
       return { layout: columns(name, header, lines.slice(i, i + LOOK_AT), writing), first: i };
     }
@@ -90,10 +101,20 @@ function separators(line: string): Pick<Layout, "separator" | "decimalComma"> {
   return { separator: /\s+/, decimalComma: decimals };
 }
 
-function columns(name: string, header: string, lines: string[], writing: Pick<Layout, "separator" | "decimalComma">): Layout {
-  const rows = lines.map((line) => line.trim()).filter((line) => line !== "" && !isComment(line)).map((line) => split(line, writing));
+function columns(
+  name: string,
+  header: string,
+  lines: string[],
+  writing: Pick<Layout, "separator" | "decimalComma">,
+): Layout {
+  const rows = lines
+    .map((line) => line.trim())
+    .filter((line) => line !== "" && !isComment(line))
+    .map((line) => split(line, writing));
   const names = namesIn(header);
-  const named = COLUMN_NAMES.map((patterns) => patterns.map((pattern) => names.findIndex((word) => pattern.test(word))));
+  const named = COLUMN_NAMES.map((patterns) =>
+    patterns.map((pattern) => names.findIndex((word) => pattern.test(word))),
+  );
   const unnamed = named[0]!.includes(-1);
   // A line of names without these among them: the first three columns may be anything.
   if (unnamed && !isComment(header) && names.length === rows[0]!.length && names.length > 3) {
@@ -122,8 +143,13 @@ function otherColumns(rows: string[][], position: number[], names: string[], col
 
 /** The names in a header line, in lower case and without their units: “X [m]” and “x_m” are x. */
 function namesIn(header: string): string[] {
-  const bare = header.toLowerCase().replace(/^(#|\/\/)\s*/, "").replace(/\s*(\[[^\]]*\]|\([^)]*\))/g, "");
-  return split(bare, separators(bare)).map((name) => name.replace(/[ _.-]?coord(inate)?$/, "").replace(/[ _.-](m|mm|cm|km|ft|met(er|re)s?)$/, ""));
+  const bare = header
+    .toLowerCase()
+    .replace(/^(#|\/\/)\s*/, "")
+    .replace(/\s*(\[[^\]]*\]|\([^)]*\))/g, "");
+  return split(bare, separators(bare)).map((name) =>
+    name.replace(/[ _.-]?coord(inate)?$/, "").replace(/[ _.-](m|mm|cm|km|ft|met(er|re)s?)$/, ""),
+  );
 }
 
 function isByte(word: string): boolean {

@@ -71,7 +71,9 @@ async function install(): Promise<void> {
   const store = await caches.open(STORE);
   await Promise.all([
     store.put(PAGE, await pageOfThisBuild()),
-    ...[...assets].map(async (address) => store.put(address, (await caches.match(address)) ?? (await received(address, "default")))),
+    ...[...assets].map(async (address) =>
+      store.put(address, (await caches.match(address)) ?? (await received(address, "default"))),
+    ),
     ...[...fixed].map(async (address) => store.put(address, await received(address, "no-cache"))),
   ]);
 }
@@ -96,7 +98,8 @@ function answerFor(request: Request): Promise<Response> | null {
   if (request.method !== "GET" || request.headers.has("range")) return null;
   const { origin, pathname, search } = new URL(request.url);
   const address = origin + pathname;
-  if (request.mode === "navigate") return address === PAGE || address === here("index.html") ? networkFirst(request, STORE, PAGE) : null;
+  if (request.mode === "navigate")
+    return address === PAGE || address === here("index.html") ? networkFirst(request, STORE, PAGE) : null;
   if (search !== "") return null;
   if (assets.has(address)) return kept(address, request);
   if (fixed.has(address)) return networkFirst(request, STORE, address);
@@ -122,7 +125,10 @@ async function sample(request: Request, address: string): Promise<Response> {
   // Where there is no room for it, it is still to be seen.
   if (response.ok) {
     const copy = response.clone();
-    void caches.open(SAMPLES).then((store) => store.put(address, copy)).catch(() => undefined);
+    void caches
+      .open(SAMPLES)
+      .then((store) => store.put(address, copy))
+      .catch(() => undefined);
   }
   return response;
 }

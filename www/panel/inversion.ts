@@ -8,15 +8,25 @@ type Kind = "spherical" | "exponential" | "power";
 /** How points are flipped, with each kind's own parameter: automatic until its slider is moved. */
 export function bindInversion(store: Store): (resolved: Inversion) => void {
   const kind = new Segmented<Kind>("inversion", (value) => {
-    store.change({ inversion: value === "spherical" ? value : value === "power" ? { power: "auto" } : { exponential: "auto" } });
+    store.change({
+      inversion: value === "spherical" ? value : value === "power" ? { power: "auto" } : { exponential: "auto" },
+    });
   });
   // Both over many powers of ten: c itself, and what γ has above 1.
-  const scale = new Slider("scale", (value) => `${digits(10 ** value)} spacings`, (value) => {
-    store.change({ inversion: { exponential: Number((10 ** value).toPrecision(4)) } });
-  });
-  const power = new Slider("power", (value) => `1 + ${digits(10 ** value)}`, (value) => {
-    store.change({ inversion: { power: Math.min(16, 1 + Number((10 ** value).toPrecision(4))) } });
-  });
+  const scale = new Slider(
+    "scale",
+    (value) => `${digits(10 ** value)} spacings`,
+    (value) => {
+      store.change({ inversion: { exponential: Number((10 ** value).toPrecision(4)) } });
+    },
+  );
+  const power = new Slider(
+    "power",
+    (value) => `1 + ${digits(10 ** value)}`,
+    (value) => {
+      store.change({ inversion: { power: Math.min(16, 1 + Number((10 ** value).toPrecision(4))) } });
+    },
+  );
   scale.value = scaleAt(AUTOMATIC_C);
   scale.mark(scaleAt(AUTOMATIC_C));
   const [scaleAuto, powerAuto] = [byId("scale-auto", HTMLButtonElement), byId("power-auto", HTMLButtonElement)];
@@ -43,7 +53,8 @@ export function bindInversion(store: Store): (resolved: Inversion) => void {
   return (resolved) => {
     const { inversion } = store.current;
     const automatic = inversion !== "spherical" && "power" in inversion && inversion.power === "auto";
-    if (automatic && typeof resolved === "object" && "power" in resolved) power.value = Math.log10((resolved.power as number) - 1);
+    if (automatic && typeof resolved === "object" && "power" in resolved)
+      power.value = Math.log10((resolved.power as number) - 1);
   };
 }
 

@@ -8,12 +8,20 @@ export function bindLook(store: Store): void {
   const hidden = new Segmented<HiddenMode>("hidden-points", (value) => {
     store.change({ hidden: value });
   });
-  const size = new Slider("point-size", (value) => `${Number(value.toFixed(1))} ×`, (value) => {
-    store.change({ size: value });
-  });
-  const lens = new Slider("field-of-view", (value) => `${Math.round(value)}°`, (fieldOfView) => {
-    store.change({ fieldOfView });
-  });
+  const size = new Slider(
+    "point-size",
+    (value) => `${Number(value.toFixed(1))} ×`,
+    (value) => {
+      store.change({ size: value });
+    },
+  );
+  const lens = new Slider(
+    "field-of-view",
+    (value) => `${Math.round(value)}°`,
+    (fieldOfView) => {
+      store.change({ fieldOfView });
+    },
+  );
   const upward = new Segmented<Up>("up-axis", (up) => {
     store.change({ up, freeze: null });
   });

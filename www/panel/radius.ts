@@ -20,9 +20,13 @@ export class RadiusControl {
 
   constructor(store: Store) {
     this.#store = store;
-    this.#slider = new Slider("exponent", (value) => value.toFixed(2), (exponent) => {
-      store.change({ radius: { exponent } });
-    });
+    this.#slider = new Slider(
+      "exponent",
+      (value) => value.toFixed(2),
+      (exponent) => {
+        store.change({ radius: { exponent } });
+      },
+    );
     this.#slider.clear();
     const buttons = [...byId("radius").querySelectorAll("button")];
     for (const button of buttons) {

@@ -14,7 +14,13 @@ export class SamplePicker {
 
   constructor(onPick: (sample: Sample) => void) {
     this.#select.append(...SAMPLES.map(({ name, label }) => new Option(label, name)));
-    this.#thumbnails.append(...SAMPLES.filter((sample) => sample.picture).map((sample) => thumbnail(sample, () => { onPick(sample); })));
+    this.#thumbnails.append(
+      ...SAMPLES.filter((sample) => sample.picture).map((sample) =>
+        thumbnail(sample, () => {
+          onPick(sample);
+        }),
+      ),
+    );
     this.#select.addEventListener("change", () => {
       // The entry for one's own file stands for what is shown already.
       if (this.#select.value !== "") onPick(sampleNamed(this.#select.value));
@@ -60,7 +66,8 @@ export class SamplePicker {
 
   /** Presses the picture of the sample that is on screen. */
   #mark(name: string | null): void {
-    for (const button of this.#thumbnails.children) button.setAttribute("aria-pressed", String((button as HTMLElement).dataset["sample"] === name));
+    for (const button of this.#thumbnails.children)
+      button.setAttribute("aria-pressed", String((button as HTMLElement).dataset["sample"] === name));
   }
 
   #removeOwn(): void {

@@ -14,15 +14,27 @@ export function bindShadows(store: Store, viewer: Viewer): void {
   add.addEventListener("click", () => {
     addLight(store, viewer);
   });
-  const soft = new Slider("soft", (value) => (value === 0 ? "point lights" : value.toFixed(2)), (value) => {
-    store.change({ soft: value });
-  });
-  const ambient = new Slider("ambient", (value) => value.toFixed(2), (value) => {
-    store.change({ ambient: value });
-  });
-  const smoothing = new Slider("smoothing", (value) => `${value} ${value === 1 ? "round" : "rounds"}`, (value) => {
-    store.change({ smoothing: value });
-  });
+  const soft = new Slider(
+    "soft",
+    (value) => (value === 0 ? "point lights" : value.toFixed(2)),
+    (value) => {
+      store.change({ soft: value });
+    },
+  );
+  const ambient = new Slider(
+    "ambient",
+    (value) => value.toFixed(2),
+    (value) => {
+      store.change({ ambient: value });
+    },
+  );
+  const smoothing = new Slider(
+    "smoothing",
+    (value) => `${value} ${value === 1 ? "round" : "rounds"}`,
+    (value) => {
+      store.change({ smoothing: value });
+    },
+  );
 
   const remove = (i: number) => {
     store.change({ lights: store.current.lights.filter((_, other) => other !== i) });
@@ -53,7 +65,10 @@ export function bindShadows(store: Store, viewer: Viewer): void {
     for (let i = list.children.length; i < length; i++) list.append(row(i));
     list.hidden = length === 0;
     add.disabled = length >= MOST_LIGHTS;
-    note.textContent = length === 0 ? "With a light, what it does not reach lies in shadow." : "Drag a light in the picture, or press the arrow keys, + and − on it.";
+    note.textContent =
+      length === 0
+        ? "With a light, what it does not reach lies in shadow."
+        : "Drag a light in the picture, or press the arrow keys, + and − on it.";
     for (const id of ["soft", "ambient", "smoothing"]) byId(id, HTMLInputElement).disabled = length === 0;
     soft.value = now.soft;
     ambient.value = now.ambient;

@@ -14,9 +14,13 @@ export function bindSurface(store: Store): (answer: ViewAnswer) => void {
   const input = byId("edge", HTMLInputElement);
   // The end of the track stands for no limit.
   const all = Number(input.max);
-  const edge = new Slider("edge", (value) => (value >= all ? "all" : `${value} spacings`), (value) => {
-    store.change({ edge: value >= all ? Infinity : value });
-  });
+  const edge = new Slider(
+    "edge",
+    (value) => (value >= all ? "all" : `${value} spacings`),
+    (value) => {
+      store.change({ edge: value >= all ? Infinity : value });
+    },
+  );
   store.follow((now) => {
     show.value = now.show;
     edge.value = now.edge === Infinity ? all : now.edge;

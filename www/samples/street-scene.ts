@@ -20,7 +20,13 @@ const STEEL: Material = { color: [108, 114, 116], kind: 65, gloss: 0.6 };
 const ROOM: Material = { color: [206, 190, 166], kind: 66, gloss: 0.6 };
 const FURNITURE: Material = { color: [150, 106, 74], kind: 66, gloss: 0.4 };
 const PLASTER: Vector[] = [[205, 176, 140], [188, 108, 88], [214, 208, 196], [142, 160, 164], [198, 186, 128], [176, 142, 130]]; // prettier-ignore
-const LACQUER: Vector[] = [[158, 44, 40], [40, 66, 110], [206, 206, 204], [52, 54, 58], [120, 134, 126]];
+const LACQUER: Vector[] = [
+  [158, 44, 40],
+  [40, 66, 110],
+  [206, 206, 204],
+  [52, 54, 58],
+  [120, 134, 126],
+];
 
 const HALF_LENGTH = 35;
 const CURB = 3.6;
@@ -32,14 +38,26 @@ const STOREY = 3.3;
 export function makeScene(random: () => number, throughPane: () => boolean): Solid<Material> {
   const solids: Solid<Material>[] = [ground()];
   for (const side of [-1, 1] as const) {
-    for (let x = -HALF_LENGTH; x < HALF_LENGTH - 4; ) {
+    for (let x = -HALF_LENGTH; x < HALF_LENGTH - 4;) {
       const width = Math.min(HALF_LENGTH - x, 8 + 5 * random());
       const storeys = 3 + Math.floor(2.4 * random());
       // Here and there one looks between two houses.
-      if (random() < 0.86) solids.push(house(x, x + width, side, storeys, { color: PLASTER[Math.floor(random() * PLASTER.length)]!, kind: 6, gloss: 0.6 }, random, throughPane));
+      if (random() < 0.86)
+        solids.push(
+          house(
+            x,
+            x + width,
+            side,
+            storeys,
+            { color: PLASTER[Math.floor(random() * PLASTER.length)]!, kind: 6, gloss: 0.6 },
+            random,
+            throughPane,
+          ),
+        );
       x += width;
     }
-    for (let x = -31; x < 32; x += 9.4 + 2 * random()) solids.push(random() < 0.72 ? tree(x, side * 4.4, random) : lamp(x, side * 4.1));
+    for (let x = -31; x < 32; x += 9.4 + 2 * random())
+      solids.push(random() < 0.72 ? tree(x, side * 4.4, random) : lamp(x, side * 4.1));
     for (let x = -30; x < 30; x += 5.6 + 2.5 * random()) if (random() < 0.62) solids.push(car(x, side * 2.55, random));
   }
   solids.push(...[[-9, 4.9], [7.5, -5.2], [16, 5.3], [-13, -5.4]].map(([x, y]) => person(x!, y!))); // prettier-ignore
@@ -47,15 +65,18 @@ export function makeScene(random: () => number, throughPane: () => boolean): Sol
 }
 
 function ground(): Solid<Material> {
-  const level = (z: number): Solid<number> => (from, along, reach) => {
-    const distance = (z - from[2]) / along[2];
-    return distance > 0 && distance < reach ? { distance, normal: [0, 0, 1], material: z } : null;
-  };
+  const level =
+    (z: number): Solid<number> =>
+    (from, along, reach) => {
+      const distance = (z - from[2]) / along[2];
+      return distance > 0 && distance < reach ? { distance, normal: [0, 0, 1], material: z } : null;
+    };
   const [road, pavement] = [level(0), level(0.12)];
   return (from, along, reach) => {
     const higher = pavement(from, along, reach);
     const at = (hit: Hit<number>) => ({ x: from[0] + hit.distance * along[0], y: from[1] + hit.distance * along[1] });
-    if (higher && Math.abs(at(higher).y) >= CURB) return Math.abs(at(higher).y) < FACADE + DEPTH ? { ...higher, material: PAVEMENT } : null;
+    if (higher && Math.abs(at(higher).y) >= CURB)
+      return Math.abs(at(higher).y) < FACADE + DEPTH ? { ...higher, material: PAVEMENT } : null;
     const hit = road(from, along, reach);
     if (!hit) return null;
     const { x, y } = at(hit);
@@ -66,7 +87,15 @@ function ground(): Solid<Material> {
 }
 
 /** A façade with windows, and rooms behind it: floors, walls, a piece of furniture. */
-function house(from: number, to: number, side: 1 | -1, storeys: number, wall: Material, random: () => number, throughPane: () => boolean): Solid<Material> {
+function house(
+  from: number,
+  to: number,
+  side: 1 | -1,
+  storeys: number,
+  wall: Material,
+  random: () => number,
+  throughPane: () => boolean,
+): Solid<Material> {
   const height = storeys * STOREY + 0.5;
   const windows = Math.max(2, Math.round((to - from) / 2.6));
   const bay = (to - from) / windows;
@@ -81,15 +110,26 @@ function house(from: number, to: number, side: 1 | -1, storeys: number, wall: Ma
       rooms.push(box([a, low + 0.05, storey * STOREY + 0.15], [b, high - 0.05, (storey + 1) * STOREY], ROOM));
       const x = a + (b - a) * (0.15 + 0.5 * random());
       const inner = y + side * (1.2 + 1.5 * random());
-      rooms.push(box([x, Math.min(inner, inner + 0.7 * side), storey * STOREY + 0.15], [x + 1.1, Math.max(inner, inner + 0.7 * side), storey * STOREY + 0.95 + 0.7 * random()], FURNITURE));
+      rooms.push(
+        box(
+          [x, Math.min(inner, inner + 0.7 * side), storey * STOREY + 0.15],
+          [x + 1.1, Math.max(inner, inner + 0.7 * side), storey * STOREY + 0.95 + 0.7 * random()],
+          FURNITURE,
+        ),
+      );
     }
   }
   const inside = group(rooms);
   const outside = box([from, low, 0], [to, high, height], wall);
-  const cornice = box([from, Math.min(y, y - 0.25 * side), height - 0.4], [to, Math.max(y, y - 0.25 * side), height], STONE);
+  const cornice = box(
+    [from, Math.min(y, y - 0.25 * side), height - 0.4],
+    [to, Math.max(y, y - 0.25 * side), height],
+    STONE,
+  );
   const part = (x: number, z: number): Material | null => {
     const [u, v] = [((x - from) % bay) / bay - 0.5, z % STOREY];
-    if (z < STOREY && Math.floor((x - from) / bay) === door) return Math.abs(u) < 0.24 && v < 2.3 ? DOOR : Math.abs(u) < 0.3 && v < 2.45 ? STONE : wall;
+    if (z < STOREY && Math.floor((x - from) / bay) === door)
+      return Math.abs(u) < 0.24 && v < 2.3 ? DOOR : Math.abs(u) < 0.3 && v < 2.45 ? STONE : wall;
     if (z > storeys * STOREY || Math.abs(u) > 0.29 || v < 0.85 || v > 2.55) return z < 0.7 ? STONE : wall;
     const frame = Math.abs(u) > 0.26 || v < 0.93 || v > 2.47 || Math.abs(u) < 0.015 || Math.abs(v - 1.95) < 0.035;
     return frame ? FRAME : null;
@@ -107,7 +147,13 @@ function house(from: number, to: number, side: 1 | -1, storeys: number, wall: Ma
 }
 
 /** What is hit behind a pane, with its distance from the eye. */
-function behind(pane: number, eye: Vector, along: Vector, reach: number, inside: Solid<Material>): Hit<Material> | null {
+function behind(
+  pane: number,
+  eye: Vector,
+  along: Vector,
+  reach: number,
+  inside: Solid<Material>,
+): Hit<Material> | null {
   const hit = inside(eye.map((value, axis) => value + pane * along[axis]!) as Vector, along, reach - pane);
   return hit && { ...hit, distance: hit.distance + pane };
 }
@@ -123,18 +169,25 @@ function tree(x: number, y: number, random: () => number): Solid<Material> {
     const ring = Math.sqrt(1 - up * up) * reach;
     const at: Vector = [x + ring * Math.cos(turn), y + ring * Math.sin(turn), center[2] + 0.95 * up * reach];
     const fresh = 0.75 + 0.4 * random();
-    leaves.push(sphere(at, 0.09 + 0.13 * random(), { color: [92 * fresh, 132 * fresh, 66 * fresh], kind: 5, gloss: 0.45 }));
+    leaves.push(
+      sphere(at, 0.09 + 0.13 * random(), { color: [92 * fresh, 132 * fresh, 66 * fresh], kind: 5, gloss: 0.45 }),
+    );
   }
   return group([cylinder([x, y, 0], 0.14, trunk + 1.2, BARK), group(leaves, { center, radius: 2.1 })]);
 }
 
 function lamp(x: number, y: number): Solid<Material> {
-  return group([cylinder([x, y, 0], 0.06, 5.2, STEEL), box([x - 0.15, y - 0.35, 5.1], [x + 0.15, y + 0.35, 5.25], STEEL)]);
+  return group([
+    cylinder([x, y, 0], 0.06, 5.2, STEEL),
+    box([x - 0.15, y - 0.35, 5.1], [x + 0.15, y + 0.35, 5.25], STEEL),
+  ]);
 }
 
 function car(x: number, y: number, random: () => number): Solid<Material> {
   const body: Material = { color: LACQUER[Math.floor(random() * LACQUER.length)]!, kind: 64, gloss: 0.8 };
-  const wheels = [-1.3, 1.3].flatMap((along) => [-0.75, 0.75].map((across) => sphere<Material>([x + along, y + across, 0.31], 0.31, TIRE)));
+  const wheels = [-1.3, 1.3].flatMap((along) =>
+    [-0.75, 0.75].map((across) => sphere<Material>([x + along, y + across, 0.31], 0.31, TIRE)),
+  );
   const parts = [
     box<Material>([x - 2.1, y - 0.85, 0.32], [x + 2.1, y + 0.85, 0.85], body),
     box<Material>([x - 1.5, y - 0.75, 0.85], [x + 0.9, y + 0.75, 1.42], body),

@@ -27,7 +27,15 @@ const NOISE = 0.004;
 /** The share of the beams that a pane sends back. */
 const PANE = 0.06;
 
-const LABELS = { 2: "ground", 5: "high vegetation", 6: "building", 11: "road", 64: "vehicle", 65: "street furniture", 66: "behind glass" };
+const LABELS = {
+  2: "ground",
+  5: "high vegetation",
+  6: "building",
+  11: "road",
+  64: "vehicle",
+  65: "street furniture",
+  66: "behind glass",
+};
 
 export function makeStreet(): LoadedCloud {
   const most = STATIONS.length * TURNS * STEPS;
@@ -43,7 +51,10 @@ export function makeStreet(): LoadedCloud {
       colors[3 * count + axis] = Math.min(255, color[axis]! * light);
     }
     const slant = Math.abs(along[0] * hit.normal[0] + along[1] * hit.normal[1] + along[2] * hit.normal[2]);
-    intensity[count] = Math.min(255, gloss * (0.25 + 0.75 * slant) * (0.92 + 0.16 * grain) * Math.min(1, 22 / (10 + hit.distance)) * 255);
+    intensity[count] = Math.min(
+      255,
+      gloss * (0.25 + 0.75 * slant) * (0.92 + 0.16 * grain) * Math.min(1, 22 / (10 + hit.distance)) * 255,
+    );
     classification[count] = kind;
     count++;
   }
@@ -60,12 +71,20 @@ export function makeStreet(): LoadedCloud {
 /** All that was scanned, and the places on its surfaces that the beams met. One looks through its panes. */
 export function streetTruth(): { scene: Solid<Material>; places: Float64Array } {
   const places: number[] = [];
-  for (const { from, along, hit } of scan()) places.push(...from.map((value, axis) => value + hit.distance * along[axis]!));
+  for (const { from, along, hit } of scan())
+    places.push(...from.map((value, axis) => value + hit.distance * along[axis]!));
   return { scene: makeScene(mulberry32(SEED), () => true), places: Float64Array.from(places) };
 }
 
 /** Every beam that comes back, with the distance that is measured. */
-function* scan(): Generator<{ from: Vector; along: Vector; hit: Hit<Material>; measured: number; light: number; grain: number }> {
+function* scan(): Generator<{
+  from: Vector;
+  along: Vector;
+  hit: Hit<Material>;
+  measured: number;
+  light: number;
+  grain: number;
+}> {
   const random = mulberry32(SEED);
   const scene = makeScene(random, () => random() >= PANE);
   for (const from of STATIONS) {
@@ -85,7 +104,8 @@ function* scan(): Generator<{ from: Vector; along: Vector; hit: Hit<Material>; m
 
 /** Soft daylight from the south and above; rooms are darker. */
 function shade(normal: Vector, { kind }: Material, random: () => number): number {
-  const light = 0.84 + 0.16 * normal[2] + 0.14 * Math.max(0, 0.5 * normal[0] - 0.86 * normal[1]) + 0.06 * (random() - 0.5);
+  const light =
+    0.84 + 0.16 * normal[2] + 0.14 * Math.max(0, 0.5 * normal[0] - 0.86 * normal[1]) + 0.06 * (random() - 0.5);
   return kind === 66 ? 0.8 * light : light;
 }
 

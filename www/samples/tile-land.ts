@@ -36,7 +36,8 @@ const DOWN = 0.6;
 export function makeLand(side: number, random: () => number) {
   const houses: House[] = [];
   const trees: Tree[] = [];
-  const isFree = (x: number, y: number, gap: number) => houses.every((house) => Math.hypot(house.x - x, house.y - y) > gap);
+  const isFree = (x: number, y: number, gap: number) =>
+    houses.every((house) => Math.hypot(house.x - x, house.y - y) > gap);
 
   for (let x = 14; x < side - 10; x += 17 + 6 * random()) {
     for (const across of [-1, 1]) {
@@ -52,7 +53,12 @@ export function makeLand(side: number, random: () => number) {
   }
   for (let i = 0; i < 520; i++) {
     // A wood on the hill, a row along the stream, and some between the houses.
-    const place = i < 330 ? [190 + 130 * random(), 195 + 125 * random()] : i < 400 ? [side * random(), 0] : [side * random(), side * random()];
+    const place =
+      i < 330
+        ? [190 + 130 * random(), 195 + 125 * random()]
+        : i < 400
+          ? [side * random(), 0]
+          : [side * random(), side * random()];
     const x = place[0]!;
     const y = i >= 330 && i < 400 ? streamAt(x) + (random() < 0.5 ? -1 : 1) * (5 + 3 * random()) : place[1]!;
     const radius = 1.6 + 2.2 * random();
@@ -79,7 +85,10 @@ export function makeLand(side: number, random: () => number) {
       if (things.length === 0) return groundAt(x, y);
       const ground = terrain(x, y);
       // From above all that stands there, down to where the beam meets something.
-      const highest = things.reduce((most, thing) => Math.max(most, "ridge" in thing ? thing.base + thing.ridge + 1 : thing.top), ground);
+      const highest = things.reduce(
+        (most, thing) => Math.max(most, "ridge" in thing ? thing.base + thing.ridge + 1 : thing.top),
+        ground,
+      );
       for (let z = highest + DOWN; z > ground - 2; z -= DOWN) {
         const east = x - across * (z - ground);
         if (east < 0 || east > side) return null;
@@ -125,10 +134,24 @@ function groundAt(x: number, y: number): Return {
 function house(x: number, y: number, turn: number, random: () => number): House {
   const halfWidth = 3.6 + 1.6 * random();
   const eaves = 3.2 + 3.2 * Math.floor(2 * random());
-  return { x, y, turn, halfLength: halfWidth + 1 + 3.5 * random(), halfWidth, eaves, ridge: eaves + halfWidth * (0.6 + 0.3 * random()), base: terrain(x, y), tone: 0.8 + 0.4 * random() };
+  return {
+    x,
+    y,
+    turn,
+    halfLength: halfWidth + 1 + 3.5 * random(),
+    halfWidth,
+    eaves,
+    ridge: eaves + halfWidth * (0.6 + 0.3 * random()),
+    base: terrain(x, y),
+    tone: 0.8 + 0.4 * random(),
+  };
 }
 
-function roofAt({ x: cx, y: cy, turn, halfLength, halfWidth, eaves, ridge, base, tone }: House, x: number, y: number): Return | null {
+function roofAt(
+  { x: cx, y: cy, turn, halfLength, halfWidth, eaves, ridge, base, tone }: House,
+  x: number,
+  y: number,
+): Return | null {
   const [cos, sin] = [Math.cos(turn), Math.sin(turn)];
   const along = (x - cx) * cos + (y - cy) * sin;
   const across = (y - cy) * cos - (x - cx) * sin;
@@ -148,7 +171,10 @@ function crownAt({ x: cx, y: cy, radius, top, base }: Tree, x: number, y: number
 }
 
 /** The things near a place, by the cells of a grid. */
-function cells<T extends { x: number; y: number }>(side: number, things: readonly T[]): (x: number, y: number) => readonly T[] {
+function cells<T extends { x: number; y: number }>(
+  side: number,
+  things: readonly T[],
+): (x: number, y: number) => readonly T[] {
   const width = Math.ceil(side / CELL) + 1;
   const lists = new Map<number, T[]>();
   const key = (x: number, y: number) => Math.floor(x / CELL) * width + Math.floor(y / CELL);

@@ -38,9 +38,19 @@ export class CompareCard {
   /** `onStop`: gives up tracing, or takes it up again. */
   constructor(store: Store, onStop: () => void) {
     this.#store = store;
-    this.#against = new Segmented<Against>("against", (against) => { store.change({ against }); });
-    this.#splat = new Slider("splat", (width) => `${width} px`, (splat) => { store.change({ splat }); });
-    this.#splatAuto.addEventListener("click", () => { store.change({ splat: "auto" }); });
+    this.#against = new Segmented<Against>("against", (against) => {
+      store.change({ against });
+    });
+    this.#splat = new Slider(
+      "splat",
+      (width) => `${width} px`,
+      (splat) => {
+        store.change({ splat });
+      },
+    );
+    this.#splatAuto.addEventListener("click", () => {
+      store.change({ splat: "auto" });
+    });
     this.#stop.addEventListener("click", onStop);
   }
 
@@ -126,7 +136,11 @@ export class CompareCard {
   #fill(rows: readonly Row[], of: number, milliseconds: number): void {
     this.#figures.hidden = rows.length === 0;
     this.#figures.tBodies[0]!.replaceChildren(...rows.map(rowOf));
-    Object.assign(this.#figures.dataset, { counts: rows.map(({ count }) => count).join(), of: String(of), milliseconds: String(milliseconds) });
+    Object.assign(this.#figures.dataset, {
+      counts: rows.map(({ count }) => count).join(),
+      of: String(of),
+      milliseconds: String(milliseconds),
+    });
   }
 }
 

@@ -39,7 +39,9 @@ export class Compare {
     });
     if (introduce) store.change({ compare: FIRST });
     const button = byId("tool-compare");
-    button.addEventListener("click", () => { this.toggle(); });
+    button.addEventListener("click", () => {
+      this.toggle();
+    });
     this.#bindDivider();
     store.follow((now, before) => {
       button.setAttribute("aria-pressed", String(now.compare !== null));
@@ -92,16 +94,23 @@ export class Compare {
 
   #begin({ against }: Settings): AgainstPicture | AgainstSurface | null {
     const { surface } = this.#viewer.scene;
-    const changed = () => { this.follow(); };
+    const changed = () => {
+      this.follow();
+    };
     if (against === "zbuffer") return new AgainstPicture(this.#viewer, changed);
-    return against === "surface" && typeof surface !== "string" ? new AgainstSurface(this.#viewer, surface, changed) : null;
+    return against === "surface" && typeof surface !== "string"
+      ? new AgainstSurface(this.#viewer, surface, changed)
+      : null;
   }
 
   #sides(): Sides {
     const { cloud, visible } = this.#viewer.scene;
     const known = this.#compared(cloud.count);
     if (known) return known;
-    return { left: cloud.count === 1 ? "The only point" : `All ${number.format(cloud.count)} points`, right: `${number.format(visible.length)} seen from here` };
+    return {
+      left: cloud.count === 1 ? "The only point" : `All ${number.format(cloud.count)} points`,
+      right: `${number.format(visible.length)} seen from here`,
+    };
   }
 
   /** Shows the figures; `null` as long as there are none. */
@@ -114,8 +123,12 @@ export class Compare {
 
   #bindDivider(): void {
     const divider = this.#divider;
-    const moveTo = (share: number) => { this.#store.change({ compare: Math.min(1, Math.max(0, share)) }); };
-    divider.addEventListener("pointerdown", (event) => { divider.setPointerCapture(event.pointerId); });
+    const moveTo = (share: number) => {
+      this.#store.change({ compare: Math.min(1, Math.max(0, share)) });
+    };
+    divider.addEventListener("pointerdown", (event) => {
+      divider.setPointerCapture(event.pointerId);
+    });
     divider.addEventListener("pointermove", (event) => {
       if (!divider.hasPointerCapture(event.pointerId)) return;
       const { left, width } = divider.parentElement!.getBoundingClientRect();

@@ -53,7 +53,12 @@ export class Export implements Tool {
     const button = byId(id, HTMLButtonElement);
     button.addEventListener("click", () => {
       if (!this.#bench.viewer.cloud) return;
-      const stem = this.#actions.name().toLowerCase().replace(/\.\w{1,4}$/, "").replace(/[^\p{L}\p{N}]+/gu, "-").replace(/^-+|-+$/g, "");
+      const stem = this.#actions
+        .name()
+        .toLowerCase()
+        .replace(/\.\w{1,4}$/, "")
+        .replace(/[^\p{L}\p{N}]+/gu, "-")
+        .replace(/^-+|-+$/g, "");
       const file = `${stem || "cloud"}-${ending === "png" ? "picture" : this.#what.value}.${ending}`;
       button.disabled = true;
       void (async () => {
@@ -73,7 +78,10 @@ export class Export implements Tool {
     const { cloud, positions, answer } = this.#bench.viewer.scene;
     const what = this.#what;
     const indices = this.#indices;
-    const comments = [`${what.value === "visible" ? "Visible" : "Selected"} points: ${indices.length} of ${cloud.count}`, ...seenFrom(answer)];
+    const comments = [
+      `${what.value === "visible" ? "Visible" : "Selected"} points: ${indices.length} of ${cloud.count}`,
+      ...seenFrom(answer),
+    ];
     return plyParts({ positions, colors: cloud.colors, fields: cloud.attributes, indices, comments });
   }
 
@@ -98,7 +106,11 @@ export class Export implements Tool {
   *#csv(): Iterable<BlobPart> {
     const { positions } = this.#bench.viewer.scene;
     yield "index,x,y,z\n";
-    yield* joined(this.#indices, "\n", (index) => `${index},${positions[3 * index]!},${positions[3 * index + 1]!},${positions[3 * index + 2]!}`);
+    yield* joined(
+      this.#indices,
+      "\n",
+      (index) => `${index},${positions[3 * index]!},${positions[3 * index + 1]!},${positions[3 * index + 2]!}`,
+    );
     yield "\n";
   }
 
@@ -109,7 +121,9 @@ export class Export implements Tool {
       return;
     }
     const copied = await copy(link);
-    this.#output.textContent = copied ? "The link is copied." : "The browser does not let this page copy; the link is the page’s address.";
+    this.#output.textContent = copied
+      ? "The link is copied."
+      : "The browser does not let this page copy; the link is the page’s address.";
   }
 }
 

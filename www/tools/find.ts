@@ -28,7 +28,14 @@ export function pointAt(viewer: Viewer, { x, y, tolerance }: Spot, through: bool
 }
 
 /** Of points that may be off by what `allowed` says of each, at most `most`. */
-function nearestAt(viewer: Viewer, x: number, y: number, among: Uint32Array | null, most: number, allowed: (at: Projection) => number): number | null {
+function nearestAt(
+  viewer: Viewer,
+  x: number,
+  y: number,
+  among: Uint32Array | null,
+  most: number,
+  allowed: (at: Projection) => number,
+): number | null {
   const found: { index: number; off: number; ahead: number }[] = [];
   let behind = Infinity;
   const at = projectionOf(viewer);

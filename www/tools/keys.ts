@@ -20,7 +20,8 @@ export function bindKeysSheet(): void {
     if (event.target === sheet) sheet.close();
   });
   document.addEventListener("keydown", (event) => {
-    const typing = event.target instanceof HTMLInputElement && !["radio", "checkbox", "range"].includes(event.target.type);
+    const typing =
+      event.target instanceof HTMLInputElement && !["radio", "checkbox", "range"].includes(event.target.type);
     if (event.key === "?" && !typing && !event.ctrlKey && !event.metaKey) toggle();
   });
 }

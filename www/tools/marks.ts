@@ -37,8 +37,19 @@ export class Marks {
 
   /** A ring around a point. */
   ring(index: number): Mark {
-    const element = group("ring", [create("circle", { r: 9, class: "under" }), create("circle", { r: 9 }), create("circle", { r: 2, class: "dot" })]);
-    return this.#fasten({ element, anchors: [index], hides: false, place: ([at]) => { move(element, at!); } });
+    const element = group("ring", [
+      create("circle", { r: 9, class: "under" }),
+      create("circle", { r: 9 }),
+      create("circle", { r: 2, class: "dot" }),
+    ]);
+    return this.#fasten({
+      element,
+      anchors: [index],
+      hides: false,
+      place: ([at]) => {
+        move(element, at!);
+      },
+    });
   }
 
   /** A line between two points with a text at its middle. */
@@ -106,7 +117,10 @@ export class Marks {
   }
 }
 
-function create<Name extends keyof SVGElementTagNameMap>(name: Name, attributes: Record<string, string | number>): SVGElementTagNameMap[Name] {
+function create<Name extends keyof SVGElementTagNameMap>(
+  name: Name,
+  attributes: Record<string, string | number>,
+): SVGElementTagNameMap[Name] {
   const element = document.createElementNS(SVG, name);
   set(element, attributes);
   return element;

@@ -33,7 +33,10 @@ export class Pick implements Tool {
       return;
     }
     const place = [0, 1, 2].map((axis) => viewer.scene.positions[3 * index + axis]!);
-    this.#output.replaceChildren(...["x", "y", "z"].map((axis, i) => row(axis, String(place[i]))), row("index", String(index)));
+    this.#output.replaceChildren(
+      ...["x", "y", "z"].map((axis, i) => row(axis, String(place[i]))),
+      row("index", String(index)),
+    );
     this.#output.dataset["index"] = String(index);
     this.#output.dataset["place"] = place.join(", ");
     this.#copy.hidden = false;

@@ -11,7 +11,10 @@ export async function pictureWithMarks(stage: Stage, marks: SVGSVGElement): Prom
 }
 
 /** An SVG of this page stands alone once it has its size; its style is its own. */
-async function imageOf(svg: SVGSVGElement, { width, height }: { width: number; height: number }): Promise<HTMLImageElement> {
+async function imageOf(
+  svg: SVGSVGElement,
+  { width, height }: { width: number; height: number },
+): Promise<HTMLImageElement> {
   const alone = svg.cloneNode(true) as SVGSVGElement;
   alone.setAttribute("width", String(width));
   alone.setAttribute("height", String(height));

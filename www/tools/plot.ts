@@ -43,7 +43,10 @@ export class Plot {
     if (!this.#section.open || !this.#section.checkVisibility() || !this.#curve || !this.#viewer.cloud) return;
     const spherical = current.inversion === "spherical";
     this.#drawing.classList.toggle("idle", !spherical);
-    if (spherical) this.#curve.follow(current.freeze ?? this.#viewer.viewpoint, current, () => { this.#draw(); });
+    if (spherical)
+      this.#curve.follow(current.freeze ?? this.#viewer.viewpoint, current, () => {
+        this.#draw();
+      });
     else this.#note.textContent = "Only the spherical flip has a radius.";
   }
 
@@ -65,11 +68,19 @@ export class Plot {
       .map(([exponent, count]) => ({ exponent, share: count / total }))
       .sort((a, b) => a.exponent - b.exponent);
     const y = (share: number) => FRAME.bottom - share * (FRAME.bottom - FRAME.top);
-    this.#drawing.querySelector(".curve")!.setAttribute("points", points.map(({ exponent, share }) => `${across(exponent)},${y(share)}`).join(" "));
-    this.#drawing.querySelector(".dots")!.innerHTML = points.map(({ exponent, share }) => `<circle cx="${across(exponent)}" cy="${y(share)}" r="2.5"><title>${exponent}: ${percent(share)}</title></circle>`).join("");
+    this.#drawing
+      .querySelector(".curve")!
+      .setAttribute("points", points.map(({ exponent, share }) => `${across(exponent)},${y(share)}`).join(" "));
+    this.#drawing.querySelector(".dots")!.innerHTML = points
+      .map(
+        ({ exponent, share }) =>
+          `<circle cx="${across(exponent)}" cy="${y(share)}" r="2.5"><title>${exponent}: ${percent(share)}</title></circle>`,
+      )
+      .join("");
     this.#drawing.dataset["points"] = String(points.length);
     this.#drawing.ariaLabel = `Visible share by exponent: ${points.map(({ exponent, share }) => `${exponent}: ${percent(share)}`).join(", ") || "not yet known"}`;
-    this.#note.textContent = "Exponent: log₁₀ of radius ÷ farthest distance. Dashed: the automatic one. A click chooses.";
+    this.#note.textContent =
+      "Exponent: log₁₀ of radius ÷ farthest distance. Dashed: the automatic one. A click chooses.";
   }
 }
 

@@ -25,14 +25,30 @@ interface Kind {
 }
 
 const KINDS = {
-  int8: kind("char", 1, (view, at, value) => { view.setInt8(at, value); }),
-  uint8: kind("uchar", 1, (view, at, value) => { view.setUint8(at, value); }),
-  int16: kind("short", 2, (view, at, value) => { view.setInt16(at, value, true); }),
-  uint16: kind("ushort", 2, (view, at, value) => { view.setUint16(at, value, true); }),
-  int32: kind("int", 4, (view, at, value) => { view.setInt32(at, value, true); }),
-  uint32: kind("uint", 4, (view, at, value) => { view.setUint32(at, value, true); }),
-  float32: kind("float", 4, (view, at, value) => { view.setFloat32(at, value, true); }),
-  float64: kind("double", 8, (view, at, value) => { view.setFloat64(at, value, true); }),
+  int8: kind("char", 1, (view, at, value) => {
+    view.setInt8(at, value);
+  }),
+  uint8: kind("uchar", 1, (view, at, value) => {
+    view.setUint8(at, value);
+  }),
+  int16: kind("short", 2, (view, at, value) => {
+    view.setInt16(at, value, true);
+  }),
+  uint16: kind("ushort", 2, (view, at, value) => {
+    view.setUint16(at, value, true);
+  }),
+  int32: kind("int", 4, (view, at, value) => {
+    view.setInt32(at, value, true);
+  }),
+  uint32: kind("uint", 4, (view, at, value) => {
+    view.setUint32(at, value, true);
+  }),
+  float32: kind("float", 4, (view, at, value) => {
+    view.setFloat32(at, value, true);
+  }),
+  float64: kind("double", 8, (view, at, value) => {
+    view.setFloat64(at, value, true);
+  }),
 };
 
 const KIND_OF = new Map<unknown, Kind>([
@@ -55,11 +71,21 @@ export function* plyParts({ positions, colors, fields, indices, comments }: PlyC
     columns.push({ name, kind: KIND_OF.get(values.constructor) ?? KINDS.float64, valueOf });
   };
   for (const [axis, name] of ["x", "y", "z"].entries()) add(name, positions, (index) => positions[3 * index + axis]!);
-  if (colors) for (const [channel, name] of ["red", "green", "blue"].entries()) add(name, colors, (index) => colors[3 * index + channel]!);
+  if (colors)
+    for (const [channel, name] of ["red", "green", "blue"].entries())
+      add(name, colors, (index) => colors[3 * index + channel]!);
   for (const [name, values] of named(fields)) add(name, values, (index) => values[index]!);
 
   const properties = columns.map(({ name, kind: { type } }) => `property ${type} ${name}`);
-  yield ["ply", "format binary_little_endian 1.0", ...comments.map((text) => `comment ${text}`), `element vertex ${indices.length}`, ...properties, "end_header", ""].join("\n");
+  yield [
+    "ply",
+    "format binary_little_endian 1.0",
+    ...comments.map((text) => `comment ${text}`),
+    `element vertex ${indices.length}`,
+    ...properties,
+    "end_header",
+    "",
+  ].join("\n");
 
   const stride = columns.reduce((sum, { kind: { bytes } }) => sum + bytes, 0);
   for (let from = 0; from < indices.length; from += BATCH) {
@@ -67,7 +93,10 @@ export function* plyParts({ positions, colors, fields, indices, comments }: PlyC
     const view = new DataView(new ArrayBuffer(stride * batch.length));
     let at = 0;
     for (const index of batch) {
-      for (const { kind: { bytes, set }, valueOf } of columns) {
+      for (const {
+        kind: { bytes, set },
+        valueOf,
+      } of columns) {
         set(view, at, valueOf(index));
         at += bytes;
       }

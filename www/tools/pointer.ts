@@ -16,9 +16,18 @@ export function onClick(canvas: HTMLElement, click: (spot: Spot) => void): void 
   canvas.addEventListener("pointerup", (event) => {
     const from = pressed;
     pressed = null;
-    if (!from || event.pointerId !== from.pointerId || Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > STILL) return;
+    if (
+      !from ||
+      event.pointerId !== from.pointerId ||
+      Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > STILL
+    )
+      return;
     const { left, top } = canvas.getBoundingClientRect();
-    click({ x: event.clientX - left, y: event.clientY - top, tolerance: event.pointerType === "touch" ? TOUCH_TOLERANCE : TOLERANCE });
+    click({
+      x: event.clientX - left,
+      y: event.clientY - top,
+      tolerance: event.pointerType === "touch" ? TOUCH_TOLERANCE : TOLERANCE,
+    });
   });
 }
 
@@ -26,7 +35,10 @@ export function onClick(canvas: HTMLElement, click: (spot: Spot) => void): void 
 export function onDrag(
   canvas: HTMLElement,
   wanted: () => boolean,
-  handlers: { drag: (path: { x: number; y: number }[]) => void; end: (path: { x: number; y: number }[], event: PointerEvent) => void },
+  handlers: {
+    drag: (path: { x: number; y: number }[]) => void;
+    end: (path: { x: number; y: number }[], event: PointerEvent) => void;
+  },
 ): { cancel: () => boolean } {
   let path: { x: number; y: number }[] | null = null;
   const at = (event: PointerEvent) => {

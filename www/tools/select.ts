@@ -32,8 +32,11 @@ export class Select implements Tool {
       },
       end: (path, event) => {
         this.#draw([]);
-        const found = path.length > 1 ? pointsWithin(bench.viewer, this.#line(path), bench.through()) : new Uint32Array();
-        this.#choose(event.shiftKey ? joined(this.#chosen, found) : event.altKey ? without(this.#chosen, found) : found);
+        const found =
+          path.length > 1 ? pointsWithin(bench.viewer, this.#line(path), bench.through()) : new Uint32Array();
+        this.#choose(
+          event.shiftKey ? joined(this.#chosen, found) : event.altKey ? without(this.#chosen, found) : found,
+        );
       },
     });
     this.#remove.addEventListener("click", () => {
@@ -73,7 +76,8 @@ export class Select implements Tool {
     this.#chosen = indices;
     this.#bench.viewer.setChosen(indices);
     const { length } = indices;
-    this.#output.textContent = length === 0 ? "Draw around points." : `${number.format(length)} ${length === 1 ? "point" : "points"} selected`;
+    this.#output.textContent =
+      length === 0 ? "Draw around points." : `${number.format(length)} ${length === 1 ? "point" : "points"} selected`;
     this.#output.dataset["count"] = String(length);
     this.#remove.hidden = length === 0;
     this.onChange();

@@ -27,10 +27,14 @@ export class Tools {
     const bench: Bench = { viewer, marks: this.#marks, through: () => this.#through.checked };
     const select: Select = new Select(bench, this.#canvas, () => this.#active === select);
     const exports = new Export(bench, () => select.indices, actions);
-    select.onChange = () => { exports.open(); };
+    select.onChange = () => {
+      exports.open();
+    };
     this.#tools = [new Pick(bench), new Measure(bench), select, new Label(bench), exports];
     for (const tool of this.#tools) {
-      byId(`tool-${tool.name}`).addEventListener("click", () => { this.#toggle(tool); });
+      byId(`tool-${tool.name}`).addEventListener("click", () => {
+        this.#toggle(tool);
+      });
     }
     onClick(this.#canvas, (spot) => {
       if (viewer.cloud) this.#active?.click?.(spot);
@@ -38,7 +42,14 @@ export class Tools {
     this.#compare = new Compare(viewer, store, introduce);
     bindKeysSheet();
     byId("tools").hidden = false;
-    this.#bindKeys({ c: () => { this.#compare.toggle(); } }, viewer);
+    this.#bindKeys(
+      {
+        c: () => {
+          this.#compare.toggle();
+        },
+      },
+      viewer,
+    );
   }
 
   /** Whether the picture is divided only to show what the page is about. */
@@ -84,7 +95,10 @@ export class Tools {
 
   #bindKeys(others: Record<string, () => void>, viewer: Viewer): void {
     const keys: Record<string, () => void> = { ...others };
-    for (const tool of this.#tools) keys[tool.name[0]!] = () => { this.#toggle(tool); };
+    for (const tool of this.#tools)
+      keys[tool.name[0]!] = () => {
+        this.#toggle(tool);
+      };
     this.#canvas.addEventListener("keydown", (event) => {
       if (event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
       // In a frame of another page there are no tools.

@@ -131,6 +131,9 @@ export function display(color: string): Color {
 
 /** The heights between which the colors run: not from the lowest to the highest point, or a few strays would take the ramp. */
 function rampHeights(local: Float32Array, { x, y, z }: Vector3): Vector2 {
-  const [low, high] = spreadOf(local.length / 3, (i) => local[3 * i]! * x + local[3 * i + 1]! * y + local[3 * i + 2]! * z);
+  const [low, high] = spreadOf(
+    local.length / 3,
+    (i) => local[3 * i]! * x + local[3 * i + 1]! * y + local[3 * i + 2]! * z,
+  );
   return high > low ? new Vector2(low, high) : new Vector2(low - 1, low + 1);
 }

@@ -31,7 +31,18 @@ const VIRIDIS_STOPS = [
 const VIRIDIS = Array.from({ length: STEPS }, (_, i) => viridis(i / (STEPS - 1)));
 
 /** Tableau 10: for categories, well apart from one another. */
-const TABLEAU = ["#4e79a7", "#f28e2c", "#e15759", "#76b7b2", "#59a14f", "#edc949", "#af7aa1", "#ff9da7", "#9c755f", "#bab0ab"];
+const TABLEAU = [
+  "#4e79a7",
+  "#f28e2c",
+  "#e15759",
+  "#76b7b2",
+  "#59a14f",
+  "#edc949",
+  "#af7aa1",
+  "#ff9da7",
+  "#9c755f",
+  "#bab0ab",
+];
 /** Classes that have a color of their own in everybody's mind; others take those above in turn. */
 const CLASS_COLORS: Readonly<Record<string, string>> = {
   "never classified": "#9aa0a6",
@@ -56,7 +67,10 @@ export function colorChoices({ colors, attributes }: Cloud): { value: string; la
     { value: OWN_COLORS, label: colors ? "Its own colors" : "Two tones" },
     { value: PLAIN, label: "One color" },
     { value: HEIGHT, label: "Height" },
-    ...attributes.map(({ name }) => ({ value: name, label: name.charAt(0).toUpperCase() + name.slice(1).replaceAll("_", " ") })),
+    ...attributes.map(({ name }) => ({
+      value: name,
+      label: name.charAt(0).toUpperCase() + name.slice(1).replaceAll("_", " "),
+    })),
   ];
 }
 
@@ -91,9 +105,19 @@ function ramp(count: number, value: (i: number) => number): Coloring {
 function categories({ values, labels = {} }: Attribute): Coloring {
   const { known, counts, numbers } = numbered(values);
   const ascending = [...known].sort((a, b) => a - b);
-  const shown = new Map(ascending.map((value, i) => [value, CLASS_COLORS[labels[value] ?? ""] ?? TABLEAU[i % TABLEAU.length]!]));
-  const tints = painted(values.length, known.map((value) => rgb(shown.get(value)!)), (i) => numbers[i]!);
-  const entries = ascending.map((value) => ({ label: labels[value] ?? String(value), color: shown.get(value)!, count: counts[known.indexOf(value)]! }));
+  const shown = new Map(
+    ascending.map((value, i) => [value, CLASS_COLORS[labels[value] ?? ""] ?? TABLEAU[i % TABLEAU.length]!]),
+  );
+  const tints = painted(
+    values.length,
+    known.map((value) => rgb(shown.get(value)!)),
+    (i) => numbers[i]!,
+  );
+  const entries = ascending.map((value) => ({
+    label: labels[value] ?? String(value),
+    color: shown.get(value)!,
+    count: counts[known.indexOf(value)]!,
+  }));
   // The largest ones, where there are too many to be listed.
   if (entries.length > MOST_ENTRIES) entries.sort((a, b) => b.count - a.count).splice(MOST_ENTRIES);
   return { tints, legend: { kind: "categories", entries } };
@@ -135,7 +159,11 @@ function viridis(share: number): Rgb {
   const at = share * (VIRIDIS_STOPS.length - 1);
   const i = Math.min(VIRIDIS_STOPS.length - 2, Math.floor(at));
   const [from, to] = [rgb(VIRIDIS_STOPS[i]!), rgb(VIRIDIS_STOPS[i + 1]!)];
-  return [0, 1, 2].map((channel) => Math.round(from[channel]! + (at - i) * (to[channel]! - from[channel]!))) as [number, number, number];
+  return [0, 1, 2].map((channel) => Math.round(from[channel]! + (at - i) * (to[channel]! - from[channel]!))) as [
+    number,
+    number,
+    number,
+  ];
 }
 
 function rgb(hex: string): Rgb {

@@ -147,7 +147,8 @@ export class EyeDome {
 
   #shade(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
     renderer.getDrawingBufferSize(this.#size);
-    if (this.#target.width !== this.#size.x || this.#target.height !== this.#size.y) this.#target.setSize(this.#size.x, this.#size.y);
+    if (this.#target.width !== this.#size.x || this.#target.height !== this.#size.y)
+      this.#target.setSize(this.#size.x, this.#size.y);
     renderer.setRenderTarget(this.#target);
     renderer.clear();
     renderer.render(scene, camera);

@@ -28,7 +28,10 @@ export interface AskedView {
 /** The view asked for, or the sample's own, or one from which the whole cloud is in the picture. */
 export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: AskedView | null, lens: Lens): Home {
   const upward = new Vector3(...upVector(up));
-  const at = (viewpoint: Viewpoint, target: Vector3) => ({ pose: { at: inLocal(cloud, viewpoint), target, up: upward }, viewpoint });
+  const at = (viewpoint: Viewpoint, target: Vector3) => ({
+    pose: { at: inLocal(cloud, viewpoint), target, up: upward },
+    viewpoint,
+  });
 
   if (view) {
     const from = inLocal(cloud, view.at);
@@ -66,15 +69,28 @@ export function inReachOnly(
     return reached;
   };
   let near = view;
-  if (near && !isNear(near.at, `The view ${asked} is too far away to see anything, so the usual view is used.`)) near = null;
-  if (near?.target && !isNear(near.target, `The target ${asked} is too far away to be looked at, so the camera looks at the middle.`)) {
+  if (near && !isNear(near.at, `The view ${asked} is too far away to see anything, so the usual view is used.`))
+    near = null;
+  if (
+    near?.target &&
+    !isNear(near.target, `The target ${asked} is too far away to be looked at, so the camera looks at the middle.`)
+  ) {
     near = { ...near, target: null };
   }
   const places: Partial<Settings> = {};
-  if (freeze && !isNear(freeze, `The frozen viewpoint ${asked} is too far away to see anything, so the viewpoint goes with the camera.`)) {
+  if (
+    freeze &&
+    !isNear(
+      freeze,
+      `The frozen viewpoint ${asked} is too far away to see anything, so the viewpoint goes with the camera.`,
+    )
+  ) {
     places.freeze = null;
   }
-  if (lights) places.lights = lights.filter((light) => isNear(light, `A light ${asked} is too far away to be told from others, so it is left out.`));
+  if (lights)
+    places.lights = lights.filter((light) =>
+      isNear(light, `A light ${asked} is too far away to be told from others, so it is left out.`),
+    );
   return { view: near, places, notes };
 }
 
@@ -94,7 +110,9 @@ function fittingDistance({ size, radius }: Cloud, from: Vector3, up: Vector3, { 
   const above = from.clone().cross(right);
   let distance = 0.1 * radius;
   for (let corner = 0; corner < 8; corner++) {
-    const point = new Vector3(...(size.map((length, axis) => ((corner >> axis) & 1 ? length : -length) / 2) as Viewpoint));
+    const point = new Vector3(
+      ...(size.map((length, axis) => ((corner >> axis) & 1 ? length : -length) / 2) as Viewpoint),
+    );
     const sideways = Math.max(Math.abs(point.dot(right)) / aspect, Math.abs(point.dot(above))) / tangent;
     distance = Math.max(distance, point.dot(from) + sideways);
   }

@@ -25,7 +25,9 @@ export class Navigation {
     this.#canvas = canvas;
     this.#polite = polite;
     this.#controls = this.#place({ at: new Vector3(0, 0, 3), target: new Vector3(), up: new Vector3(0, 1, 0) });
-    canvas.addEventListener("keydown", (event) => { this.#onKey(event); });
+    canvas.addEventListener("keydown", (event) => {
+      this.#onKey(event);
+    });
     // In the capture phase, so that the orbit controls do not zoom as well. Some systems turn the wheel sideways with Alt.
     canvas.addEventListener(
       "wheel",
@@ -39,7 +41,10 @@ export class Navigation {
       },
       { capture: true, passive: false },
     );
-    for (const change of ["focus", "blur"]) canvas.addEventListener(change, () => { this.#shareTouch(); });
+    for (const change of ["focus", "blur"])
+      canvas.addEventListener(change, () => {
+        this.#shareTouch();
+      });
   }
 
   setHome(pose: Pose): void {
@@ -69,7 +74,9 @@ export class Navigation {
     controls.update();
     // The controls go by angles and come back a few bits off; the viewpoint asked for is the one to answer.
     this.#camera.position.copy(at);
-    controls.addEventListener("change", () => { this.onMove(); });
+    controls.addEventListener("change", () => {
+      this.onMove();
+    });
     return controls;
   }
 
@@ -92,22 +99,48 @@ export class Navigation {
   }
 
   readonly #keys: Record<string, () => void> = {
-    ArrowLeft: () => { this.#controls.rotateLeft(ORBIT_STEP); },
-    ArrowRight: () => { this.#controls.rotateLeft(-ORBIT_STEP); },
-    ArrowUp: () => { this.#controls.rotateUp(ORBIT_STEP); },
-    ArrowDown: () => { this.#controls.rotateUp(-ORBIT_STEP); },
-    "+": () => { this.#controls.dollyIn(ZOOM_STEP); },
-    "=": () => { this.#controls.dollyIn(ZOOM_STEP); },
-    "-": () => { this.#controls.dollyOut(ZOOM_STEP); },
-    "[": () => { this.onFieldOfView(1 / 1.08); },
-    "]": () => { this.onFieldOfView(1.08); },
+    ArrowLeft: () => {
+      this.#controls.rotateLeft(ORBIT_STEP);
+    },
+    ArrowRight: () => {
+      this.#controls.rotateLeft(-ORBIT_STEP);
+    },
+    ArrowUp: () => {
+      this.#controls.rotateUp(ORBIT_STEP);
+    },
+    ArrowDown: () => {
+      this.#controls.rotateUp(-ORBIT_STEP);
+    },
+    "+": () => {
+      this.#controls.dollyIn(ZOOM_STEP);
+    },
+    "=": () => {
+      this.#controls.dollyIn(ZOOM_STEP);
+    },
+    "-": () => {
+      this.#controls.dollyOut(ZOOM_STEP);
+    },
+    "[": () => {
+      this.onFieldOfView(1 / 1.08);
+    },
+    "]": () => {
+      this.onFieldOfView(1.08);
+    },
   };
 
   readonly #panKeys: Record<string, () => void> = {
-    ArrowLeft: () => { this.#controls.pan(PAN_STEP, 0); },
-    ArrowRight: () => { this.#controls.pan(-PAN_STEP, 0); },
-    ArrowUp: () => { this.#controls.pan(0, PAN_STEP); },
-    ArrowDown: () => { this.#controls.pan(0, -PAN_STEP); },
+    ArrowLeft: () => {
+      this.#controls.pan(PAN_STEP, 0);
+    },
+    ArrowRight: () => {
+      this.#controls.pan(-PAN_STEP, 0);
+    },
+    ArrowUp: () => {
+      this.#controls.pan(0, PAN_STEP);
+    },
+    ArrowDown: () => {
+      this.#controls.pan(0, -PAN_STEP);
+    },
   };
 }
 

@@ -1,4 +1,13 @@
-import { BufferAttribute, BufferGeometry, Color, DynamicDrawUsage, Group, Points, ShaderMaterial, Vector2 } from "three";
+import {
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  DynamicDrawUsage,
+  Group,
+  Points,
+  ShaderMaterial,
+  Vector2,
+} from "three";
 import type { Cloud } from "../cloud.ts";
 import type { Parts } from "../compare/parts.ts";
 import type { HiddenMode } from "../settings.ts";
@@ -221,7 +230,8 @@ export class CloudPoints {
   #setWidths(): void {
     for (const { material } of this.#draws) material.uniforms["width"]!.value = this.#width;
     if (!this.#throughOthers) return;
-    for (const { material } of [this.ghost, this.extra]) material.uniforms["width"]!.value = Math.min(this.#width, THROUGH_WIDTH * this.#spacing);
+    for (const { material } of [this.ghost, this.extra])
+      material.uniforms["width"]!.value = Math.min(this.#width, THROUGH_WIDTH * this.#spacing);
   }
 
   dispose(): void {

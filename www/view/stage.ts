@@ -41,13 +41,17 @@ export class Stage {
     this.#eyeDome = new EyeDome();
     this.setTheme(THEMES.dark);
     this.#resizing.observe(canvas);
-    canvas.addEventListener("webglcontextlost", () => { this.onLost(); });
+    canvas.addEventListener("webglcontextlost", () => {
+      this.onLost();
+    });
     canvas.addEventListener("webglcontextrestored", () => {
       this.invalidate();
       this.onRestored();
     });
     this.#resize();
-    this.#renderer.setAnimationLoop(() => { this.#frame(); });
+    this.#renderer.setAnimationLoop(() => {
+      this.#frame();
+    });
   }
 
   /** Of the picture in CSS pixels. */
@@ -132,7 +136,8 @@ export class Stage {
 
   /** The picture as it is now, as a PNG file; rejects where there is none. */
   snapshot(): Promise<Blob> {
-    if (this.#renderer.getContext().isContextLost()) return Promise.reject(new Error("the browser has taken the picture away"));
+    if (this.#renderer.getContext().isContextLost())
+      return Promise.reject(new Error("the browser has taken the picture away"));
     // What is drawn is there to be read until the browser has shown it.
     this.invalidate();
     this.#frame();

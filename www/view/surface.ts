@@ -66,7 +66,10 @@ export class Surface {
     const { geometry } = this.mesh;
     const last = geometry.index;
     // A little more than needed, so that not each answer of an orbit takes new memory on the graphics card.
-    const index = last && triangles.length <= last.array.length ? last : new BufferAttribute(new Uint32Array(Math.ceil(1.3 * triangles.length)), 1);
+    const index =
+      last && triangles.length <= last.array.length
+        ? last
+        : new BufferAttribute(new Uint32Array(Math.ceil(1.3 * triangles.length)), 1);
     (index.array as Uint32Array).set(triangles);
     if (index !== last) geometry.setIndex(index.setUsage(DynamicDrawUsage));
     index.needsUpdate = true;

@@ -48,7 +48,12 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
   if (values.output !== "-" && FORMATS[wanted!] !== FORMATS[is!]) {
     throw new UsageProblem(`${values.output} has to be a ${is!} file, as ${input} is: formats are not converted`);
   }
-  return { input, output: values.output, viewpoint: viewpoint(values.from), exponent: exponent(values.exponent ?? "auto") };
+  return {
+    input,
+    output: values.output,
+    viewpoint: viewpoint(values.from),
+    exponent: exponent(values.exponent ?? "auto"),
+  };
 }
 
 function parsed(args: string[]) {
@@ -90,6 +95,7 @@ function viewpoint(text: string): number[] {
 function exponent(text: string): number | undefined {
   if (text === "auto") return undefined;
   const value = text.trim() === "" ? NaN : Number(text);
-  if (!(value >= 0 && Number.isFinite(value))) throw new UsageProblem(`--exponent needs a number of 0 or more, or auto, not ${text}`);
+  if (!(value >= 0 && Number.isFinite(value)))
+    throw new UsageProblem(`--exponent needs a number of 0 or more, or auto, not ${text}`);
   return value;
 }

@@ -30,7 +30,10 @@ export function positionsOf(data: unknown, getPosition: unknown): Float32Array |
     return fromAttribute(data.attributes["getPosition"] as BinaryAttribute | ArrayLike<number>, data.length);
   }
   if (typeof getPosition !== "function") {
-    throw new HprError("positions-type", "the layer's data has no positions: neither getPosition nor an attribute of that name");
+    throw new HprError(
+      "positions-type",
+      "the layer's data has no positions: neither getPosition nor an attribute of that name",
+    );
   }
   const { iterable, objectInfo } = createIterable(data);
   const numbers: number[] = [];
@@ -45,13 +48,22 @@ export function positionsOf(data: unknown, getPosition: unknown): Float32Array |
 function fromAttribute(attribute: BinaryAttribute | ArrayLike<number>, length: number): Float32Array | Float64Array {
   const { value, size = 3, stride, offset = 0 } = "value" in attribute ? attribute : { value: attribute };
   if (!isFloatArray(value)) {
-    throw new HprError("positions-type", "the attribute getPosition must have a Float32Array or Float64Array as its value");
+    throw new HprError(
+      "positions-type",
+      "the attribute getPosition must have a Float32Array or Float64Array as its value",
+    );
   }
-  const [step, start] = [(stride ?? size * value.BYTES_PER_ELEMENT) / value.BYTES_PER_ELEMENT, offset / value.BYTES_PER_ELEMENT];
+  const [step, start] = [
+    (stride ?? size * value.BYTES_PER_ELEMENT) / value.BYTES_PER_ELEMENT,
+    offset / value.BYTES_PER_ELEMENT,
+  ];
   if (step === 3 && size === 3) {
     return value.subarray(start, start + 3 * length);
   }
-  const numbers = allocating(`${length} points`, () => new (value.BYTES_PER_ELEMENT === 4 ? Float32Array : Float64Array)(3 * length));
+  const numbers = allocating(
+    `${length} points`,
+    () => new (value.BYTES_PER_ELEMENT === 4 ? Float32Array : Float64Array)(3 * length),
+  );
   for (let i = 0; i < length; i++) {
     for (let axis = 0; axis < Math.min(size, 3); axis++) {
       numbers[3 * i + axis] = value[start + i * step + axis]!;

@@ -104,7 +104,8 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
         this.setState({ mask: undefined, data: undefined });
         sight.setPositions(() => positionsOf(data, getPosition));
       }
-      const seen = viewpoint === null ? eyeOf(this.context.viewport, this.props) : { from: viewpoint, isDirection: false };
+      const seen =
+        viewpoint === null ? eyeOf(this.context.viewport, this.props) : { from: viewpoint, isDirection: false };
       sight.want({ ...seen, options: visibility });
     } catch (error) {
       this.raiseError(error as Error, "");
@@ -121,7 +122,10 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     const { mask, version, data = this.props.data } = this.state;
     const { extensions, updateTriggers } = this.props;
     const own = Object.entries(this.props).filter(([name]) => name in PointCloudLayer.defaultProps);
-    const shared = this.getSubLayerProps({ id: "points", updateTriggers: { ...updateTriggers, getFilterValue: version } }) as object;
+    const shared = this.getSubLayerProps({
+      id: "points",
+      updateTriggers: { ...updateTriggers, getFilterValue: version },
+    }) as object;
     return new PointCloudLayer({
       ...Object.fromEntries(own),
       ...shared,

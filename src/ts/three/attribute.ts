@@ -18,7 +18,9 @@ export interface ReadPositions {
 const EXACT_IN_SINGLE = ["Float32Array", "Int8Array", "Uint8Array", "Uint8ClampedArray", "Int16Array", "Uint16Array"];
 
 /** Refuses what has no positions that can be read here. */
-export function requirePositions(attribute: PositionAttribute | GLBufferAttribute | undefined | null): PositionAttribute {
+export function requirePositions(
+  attribute: PositionAttribute | GLBufferAttribute | undefined | null,
+): PositionAttribute {
   if (typeof attribute !== "object" || attribute === null) {
     throw new HprError("positions-type", "the geometry has no attribute named position");
   }
@@ -30,7 +32,10 @@ export function requirePositions(attribute: PositionAttribute | GLBufferAttribut
   }
   const { itemSize, getX } = attribute as Partial<PositionAttribute>;
   if (!(itemSize! >= 3) || typeof getX !== "function") {
-    throw new HprError("positions-type", `position must be a THREE.BufferAttribute with an itemSize of 3, got ${describe(itemSize)}`);
+    throw new HprError(
+      "positions-type",
+      `position must be a THREE.BufferAttribute with an itemSize of 3, got ${describe(itemSize)}`,
+    );
   }
   return attribute;
 }

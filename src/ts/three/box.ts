@@ -9,7 +9,12 @@ export interface Box {
 
 /** Of x, y, z of one point after another. */
 export function boxOf(numbers: Float32Array | Float64Array): Box {
-  const box: Box = { low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity], strays: 0, firstStray: -1 };
+  const box: Box = {
+    low: [Infinity, Infinity, Infinity],
+    high: [-Infinity, -Infinity, -Infinity],
+    strays: 0,
+    firstStray: -1,
+  };
   const { low, high } = box;
   for (let i = 0; i < numbers.length; i += 3) {
     const [x, y, z] = [numbers[i]!, numbers[i + 1]!, numbers[i + 2]!];

@@ -145,9 +145,16 @@ export class DimmedPoints {
 
 /** Only three's own materials for points are known to draw what `opacity` and `size` say. */
 function requireDimmable(material: unknown): PointsMaterial {
-  const { type = describe(material), isPointsMaterial, isPointsNodeMaterial } = (material ?? {}) as Record<string, string | undefined>;
+  const {
+    type = describe(material),
+    isPointsMaterial,
+    isPointsNodeMaterial,
+  } = (material ?? {}) as Record<string, string | undefined>;
   if (!isPointsMaterial && !isPointsNodeMaterial) {
-    throw new HprError("option", `mode "dim" needs dimMaterial for points with ${type}, which it does not know how to dim`);
+    throw new HprError(
+      "option",
+      `mode "dim" needs dimMaterial for points with ${type}, which it does not know how to dim`,
+    );
   }
   return material as PointsMaterial;
 }

@@ -193,12 +193,18 @@ export function requireUnfiltered(geometry: unknown): asserts geometry is Buffer
 function requireFilterable(geometry: BufferGeometry): PositionAttribute {
   const { attributes = {}, morphAttributes = {} } = geometry as Partial<BufferGeometry>;
   if (Object.values(morphAttributes).some((list) => (list as unknown[] | undefined)?.length)) {
-    throw new HprError("option", "points: morphAttributes are not supported: only the graphics card knows where such points are");
+    throw new HprError(
+      "option",
+      "points: morphAttributes are not supported: only the graphics card knows where such points are",
+    );
   }
   const position = requirePositions(attributes["position"]);
-  const instanced = Object.keys(attributes).find((name) => (attributes[name] as { isInstancedBufferAttribute?: true } | null)?.isInstancedBufferAttribute);
+  const instanced = Object.keys(attributes).find(
+    (name) => (attributes[name] as { isInstancedBufferAttribute?: true } | null)?.isInstancedBufferAttribute,
+  );
   if ("isInstancedBufferGeometry" in geometry || instanced !== undefined) {
-    const what = instanced === undefined ? "an InstancedBufferGeometry" : `the instanced attribute ${describe(instanced)}`;
+    const what =
+      instanced === undefined ? "an InstancedBufferGeometry" : `the instanced attribute ${describe(instanced)}`;
     throw new HprError("option", `points: ${what} is not supported: an index cannot leave out single instances`);
   }
   return position;

@@ -50,7 +50,8 @@ export class Eye {
       now.z /= length;
       now.blur = SAME;
     } else {
-      const reach = Math.abs(c[12]) + Math.abs(c[13]) + Math.abs(c[14]) + Math.abs(m[12]) + Math.abs(m[13]) + Math.abs(m[14]);
+      const reach =
+        Math.abs(c[12]) + Math.abs(c[13]) + Math.abs(c[14]) + Math.abs(m[12]) + Math.abs(m[13]) + Math.abs(m[14]);
       now.blur = SAME * this.extent + (ROUNDING * reach) / scale;
     }
   }
@@ -122,7 +123,10 @@ function uniformScale(m: readonly number[]): number {
   const isUniform = most - Math.min(a, b, c) <= DISTORTION * most && skew <= DISTORTION * most && most > 0;
   if (!isUniform || !Number.isFinite(most)) {
     const scales = [a, b, c].map((length) => Number(length.toPrecision(6))).join(", ");
-    throw new HprError("option", `scale must be the same along all axes (and not zero), in all parents together, got ${scales}`);
+    throw new HprError(
+      "option",
+      `scale must be the same along all axes (and not zero), in all parents together, got ${scales}`,
+    );
   }
   return most;
 }

@@ -59,7 +59,10 @@ export function requirePoints(points: unknown): asserts points is Points {
 function oneOf<T extends string | boolean>(given: Record<string, unknown>, name: string, values: readonly [T, T]): T {
   const value = given[name] ?? values[0];
   if (!values.includes(value as T)) {
-    throw new HprError("option", `${name} must be ${values.map((one) => JSON.stringify(one)).join(" or ")}, got ${describe(value)}`);
+    throw new HprError(
+      "option",
+      `${name} must be ${values.map((one) => JSON.stringify(one)).join(" or ")}, got ${describe(value)}`,
+    );
   }
   return value as T;
 }

@@ -8,10 +8,7 @@ export function abortError(why: string): DOMException {
 }
 
 /** The promise's own outcome, unless the signal aborts before it is there. */
-export async function untilAborted<T>(
-  signal: AbortSignal | undefined,
-  promise: Promise<T>,
-): Promise<T> {
+export async function untilAborted<T>(signal: AbortSignal | undefined, promise: Promise<T>): Promise<T> {
   if (signal === undefined) {
     return promise;
   }

@@ -3,7 +3,15 @@ import { addDisposeSymbol } from "../dispose-symbol.js";
 import { describe, HprError } from "../errors.js";
 import { moduleForWorker } from "../loader.js";
 import { allocating } from "../memory.js";
-import { CLOUD_OPTIONS, type CloudSettings, cloudSettings, type CloudSize, givenOptions, pick, type PointCloudOptions } from "../options.js";
+import {
+  CLOUD_OPTIONS,
+  type CloudSettings,
+  cloudSettings,
+  type CloudSize,
+  givenOptions,
+  pick,
+  type PointCloudOptions,
+} from "../options.js";
 import { isFloatArray, type Positions, readIndices, readPositions } from "../positions.js";
 import {
   type Answers,
@@ -150,10 +158,7 @@ export class WorkerPointCloud {
    * @throws HprError (as a rejection) `option`, `positions-type`,
    *   `positions-length`, `non-finite`, `too-large`, `load`, `internal`.
    */
-  static async create(
-    positions: Positions,
-    options?: WorkerPointCloudOptions,
-  ): Promise<WorkerPointCloud> {
+  static async create(positions: Positions, options?: WorkerPointCloudOptions): Promise<WorkerPointCloud> {
     const given = givenOptions(options, CLOUD_OPTIONS, CREATE_OPTIONS);
     const settings = cloudSettings(pick(given, CLOUD_OPTIONS));
     const transfer = readFlag(given, "transfer");
@@ -199,10 +204,7 @@ export class WorkerPointCloud {
    * @throws HprError (as a rejection) `viewpoint`, `option`, `radius`,
    *   `too-large`, `disposed`, `internal`.
    */
-  async visibleFrom(
-    viewpoint: ArrayLike<number>,
-    options?: WorkerVisibilityOptions,
-  ): Promise<Visibility> {
+  async visibleFrom(viewpoint: ArrayLike<number>, options?: WorkerVisibilityOptions): Promise<Visibility> {
     const answer = await this.#ask("visibleFrom", options, VIEW_OPTIONS, (dimension, given) =>
       viewQuery(dimension, viewpoint, given),
     );
@@ -214,10 +216,7 @@ export class WorkerPointCloud {
    *
    * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
    */
-  async visibleFromDirection(
-    direction: ArrayLike<number>,
-    options?: WorkerVisibilityOptions,
-  ): Promise<Visibility> {
+  async visibleFromDirection(direction: ArrayLike<number>, options?: WorkerVisibilityOptions): Promise<Visibility> {
     const answer = await this.#ask("visibleFromDirection", options, VIEW_OPTIONS, (dimension, given) =>
       directionQuery(dimension, direction, given),
     );
@@ -261,11 +260,7 @@ export class WorkerPointCloud {
    *
    * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
    */
-  async autoRadius(
-    viewpoint: ArrayLike<number>,
-    rule?: RadiusRule,
-    options?: RequestOptions,
-  ): Promise<ChosenRadius> {
+  async autoRadius(viewpoint: ArrayLike<number>, rule?: RadiusRule, options?: RequestOptions): Promise<ChosenRadius> {
     return this.#ask("autoRadius", options, [], (dimension) => radiusQuery(dimension, viewpoint, rule));
   }
 
@@ -397,8 +392,7 @@ function giveAway(
       throw new TypeError("an array of numbers has no buffer");
     }
     return structuredClone(numbers, { transfer: [numbers.buffer as ArrayBuffer] }) as
-      | Float32Array<ArrayBuffer>
-      | Float64Array<ArrayBuffer>;
+      Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>;
   } catch (cause) {
     throw new HprError("option", `transfer is not possible for these positions: ${String(cause)}`, {
       cause,

@@ -30,9 +30,7 @@ export interface Replies extends Answers {
   forget: object;
 }
 
-export type Reply<Value = unknown> =
-  | { value: Value }
-  | { error: { code: HprErrorCode; message: string } };
+export type Reply<Value = unknown> = { value: Value } | { error: { code: HprErrorCode; message: string } };
 
 /** A request or a reply, with the cloud that it is about: several may share a worker. */
 export interface Letter<Content = unknown> {

@@ -52,10 +52,7 @@ export class RequestQueue implements ThreadEvents {
     this.#sendNext();
   }
 
-  ask<K extends Kind>(
-    request: Extract<Request, { kind: K }>,
-    options: AskOptions = {},
-  ): Promise<Replies[K]> {
+  ask<K extends Kind>(request: Extract<Request, { kind: K }>, options: AskOptions = {}): Promise<Replies[K]> {
     return this.#send(request, options) as Promise<Replies[K]>;
   }
 
@@ -165,7 +162,11 @@ export class RequestQueue implements ThreadEvents {
     this.#team.setBusy(next !== undefined);
     if (next !== undefined) {
       const { request } = next;
-      this.#team.post(HAS_INDICES.test(request.kind) ? ({ ...request, spare: this.#spares.take(), listing: this.listing } as Request) : request);
+      this.#team.post(
+        HAS_INDICES.test(request.kind)
+          ? ({ ...request, spare: this.#spares.take(), listing: this.listing } as Request)
+          : request,
+      );
     }
   }
 

@@ -28,8 +28,7 @@ export async function startThread(events: ThreadEvents): Promise<Thread> {
 }
 
 async function startNodeWorker(events: ThreadEvents): Promise<Thread> {
-  const threads =
-    await importNodeModule<typeof import("node:worker_threads")>("node:worker_threads");
+  const threads = await importNodeModule<typeof import("node:worker_threads")>("node:worker_threads");
   // Not in the literal form, or bundlers would take this for a second worker.
   const here = import.meta.url;
   // Without the flags of this process, some of which (--input-type) a worker refuses.

@@ -3,15 +3,7 @@ import { withHidden } from "../hidden.js";
 import { importNodeModule } from "../node.js";
 import type { CloudSize } from "../options.js";
 import { initSync } from "../start.js";
-import {
-  failedReply,
-  type Letter,
-  type Progress,
-  READY,
-  type Replies,
-  type Reply,
-  type Request,
-} from "./protocol.js";
+import { failedReply, type Letter, type Progress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 
 type Post = (message: unknown, transfer: ArrayBuffer[]) => void;
 
@@ -84,8 +76,7 @@ function buffersIn(value: Replies[Request["kind"]]): ArrayBuffer[] {
 }
 
 async function serveNode(): Promise<void> {
-  const { parentPort } =
-    await importNodeModule<typeof import("node:worker_threads")>("node:worker_threads");
+  const { parentPort } = await importNodeModule<typeof import("node:worker_threads")>("node:worker_threads");
   const post: Post = (message, transfer) => parentPort?.postMessage(message, transfer);
   parentPort?.on("message", (letter: Letter<Request>) => {
     serve(letter, post);

@@ -13,7 +13,14 @@ import { answered, newContext, ready, upToDate, watchedPage } from "./visit.js";
 type Action = [what: string, act: (page: Page, address: string) => Promise<unknown>];
 
 const ACTIONS: Action[] = [
-  ["open the page", async (page, address) => { await page.goto(address); await ready(page); await calm(page); }],
+  [
+    "open the page",
+    async (page, address) => {
+      await page.goto(address);
+      await ready(page);
+      await calm(page);
+    },
+  ],
   ["another cloud: room", (page) => opened(page, () => page.selectOption("#sample", "room"))],
   ["another cloud: dragon", (page) => opened(page, () => page.selectOption("#sample", "dragon"))],
   ["a file: dragon as PLY, colors, 3 attributes", (page) => opened(page, () => page.setInputFiles("#file", file))],
@@ -36,15 +43,63 @@ const ACTIONS: Action[] = [
   ["one viewpoint", (page) => answered(page, () => press(page, '[name="viewpoints"][value="one"]'))],
   ["exponential flip", (page) => answered(page, () => press(page, '[name="inversion"][value="exponential"]'))],
   ["spherical flip", (page) => answered(page, () => press(page, '[name="inversion"][value="spherical"]'))],
-  ["freeze, and a step", async (page) => { await press(page, "#freeze"); await page.locator("#view").press("ArrowLeft"); await calm(page); }],
+  [
+    "freeze, and a step",
+    async (page) => {
+      await press(page, "#freeze");
+      await page.locator("#view").press("ArrowLeft");
+      await calm(page);
+    },
+  ],
   ["unfreeze", (page) => answered(page, () => press(page, "#freeze"))],
   ["the radius plot, until its last point", plotted],
-  ["pick a point", (page) => still(page, async () => { await press(page, "#tool-pick"); await page.locator("#view").click(); })],
-  ["pick one through the surface", (page) => still(page, async () => { await press(page, "#through"); await page.locator("#view").click(); })],
-  ["lasso around all that is seen", async (page) => { await press(page, "#through"); await press(page, "#tool-select"); await lasso(page); }],
-  ["lasso around all, through the surface", async (page) => { await press(page, "#through"); await lasso(page); }],
-  ["lasso once more, added", async (page) => { await page.keyboard.down("Shift"); await lasso(page); await page.keyboard.up("Shift"); }],
-  ["lasso once more, taken away", async (page) => { await page.keyboard.down("Alt"); await lasso(page); await page.keyboard.up("Alt"); }],
+  [
+    "pick a point",
+    (page) =>
+      still(page, async () => {
+        await press(page, "#tool-pick");
+        await page.locator("#view").click();
+      }),
+  ],
+  [
+    "pick one through the surface",
+    (page) =>
+      still(page, async () => {
+        await press(page, "#through");
+        await page.locator("#view").click();
+      }),
+  ],
+  [
+    "lasso around all that is seen",
+    async (page) => {
+      await press(page, "#through");
+      await press(page, "#tool-select");
+      await lasso(page);
+    },
+  ],
+  [
+    "lasso around all, through the surface",
+    async (page) => {
+      await press(page, "#through");
+      await lasso(page);
+    },
+  ],
+  [
+    "lasso once more, added",
+    async (page) => {
+      await page.keyboard.down("Shift");
+      await lasso(page);
+      await page.keyboard.up("Shift");
+    },
+  ],
+  [
+    "lasso once more, taken away",
+    async (page) => {
+      await page.keyboard.down("Alt");
+      await lasso(page);
+      await page.keyboard.up("Alt");
+    },
+  ],
   ["select all in the picture", (page) => still(page, () => press(page, "#select-all"))],
   ["export as PLY", (page) => saved(page, "#export-ply")],
   ["export as JSON", (page) => saved(page, "#export-json")],
@@ -61,7 +116,9 @@ export async function timeActions(browser: Browser, address: string): Promise<Ta
   const rows: Row[] = [];
   for (const [action, act] of ACTIONS) {
     console.error(`${action}…`);
-    const { tasks } = await traced(browser, page, async () => { await act(page, address); });
+    const { tasks } = await traced(browser, page, async () => {
+      await act(page, address);
+    });
     const longest = tasks.reduce((a, b) => (a.cpu > b.cpu ? a : b));
     rows.push({
       action,
@@ -90,7 +147,11 @@ function scan(): Buffer {
     { name: "time", values: Float64Array.from(indices, (i) => 1e5 + i / 7) },
   ];
   const colors = Uint8Array.from({ length: 3 * count }, (_, i) => (i * 7) % 256);
-  return Buffer.concat(Array.from(plyParts({ positions, colors, fields, indices, comments: [] }), (part) => (typeof part === "string" ? Buffer.from(part) : Buffer.from((part as DataView<ArrayBuffer>).buffer))));
+  return Buffer.concat(
+    Array.from(plyParts({ positions, colors, fields, indices, comments: [] }), (part) =>
+      typeof part === "string" ? Buffer.from(part) : Buffer.from((part as DataView<ArrayBuffer>).buffer),
+    ),
+  );
 }
 
 /** Until nothing has happened for a while: address, sentence and what rests have their timers. */
@@ -112,7 +173,12 @@ async function opened(page: Page, action: () => Promise<unknown>): Promise<void>
 
 /** Also where it is folded away. */
 async function press(page: Page, selector: string): Promise<void> {
-  await page.locator(selector).first().evaluate((element: HTMLElement) => { element.click(); });
+  await page
+    .locator(selector)
+    .first()
+    .evaluate((element: HTMLElement) => {
+      element.click();
+    });
 }
 
 async function plotted(page: Page): Promise<void> {
@@ -123,7 +189,8 @@ async function plotted(page: Page): Promise<void> {
 
 async function lasso(page: Page): Promise<void> {
   const box = (await page.locator("#view").boundingBox())!;
-  const at = (turn: number) => [box.x + box.width * (0.5 + 0.48 * Math.cos(turn)), box.y + box.height * (0.5 + 0.48 * Math.sin(turn))] as const;
+  const at = (turn: number) =>
+    [box.x + box.width * (0.5 + 0.48 * Math.cos(turn)), box.y + box.height * (0.5 + 0.48 * Math.sin(turn))] as const;
   await page.mouse.move(...at(0));
   await page.mouse.down();
   for (let i = 1; i < 60; i++) await page.mouse.move(...at((2 * Math.PI * i) / 60));

@@ -36,7 +36,9 @@ async function visit(context: BrowserContext, address: string): Promise<Visit> {
   const page = await watchedPage(context);
   await page.goto(address);
   await ready(page);
-  await page.waitForFunction(() => ((globalThis as { watched?: { firstPicture?: number } }).watched?.firstPicture ?? 0) > 0);
+  await page.waitForFunction(
+    () => ((globalThis as { watched?: { firstPicture?: number } }).watched?.firstPicture ?? 0) > 0,
+  );
   const { firstPicture = NaN } = await watchedBy(page);
   const paint = await page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0]?.startTime ?? NaN);
   await page.close();

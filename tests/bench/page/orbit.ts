@@ -49,7 +49,11 @@ export async function timeOrbit(browser: Browser, address: string): Promise<Tabl
         "longest task": longest.cpu,
         "longest was": longest.what,
       });
-      answers.push({ ...label, "frames/s": (1000 * frames.length) / (to - from), ...(await answering(page, from, to)) });
+      answers.push({
+        ...label,
+        "frames/s": (1000 * frames.length) / (to - from),
+        ...(await answering(page, from, to)),
+      });
       await context.close();
     }
   }
@@ -78,7 +82,8 @@ async function orbit(page: Page, seconds: number): Promise<void> {
   await page.mouse.move(x, y);
   await page.mouse.down();
   const end = performance.now() + 1000 * seconds;
-  for (let i = 0; performance.now() < end; i++) await page.mouse.move(x + 200 * Math.sin(i / 30), y + 40 * Math.sin(i / 47));
+  for (let i = 0; performance.now() < end; i++)
+    await page.mouse.move(x + 200 * Math.sin(i / 30), y + 40 * Math.sin(i / 47));
   await page.mouse.up();
   await upToDate(page);
 }

@@ -20,7 +20,13 @@ export async function measurePage(wanted: { page: boolean; soak: boolean }): Pro
   try {
     const { address } = site;
     const chromium = `${browser.version()} drawing with ${await rendererOf(browser)}`;
-    const page = wanted.page ? [await timeOpening(browser, address), ...(await timeOrbit(browser, address)), await timeActions(browser, address)] : [];
+    const page = wanted.page
+      ? [
+          await timeOpening(browser, address),
+          ...(await timeOrbit(browser, address)),
+          await timeActions(browser, address),
+        ]
+      : [];
     return { chromium, page, soak: wanted.soak ? [await soak(browser, address)] : [] };
   } finally {
     await browser.close();

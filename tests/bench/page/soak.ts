@@ -65,7 +65,9 @@ async function holds(page: Page): Promise<Row> {
   await page.waitForTimeout(1500);
   const { heap, buffers, nodes, listeners } = await memoryOf(page);
   const { workers, webgl }: Holdings = await holdingsOf(page);
-  const shown = ["Buffer", "VertexArray", "Texture", "Program", "Shader", "Framebuffer", "Renderbuffer"].map((kind) => webgl[kind]);
+  const shown = ["Buffer", "VertexArray", "Texture", "Program", "Shader", "Framebuffer", "Renderbuffer"].map(
+    (kind) => webgl[kind],
+  );
   return {
     "objects MB": heap / MB,
     "buffers MB": buffers / MB,
@@ -89,7 +91,11 @@ async function wasmOf(page: Page): Promise<number> {
   for (const worker of found) {
     const { result } = await send(session, worker, "Runtime.evaluate", { expression: "WebAssembly.Memory.prototype" });
     const { objects } = await send(session, worker, "Runtime.queryObjects", { prototypeObjectId: result.objectId });
-    const sum = { objectId: objects.objectId, returnByValue: true, functionDeclaration: "function () { return this.reduce((sum, memory) => sum + memory.buffer.byteLength, 0); }" };
+    const sum = {
+      objectId: objects.objectId,
+      returnByValue: true,
+      functionDeclaration: "function () { return this.reduce((sum, memory) => sum + memory.buffer.byteLength, 0); }",
+    };
     bytes += (await send(session, worker, "Runtime.callFunctionOn", sum)).result.value;
   }
   await session.detach();
@@ -111,6 +117,8 @@ function send(session: CDPSession, worker: string, method: string, params: objec
       if (reply.result) resolve(reply.result);
       else reject(new Error(`${method}: ${reply.error?.message ?? "no result"}`));
     });
-    session.send("Target.sendMessageToTarget", { sessionId: worker, message: JSON.stringify({ id, method, params }) }).catch(reject);
+    session
+      .send("Target.sendMessageToTarget", { sessionId: worker, message: JSON.stringify({ id, method, params }) })
+      .catch(reject);
   });
 }

@@ -30,9 +30,30 @@ interface Event {
   args: { name?: string; data?: { functionName?: string; type?: string } };
 }
 
-const CATEGORIES = ["-*", "devtools.timeline", "disabled-by-default-devtools.timeline", "v8", "v8.execute", "blink.user_timing"];
+const CATEGORIES = [
+  "-*",
+  "devtools.timeline",
+  "disabled-by-default-devtools.timeline",
+  "v8",
+  "v8.execute",
+  "blink.user_timing",
+];
 /** JavaScript that the thread begins to run, whatever for. */
-const SCRIPT = new Set(["FunctionCall", "EvaluateScript", "v8.evaluateModule", "v8.compile", "v8.compileModule", "RunMicrotasks", "EventDispatch", "FireAnimationFrame", "TimerFire", "MinorGC", "MajorGC", "V8.GCScavenger", "V8.DeserializeMessage"]);
+const SCRIPT = new Set([
+  "FunctionCall",
+  "EvaluateScript",
+  "v8.evaluateModule",
+  "v8.compile",
+  "v8.compileModule",
+  "RunMicrotasks",
+  "EventDispatch",
+  "FireAnimationFrame",
+  "TimerFire",
+  "MinorGC",
+  "MajorGC",
+  "V8.GCScavenger",
+  "V8.DeserializeMessage",
+]);
 
 /** Traces the page while `action` runs. */
 export async function traced(browser: Browser, page: Page, action: () => Promise<void>): Promise<Trace> {
@@ -48,7 +69,9 @@ export async function traced(browser: Browser, page: Page, action: () => Promise
 }
 
 function read(events: Event[]): Trace {
-  const parts = ofThePage(events).filter(({ ph }) => ph === "X").sort((a, b) => a.ts - b.ts || (b.dur ?? 0) - (a.dur ?? 0));
+  const parts = ofThePage(events)
+    .filter(({ ph }) => ph === "X")
+    .sort((a, b) => a.ts - b.ts || (b.dur ?? 0) - (a.dur ?? 0));
   const tasks = parts.filter(({ name }) => name === "RunTask");
   let next = 0;
   return {
@@ -82,6 +105,14 @@ function taskOf(task: Event, inside: Event[]): Task {
     script += part.tdur ?? part.dur ?? 0;
   }
   const longest = inside.toSorted((a, b) => (b.tdur ?? 0) - (a.tdur ?? 0)).slice(0, 3);
-  const what = longest.map(({ name, args }) => [name, args.data?.type ?? args.data?.functionName].filter(Boolean).join(" ")).join(", ");
-  return { start: task.ts / 1000, wall: (task.dur ?? 0) / 1000, cpu: (task.tdur ?? task.dur ?? 0) / 1000, script: script / 1000, what };
+  const what = longest
+    .map(({ name, args }) => [name, args.data?.type ?? args.data?.functionName].filter(Boolean).join(" "))
+    .join(", ");
+  return {
+    start: task.ts / 1000,
+    wall: (task.dur ?? 0) / 1000,
+    cpu: (task.tdur ?? task.dur ?? 0) / 1000,
+    script: script / 1000,
+    what,
+  };
 }

@@ -32,7 +32,8 @@ export async function watchedPage(context: BrowserContext, drawing = true): Prom
     const post = methods["postMessage"]!;
     methods["postMessage"] = function (...args: unknown[]) {
       const { content } = (args[0] ?? {}) as { content?: { kind?: string; viewpoint?: ArrayLike<number> } };
-      if (content?.kind === "visibleFrom" && content.viewpoint) watched.asked[Array.from(content.viewpoint).join()] ??= performance.now();
+      if (content?.kind === "visibleFrom" && content.viewpoint)
+        watched.asked[Array.from(content.viewpoint).join()] ??= performance.now();
       post.apply(this, args);
     };
     let refilters = "";
@@ -43,7 +44,8 @@ export async function watchedPage(context: BrowserContext, drawing = true): Prom
       watched.answered.push({ viewpoint: dataset["viewpoint"]!, at: performance.now() });
       // The second frame begins when the first one is done.
       watched.firstPicture ??= 0;
-      if (watched.firstPicture === 0) requestAnimationFrame(() => requestAnimationFrame((now) => (watched.firstPicture = now)));
+      if (watched.firstPicture === 0)
+        requestAnimationFrame(() => requestAnimationFrame((now) => (watched.firstPicture = now)));
     }).observe(document, { subtree: true, attributes: true, attributeFilter: ["data-refilters"] });
   });
   return page;

@@ -1,6 +1,10 @@
 // A page with one canvas whose frames are drawn on demand. `app` lets the test change it.
 import { Canvas, type RootState } from "@react-three/fiber";
-import { type UseHiddenPointFilterOptions, VisiblePoints, type VisiblePointsProps } from "hidden-point-removal/react-three-fiber";
+import {
+  type UseHiddenPointFilterOptions,
+  VisiblePoints,
+  type VisiblePointsProps,
+} from "hidden-point-removal/react-three-fiber";
 import { Component, createElement, type ReactNode, StrictMode, useEffect, useState } from "react";
 import { createRoot } from "react-dom/client";
 import { BufferAttribute, BufferGeometry, type Points, PointsMaterial } from "three";

@@ -7,7 +7,12 @@ import { HiddenPointFilter, type HiddenPointFilterOptions, HprError } from "hidd
 import { createElement, useRef } from "react";
 import { BufferGeometry, PerspectiveCamera, Points, PointsMaterial } from "three";
 
-const options: HiddenPointFilterOptions = { exponent: 3, mode: "dim", worker: false, dimMaterial: new PointsMaterial() };
+const options: HiddenPointFilterOptions = {
+  exponent: 3,
+  mode: "dim",
+  worker: false,
+  dimMaterial: new PointsMaterial(),
+};
 const points = new Points(new BufferGeometry(), new PointsMaterial());
 const filter = new HiddenPointFilter(points, options);
 filter.addEventListener("change", ({ count, milliseconds, target }) => {
@@ -33,7 +38,13 @@ new HiddenPointNodesFilter(points, { mode: "fade" });
 
 export function Scan() {
   const ref = useRef<Points>(null);
-  const own = useHiddenPointFilter(ref, { exponent: 3, frozen: true, onChange: ({ count }) => { console.log(count); } });
+  const own = useHiddenPointFilter(ref, {
+    exponent: 3,
+    frozen: true,
+    onChange: ({ count }) => {
+      console.log(count);
+    },
+  });
   console.log(own?.visibleCount);
   return createElement(VisiblePoints, { geometry: points.geometry, filter: { mode: "hide" }, ref });
 }

@@ -27,7 +27,12 @@ import {
 import { init as initInline } from "hidden-point-removal/inline";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 
-const inputs: InitInput[] = ["hpr.wasm", new URL("https://example.org/hpr.wasm"), new Uint8Array(8), new ArrayBuffer(8)];
+const inputs: InitInput[] = [
+  "hpr.wasm",
+  new URL("https://example.org/hpr.wasm"),
+  new Uint8Array(8),
+  new ArrayBuffer(8),
+];
 const options: VisibilityOptions = { exponent: 3 };
 const reading: PointCloudOptions = { stride: 4, nonFinite: "skip" };
 const perhaps = undefined as number | undefined;
@@ -68,7 +73,11 @@ export async function everything(): Promise<HprErrorCode | undefined> {
     const mesh: Reconstruction = cloud.reconstruct([0, 0, 5], meshing);
     const lighting: IlluminationOptions = { triangles: mesh.triangles, smoothing: 2, ambient: 0.1, exponent: 3 };
     const brightness: Float32Array = cloud.illuminate([[0, 0, 5]], lighting);
-    console.log(brightness, cloud.visibleFromDirection([0, 0, -1]).count, cloud.autoRadius([0, 0, 5], "opposite").radius);
+    console.log(
+      brightness,
+      cloud.visibleFromDirection([0, 0, -1]).count,
+      cloud.autoRadius([0, 0, 5], "opposite").radius,
+    );
     console.log(permissibleCurvature(100, 5, 1), radiusBound(1, 2, 0.1), simdEnabled());
     new PointCloud(new Float32Array(4), { dimension: 2 }).dispose();
 

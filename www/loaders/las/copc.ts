@@ -25,7 +25,10 @@ const number = new Intl.NumberFormat("en-US");
  * as many whole ones as the limit allows, so that what is shown is even; of a first level beyond the limit, every so manyth
  * point.
  */
-export async function readCopc({ name, limit, onProgress }: Pick<Reading, "name" | "limit" | "onProgress">, read: ReadRange): Promise<LoadedCloud> {
+export async function readCopc(
+  { name, limit, onProgress }: Pick<Reading, "name" | "limit" | "onProgress">,
+  read: ReadRange,
+): Promise<LoadedCloud> {
   const header = parseHeader(name, (await read(0, HEAD)).slice().buffer);
   checkFormat(name, header);
   if (header.count === 0) throw new LoadProblem(`${name} holds no points.`);
@@ -48,17 +51,29 @@ export async function readCopc({ name, limit, onProgress }: Pick<Reading, "name"
     const compressed = await asked[i]!;
     asked[i] = Promise.resolve(compressed.subarray(0, 0));
     ask(i + AHEAD);
-    if (compressed.length < node.pointDataLength) throw new LoadProblem(`${name} is broken: it ends before its points do.`);
+    if (compressed.length < node.pointDataLength)
+      throw new LoadProblem(`${name} is broken: it ends before its points do.`);
     decodeNode(name, perf, header, node, compressed, taker);
   }
   const cloud = taker.finish();
   if (points >= header.count) return cloud;
   const shown = number.format(cloud.positions.length / 3);
-  return { ...cloud, notes: [`${shown} of its ${number.format(header.count)} points are shown, those of its coarser levels.`, ...cloud.notes!.slice(points > limit ? 1 : 0)] };
+  return {
+    ...cloud,
+    notes: [
+      `${shown} of its ${number.format(header.count)} points are shown, those of its coarser levels.`,
+      ...cloud.notes!.slice(points > limit ? 1 : 0),
+    ],
+  };
 }
 
 /** The nodes of the coarsest levels, as far as the limit goes. */
-async function chooseNodes(name: string, read: ReadRange, limit: number, total: number): Promise<{ nodes: Node[]; points: number }> {
+async function chooseNodes(
+  name: string,
+  read: ReadRange,
+  limit: number,
+  total: number,
+): Promise<{ nodes: Node[]; points: number }> {
   const chosen: Node[] = [];
   let points = 0;
   try {
@@ -75,8 +90,10 @@ async function chooseNodes(name: string, read: ReadRange, limit: number, total: 
         if (!isPart(page.pageOffset, page.pageLength) || known.has(page.pageOffset)) throw damaged(name);
         known.add(page.pageOffset);
         const listed = await Copc.loadHierarchyPage(read, page);
-        for (const [key, node] of Object.entries(listed.nodes)) if (node && node.pointCount > 0) (levels[depthOf(key)] ??= []).push(node);
-        for (const [key, next] of Object.entries(listed.pages)) if (next) pages.push({ depth: Math.max(depthOf(key), depth), page: next });
+        for (const [key, node] of Object.entries(listed.nodes))
+          if (node && node.pointCount > 0) (levels[depthOf(key)] ??= []).push(node);
+        for (const [key, next] of Object.entries(listed.pages))
+          if (next) pages.push({ depth: Math.max(depthOf(key), depth), page: next });
       }
       const level = levels[depth] ?? [];
       if (level.length === 0 && pages.length === 0 && levels.length <= depth + 1) break;
@@ -103,7 +120,14 @@ function isPart(offset: number, length: number): boolean {
   return offset > 0 && length > 0 && length <= LARGEST_PART;
 }
 
-function decodeNode(name: string, perf: LazPerf, header: LasHeader, node: Node, compressed: Uint8Array, taker: RecordTaker): void {
+function decodeNode(
+  name: string,
+  perf: LazPerf,
+  header: LasHeader,
+  node: Node,
+  compressed: Uint8Array,
+  taker: RecordTaker,
+): void {
   const { format, rowBytes } = header;
   try {
     const from = perf._malloc(compressed.length);

@@ -41,7 +41,19 @@ const FORMATS: Record<number, { bytes: number; color?: number; time?: number }> 
   9: { bytes: 59, time: 22 },
   10: { bytes: 67, time: 22, color: 30 },
 };
-const EXTRA_TYPES: (NumberType | null)[] = [null, "uint8", "int8", "uint16", "int16", "uint32", "int32", null, null, "float32", "float64"];
+const EXTRA_TYPES: (NumberType | null)[] = [
+  null,
+  "uint8",
+  "int8",
+  "uint16",
+  "int16",
+  "uint32",
+  "int32",
+  null,
+  null,
+  "float32",
+  "float64",
+];
 const EXTRA_RECORD = 192;
 const LONGEST_HEADER = 1 << 20;
 
@@ -57,10 +69,12 @@ export function parseHeader(name: string, data: ArrayBuffer): LasHeader {
   const view = new DataView(data);
   if (view.byteLength < 227) throw broken("it ends within its LAS header");
   const [major, minor] = [view.getUint8(24), view.getUint8(25)];
-  if (major !== 1 || minor > 4) throw new LoadProblem(`${name} is of LAS version ${major}.${minor}, and this page knows 1.0 to 1.4.`);
+  if (major !== 1 || minor > 4)
+    throw new LoadProblem(`${name} is of LAS version ${major}.${minor}, and this page knows 1.0 to 1.4.`);
   const headerBytes = view.getUint16(94, true);
   const start = view.getUint32(96, true);
-  if (headerBytes < 227 || start < headerBytes || (minor === 4 && view.byteLength < 375)) throw broken("the sizes in its LAS header cannot be");
+  if (headerBytes < 227 || start < headerBytes || (minor === 4 && view.byteLength < 375))
+    throw broken("the sizes in its LAS header cannot be");
 
   // The two upper bits of the format say that the points are compressed.
   const format = view.getUint8(104) & 63;
@@ -70,13 +84,16 @@ export function parseHeader(name: string, data: ArrayBuffer): LasHeader {
   if (!layout) throw new LoadProblem(`${name} has LAS points of an unknown format (${format}).`);
   if (rowBytes < layout.bytes) throw broken("its points are shorter than their format");
 
-  const vector = (at: number, step = 8) => [0, 1, 2].map((axis) => view.getFloat64(at + axis * step, true)) as [number, number, number];
+  const vector = (at: number, step = 8) =>
+    [0, 1, 2].map((axis) => view.getFloat64(at + axis * step, true)) as [number, number, number];
   const scale = vector(131);
   const offset = vector(155);
-  if (![...scale, ...offset].every(Number.isFinite) || scale.includes(0)) throw broken("its LAS header has no usable scale and offset");
+  if (![...scale, ...offset].every(Number.isFinite) || scale.includes(0))
+    throw broken("its LAS header has no usable scale and offset");
   const records = recordsOf(view, headerBytes, view.getUint32(100, true));
   const extra = records.find(({ user, id }) => user === "LASF_Spec" && id === 4);
-  const count = minor === 4 ? Number(view.getBigUint64(247, true)) || view.getUint32(107, true) : view.getUint32(107, true);
+  const count =
+    minor === 4 ? Number(view.getBigUint64(247, true)) || view.getUint32(107, true) : view.getUint32(107, true);
   return {
     count,
     compressed,
@@ -116,11 +133,21 @@ function textAt(view: DataView, at: number, length: number): string {
 }
 
 function pointColumns(format: number, { color, time }: { color?: number; time?: number }): LasColumn[] {
-  const plain = (name: string, type: NumberType, offset: number): LasColumn => ({ name, type, read: numberReader(type, offset, true) });
+  const plain = (name: string, type: NumberType, offset: number): LasColumn => ({
+    name,
+    type,
+    read: numberReader(type, offset, true),
+  });
   const newer = format >= 6;
-  const masked = (name: string, offset: number, mask: number): LasColumn => ({ name, type: "uint8", read: (view, at) => view.getUint8(at + offset) & mask });
+  const masked = (name: string, offset: number, mask: number): LasColumn => ({
+    name,
+    type: "uint8",
+    read: (view, at) => view.getUint8(at + offset) & mask,
+  });
   return [
-    ...(color === undefined ? [] : ["red", "green", "blue"].map((channel, i) => plain(channel, "uint16", color + 2 * i))),
+    ...(color === undefined
+      ? []
+      : ["red", "green", "blue"].map((channel, i) => plain(channel, "uint16", color + 2 * i))),
     plain("intensity", "uint16", 12),
     newer ? plain("classification", "uint8", 16) : masked("classification", 15, 31),
     masked("return number", 14, newer ? 15 : 7),
@@ -146,7 +173,9 @@ function extraColumns(view: DataView, { at, length }: VariableRecord, from: numb
       const read = numberReader(type, offset, true);
       const name = textAt(view, record + 4, 32).trim() || "extra";
       const plain = scale === 1 && shift === 0;
-      columns.push(plain ? { name, type, read } : { name, type: "float32", read: (row, i) => read(row, i) * scale + shift });
+      columns.push(
+        plain ? { name, type, read } : { name, type: "float32", read: (row, i) => read(row, i) * scale + shift },
+      );
     }
     offset += size;
   }

@@ -32,7 +32,8 @@ export async function readLas(reading: Reading): Promise<LoadedCloud> {
 }
 
 export function checkFormat(name: string, { format }: LasHeader): void {
-  if (!LAZ_FORMATS.includes(format)) throw new LoadProblem(`${name} has compressed points of format ${format}, which this page cannot decompress.`);
+  if (!LAZ_FORMATS.includes(format))
+    throw new LoadProblem(`${name} has compressed points of format ${format}, which this page cannot decompress.`);
 }
 
 export function damaged(name: string): LoadProblem {

@@ -1,6 +1,10 @@
 /** The package's own types want Emscripten's. */
 declare module "laz-perf/lib/worker/laz-perf.js" {
-  const createLazPerf: (options: { locateFile: () => string; print: () => void; printErr: () => void }) => Promise<unknown>;
+  const createLazPerf: (options: {
+    locateFile: () => string;
+    print: () => void;
+    printErr: () => void;
+  }) => Promise<unknown>;
   export default createLazPerf;
 }
 

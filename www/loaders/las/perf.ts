@@ -8,7 +8,11 @@ export interface LazPerf {
   _malloc(bytes: number): number;
   _free(pointer: number): void;
   LASZip: new () => { open(pointer: number, length: number): void; getPoint(to: number): void; delete(): void };
-  ChunkDecoder: new () => { open(format: number, rowBytes: number, pointer: number): void; getPoint(to: number): void; delete(): void };
+  ChunkDecoder: new () => {
+    open(format: number, rowBytes: number, pointer: number): void;
+    getPoint(to: number): void;
+    delete(): void;
+  };
 }
 
 /** The formats of points it knows. */
@@ -17,7 +21,11 @@ export const LAZ_FORMATS = [0, 1, 2, 3, 6, 7, 8];
 /** Its wasm is served by the page itself. */
 export async function startLazPerf(name: string): Promise<LazPerf> {
   try {
-    return (await createLazPerf({ locateFile: () => wasm, print: () => undefined, printErr: () => undefined })) as LazPerf;
+    return (await createLazPerf({
+      locateFile: () => wasm,
+      print: () => undefined,
+      printErr: () => undefined,
+    })) as LazPerf;
   } catch {
     throw missingPart(name);
   }

@@ -30,7 +30,8 @@ export class RecordTaker {
     const y = view.getInt32(at + 4, true) * scale[1] + offset[1];
     const z = view.getInt32(at + 8, true) * scale[2] + offset[2];
     // By a step of the scale more: the header's bounds are rounded, too.
-    const isOutside = (value: number, axis: 0 | 1 | 2) => value < low[axis] - scale[axis] || value > high[axis] + scale[axis];
+    const isOutside = (value: number, axis: 0 | 1 | 2) =>
+      value < low[axis] - scale[axis] || value > high[axis] + scale[axis];
     if (isOutside(x, 0) || isOutside(y, 1) || isOutside(z, 2)) this.#outside++;
     const i = this.#builder.put(x, y, z);
     for (let k = 0; k < columns.length; k++) this.#builder.values[k]![i] = columns[k]!.read(view, at);
@@ -38,10 +39,14 @@ export class RecordTaker {
 
   finish(): LoadedCloud {
     const cloud = this.#builder.finish();
-    const attributes = cloud.attributes!.map((attribute) => (attribute.name === "classification" ? { ...attribute, labels: CLASSES } : attribute));
+    const attributes = cloud.attributes!.map((attribute) =>
+      attribute.name === "classification" ? { ...attribute, labels: CLASSES } : attribute,
+    );
     const notes = [...cloud.notes!];
     if (this.#outside > 0) {
-      notes.push(`${number.format(this.#outside)} of its points lie outside the bounds that its header gives: the header is wrong, or the points are damaged.`);
+      notes.push(
+        `${number.format(this.#outside)} of its points lie outside the bounds that its header gives: the header is wrong, or the points are damaged.`,
+      );
     }
     return { ...cloud, attributes, notes };
   }

@@ -1,15 +1,6 @@
 /** The types of numbers in binary files, by the method of DataView that reads them. */
 export type NumberType =
-  | "Int8"
-  | "Uint8"
-  | "Int16"
-  | "Uint16"
-  | "Int32"
-  | "Uint32"
-  | "BigInt64"
-  | "BigUint64"
-  | "Float32"
-  | "Float64";
+  "Int8" | "Uint8" | "Int16" | "Uint16" | "Int32" | "Uint32" | "BigInt64" | "BigUint64" | "Float32" | "Float64";
 
 export function sizeOf(type: NumberType): number {
   return Number(/\d+/.exec(type)![0]) / 8;

@@ -19,7 +19,18 @@ interface PcdHeader {
 }
 
 const KINDS: Record<string, string> = { F: "Float", I: "Int", U: "Uint" };
-const TYPES: NumberType[] = ["Int8", "Uint8", "Int16", "Uint16", "Int32", "Uint32", "BigInt64", "BigUint64", "Float32", "Float64"];
+const TYPES: NumberType[] = [
+  "Int8",
+  "Uint8",
+  "Int16",
+  "Uint16",
+  "Int32",
+  "Uint32",
+  "BigInt64",
+  "BigUint64",
+  "Float32",
+  "Float64",
+];
 
 /** PCD, in text, binary and compressed; what was compressed is written as plain binary. */
 export function readPcd(file: Buffer): PointFile {
@@ -27,7 +38,11 @@ export function readPcd(file: Buffer): PointFile {
   const places = ["x", "y", "z"].map((axis) => header.fields.findIndex(({ name }) => name === axis));
   if (places.includes(-1)) throw new FileProblem("its PCD header names no x, y and z");
   const read = header.data === "ascii" ? readText : readBinary;
-  return { ...read(file, header, places), leftOut: [], header: (count) => Buffer.from(headerOf(header, count), "latin1") };
+  return {
+    ...read(file, header, places),
+    leftOut: [],
+    header: (count) => Buffer.from(headerOf(header, count), "latin1"),
+  };
 }
 
 function readHeader(file: Buffer): PcdHeader {
@@ -53,7 +68,8 @@ function fieldsOf(header: Map<string, string[]>): Field[] {
     const written = `${KINDS[types?.[i]?.toUpperCase() ?? ""] ?? "?"}${8 * Number(sizes?.[i])}`;
     const type = TYPES.find((one) => one === written || one === `Big${written}`);
     const count = counts === undefined ? 1 : Number(counts[i]);
-    if (type === undefined || !Number.isInteger(count) || count < 1) throw new FileProblem(`its PCD header does not say what ${name} is`);
+    if (type === undefined || !Number.isInteger(count) || count < 1)
+      throw new FileProblem(`its PCD header does not say what ${name} is`);
     return { name, type, count };
   });
 }
@@ -61,7 +77,8 @@ function fieldsOf(header: Map<string, string[]>): Field[] {
 function pointsOf(header: Map<string, string[]>): number {
   const [points, width, height] = ["POINTS", "WIDTH", "HEIGHT"].map((keyword) => header.get(keyword)?.[0]);
   const count = points === undefined ? Number(width) * Number(height ?? 1) : Number(points);
-  if (!Number.isSafeInteger(count) || count < 0) throw new FileProblem("its PCD header does not say how many points there are");
+  if (!Number.isSafeInteger(count) || count < 0)
+    throw new FileProblem("its PCD header does not say how many points there are");
   return count;
 }
 
@@ -73,10 +90,12 @@ function headerOf({ lines, data }: PcdHeader, count: number): string {
     DATA: data === "ascii" ? "ascii" : "binary",
   };
   return lines
-    .map((line) => line.replace(/^(\s*)(\w+)(\s+)\S+/, (same, indent, keyword: string, space) => {
-      const value = values[keyword.toUpperCase()];
-      return value === undefined ? same : `${indent}${keyword}${space}${value}`;
-    }))
+    .map((line) =>
+      line.replace(/^(\s*)(\w+)(\s+)\S+/, (same, indent, keyword: string, space) => {
+        const value = values[keyword.toUpperCase()];
+        return value === undefined ? same : `${indent}${keyword}${space}${value}`;
+      }),
+    )
     .join("");
 }
 
@@ -89,10 +108,16 @@ function readText(file: Buffer, { fields, points: count, lines, end }: PcdHeader
     if (points.count === count) break;
     if (line.text === "") continue;
     const words = line.text.split(/\s+/);
-    points.add(line, columns.map((column) => words[column]));
+    points.add(
+      line,
+      columns.map((column) => words[column]),
+    );
   }
   if (points.count < count) throw endsEarly(points.count, count);
-  const positions = roomFor(count, places.map((place) => fields[place]!.type));
+  const positions = roomFor(
+    count,
+    places.map((place) => fields[place]!.type),
+  );
   positions.set(points.numbers);
   return { positions, records: points.records };
 }

@@ -63,7 +63,8 @@ export function readPlyHeader(file: Buffer): PlyHeader {
     const element = keyword === "element" || keyword === "property" ? elements.at(-1)?.name : undefined;
     lines.push({ text: file.toString("latin1", start, end), ...(element === undefined ? {} : { element }) });
     if (keyword === "end_header") {
-      if (format === undefined) throw new FileProblem("its PLY format is none of ascii, binary_little_endian and binary_big_endian");
+      if (format === undefined)
+        throw new FileProblem("its PLY format is none of ascii, binary_little_endian and binary_big_endian");
       return { format, elements, lines, end, lineCount: number };
     }
   }
@@ -72,7 +73,8 @@ export function readPlyHeader(file: Buffer): PlyHeader {
 
 function readElement([name = "", written = ""]: string[], line: string): Element {
   const count = Number(written);
-  if (!/^\d+$/.test(written) || !Number.isSafeInteger(count)) throw new FileProblem(`its PLY header does not say how many there are: "${line}"`);
+  if (!/^\d+$/.test(written) || !Number.isSafeInteger(count))
+    throw new FileProblem(`its PLY header does not say how many there are: "${line}"`);
   return { name, count, properties: [] };
 }
 

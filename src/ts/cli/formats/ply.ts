@@ -10,14 +10,18 @@ export function readPly(file: Buffer): PointFile {
   const header = readPlyHeader(file);
   const vertex = header.elements.find(({ name }) => name === "vertex");
   if (vertex === undefined) throw new FileProblem("it has no vertices");
-  if (header.elements.some((one) => one !== vertex && one.name === "vertex")) throw new FileProblem("its PLY header tells of vertices twice");
+  if (header.elements.some((one) => one !== vertex && one.name === "vertex"))
+    throw new FileProblem("its PLY header tells of vertices twice");
   const axes = AXES.map((axis) => vertex.properties.find(({ name }) => name.toLowerCase() === axis));
-  if (axes.some((axis) => axis?.length !== undefined || axis === undefined)) throw new FileProblem("its vertices have no x, y and z");
+  if (axes.some((axis) => axis?.length !== undefined || axis === undefined))
+    throw new FileProblem("its vertices have no x, y and z");
   const types = axes.map((axis) => axis!.type);
   const read = header.format === "ascii" ? readText : readBinary;
   return {
     ...read(file, header, vertex, axes as Property[], types),
-    leftOut: header.elements.filter((one) => one !== vertex && one.count > 0).map(({ name, count }) => `${count} × ${name}`),
+    leftOut: header.elements
+      .filter((one) => one !== vertex && one.count > 0)
+      .map(({ name, count }) => `${count} × ${name}`),
     header: (count) => Buffer.from(headerOf(header, count), "latin1"),
   };
 }
@@ -43,7 +47,10 @@ function readText(file: Buffer, header: PlyHeader, vertex: Element, axes: Proper
     }
     const words = line.text.split(/\s+/);
     const columns = hasLists ? columnsOf(vertex, words) : undefined;
-    points.add(line, places.map((place) => words[columns?.[place] ?? place]));
+    points.add(
+      line,
+      places.map((place) => words[columns?.[place] ?? place]),
+    );
   }
   if (points.count < vertex.count) throw endsEarly(vertex, points.count);
   const positions = roomFor(vertex.count, types);
@@ -65,11 +72,13 @@ function readBinary(file: Buffer, header: PlyHeader, vertex: Element, axes: Prop
   const view = viewOf(file);
   const little = header.format === "little";
   let start = header.end;
-  for (const element of header.elements.slice(0, header.elements.indexOf(vertex))) start = endOf(view, element, start, little);
+  for (const element of header.elements.slice(0, header.elements.indexOf(vertex)))
+    start = endOf(view, element, start, little);
   // Before there is any room made for so many: a header may promise anything.
   const size = fixedSize(vertex.properties);
   const least = size ?? vertex.properties.length;
-  if (start + least * vertex.count > file.length) throw endsEarly(vertex, Math.max(0, Math.floor((file.length - start) / least)));
+  if (start + least * vertex.count > file.length)
+    throw endsEarly(vertex, Math.max(0, Math.floor((file.length - start) / least)));
   const readers = types.map((type) => reader(view, type, little));
   const positions = roomFor(vertex.count, types);
   const places = axes.map((axis) => vertex.properties.indexOf(axis));
@@ -94,7 +103,9 @@ function readBinary(file: Buffer, header: PlyHeader, vertex: Element, axes: Prop
 
 /** Bytes that properties take, unless lists are among them. */
 function fixedSize(properties: Property[]): number | undefined {
-  return properties.some(({ length }) => length !== undefined) ? undefined : properties.reduce((sum, { type }) => sum + sizeOf(type), 0);
+  return properties.some(({ length }) => length !== undefined)
+    ? undefined
+    : properties.reduce((sum, { type }) => sum + sizeOf(type), 0);
 }
 
 /** Where an element's data ends. */

@@ -17,7 +17,10 @@ export function readTable(file: Buffer): PointFile {
       continue;
     }
     const words = split(line.text);
-    points.add(line, columns.map((column) => words[column]));
+    points.add(
+      line,
+      columns.map((column) => words[column]),
+    );
   }
   if (points.count === 0) throw new FileProblem("it has no lines with three numbers");
   return {

@@ -1,6 +1,17 @@
 // A server that renders pages imports what they import: nothing may be touched by that.
 const touched = [];
-const own = ["window", "document", "self", "location", "Worker", "navigator", "fetch", "WebAssembly", "atob", "DecompressionStream"];
+const own = [
+  "window",
+  "document",
+  "self",
+  "location",
+  "Worker",
+  "navigator",
+  "fetch",
+  "WebAssembly",
+  "atob",
+  "DecompressionStream",
+];
 const originals = own.map((name) => [name, Object.getOwnPropertyDescriptor(globalThis, name)]);
 for (const name of own) {
   Object.defineProperty(globalThis, name, {
