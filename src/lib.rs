@@ -32,55 +32,32 @@ extern crate alloc;
 #[cfg(feature = "std")]
 extern crate std;
 
-mod blocks;
+mod answers;
+mod base;
 mod cloud;
-mod denoise;
-mod direction;
-mod division;
-mod error;
-mod exact_sum;
-mod guarantees;
+mod dimensions;
+mod flip;
 mod hull;
-mod hyperspace;
-mod illumination;
-mod inversion;
-mod merge;
-mod neighbors;
-mod observer;
-mod options;
-mod plane;
-mod points;
-mod predicates;
-mod radius;
-mod real;
-mod reconstruct;
-mod room;
-mod sector;
-mod sequence;
-mod sort;
-mod spacing;
-mod spatial;
-mod union;
 mod view;
-mod visibility;
 #[cfg(feature = "wasm")]
 mod wasm;
 
-pub use cloud::{MAX_POINTS, NonFinite, PointCloud};
-pub use error::Error;
-pub use guarantees::{permissible_curvature, radius_bound};
-pub use hyperspace::{MAX_DIMENSION, PointCloudNd};
-pub use illumination::Lighting;
-pub use merge::merge_visible;
-pub use observer::Observer;
-pub use options::{Exponential, Inversion, Options, Radius};
-pub use plane::PointCloud2d;
-pub use points::Position;
-pub use radius::ChosenRadius;
-pub use reconstruct::Reconstruction;
-pub use sector::Sector;
-pub use union::ring_of_viewpoints;
-pub use visibility::Visibility;
+pub use answers::illumination::Lighting;
+pub use answers::merge::merge_visible;
+pub use answers::observer::Observer;
+pub use answers::reconstruct::Reconstruction;
+pub use answers::union::ring_of_viewpoints;
+pub use answers::visibility::Visibility;
+pub use base::error::Error;
+pub use base::limit::MAX_POINTS;
+pub use cloud::point_cloud::{NonFinite, PointCloud};
+pub use cloud::points::Position;
+pub use dimensions::higher::{MAX_DIMENSION, PointCloudNd};
+pub use dimensions::two::PointCloud2d;
+pub use hull::division::Sector;
+pub use view::guarantees::{permissible_curvature, radius_bound};
+pub use view::options::{Exponential, Inversion, Options, Radius};
+pub use view::radius::ChosenRadius;
 
 /// The README's Rust snippets, as documentation tests.
 #[cfg(doctest)]

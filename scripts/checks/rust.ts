@@ -2,6 +2,7 @@ import { run } from "../lib/run.js";
 import { BARE_TARGET, WASM_TARGET } from "../setup/rust.js";
 import type { Check, Outcome } from "./check.js";
 import { checkCommand, counted, sum } from "./check.js";
+import { roomsCheck } from "./rooms.js";
 
 const DENY_WARNINGS = ["--", "-D", "warnings"];
 
@@ -10,6 +11,7 @@ export const rustChecks: Check[] = [
     title: "Rust: formatting",
     run: () => checkCommand("cargo", ["fmt", "--check"]),
   },
+  roomsCheck,
   {
     title: "Rust: lints, every target and feature",
     run: () => checkCommand("cargo", ["clippy", "--locked", "--all-targets", "--all-features", ...DENY_WARNINGS]),

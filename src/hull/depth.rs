@@ -12,11 +12,11 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::Flipped;
+use super::flipped::Flipped;
 use super::incremental::Hull;
 use super::topology::FaceId;
-use crate::real::square_root;
-use crate::room::{OutOfMemory, reserve};
+use crate::base::allocation::{OutOfMemory, reserve};
+use crate::base::real::square_root;
 
 /// Fewer points are located faster than a map is made.
 const MIN_POINTS: usize = 2048;

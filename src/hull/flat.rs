@@ -7,9 +7,9 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::predicates::{Sign, orient2d};
-use crate::room::{OutOfMemory, filled, with_room};
-use crate::sort::sorted_places;
+use crate::base::allocation::{OutOfMemory, filled, with_capacity};
+use crate::base::sort::sorted_places;
+use crate::hull::predicates::{Sign, orient2d};
 
 const ORIGIN: [f64; 2] = [0.0; 2];
 
@@ -19,7 +19,7 @@ pub(super) fn mark_visible(
     flipped: &dyn Fn(u32) -> Option<DVec3>,
     visible: &mut [bool],
 ) -> Result<(), OutOfMemory> {
-    let mut points: Vec<(DVec3, u32)> = with_room(count as usize)?;
+    let mut points: Vec<(DVec3, u32)> = with_capacity(count as usize)?;
     for index in 0..count {
         match flipped(index) {
             Some(q) => points.push((q, index)),
@@ -77,7 +77,7 @@ fn mark_in_plane(
     [i, j]: [usize; 2],
     visible: &mut [bool],
 ) -> Result<(), OutOfMemory> {
-    let mut places: Vec<[f64; 2]> = with_room(points.len() + 1)?;
+    let mut places: Vec<[f64; 2]> = with_capacity(points.len() + 1)?;
     places.push(ORIGIN);
     // Adding 0 makes -0 the same as 0.
     places.extend(points.iter().map(|(q, _)| [q[i] + 0.0, q[j] + 0.0]));

@@ -13,10 +13,10 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::plane::Plane;
+use super::dual_plane::Plane;
 use super::topology::{Face, FaceId, Surface, Vertex};
-use crate::predicates::{Sign, side_of_face, side_of_origin};
-use crate::room::{OutOfMemory, reserve};
+use crate::base::allocation::{OutOfMemory, reserve};
+use crate::hull::predicates::{Sign, side_of_face, side_of_origin};
 
 /// The ghost vertex.
 pub(super) const ORIGIN: Vertex = 0;
@@ -36,7 +36,7 @@ pub(super) struct Vertices {
     pub points: Vec<u32>,
     /// Numbers that no face uses any more.
     pub free: Vec<Vertex>,
-    /// [`Flip::reach`](crate::inversion::Flip::reach).
+    /// [`Flip::reach`](crate::flip::inversion::Flip::reach).
     pub reach: f64,
     /// A direction that every ghost face turns away from; only used while moving.
     pub inner: DVec3,

@@ -3,10 +3,10 @@
 
 use glam::DVec3;
 
+use super::dual_plane::Plane;
 use super::incremental::Hull;
-use super::plane::Plane;
 use super::topology::{Face, FaceId, HalfEdge};
-use crate::predicates::Sign;
+use crate::hull::predicates::Sign;
 
 /// Steps of a walk before it is worth looking for a better start.
 const PATIENCE: usize = 64;

@@ -14,9 +14,9 @@ use glam::DVec3;
 
 use super::order;
 use super::topology::{Face, FaceId, Surface, Vertex};
-use crate::predicates::{Sign, orient2d, side_of_face};
-use crate::room::{OutOfMemory, filled, push, reserve, with_room};
-use crate::sort::sorted_places;
+use crate::base::allocation::{OutOfMemory, filled, push, reserve, with_capacity};
+use crate::base::sort::sorted_places;
+use crate::hull::predicates::{Sign, orient2d, side_of_face};
 
 /// The ghost vertex, infinitely far up.
 const ABOVE: Vertex = 0;
@@ -214,7 +214,7 @@ fn mark_upright(
     // A coordinate that tells apart what is not above each other.
     let first = lifted(0);
     let by_x = (0..count).any(|i| lifted(i).x != first.x);
-    let mut places: Vec<[f64; 2]> = with_room(count as usize)?;
+    let mut places: Vec<[f64; 2]> = with_capacity(count as usize)?;
     // Adding 0 makes -0 the same as 0.
     places.extend((0..count).map(|i| {
         let p = lifted(i);
@@ -224,7 +224,7 @@ fn mark_upright(
     let sorted = sorted_places(&places)?;
     let at = |k: usize| places[sorted[k] as usize];
     // Andrew's monotone chain over the lowest of each place, points in line kept.
-    let mut chain: Vec<usize> = with_room(sorted.len())?;
+    let mut chain: Vec<usize> = with_capacity(sorted.len())?;
     for next in 0..sorted.len() {
         if chain.last().is_some_and(|&last| at(last)[0] == at(next)[0]) {
             continue;

@@ -14,13 +14,13 @@
 
 use glam::DVec3;
 
-use super::Flipped;
+use super::flipped::Flipped;
 use super::incremental::{Hull, ORIGIN, Vertices};
 use super::locate::larger;
 use super::repair::Repair;
 use super::topology::{FaceId, HalfEdge, Vertex};
-use crate::predicates::{Sign, side_of_origin};
-use crate::room::{OutOfMemory, push, reserve};
+use crate::base::allocation::{OutOfMemory, push, reserve};
+use crate::hull::predicates::{Sign, side_of_origin};
 
 /// Faces looked at to tell whether the views are close.
 const SAMPLE: usize = 512;

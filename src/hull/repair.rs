@@ -3,11 +3,11 @@
 
 use alloc::vec::Vec;
 
+use super::dual_plane::Plane;
 use super::incremental::{Hull, ORIGIN, Vertices};
-use super::plane::Plane;
 use super::topology::{Face, FaceId, HalfEdge, Rim, Vertex};
-use crate::predicates::{Sign, side_of_face, side_of_origin};
-use crate::room::{OutOfMemory, push, reserve};
+use crate::base::allocation::{OutOfMemory, push, reserve};
+use crate::hull::predicates::{Sign, side_of_face, side_of_origin};
 
 /// The largest link of a vertex that is taken out.
 const MAX_DEGREE: usize = 64;

@@ -1,7 +1,7 @@
 //! A closed triangulated surface as indices. This file knows no coordinates:
 //! what a face carries besides its indices is the caller's business.
 
-use crate::room::{OutOfMemory, push, reserve};
+use crate::base::allocation::{OutOfMemory, push, reserve};
 use alloc::vec::Vec;
 
 /// A vertex number.

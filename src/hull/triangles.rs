@@ -3,13 +3,13 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::Flipped;
+use super::dual_plane::Plane;
+use super::flipped::Flipped;
 use super::incremental::Hull;
 use super::locate::Location;
-use super::plane::Plane;
 use super::topology::{Face, FaceId, HalfEdge};
-use crate::predicates::{Sign, side_of_origin};
-use crate::room::OutOfMemory;
+use crate::base::allocation::OutOfMemory;
+use crate::hull::predicates::{Sign, side_of_origin};
 
 impl Hull {
     /// The outer faces, counter-clockwise seen from the viewpoint, every vertex set

@@ -6,8 +6,8 @@ use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::failure::Failure;
+use super::objects::to_js;
 use super::options::ViewOptions;
-use super::to_js;
 use super::transfer::copy_out;
 use crate::{ChosenRadius, Error, Exponential, Inversion, Visibility};
 

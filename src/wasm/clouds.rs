@@ -8,9 +8,9 @@ use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::failure::Failure;
-use super::to_js;
+use super::objects::to_js;
+use crate::base::allocation::push;
 use crate::hull::Memory;
-use crate::room::push;
 use crate::{Error, Options, PointCloud, PointCloudNd};
 
 thread_local! {

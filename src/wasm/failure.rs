@@ -4,7 +4,7 @@
 use serde::Serialize;
 use wasm_bindgen::JsValue;
 
-use super::to_js;
+use super::objects::to_js;
 use crate::{Error, MAX_POINTS};
 
 /// A refusal: which one, and the option and the numbers its message names.

@@ -7,8 +7,8 @@ use js_sys::{Float32Array, Float64Array, Uint32Array};
 
 use super::options::ViewOptions;
 use crate::Error;
-use crate::points::Points;
-use crate::room::filled;
+use crate::base::allocation::filled;
+use crate::cloud::points::Points;
 
 #[inline(never)]
 pub(super) fn singles(positions: &Float32Array) -> Result<Points, Error> {

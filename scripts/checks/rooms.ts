@@ -1,0 +1,136 @@
+// The rooms of the Rust core: a file imports only from its own room or from one
+// upstream, and no imports go round in a circle. rustc accepts both.
+import { readFileSync, readdirSync } from "node:fs";
+import { join, relative } from "node:path";
+
+import { print } from "../lib/output.js";
+import { root } from "../lib/paths.js";
+import type { Check } from "./check.js";
+import { FAIL, PASS } from "./check.js";
+
+/** From upstream to downstream; `lib` lists the public names, and `wasm` uses only those and its own. */
+const ROOMS = ["base", "cloud", "flip", "hull", "view", "answers", "dimensions", "lib", "wasm"];
+
+const source = join(root, "src");
+
+export const roomsCheck: Check = {
+  title: "Rust: imports go downward",
+  run: () => {
+    const imports = importsOfAll();
+    const wrong = [...upward(imports), ...circles(imports)];
+    const arrows = [...imports.values()].reduce((sum, targets) => sum + targets.size, 0);
+    print(`${imports.size} files, ${arrows} imports, longest climb ${longestClimb(imports)}\n`);
+    for (const line of wrong) print(`${line}\n`);
+    return Promise.resolve(wrong.length === 0 ? PASS : { ...FAIL, failures: wrong });
+  },
+};
+
+type Imports = Map<string, Set<string>>;
+
+function importsOfAll(): Imports {
+  const files = readdirSync(source, { recursive: true, encoding: "utf8" })
+    .filter((file) => file.endsWith(".rs"))
+    .map((file) => join(source, file));
+  const all = new Set(files);
+  return new Map(files.map((file) => [relative(source, file), importsOf(file, all)]));
+}
+
+function importsOf(file: string, files: Set<string>): Set<string> {
+  const text = readFileSync(file, "utf8")
+    .replace(/\n#\[cfg\(test\)\]\nmod tests \{[^]*/, "")
+    .replace(/\/\/.*/g, "");
+  const targets = new Set<string>();
+  const here = relative(source, file)
+    .replace(/(\/mod)?\.rs$/, "")
+    .split("/");
+  const add = (path: string[]) => {
+    const target = fileOf(path, here, files);
+    if (target !== undefined && target !== file) targets.add(relative(source, target));
+  };
+  for (const [, tree] of text.matchAll(/\buse ([^;]+);/g)) branches(tree!).forEach(add);
+  for (const [path] of text.matchAll(/\bcrate(::\w+)+/g)) add(path.split("::"));
+  return targets;
+}
+
+/** The paths of a use tree: a::{b, c::{d, e}} is a::b, a::c::d and a::c::e. */
+function branches(tree: string): string[][] {
+  const open = tree.indexOf("{");
+  if (open < 0) return [tree.trim().split(/::|\s/)];
+  const stem = tree.slice(0, open).trim().split("::").filter(Boolean);
+  const parts: string[] = [""];
+  let depth = 0;
+  for (const letter of tree.slice(open + 1, tree.lastIndexOf("}"))) {
+    if (letter === "," && depth === 0) parts.push("");
+    else parts.push(parts.pop()! + letter);
+    depth += letter === "{" ? 1 : letter === "}" ? -1 : 0;
+  }
+  return parts
+    .filter((part) => part.trim() !== "")
+    .flatMap(branches)
+    .map((branch) => [...stem, ...branch]);
+}
+
+/** The file that a path leads to; none for what is not this crate's. */
+function fileOf(path: string[], here: string[], files: Set<string>): string | undefined {
+  const isRoot = here.length === 1 && here[0] === "lib";
+  let at: string[];
+  if (path[0] === "crate") at = [];
+  else if (path[0] === "self") at = isRoot ? [] : here;
+  else if (path[0] === "super") at = here.slice(0, -1);
+  // A file that lists names what lies in its own folder.
+  else {
+    at = isRoot ? [] : here;
+    path = ["self", ...path];
+  }
+  let file = at.length === 0 && path[0] !== "self" ? join(source, "lib.rs") : undefined;
+  for (const name of path.slice(1)) {
+    at = [...at, name];
+    const found = [`${at.join("/")}.rs`, `${at.join("/")}/mod.rs`]
+      .map((name) => join(source, name))
+      .find((name) => files.has(name));
+    if (found === undefined) break;
+    file = found;
+  }
+  return file;
+}
+
+function roomOf(file: string): number {
+  return ROOMS.indexOf(file.split("/")[0]!.replace(/\.rs$/, ""));
+}
+
+function upward(imports: Imports): string[] {
+  return [...imports].flatMap(([file, targets]) =>
+    [...targets]
+      .filter((target) => roomOf(file) < 0 || roomOf(target) > roomOf(file))
+      .map((target) => `src/${file} imports from downstream: src/${target}`),
+  );
+}
+
+function circles(imports: Imports): string[] {
+  const found: string[] = [];
+  const done = new Set<string>();
+  const visit = (file: string, path: string[]) => {
+    const start = path.indexOf(file);
+    if (start >= 0) found.push(`a circle of imports: ${[...path.slice(start), file].join(" → ")}`);
+    if (start >= 0 || done.has(file)) return;
+    for (const target of imports.get(file) ?? []) visit(target, [...path, file]);
+    done.add(file);
+  };
+  for (const file of imports.keys()) visit(file, []);
+  return found;
+}
+
+/** How many imports lie one after another, at most. */
+function longestClimb(imports: Imports): number {
+  const known = new Map<string, number>();
+  const climb = (file: string): number => {
+    const before = known.get(file);
+    if (before !== undefined) return before;
+    // Until it is known, so that a circle ends.
+    known.set(file, 0);
+    const longest = Math.max(0, ...[...(imports.get(file) ?? [])].map((target) => 1 + climb(target)));
+    known.set(file, longest);
+    return longest;
+  };
+  return Math.max(...[...imports.keys()].map(climb));
+}

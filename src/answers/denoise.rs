@@ -1,0 +1,290 @@
+//! Noise: points moved on to the plane of their neighbors before a view, and a vote
+//! among neighbors after it.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use glam::{DMat3, DVec3};
+
+use crate::base::allocation::with_capacity;
+use crate::base::error::{Error, in_range};
+use crate::base::real::square_root;
+use crate::cloud::neighbors::{Nearest, Neighbors};
+use crate::cloud::point_cloud::{PointCloud, Voters};
+use crate::view::options::Options;
+
+/// A point is voted visible when more than this share (in fifths) of it and its
+/// neighbors are: 0.4, because the operator misses more than it invents.
+const FIFTHS: usize = 2;
+
+/// The most neighbors a point may have for them to be kept.
+const MOST_KEPT: usize = 64;
+
+impl PointCloud {
+    /// The same cloud with every point projected on the least-squares plane of itself
+    /// and its `k` nearest others: what [`Options::denoise`] asks, kept for many views.
+    /// Indices stay; of several equal points one is taken. Where there are fewer
+    /// distinct others than `k`, all of them are.
+    ///
+    /// Takes O(n (log n + k²)), some microseconds a point.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] unless 1 ≤ `k` < the number of present points;
+    /// [`Error::OutOfMemory`].
+    pub fn denoised(&self, k: usize) -> Result<Self, Error> {
+        let mut moved: Vec<[f64; 3]> = with_capacity(self.sequence.points.len())?;
+        self.for_each_neighborhood("denoise", k, &mut |point, nearest| {
+            moved.push(on_plane(self.sequence.points.get(point), nearest));
+        })?;
+        Ok(self.moved(&moved)?)
+    }
+
+    /// Keeps, for later views with the same `denoise` and `vote`, what does not depend on
+    /// the viewpoint: the denoised points (in the place of others), and who votes (up to 64
+    /// neighbors, 4 bytes each). Answers are the same as without, but a view is spared the
+    /// search for neighbors, some microseconds a point. Kept until points are appended or
+    /// removed.
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] as for the view; [`Error::OutOfMemory`]. The cloud answers as
+    /// before then.
+    pub fn prepare_for(&mut self, options: &Options) -> Result<(), Error> {
+        if let Some(k) = options.denoise {
+            if self
+                .kept
+                .denoised
+                .as_ref()
+                .is_none_or(|&(kept, _)| kept != k)
+            {
+                // Never room for two.
+                self.kept.denoised = None;
+                self.kept.denoised = Some((k, Box::new(self.denoised(k)?)));
+            }
+            let denoised = self.kept.denoised.as_mut();
+            return denoised.map_or(Ok(()), |(_, cloud)| {
+                cloud.prepare_for(&Options {
+                    denoise: None,
+                    ..*options
+                })
+            });
+        }
+        match options.vote {
+            Some(k) if k <= MOST_KEPT => {
+                if self.kept.voters.as_ref().is_none_or(|voters| voters.k != k) {
+                    self.kept.voters = None;
+                    self.kept.voters = Some(self.voters(k)?);
+                }
+                Ok(())
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Asks a cloud that is denoised already, if it is to be.
+    pub(crate) fn after_denoising<T>(
+        &self,
+        options: &Options,
+        query: impl FnOnce(&Self, &Options) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        let mut options = *options;
+        let made;
+        let cloud = match options.denoise.take() {
+            None => self,
+            Some(k) => match &self.kept.denoised {
+                Some((kept, denoised)) if *kept == k => denoised,
+                _ => {
+                    made = self.denoised(k)?;
+                    &made
+                }
+            },
+        };
+        // One call, because each is a copy of the query.
+        query(cloud, &options)
+    }
+
+    /// Lets every distinct point and its `k` nearest others vote whether it is visible.
+    pub(crate) fn vote(&self, k: usize, visible: &[bool]) -> Result<Vec<bool>, Error> {
+        let mut voted: Vec<bool> = with_capacity(visible.len())?;
+        if let Some(voters) = self.kept.voters.as_ref().filter(|voters| voters.k == k) {
+            voted.extend((0..visible.len()).map(|point| {
+                let others = &voters.others[point * voters.each..][..voters.each];
+                is_voted(point, others.iter().copied(), visible)
+            }));
+        } else {
+            self.for_each_neighborhood("vote", k, &mut |point, nearest| {
+                let others = nearest.found().iter().map(|other| other.index);
+                voted.push(is_voted(point, others, visible));
+            })?;
+        }
+        Ok(voted)
+    }
+
+    fn voters(&self, k: usize) -> Result<Voters, Error> {
+        let points = self.sequence.points.len();
+        let each = k.min(points.saturating_sub(1));
+        let mut others: Vec<u32> = with_capacity(points.saturating_mul(each))?;
+        self.for_each_neighborhood("vote", k, &mut |_, nearest| {
+            others.extend(nearest.found().iter().map(|other| other.index));
+        })?;
+        Ok(Voters { k, each, others })
+    }
+
+    /// Refuses more neighbors than there are other points.
+    pub(crate) fn check_neighbors(&self, option: &'static str, k: usize) -> Result<(), Error> {
+        let most = self.sequence.present().saturating_sub(1);
+        in_range(option, k as f64, 1.0, most as f64)?;
+        Ok(())
+    }
+
+    /// The distinct points in their order, each with its `k` nearest others.
+    fn for_each_neighborhood(
+        &self,
+        option: &'static str,
+        k: usize,
+        visit: &mut dyn FnMut(usize, &Nearest),
+    ) -> Result<(), Error> {
+        self.check_neighbors(option, k)?;
+        let points = &self.sequence.points;
+        let neighbors = Neighbors::new(points)?;
+        let mut nearest = Nearest::with_capacity(k)?;
+        for point in 0..points.len() {
+            neighbors.find(point, &mut nearest);
+            visit(point, &nearest);
+        }
+        Ok(())
+    }
+}
+
+fn is_voted(point: usize, others: impl ExactSizeIterator<Item = u32>, visible: &[bool]) -> bool {
+    let voters = others.len() + 1;
+    let seen =
+        others.filter(|&other| visible[other as usize]).count() + usize::from(visible[point]);
+    5 * seen > FIFTHS * voters
+}
+
+/// `p` on the least-squares plane of it and `nearest`, as far as numbers reach.
+fn on_plane(p: [f64; 3], nearest: &Nearest) -> [f64; 3] {
+    let p = DVec3::from_array(p);
+    // Relative to p, which keeps the detail of georeferenced clouds.
+    let others = || {
+        nearest
+            .found()
+            .iter()
+            .map(|other| DVec3::from_array(other.place) - p)
+    };
+    let count = nearest.found().len() as f64 + 1.0;
+    let mean = others().fold(DVec3::ZERO, |sum, v| sum + v) / count;
+    let mut covariance = outer_product(-mean);
+    for v in others() {
+        covariance += outer_product(v - mean);
+    }
+    let normal = least_axis(covariance);
+    let moved = p + normal * normal.dot(mean);
+    if moved.is_finite() { moved } else { p }.to_array()
+}
+
+fn outer_product(v: DVec3) -> DMat3 {
+    DMat3::from_cols(v * v.x, v * v.y, v * v.z)
+}
+
+/// The unit eigenvector of the smallest eigenvalue of a symmetric matrix, by Jacobi's
+/// rotations, which need no more than square roots: the same bits everywhere.
+fn least_axis(mut matrix: DMat3) -> DVec3 {
+    /// They converge quadratically; a few are enough.
+    const SWEEPS: usize = 12;
+    let trace = matrix.col(0)[0] + matrix.col(1)[1] + matrix.col(2)[2];
+    let negligible = 1e-18 * trace;
+    let mut axes = DMat3::IDENTITY;
+    for _ in 0..SWEEPS {
+        let mut done = true;
+        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+            let off = matrix.col(i)[j];
+            if off.abs() <= negligible {
+                continue;
+            }
+            done = false;
+            let theta = (matrix.col(j)[j] - matrix.col(i)[i]) / (2.0 * off);
+            let sign = if theta < 0.0 { -1.0 } else { 1.0 };
+            let tangent = sign / (theta.abs() + square_root(theta * theta + 1.0));
+            let cos = 1.0 / square_root(tangent * tangent + 1.0);
+            let sin = tangent * cos;
+            let mut rotation = DMat3::IDENTITY;
+            rotation.col_mut(i)[i] = cos;
+            rotation.col_mut(j)[j] = cos;
+            rotation.col_mut(j)[i] = sin;
+            rotation.col_mut(i)[j] = -sin;
+            matrix = rotation.transpose() * matrix * rotation;
+            axes *= rotation;
+        }
+        if done {
+            break;
+        }
+    }
+    let values = DVec3::new(matrix.col(0)[0], matrix.col(1)[1], matrix.col(2)[2]);
+    axes.col(values.min_position())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cloud::points::Given;
+    use crate::cloud::sequence::Sequence;
+    use crate::cloud::spatial::{Bounds, HilbertCurve};
+
+    #[test]
+    fn a_point_above_a_lattice_moves_most_of_the_way_down() {
+        for tilt in [0.0, 0.75] {
+            // A slope, and one point a little above it along its normal.
+            let length = square_root(1.0 + tilt * tilt);
+            let mut points = alloc::vec![[-0.5 * tilt / length, 0.0, 0.5 / length]];
+            for i in 0..49 {
+                let [x, y] = [i % 7, i / 7].map(|x| f64::from(x as u8) - 3.0);
+                if i != 24 {
+                    points.push([x, y, tilt * x]);
+                }
+            }
+            let mut bounds = Bounds::EMPTY;
+            points.iter().for_each(|&p| bounds.include(p));
+            let curve = HilbertCurve::new(&bounds);
+            let sorted = Sequence::sorted(Given::Double(&points), 0, points.len(), &curve).unwrap();
+            let neighbors = Neighbors::new(&sorted.points).unwrap();
+            let query = sorted.points.iter().position(|p| p == points[0]).unwrap();
+            let mut nearest = Nearest::with_capacity(48).unwrap();
+            neighbors.find(query, &mut nearest);
+            // The plane runs through the mean of all 49.
+            let left = on_plane(points[0], &nearest).map(|x| x * length);
+            let expected = [-0.5 * tilt, 0.0, 0.5].map(|x| x / 49.0);
+            for (a, b) in left.into_iter().zip(expected) {
+                assert!((a - b).abs() < 1e-2 * (1.0 + tilt), "{left:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_least_axis_is_found_in_any_frame() {
+        let axes = [
+            DVec3::new(2.0, -1.0, 0.5).normalize(),
+            DVec3::new(1.0, 1.0, -2.0).normalize(),
+        ];
+        let [u, v] = axes;
+        let v = (v - u * u.dot(v)).normalize();
+        let w = u.cross(v);
+        let with = |[a, b, c]: [f64; 3]| {
+            outer_product(u) * a + outer_product(v) * b + outer_product(w) * c
+        };
+        for [a, b, c] in [
+            [5.0, 3.0, 1.0],
+            [1.0, 1.0, 0.0],
+            [1e9, 1.0, 1e-9],
+            [2.0, 2.0, 1.999],
+        ] {
+            let axis = least_axis(with([a, b, c]));
+            assert!(axis.cross(w).length() < 1e-6, "{axis} for {a}, {b}, {c}");
+            assert!((axis.length() - 1.0).abs() < 1e-14);
+        }
+        assert_eq!(least_axis(DMat3::ZERO), DVec3::X);
+        assert_eq!(
+            least_axis(DMat3::from_diagonal(DVec3::new(3.0, 0.0, 1.0))),
+            DVec3::Y
+        );
+    }
+}

@@ -1,0 +1,185 @@
+//! Orthographic views: the viewpoint recedes to infinity against a direction.
+//!
+//! With R = a·r² for a viewpoint C at distance r, the flipped points tend to lie, but
+//! for a common motion and to first order, at depth −(z + a·(x² + y²)), z along the
+//! direction: every sphere around C looks like a paraboloid. So in the limit visible is
+//! the lower boundary of conv{(x, y, z + a·(x² + y²))}. For exp(c/d) the same, a = 1/2c.
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use crate::answers::visibility::Visibility;
+use crate::base::error::Error;
+use crate::base::real::square_root;
+use crate::cloud::point_cloud::PointCloud;
+use crate::cloud::spatial::Bounds;
+use crate::hull;
+use crate::view::choice;
+use crate::view::options::{Exponential, Inversion, Options, Radius};
+use crate::view::radius::{self, ChosenRadius};
+use crate::view::resolved::resolved_inversion;
+
+/// a·s of [`Radius::Auto`], whose R is 5·r²/s.
+const SPACINGS: f64 = 5.0;
+
+impl PointCloud {
+    /// Which points are visible along `direction`, the way an orthographic camera
+    /// looks, in the limit of a viewpoint infinitely far back? Its length has no meaning.
+    ///
+    /// R grows as a·r² with the distance r. a is 5/s for [`Radius::Auto`] (s the
+    /// cloud's spacing) and 1/(2c) for [`Inversion::Exponential`]; for a radius or an
+    /// exponent it is R/r², where both are measured from the viewpoint that is one
+    /// diagonal of the bounding box before the centroid. The answer's radius and
+    /// exponent are a·r² from there.
+    ///
+    /// Exact for (x, y, z + a·(x² + y²)) as rounded to `f64`: coordinates relative to a
+    /// center near the middle of the bounding box, in units of a power of two near its
+    /// size, along the direction and two axes across. Equal coordinates across an axis
+    /// stay equal when `direction` is along an axis.
+    ///
+    /// ```
+    /// use hidden_point_removal::{Options, PointCloud};
+    ///
+    /// let cloud = PointCloud::new(&[[0.0, 0.0, 1.0], [0.0, 0.0, 2.0], [1.0, 0.0, 0.0]])?;
+    /// let visible = cloud.visible_from_direction([0.0, 0.0, -1.0], &Options::default())?;
+    /// assert_eq!(visible.indices(), [1, 2]);
+    /// # Ok::<(), hidden_point_removal::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Direction`] for a direction that is zero or not finite;
+    /// [`Error::NoLimit`] for [`Inversion::Power`], [`Radius::Search`] and
+    /// [`Radius::Opposite`]; the others of [`PointCloud::visible_from`].
+    pub fn visible_from_direction(
+        &self,
+        direction: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        self.after_denoising(options, |cloud, options| {
+            let (visible, chosen, inversion) = cloud.direction_marks(direction, options)?;
+            cloud.answer(&visible, chosen, inversion)
+        })
+    }
+
+    fn direction_marks(
+        &self,
+        direction: [f64; 3],
+        options: &Options,
+    ) -> Result<(Vec<bool>, ChosenRadius, Inversion), Error> {
+        let ahead = normalized(direction).ok_or(Error::Direction { direction })?;
+        let inversion = resolved_inversion(options, self.statistics.spacing)?;
+        let (bend, chosen) = self.bend(ahead, options.radius, inversion)?;
+        let lift = Lift::new(&self.bounds, ahead, bend);
+        let points = &self.sequence.points;
+        let lifted = |index: u32| lift.apply(points.get(index as usize));
+        let visible = hull::mark_lower_boundary(points.len() as u32, &lifted)?;
+        Ok((self.voted(visible, options)?, chosen, inversion))
+    }
+
+    /// a, and the radius that it is one diagonal of the box before the centroid.
+    fn bend(
+        &self,
+        ahead: DVec3,
+        choice: Radius,
+        inversion: Inversion,
+    ) -> Result<(f64, ChosenRadius), Error> {
+        let statistics = &self.statistics;
+        let spacing = statistics.spacing;
+        let scale = match inversion {
+            Inversion::Spherical => None,
+            Inversion::Exponential(Exponential::Scale(scale)) => Some(scale),
+            Inversion::Exponential(Exponential::Auto) | Inversion::Power(_) => {
+                let option = "inversion power";
+                return Err(Error::NoLimit { option });
+            }
+        };
+        if let Some(scale) = scale {
+            return Ok((0.5 / scale, ChosenRadius::unit(0.0)));
+        }
+        if matches!(choice, Radius::Search | Radius::Opposite) {
+            let option = choice.name();
+            return Err(Error::NoLimit { option });
+        }
+        let diagonal = self.bounds.diagonal();
+        if statistics.count == 0 {
+            return Ok((1.0, ChosenRadius::unit(0.0)));
+        }
+        let viewpoint = DVec3::from_array(statistics.centroid) - ahead * diagonal;
+        let viewpoint = viewpoint.to_array();
+        let farthest = self
+            .blocks
+            .farthest_distance(&self.sequence.points, viewpoint)?;
+        if let Radius::Auto = choice {
+            // Where there is no spacing, any bend gives the same answer.
+            let bend = if spacing > 0.0 {
+                SPACINGS / spacing
+            } else {
+                1.0
+            };
+            let radius = bend * diagonal * diagonal;
+            return Ok((bend, radius::bounded(radius, farthest)));
+        }
+        let points = &self.sequence.points;
+        let chosen = choice::resolve(
+            choice,
+            points,
+            &self.blocks,
+            statistics,
+            viewpoint,
+            farthest,
+        )?;
+        Ok((chosen.radius / diagonal / diagonal, chosen))
+    }
+}
+
+/// The unit vector, unless `direction` is zero or not finite.
+fn normalized(direction: [f64; 3]) -> Option<DVec3> {
+    let direction = DVec3::from_array(direction);
+    let size = direction.abs().max_element();
+    if !(direction.is_finite() && size > 0.0) {
+        return None;
+    }
+    // Scaled, so that squares can neither over- nor underflow.
+    let direction = direction / size;
+    Some(direction / square_root(direction.dot(direction)))
+}
+
+/// The map p → (x, y, z + a·(x² + y²)), with one fixed sequence of operations:
+/// v = p·k − center·k, x and y its products with the axes across, z with the
+/// direction (each summed left to right), w = z + (a/k)·(x·x + y·y).
+struct Lift {
+    right: DVec3,
+    up: DVec3,
+    ahead: DVec3,
+    /// In scaled coordinates.
+    center: DVec3,
+    /// k, a power of two that brings the box to a size near 1.
+    scale: f64,
+    bend: f64,
+}
+
+impl Lift {
+    fn new(bounds: &Bounds, ahead: DVec3, bend: f64) -> Self {
+        /// Beyond, the lift alone counts; the products still are in range.
+        const MAX_BEND: f64 = 1e50;
+        let across = ahead.cross(DVec3::AXES[ahead.abs().min_position()]);
+        let right = across / square_root(across.dot(across));
+        let (center, scale) = bounds.coarse_center();
+        Self {
+            right,
+            up: right.cross(ahead),
+            ahead,
+            center: DVec3::from_array(center),
+            scale,
+            bend: (bend / scale).min(MAX_BEND),
+        }
+    }
+
+    fn apply(&self, p: [f64; 3]) -> DVec3 {
+        let v = DVec3::from_array(p) * self.scale - self.center;
+        let x = v.dot(self.right);
+        let y = v.dot(self.up);
+        let z = v.dot(self.ahead);
+        DVec3::new(x, y, z + self.bend * (x * x + y * y))
+    }
+}

@@ -1,0 +1,129 @@
+//! One answer from several: a cloud in parts that are never all in one place.
+
+use alloc::vec::Vec;
+
+use crate::base::allocation::with_capacity;
+use crate::base::error::Error;
+use crate::base::sort::sort_keyed;
+use crate::cloud::point_cloud::{NonFinite, PointCloud};
+use crate::cloud::points::{Given, Points, Position, checked_len};
+use crate::view::options::{Exponential, Inversion, Options, Radius};
+
+/// Which points of a cloud are visible, from what is visible in its parts?
+///
+/// However a cloud is divided, a point that its own part hides is hidden by the
+/// whole, and what is hidden hides nothing that the visible points do not. So with
+/// one viewpoint and one radius for all, visible(A ∪ B) =
+/// visible(visible(A) ∪ visible(B)), exactly: tiles can be asked where they are, and
+/// only their visible points brought together.
+///
+/// Each part is positions and as many ids, which are the caller's own numbers: the
+/// points visible in that part from `viewpoint` with the radius of `options`, or any
+/// more of its points. Equal positions share one answer, in whichever parts they
+/// are. Returns the ids of the visible points, ascending, each once.
+///
+/// ```
+/// use hidden_point_removal::{Options, PointCloud, merge_visible};
+///
+/// let tiles = [[[0.0, 0.0, 1.0], [1.0, 0.0, 1.0]], [[0.0, 0.0, 2.0], [1.0, 0.0, 0.0]]];
+/// let first_ids = [10, 20];
+/// let viewpoint = [0.0, 0.0, 5.0];
+/// let options = Options::with_radius(100.0);
+///
+/// let mut parts = Vec::new();
+/// for (tile, first_id) in tiles.iter().zip(first_ids) {
+///     let seen = PointCloud::new(tile)?.visible_from(viewpoint, &options)?;
+///     let positions: Vec<_> = seen.indices().iter().map(|&i| tile[i as usize]).collect();
+///     let ids: Vec<_> = seen.indices().iter().map(|&i| first_id + i).collect();
+///     parts.push((positions, ids));
+/// }
+/// let parts: Vec<_> = parts.iter().map(|(p, ids)| (&p[..], &ids[..])).collect();
+/// // Each tile hides a point of the other.
+/// assert_eq!(merge_visible(&parts, viewpoint, &options)?, [11, 20]);
+/// # Ok::<(), hidden_point_removal::Error>(())
+/// ```
+///
+/// # Errors
+/// [`Error::MergeRadius`] unless the radius is [`Radius::Absolute`], or the inversion
+/// an [`Exponential::Scale`];
+/// [`Error::MergeNeighbors`] for [`Options::denoise`] and [`Options::vote`];
+/// [`Error::IdsLength`]; those of [`PointCloud::new`] for all positions together (an
+/// index counts through all parts) and of [`PointCloud::visible_from`].
+pub fn merge_visible<P: Position>(
+    parts: &[(&[P], &[u32])],
+    viewpoint: [f64; 3],
+    options: &Options,
+) -> Result<Vec<u32>, Error> {
+    merge(
+        parts.len(),
+        &|part| (P::given(parts[part].0), parts[part].1),
+        viewpoint,
+        options,
+    )
+}
+
+/// The same for `parts` parts in either precision, all in the same.
+pub(crate) fn merge<'a>(
+    parts: usize,
+    part: &dyn Fn(usize) -> (Given<'a>, &'a [u32]),
+    viewpoint: [f64; 3],
+    options: &Options,
+) -> Result<Vec<u32>, Error> {
+    // Anything else would be chosen anew, for what is left of the cloud.
+    let resolved = match options.inversion {
+        Inversion::Spherical | Inversion::Power(_) => {
+            matches!(options.radius, Radius::Absolute(_))
+        }
+        Inversion::Exponential(scale) => scale != Exponential::Auto,
+    };
+    if !resolved {
+        return Err(Error::MergeRadius);
+    }
+    // The neighbors in a part, or among what is visible, are not those in the cloud.
+    let asked = [("denoise", options.denoise), ("vote", options.vote)];
+    if let Some((option, _)) = asked.into_iter().find(|(_, k)| k.is_some()) {
+        return Err(Error::MergeNeighbors { option });
+    }
+    let mut count = 0usize;
+    for number in 0..parts {
+        let (positions, ids) = part(number);
+        let (positions, ids) = (positions.len(), ids.len());
+        if positions != ids {
+            return Err(Error::IdsLength {
+                part: number,
+                positions,
+                ids,
+            });
+        }
+        count = count.saturating_add(positions);
+    }
+    let count = checked_len(count)?;
+    let precision = match parts {
+        0 => Given::Single(&[]),
+        _ => part(0).0,
+    };
+    let mut positions = Points::with_capacity(count, precision)?;
+    for number in 0..parts {
+        let (given, _) = part(number);
+        positions.extend(given, 0..given.len());
+    }
+    let cloud = PointCloud::prepare(positions.as_given(), NonFinite::Error, &mut |_| ())?;
+    drop(positions);
+    let visible = cloud.visible_from(viewpoint, options)?;
+
+    let mut ids: Vec<u32> = with_capacity(count)?;
+    (0..parts).for_each(|number| ids.extend(part(number).1));
+    let mut seen = with_capacity(visible.count())?;
+    seen.extend(
+        visible
+            .indices()
+            .iter()
+            .map(|&k| (u64::from(ids[k as usize]), k)),
+    );
+    drop(visible);
+    sort_keyed(&mut seen);
+    seen.dedup_by_key(|&mut (id, _)| id);
+    ids.clear();
+    ids.extend(seen.iter().map(|&(id, _)| id as u32));
+    Ok(ids)
+}

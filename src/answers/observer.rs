@@ -1,0 +1,70 @@
+//! Many views of one cloud, each starting from the last.
+
+use crate::answers::visibility::Visibility;
+use crate::base::error::Error;
+use crate::cloud::point_cloud::PointCloud;
+use crate::hull::Memory;
+use crate::view::options::Options;
+
+/// Looks at a cloud from one viewpoint after another.
+///
+/// A view from near the last one is found from it, faster than anew; a view from
+/// elsewhere takes as long as [`PointCloud::visible_from`]. The answers are the same
+/// in any case, to the bit. Memory is kept from view to view: about 150 bytes for
+/// each visible point.
+///
+/// ```
+/// use hidden_point_removal::{Options, PointCloud};
+///
+/// let cloud = PointCloud::new(&[[0.0, 0.0, 1.0], [0.0, 0.0, 2.0], [1.0, 0.0, 0.0]])?;
+/// let mut observer = cloud.observer();
+/// for step in 0..10 {
+///     let angle = f64::from(step).to_radians();
+///     let viewpoint = [5.0 * angle.sin(), 0.0, 5.0 * angle.cos()];
+///     let visible = observer.visible_from(viewpoint, &Options::default())?;
+///     assert_eq!(visible, cloud.visible_from(viewpoint, &Options::default())?);
+/// }
+/// # Ok::<(), hidden_point_removal::Error>(())
+/// ```
+pub struct Observer<'a> {
+    cloud: &'a PointCloud,
+    memory: Memory,
+}
+
+impl PointCloud {
+    /// An observer of this cloud that has seen nothing yet.
+    #[must_use]
+    pub fn observer(&self) -> Observer<'_> {
+        Observer {
+            cloud: self,
+            memory: Memory::default(),
+        }
+    }
+}
+
+impl Observer<'_> {
+    /// As [`PointCloud::visible_from`].
+    ///
+    /// # Errors
+    /// As [`PointCloud::visible_from`].
+    pub fn visible_from(
+        &mut self,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        self.cloud
+            .visible_from_with(&mut self.memory, viewpoint, options)
+    }
+
+    /// Whether the last view was found from the one before it.
+    #[must_use]
+    pub fn moved(&self) -> bool {
+        self.memory.moved()
+    }
+
+    /// Forgets the last view, so that the next one is found anew; the memory stays
+    /// reserved.
+    pub fn forget(&mut self) {
+        self.memory.forget();
+    }
+}

@@ -1,0 +1,140 @@
+//! One answer from several viewpoints (paper §5: viewpoints added around C help at
+//! silhouettes).
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use crate::answers::visibility::Visibility;
+use crate::base::allocation::{filled, with_capacity};
+use crate::base::error::{Error, in_range};
+use crate::base::real::square_root;
+use crate::cloud::point_cloud::PointCloud;
+use crate::hull;
+use crate::view::options::Options;
+use crate::view::radius::ChosenRadius;
+use crate::view::resolved::resolved_inversion;
+
+impl PointCloud {
+    /// Which points are visible from one of `viewpoints`, or from several? Each view
+    /// chooses its own R by `options`; the answer tells the largest, and how many hulls
+    /// all choices took together. No viewpoint sees nothing.
+    ///
+    /// A union over a small ring ([`ring_of_viewpoints`]) finds points at silhouettes
+    /// that one view misses, but shows too much of a plane that is seen edge-on;
+    /// [`PointCloud::visible_from_at_least`] two of them is the safe form.
+    ///
+    /// # Errors
+    /// As [`PointCloud::visible_from`].
+    pub fn visible_from_any(
+        &self,
+        viewpoints: &[[f64; 3]],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        self.after_denoising(options, |cloud, options| {
+            cloud.visible_from_several(1, viewpoints, options)
+        })
+    }
+
+    /// Which points are visible from at least `k` of `viewpoints`? Otherwise as
+    /// [`PointCloud::visible_from_any`].
+    ///
+    /// ```
+    /// use hidden_point_removal::{Options, PointCloud, ring_of_viewpoints};
+    ///
+    /// let cloud = PointCloud::new(&[[0.0, 0.0, 1.0], [0.0, 0.0, 0.5], [1.0, 0.0, 0.0]])?;
+    /// let viewpoint = [0.0, 0.0, 5.0];
+    /// let mut viewpoints = ring_of_viewpoints(viewpoint, [0.0; 3], 4, 0.05)?;
+    /// viewpoints.push(viewpoint);
+    /// let options = Options::default();
+    /// let safe = cloud.visible_from_at_least(2, &viewpoints, &options)?;
+    /// let any = cloud.visible_from_any(&viewpoints, &options)?;
+    /// assert!(safe.count() <= any.count());
+    /// # Ok::<(), hidden_point_removal::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::OutOfRange`] unless 1 ≤ `k` ≤ the number of viewpoints; otherwise as
+    /// [`PointCloud::visible_from`].
+    pub fn visible_from_at_least(
+        &self,
+        k: usize,
+        viewpoints: &[[f64; 3]],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        in_range("k", k as f64, 1.0, viewpoints.len() as f64)?;
+        self.after_denoising(options, |cloud, options| {
+            cloud.visible_from_several(k, viewpoints, options)
+        })
+    }
+
+    fn visible_from_several(
+        &self,
+        k: usize,
+        viewpoints: &[[f64; 3]],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        let inversion = resolved_inversion(options, self.statistics.spacing)?;
+        if viewpoints.is_empty() {
+            self.check_options(options)?;
+        }
+        let mut views: Vec<u32> = filled(self.sequence.points.len(), 0)?;
+        let mut chosen = ChosenRadius::unit(0.0);
+        let mut memory = hull::Memory::default();
+        for &viewpoint in viewpoints {
+            let (visible, view) = self.marks(&mut memory, viewpoint, options)?;
+            for (views, visible) in views.iter_mut().zip(visible) {
+                *views += u32::from(visible);
+            }
+            chosen = chosen.joined(view.chosen);
+        }
+        let mut visible: Vec<bool> = with_capacity(views.len())?;
+        visible.extend(views.iter().map(|&views| views as usize >= k));
+        self.answer(&visible, chosen, inversion)
+    }
+}
+
+/// `count` viewpoints evenly around `viewpoint`, on a circle across its line to
+/// `target`, of a radius that is `fraction` of their distance; usually 4 and 0.05. The
+/// viewpoint itself is not among them.
+///
+/// # Errors
+/// [`Error::Viewpoint`] for a viewpoint or a target that is not finite, or a ring out
+/// of range; [`Error::OutOfRange`] for a `fraction` that is negative or not finite;
+/// [`Error::OutOfMemory`].
+pub fn ring_of_viewpoints(
+    viewpoint: [f64; 3],
+    target: [f64; 3],
+    count: usize,
+    fraction: f64,
+) -> Result<Vec<[f64; 3]>, Error> {
+    let finite = |place: DVec3| {
+        let viewpoint = place.to_array();
+        let refused = Error::Viewpoint { viewpoint };
+        place.is_finite().then_some(viewpoint).ok_or(refused)
+    };
+    in_range("fraction", fraction, 0.0, f64::MAX)?;
+    let center = DVec3::from_array(viewpoint);
+    let ahead = DVec3::from_array(target) - center;
+    finite(center)?;
+    finite(ahead)?;
+
+    // Scaled, so that squares can neither over- nor underflow.
+    let size = ahead.abs().max_element();
+    let (mut right, mut up, mut radius) = (DVec3::ZERO, DVec3::ZERO, 0.0);
+    if size > 0.0 {
+        let direction = ahead / size;
+        let length = square_root(direction.dot(direction));
+        let direction = direction / length;
+        let across = direction.cross(DVec3::AXES[direction.abs().min_position()]);
+        right = across / square_root(across.dot(across));
+        up = right.cross(direction);
+        radius = fraction * length * size;
+    }
+    let mut ring = with_capacity(count)?;
+    for k in 0..count {
+        let turn = core::f64::consts::TAU * (k as f64 / count as f64);
+        let (sin, cos) = libm::sincos(turn);
+        ring.push(finite(center + (right * cos + up * sin) * radius)?);
+    }
+    Ok(ring)
+}

@@ -1,0 +1,240 @@
+//! From a cloud and a viewpoint to visible indices.
+
+use alloc::vec::Vec;
+
+use crate::base::allocation::{OutOfMemory, filled, with_capacity};
+use crate::base::error::Error;
+use crate::cloud::point_cloud::PointCloud;
+use crate::hull;
+use crate::view::options::{Inversion, Options, Radius};
+use crate::view::radius::ChosenRadius;
+use crate::view::resolved::View;
+
+/// Which points of a cloud are visible from one viewpoint, or from several.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Visibility {
+    indices: Vec<u32>,
+    cloud_len: usize,
+    chosen: ChosenRadius,
+    inversion: Inversion,
+}
+
+impl Visibility {
+    /// `indices` ascend.
+    pub(crate) fn new(
+        indices: Vec<u32>,
+        cloud_len: usize,
+        chosen: ChosenRadius,
+        inversion: Inversion,
+    ) -> Self {
+        Self {
+            indices,
+            cloud_len,
+            chosen,
+            inversion,
+        }
+    }
+
+    /// The visible points' indices in the cloud, ascending.
+    #[must_use]
+    pub fn indices(&self) -> &[u32] {
+        &self.indices
+    }
+
+    /// The visible points' indices, ascending, by value.
+    #[must_use]
+    pub fn into_indices(self) -> Vec<u32> {
+        self.indices
+    }
+
+    /// How many points are visible.
+    #[must_use]
+    pub fn count(&self) -> usize {
+        self.indices.len()
+    }
+
+    /// The radius R of the flipping sphere, in the cloud's units; 0 where no
+    /// point is away from the viewpoint. With [`Inversion::Power`] the unit S, with
+    /// [`Inversion::Exponential`] 0.
+    #[must_use]
+    pub fn radius(&self) -> f64 {
+        self.chosen.radius
+    }
+
+    /// log₁₀(R ÷ farthest distance), the paper's parameter; 0 where there is no R.
+    #[must_use]
+    pub fn exponent(&self) -> f64 {
+        self.chosen.exponent
+    }
+
+    /// How many hulls were spent choosing R, the final one not counted.
+    #[must_use]
+    pub fn evaluations(&self) -> u32 {
+        self.chosen.evaluations
+    }
+
+    /// The inversion used, with numbers only: asked with it (and with the radius of a
+    /// spherical one), any part of the cloud is flipped alike.
+    #[must_use]
+    pub fn inversion(&self) -> Inversion {
+        self.inversion
+    }
+
+    /// One byte for each index of the cloud: 1 visible, 0 hidden.
+    #[must_use]
+    pub fn mask(&self) -> Vec<u8> {
+        let mut mask = alloc::vec![0; self.cloud_len];
+        for &index in &self.indices {
+            mask[index as usize] = 1;
+        }
+        mask
+    }
+}
+
+impl PointCloud {
+    /// Which points are visible from `viewpoint`, given in the cloud's own
+    /// coordinates? The HPR operator, Algorithm 1 of the paper, exact for the
+    /// flipped points as rounded to `f64`.
+    ///
+    /// A point at the viewpoint is visible and hides nothing; of several points
+    /// on one ray only the nearest can be visible; equal points share one answer.
+    ///
+    /// ```
+    /// use hidden_point_removal::{Options, PointCloud};
+    ///
+    /// // Two points on one ray: the nearer hides the farther.
+    /// let cloud = PointCloud::new(&[[0.0, 0.0, 1.0], [0.0, 0.0, 2.0]])?;
+    /// let visible = cloud.visible_from([0.0, 0.0, 5.0], &Options::default())?;
+    /// assert_eq!(visible.indices(), [1]);
+    /// # Ok::<(), hidden_point_removal::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Viewpoint`] for a viewpoint that is not finite; the `Radius…`
+    /// and `Exponent…` errors for a choice of R that does not fit the view, or its
+    /// inversion; [`Error::PowerInvalid`], [`Error::ScaleInvalid`]; [`Error::OutOfRange`]
+    /// unless 1 ≤ k < the number of present points for [`Options::denoise`] and
+    /// [`Options::vote`]; [`Error::OutOfMemory`].
+    pub fn visible_from(
+        &self,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        self.visible_from_with(&mut hull::Memory::default(), viewpoint, options)
+    }
+
+    /// [`PointCloud::visible_from`] with the memory of earlier views.
+    pub(crate) fn visible_from_with(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        if options.denoise.is_some() {
+            // Other points, whose hull would be no use here.
+            return self.after_denoising(options, |cloud, options| {
+                cloud.visible_from(viewpoint, options)
+            });
+        }
+        let view = self.look(memory, viewpoint, options)?;
+        match options.vote {
+            Some(k) => {
+                let voted = self.vote(k, memory.visible())?;
+                self.answer(&voted, view.chosen, view.inversion)
+            }
+            None => self.answer(memory.visible(), view.chosen, view.inversion),
+        }
+    }
+
+    /// Marks what is visible in `memory`; returns what the view was resolved to. Points
+    /// are taken where they are, and no votes are counted.
+    fn look(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<View, Error> {
+        let view = self.view(viewpoint, options)?;
+        // Hulls of one kind of flip are no start for another.
+        let is_spherical = view.inversion == Inversion::Spherical;
+        if !is_spherical {
+            memory.forget();
+        }
+        hull::mark_visible(&self.sequence.points, &view.flip, None, memory)?;
+        if !is_spherical {
+            memory.forget();
+        }
+        Ok(view)
+    }
+
+    /// For each distinct point whether it is visible, and what the view was resolved to.
+    /// Votes are counted, but points are taken where they are.
+    pub(crate) fn marks(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<(Vec<bool>, View), Error> {
+        let view = self.look(memory, viewpoint, options)?;
+        let mut visible = with_capacity(memory.visible().len())?;
+        visible.extend_from_slice(memory.visible());
+        Ok((self.voted(visible, options)?, view))
+    }
+
+    /// What is visible by the vote that `options` ask for, if they do.
+    pub(crate) fn voted(&self, visible: Vec<bool>, options: &Options) -> Result<Vec<bool>, Error> {
+        match options.vote {
+            Some(k) => self.vote(k, &visible),
+            None => Ok(visible),
+        }
+    }
+
+    /// The answer for marked distinct points.
+    pub(crate) fn answer(
+        &self,
+        visible: &[bool],
+        chosen: ChosenRadius,
+        inversion: Inversion,
+    ) -> Result<Visibility, Error> {
+        let indices = marked_indices(self.len(), visible, &|k| self.sequence.indices_of(k))?;
+        Ok(Visibility::new(indices, self.len(), chosen, inversion))
+    }
+
+    /// The radius that `rule` chooses for `viewpoint` in spherical flipping, without
+    /// asking what is visible.
+    ///
+    /// # Errors
+    /// As [`PointCloud::visible_from`].
+    pub fn auto_radius(&self, viewpoint: [f64; 3], rule: Radius) -> Result<ChosenRadius, Error> {
+        let options = Options {
+            radius: rule,
+            ..Options::default()
+        };
+        Ok(self.view(viewpoint, &options)?.chosen)
+    }
+}
+
+/// The caller's indices, ascending and all below `len`, of the distinct points marked as
+/// `visible`; `indices_of` lists those of one.
+pub(crate) fn marked_indices<'a>(
+    len: usize,
+    visible: &[bool],
+    indices_of: &dyn Fn(usize) -> &'a [u32],
+) -> Result<Vec<u32>, OutOfMemory> {
+    let mut count = 0;
+    let mut marked: Vec<bool> = filled(len, false)?;
+    for (k, _) in visible.iter().enumerate().filter(|(_, visible)| **visible) {
+        for &index in indices_of(k) {
+            marked[index as usize] = true;
+            count += 1;
+        }
+    }
+    let mut indices = with_capacity(count)?;
+    indices.extend(
+        (0..)
+            .zip(&marked)
+            .filter(|(_, marked)| **marked)
+            .map(|(i, _): (u32, _)| i),
+    );
+    Ok(indices)
+}

@@ -1,0 +1,337 @@
+//! The one error type. Every variant names the value or index that was refused.
+
+use core::fmt;
+
+/// Why a cloud, a viewpoint or an option was refused.
+///
+/// [`Error::code`] gives the stable short name that the JavaScript package
+/// reports as `HprError.code`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Error {
+    /// Some positions hold NaN or an infinity.
+    NonFinite {
+        /// How many points are affected.
+        count: usize,
+        /// The lowest index among them, counted in the positions given.
+        first: usize,
+    },
+    /// The viewpoint holds NaN or an infinity.
+    Viewpoint {
+        /// The viewpoint as given.
+        viewpoint: [f64; 3],
+    },
+    /// The direction of a view is zero, or holds NaN or an infinity.
+    Direction {
+        /// The direction as given.
+        direction: [f64; 3],
+    },
+    /// A viewpoint in another dimension than the cloud's, or not finite.
+    ViewpointDimension {
+        /// How many finite numbers it takes.
+        dimension: usize,
+    },
+    /// Coordinates that are not a multiple of the dimension.
+    PositionsLength {
+        /// How many coordinates there are.
+        len: usize,
+        /// The cloud's dimension.
+        dimension: usize,
+    },
+    /// An option that needs three dimensions.
+    Dimension {
+        /// The option, as the JavaScript package calls it.
+        option: &'static str,
+        /// The cloud's dimension.
+        dimension: usize,
+    },
+    /// The radius is NaN, infinite, zero or negative.
+    RadiusInvalid {
+        /// The radius as given.
+        radius: f64,
+    },
+    /// The radius is smaller than the distance of the farthest point, so the
+    /// sphere would not hold the cloud (paper, eq. 1).
+    RadiusTooSmall {
+        /// The radius as given.
+        radius: f64,
+        /// The smallest radius that would be accepted.
+        farthest: f64,
+    },
+    /// A distance from the viewpoint, or twice the radius, exceeds the range of `f64`.
+    RadiusOverflow {
+        /// The radius, if it is the one that is too large.
+        radius: Option<f64>,
+        /// The farthest distance, infinite where it overflowed.
+        farthest: f64,
+    },
+    /// The exponent is NaN, infinite or negative.
+    ExponentInvalid {
+        /// The exponent as given.
+        exponent: f64,
+    },
+    /// The power of [`Inversion::Power`](crate::Inversion::Power) is not above 1 and
+    /// at most 16.
+    PowerInvalid {
+        /// The power as given.
+        power: f64,
+    },
+    /// The scale of [`Exponential::Scale`](crate::Exponential::Scale) is not finite
+    /// and positive.
+    ScaleInvalid {
+        /// The scale as given.
+        scale: f64,
+    },
+    /// A choice of R that the inversion has no use for.
+    RadiusWithInversion {
+        /// The option that chose R.
+        option: &'static str,
+        /// The inversion it cannot go with.
+        inversion: &'static str,
+    },
+    /// An option that means nothing for a viewpoint at infinity.
+    NoLimit {
+        /// The option, as the JavaScript package calls it.
+        option: &'static str,
+    },
+    /// A number that is not in the range it is meant for, or NaN.
+    OutOfRange {
+        /// The option or argument, as the JavaScript package calls it.
+        option: &'static str,
+        /// The number as given.
+        value: f64,
+        /// The least that is accepted.
+        least: f64,
+        /// The most that is accepted.
+        most: f64,
+    },
+    /// More points than [`MAX_POINTS`](crate::MAX_POINTS).
+    TooManyPoints {
+        /// How many were given.
+        count: usize,
+    },
+    /// Parts can be merged only with the radius that each of them was seen with.
+    MergeRadius,
+    /// An option that looks at neighbors, which parts do not know all of.
+    MergeNeighbors {
+        /// The option, as the JavaScript package calls it.
+        option: &'static str,
+    },
+    /// A part to merge with more positions than ids, or fewer.
+    IdsLength {
+        /// Which of the parts.
+        part: usize,
+        /// How many positions it has.
+        positions: usize,
+        /// How many ids it has.
+        ids: usize,
+    },
+    /// An index to remove that no point of the cloud ever had.
+    IndexOutOfRange {
+        /// The index as given.
+        index: u32,
+        /// How many indices the cloud has given out.
+        len: usize,
+    },
+    /// The allocator refused memory; nothing was changed.
+    OutOfMemory,
+}
+
+impl Error {
+    /// The stable short name of this error.
+    #[must_use]
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::NonFinite { .. } => "non-finite",
+            Self::Viewpoint { .. } | Self::ViewpointDimension { .. } | Self::Direction { .. } => {
+                "viewpoint"
+            }
+            Self::RadiusInvalid { .. }
+            | Self::RadiusTooSmall { .. }
+            | Self::RadiusOverflow { .. } => "radius",
+            Self::ExponentInvalid { .. }
+            | Self::PowerInvalid { .. }
+            | Self::ScaleInvalid { .. }
+            | Self::RadiusWithInversion { .. }
+            | Self::OutOfRange { .. }
+            | Self::NoLimit { .. }
+            | Self::Dimension { .. }
+            | Self::IndexOutOfRange { .. }
+            | Self::MergeRadius
+            | Self::MergeNeighbors { .. } => "option",
+            Self::IdsLength { .. } | Self::PositionsLength { .. } => "positions-length",
+            Self::TooManyPoints { .. } | Self::OutOfMemory => "too-large",
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match *self {
+            Self::NonFinite { count, first } => write!(
+                f,
+                "{count} point(s) have a coordinate that is NaN or infinite, the first at index {first}"
+            ),
+            Self::Viewpoint {
+                viewpoint: [x, y, z],
+            } => {
+                let (x, y, z) = (Number(x), Number(y), Number(z));
+                write!(f, "the viewpoint must be finite, got {x}, {y}, {z}")
+            }
+            Self::Direction {
+                direction: [x, y, z],
+            } => {
+                let (x, y, z) = (Number(x), Number(y), Number(z));
+                write!(
+                    f,
+                    "the direction must be finite and not zero, got {x}, {y}, {z}"
+                )
+            }
+            Self::ViewpointDimension { dimension } => {
+                write!(f, "the viewpoint must be {dimension} finite numbers")
+            }
+            Self::PositionsLength { len, dimension } => write!(
+                f,
+                "{len} coordinates are not a multiple of the dimension, {dimension}"
+            ),
+            Self::Dimension { option, dimension } => {
+                write!(f, "{option} needs a cloud of dimension 3, not {dimension}")
+            }
+            Self::NoLimit { option } => write!(
+                f,
+                "{option} cannot be used for a direction: it has no limit far away"
+            ),
+            Self::RadiusInvalid { radius } => {
+                let radius = Number(radius);
+                write!(f, "radius must be finite and positive, got {radius}")
+            }
+            Self::RadiusTooSmall { radius, farthest } => write!(
+                f,
+                "radius {} is smaller than the distance of the farthest point, {}",
+                Number(radius),
+                Number(farthest)
+            ),
+            Self::RadiusOverflow {
+                radius: Some(radius),
+                farthest,
+            } => write!(
+                f,
+                "twice the radius {} exceeds the range of f64 (the farthest distance is {})",
+                Number(radius),
+                Number(farthest)
+            ),
+            Self::RadiusOverflow {
+                radius: None,
+                farthest,
+            } => write!(
+                f,
+                "the farthest distance ({}) exceeds the range of f64",
+                Number(farthest)
+            ),
+            Self::ExponentInvalid { exponent } => {
+                let exponent = Number(exponent);
+                write!(f, "exponent must be finite and at least 0, got {exponent}")
+            }
+            Self::PowerInvalid { power } => {
+                let power = Number(power);
+                write!(
+                    f,
+                    "inversion power must be above 1 and at most 16, got {power}"
+                )
+            }
+            Self::ScaleInvalid { scale } => {
+                let scale = Number(scale);
+                write!(
+                    f,
+                    "inversion exponential must be finite and positive, got {scale}"
+                )
+            }
+            Self::RadiusWithInversion { option, inversion } => {
+                write!(f, "{option} cannot be combined with inversion {inversion}")
+            }
+            Self::OutOfRange {
+                option,
+                value,
+                least,
+                most,
+            } => {
+                let (value, least, most) = (Number(value), Number(least), Number(most));
+                write!(f, "{option} must be from {least} to {most}, got {value}")
+            }
+            Self::TooManyPoints { count } => write!(
+                f,
+                "{count} points exceed the limit of {}",
+                crate::base::limit::MAX_POINTS
+            ),
+            Self::MergeRadius => write!(
+                f,
+                "merging needs the radius, in the cloud's units, or the exponential scale that all parts were seen with"
+            ),
+            Self::MergeNeighbors { option } => {
+                write!(f, "{option} cannot be combined with merging")
+            }
+            Self::IdsLength {
+                part,
+                positions,
+                ids,
+            } => write!(f, "part {part} has {positions} positions, but {ids} ids"),
+            Self::IndexOutOfRange { index, len } => {
+                write!(
+                    f,
+                    "index {index} is out of range for a cloud of length {len}"
+                )
+            }
+            Self::OutOfMemory => write!(f, "not enough memory for this cloud"),
+        }
+    }
+}
+
+/// A number spelled as people of any language read it: 5, not 5.0, and neither
+/// `inf` nor hundreds of digits.
+struct Number(f64);
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self(number) = *self;
+        let size = number.abs();
+        if size.is_infinite() {
+            f.write_str(if number > 0.0 {
+                "infinity"
+            } else {
+                "-infinity"
+            })
+        } else if size == 0.0 || size.is_nan() || (1e-6..1e21).contains(&size) {
+            write!(f, "{number}")
+        } else {
+            write!(f, "{number:e}")
+        }
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// `value`, unless it is not in the range, or NaN.
+#[inline(never)]
+pub(crate) fn in_range(
+    option: &'static str,
+    value: f64,
+    least: f64,
+    most: f64,
+) -> Result<f64, Error> {
+    if (least..=most).contains(&value) {
+        Ok(value)
+    } else {
+        Err(Error::OutOfRange {
+            option,
+            value,
+            least,
+            most,
+        })
+    }
+}
+
+impl From<alloc::collections::TryReserveError> for Error {
+    fn from(_: alloc::collections::TryReserveError) -> Self {
+        Self::OutOfMemory
+    }
+}

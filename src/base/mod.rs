@@ -1,0 +1,8 @@
+//! What every other room needs and what knows nothing of points: the error, the limit of
+//! a cloud's size, memory that may be refused, square roots without `std`, the one sort.
+
+pub(crate) mod allocation;
+pub(crate) mod error;
+pub(crate) mod limit;
+pub(crate) mod real;
+pub(crate) mod sort;

@@ -1,0 +1,176 @@
+//! The one sort: by a number, in place, in time linear in the number of items.
+//!
+//! A radix sort from the most significant bits down ("American flag": McIlroy, Bostic
+//! and McIlroy, "Engineering radix sort", 1993). Orders with ties are sorted by one
+//! number after another.
+
+use alloc::vec::Vec;
+
+use crate::base::allocation::{OutOfMemory, with_capacity};
+
+/// A digit's bits, and how many different digits there are.
+const BITS: u32 = 8;
+const BUCKETS: usize = 1 << BITS;
+/// Fewer items than this are sorted by insertion.
+const FEW: usize = 32;
+
+/// A number, and what is sorted by it: an index into anything. One type, so that this is
+/// compiled once.
+type Keyed = (u64, u32);
+
+/// Sorts by the number; in which order equal ones come is not said.
+#[inline(never)]
+pub(crate) fn sort_keyed(items: &mut [Keyed]) {
+    if items.len() < FEW {
+        return sort_few(items);
+    }
+    // The first bits that are not the same in all keys make the digit.
+    let one = items[0].0;
+    let different = items.iter().fold(0, |bits, (key, _)| bits | key ^ one);
+    let shift = (u64::BITS - different.leading_zeros()).saturating_sub(BITS);
+    let digit = |(key, _): &Keyed| (key >> shift) as usize % BUCKETS;
+    if different == 0 {
+        return;
+    }
+
+    let mut starts = [0u32; BUCKETS];
+    for item in &*items {
+        starts[digit(item)] += 1;
+    }
+    let mut ends = starts;
+    let mut end = 0;
+    for (start, bucket_end) in starts.iter_mut().zip(&mut ends) {
+        *start = end;
+        end += *bucket_end;
+        *bucket_end = end;
+    }
+    // Every item moves once: to the first place of its bucket not yet taken.
+    let mut next = starts;
+    for bucket in 0..BUCKETS {
+        while next[bucket] < ends[bucket] {
+            let home = next[bucket] as usize;
+            let mut item = items[home];
+            loop {
+                let place = &mut next[digit(&item)];
+                let to = *place as usize;
+                *place += 1;
+                if to == home {
+                    break;
+                }
+                core::mem::swap(&mut item, &mut items[to]);
+            }
+            items[home] = item;
+        }
+    }
+    if shift > 0 {
+        for (&start, &end) in starts.iter().zip(&ends) {
+            sort_keyed(&mut items[start as usize..end as usize]);
+        }
+    }
+}
+
+#[inline(never)]
+fn sort_few(items: &mut [Keyed]) {
+    for sorted in 1..items.len() {
+        let item = items[sorted];
+        let mut place = sorted;
+        while place > 0 && items[place - 1].0 > item.0 {
+            items[place] = items[place - 1];
+            place -= 1;
+        }
+        items[place] = item;
+    }
+}
+
+/// A number in the same order as `x`, which is not -0.
+pub(crate) fn ordered(x: f64) -> u64 {
+    let bits = x.to_bits();
+    let sign = 1 << 63;
+    if bits & sign == 0 { bits | sign } else { !bits }
+}
+
+/// Sorts indices by `count` numbers each: by number 0, with which they come, equal ones
+/// by number 1, and so on. `number(k, index)` is number k of an index.
+pub(crate) fn sort_by_numbers(
+    keyed: &mut [Keyed],
+    count: usize,
+    number: &dyn Fn(usize, u32) -> u64,
+) {
+    sort_from(keyed, 1, count, number);
+}
+
+fn sort_from(keyed: &mut [Keyed], next: usize, count: usize, number: &dyn Fn(usize, u32) -> u64) {
+    sort_keyed(keyed);
+    if next == count {
+        return;
+    }
+    for run in keyed.chunk_by_mut(|a, b| a.0 == b.0) {
+        if run.len() > 1 {
+            for (key, index) in &mut *run {
+                *key = number(next, *index);
+            }
+            sort_from(run, next + 1, count, number);
+        }
+    }
+}
+
+/// The places of a plane, which hold no -0, sorted by their coordinates, as indices.
+pub(crate) fn sorted_places(places: &[[f64; 2]]) -> Result<Vec<u32>, OutOfMemory> {
+    let mut keyed: Vec<Keyed> = with_capacity(places.len())?;
+    keyed.extend(
+        (0..)
+            .zip(places)
+            .map(|(index, place)| (ordered(place[0]), index)),
+    );
+    sort_by_numbers(&mut keyed, 2, &|axis, index| {
+        ordered(places[index as usize][axis])
+    });
+    let mut sorted: Vec<u32> = with_capacity(places.len())?;
+    sorted.extend(keyed.iter().map(|&(_, index)| index));
+    Ok(sorted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn numbers(count: usize, mask: u64) -> Vec<(u64, u32)> {
+        let mut seed = 3u64;
+        let next = |index| {
+            seed = seed.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(1);
+            ((seed ^ seed >> 29) & mask, index)
+        };
+        (0..count as u32).map(next).collect()
+    }
+
+    #[test]
+    fn numbers_of_every_spread_are_sorted_with_what_they_carry() {
+        for mask in [
+            u64::MAX,
+            0xff,
+            0x1ff,
+            0,
+            1 << 63,
+            1 << 63 | 1,
+            0x00ff_f000_0000_fff0,
+        ] {
+            for count in [0, 1, 2, 31, 32, 33, 1000, 20_000] {
+                let given = numbers(count, mask);
+                let mut sorted = given.clone();
+                sort_keyed(&mut sorted);
+                assert!(
+                    sorted.is_sorted_by_key(|&(number, _)| number),
+                    "{mask:x} {count}"
+                );
+                sorted.sort_unstable_by_key(|&(_, index)| index);
+                assert_eq!(sorted, given, "{mask:x} {count}");
+            }
+        }
+    }
+
+    #[test]
+    fn numbers_of_floats_have_their_order() {
+        let ascending = [-f64::MAX, -1.5, -1.0, -5e-324, 0.0, 5e-324, 1.0, f64::MAX];
+        assert!(ascending.map(ordered).is_sorted_by(|a, b| a < b));
+    }
+}

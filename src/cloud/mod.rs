@@ -1,0 +1,10 @@
+//! What is known of the points before anybody looks: positions as given, the canonical
+//! order along a Hilbert curve, nearest neighbors, statistics, spheres around blocks.
+
+pub(crate) mod blocks;
+pub(crate) mod neighbors;
+pub(crate) mod point_cloud;
+pub(crate) mod points;
+pub(crate) mod sequence;
+pub(crate) mod spatial;
+pub(crate) mod statistics;

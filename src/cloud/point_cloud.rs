@@ -1,0 +1,289 @@
+//! The cloud: checked positions in spatial order, duplicates grouped, and what
+//! does not depend on the viewpoint. Built once, asked many times, changed at will.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+use core::fmt;
+
+use crate::base::allocation::{OutOfMemory, filled};
+use crate::base::error::Error;
+use crate::cloud::blocks::Blocks;
+use crate::cloud::points::{Given, Position, checked_len, is_finite};
+use crate::cloud::sequence::Sequence;
+use crate::cloud::spatial::{Bounds, HilbertCurve};
+use crate::cloud::statistics::Statistics;
+
+/// Shares of the time that building a cloud takes: up to where its points are checked,
+/// and where they are sorted.
+const SURVEYED: f64 = 0.05;
+const SORTED: f64 = 0.85;
+
+/// What becomes of points with a NaN or infinite coordinate.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NonFinite {
+    /// The cloud is refused with [`Error::NonFinite`].
+    #[default]
+    Error,
+    /// They keep their indices, are never visible and hide nothing.
+    Skip,
+}
+
+/// A point cloud, prepared for visibility queries.
+///
+/// Building costs one sort, O(n log n); each query reuses it. Memory: 17 bytes
+/// a point for `f32` positions, 29 for `f64`; while points are appended or removed,
+/// twice that.
+///
+/// Answers and automatic radii depend on the present points alone: a cloud that
+/// was appended to and removed from answers, to the bit, what one built from the
+/// same points does.
+pub struct PointCloud {
+    pub(crate) sequence: Sequence,
+    /// The box of the present points.
+    pub(crate) bounds: Bounds,
+    pub(crate) statistics: Statistics,
+    pub(crate) blocks: Blocks,
+    pub(crate) kept: Kept,
+    non_finite: NonFinite,
+    len: usize,
+    skipped: usize,
+}
+
+/// What [`PointCloud::prepare_for`] keeps.
+#[derive(Default)]
+pub(crate) struct Kept {
+    /// With the number of neighbors whose planes they are on.
+    pub denoised: Option<(usize, Box<PointCloud>)>,
+    pub voters: Option<Voters>,
+}
+
+/// Everybody's `k` nearest others, or as many as there are: `each`.
+pub(crate) struct Voters {
+    pub k: usize,
+    pub each: usize,
+    pub others: Vec<u32>,
+}
+
+impl PointCloud {
+    /// Prepares `positions`, in any units.
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`], [`Error::TooManyPoints`], [`Error::OutOfMemory`].
+    pub fn new<P: Position>(positions: &[P]) -> Result<Self, Error> {
+        Self::with_non_finite(positions, NonFinite::Error)
+    }
+
+    /// Like [`PointCloud::new`], with a choice about points that are not finite,
+    /// which holds for appended points, too.
+    ///
+    /// # Errors
+    /// As [`PointCloud::new`].
+    pub fn with_non_finite<P: Position>(
+        positions: &[P],
+        non_finite: NonFinite,
+    ) -> Result<Self, Error> {
+        Self::prepare(P::given(positions), non_finite, &mut |_| ())
+    }
+
+    /// Tells `progress` which share of the work, about, is done.
+    pub(crate) fn prepare(
+        positions: Given,
+        non_finite: NonFinite,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Self, Error> {
+        let len = checked_len(positions.len())?;
+        let (bounds, skipped) = survey(positions, non_finite)?;
+        progress(SURVEYED);
+        let curve = HilbertCurve::new(&bounds);
+        let sequence = Sequence::sorted(positions, 0, len - skipped, &curve)?;
+        progress(SORTED);
+        let statistics = Statistics::measure(&sequence.points, &bounds)?;
+        let blocks = Blocks::around(&sequence.points)?;
+        progress(1.0);
+        Ok(Self {
+            sequence,
+            bounds,
+            statistics,
+            blocks,
+            kept: Kept::default(),
+            non_finite,
+            len,
+            skipped,
+        })
+    }
+
+    /// Adds points, which take the next indices: all of them, or none and an error.
+    ///
+    /// They are sorted and merged into the order that is there, O(n + m log m) for m
+    /// new points. Only where they extend the cloud's box beyond a power of two (or
+    /// a multiple of it) is the whole cloud sorted again, as when it is built.
+    ///
+    /// Positions keep their precision: `f64` positions make an `f32` cloud an `f64` one.
+    ///
+    /// ```
+    /// use hidden_point_removal::{Options, PointCloud};
+    ///
+    /// let mut cloud = PointCloud::new(&[[0.0f32, 0.0, 1.0]])?;
+    /// cloud.append(&[[0.0f32, 0.0, 2.0]])?;
+    /// let visible = cloud.visible_from([0.0, 0.0, 5.0], &Options::default())?;
+    /// assert_eq!(visible.indices(), [1]);
+    ///
+    /// cloud.remove(&[1])?;
+    /// let visible = cloud.visible_from([0.0, 0.0, 5.0], &Options::default())?;
+    /// assert_eq!(visible.indices(), [0]);
+    /// # Ok::<(), hidden_point_removal::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::NonFinite`], [`Error::TooManyPoints`] (removed points count),
+    /// [`Error::OutOfMemory`]; the cloud is unchanged then.
+    pub fn append<P: Position>(&mut self, positions: &[P]) -> Result<(), Error> {
+        self.add(P::given(positions))
+    }
+
+    pub(crate) fn add(&mut self, positions: Given) -> Result<(), Error> {
+        let len = checked_len(self.len.saturating_add(positions.len()))?;
+        let (mut bounds, skipped) = survey(positions, self.non_finite)?;
+        let finite = positions.len() - skipped;
+        if finite > 0 {
+            bounds.union(&self.bounds);
+            let curve = HilbertCurve::new(&bounds);
+            let new = Sequence::sorted(positions, self.len as u32, finite, &curve)?;
+            let sequence = if self.sequence.points.len() == 0 {
+                new
+            } else if curve == HilbertCurve::new(&self.bounds) {
+                self.sequence.merged(&new, &curve)?
+            } else {
+                self.sequence.resorted(&curve)?.merged(&new, &curve)?
+            };
+            self.replace(sequence, bounds)?;
+        }
+        self.len = len;
+        self.skipped += skipped;
+        Ok(())
+    }
+
+    /// Removes the points with these indices: they are never visible again and
+    /// hide nothing, and their indices are never given again. An index that was
+    /// removed before, or skipped, is ignored. Of several equal points the others
+    /// stay.
+    ///
+    /// One pass over the cloud, except that a box which shrinks below a power of
+    /// two has it sorted again; see [`PointCloud::append`].
+    ///
+    /// # Errors
+    /// [`Error::IndexOutOfRange`], [`Error::OutOfMemory`]; the cloud is unchanged then.
+    pub fn remove(&mut self, indices: &[u32]) -> Result<(), Error> {
+        let len = self.len;
+        if let Some(&index) = indices.iter().find(|&&index| index as usize >= len) {
+            return Err(Error::IndexOutOfRange { index, len });
+        }
+        let mut removed: Vec<bool> = filled(len, false)?;
+        for &index in indices {
+            removed[index as usize] = true;
+        }
+        let rest = self.sequence.without(|index| removed[index as usize])?;
+        if rest.points.len() == self.sequence.points.len() {
+            // Every position is still there.
+            self.sequence = rest;
+            self.kept = Kept::default();
+            return Ok(());
+        }
+        let (bounds, _) = survey(rest.points.as_given(), NonFinite::Error)?;
+        let curve = HilbertCurve::new(&bounds);
+        if curve == HilbertCurve::new(&self.bounds) {
+            self.replace(rest, bounds)?;
+        } else {
+            self.replace(rest.resorted(&curve)?, bounds)?;
+        }
+        Ok(())
+    }
+
+    /// How many points were given, skipped and removed ones included: one more
+    /// than the largest index.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.len
+    }
+
+    /// Whether no points were given.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.len == 0
+    }
+
+    /// How many of all points given were left out because they are not finite.
+    #[must_use]
+    pub fn skipped(&self) -> usize {
+        self.skipped
+    }
+
+    /// The mean distance of a point to its 6 nearest others, in the cloud's units: what the
+    /// automatic rules go by. Measured at 2048 distinct points where there are more; 0 where
+    /// there are fewer than two.
+    #[must_use]
+    pub fn spacing(&self) -> f64 {
+        self.statistics.spacing
+    }
+
+    /// The same indices at other, finite `positions`, one for each distinct point.
+    pub(crate) fn moved(&self, positions: &[[f64; 3]]) -> Result<Self, OutOfMemory> {
+        let mut bounds = Bounds::EMPTY;
+        positions.iter().for_each(|&p| bounds.include(p));
+        let sequence = self
+            .sequence
+            .moved(positions, &HilbertCurve::new(&bounds))?;
+        let statistics = Statistics::measure(&sequence.points, &bounds)?;
+        let blocks = Blocks::around(&sequence.points)?;
+        Ok(Self {
+            sequence,
+            bounds,
+            statistics,
+            blocks,
+            kept: Kept::default(),
+            ..*self
+        })
+    }
+
+    /// The points of `bounds` take the place of those present, unless their
+    /// statistics or blocks cannot be measured.
+    fn replace(&mut self, sequence: Sequence, bounds: Bounds) -> Result<(), OutOfMemory> {
+        let statistics = Statistics::measure(&sequence.points, &bounds)?;
+        self.blocks = Blocks::around(&sequence.points)?;
+        self.statistics = statistics;
+        self.sequence = sequence;
+        self.bounds = bounds;
+        self.kept = Kept::default();
+        Ok(())
+    }
+}
+
+impl fmt::Debug for PointCloud {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("PointCloud")
+            .field("len", &self.len)
+            .field("skipped", &self.skipped)
+            .finish_non_exhaustive()
+    }
+}
+
+/// Checks every coordinate; returns the box of the finite points and how many are not.
+fn survey(positions: Given, non_finite: NonFinite) -> Result<(Bounds, usize), Error> {
+    let mut bounds = Bounds::EMPTY;
+    let mut bad = 0;
+    let mut first = 0;
+    for (index, p) in positions.iter().enumerate() {
+        if is_finite(p) {
+            bounds.include(p);
+        } else {
+            if bad == 0 {
+                first = index;
+            }
+            bad += 1;
+        }
+    }
+    if bad > 0 && non_finite == NonFinite::Error {
+        return Err(Error::NonFinite { count: bad, first });
+    }
+    Ok((bounds, bad))
+}

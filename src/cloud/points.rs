@@ -1,0 +1,188 @@
+//! Positions as they are given and as they are stored.
+
+use alloc::vec::Vec;
+use core::ops::Range;
+
+use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::base::error::Error;
+use crate::base::limit::MAX_POINTS;
+
+/// A point as three coordinates: `[f32; 3]` or `[f64; 3]`. Single precision is
+/// stored as it is and widened when it is used.
+pub trait Position: sealed::Sealed + Copy {
+    /// The coordinates in double precision.
+    fn widen(self) -> [f64; 3];
+}
+
+impl Position for [f32; 3] {
+    fn widen(self) -> [f64; 3] {
+        self.map(f64::from)
+    }
+}
+
+impl Position for [f64; 3] {
+    fn widen(self) -> [f64; 3] {
+        self
+    }
+}
+
+mod sealed {
+    use super::Given;
+
+    pub trait Sealed: Sized {
+        fn given(positions: &[Self]) -> Given<'_>;
+    }
+
+    impl Sealed for [f32; 3] {
+        fn given(positions: &[Self]) -> Given<'_> {
+            Given::Single(positions)
+        }
+    }
+
+    impl Sealed for [f64; 3] {
+        fn given(positions: &[Self]) -> Given<'_> {
+            Given::Double(positions)
+        }
+    }
+}
+
+/// Somebody's positions in the precision they come in. (Public only inside this
+/// private module.)
+///
+/// An enum rather than a type parameter, so that everything downstream is compiled
+/// once; which precision it is, every access finds out anew, at no cost that shows.
+#[derive(Clone, Copy)]
+pub enum Given<'a> {
+    Single(&'a [[f32; 3]]),
+    Double(&'a [[f64; 3]]),
+}
+
+impl Given<'_> {
+    pub(crate) fn len(self) -> usize {
+        match self {
+            Self::Single(points) => points.len(),
+            Self::Double(points) => points.len(),
+        }
+    }
+
+    #[inline]
+    pub(crate) fn get(self, index: usize) -> [f64; 3] {
+        match self {
+            Self::Single(points) => points[index].widen(),
+            Self::Double(points) => points[index],
+        }
+    }
+
+    pub(crate) fn iter(self) -> impl ExactSizeIterator<Item = [f64; 3]> {
+        (0..self.len()).map(move |index| self.get(index))
+    }
+}
+
+/// Points of our own, in the precision they came in.
+pub(crate) enum Points {
+    Single(Vec<[f32; 3]>),
+    Double(Vec<[f64; 3]>),
+}
+
+impl Points {
+    /// None yet, with room for so many, in single precision only where `positions`
+    /// are, so that no coordinate is rounded.
+    #[inline(never)]
+    pub(crate) fn with_capacity(count: usize, positions: Given) -> Result<Self, OutOfMemory> {
+        fn reserved<P>(count: usize) -> Result<Vec<P>, OutOfMemory> {
+            let points = with_capacity(count)?;
+            Ok(points)
+        }
+        Ok(match positions {
+            Given::Single(_) => Self::Single(reserved(count)?),
+            Given::Double(_) => Self::Double(reserved(count)?),
+        })
+    }
+
+    pub(crate) fn as_given(&self) -> Given<'_> {
+        match self {
+            Self::Single(points) => Given::Single(points),
+            Self::Double(points) => Given::Double(points),
+        }
+    }
+
+    pub(crate) fn len(&self) -> usize {
+        self.as_given().len()
+    }
+
+    #[inline]
+    pub(crate) fn get(&self, index: usize) -> [f64; 3] {
+        self.as_given().get(index)
+    }
+
+    pub(crate) fn iter(&self) -> impl ExactSizeIterator<Item = [f64; 3]> {
+        self.as_given().iter()
+    }
+
+    /// Adds a point that came in the same precision.
+    #[inline(never)]
+    pub(crate) fn push(&mut self, point: [f64; 3]) {
+        match self {
+            Self::Single(points) => points.push(point.map(|x| x as f32)),
+            Self::Double(points) => points.push(point),
+        }
+    }
+
+    /// Adds a run of points, which came in the same precision or a lower one.
+    #[inline(never)]
+    pub(crate) fn extend(&mut self, points: Given, run: Range<usize>) {
+        match (&mut *self, points) {
+            (Self::Single(own), Given::Single(points)) => own.extend_from_slice(&points[run]),
+            (Self::Double(own), Given::Double(points)) => own.extend_from_slice(&points[run]),
+            _ => run.for_each(|index| self.push(points.get(index))),
+        }
+    }
+
+    /// The points with these indices, in their order.
+    pub(crate) fn gathered(&self, indices: &[u32]) -> Result<Self, OutOfMemory> {
+        let mut gathered = Self::with_capacity(indices.len(), self.as_given())?;
+        for &index in indices {
+            gathered.push(self.get(index as usize));
+        }
+        Ok(gathered)
+    }
+
+    /// These and `new` ones, new one k in `places[k]`.
+    pub(crate) fn spliced(&self, new: &Self, places: &[Splice]) -> Result<Self, OutOfMemory> {
+        let (present, new) = (self.as_given(), new.as_given());
+        let equal: usize = places.iter().map(|place| place.after - place.start).sum();
+        let widest = match present {
+            Given::Single(_) => new,
+            Given::Double(_) => present,
+        };
+        let mut all = Self::with_capacity(present.len() + new.len() - equal, widest)?;
+        let mut copied = 0;
+        for (k, place) in places.iter().enumerate() {
+            all.extend(present, copied..place.start);
+            all.push(new.get(k));
+            copied = place.after;
+        }
+        all.extend(present, copied..present.len());
+        Ok(all)
+    }
+}
+
+/// Where a new point goes among those present: before `after`, and in the stead
+/// of those from `start`, which are none, or the one that equals it.
+#[derive(Clone, Copy)]
+pub(crate) struct Splice {
+    pub start: usize,
+    pub after: usize,
+}
+
+pub(crate) fn is_finite(p: [f64; 3]) -> bool {
+    p.iter().all(|x| x.is_finite())
+}
+
+/// `count`, unless it is more than a cloud may hold.
+pub(crate) fn checked_len(count: usize) -> Result<usize, Error> {
+    if count > MAX_POINTS {
+        return Err(Error::TooManyPoints { count });
+    }
+    Ok(count)
+}

@@ -1,0 +1,280 @@
+//! The distinct points of a cloud in canonical order, each with the caller's
+//! indices of it; and how that order is made, merged, thinned and made anew.
+//!
+//! The order (along the Hilbert curve, ties along a curve inside the cell, then by
+//! coordinates) depends on the set of
+//! points alone, so whichever way a sequence came about, it is the same. None of
+//! these changes a sequence in place: where memory is refused, nothing has happened.
+
+use alloc::vec::Vec;
+
+use crate::base::allocation::{OutOfMemory, push, reserve, with_capacity};
+use crate::base::sort::{ordered, sort_by_numbers};
+use crate::cloud::points::{Given, Points, Splice, is_finite};
+use crate::cloud::spatial::{HilbertCurve, Place};
+
+pub(crate) struct Sequence {
+    /// Distinct and finite.
+    pub points: Points,
+    indices: Groups,
+}
+
+impl Sequence {
+    /// Sorts the finite ones among `positions`, of which there are `finite`; the
+    /// caller's indices of `positions` begin with `first_index`.
+    #[inline(never)]
+    pub(crate) fn sorted(
+        positions: Given,
+        first_index: u32,
+        finite: usize,
+        curve: &HilbertCurve,
+    ) -> Result<Self, OutOfMemory> {
+        let keyed = sort_along_curve(positions, finite, curve)?;
+        let mut points = Points::with_capacity(keyed.len(), positions)?;
+        let mut indices = Groups::with_capacity(keyed.len())?;
+        let mut previous = None;
+        for &(_, index) in &keyed {
+            let point = without_negative_zero(positions.get(index as usize));
+            if previous != Some(point) {
+                previous = Some(point);
+                points.push(point);
+                indices.open()?;
+            }
+            indices.push(first_index + index)?;
+        }
+        indices.close()?;
+        Ok(Self { points, indices })
+    }
+
+    /// Both together, both along `curve`. Runs between new points are copied
+    /// whole, and only O(log n) keys are computed for each new point.
+    #[inline(never)]
+    pub(crate) fn merged(&self, new: &Self, curve: &HilbertCurve) -> Result<Self, OutOfMemory> {
+        let mut places = with_capacity(new.points.len())?;
+        let mut after = 0;
+        for point in new.points.iter() {
+            let start = self.first_not_before(&curve.place(point), after, curve);
+            let present = start < self.points.len() && self.points.get(start) == point;
+            after = start + usize::from(present);
+            places.push(Splice { start, after });
+        }
+
+        let mut indices =
+            Groups::with_capacity(self.indices.order.len() + new.indices.order.len())?;
+        let mut copied = 0;
+        for (k, &Splice { start, after }) in places.iter().enumerate() {
+            for unchanged in copied..start {
+                indices.copy(self.indices.of(unchanged))?;
+            }
+            indices.open()?;
+            let present = (start..after).flat_map(|same| self.indices.of(same));
+            for &index in present.chain(new.indices.of(k)) {
+                indices.push(index)?;
+            }
+            copied = after;
+        }
+        for unchanged in copied..self.points.len() {
+            indices.copy(self.indices.of(unchanged))?;
+        }
+        indices.close()?;
+        Ok(Self {
+            points: self.points.spliced(&new.points, &places)?,
+            indices,
+        })
+    }
+
+    /// The same without the indices that `removed` names; a point goes with the
+    /// last of its indices.
+    pub(crate) fn without(&self, removed: impl Fn(u32) -> bool) -> Result<Self, OutOfMemory> {
+        let mut kept = with_capacity(self.points.len())?;
+        let mut indices = Groups::with_capacity(self.indices.order.len())?;
+        for k in 0..self.points.len() {
+            let mut stays = false;
+            for &index in self.indices.of(k) {
+                if !removed(index) {
+                    if !stays {
+                        stays = true;
+                        kept.push(k as u32);
+                        indices.open()?;
+                    }
+                    indices.push(index)?;
+                }
+            }
+        }
+        indices.close()?;
+        Ok(Self {
+            points: self.points.gathered(&kept)?,
+            indices,
+        })
+    }
+
+    /// The same along another curve.
+    #[inline(never)]
+    pub(crate) fn resorted(&self, curve: &HilbertCurve) -> Result<Self, OutOfMemory> {
+        let count = self.points.len();
+        let sorted = Self::sorted(self.points.as_given(), 0, count, curve)?;
+        // Distinct points: every group there is one place here.
+        let mut indices = Groups::with_capacity(self.indices.order.len())?;
+        for &k in &sorted.indices.order {
+            indices.copy(self.indices.of(k as usize))?;
+        }
+        indices.close()?;
+        Ok(Self {
+            points: sorted.points,
+            indices,
+        })
+    }
+
+    /// How many points there are, equal ones counted each.
+    pub(crate) fn present(&self) -> usize {
+        self.indices.order.len()
+    }
+
+    /// The caller's indices at other `positions`, one for each distinct point, along
+    /// the curve through those.
+    pub(crate) fn moved(
+        &self,
+        positions: &[[f64; 3]],
+        curve: &HilbertCurve,
+    ) -> Result<Self, OutOfMemory> {
+        let sorted = Self::sorted(Given::Double(positions), 0, positions.len(), curve)?;
+        // Points may have come to lie on each other.
+        let mut indices = Groups::with_capacity(self.indices.order.len())?;
+        for k in 0..sorted.points.len() {
+            indices.open()?;
+            for &before in sorted.indices.of(k) {
+                for &index in self.indices.of(before as usize) {
+                    indices.push(index)?;
+                }
+            }
+        }
+        indices.close()?;
+        Ok(Self {
+            points: sorted.points,
+            indices,
+        })
+    }
+
+    /// The caller's indices of distinct point `k`.
+    pub(crate) fn indices_of(&self, k: usize) -> &[u32] {
+        self.indices.of(k)
+    }
+
+    /// Where the first point is that does not come before `place`, from `low` on.
+    #[inline(never)]
+    fn first_not_before(&self, place: &Place, mut low: usize, curve: &HilbertCurve) -> usize {
+        let before = |k: usize| curve.place(self.points.get(k)) < *place;
+        // New points come in order too, so the next one is looked for in steps
+        // that double, then between the last two.
+        let mut step = 1;
+        while low + step <= self.points.len() && before(low + step - 1) {
+            low += step;
+            step *= 2;
+        }
+        let mut high = (low + step - 1).min(self.points.len());
+        while low < high {
+            let middle = low + (high - low) / 2;
+            if before(middle) {
+                low = middle + 1;
+            } else {
+                high = middle;
+            }
+        }
+        low
+    }
+}
+
+/// Lists of indices, one for each distinct point, one after another.
+struct Groups {
+    order: Vec<u32>,
+    /// Where each list starts in `order`, with an end mark; empty where every
+    /// list holds one index, and `order[k]` is list `k`.
+    starts: Vec<u32>,
+    len: usize,
+}
+
+impl Groups {
+    /// None yet, with room for so many indices.
+    #[inline(never)]
+    fn with_capacity(indices: usize) -> Result<Self, OutOfMemory> {
+        let order = with_capacity(indices)?;
+        Ok(Self {
+            order,
+            starts: Vec::new(),
+            len: 0,
+        })
+    }
+
+    /// Begins the next list.
+    #[inline(never)]
+    fn open(&mut self) -> Result<(), OutOfMemory> {
+        self.len += 1;
+        self.mark()
+    }
+
+    /// Adds to the list that was begun last.
+    #[inline(never)]
+    fn push(&mut self, index: u32) -> Result<(), OutOfMemory> {
+        if self.starts.is_empty() && self.order.len() == self.len {
+            // The first list of more than one: until here, each held one.
+            reserve(&mut self.starts, self.len)?;
+            self.starts.extend(0..self.len as u32);
+        }
+        self.order.push(index);
+        Ok(())
+    }
+
+    #[inline(never)]
+    fn copy(&mut self, list: &[u32]) -> Result<(), OutOfMemory> {
+        self.open()?;
+        list.iter().try_for_each(|&index| self.push(index))
+    }
+
+    /// Ends the last list.
+    fn close(&mut self) -> Result<(), OutOfMemory> {
+        self.mark()
+    }
+
+    #[inline(never)]
+    fn mark(&mut self) -> Result<(), OutOfMemory> {
+        if !self.starts.is_empty() {
+            push(&mut self.starts, self.order.len() as u32)?;
+        }
+        Ok(())
+    }
+
+    fn of(&self, k: usize) -> &[u32] {
+        if self.starts.is_empty() {
+            &self.order[k..=k]
+        } else {
+            &self.order[self.starts[k] as usize..self.starts[k + 1] as usize]
+        }
+    }
+}
+
+/// The finite positions along the curve; those in one cell, mostly equal ones, along a
+/// curve inside it, then by coordinates, then by index.
+fn sort_along_curve(
+    positions: Given,
+    finite: usize,
+    curve: &HilbertCurve,
+) -> Result<Vec<(u64, u32)>, OutOfMemory> {
+    let mut keyed: Vec<(u64, u32)> = with_capacity(finite)?;
+    for (index, position) in positions.iter().enumerate() {
+        if is_finite(position) {
+            keyed.push((curve.key(position), index as u32));
+        }
+    }
+    let point = |index: u32| without_negative_zero(positions.get(index as usize));
+    sort_by_numbers(&mut keyed, 6, &|number, index| match number {
+        1 => curve.key_in_cell(point(index)),
+        axis @ 2..=4 => ordered(point(index)[axis - 2]),
+        _ => u64::from(index),
+    });
+    Ok(keyed)
+}
+
+/// -0 becomes +0, so that equal points have equal bits.
+fn without_negative_zero(point: [f64; 3]) -> [f64; 3] {
+    point.map(|x| x + 0.0)
+}

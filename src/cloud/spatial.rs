@@ -1,0 +1,253 @@
+//! The order in which a cloud keeps its points: along a 3D Hilbert curve.
+//!
+//! Neighbors on the curve are neighbors in space, so walks on the hull are
+//! short and memory is read in runs. The order depends on the set of points
+//! alone (ties on the curve are broken by coordinates), never on the order of
+//! the input or on what was appended and removed before, so everything computed
+//! in it is reproducible to the bit.
+
+use crate::base::real::floor;
+
+/// Bits per axis; three axes fill 63 bits of the key.
+const BITS: u32 = 21;
+/// Cells along an axis.
+const CELLS: f64 = (1u32 << BITS) as f64;
+
+/// Axis-aligned bounding box.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Bounds {
+    pub min: [f64; 3],
+    pub max: [f64; 3],
+}
+
+impl Bounds {
+    pub(crate) const EMPTY: Self = Self {
+        min: [f64::INFINITY; 3],
+        max: [f64::NEG_INFINITY; 3],
+    };
+
+    pub(crate) fn include(&mut self, p: [f64; 3]) {
+        self.union(&Self { min: p, max: p });
+    }
+
+    pub(crate) fn union(&mut self, other: &Self) {
+        // Compared rather than by `min` and `max`, which WebAssembly calls a function for.
+        for axis in 0..3 {
+            if other.min[axis] < self.min[axis] {
+                self.min[axis] = other.min[axis];
+            }
+            if other.max[axis] > self.max[axis] {
+                self.max[axis] = other.max[axis];
+            }
+        }
+    }
+
+    /// The length of the diagonal, 0 for an empty box.
+    pub(crate) fn diagonal(&self) -> f64 {
+        let extent = [0, 1, 2].map(|axis| (self.max[axis] - self.min[axis]).max(0.0));
+        libm::hypot(libm::hypot(extent[0], extent[1]), extent[2])
+    }
+
+    /// A power of two k that brings the box to a size near 1, and a point near its
+    /// middle, times k: of few bits, so that subtracting it from coordinates of few
+    /// bits is exact.
+    pub(crate) fn coarse_center(&self) -> ([f64; 3], f64) {
+        // Far below the last bit of any coordinate there is no other extent than 0.
+        const NOTHING: f64 = 1.0 / (1u64 << 60) as f64;
+        let mut extent = 0.0f64;
+        for axis in 0..3 {
+            let [low, high] = [self.min[axis] * 0.25, self.max[axis] * 0.25];
+            extent = extent.max(high - low);
+            extent = extent.max(low.abs().max(high.abs()) * NOTHING);
+        }
+        // The extent of an empty box is infinite.
+        let unit = power_of_two_above(extent.min(f64::MAX * 0.5));
+        let scale = (0.25 / unit).max(f64::MIN_POSITIVE);
+        let middle = |axis: usize| {
+            let sum = self.max[axis] * (0.5 * scale) + self.min[axis] * (0.5 * scale);
+            floor(sum * 8.0 + 0.5) / 8.0
+        };
+        let center = [0, 1, 2].map(middle);
+        (center.map(|x| if x.is_finite() { x } else { 0.0 }), scale)
+    }
+
+    /// Squared distance from `p` to the box, 0 inside.
+    pub(crate) fn distance_squared(&self, p: [f64; 3]) -> f64 {
+        let mut sum = 0.0;
+        for axis in 0..3 {
+            let gap = (self.min[axis] - p[axis])
+                .max(p[axis] - self.max[axis])
+                .max(0.0);
+            sum += gap * gap;
+        }
+        sum
+    }
+}
+
+/// Maps points of a box to their place on the Hilbert curve through a cube that
+/// holds the box.
+///
+/// The cube depends on the box only coarsely: its side is twice a power of two,
+/// the `unit`, that is at least the box's largest extent, and its corner a multiple
+/// of that unit. So a cloud that grows or shrinks mostly keeps its curve, and the
+/// order of its points; each time the unit doubles there are at most a few corners.
+///
+/// All lengths are quarters here, because the extent of a finite box can overflow.
+#[derive(PartialEq)]
+pub(crate) struct HilbertCurve {
+    /// Infinite along an axis whose coordinates are beyond the range of f64 in
+    /// units; they are all equal then, and in cell 0.
+    corner: [f64; 3],
+    unit: f64,
+}
+
+/// Where a point is in the order: by its key, then by its key in the cell, then by
+/// its coordinates, which hold no -0.
+#[derive(PartialEq, PartialOrd)]
+pub(crate) struct Place {
+    key: u64,
+    key_in_cell: u64,
+    point: [f64; 3],
+}
+
+impl HilbertCurve {
+    #[inline(never)]
+    pub(crate) fn new(bounds: &Bounds) -> Self {
+        let mut extent = 0.0f64;
+        for axis in 0..3 {
+            extent = extent.max(bounds.max[axis] * 0.25 - bounds.min[axis] * 0.25);
+        }
+        let unit = power_of_two_above(extent);
+        Self {
+            corner: bounds.min.map(|least| floor(least * 0.25 / unit) * unit),
+            unit,
+        }
+    }
+
+    /// The key of `p` among all points; equal points have equal keys.
+    #[inline(never)]
+    pub(crate) fn key(&self, p: [f64; 3]) -> u64 {
+        interleave(to_hilbert(self.cells(p).map(cell)))
+    }
+
+    /// The key of `p` among the points of one cell, along a curve of its own: a
+    /// single far point can make the box so large that all others share a few cells.
+    #[inline(never)]
+    pub(crate) fn key_in_cell(&self, p: [f64; 3]) -> u64 {
+        let inside = |cells: f64| cell((cells - f64::from(cell(cells))) * CELLS);
+        interleave(to_hilbert(self.cells(p).map(inside)))
+    }
+
+    #[inline(never)]
+    pub(crate) fn place(&self, point: [f64; 3]) -> Place {
+        Place {
+            key: self.key(point),
+            key_in_cell: self.key_in_cell(point),
+            point,
+        }
+    }
+
+    /// How many cells away from the corner `p` is along each axis.
+    fn cells(&self, p: [f64; 3]) -> [f64; 3] {
+        let along = |axis: usize| (p[axis] * 0.25 - self.corner[axis]) / self.unit;
+        // Half of the cells are in one unit.
+        core::array::from_fn(|axis| along(axis) * (0.5 * CELLS))
+    }
+}
+
+/// The number of the cell; what rounding put on the far side belongs to the last one.
+fn cell(cells: f64) -> u32 {
+    // `as` saturates.
+    (cells as u32).min((1 << BITS) - 1)
+}
+
+/// The smallest normal power of two not below `x`, which is at most 2^1023.
+fn power_of_two_above(x: f64) -> f64 {
+    const FRACTION: u64 = (1 << 52) - 1;
+    f64::from_bits((x.max(f64::MIN_POSITIVE).to_bits() + FRACTION) & !FRACTION)
+}
+
+/// Skilling's transform ("Programming the Hilbert curve", 2004): coordinates to
+/// the transposed Hilbert index, whose interleaved bits are the key.
+fn to_hilbert(mut x: [u32; 3]) -> [u32; 3] {
+    let mut bit = 1 << (BITS - 1);
+    while bit > 1 {
+        let below = bit - 1;
+        for axis in 0..3 {
+            if x[axis] & bit != 0 {
+                x[0] ^= below;
+            } else {
+                let swap = (x[0] ^ x[axis]) & below;
+                x[0] ^= swap;
+                x[axis] ^= swap;
+            }
+        }
+        bit >>= 1;
+    }
+    x[1] ^= x[0];
+    x[2] ^= x[1];
+    let mut gray = 0;
+    let mut bit = 1 << (BITS - 1);
+    while bit > 1 {
+        if x[2] & bit != 0 {
+            gray ^= bit - 1;
+        }
+        bit >>= 1;
+    }
+    x.map(|axis| axis ^ gray)
+}
+
+fn interleave(x: [u32; 3]) -> u64 {
+    spread(x[0]) << 2 | spread(x[1]) << 1 | spread(x[2])
+}
+
+/// Puts two zero bits between any two of the low 21 bits.
+fn spread(x: u32) -> u64 {
+    let mut x = u64::from(x);
+    x = (x | x << 32) & 0x001f_0000_0000_ffff;
+    x = (x | x << 16) & 0x001f_0000_ff00_00ff;
+    x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
+    x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
+    (x | x << 2) & 0x1249_2492_4924_9249
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curve(min: [f64; 3], max: [f64; 3]) -> HilbertCurve {
+        HilbertCurve::new(&Bounds { min, max })
+    }
+
+    #[test]
+    fn small_changes_of_the_box_keep_the_curve() {
+        let before = curve([0.1, 0.2, -0.3], [3.5, 1.0, 0.0]);
+        assert!(before == curve([0.0, 0.9, -3.9], [4.0, 1.0, -3.8]));
+        assert!(before != curve([0.1, 0.2, -0.3], [4.2, 1.0, 0.0]));
+        assert!(before != curve([-0.1, 0.2, -0.3], [3.5, 1.0, 0.0]));
+    }
+
+    #[test]
+    fn a_box_of_any_size_and_place_is_told_apart() {
+        let tiny = f64::MIN_POSITIVE;
+        for [low, high] in [
+            [0.0, 1.0],
+            [-f64::MAX, f64::MAX],
+            [f64::MAX / 2.0, f64::MAX],
+            [-64.0 * tiny, 64.0 * tiny],
+            [1e6, 1e6 + 1e-6],
+            [-1.0 - f64::EPSILON, -1.0],
+        ] {
+            let curve = curve([low, low, 1e300], [high, high, 1e300]);
+            let key = |x, y| curve.key([x, y, 1e300]);
+            let mut corners = [
+                key(low, low),
+                key(low, high),
+                key(high, low),
+                key(high, high),
+            ];
+            corners.sort_unstable();
+            assert!(corners.is_sorted_by(|a, b| a < b), "{low}..{high}");
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! The points of a cloud of any dimension: rows of numbers, their order by
+//! coordinates, and what is measured in that order.
+
+use alloc::vec::Vec;
+
+use crate::base::allocation::{OutOfMemory, filled, reserve, with_capacity};
+use crate::base::error::Error;
+use crate::base::real::square_root;
+use crate::base::sort::{ordered, sort_by_numbers};
+use crate::cloud::point_cloud::NonFinite;
+use crate::cloud::points::checked_len;
+
+/// Neighbors whose mean distance is a point's spacing, and points that are measured.
+const NEIGHBORS: usize = 6;
+const SAMPLES: usize = 512;
+
+pub(super) struct Rows {
+    pub dimension: usize,
+    /// Of every index ever given, without -0.
+    coordinates: Vec<f64>,
+    present: Vec<bool>,
+    /// The present indices sorted by coordinates, and where each distinct point starts.
+    order: Vec<u32>,
+    starts: Vec<u32>,
+    pub centroid: Vec<f64>,
+    pub variance: f64,
+    pub spacing: f64,
+}
+
+impl Rows {
+    pub(super) fn new(dimension: usize) -> Self {
+        Self {
+            dimension,
+            coordinates: Vec::new(),
+            present: Vec::new(),
+            order: Vec::new(),
+            starts: Vec::new(),
+            centroid: Vec::new(),
+            variance: 0.0,
+            spacing: 0.0,
+        }
+    }
+
+    /// How many rows were given.
+    pub(super) fn len(&self) -> usize {
+        self.present.len()
+    }
+
+    /// How many distinct points there are.
+    pub(super) fn distinct(&self) -> usize {
+        self.starts.len()
+    }
+
+    /// Distinct point `point`, counted by coordinates.
+    pub(super) fn at(&self, point: usize) -> &[f64] {
+        self.row(self.order[self.starts[point] as usize])
+    }
+
+    /// The indices of distinct point `point`.
+    pub(super) fn indices_of(&self, point: usize) -> &[u32] {
+        let end = self.starts.get(point + 1);
+        let end = end.map_or(self.order.len(), |&end| end as usize);
+        &self.order[self.starts[point] as usize..end]
+    }
+
+    /// Adds rows, all or none; returns how many of them are not finite.
+    pub(super) fn append(
+        &mut self,
+        coordinates: &[f64],
+        non_finite: NonFinite,
+    ) -> Result<usize, Error> {
+        let (len, dimension) = (coordinates.len(), self.dimension);
+        if len % dimension != 0 {
+            return Err(Error::PositionsLength { len, dimension });
+        }
+        let count = len / dimension;
+        checked_len(self.len().saturating_add(count))?;
+        let rows = || coordinates.chunks_exact(dimension);
+        let is_finite = |row: &[f64]| row.iter().all(|x| x.is_finite());
+        let finite = rows().filter(|row| is_finite(row)).count();
+        if finite < count && non_finite == NonFinite::Error {
+            let first = rows().position(|row| !is_finite(row)).unwrap_or(0);
+            let count = count - finite;
+            return Err(Error::NonFinite { count, first });
+        }
+        let before = self.present.len();
+        reserve(&mut self.coordinates, len)?;
+        reserve(&mut self.present, count)?;
+        // Adding 0 makes -0 the same as 0.
+        self.coordinates.extend(coordinates.iter().map(|x| x + 0.0));
+        self.present.extend(rows().map(is_finite));
+        if let Err(error) = self.arrange() {
+            self.coordinates.truncate(before * dimension);
+            self.present.truncate(before);
+            return Err(error.into());
+        }
+        Ok(count - finite)
+    }
+
+    pub(super) fn remove(&mut self, indices: &[u32]) -> Result<(), Error> {
+        let len = self.len();
+        if let Some(&index) = indices.iter().find(|&&index| index as usize >= len) {
+            return Err(Error::IndexOutOfRange { index, len });
+        }
+        let mut before = with_capacity(len)?;
+        before.extend_from_slice(&self.present);
+        for &index in indices {
+            self.present[index as usize] = false;
+        }
+        Ok(self.arrange().inspect_err(|_| self.present = before)?)
+    }
+
+    fn row(&self, index: u32) -> &[f64] {
+        &self.coordinates[index as usize * self.dimension..][..self.dimension]
+    }
+
+    /// Sorts what is present, and measures it in that order.
+    fn arrange(&mut self) -> Result<(), OutOfMemory> {
+        let mut keyed: Vec<(u64, u32)> = with_capacity(self.present.len())?;
+        let present = (0..self.present.len() as u32).filter(|&i| self.present[i as usize]);
+        keyed.extend(present.map(|i| (ordered(self.row(i)[0]), i)));
+        sort_by_numbers(&mut keyed, self.dimension + 1, &|axis, i| {
+            self.row(i).get(axis).map_or(u64::from(i), |&x| ordered(x))
+        });
+        let mut order: Vec<u32> = with_capacity(keyed.len())?;
+        order.extend(keyed.iter().map(|&(_, i)| i));
+        drop(keyed);
+        let mut starts: Vec<u32> = with_capacity(order.len())?;
+        for k in 0..order.len() {
+            if k == 0 || self.row(order[k]) != self.row(order[k - 1]) {
+                starts.push(k as u32);
+            }
+        }
+        // From here on nothing fails.
+        self.centroid = filled(self.dimension, 0.0)?;
+        (self.order, self.starts) = (order, starts);
+        self.measure();
+        Ok(())
+    }
+
+    fn measure(&mut self) {
+        (self.variance, self.spacing) = (0.0, 0.0);
+        let count = self.starts.len();
+        if count == 0 {
+            return;
+        }
+        for axis in 0..self.dimension {
+            // Relative to one point, which keeps the detail of clouds far away.
+            let origin = self.at(0)[axis];
+            let sum: f64 = (0..count).map(|k| self.at(k)[axis] - origin).sum();
+            self.centroid[axis] = origin + sum / count as f64;
+        }
+        let squares: f64 = (0..count)
+            .map(|k| squared(self.at(k), &self.centroid))
+            .sum();
+        self.variance = squares / count as f64;
+        let samples = count.min(SAMPLES);
+        if count < 2 {
+            return;
+        }
+        let mut sum = 0.0;
+        for sample in 0..samples {
+            sum += self.spacing_at((2 * sample + 1) * count / (2 * samples));
+        }
+        self.spacing = sum / samples as f64;
+    }
+
+    /// The mean distance of a distinct point to its nearest others.
+    fn spacing_at(&self, point: usize) -> f64 {
+        let mut nearest = [f64::INFINITY; NEIGHBORS];
+        for other in (0..self.starts.len()).filter(|&other| other != point) {
+            let squared = squared(self.at(point), self.at(other));
+            // The least ones, ascending.
+            if let Some(place) = nearest.iter().position(|&least| squared < least) {
+                nearest.copy_within(place..NEIGHBORS - 1, place + 1);
+                nearest[place] = squared;
+            }
+        }
+        let found = nearest.iter().filter(|squared| squared.is_finite());
+        let count = found.clone().count().max(1);
+        found.map(|&squared| square_root(squared)).sum::<f64>() / count as f64
+    }
+}
+
+pub(super) fn squared(a: &[f64], b: &[f64]) -> f64 {
+    a.iter()
+        .zip(b)
+        .fold(0.0, |sum, (a, b)| sum + (a - b) * (a - b))
+}

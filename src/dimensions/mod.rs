@@ -1,0 +1,5 @@
+//! Clouds that are not of three dimensions: two as three with z = 0, four and more by linear
+//! programs.
+
+pub(crate) mod higher;
+pub(crate) mod two;

@@ -1,0 +1,178 @@
+//! The flip: points move along their rays from the viewpoint C, the nearest go
+//! farthest. By default to the far side of a sphere of radius R around C (paper
+//! §3, eq. 1); other inversions differ in how far alone (`kernel`).
+//!
+//! ```text
+//!   before                          after
+//!   C ·  ·· near ··  far   |R       C            | far ·· near        2R
+//!     |----d---->|                  |------------2R − d---->|
+//! ```
+
+use glam::DVec3;
+
+use crate::base::real::square_root;
+use crate::cloud::points::Points;
+
+use crate::flip::kernel::Kernel;
+
+/// The flip around one viewpoint, with one fixed sequence of operations, so
+/// that every platform rounds alike: v = p − C, d = √(vx² + vy² + vz²),
+/// s from d ([`Kernel::factor`]; (2R − d)/d on a sphere), q = v·s.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Flip {
+    viewpoint: DVec3,
+    kernel: Kernel,
+    /// A power of two that brings |q| near 1 where it is extreme; otherwise 1.
+    scale: f64,
+    /// No coordinate of a flipped point is larger, but for rounding and `scale`.
+    extent: f64,
+}
+
+impl Flip {
+    /// A radius in `kernel` is at least the farthest distance, and 2R is finite.
+    pub(crate) fn new(viewpoint: [f64; 3], kernel: Kernel) -> Self {
+        Self {
+            viewpoint: DVec3::from_array(viewpoint),
+            kernel,
+            scale: 1.0,
+            extent: kernel.radius().map_or(f64::INFINITY, |radius| 2.0 * radius),
+        }
+    }
+
+    /// The flipped point q, or `None` for a point at the viewpoint (d = 0 or s
+    /// not finite), which is visible and takes no part in the hull.
+    #[inline]
+    pub(crate) fn apply(&self, p: [f64; 3]) -> Option<DVec3> {
+        let Kernel::Spherical { radius } = self.kernel else {
+            return self.apply_other(p);
+        };
+        let v = DVec3::from_array(p) - self.viewpoint;
+        let d = square_root(v.dot(v));
+        // d = 0 makes s infinite or NaN.
+        let s = (2.0 * radius - d) / d;
+        s.is_finite().then(|| v * s * self.scale)
+    }
+
+    /// The same for any kernel, out of the way of the hull's loops. A point that goes
+    /// beyond the range of f64 counts as at the viewpoint, too.
+    #[inline(never)]
+    fn apply_other(&self, p: [f64; 3]) -> Option<DVec3> {
+        let v = DVec3::from_array(p) - self.viewpoint;
+        let q = v * self.kernel.factor(square_root(v.dot(v)));
+        q.is_finite().then(|| q * self.scale)
+    }
+
+    /// At least twice the largest |q| (which is at most 5/8 of it on a sphere, where
+    /// squares underflow and make d too small), once the flip is
+    /// [`rescaled_for`](Self::rescaled_for) the points.
+    pub(crate) fn reach(&self) -> f64 {
+        let times = match self.kernel {
+            Kernel::Spherical { .. } => 2.0,
+            // |q| is up to 3R there; up to √3 of the largest coordinate here.
+            _ => 4.0,
+        };
+        times * self.extent * self.scale
+    }
+
+    pub(crate) fn viewpoint(&self) -> DVec3 {
+        self.viewpoint
+    }
+
+    /// The largest |q| of a flip on a sphere, in the cloud's own units; infinite for
+    /// other flips, which `hidden_from` says nothing about.
+    pub(crate) fn reach_in_cloud(&self) -> f64 {
+        match self.kernel {
+            Kernel::Spherical { radius } => 2.0 * radius,
+            _ => f64::INFINITY,
+        }
+    }
+
+    /// A squared distance from which on every point flips to less than `length`, with
+    /// all roundings: 2R − d < length where d > 2R − length.
+    pub(crate) fn hidden_from(&self, length: f64) -> f64 {
+        const ROUNDING: f64 = 1e-12;
+        let diameter = self.reach_in_cloud();
+        let distance = diameter * (1.0 + ROUNDING) - length / self.scale;
+        distance.max(0.0) * distance.max(0.0) * (1.0 + ROUNDING)
+    }
+
+    /// Rescales the flipped cloud by a power of two where it is so large or small
+    /// that floating-point filters would over- or underflow. Signs don't change with
+    /// scale; where the scaling itself would round, it is left out.
+    pub(crate) fn rescaled_for(mut self, points: &Points) -> Self {
+        const MODERATE: core::ops::Range<f64> = 1e-30..1e30;
+        if self.kernel.radius().is_none() {
+            self.extent = self.largest_coordinate(points);
+        }
+        if MODERATE.contains(&self.extent) || self.extent == 0.0 {
+            return self;
+        }
+        let scale = power_of_two_below((1.0 / self.extent).min(f64::MAX));
+        let scaled = Self { scale, ..self };
+        let exact = points
+            .iter()
+            .all(|p| match (self.apply(p), scaled.apply(p)) {
+                (Some(q), Some(small)) => small / scale == q,
+                _ => true,
+            });
+        if exact { scaled } else { self }
+    }
+
+    /// Whether all points have the viewpoint's z, like those of a cloud in the plane.
+    pub(crate) fn keeps_in_plane(&self, points: &Points) -> bool {
+        points.iter().all(|p| p[2] == self.viewpoint.z)
+    }
+
+    fn largest_coordinate(&self, points: &Points) -> f64 {
+        let flipped = points.iter().filter_map(|p| self.apply(p));
+        flipped.fold(0.0, |largest, q| largest.max(q.abs().max_element()))
+    }
+}
+
+/// The largest normal power of two not above the positive number `x`, or the
+/// smallest normal one.
+fn power_of_two_below(x: f64) -> f64 {
+    f64::from_bits(x.max(f64::MIN_POSITIVE).to_bits() & 0x7ff0_0000_0000_0000)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sphere(radius: f64) -> Kernel {
+        Kernel::Spherical { radius }
+    }
+
+    #[test]
+    fn glam_keeps_the_fixed_operation_order() {
+        let c = [0.1, -7.3, 1e6];
+        for i in 0..1000 {
+            let i = f64::from(i);
+            let p = [i * 0.37 - 90.0, i * i * 1e-3, 1e6 + i * 1e-3];
+            let (x, y, z) = (p[0] - c[0], p[1] - c[1], p[2] - c[2]);
+            let xx_yy = x * x + y * y;
+            let d = (xx_yy + z * z).sqrt();
+            let s = (2.0 * 5e3 - d) / d;
+            let q = Flip::new(c, sphere(5e3)).apply(p).map(|q| q.to_array());
+            assert_eq!(q, Some([x * s, y * s, z * s]));
+        }
+    }
+
+    #[test]
+    fn points_at_the_viewpoint_are_left_out() {
+        let flip = Flip::new([1.0, 2.0, 3.0], sphere(10.0));
+        assert_eq!(flip.apply([1.0, 2.0, 3.0]), None);
+        // d underflows to 0, then s overflows.
+        let at_origin = |kernel| Flip::new([0.0; 3], kernel);
+        assert_eq!(at_origin(sphere(1.0)).apply([1e-200, 0.0, 0.0]), None);
+        assert_eq!(at_origin(sphere(1e300)).apply([1e-150, 0.0, 0.0]), None);
+        let power = |gamma, unit| at_origin(Kernel::Power { gamma, unit });
+        assert_eq!(power(2.0, 1.0).apply([0.0; 3]), None);
+        assert_eq!(power(16.0, 1.0).apply([1e-30, 0.0, 0.0]), None);
+        // s is finite, but not q.
+        assert_eq!(power(16.0, 1e150).apply([1e131, 0.0, 0.0]), None);
+        let exponential = at_origin(Kernel::Exponential { scale: 1.0 });
+        assert_eq!(exponential.apply([0.0; 3]), None);
+        assert!(exponential.apply([1e-150, 0.0, 0.0]).is_some());
+    }
+}

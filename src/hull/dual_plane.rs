@@ -1,0 +1,62 @@
+//! A face's plane in the form that asks a point's side with one dot product.
+
+use glam::DVec3;
+
+/// A face's dual plane: `m·x = 1` on it, `m·x > 1` outside.
+///
+/// With u = a − p, w = b − p, n = u × w and D = n·p, m is n/D. In units of
+/// ε = 2⁻⁵³ and with |p|, |q| ≤ L/2 the rounded value differs from the true
+/// n·(q − p)/D by at most, to first order and with κ = ½(|u|² + |w|²)·L/D:
+///
+/// - n: 4√2·|u||w|, which shifts n·q/D by 2.9 κ;
+/// - D: (4√2 + 3)·|u||w||p|, which shifts m·q by 4.4 κ·(m·q);
+/// - the division and the sum m·q − 1: 5·|m||q| + 1 ≤ 2.5 κ + 1.
+///
+/// At m·q near 1 that is below 10 ε (1 + κ); `error` is twice that. Farther
+/// from the plane the error grows with |m·q|, but by less than 10⁻⁵ of it, so
+/// the sign stays right, also of the difference of two neighbors' m·q while one
+/// of them is between 0 and 1. L is [`Flip::reach`].
+///
+/// [`Flip::reach`]: crate::flip::inversion::Flip::reach
+#[derive(Clone, Copy)]
+pub(super) struct Plane {
+    pub m: DVec3,
+    /// Bound of the error of `m·q − 1`; infinite where only exact signs count.
+    pub error: f64,
+}
+
+impl Plane {
+    /// A plane that decides nothing by itself: ghost faces, faces seen edge-on.
+    pub(super) const EXACT_ONLY: Self = Self {
+        m: DVec3::ZERO,
+        error: f64::INFINITY,
+    };
+
+    #[inline]
+    pub(super) fn through(a: DVec3, b: DVec3, p: DVec3, reach: f64) -> Self {
+        const ROUNDING: f64 = f64::EPSILON / 2.0;
+        const MAX_CONDITION: f64 = 1e10;
+        // Above this no product in `n` that matters has underflowed.
+        const MIN_VOLUME: f64 = 1e-200;
+        let u = a - p;
+        let w = b - p;
+        let n = u.cross(w);
+        let volume = n.dot(p);
+        let inverse = 1.0 / volume;
+        let condition = 0.5 * (u.length_squared() + w.length_squared()) * reach * inverse;
+        // Written so that a NaN is refused, too.
+        if volume > MIN_VOLUME && volume < f64::MAX && condition < MAX_CONDITION {
+            Self {
+                m: n * inverse,
+                error: 20.0 * ROUNDING * (1.0 + condition),
+            }
+        } else {
+            Self::EXACT_ONLY
+        }
+    }
+
+    #[inline]
+    pub(super) fn is_exact_only(&self) -> bool {
+        self.error == f64::INFINITY
+    }
+}

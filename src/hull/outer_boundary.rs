@@ -1,0 +1,145 @@
+//! Which points are on the outer boundary: the view is moved, started anew, divided or flat.
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use super::division::Division;
+use super::flipped::Flipped;
+use super::memory::Memory;
+use super::predicates::{Sign, side_of_origin};
+use super::{flat, order, share};
+use crate::base::allocation::OutOfMemory;
+use crate::cloud::points::Points;
+use crate::flip::inversion::Flip;
+
+/// Finds out which of `points`, flipped by `flip`, are visible, all of them or of a
+/// divided view only the sector's own: [`Memory::visible`].
+pub(crate) fn mark_visible(
+    points: &Points,
+    flip: &Flip,
+    division: Option<Division>,
+    memory: &mut Memory,
+) -> Result<(), OutOfMemory> {
+    let flipped = Flipped {
+        points,
+        flip: flip.rescaled_for(points),
+    };
+    memory.visible.clear();
+    memory.visible.try_reserve_exact(points.len())?;
+    memory.visible.resize(points.len(), false);
+    let held = core::mem::take(&mut memory.holds_hull);
+    memory.moved = held && division.is_none() && memory.move_hull(&flipped)?;
+    if memory.moved {
+        memory.add_to_moved_hull(&flipped)?;
+        return memory.finish(&flipped);
+    }
+    let count = points.len() as u32;
+    let seed = if flipped.flip.keeps_in_plane(points) {
+        None
+    } else {
+        first_tetrahedron(&flipped, order::sample_step(count))
+            .or_else(|| first_tetrahedron(&flipped, 1))
+    };
+    let room = division
+        .as_ref()
+        .map_or(points.len(), Division::near_points);
+    match (seed, division) {
+        (Some(corners), None) => {
+            memory.hull.start(corners, flipped.reach(), room)?;
+            memory.add_in_rounds(&flipped)?;
+            memory.finish(&flipped)
+        }
+        (Some(corners), Some(division)) => {
+            memory.hull.start(corners, flipped.reach(), room)?;
+            share::mark_visible(memory, &flipped, division)
+        }
+        (None, division) => {
+            let flipped = |index| flipped.get_out_of_line(index);
+            flat::mark_visible(count, &flipped, &mut memory.visible)?;
+            if let Some(division) = division {
+                division.keep_own(&mut memory.visible);
+            }
+            Ok(())
+        }
+    }
+}
+
+/// Which of `points` are visible, for a single view.
+pub(crate) fn visible_once(points: &Points, flip: &Flip) -> Result<Vec<bool>, OutOfMemory> {
+    let mut memory = Memory::default();
+    mark_visible(points, flip, None, &mut memory)?;
+    Ok(memory.visible)
+}
+
+/// The same, and the outer faces of the hull as triangles of points, counter-clockwise
+/// seen from the viewpoint; none where all is in one plane with the viewpoint.
+pub(crate) fn triangulate_visible(
+    points: &Points,
+    flip: &Flip,
+) -> Result<(Vec<bool>, Vec<[u32; 3]>), OutOfMemory> {
+    let mut memory = Memory::default();
+    mark_visible(points, flip, None, &mut memory)?;
+    let mut triangles = Vec::new();
+    if memory.holds_hull {
+        let flip = flip.rescaled_for(points);
+        let flipped = Flipped { points, flip };
+        triangles = memory.hull.outer_triangles(&memory.on_boundary, &flipped)?;
+    }
+    Ok((memory.visible, triangles))
+}
+
+/// Three among every `step`th point that span space with the origin, of a large
+/// determinant, in the order that makes it positive; `None` if those lie in one plane
+/// with the origin.
+#[inline(never)]
+fn first_tetrahedron(flipped: &Flipped, step: usize) -> Option<[(u32, DVec3); 3]> {
+    let points = || {
+        (0..flipped.len() as u32)
+            .step_by(step)
+            .filter_map(|i| flipped.get_out_of_line(i).map(|q| (i, q)))
+    };
+    let first = points().next()?;
+    let likely = || {
+        let second = largest(points(), |q| first.1.cross(q).length_squared())?;
+        let normal = first.1.cross(second.1);
+        let third = largest(points(), |q| normal.dot(q).abs())?;
+        counter_clockwise(first, second, third)
+    };
+    // In doubt (or where the products overflow): exactly, the first point off the
+    // line through `first`, then the first off their plane.
+    let certain = || {
+        let second = points().find(|&(_, q)| !flat::collinear_with_origin(first.1, q))?;
+        points().find_map(|third| counter_clockwise(first, second, third))
+    };
+    likely().or_else(certain)
+}
+
+/// The three in the order that is counter-clockwise seen from outside, unless
+/// they lie in one plane with the origin.
+fn counter_clockwise(
+    a: (u32, DVec3),
+    b: (u32, DVec3),
+    c: (u32, DVec3),
+) -> Option<[(u32, DVec3); 3]> {
+    match side_of_origin(a.1, b.1, c.1) {
+        Sign::Positive => Some([a, b, c]),
+        Sign::Negative => Some([a, c, b]),
+        Sign::Zero => None,
+    }
+}
+
+fn largest(
+    points: impl Iterator<Item = (u32, DVec3)>,
+    measure: impl Fn(DVec3) -> f64,
+) -> Option<(u32, DVec3)> {
+    let mut best = None;
+    let mut best_measure = f64::NEG_INFINITY;
+    for (index, q) in points {
+        let m = measure(q);
+        if m > best_measure {
+            best = Some((index, q));
+            best_measure = m;
+        }
+    }
+    best
+}

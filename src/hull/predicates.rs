@@ -1,0 +1,214 @@
+//! Exact signs: first of rounded determinants with a bound of their error, and where
+//! that leaves a doubt, of exact sums.
+//!
+//! Signs are told from the viewer's side. The viewer stands at the origin, and
+//! a face (a, b, c) of the hull is counter-clockwise seen from outside.
+
+use core::cmp::Ordering;
+
+use glam::DVec3;
+
+use crate::hull::exact_sum::ExactSum;
+
+/// The sign of an exact quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sign {
+    Negative,
+    Zero,
+    Positive,
+}
+
+impl Sign {
+    fn of(x: f64) -> Self {
+        if x > 0.0 {
+            Self::Positive
+        } else if x < 0.0 {
+            Self::Negative
+        } else {
+            Self::Zero
+        }
+    }
+
+    fn of_sum(sum: &ExactSum) -> Self {
+        match sum.sign() {
+            Ordering::Less => Self::Negative,
+            Ordering::Equal => Self::Zero,
+            Ordering::Greater => Self::Positive,
+        }
+    }
+}
+
+/// Which side of the plane through the face (a, b, c) `q` is on: positive
+/// outside (the side from which a, b, c are counter-clockwise), zero on it.
+#[inline(never)]
+pub(crate) fn side_of_face(a: DVec3, b: DVec3, c: DVec3, q: DVec3) -> Sign {
+    let moderate = [a, b, c, q].iter().all(|p| is_moderate(&p.to_array()));
+    // det(c − q, b − q, a − q) is positive when q is below the plane of (c, b, a),
+    // which is our outside.
+    rounded_determinant(c - q, b - q, a - q, moderate)
+        .unwrap_or_else(|| exact_side_of_face(a, b, c, q))
+}
+
+/// The sign of det(a, b, c): positive when a, b, c are clockwise seen from the
+/// origin (so that the face (a, b, c) turns its inner side to the viewer), zero
+/// when the three lie in one plane with the origin.
+#[inline(never)]
+pub(crate) fn side_of_origin(a: DVec3, b: DVec3, c: DVec3) -> Sign {
+    let moderate = [a, b, c].iter().all(|p| is_moderate(&p.to_array()));
+    rounded_determinant(a, b, c, moderate)
+        .unwrap_or_else(|| exact_determinant(a.to_array(), b.to_array(), c.to_array()))
+}
+
+/// Positive when a, b, c turn counter-clockwise, zero when they are in one line.
+#[inline(never)]
+pub(crate) fn orient2d(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> Sign {
+    const BOUND: f64 = (3.0 + 16.0 * ROUNDING) * ROUNDING;
+    if [a, b, c].iter().all(|p| is_moderate(p)) {
+        let left = (a[0] - c[0]) * (b[1] - c[1]);
+        let right = (a[1] - c[1]) * (b[0] - c[0]);
+        let rounded = left - right;
+        let size = left.abs() + right.abs();
+        if is_certain(rounded, BOUND, size) {
+            return Sign::of(rounded);
+        }
+    }
+    let row = |[x, y]: [f64; 2]| [x, y, 1.0];
+    exact_determinant(row(a), row(b), row(c))
+}
+
+const ROUNDING: f64 = f64::EPSILON / 2.0;
+
+/// The sign of det(a, b, c) for rounded differences of moderate coordinates, if it is
+/// beyond doubt: Shewchuk's first filter, with his bound ("Adaptive precision
+/// floating-point arithmetic and fast robust geometric predicates", 1997, §4.3, 4.4).
+fn rounded_determinant(a: DVec3, b: DVec3, c: DVec3, moderate: bool) -> Option<Sign> {
+    const BOUND: f64 = (7.0 + 56.0 * ROUNDING) * ROUNDING;
+    let minor = |p: DVec3, q: DVec3| {
+        let (left, right) = (p.x * q.y, q.x * p.y);
+        (left - right, left.abs() + right.abs())
+    };
+    let [(bc, size_bc), (ca, size_ca), (ab, size_ab)] = [minor(b, c), minor(c, a), minor(a, b)];
+    let rounded = a.z * bc + b.z * ca + c.z * ab;
+    let size = size_bc * a.z.abs() + size_ca * b.z.abs() + size_ab * c.z.abs();
+    (moderate && is_certain(rounded, BOUND, size)).then(|| Sign::of(rounded))
+}
+
+/// `size` is the sum of the absolute values of the products that `rounded` is made of;
+/// if it is 0, each has a factor that is exactly 0.
+fn is_certain(rounded: f64, bound: f64, size: f64) -> bool {
+    rounded.abs() > bound * size || size == 0.0
+}
+
+/// Whether no product of three differences of such coordinates leaves the range in
+/// which rounding is relative: their last bit is at least 2^-252, whose cube 2^-756 is
+/// far above the smallest f64, and cubes of 2^201 stay far below the largest.
+fn is_moderate(coordinates: &[f64]) -> bool {
+    const BIAS: u64 = 1023;
+    coordinates.iter().all(|x| {
+        let exponent = x.to_bits() >> 52 & 0x7ff;
+        (BIAS - 200..BIAS + 200).contains(&exponent) || *x == 0.0
+    })
+}
+
+/// The sign of det(c − q, b − q, a − q), of which no difference is rounded.
+fn exact_side_of_face(a: DVec3, b: DVec3, c: DVec3, q: DVec3) -> Sign {
+    let [a, b, c, q] = [a, b, c, q].map(|p| p.to_array());
+    let minus_q = q.map(|x| -x);
+    let mut sum = ExactSum::ZERO;
+    sum.add_determinant(c, b, a);
+    sum.add_determinant(minus_q, b, a);
+    sum.add_determinant(c, minus_q, a);
+    sum.add_determinant(c, b, minus_q);
+    Sign::of_sum(&sum)
+}
+
+fn exact_determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> Sign {
+    let mut sum = ExactSum::ZERO;
+    sum.add_determinant(a, b, c);
+    Sign::of_sum(&sum)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A small deterministic generator (splitmix64).
+    struct Random(u64);
+
+    impl Random {
+        fn next(&mut self) -> u64 {
+            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mut z = self.0;
+            z = (z ^ z >> 30).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ z >> 27).wrapping_mul(0x94d0_49bb_1331_11eb);
+            z ^ z >> 31
+        }
+
+        /// Small integers and their near misses, so that signs are often in doubt.
+        fn coordinate(&mut self) -> f64 {
+            let whole = (self.next() % 7) as f64 - 3.0;
+            match self.next() % 16 {
+                0 => whole * 0.1,
+                1 => whole * (1.0 + f64::EPSILON),
+                _ => whole,
+            }
+        }
+
+        fn point(&mut self) -> DVec3 {
+            DVec3::from_array(core::array::from_fn(|_| self.coordinate()))
+        }
+    }
+
+    #[test]
+    fn signs_have_the_documented_sides() {
+        let (x, y, z) = (DVec3::X, DVec3::Y, DVec3::Z);
+        assert_eq!(side_of_origin(x, y, z), Sign::Positive);
+        assert_eq!(side_of_origin(x, y, x + y), Sign::Zero);
+        assert_eq!(side_of_face(x, y, z, DVec3::ONE), Sign::Positive);
+        assert_eq!(side_of_face(x, y, z, DVec3::ZERO), Sign::Negative);
+        assert_eq!(side_of_face(x, y, z, x), Sign::Zero);
+        assert_eq!(orient2d([0.0, 0.0], [1.0, 0.0], [0.0, 1.0]), Sign::Positive);
+    }
+
+    /// Shewchuk's adaptive predicates (crate `robust`) say the same.
+    #[test]
+    fn signs_are_those_of_expansions() {
+        let mut random = Random(7);
+        let mut zeros = 0;
+        for _ in 0..20_000 {
+            let [a, b, c, q] = core::array::from_fn(|_| random.point());
+            let coord = |p: DVec3| robust::Coord3D {
+                x: p.x,
+                y: p.y,
+                z: p.z,
+            };
+            let [ra, rb, rc, rq] = [a, b, c, q].map(coord);
+            let side = Sign::of(robust::orient3d(rc, rb, ra, rq));
+            assert_eq!(side_of_face(a, b, c, q), side, "{a} {b} {c} {q}");
+            assert_eq!(exact_side_of_face(a, b, c, q), side, "{a} {b} {c} {q}");
+            zeros += usize::from(side == Sign::Zero);
+
+            let side = Sign::of(robust::orient3d(ra, rb, rc, coord(DVec3::ZERO)));
+            assert_eq!(side_of_origin(a, b, c), side, "{a} {b} {c}");
+
+            let coord = |p: DVec3| robust::Coord { x: p.x, y: p.y };
+            let turn = Sign::of(robust::orient2d(coord(a), coord(b), coord(c)));
+            let flat = |p: DVec3| [p.x, p.y];
+            assert_eq!(orient2d(flat(a), flat(b), flat(c)), turn, "{a} {b} {c}");
+        }
+        assert!(zeros > 300, "only {zeros} degenerate quadruples met");
+    }
+
+    #[test]
+    fn extreme_scales_keep_their_sign() {
+        let mut random = Random(11);
+        for scale in [2.0f64.powi(-1000), 2.0f64.powi(-400), 2.0f64.powi(900)] {
+            for _ in 0..2_000 {
+                let [a, b, c, q] = core::array::from_fn(|_| random.point());
+                let at_one = side_of_face(a, b, c, q);
+                let [a, b, c, q] = [a, b, c, q].map(|p| p * scale);
+                assert_eq!(side_of_face(a, b, c, q), at_one, "scale {scale:e}");
+            }
+        }
+    }
+}

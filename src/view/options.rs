@@ -1,0 +1,121 @@
+//! What a caller may choose for one view.
+
+use crate::base::error::Error;
+
+/// How the radius R of the flipping sphere is chosen.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Radius {
+    /// From the cloud's spacing and the viewpoint: R = 5·r²/s, never below the
+    /// farthest distance.
+    #[default]
+    Auto,
+    /// By antipodal search around the closed form of [`Radius::Auto`], where six hulls
+    /// are spent: what is visible should be what is hidden when one looks back along
+    /// the same rays.
+    Search,
+    /// By the paper's own rule (§4): C′ is the mirror image of the viewpoint C in the
+    /// cloud's centroid; R makes the number of points largest that exactly one of the
+    /// two sees, the smallest such R. Some 40 hulls. In perspective it mostly chooses
+    /// far too large an R; it is here for comparison. At the centroid the same as
+    /// [`Radius::Auto`].
+    Opposite,
+    /// R itself, in the cloud's units; at least the farthest distance.
+    Absolute(f64),
+    /// R = farthest distance · 10^exponent, the paper's own parameter; at least 0.
+    Exponent(f64),
+}
+
+impl Radius {
+    /// The option by which it was chosen, as the JavaScript package calls it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Auto | Self::Absolute(_) => "radius",
+            Self::Search => "radius \"search\"",
+            Self::Opposite => "radius \"opposite\"",
+            Self::Exponent(_) => "exponent",
+        }
+    }
+}
+
+/// How far a point at distance d from the viewpoint goes when it is flipped: the
+/// kernel f of q = f(d)·v/|v|, strictly decreasing in d.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Inversion {
+    /// 2R − d, spherical flipping (paper §3, eq. 1); R by [`Options::radius`].
+    #[default]
+    Spherical,
+    /// d·(d/S)^−γ, the paper's other kernel 1/‖p‖^γ (§3), with 1 < γ ≤ 16. The unit S
+    /// fixes the rounding only: [`Radius::Absolute`] if it is given, otherwise the
+    /// farthest distance. The nearer γ is to 1, the more is visible.
+    Power(f64),
+    /// exp(c/d). Its c belongs to the cloud rather than to the view: one serves
+    /// viewpoints near and far. The smaller c is, the more is visible; facing the
+    /// viewer it acts like R = d²/2c.
+    Exponential(Exponential),
+}
+
+/// The scale c of [`Inversion::Exponential`].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Exponential {
+    /// From the cloud's spacing s alone: c = 0.07·s.
+    #[default]
+    Auto,
+    /// c itself, in the cloud's units; positive.
+    Scale(f64),
+}
+
+/// The options of one visibility query.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Options {
+    /// How R is chosen. With [`Inversion::Power`] it may only be [`Radius::Auto`] or
+    /// [`Radius::Absolute`], with [`Inversion::Exponential`] only [`Radius::Auto`].
+    pub radius: Radius,
+    /// How points are flipped.
+    pub inversion: Inversion,
+    /// For noisy clouds: before everything else, each point is projected on the
+    /// least-squares plane of itself and so many nearest others. Its index and the
+    /// cloud's positions stay. Computed anew for each query: for several, ask
+    /// [`PointCloud::denoised`](crate::PointCloud::denoised) once.
+    pub denoise: Option<usize>,
+    /// For noisy clouds: a point is visible when more than 0.4 of it and so many nearest
+    /// others are.
+    pub vote: Option<usize>,
+}
+
+impl Options {
+    /// Refuses what makes sense in space only for a cloud of another dimension.
+    pub(crate) fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        let asked = [("denoise", self.denoise), ("vote", self.vote)];
+        match asked.into_iter().find(|(_, k)| k.is_some()) {
+            Some((option, _)) => Err(Error::Dimension { option, dimension }),
+            None => Ok(()),
+        }
+    }
+
+    /// Options with R given in the cloud's units.
+    #[must_use]
+    pub fn with_radius(radius: f64) -> Self {
+        Self {
+            radius: Radius::Absolute(radius),
+            ..Self::default()
+        }
+    }
+
+    /// Options with R = farthest distance · 10^exponent.
+    #[must_use]
+    pub fn with_exponent(exponent: f64) -> Self {
+        Self {
+            radius: Radius::Exponent(exponent),
+            ..Self::default()
+        }
+    }
+
+    /// Options with another inversion than the spherical one.
+    #[must_use]
+    pub fn with_inversion(inversion: Inversion) -> Self {
+        Self {
+            inversion,
+            ..Self::default()
+        }
+    }
+}

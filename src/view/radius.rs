@@ -1,0 +1,130 @@
+//! A radius R of the flipping sphere: checked, or by the closed form (paper §4).
+
+use crate::base::error::Error;
+use crate::cloud::neighbors::distance_squared;
+use crate::cloud::statistics::Statistics;
+use crate::view::options::Radius;
+
+/// A radius fit for flipping: at least the farthest distance, 2R finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct ChosenRadius {
+    /// R, in the cloud's units; 0 where no point is away from the viewpoint.
+    pub radius: f64,
+    /// log₁₀(R ÷ farthest distance), the paper's parameter; 0 where there is no
+    /// distance to compare.
+    pub exponent: f64,
+    /// How many hulls were spent choosing R.
+    pub evaluations: u32,
+}
+
+impl ChosenRadius {
+    /// A length that no exponent belongs to and no search was needed for.
+    pub(crate) fn unit(radius: f64) -> Self {
+        Self {
+            radius,
+            exponent: 0.0,
+            evaluations: 0,
+        }
+    }
+
+    /// Of two views the one with the larger radius, with the hulls of both.
+    pub(crate) fn joined(self, other: Self) -> Self {
+        let larger = if other.radius > self.radius {
+            other
+        } else {
+            self
+        };
+        Self {
+            evaluations: self.evaluations + other.evaluations,
+            ..larger
+        }
+    }
+}
+
+/// The largest R the flip accepts: 2R·(1 + rounding) must not overflow.
+pub(crate) const LARGEST: f64 = f64::MAX / 2.0 * (1.0 - 1e-15);
+
+/// A radius that is given as a number, checked; any other choice is the closed form
+/// without a spacing.
+#[inline(never)]
+pub(crate) fn given(choice: Radius, farthest: f64) -> Result<ChosenRadius, Error> {
+    match choice {
+        Radius::Absolute(radius) => {
+            if !(radius > 0.0 && radius.is_finite()) {
+                Err(Error::RadiusInvalid { radius })
+            } else if radius < farthest {
+                Err(Error::RadiusTooSmall { radius, farthest })
+            } else if radius > LARGEST {
+                Err(Error::RadiusOverflow {
+                    radius: Some(radius),
+                    farthest,
+                })
+            } else {
+                Ok(from_radius(radius, farthest))
+            }
+        }
+        Radius::Exponent(exponent) => {
+            if !(exponent >= 0.0 && exponent.is_finite()) {
+                return Err(Error::ExponentInvalid { exponent });
+            }
+            if farthest == 0.0 {
+                return Ok(from_radius(0.0, farthest));
+            }
+            let radius = farthest * libm::pow(10.0, exponent);
+            if radius > LARGEST {
+                return Err(Error::RadiusOverflow {
+                    radius: Some(radius),
+                    farthest,
+                });
+            }
+            Ok(ChosenRadius {
+                radius,
+                exponent,
+                evaluations: 0,
+            })
+        }
+        Radius::Auto | Radius::Search | Radius::Opposite => Ok(from_radius(farthest, farthest)),
+    }
+}
+
+pub(crate) fn automatic(statistics: &Statistics, viewpoint: [f64; 3], farthest: f64) -> f64 {
+    let r_squared = distance_squared(viewpoint, statistics.centroid) + statistics.variance;
+    closed_form(statistics.count, r_squared, statistics.spacing, farthest)
+}
+
+/// R = 5·r²/s, with r the root-mean-square distance of the `count` points from the
+/// viewpoint and s their spacing: a denser or more distant cloud needs a larger
+/// sphere. r² is |C − centroid|² + variance, so no pass over the points is
+/// needed, and it moves smoothly with the viewpoint, inside the cloud too.
+pub(crate) fn closed_form(count: usize, r_squared: f64, spacing: f64, farthest: f64) -> f64 {
+    if count < 2 || spacing == 0.0 || farthest == 0.0 {
+        return farthest;
+    }
+    within(5.0 * r_squared / spacing, farthest)
+}
+
+/// `radius`, or the nearest one that is fit for flipping.
+fn within(radius: f64, farthest: f64) -> f64 {
+    // `max` and `min` also turn a NaN from overflowing statistics into a bound.
+    radius.max(farthest).min(LARGEST)
+}
+
+/// `radius`, or the nearest one that is fit for flipping, with its exponent.
+pub(crate) fn bounded(radius: f64, farthest: f64) -> ChosenRadius {
+    from_radius(within(radius, farthest), farthest)
+}
+
+#[inline(never)]
+pub(crate) fn from_radius(radius: f64, farthest: f64) -> ChosenRadius {
+    let exponent = if farthest > 0.0 && radius > farthest {
+        libm::log10(radius / farthest).min(f64::MAX)
+    } else {
+        0.0
+    };
+    ChosenRadius {
+        radius,
+        exponent,
+        evaluations: 0,
+    }
+}

@@ -1,0 +1,59 @@
+//! The JavaScript bindings: check, copy in, call, copy out, map errors.
+//!
+//! Clouds stay on this side and JavaScript holds a number for each, so that a
+//! number from an instance that was given up can never free memory of the next
+//! one. Typed arrays arrive as JavaScript objects, never as `&[f32]`: the glue
+//! would copy those before any code here runs, and trap where memory is refused.
+
+mod answer;
+mod cloud_options;
+mod clouds;
+mod failure;
+mod formulas;
+mod higher;
+mod objects;
+mod options;
+mod outputs;
+mod space;
+mod transfer;
+mod views;
+
+use alloc::boxed::Box;
+use alloc::string::ToString;
+use std::panic;
+
+use wasm_bindgen::prelude::*;
+
+/// Runs once for each instance: a panic says what happened before it traps.
+#[wasm_bindgen(start)]
+fn start() {
+    panic::set_hook(Box::new(|info| {
+        web_sys::console::error_1(&info.to_string().into());
+    }));
+}
+
+#[wasm_bindgen(typescript_custom_section)]
+const TYPES: &str = r#"
+/** Makes all of the functions below call into this instance. */
+export function __wbg_set_wasm(exports: WebAssembly.Exports): void;
+interface CloudOptions { skipNonFinite: boolean; progress?: ((share: number) => void) | undefined }
+interface CloudSize { length: number; skipped: number; spacing: number }
+interface CloudInfo extends CloudSize { handle: number }
+/** ViewSettings of options.ts. */
+interface ViewOptions {
+  rule: number;
+  size: number;
+  kernel: number;
+  parameter: number;
+  denoise: number;
+  vote: number;
+  /** Makes room for so many indices of an answer. */
+  memory: (length: number) => Uint32Array<ArrayBuffer>;
+}
+interface ChosenRadius { radius: number; exponent: number; evaluations: number }
+interface Answer extends ChosenRadius {
+  indices: Uint32Array<ArrayBuffer>;
+  triangles: Uint32Array<ArrayBuffer>;
+  scale: number;
+}
+"#;

@@ -1,0 +1,121 @@
+//! Clouds in space, and answers merged from those of their parts.
+
+use js_sys::{Float32Array, Float64Array, Uint32Array};
+use wasm_bindgen::prelude::*;
+
+use super::cloud_options::{CloudOptions, non_finite};
+use super::clouds::{Cloud, change_any, created, resized};
+use super::failure::Failure;
+use super::options::ViewOptions;
+use super::transfer::{copy_in_integers, copy_out, doubles, singles};
+use crate::answers::merge::merge;
+use crate::cloud::points::Points;
+use crate::{Error, PointCloud};
+
+/// A cloud of single-precision positions, three a point, kept in single precision.
+#[wasm_bindgen(js_name = createCloudF32, unchecked_return_type = "CloudInfo")]
+pub fn create_cloud_f32(
+    positions: &Float32Array,
+    options: &CloudOptions,
+) -> Result<JsValue, JsValue> {
+    create_cloud(singles(positions), options)
+}
+
+/// A cloud of double-precision positions.
+#[wasm_bindgen(js_name = createCloudF64, unchecked_return_type = "CloudInfo")]
+pub fn create_cloud_f64(
+    positions: &Float64Array,
+    options: &CloudOptions,
+) -> Result<JsValue, JsValue> {
+    create_cloud(doubles(positions), options)
+}
+
+/// Adds single-precision points to a cloud of any precision.
+#[wasm_bindgen(js_name = appendF32, unchecked_return_type = "CloudSize")]
+pub fn append_f32(handle: u32, positions: &Float32Array) -> Result<JsValue, JsValue> {
+    append(handle, singles(positions))
+}
+
+/// Adds double-precision points to a cloud of any precision.
+#[wasm_bindgen(js_name = appendF64, unchecked_return_type = "CloudSize")]
+pub fn append_f64(handle: u32, positions: &Float64Array) -> Result<JsValue, JsValue> {
+    append(handle, doubles(positions))
+}
+
+/// Removes points from a cloud of any dimension by their indices.
+#[wasm_bindgen(unchecked_return_type = "CloudSize")]
+pub fn remove(handle: u32, indices: &Uint32Array) -> Result<JsValue, JsValue> {
+    let indices = copy_in_integers(indices).map_err(Failure::from)?;
+    resized(change_any(handle, &mut |cloud| match cloud {
+        Cloud::Space(cloud) => cloud.remove(&indices),
+        Cloud::Hyper(cloud) => cloud.remove(&indices),
+    }))
+}
+
+/// The ids of what is visible among single-precision positions, one id for each.
+#[wasm_bindgen(js_name = mergeVisibleF32)]
+pub fn merge_visible_f32(
+    positions: &Float32Array,
+    ids: &Uint32Array,
+    x: f64,
+    y: f64,
+    z: f64,
+    options: &ViewOptions,
+) -> Result<Uint32Array, JsValue> {
+    merge_visible(singles(positions), ids, [x, y, z], options)
+}
+
+/// The ids of what is visible among double-precision positions, one id for each.
+#[wasm_bindgen(js_name = mergeVisibleF64)]
+pub fn merge_visible_f64(
+    positions: &Float64Array,
+    ids: &Uint32Array,
+    x: f64,
+    y: f64,
+    z: f64,
+    options: &ViewOptions,
+) -> Result<Uint32Array, JsValue> {
+    merge_visible(doubles(positions), ids, [x, y, z], options)
+}
+
+fn create_cloud(
+    positions: Result<Points, Error>,
+    options: &CloudOptions,
+) -> Result<JsValue, JsValue> {
+    let non_finite = non_finite(options);
+    let listener = options.progress();
+    let mut progress = |share: f64| {
+        if let Some(listener) = &listener {
+            // It posts a message, which does not throw.
+            let _ = listener.call1(&JsValue::UNDEFINED, &share.into());
+        }
+    };
+    created(positions.and_then(|positions| {
+        let cloud = PointCloud::prepare(positions.as_given(), non_finite, &mut progress)?;
+        Ok(Cloud::Space(cloud))
+    }))
+}
+
+fn append(handle: u32, positions: Result<Points, Error>) -> Result<JsValue, JsValue> {
+    let positions = positions.map_err(Failure::from)?;
+    resized(change_any(handle, &mut |cloud| match cloud {
+        Cloud::Space(cloud) => cloud.add(positions.as_given()),
+        Cloud::Hyper(_) => Ok(()),
+    }))
+}
+
+fn merge_visible(
+    positions: Result<Points, Error>,
+    ids: &Uint32Array,
+    viewpoint: [f64; 3],
+    options: &ViewOptions,
+) -> Result<Uint32Array, JsValue> {
+    let view = options.read();
+    let merged = positions.and_then(|positions| {
+        let ids = copy_in_integers(ids)?;
+        let part = |_| (positions.as_given(), &ids[..]);
+        let seen = merge(1, &part, viewpoint, &view)?;
+        copy_out(&seen, options)
+    });
+    Ok(merged.map_err(Failure::from)?)
+}
