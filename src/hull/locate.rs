@@ -33,7 +33,8 @@ impl Hull {
         let mut id = hint;
         let mut height = self.surface.face(id).data.m.dot(q);
         for step in 0..PATIENCE + self.surface.slots() {
-            if step % PATIENCE == PATIENCE - 1 {
+            // Each time after twice as many steps, so that a walk comes to its end in any case.
+            if step >= PATIENCE && step.is_power_of_two() && self.is_sound(id) {
                 id = self.jump(id, q, step);
                 height = self.surface.face(id).data.m.dot(q);
             }

@@ -3,6 +3,7 @@
 
 use alloc::vec::Vec;
 
+use super::around::Around;
 use super::depth::DepthMap;
 use super::flipped::Flipped;
 use super::incremental::Hull;
@@ -61,10 +62,7 @@ impl Memory {
 
     /// Every point, to a hull that was just started.
     pub(super) fn add_in_rounds(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
-        self.on_boundary.clear();
-        self.witnesses.clear();
-        self.witnesses.try_reserve_exact(flipped.len())?;
-        self.witnesses.resize(flipped.len(), 0);
+        self.start_witnesses(flipped.len())?;
         let mut hint = 0;
         let count = flipped.len() as u32;
         for round in order::spatial_rounds() {
@@ -85,6 +83,33 @@ impl Memory {
                 self.witnesses[index as usize] = hint;
             }
         }
+        Ok(())
+    }
+
+    /// Every point, to a hull that was just started, of a cloud in one plane with the viewpoint
+    /// but for rounding.
+    #[inline(never)]
+    pub(super) fn add_around(
+        &mut self,
+        plane: &Around,
+        flipped: &Flipped,
+    ) -> Result<(), OutOfMemory> {
+        self.start_witnesses(flipped.len())?;
+        let mut hint = 0;
+        for round in order::spatial_rounds() {
+            for (_, index) in plane.sorted(round, flipped)? {
+                hint = self.add(index, flipped, [hint, hint])?;
+                self.witnesses[index as usize] = hint;
+            }
+        }
+        Ok(())
+    }
+
+    fn start_witnesses(&mut self, count: usize) -> Result<(), OutOfMemory> {
+        self.on_boundary.clear();
+        self.witnesses.clear();
+        self.witnesses.try_reserve_exact(count)?;
+        self.witnesses.resize(count, 0);
         Ok(())
     }
 

@@ -10,6 +10,7 @@
 
 pub(crate) mod division;
 
+mod around;
 mod depth;
 mod dual_plane;
 mod exact_sum;

@@ -3,6 +3,7 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
+use super::around::Around;
 use super::division::Division;
 use super::flipped::Flipped;
 use super::memory::Memory;
@@ -40,28 +41,32 @@ pub(crate) fn mark_visible(
         first_tetrahedron(&flipped, order::sample_step(count))
             .or_else(|| first_tetrahedron(&flipped, 1))
     };
+    let Some(corners) = seed else {
+        let flipped = |index| flipped.get_out_of_line(index);
+        flat::mark_visible(count, &flipped, &mut memory.visible)?;
+        return keep_own(division, memory);
+    };
     let room = division
         .as_ref()
         .map_or(points.len(), Division::near_points);
-    match (seed, division) {
-        (Some(corners), None) => {
-            memory.hull.start(corners, flipped.reach(), room)?;
-            memory.add_in_rounds(&flipped)?;
-            memory.finish(&flipped)
-        }
-        (Some(corners), Some(division)) => {
-            memory.hull.start(corners, flipped.reach(), room)?;
-            share::mark_visible(memory, &flipped, division)
-        }
-        (None, division) => {
-            let flipped = |index| flipped.get_out_of_line(index);
-            flat::mark_visible(count, &flipped, &mut memory.visible)?;
-            if let Some(division) = division {
-                division.keep_own(&mut memory.visible);
-            }
-            Ok(())
-        }
+    memory.hull.start(corners, flipped.reach(), room)?;
+    if let Some(plane) = Around::of(&corners, &flipped) {
+        memory.add_around(&plane, &flipped)?;
+    } else if let Some(division) = division {
+        return share::mark_visible(memory, &flipped, division);
+    } else {
+        memory.add_in_rounds(&flipped)?;
     }
+    memory.finish(&flipped)?;
+    keep_own(division, memory)
+}
+
+/// Of a divided view that was answered as a whole, only the sector's own points stay marked.
+fn keep_own(division: Option<Division>, memory: &mut Memory) -> Result<(), OutOfMemory> {
+    if let Some(division) = division {
+        division.keep_own(&mut memory.visible);
+    }
+    Ok(())
 }
 
 /// Which of `points` are visible, for a single view.

@@ -25,4 +25,5 @@ mod reconstruct;
 mod refusals;
 mod search;
 mod sectors;
+mod thin;
 mod union;

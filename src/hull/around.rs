@@ -1,0 +1,75 @@
+//! Clouds that lie in one plane with the viewpoint, but for rounding: scans of a single
+//! line, straight wires, walls seen edge-on.
+//!
+//! Their hull is a sliver, thinner than any rounded plane can tell, so that every sign is
+//! computed exactly, and a few vertices have a large part of all faces. In the spatial order
+//! the walks around such a vertex are long. In the order of the directions in the plane each
+//! point is close to the one before.
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use super::flipped::Flipped;
+use super::order::Round;
+use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::base::sort::{ordered, sort_keyed};
+
+/// Points this far off the plane, as a share of the largest distance, still count as in it.
+/// Rounding leaves 1e-16 of the coordinates, which a cloud in a large frame of reference has
+/// up to 1e6 times its size.
+const THICKNESS: f64 = 1e-9;
+
+/// The plane in which all points are, but for rounding, by two axes of unit length.
+pub(super) struct Around {
+    axes: [DVec3; 2],
+}
+
+impl Around {
+    /// The plane of the first tetrahedron, whose last corner is the farthest one from the
+    /// plane of the others, if it is as near as all that.
+    pub(super) fn of(corners: &[(u32, DVec3); 3], flipped: &Flipped) -> Option<Self> {
+        let [a, b, c] = corners.map(|(_, q)| q);
+        let normal = [a.cross(b), b.cross(c), c.cross(a)]
+            .into_iter()
+            .max_by(|m, n| m.length_squared().total_cmp(&n.length_squared()))?
+            .try_normalize()?;
+        let is_thin = [a, b, c]
+            .iter()
+            .all(|q| normal.dot(*q).abs() <= THICKNESS * flipped.reach());
+        let x = a.try_normalize()?;
+        is_thin.then(|| Self {
+            axes: [x, normal.cross(x)],
+        })
+    }
+
+    /// The indices of a round in the order of their directions in the plane.
+    pub(super) fn sorted(
+        &self,
+        round: Round,
+        flipped: &Flipped,
+    ) -> Result<Vec<(u64, u32)>, OutOfMemory> {
+        let count = flipped.len() as u32;
+        let mut keyed = with_capacity(round.indices(count).count())?;
+        keyed.extend(round.indices(count).map(|index| {
+            let q = flipped.get_out_of_line(index).unwrap_or(DVec3::ZERO);
+            (ordered(self.turn(q)), index)
+        }));
+        sort_keyed(&mut keyed);
+        Ok(keyed)
+    }
+
+    /// A number that grows with the angle from the first axis, from -2 to 2.
+    fn turn(&self, q: DVec3) -> f64 {
+        let [x, y] = self.axes.map(|axis| axis.dot(q));
+        let share = y / (x.abs() + y.abs());
+        let turn = if x >= 0.0 {
+            share
+        } else if y >= 0.0 {
+            2.0 - share
+        } else {
+            -2.0 - share
+        };
+        // Any place in the order will do for the origin, whose direction is no number.
+        if turn.is_nan() { 0.0 } else { turn + 0.0 }
+    }
+}
