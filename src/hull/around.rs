@@ -19,6 +19,9 @@ use crate::base::sort::{ordered, sort_keyed};
 /// up to 1e6 times its size.
 const THICKNESS: f64 = 1e-9;
 
+/// Fewer points than this take no time in any order.
+const MIN_POINTS: usize = 128;
+
 /// The plane in which all points are, but for rounding, by two axes of unit length.
 pub(super) struct Around {
     axes: [DVec3; 2],
@@ -28,6 +31,9 @@ impl Around {
     /// The plane of the first tetrahedron, whose last corner is the farthest one from the
     /// plane of the others, if it is as near as all that.
     pub(super) fn of(corners: &[(u32, DVec3); 3], flipped: &Flipped) -> Option<Self> {
+        if flipped.len() < MIN_POINTS {
+            return None;
+        }
         let [a, b, c] = corners.map(|(_, q)| q);
         let normal = [a.cross(b), b.cross(c), c.cross(a)]
             .into_iter()

@@ -58,7 +58,7 @@ fn cloud(shape: Shape, seed: u64, count: usize) -> Vec<[f64; 3]> {
 #[test]
 fn every_point_of_thin_clouds_is_certified() {
     for (name, shape) in SHAPES {
-        for (seed, count) in [(1, 12), (2, 90)] {
+        for (seed, count) in [(1, 12), (2, 150)] {
             let points = cloud(shape, seed, count);
             let cloud = PointCloud::new(&points).unwrap();
             for viewpoint in viewpoints() {
@@ -76,7 +76,7 @@ fn every_point_of_thin_clouds_is_certified() {
 
 #[test]
 fn a_few_points_off_the_plane_are_no_exception() {
-    let mut points = cloud(SHAPES[1].1, 3, 120);
+    let mut points = cloud(SHAPES[1].1, 3, 150);
     points.push(place(0.0, 0.0).map(|x| x + 1e-7));
     points.push([2.0, 2.0, 2.0]);
     let cloud = PointCloud::new(&points).unwrap();
