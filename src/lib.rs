@@ -59,7 +59,11 @@ pub use view::guarantees::{permissible_curvature, radius_bound};
 pub use view::options::{Exponential, Inversion, Options, Radius};
 pub use view::radius::ChosenRadius;
 
-/// The README's Rust snippets, as documentation tests.
+/// The documents' Rust snippets, as documentation tests.
 #[cfg(doctest)]
-#[doc = include_str!("../README.md")]
-struct Readme;
+mod documents {
+    #[doc = include_str!("../README.md")]
+    struct Readme;
+    #[doc = include_str!("../docs/API.md")]
+    struct Api;
+}

@@ -1,0 +1,88 @@
+// Every snippet of the README and of docs/ is run: those in JavaScript here (recipes.test.ts
+// has its own), those in Rust as documentation tests of the crate. Every command that a
+// document names is one of the project's, and every link leads to a file.
+import { spawnSync } from "node:child_process";
+import { existsSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+
+import { describe, expect, test } from "vitest";
+
+import { blocks, printed, promised, root, scratchFor } from "./snippets";
+
+const DOCUMENTS = [
+  ...["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "www/README.md", "tests/README.md"],
+  ...readdirSync(join(root, "docs"))
+    .filter((name) => name.endsWith(".md"))
+    .map((name) => `docs/${name}`),
+].filter((name) => existsSync(join(root, name)));
+const scratch = scratchFor("documents");
+
+describe.each(["README.md", "docs/API.md"])("JavaScript snippets of %s print what they say", (document) => {
+  test.each(blocks(document, "js").map((code, i) => [i, code] as const))("snippet %i", (i, code) => {
+    expect(promised(code).length).toBeGreaterThan(0);
+    expect(printed(scratch, i, code)).toEqual(promised(code));
+  });
+});
+
+test.each(DOCUMENTS)("links of %s lead to files", (document) => {
+  const text = readFileSync(join(root, document), "utf8");
+  for (const [, target = ""] of text.matchAll(/\]\(([^)#]+)(?:#[^)]*)?\)/g)) {
+    if (!/^https?:/.test(target)) expect(existsSync(join(root, dirname(document), target)), target).toBe(true);
+  }
+});
+
+test("README.md has at most 180 lines and ARCHITECTURE.md at most 90", () => {
+  const lines = (name: string) => readFileSync(join(root, name), "utf8").trimEnd().split("\n").length;
+  expect(lines("README.md")).toBeLessThanOrEqual(180);
+  expect(lines("ARCHITECTURE.md")).toBeLessThanOrEqual(90);
+});
+
+describe("commands", () => {
+  const commands = DOCUMENTS.filter((document) => document !== "docs/RECIPES.md")
+    .flatMap((document) => blocks(document, "sh"))
+    .flatMap((block) => block.split("\n"))
+    .map((line) => line.replace(/#.*/, "").trim())
+    .filter((line) => line !== "");
+  const inline = DOCUMENTS.flatMap((document) =>
+    [...readFileSync(join(root, document), "utf8").matchAll(/`(npm [^`]+)`/g)].map(([, text]) => text ?? ""),
+  );
+
+  test("npm commands are scripts of the project", () => {
+    const { scripts } = JSON.parse(readFileSync(join(root, "package.json"), "utf8")) as {
+      scripts: Record<string, string>;
+    };
+    const used = [...commands, ...inline]
+      .flatMap((line) => line.split("&&"))
+      .map((command) => command.trim())
+      .filter((command) => command.startsWith("npm ") && !/^npm (install|ci|pack|i)\b/.test(command));
+    expect(used.length).toBeGreaterThan(3);
+    for (const command of used) {
+      const [, name = ""] = /^npm (?:run )?(\w+)/.exec(command) ?? [];
+      expect(scripts, command).toHaveProperty(name);
+    }
+  });
+
+  test("the Rust example filters a file", { timeout: 180_000 }, () => {
+    const command = commands.find((line) => line.startsWith("cargo run"));
+    const [, example = "", args = ""] = /--example (\w+) -- (.*) >/.exec(command ?? "") ?? [];
+    writeFileSync(join(scratch, "cloud.xyz"), "0 0 1 a\n0 0 2 b\n1 0 0 c\n");
+    const { stdout, status } = spawnSync(
+      "cargo",
+      [
+        "run",
+        "--quiet",
+        "--locked",
+        "--release",
+        "--manifest-path",
+        join(root, "Cargo.toml"),
+        "--example",
+        example,
+        "--",
+        ...args.split(" "),
+      ],
+      { cwd: scratch, encoding: "utf8", env: { ...process.env, CARGO_TARGET_DIR: join(root, "target") } },
+    );
+    expect(status).toBe(0);
+    expect(stdout).toBe("0 0 2 b\n1 0 0 c\n");
+  });
+});
