@@ -12,6 +12,7 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
+use super::chain::convex_chain;
 use super::order;
 use super::topology::{Face, FaceId, Surface, Vertex};
 use crate::base::allocation::{OutOfMemory, filled, push, reserve, with_capacity};
@@ -222,24 +223,15 @@ fn mark_upright(
         [along + 0.0, p.z + 0.0]
     }));
     let sorted = sorted_places(&places)?;
-    let at = |k: usize| places[sorted[k] as usize];
-    // Andrew's monotone chain over the lowest of each place, points in line kept.
-    let mut chain: Vec<usize> = with_capacity(sorted.len())?;
-    for next in 0..sorted.len() {
-        if chain.last().is_some_and(|&last| at(last)[0] == at(next)[0]) {
-            continue;
-        }
-        while let [.., before, last] = chain[..] {
-            if orient2d(at(before), at(last), at(next)) != Sign::Negative {
-                break;
-            }
-            chain.pop();
-        }
-        chain.push(next);
-    }
+    let at = |k: u32| places[sorted[k as usize] as usize];
+    // Of equal first coordinates the lowest point alone can be on the lower side.
+    let count = sorted.len() as u32;
+    let is_lowest = |&k: &u32| k == 0 || at(k - 1)[0] != at(k)[0];
+    let mut chain: Vec<u32> = with_capacity(sorted.len())?;
+    convex_chain(&mut (0..count).filter(is_lowest), &at, &mut chain);
     for start in chain {
-        let equal = (start..sorted.len()).take_while(|&k| at(k) == at(start));
-        equal.for_each(|k| visible[sorted[k] as usize] = true);
+        let equal = (start..count).take_while(|&k| at(k) == at(start));
+        equal.for_each(|k| visible[sorted[k as usize] as usize] = true);
     }
     Ok(())
 }

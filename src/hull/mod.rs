@@ -11,6 +11,7 @@
 pub(crate) mod division;
 
 mod around;
+mod chain;
 mod depth;
 mod dual_plane;
 mod exact_sum;

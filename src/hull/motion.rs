@@ -22,15 +22,21 @@ use super::topology::{FaceId, HalfEdge, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::hull::predicates::{Sign, side_of_origin};
 
-/// Faces looked at to tell whether the views are close.
+/// How many faces of the last hull are looked at to tell whether the views are close.
 const SAMPLE: usize = 512;
-/// With more of them turned over than one in this many, starting anew is faster.
+/// Starting anew is faster where more than one face in this many has turned over.
 const FEW_TURNED: usize = 100;
-/// A surface of so many faces no longer fits into caches, which mending it needs more
-/// than starting anew.
-const MANY: usize = 300_000;
-/// Likewise for reflex ones among their edges.
+/// Starting anew is faster where more than one edge in this many has become reflex.
 const FEW_REFLEX: usize = 45;
+/// A surface of more faces than this does not fit into the caches. Mending it then pays
+/// only where fewer edges have become reflex.
+const MANY: usize = 300_000;
+/// A repair that flips more than one edge in this many faces is given up.
+const FACES_PER_FLIP: usize = 2;
+/// Edge flips that a repair of even the smallest hull may take.
+const FEWEST_FLIPS: usize = 64;
+/// What a repair may spend on taking out vertices beyond one a face, in squares of degrees.
+const SPARE_EFFORT: usize = 1000;
 
 impl Hull {
     /// Becomes the hull of its vertices as `flipped` now; false where the hull must
@@ -59,8 +65,8 @@ impl Hull {
         if repair.turned.len() * FEW_TURNED > self.surface.slots() {
             return Ok(false);
         }
-        repair.effort = self.surface.slots() + 1000;
-        let mut budget = self.surface.slots() / 2 + 64;
+        repair.effort = self.surface.slots() + SPARE_EFFORT;
+        let mut flips_left = self.surface.slots() / FACES_PER_FLIP + FEWEST_FLIPS;
         // What its neighbors prevent for one face is tried again when they are mended,
         // in the end with more force.
         let mut force = false;
@@ -84,8 +90,8 @@ impl Hull {
         }
         while let Some(edge) = repair.suspects.pop() {
             if self.is_reflex(edge) {
-                budget -= 1;
-                if budget == 0 || !self.make_convex(edge, repair)? {
+                flips_left -= 1;
+                if flips_left == 0 || !self.make_convex(edge, repair)? {
                     return Ok(false);
                 }
             }

@@ -1,15 +1,70 @@
 //! Choosing the radius R of the flipping sphere (paper §4): by the closed form, by a search
 //! that asks the hull, or as given.
 
+use alloc::vec::Vec;
+
+use crate::base::allocation::with_capacity;
 use crate::base::error::Error;
 use crate::cloud::blocks::Blocks;
 use crate::cloud::points::Points;
 use crate::cloud::statistics::Statistics;
 use crate::flip::inversion::Flip;
+use crate::flip::kernel::Kernel;
 use crate::hull::visible_once;
 use crate::view::options::Radius;
 use crate::view::radius::{ChosenRadius, automatic, from_radius, given};
 use crate::view::search::{self, Seen};
+
+/// From a place and by a kernel to which distinct points are visible.
+type Seeing<'a> = dyn Fn(&[f64], Kernel) -> Result<Vec<bool>, Error> + 'a;
+
+/// What a choice of R may ask of a cloud of any dimension.
+pub(crate) struct Sight<'a> {
+    pub viewpoint: &'a [f64],
+    pub centroid: &'a [f64],
+    /// R by the closed form.
+    pub automatic: f64,
+    /// The farthest distance from the viewpoint.
+    pub farthest: f64,
+    /// The farthest distance from another place; infinite where it overflows.
+    pub reach: &'a dyn Fn(&[f64]) -> f64,
+    /// Which distinct points are visible from a place.
+    pub seen: &'a Seeing<'a>,
+}
+
+impl Sight<'_> {
+    /// Turns the caller's choice into a radius.
+    pub(crate) fn resolve(&self, choice: Radius) -> Result<ChosenRadius, Error> {
+        let (viewpoint, farthest) = (self.viewpoint, self.farthest);
+        let seen_from_both = |[here, there]: [(&[f64], Kernel); 2]| {
+            let here = (self.seen)(here.0, here.1)?;
+            let there = (self.seen)(there.0, there.1)?;
+            Ok(Seen::count(&here, &there))
+        };
+        match choice {
+            Radius::Auto => Ok(from_radius(self.automatic, farthest)),
+            Radius::Search => search::antipodal(self.automatic, farthest, &mut |kernels| {
+                seen_from_both(kernels.map(|kernel| (viewpoint, kernel)))
+            }),
+            Radius::Opposite => {
+                let mut mirror = with_capacity(viewpoint.len())?;
+                let axes = self.centroid.iter().zip(viewpoint);
+                mirror.extend(axes.map(|(center, x)| center + (center - x)));
+                let reach = (self.reach)(&mirror);
+                // At the centroid there is no other side.
+                let opposite = if mirror == viewpoint {
+                    None
+                } else {
+                    search::opposite(reach.max(farthest), farthest, &mut |kernel| {
+                        seen_from_both([viewpoint, &mirror].map(|place| (place, kernel)))
+                    })?
+                };
+                Ok(opposite.unwrap_or_else(|| from_radius(self.automatic, farthest)))
+            }
+            Radius::Absolute(_) | Radius::Exponent(_) => given(choice, farthest),
+        }
+    }
+}
 
 /// Turns the caller's choice into a radius for a cloud of these `points` and
 /// `statistics`, whose farthest point from `viewpoint` is at `farthest`.
@@ -21,34 +76,17 @@ pub(crate) fn resolve(
     viewpoint: [f64; 3],
     farthest: f64,
 ) -> Result<ChosenRadius, Error> {
-    let automatic = || automatic(statistics, viewpoint, farthest);
-    let seen = |place, kernel| visible_once(points, &Flip::new(place, kernel));
-    match choice {
-        Radius::Auto => Ok(from_radius(automatic(), farthest)),
-        Radius::Search => search::antipodal(automatic(), farthest, &mut |kernels| {
-            let [here, there] = kernels.map(|kernel| seen(viewpoint, kernel));
-            Ok(Seen::count(&here?, &there?))
-        }),
-        Radius::Opposite => {
-            let center = statistics.centroid;
-            let mirror: [f64; 3] =
-                core::array::from_fn(|axis| center[axis] + (center[axis] - viewpoint[axis]));
-            // Out of range, or at the centroid, there is no other side.
-            let reach = blocks
-                .farthest_distance(points, mirror)
-                .unwrap_or(f64::INFINITY);
-            let opposite = if mirror == viewpoint {
-                None
-            } else {
-                search::opposite(reach.max(farthest), farthest, &mut |kernel| {
-                    Ok(Seen::count(
-                        &seen(viewpoint, kernel)?,
-                        &seen(mirror, kernel)?,
-                    ))
-                })?
-            };
-            Ok(opposite.unwrap_or_else(|| from_radius(automatic(), farthest)))
-        }
-        Radius::Absolute(_) | Radius::Exponent(_) => given(choice, farthest),
-    }
+    let place = |p: &[f64]| [p[0], p[1], p[2]];
+    let sight = Sight {
+        viewpoint: &viewpoint,
+        centroid: &statistics.centroid,
+        automatic: automatic(statistics, viewpoint, farthest),
+        farthest,
+        reach: &|p| {
+            let reach = blocks.farthest_distance(points, place(p));
+            reach.unwrap_or(f64::INFINITY)
+        },
+        seen: &|p, kernel| Ok(visible_once(points, &Flip::new(place(p), kernel))?),
+    };
+    sight.resolve(choice)
 }

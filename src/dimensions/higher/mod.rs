@@ -12,10 +12,10 @@ use crate::base::error::{Error, in_range};
 use crate::base::real::square_root;
 use crate::cloud::point_cloud::NonFinite;
 use crate::flip::kernel::Kernel;
+use crate::view::choice::Sight;
 use crate::view::options::{Inversion, Options, Radius};
 use crate::view::radius::{self, ChosenRadius};
 use crate::view::resolved::{check_flip, resolved_inversion, resolved_kernel};
-use crate::view::search::{self, Seen};
 
 /// The largest dimension of a [`PointCloudNd`].
 pub const MAX_DIMENSION: usize = 64;
@@ -228,33 +228,15 @@ impl PointCloudNd {
         let r_squared = squared(viewpoint, &self.rows.centroid) + self.rows.variance;
         let count = self.rows.distinct();
         let automatic = radius::closed_form(count, r_squared, self.rows.spacing, farthest);
-        let seen = |place: &[f64], kernel| self.mark_visible(place, kernel);
-        match choice {
-            Radius::Auto => Ok(radius::from_radius(automatic, farthest)),
-            Radius::Search => search::antipodal(automatic, farthest, &mut |kernels| {
-                let [here, there] = kernels.map(|kernel| seen(viewpoint, kernel));
-                Ok(Seen::count(&here?, &there?))
-            }),
-            Radius::Opposite => {
-                let mut mirror = filled(self.rows.dimension, 0.0)?;
-                for (axis, x) in mirror.iter_mut().enumerate() {
-                    *x = self.rows.centroid[axis] + (self.rows.centroid[axis] - viewpoint[axis]);
-                }
-                let reach = self.farthest(&mirror).unwrap_or(f64::INFINITY);
-                let opposite = if mirror == viewpoint {
-                    None
-                } else {
-                    search::opposite(reach.max(farthest), farthest, &mut |kernel| {
-                        Ok(Seen::count(
-                            &seen(viewpoint, kernel)?,
-                            &seen(&mirror, kernel)?,
-                        ))
-                    })?
-                };
-                Ok(opposite.unwrap_or_else(|| radius::from_radius(automatic, farthest)))
-            }
-            Radius::Absolute(_) | Radius::Exponent(_) => radius::given(choice, farthest),
-        }
+        let sight = Sight {
+            viewpoint,
+            centroid: &self.rows.centroid,
+            automatic,
+            farthest,
+            reach: &|place| self.farthest(place).unwrap_or(f64::INFINITY),
+            seen: &|place, kernel| self.mark_visible(place, kernel),
+        };
+        sight.resolve(choice)
     }
 
     fn mark_visible(&self, viewpoint: &[f64], kernel: Kernel) -> Result<Vec<bool>, Error> {
