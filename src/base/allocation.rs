@@ -1,13 +1,13 @@
-//! Vectors where memory may be refused. What there is to do about that is said here once,
-//! because the wasm would hold a copy for every vector.
+//! Vectors that report refused memory instead of aborting. These functions are not inlined,
+//! because the wasm would otherwise hold a copy for every vector.
 
 use alloc::collections::TryReserveError;
 use alloc::vec::Vec;
 
 use crate::base::error::Error;
 
-/// The allocator refused memory. It holds nothing, so that handing it on takes no code to
-/// speak of, which an [`Error`] does.
+/// The allocator refused memory. This type is empty, so that returning it takes almost no
+/// code; returning an [`Error`] takes more.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct OutOfMemory;
 
@@ -23,7 +23,7 @@ impl From<OutOfMemory> for Error {
     }
 }
 
-/// An empty vector with room for so many.
+/// An empty vector with room for `count` items.
 #[inline(never)]
 pub(crate) fn with_capacity<T>(count: usize) -> Result<Vec<T>, OutOfMemory> {
     let mut items = Vec::new();
@@ -31,7 +31,7 @@ pub(crate) fn with_capacity<T>(count: usize) -> Result<Vec<T>, OutOfMemory> {
     Ok(items)
 }
 
-/// So many times the same.
+/// A vector that holds `value` `count` times.
 #[inline(never)]
 pub(crate) fn filled<T: Clone>(count: usize, value: T) -> Result<Vec<T>, OutOfMemory> {
     let mut items = with_capacity(count)?;
@@ -39,7 +39,7 @@ pub(crate) fn filled<T: Clone>(count: usize, value: T) -> Result<Vec<T>, OutOfMe
     Ok(items)
 }
 
-/// Makes room for so many more, where it is not there already.
+/// Makes room for `more` items, if there is none yet.
 #[inline]
 pub(crate) fn reserve<T>(items: &mut Vec<T>, more: usize) -> Result<(), OutOfMemory> {
     if items.capacity() - items.len() < more {

@@ -26,19 +26,19 @@ pub enum Error {
         /// The direction as given.
         direction: [f64; 3],
     },
-    /// A viewpoint in another dimension than the cloud's, or not finite.
+    /// The viewpoint is of another dimension than the cloud, or not finite.
     ViewpointDimension {
-        /// How many finite numbers it takes.
+        /// How many finite numbers a viewpoint needs.
         dimension: usize,
     },
-    /// Coordinates that are not a multiple of the dimension.
+    /// The number of coordinates is not a multiple of the dimension.
     PositionsLength {
         /// How many coordinates there are.
         len: usize,
         /// The cloud's dimension.
         dimension: usize,
     },
-    /// An option that needs three dimensions.
+    /// The option needs three dimensions.
     Dimension {
         /// The option, as the JavaScript package calls it.
         option: &'static str,
@@ -60,7 +60,7 @@ pub enum Error {
     },
     /// A distance from the viewpoint, or twice the radius, exceeds the range of `f64`.
     RadiusOverflow {
-        /// The radius, if it is the one that is too large.
+        /// The radius, where the radius is too large rather than a distance.
         radius: Option<f64>,
         /// The farthest distance, infinite where it overflowed.
         farthest: f64,
@@ -82,42 +82,42 @@ pub enum Error {
         /// The scale as given.
         scale: f64,
     },
-    /// A choice of R that the inversion has no use for.
+    /// The inversion cannot use this choice of R.
     RadiusWithInversion {
         /// The option that chose R.
         option: &'static str,
-        /// The inversion it cannot go with.
+        /// The inversion.
         inversion: &'static str,
     },
-    /// An option that means nothing for a viewpoint at infinity.
+    /// The option has no meaning for a viewpoint at infinity.
     NoLimit {
         /// The option, as the JavaScript package calls it.
         option: &'static str,
     },
-    /// A number that is not in the range it is meant for, or NaN.
+    /// A number is out of its range, or NaN.
     OutOfRange {
         /// The option or argument, as the JavaScript package calls it.
         option: &'static str,
         /// The number as given.
         value: f64,
-        /// The least that is accepted.
+        /// The smallest accepted number.
         least: f64,
-        /// The most that is accepted.
+        /// The largest accepted number.
         most: f64,
     },
-    /// More points than [`MAX_POINTS`](crate::MAX_POINTS).
+    /// There are more points than [`MAX_POINTS`](crate::MAX_POINTS).
     TooManyPoints {
         /// How many were given.
         count: usize,
     },
-    /// Parts can be merged only with the radius that each of them was seen with.
+    /// A merge needs the radius with which each part was seen.
     MergeRadius,
-    /// An option that looks at neighbors, which parts do not know all of.
+    /// The option looks at neighbors, and a part does not know all of them.
     MergeNeighbors {
         /// The option, as the JavaScript package calls it.
         option: &'static str,
     },
-    /// A part to merge with more positions than ids, or fewer.
+    /// A part of a merge has more positions than ids, or fewer.
     IdsLength {
         /// Which of the parts.
         part: usize,
@@ -126,7 +126,7 @@ pub enum Error {
         /// How many ids it has.
         ids: usize,
     },
-    /// An index to remove that no point of the cloud ever had.
+    /// No point of the cloud ever had the index that is to be removed.
     IndexOutOfRange {
         /// The index as given.
         index: u32,
@@ -286,8 +286,8 @@ impl fmt::Display for Error {
     }
 }
 
-/// A number spelled as people of any language read it: 5, not 5.0, and neither
-/// `inf` nor hundreds of digits.
+/// A number as people write it: 5 rather than 5.0, ∞ rather than `inf`, and never
+/// hundreds of digits.
 struct Number(f64);
 
 impl fmt::Display for Number {
@@ -310,7 +310,7 @@ impl fmt::Display for Number {
 
 impl core::error::Error for Error {}
 
-/// `value`, unless it is not in the range, or NaN.
+/// `value` if it is in the range; an error if it is not, or NaN.
 #[inline(never)]
 pub(crate) fn in_range(
     option: &'static str,

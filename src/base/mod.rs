@@ -1,5 +1,5 @@
-//! What every other room needs and what knows nothing of points: the error, the limit of
-//! a cloud's size, memory that may be refused, square roots without `std`, the one sort.
+//! Tools that know nothing of points: the error type, the limit of a cloud's size, memory
+//! that may be refused, square roots without `std`, the one sort.
 
 pub(crate) mod allocation;
 pub(crate) mod error;

@@ -1,5 +1,5 @@
-//! Functions with only one right answer: from the platform where there is one. `libm` would
-//! bring its own code for them into the wasm, which has an instruction for each.
+//! Functions with only one correct result, taken from the platform where it has them.
+//! The wasm has an instruction for each; `libm` would add code of its own.
 
 /// The correctly rounded square root.
 pub(crate) fn square_root(x: f64) -> f64 {

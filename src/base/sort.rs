@@ -14,17 +14,17 @@ const BUCKETS: usize = 1 << BITS;
 /// Fewer items than this are sorted by insertion.
 const FEW: usize = 32;
 
-/// A number, and what is sorted by it: an index into anything. One type, so that this is
-/// compiled once.
+/// A number, and the index that is sorted by it. One type for all uses, so that the sort
+/// is compiled once.
 type Keyed = (u64, u32);
 
-/// Sorts by the number; in which order equal ones come is not said.
+/// Sorts by the number. The order of items with equal numbers is unspecified.
 #[inline(never)]
 pub(crate) fn sort_keyed(items: &mut [Keyed]) {
     if items.len() < FEW {
         return sort_few(items);
     }
-    // The first bits that are not the same in all keys make the digit.
+    // The highest bits in which the keys differ make the digit.
     let one = items[0].0;
     let different = items.iter().fold(0, |bits, (key, _)| bits | key ^ one);
     let shift = (u64::BITS - different.leading_zeros()).saturating_sub(BITS);
@@ -89,8 +89,8 @@ pub(crate) fn ordered(x: f64) -> u64 {
     if bits & sign == 0 { bits | sign } else { !bits }
 }
 
-/// Sorts indices by `count` numbers each: by number 0, with which they come, equal ones
-/// by number 1, and so on. `number(k, index)` is number k of an index.
+/// Sorts indices by `count` numbers each: by number 0, which is their key already, then
+/// items with equal numbers by number 1, and so on. `number(k, index)` is number k of an index.
 pub(crate) fn sort_by_numbers(
     keyed: &mut [Keyed],
     count: usize,
@@ -114,7 +114,7 @@ fn sort_from(keyed: &mut [Keyed], next: usize, count: usize, number: &dyn Fn(usi
     }
 }
 
-/// The places of a plane, which hold no -0, sorted by their coordinates, as indices.
+/// The indices of places in a plane, sorted by coordinates. No coordinate is -0.
 pub(crate) fn sorted_places(places: &[[f64; 2]]) -> Result<Vec<u32>, OutOfMemory> {
     let mut keyed: Vec<Keyed> = with_capacity(places.len())?;
     keyed.extend(

@@ -1,5 +1,5 @@
-//! Spheres around runs of the spatial order, and around runs of those: what is known
-//! of many points at once, from any viewpoint.
+//! Spheres around runs of the spatial order, and spheres around runs of spheres. They bound
+//! many points at once, from any viewpoint.
 
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -15,13 +15,14 @@ pub(crate) const BLOCK: usize = 64;
 /// Nodes in a node one level up.
 pub(crate) const FANOUT: usize = 8;
 
-/// More than any error of the few roundings in a distance, relative to it.
+/// A bound of the relative error of a distance, with room to spare.
 const MARGIN: f64 = 1e-12;
 
-/// Squares above it have not underflowed.
+/// A square above this number has not underflowed.
 const WITH_SQUARE: f64 = 1e-200;
 
-/// All points of the node are within `radius` of `center`; infinite where distances overflow.
+/// All points of the node lie within `radius` of `center`. The radius is infinite where
+/// distances overflow.
 #[derive(Clone, Copy)]
 pub(crate) struct Sphere {
     pub center: [f64; 3],
@@ -53,9 +54,9 @@ impl Blocks {
         Ok(Self { levels })
     }
 
-    /// The largest distance of any of the `points` from `viewpoint`, 0 for an empty
-    /// cloud: √ of the largest v·v, v = p − C, of all as they are rounded, but computed
-    /// only in blocks that may hold it.
+    /// The largest distance of any of the `points` from `viewpoint`, 0 for an empty cloud:
+    /// the root of the largest rounded v·v, v = p − C. Only blocks that may hold the
+    /// farthest point are computed.
     ///
     /// # Errors
     /// [`Error::RadiusOverflow`] when a distance exceeds the range of f64.
@@ -120,7 +121,7 @@ fn around_runs(
         let mut radius = 0.0f64;
         for inner in (start..end).map(sphere) {
             let v = DVec3::from_array(inner.center) - DVec3::from_array(center);
-            // Where squares may underflow, the sum of the coordinates is large enough.
+            // Where squares underflow, the sum of the coordinates is an upper bound.
             let distance = square_root(v.dot(v)).max(v.abs().element_sum().min(1e-150));
             radius = radius.max((distance + inner.radius) * (1.0 + MARGIN));
         }

@@ -1,5 +1,5 @@
-//! What is known of the points before anybody looks: positions as given, the canonical
-//! order along a Hilbert curve, nearest neighbors, statistics, spheres around blocks.
+//! Everything about the points that does not depend on a viewpoint: positions as given, the
+//! canonical order along a Hilbert curve, nearest neighbors, statistics, spheres around blocks.
 
 pub(crate) mod blocks;
 pub(crate) mod neighbors;

@@ -1,9 +1,8 @@
 //! The nearest neighbors of points, by boxes over runs of the Hilbert curve.
 //!
-//! The order of the points is all the index there is: level 0 are boxes over `LEAF`
-//! points each, every higher level over `FANOUT` boxes of the level below, which
-//! costs 4 bytes a point. Ties are broken by coordinates, so that neighbors depend on
-//! the set of points alone.
+//! The order of the points is the index. Level 0 holds boxes over `LEAF` points each, every
+//! higher level boxes over `FANOUT` boxes of the level below: 4 bytes a point. Coordinates
+//! break ties, so that neighbors depend on the set of points alone.
 
 use alloc::vec::Vec;
 
@@ -54,12 +53,12 @@ impl<'a> Neighbors<'a> {
         Ok(Self { points, levels })
     }
 
-    /// Fills `nearest` with the nearest others of point `query`, fewer where there
-    /// are not as many.
+    /// Fills `nearest` with the nearest other points of point `query`: as many as it has room
+    /// for, or all of them.
     pub(crate) fn find(&self, query: usize, nearest: &mut Nearest) {
         nearest.found.clear();
-        // The query's own leaf first, then what is beside it, level by level: so the
-        // search is bounded well before it gets to boxes far away.
+        // The leaf of the query comes first, then its neighbors, level by level. So a small
+        // bound is known before far boxes are looked at.
         let mut own = query / LEAF;
         self.scan_leaf(own, query, nearest);
         for (level, boxes) in self.levels.iter().enumerate() {
@@ -77,7 +76,7 @@ impl<'a> Neighbors<'a> {
 
     fn descend(&self, level: usize, node: usize, query: usize, nearest: &mut Nearest) {
         let bounds = &self.levels[level][node];
-        // A box at just the worst distance may hold a tie that comes first.
+        // A box at exactly the worst distance may hold a tie that wins.
         if bounds.distance_squared(self.points.get(query)) > nearest.worst() {
             return;
         }

@@ -1,5 +1,5 @@
-//! The cloud: checked positions in spatial order, duplicates grouped, and what
-//! does not depend on the viewpoint. Built once, asked many times, changed at will.
+//! The cloud: checked positions in spatial order, duplicates grouped, and everything else
+//! that does not depend on the viewpoint.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -13,8 +13,8 @@ use crate::cloud::sequence::Sequence;
 use crate::cloud::spatial::{Bounds, HilbertCurve};
 use crate::cloud::statistics::Statistics;
 
-/// Shares of the time that building a cloud takes: up to where its points are checked,
-/// and where they are sorted.
+/// The share of a cloud's building that is done when its points are checked, and when
+/// they are sorted.
 const SURVEYED: f64 = 0.05;
 const SORTED: f64 = 0.85;
 
@@ -34,9 +34,8 @@ pub enum NonFinite {
 /// a point for `f32` positions, 29 for `f64`; while points are appended or removed,
 /// twice that.
 ///
-/// Answers and automatic radii depend on the present points alone: a cloud that
-/// was appended to and removed from answers, to the bit, what one built from the
-/// same points does.
+/// Answers and automatic radii depend on the present points alone. A cloud that was
+/// appended to and removed from answers, to the bit, like a new cloud of the same points.
 pub struct PointCloud {
     pub(crate) sequence: Sequence,
     /// The box of the present points.
@@ -52,12 +51,12 @@ pub struct PointCloud {
 /// What [`PointCloud::prepare_for`] keeps.
 #[derive(Default)]
 pub(crate) struct Kept {
-    /// With the number of neighbors whose planes they are on.
+    /// The cloud without noise, and the number of neighbors that made its planes.
     pub denoised: Option<(usize, Box<PointCloud>)>,
     pub voters: Option<Voters>,
 }
 
-/// Everybody's `k` nearest others, or as many as there are: `each`.
+/// The `each` nearest other points of every point: `k` of them, or fewer in a small cloud.
 pub(crate) struct Voters {
     pub k: usize,
     pub each: usize,
@@ -85,7 +84,7 @@ impl PointCloud {
         Self::prepare(P::given(positions), non_finite, &mut |_| ())
     }
 
-    /// Tells `progress` which share of the work, about, is done.
+    /// Calls `progress` with the share of the work that is done, about.
     pub(crate) fn prepare(
         positions: Given,
         non_finite: NonFinite,
@@ -114,8 +113,7 @@ impl PointCloud {
 
     /// Adds points, which take the next indices: all of them, or none and an error.
     ///
-    /// They are sorted and merged into the order that is there, O(n + m log m) for m
-    /// new points. Only where they extend the cloud's box beyond a power of two (or
+    /// They are sorted and merged into the present order, O(n + m log m) for m new points. Only where they extend the cloud's box beyond a power of two (or
     /// a multiple of it) is the whole cloud sorted again, as when it is built.
     ///
     /// Positions keep their precision: `f64` positions make an `f32` cloud an `f64` one.
@@ -165,11 +163,10 @@ impl PointCloud {
 
     /// Removes the points with these indices: they are never visible again and
     /// hide nothing, and their indices are never given again. An index that was
-    /// removed before, or skipped, is ignored. Of several equal points the others
-    /// stay.
+    /// removed before, or skipped, is ignored. Other points at the same place stay.
     ///
-    /// One pass over the cloud, except that a box which shrinks below a power of
-    /// two has it sorted again; see [`PointCloud::append`].
+    /// Takes one pass over the cloud. Only where its box shrinks below a power of two is the
+    /// cloud sorted again; see [`PointCloud::append`].
     ///
     /// # Errors
     /// [`Error::IndexOutOfRange`], [`Error::OutOfMemory`]; the cloud is unchanged then.
@@ -184,7 +181,7 @@ impl PointCloud {
         }
         let rest = self.sequence.without(|index| removed[index as usize])?;
         if rest.points.len() == self.sequence.points.len() {
-            // Every position is still there.
+            // The positions are the same: only duplicates were removed.
             self.sequence = rest;
             self.kept = Kept::default();
             return Ok(());
@@ -199,8 +196,8 @@ impl PointCloud {
         Ok(())
     }
 
-    /// How many points were given, skipped and removed ones included: one more
-    /// than the largest index.
+    /// How many points were ever given, skipped and removed ones included. The largest
+    /// index is one less.
     #[must_use]
     pub fn len(&self) -> usize {
         self.len
@@ -212,21 +209,21 @@ impl PointCloud {
         self.len == 0
     }
 
-    /// How many of all points given were left out because they are not finite.
+    /// How many points were left out because they are not finite.
     #[must_use]
     pub fn skipped(&self) -> usize {
         self.skipped
     }
 
-    /// The mean distance of a point to its 6 nearest others, in the cloud's units: what the
-    /// automatic rules go by. Measured at 2048 distinct points where there are more; 0 where
-    /// there are fewer than two.
+    /// The mean distance of a point from its 6 nearest other points, in the cloud's units. The
+    /// automatic rules depend on it. It is measured at up to 2048 distinct points, and is 0
+    /// where there are fewer than two.
     #[must_use]
     pub fn spacing(&self) -> f64 {
         self.statistics.spacing
     }
 
-    /// The same indices at other, finite `positions`, one for each distinct point.
+    /// A cloud with the same indices at other, finite `positions`, one for each distinct point.
     pub(crate) fn moved(&self, positions: &[[f64; 3]]) -> Result<Self, OutOfMemory> {
         let mut bounds = Bounds::EMPTY;
         positions.iter().for_each(|&p| bounds.include(p));
@@ -245,8 +242,8 @@ impl PointCloud {
         })
     }
 
-    /// The points of `bounds` take the place of those present, unless their
-    /// statistics or blocks cannot be measured.
+    /// Replaces the present points by those of `sequence`, in the box `bounds`. Nothing changes
+    /// where memory for their statistics or blocks is refused.
     fn replace(&mut self, sequence: Sequence, bounds: Bounds) -> Result<(), OutOfMemory> {
         let statistics = Statistics::measure(&sequence.points, &bounds)?;
         self.blocks = Blocks::around(&sequence.points)?;

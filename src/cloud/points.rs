@@ -7,8 +7,8 @@ use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::error::Error;
 use crate::base::limit::MAX_POINTS;
 
-/// A point as three coordinates: `[f32; 3]` or `[f64; 3]`. Single precision is
-/// stored as it is and widened when it is used.
+/// A point as three coordinates, `[f32; 3]` or `[f64; 3]`. Single precision is stored as
+/// given, and widened when it is used.
 pub trait Position: sealed::Sealed + Copy {
     /// The coordinates in double precision.
     fn widen(self) -> [f64; 3];
@@ -46,11 +46,11 @@ mod sealed {
     }
 }
 
-/// Somebody's positions in the precision they come in. (Public only inside this
-/// private module.)
+/// The caller's positions, in the precision in which they were given. (Public only inside
+/// this private module.)
 ///
-/// An enum rather than a type parameter, so that everything downstream is compiled
-/// once; which precision it is, every access finds out anew, at no cost that shows.
+/// This is an enum rather than a type parameter, so that everything downstream is compiled
+/// once. Every access branches on the precision, at no measurable cost.
 #[derive(Clone, Copy)]
 pub enum Given<'a> {
     Single(&'a [[f32; 3]]),
@@ -78,15 +78,15 @@ impl Given<'_> {
     }
 }
 
-/// Points of our own, in the precision they came in.
+/// The cloud's own points, in the precision in which they were given.
 pub(crate) enum Points {
     Single(Vec<[f32; 3]>),
     Double(Vec<[f64; 3]>),
 }
 
 impl Points {
-    /// None yet, with room for so many, in single precision only where `positions`
-    /// are, so that no coordinate is rounded.
+    /// An empty list with room for `count` points. It has the precision of `positions`, so
+    /// that no coordinate is rounded.
     #[inline(never)]
     pub(crate) fn with_capacity(count: usize, positions: Given) -> Result<Self, OutOfMemory> {
         fn reserved<P>(count: usize) -> Result<Vec<P>, OutOfMemory> {
@@ -119,7 +119,7 @@ impl Points {
         self.as_given().iter()
     }
 
-    /// Adds a point that came in the same precision.
+    /// Adds a point that was given in the same precision.
     #[inline(never)]
     pub(crate) fn push(&mut self, point: [f64; 3]) {
         match self {
@@ -128,7 +128,7 @@ impl Points {
         }
     }
 
-    /// Adds a run of points, which came in the same precision or a lower one.
+    /// Adds a run of points that were given in the same precision or a lower one.
     #[inline(never)]
     pub(crate) fn extend(&mut self, points: Given, run: Range<usize>) {
         match (&mut *self, points) {
@@ -147,7 +147,7 @@ impl Points {
         Ok(gathered)
     }
 
-    /// These and `new` ones, new one k in `places[k]`.
+    /// The present points and the `new` ones, of which number k goes to `places[k]`.
     pub(crate) fn spliced(&self, new: &Self, places: &[Splice]) -> Result<Self, OutOfMemory> {
         let (present, new) = (self.as_given(), new.as_given());
         let equal: usize = places.iter().map(|place| place.after - place.start).sum();
@@ -167,8 +167,8 @@ impl Points {
     }
 }
 
-/// Where a new point goes among those present: before `after`, and in the stead
-/// of those from `start`, which are none, or the one that equals it.
+/// The place of a new point among the present ones: before `after`. It replaces the points
+/// from `start`: none, or the one point that equals it.
 #[derive(Clone, Copy)]
 pub(crate) struct Splice {
     pub start: usize,
@@ -179,7 +179,7 @@ pub(crate) fn is_finite(p: [f64; 3]) -> bool {
     p.iter().all(|x| x.is_finite())
 }
 
-/// `count`, unless it is more than a cloud may hold.
+/// `count`; an error if it is more than a cloud may hold.
 pub(crate) fn checked_len(count: usize) -> Result<usize, Error> {
     if count > MAX_POINTS {
         return Err(Error::TooManyPoints { count });

@@ -1,10 +1,9 @@
-//! The distinct points of a cloud in canonical order, each with the caller's
-//! indices of it; and how that order is made, merged, thinned and made anew.
+//! The distinct points of a cloud in canonical order, each with the caller's indices of it.
+//! The order is made here, merged, thinned and made anew.
 //!
-//! The order (along the Hilbert curve, ties along a curve inside the cell, then by
-//! coordinates) depends on the set of
-//! points alone, so whichever way a sequence came about, it is the same. None of
-//! these changes a sequence in place: where memory is refused, nothing has happened.
+//! Points follow the Hilbert curve; inside a cell they follow a second curve; coordinates
+//! break ties. So the order depends on the set of points alone. No function changes a
+//! sequence in place: where memory is refused, nothing has changed.
 
 use alloc::vec::Vec;
 
@@ -20,8 +19,8 @@ pub(crate) struct Sequence {
 }
 
 impl Sequence {
-    /// Sorts the finite ones among `positions`, of which there are `finite`; the
-    /// caller's indices of `positions` begin with `first_index`.
+    /// Sorts the finite `positions`, of which there are `finite`. The caller's indices of
+    /// `positions` begin with `first_index`.
     #[inline(never)]
     pub(crate) fn sorted(
         positions: Given,
@@ -46,7 +45,7 @@ impl Sequence {
         Ok(Self { points, indices })
     }
 
-    /// Both together, both along `curve`. Runs between new points are copied
+    /// Both sequences as one; both follow `curve`. Runs between new points are copied as a
     /// whole, and only O(log n) keys are computed for each new point.
     #[inline(never)]
     pub(crate) fn merged(&self, new: &Self, curve: &HilbertCurve) -> Result<Self, OutOfMemory> {
@@ -83,8 +82,8 @@ impl Sequence {
         })
     }
 
-    /// The same without the indices that `removed` names; a point goes with the
-    /// last of its indices.
+    /// This sequence without the indices that `removed` names. A point goes when its last
+    /// index goes.
     pub(crate) fn without(&self, removed: impl Fn(u32) -> bool) -> Result<Self, OutOfMemory> {
         let mut kept = with_capacity(self.points.len())?;
         let mut indices = Groups::with_capacity(self.indices.order.len())?;
@@ -108,7 +107,7 @@ impl Sequence {
         })
     }
 
-    /// The same along another curve.
+    /// These points along another curve.
     #[inline(never)]
     pub(crate) fn resorted(&self, curve: &HilbertCurve) -> Result<Self, OutOfMemory> {
         let count = self.points.len();
@@ -164,8 +163,8 @@ impl Sequence {
     #[inline(never)]
     fn first_not_before(&self, place: &Place, mut low: usize, curve: &HilbertCurve) -> usize {
         let before = |k: usize| curve.place(self.points.get(k)) < *place;
-        // New points come in order too, so the next one is looked for in steps
-        // that double, then between the last two.
+        // New points come in order too. So the search takes steps that double, then bisects
+        // the last step.
         let mut step = 1;
         while low + step <= self.points.len() && before(low + step - 1) {
             low += step;
@@ -184,7 +183,7 @@ impl Sequence {
     }
 }
 
-/// Lists of indices, one for each distinct point, one after another.
+/// Lists of indices, one list for each distinct point, stored one after another.
 struct Groups {
     order: Vec<u32>,
     /// Where each list starts in `order`, with an end mark; empty where every
@@ -194,7 +193,7 @@ struct Groups {
 }
 
 impl Groups {
-    /// None yet, with room for so many indices.
+    /// No list yet, with room for `count` indices.
     #[inline(never)]
     fn with_capacity(indices: usize) -> Result<Self, OutOfMemory> {
         let order = with_capacity(indices)?;
@@ -212,11 +211,11 @@ impl Groups {
         self.mark()
     }
 
-    /// Adds to the list that was begun last.
+    /// Adds an index to the last list.
     #[inline(never)]
     fn push(&mut self, index: u32) -> Result<(), OutOfMemory> {
         if self.starts.is_empty() && self.order.len() == self.len {
-            // The first list of more than one: until here, each held one.
+            // This is the first list with more than one index.
             reserve(&mut self.starts, self.len)?;
             self.starts.extend(0..self.len as u32);
         }
@@ -252,8 +251,8 @@ impl Groups {
     }
 }
 
-/// The finite positions along the curve; those in one cell, mostly equal ones, along a
-/// curve inside it, then by coordinates, then by index.
+/// The finite positions in order: along the curve, then along the curve inside a cell, then
+/// by coordinates, then by index. Most positions that share a cell are equal.
 fn sort_along_curve(
     positions: Given,
     finite: usize,

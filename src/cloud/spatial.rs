@@ -31,7 +31,7 @@ impl Bounds {
     }
 
     pub(crate) fn union(&mut self, other: &Self) {
-        // Compared rather than by `min` and `max`, which WebAssembly calls a function for.
+        // Comparisons, because WebAssembly calls a function for `min` and `max`.
         for axis in 0..3 {
             if other.min[axis] < self.min[axis] {
                 self.min[axis] = other.min[axis];
@@ -48,11 +48,11 @@ impl Bounds {
         libm::hypot(libm::hypot(extent[0], extent[1]), extent[2])
     }
 
-    /// A power of two k that brings the box to a size near 1, and a point near its
-    /// middle, times k: of few bits, so that subtracting it from coordinates of few
-    /// bits is exact.
+    /// A power of two k that scales the box to a size near 1, and k times a point near the
+    /// middle of the box. The point has few bits, so that differences from coordinates of few
+    /// bits are exact.
     pub(crate) fn coarse_center(&self) -> ([f64; 3], f64) {
-        // Far below the last bit of any coordinate there is no other extent than 0.
+        // An extent this small is 0: it lies far below the last bit of any coordinate.
         const NOTHING: f64 = 1.0 / (1u64 << 60) as f64;
         let mut extent = 0.0f64;
         for axis in 0..3 {
@@ -89,20 +89,20 @@ impl Bounds {
 ///
 /// The cube depends on the box only coarsely: its side is twice a power of two,
 /// the `unit`, that is at least the box's largest extent, and its corner a multiple
-/// of that unit. So a cloud that grows or shrinks mostly keeps its curve, and the
-/// order of its points; each time the unit doubles there are at most a few corners.
+/// of that unit. So a cloud that grows or shrinks mostly keeps its curve and the order of
+/// its points; there are only a few corners for each unit.
 ///
 /// All lengths are quarters here, because the extent of a finite box can overflow.
 #[derive(PartialEq)]
 pub(crate) struct HilbertCurve {
-    /// Infinite along an axis whose coordinates are beyond the range of f64 in
-    /// units; they are all equal then, and in cell 0.
+    /// The corner in units; infinite along an axis where that overflows. All coordinates of
+    /// such an axis are equal, and lie in cell 0.
     corner: [f64; 3],
     unit: f64,
 }
 
-/// Where a point is in the order: by its key, then by its key in the cell, then by
-/// its coordinates, which hold no -0.
+/// The place of a point in the order: its key, then its key in the cell, then its
+/// coordinates, none of which is -0.
 #[derive(PartialEq, PartialOrd)]
 pub(crate) struct Place {
     key: u64,
@@ -130,8 +130,8 @@ impl HilbertCurve {
         interleave(to_hilbert(self.cells(p).map(cell)))
     }
 
-    /// The key of `p` among the points of one cell, along a curve of its own: a
-    /// single far point can make the box so large that all others share a few cells.
+    /// The key of `p` among the points of one cell, along a curve inside the cell. A single far
+    /// point can make the box so large that all other points share a few cells.
     #[inline(never)]
     pub(crate) fn key_in_cell(&self, p: [f64; 3]) -> u64 {
         let inside = |cells: f64| cell((cells - f64::from(cell(cells))) * CELLS);
@@ -147,15 +147,15 @@ impl HilbertCurve {
         }
     }
 
-    /// How many cells away from the corner `p` is along each axis.
+    /// How many cells `p` is away from the corner, along each axis.
     fn cells(&self, p: [f64; 3]) -> [f64; 3] {
         let along = |axis: usize| (p[axis] * 0.25 - self.corner[axis]) / self.unit;
-        // Half of the cells are in one unit.
+        // One unit holds half of the cells.
         core::array::from_fn(|axis| along(axis) * (0.5 * CELLS))
     }
 }
 
-/// The number of the cell; what rounding put on the far side belongs to the last one.
+/// The number of the cell. A point that rounding put beyond the last cell belongs to it.
 fn cell(cells: f64) -> u32 {
     // `as` saturates.
     (cells as u32).min((1 << BITS) - 1)

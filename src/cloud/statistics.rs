@@ -9,12 +9,12 @@ use crate::cloud::neighbors::{Nearest, Neighbors, distance_squared};
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
 
-/// Neighbors whose mean distance is a point's spacing.
+/// The spacing of a point is its mean distance from this many nearest points.
 const NEIGHBORS: usize = 6;
-/// Points whose spacing is measured; beyond that the mean hardly moves.
+/// How many points are measured; with more of them the mean hardly changes.
 const SAMPLES: usize = 2048;
 
-/// What the automatic radius needs to know of a cloud.
+/// The statistics from which the automatic radius is computed.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Statistics {
     /// Distinct finite points.

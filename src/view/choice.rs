@@ -15,10 +15,10 @@ use crate::view::options::Radius;
 use crate::view::radius::{ChosenRadius, automatic, from_radius, given};
 use crate::view::search::{self, Seen};
 
-/// From a place and by a kernel to which distinct points are visible.
+/// Tells which distinct points are visible from a place, flipped by a kernel.
 type Seeing<'a> = dyn Fn(&[f64], Kernel) -> Result<Vec<bool>, Error> + 'a;
 
-/// What a choice of R may ask of a cloud of any dimension.
+/// A cloud of any dimension, as far as a choice of R needs to know it.
 pub(crate) struct Sight<'a> {
     pub viewpoint: &'a [f64],
     pub centroid: &'a [f64],

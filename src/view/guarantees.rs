@@ -1,11 +1,11 @@
-//! What the paper proves (§4 and appendix) about which points are found, in numbers.
+//! Bounds that the paper proves (§4 and appendix).
 
 use core::f64::consts::PI;
 
 use crate::base::error::{Error, in_range};
 
-/// The curvature up to which a pit's bottom is still found visible (Lemma 4.3), in one
-/// over the units of lengths:
+/// The largest curvature of a pit whose bottom is still found visible (Lemma 4.3), in the
+/// inverse of the unit of length:
 ///
 /// k < [4R(2R − r)·cot²β + 2Rr] / (4Rr − 4R² + (r − 2R)²/sin²β)^(3/2)
 ///
@@ -29,8 +29,8 @@ pub fn permissible_curvature(radius: f64, r: f64, beta: f64) -> Result<f64, Erro
     in_range("r", r, f64::MIN_POSITIVE, f64::MAX)?;
     in_range("R", radius, r, f64::MAX)?;
     in_range("beta", beta, 0.0, PI)?;
-    // In units of R, both sides times t³·sin³β for t = r ÷ R, so that nothing can overflow.
-    // The denominator is the paper's, without its differences:
+    // In units of R; numerator and denominator times t³·sin³β, t = r ÷ R. Nothing overflows.
+    // The denominator is the paper's, written without differences:
     // 4Rr − 4R² + (2R − r)²/sin²β = r² + (2R − r)²·cot²β.
     let (sin, cos) = libm::sincos(beta);
     let t = r / radius;
@@ -41,8 +41,8 @@ pub fn permissible_curvature(radius: f64, r: f64, beta: f64) -> Result<f64, Erro
 }
 
 /// The radius R below which the bottoms of dents in a body are hidden (paper §4):
-/// d·r²/ρ² for a body of `thickness` d whose back is at `distance` r from the viewpoint
-/// and whose front has samples 2ρ apart, ρ being the `spacing`. A larger R sees the back
+/// d·r²/ρ². The body has `thickness` d, its back is at `distance` r from the viewpoint, and
+/// the samples of its front lie 2ρ apart; ρ is the `spacing`. With a larger R the back shows
 /// between the samples of the front.
 ///
 /// # Errors

@@ -1,4 +1,4 @@
-//! What a caller may choose for one view.
+//! The options of one view.
 
 use crate::base::error::Error;
 
@@ -9,14 +9,13 @@ pub enum Radius {
     /// farthest distance.
     #[default]
     Auto,
-    /// By antipodal search around the closed form of [`Radius::Auto`], where six hulls
-    /// are spent: what is visible should be what is hidden when one looks back along
-    /// the same rays.
+    /// By antipodal search around the closed form of [`Radius::Auto`], with six hulls. Looking
+    /// back along the same rays should show exactly the hidden points; R is chosen so.
     Search,
-    /// By the paper's own rule (§4): C′ is the mirror image of the viewpoint C in the
-    /// cloud's centroid; R makes the number of points largest that exactly one of the
-    /// two sees, the smallest such R. Some 40 hulls. In perspective it mostly chooses
-    /// far too large an R; it is here for comparison. At the centroid the same as
+    /// By the paper's own rule (§4), with about 40 hulls. C′ is the mirror image of the
+    /// viewpoint C in the cloud's centroid. The rule takes the R for which the most points are
+    /// seen by exactly one of C and C′, the smallest of several. In perspective this R is
+    /// mostly far too large; the rule is offered for comparison. At the centroid it is
     /// [`Radius::Auto`].
     Opposite,
     /// R itself, in the cloud's units; at least the farthest distance.
@@ -26,7 +25,7 @@ pub enum Radius {
 }
 
 impl Radius {
-    /// The option by which it was chosen, as the JavaScript package calls it.
+    /// The option that makes this choice, as the JavaScript package calls it.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Self::Auto | Self::Absolute(_) => "radius",
@@ -37,8 +36,8 @@ impl Radius {
     }
 }
 
-/// How far a point at distance d from the viewpoint goes when it is flipped: the
-/// kernel f of q = f(d)·v/|v|, strictly decreasing in d.
+/// The distance to which the flip moves a point at distance d from the viewpoint: the kernel
+/// f of q = f(d)·v/|v|, strictly decreasing in d.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Inversion {
     /// 2R − d, spherical flipping (paper §3, eq. 1); R by [`Options::radius`].
@@ -48,9 +47,9 @@ pub enum Inversion {
     /// fixes the rounding only: [`Radius::Absolute`] if it is given, otherwise the
     /// farthest distance. The nearer γ is to 1, the more is visible.
     Power(f64),
-    /// exp(c/d). Its c belongs to the cloud rather than to the view: one serves
-    /// viewpoints near and far. The smaller c is, the more is visible; facing the
-    /// viewer it acts like R = d²/2c.
+    /// exp(c/d). The scale c depends on the cloud only: one c serves near and far viewpoints.
+    /// The smaller c is, the more points are visible. On a surface that faces the viewer it
+    /// acts like R = d²/2c.
     Exponential(Exponential),
 }
 
@@ -72,18 +71,18 @@ pub struct Options {
     pub radius: Radius,
     /// How points are flipped.
     pub inversion: Inversion,
-    /// For noisy clouds: before everything else, each point is projected on the
-    /// least-squares plane of itself and so many nearest others. Its index and the
-    /// cloud's positions stay. Computed anew for each query: for several, ask
+    /// For noisy clouds. Before the view, each point is projected on the least-squares plane of
+    /// itself and its k nearest other points. Indices and the cloud's positions stay. Each
+    /// query computes this anew; for several queries, ask
     /// [`PointCloud::denoised`](crate::PointCloud::denoised) once.
     pub denoise: Option<usize>,
-    /// For noisy clouds: a point is visible when more than 0.4 of it and so many nearest
-    /// others are.
+    /// For noisy clouds. After the view, a point is visible when more than 0.4 of itself and its
+    /// k nearest other points are.
     pub vote: Option<usize>,
 }
 
 impl Options {
-    /// Refuses what makes sense in space only for a cloud of another dimension.
+    /// Refuses options that need space, for a cloud of another dimension.
     pub(crate) fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
         let asked = [("denoise", self.denoise), ("vote", self.vote)];
         match asked.into_iter().find(|(_, k)| k.is_some()) {

@@ -11,15 +11,14 @@ use crate::view::options::Radius;
 pub struct ChosenRadius {
     /// R, in the cloud's units; 0 where no point is away from the viewpoint.
     pub radius: f64,
-    /// log₁₀(R ÷ farthest distance), the paper's parameter; 0 where there is no
-    /// distance to compare.
+    /// log₁₀(R ÷ farthest distance), the paper's parameter; 0 where the farthest distance is 0.
     pub exponent: f64,
     /// How many hulls were spent choosing R.
     pub evaluations: u32,
 }
 
 impl ChosenRadius {
-    /// A length that no exponent belongs to and no search was needed for.
+    /// A length without an exponent, found without a search.
     pub(crate) fn unit(radius: f64) -> Self {
         Self {
             radius,
@@ -28,7 +27,7 @@ impl ChosenRadius {
         }
     }
 
-    /// Of two views the one with the larger radius, with the hulls of both.
+    /// The larger radius of two views, with the hulls that both spent.
     pub(crate) fn joined(self, other: Self) -> Self {
         let larger = if other.radius > self.radius {
             other
@@ -45,8 +44,8 @@ impl ChosenRadius {
 /// The largest R the flip accepts: 2R·(1 + rounding) must not overflow.
 pub(crate) const LARGEST: f64 = f64::MAX / 2.0 * (1.0 - 1e-15);
 
-/// A radius that is given as a number, checked; any other choice is the closed form
-/// without a spacing.
+/// Checks a radius that is given as a number. Any other choice becomes the closed form of a
+/// cloud without spacing: the farthest distance.
 #[inline(never)]
 pub(crate) fn given(choice: Radius, farthest: f64) -> Result<ChosenRadius, Error> {
     match choice {
@@ -94,9 +93,9 @@ pub(crate) fn automatic(statistics: &Statistics, viewpoint: [f64; 3], farthest: 
 }
 
 /// R = 5·r²/s, with r the root-mean-square distance of the `count` points from the
-/// viewpoint and s their spacing: a denser or more distant cloud needs a larger
-/// sphere. r² is |C − centroid|² + variance, so no pass over the points is
-/// needed, and it moves smoothly with the viewpoint, inside the cloud too.
+/// viewpoint and s their spacing. A denser or more distant cloud needs a larger sphere. r² is
+/// |C − centroid|² + variance. So no pass over the points is needed, and R moves smoothly
+/// with the viewpoint, inside the cloud too.
 pub(crate) fn closed_form(count: usize, r_squared: f64, spacing: f64, farthest: f64) -> f64 {
     if count < 2 || spacing == 0.0 || farthest == 0.0 {
         return farthest;
@@ -104,13 +103,13 @@ pub(crate) fn closed_form(count: usize, r_squared: f64, spacing: f64, farthest: 
     within(5.0 * r_squared / spacing, farthest)
 }
 
-/// `radius`, or the nearest one that is fit for flipping.
+/// `radius`, or the nearest radius that is fit for flipping.
 fn within(radius: f64, farthest: f64) -> f64 {
-    // `max` and `min` also turn a NaN from overflowing statistics into a bound.
+    // `max` and `min` also replace a NaN, which overflowing statistics give, by a bound.
     radius.max(farthest).min(LARGEST)
 }
 
-/// `radius`, or the nearest one that is fit for flipping, with its exponent.
+/// `radius`, or the nearest radius that is fit for flipping, with its exponent.
 pub(crate) fn bounded(radius: f64, farthest: f64) -> ChosenRadius {
     from_radius(within(radius, farthest), farthest)
 }

@@ -8,22 +8,23 @@ use crate::view::choice;
 use crate::view::options::{Exponential, Inversion, Options, Radius};
 use crate::view::radius::{self, ChosenRadius};
 
-/// Spacings in the scale of [`Exponential::Auto`]. Errors against ray-traced truth are
-/// least between 0.05 and 0.06 for scanned surfaces seen from outside, between 0.06 and
-/// 0.08 inside furnished rooms, and grow faster below than above; at 0.07 they are 0.8
-/// to 1.05 times what the best R of every single view leaves.
+/// The scale of [`Exponential::Auto`], in spacings. Errors against ray-traced truth are least
+/// between 0.05 and 0.06 for scanned surfaces seen from outside, and between 0.06 and 0.08
+/// inside furnished rooms. They grow faster below than above. At 0.07 they are 0.8 to 1.05
+/// times the error of the best R of each view.
 const SPACINGS_IN_SCALE: f64 = 0.07;
 
-/// What a view was resolved to.
+/// A view that can be computed: options became numbers.
 pub(crate) struct View {
     pub flip: Flip,
     pub chosen: ChosenRadius,
-    /// With numbers only.
+    /// The inversion, with numbers only.
     pub inversion: Inversion,
 }
 
 impl PointCloud {
-    /// Refuses what every viewpoint would be refused with, where there is none.
+    /// Refuses options that every viewpoint would be refused with. For queries without any
+    /// viewpoint.
     pub(crate) fn check_options(&self, options: &Options) -> Result<(), Error> {
         if let Some(k) = options.vote {
             self.check_neighbors("vote", k)?;
@@ -53,7 +54,7 @@ impl PointCloud {
     }
 }
 
-/// How an inversion with numbers only moves points, and what was chosen for it.
+/// The kernel of an inversion with numbers only, and the radius that was chosen for it.
 /// `radius` turns a choice of R into a number.
 #[inline(never)]
 pub(crate) fn resolved_kernel(
@@ -82,7 +83,7 @@ pub(crate) fn resolved_kernel(
     })
 }
 
-/// Refuses what is refused even where all points are at the viewpoint.
+/// Refuses options that are refused even where all points are at the viewpoint.
 pub(crate) fn check_flip(options: &Options) -> Result<(), Error> {
     let inversion = resolved_inversion(options, 0.0)?;
     let radius = |choice| radius::given(choice, 0.0);
@@ -90,8 +91,8 @@ pub(crate) fn check_flip(options: &Options) -> Result<(), Error> {
     Ok(())
 }
 
-/// The inversion with numbers only; numbers out of range and choices that exclude
-/// each other are refused.
+/// The inversion with numbers only. Refuses numbers out of range, and choices that exclude
+/// each other.
 #[inline(never)]
 pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inversion, Error> {
     let refuse = |inversion| {
@@ -101,7 +102,7 @@ pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inve
     match options.inversion {
         Inversion::Spherical => Ok(Inversion::Spherical),
         Inversion::Power(power) => {
-            // Written so that a NaN is refused, too.
+            // Written so that a NaN is refused too.
             if !(power > 1.0 && power <= 16.0) {
                 return Err(Error::PowerInvalid { power });
             }
@@ -124,7 +125,7 @@ pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inve
 fn resolved_scale(scale: Exponential, spacing: f64) -> Result<f64, Error> {
     match scale {
         Exponential::Auto if spacing > 0.0 => {
-            // Not `clamp`, whose panic brings the formatting of numbers, 30 kB of wasm.
+            // Not `clamp`: its panic brings the formatting of numbers, 30 kB of wasm.
             Ok((SPACINGS_IN_SCALE * spacing).max(f64::MIN_POSITIVE))
         }
         Exponential::Auto => Ok(1.0),

@@ -1,29 +1,30 @@
-//! R by search, from how many points are seen: no truth is needed, hulls are.
+//! R by search. The search counts visible points of hulls; it needs no ground truth.
 
 use crate::base::error::Error;
 use crate::flip::kernel::Kernel;
 
 use crate::view::radius::{ChosenRadius, LARGEST, bounded, from_radius};
 
-/// What a point costs that is seen from both sides, against 1 for one that is seen.
+/// The penalty λ of a point that is seen from both sides; a point that is seen counts 1.
 const BOTH: f64 = 5.0;
-/// Between the radii of the antipodal search, in decades; it ends between the outer
-/// two, because parabolas through a step function exaggerate.
+/// The distance between the three radii of the antipodal search, in decades. The result stays
+/// between the outer two, because a parabola through a step function exaggerates.
 const BRACKET: f64 = 0.25;
 
-/// The antipodal search. Seen from the other end of every ray, what is visible should
-/// be what is hidden from here: depth order reversed along the same rays, q =
-/// (2R + d)·u. Of three radii around the closed form, the top of the parabola through
-/// V + V′ − λ·(V and V′), which counts points seen from here, from there and from both.
+/// The antipodal search. From the other end of every ray, exactly the points that are hidden
+/// from here should be visible: q = (2R + d)·u reverses the depth order along the same rays.
+/// The score of a radius is V + V′ − λ·B, where V counts the points seen from here, V′ those
+/// seen from there, and B those seen from both. The search takes the top of the parabola
+/// through the scores of three radii around the closed form.
 ///
-/// Where that is negative most rays hold one point only, as inside a room: they say
-/// nothing about R, and the closed form stays.
+/// Where the score is negative, most rays hold one point only, as inside a room. Such rays
+/// say nothing about R, and the closed form stays.
 ///
-/// The paper's own rule looks from one point on the other side instead, and
-/// perspective hides a band of points from both; see `opposite`.
+/// The paper's own rule looks from one point on the other side instead. Perspective then
+/// hides a band of points from both; see `opposite`.
 ///
-/// `start` is the closed form; `look` tells what is seen with a spherical and with an
-/// antipodal flip of some radius.
+/// `start` is the closed form. `look` counts the points that a spherical and an antipodal flip
+/// of some radius show.
 pub(crate) fn antipodal(
     start: f64,
     farthest: f64,
@@ -35,7 +36,7 @@ pub(crate) fn antipodal(
     let step = libm::pow(10.0, BRACKET);
     let middle = start.max(farthest * step).min(LARGEST / step);
     if middle < farthest {
-        // No room for a bracket at the end of the range.
+        // At the end of the range there is no room for three radii.
         return Ok(from_radius(start, farthest));
     }
     let mut score = |radius: f64| -> Result<f64, Error> {
@@ -56,7 +57,7 @@ pub(crate) fn antipodal(
     })
 }
 
-/// Where the parabola through the scores at −BRACKET, 0 and BRACKET is highest.
+/// The place of the top of the parabola through the scores at −BRACKET, 0 and BRACKET.
 fn summit(low: f64, center: f64, high: f64) -> f64 {
     let bend = 2.0 * center - low - high;
     let ascent = high - low;
@@ -71,7 +72,7 @@ fn summit(low: f64, center: f64, high: f64) -> f64 {
     }
 }
 
-/// How many distinct points two flips show.
+/// The numbers of distinct points that two flips show.
 pub(crate) struct Seen {
     /// By exactly one of them.
     one: usize,
@@ -88,18 +89,19 @@ impl Seen {
     }
 }
 
-/// Radii of the paper's rule, in decades above the least: first every half of one,
-/// then around the best, ever closer.
+/// The steps of the paper's rule, in decades above the least radius: first every half decade,
+/// then ever closer around the best one.
 const COARSE: f64 = 0.5;
 const COARSE_STEPS: u8 = 12;
 const FINE: [f64; 3] = [0.25, 0.125, 0.0625];
 
-/// The paper's own rule (§4): C′ is the mirror image of C in the cloud's centroid; R
-/// makes the number of points largest that exactly one of the two sees. The objective
-/// is a step function, so it is bracketed rather than descended.
+/// The paper's own rule (§4). C′ is the mirror image of C in the cloud's centroid. The rule
+/// takes the R for which the most points are seen by exactly one of the two. The paper
+/// descends a gradient; here the optimum is bracketed, because the objective is a step
+/// function.
 ///
-/// `least` is the farthest distance from either; `look` tells what is seen from C and
-/// from C′ with some radius. `None` where there is no such radius.
+/// `least` is the farthest distance from either. `look` counts the points that C and C′ see
+/// with some radius. `None` where no radius is possible.
 pub(crate) fn opposite(
     least: f64,
     farthest: f64,
@@ -150,7 +152,7 @@ mod tests {
 
     #[test]
     fn looking_back_along_the_rays_the_farthest_wins() {
-        // Two shells around the viewpoint, a point of each on every ray.
+        // Two shells around the viewpoint: every ray holds one point of each.
         let mut points = alloc::vec::Vec::new();
         for i in 0..26 {
             let i = if i < 13 { i } else { i + 1 };
