@@ -1,5 +1,5 @@
-//! Noise: points moved on to the plane of their neighbors before a view, and a vote
-//! among neighbors after it.
+//! Noise handling: before a view, points move to the plane of their neighbors; after it,
+//! neighbors vote.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -12,18 +12,18 @@ use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::point_cloud::{PointCloud, Voters};
 use crate::view::options::Options;
 
-/// A point is voted visible when more than this share (in fifths) of it and its
-/// neighbors are: 0.4, because the operator misses more than it invents.
+/// A point is voted visible when more than this many fifths of itself and its neighbors are
+/// visible. The share is 0.4 rather than a half, because the operator has more false negatives
+/// than false positives.
 const FIFTHS: usize = 2;
 
-/// The most neighbors a point may have for them to be kept.
+/// Neighbors are kept for later views only where a point has at most this many.
 const MOST_KEPT: usize = 64;
 
 impl PointCloud {
-    /// The same cloud with every point projected on the least-squares plane of itself
-    /// and its `k` nearest others: what [`Options::denoise`] asks, kept for many views.
-    /// Indices stay; of several equal points one is taken. Where there are fewer
-    /// distinct others than `k`, all of them are.
+    /// The cloud that [`Options::denoise`] asks, for many views: every point is projected on the
+    /// least-squares plane of itself and its `k` nearest other points. Indices stay. Equal points
+    /// count once. Where there are fewer than `k` distinct other points, all of them count.
     ///
     /// Takes O(n (log n + k²)), some microseconds a point.
     ///
@@ -38,15 +38,14 @@ impl PointCloud {
         Ok(self.moved(&moved)?)
     }
 
-    /// Keeps, for later views with the same `denoise` and `vote`, what does not depend on
-    /// the viewpoint: the denoised points (in the place of others), and who votes (up to 64
-    /// neighbors, 4 bytes each). Answers are the same as without, but a view is spared the
-    /// search for neighbors, some microseconds a point. Kept until points are appended or
-    /// removed.
+    /// Prepares the cloud for views with the same `denoise` and `vote`. It keeps the denoised
+    /// points and the neighbors that vote (up to 64 a point, 4 bytes each), until points are
+    /// appended or removed. Answers are the same as without; a view no longer searches
+    /// neighbors, which takes some microseconds a point.
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] as for the view; [`Error::OutOfMemory`]. The cloud answers as
-    /// before then.
+    /// [`Error::OutOfRange`] as for the view; [`Error::OutOfMemory`]. After an error the cloud
+    /// answers as before.
     pub fn prepare_for(&mut self, options: &Options) -> Result<(), Error> {
         if let Some(k) = options.denoise {
             if self
@@ -55,7 +54,7 @@ impl PointCloud {
                 .as_ref()
                 .is_none_or(|&(kept, _)| kept != k)
             {
-                // Never room for two.
+                // The old one goes first: there may be no memory for two.
                 self.kept.denoised = None;
                 self.kept.denoised = Some((k, Box::new(self.denoised(k)?)));
             }
@@ -79,7 +78,7 @@ impl PointCloud {
         }
     }
 
-    /// Asks a cloud that is denoised already, if it is to be.
+    /// Asks the denoised cloud where `options` say so, else this one.
     pub(crate) fn after_denoising<T>(
         &self,
         options: &Options,
@@ -97,11 +96,11 @@ impl PointCloud {
                 }
             },
         };
-        // One call, because each is a copy of the query.
+        // A single call, because the compiler copies the query for each.
         query(cloud, &options)
     }
 
-    /// Lets every distinct point and its `k` nearest others vote whether it is visible.
+    /// Every distinct point and its `k` nearest other points vote on whether it is visible.
     pub(crate) fn vote(&self, k: usize, visible: &[bool]) -> Result<Vec<bool>, Error> {
         let mut voted: Vec<bool> = with_capacity(visible.len())?;
         if let Some(voters) = self.kept.voters.as_ref().filter(|voters| voters.k == k) {
@@ -135,7 +134,7 @@ impl PointCloud {
         Ok(())
     }
 
-    /// The distinct points in their order, each with its `k` nearest others.
+    /// Visits the distinct points in their order, each with its `k` nearest other points.
     fn for_each_neighborhood(
         &self,
         option: &'static str,
@@ -161,10 +160,10 @@ fn is_voted(point: usize, others: impl ExactSizeIterator<Item = u32>, visible: &
     5 * seen > FIFTHS * voters
 }
 
-/// `p` on the least-squares plane of it and `nearest`, as far as numbers reach.
+/// `p` projected on the least-squares plane of itself and `nearest`; `p` where that overflows.
 fn on_plane(p: [f64; 3], nearest: &Nearest) -> [f64; 3] {
     let p = DVec3::from_array(p);
-    // Relative to p, which keeps the detail of georeferenced clouds.
+    // Coordinates relative to p keep the detail of georeferenced clouds.
     let others = || {
         nearest
             .found()
@@ -187,9 +186,9 @@ fn outer_product(v: DVec3) -> DMat3 {
 }
 
 /// The unit eigenvector of the smallest eigenvalue of a symmetric matrix, by Jacobi's
-/// rotations, which need no more than square roots: the same bits everywhere.
+/// rotations. They need square roots only, so the bits are the same everywhere.
 fn least_axis(mut matrix: DMat3) -> DVec3 {
-    /// They converge quadratically; a few are enough.
+    /// Sweeps converge quadratically; a few are enough.
     const SWEEPS: usize = 12;
     let trace = matrix.col(0)[0] + matrix.col(1)[1] + matrix.col(2)[2];
     let negligible = 1e-18 * trace;

@@ -1,9 +1,10 @@
 //! Orthographic views: the viewpoint recedes to infinity against a direction.
 //!
-//! With R = a·r² for a viewpoint C at distance r, the flipped points tend to lie, but
-//! for a common motion and to first order, at depth −(z + a·(x² + y²)), z along the
-//! direction: every sphere around C looks like a paraboloid. So in the limit visible is
-//! the lower boundary of conv{(x, y, z + a·(x² + y²))}. For exp(c/d) the same, a = 1/2c.
+//! Let the viewpoint C be at distance r, with R = a·r², and let z be the depth along the
+//! direction. Every sphere around C then tends to a paraboloid: but for a common motion, and
+//! to first order, the flipped points lie at depth −(z + a·(x² + y²)). So in the limit the
+//! visible points are the lower boundary of conv{(x, y, z + a·(x² + y²))}. The inversion
+//! exp(c/d) has the same limit, with a = 1/(2c).
 
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -23,19 +24,19 @@ use crate::view::resolved::resolved_inversion;
 const SPACINGS: f64 = 5.0;
 
 impl PointCloud {
-    /// Which points are visible along `direction`, the way an orthographic camera
-    /// looks, in the limit of a viewpoint infinitely far back? Its length has no meaning.
+    /// Which points are visible along `direction`, the direction in which an orthographic camera
+    /// looks? The answer is the limit of viewpoints ever farther back. The length of `direction`
+    /// has no meaning.
     ///
-    /// R grows as a·r² with the distance r. a is 5/s for [`Radius::Auto`] (s the
-    /// cloud's spacing) and 1/(2c) for [`Inversion::Exponential`]; for a radius or an
-    /// exponent it is R/r², where both are measured from the viewpoint that is one
-    /// diagonal of the bounding box before the centroid. The answer's radius and
-    /// exponent are a·r² from there.
+    /// R grows as a·r² with the distance r. For [`Radius::Auto`] a is 5/s, s being the cloud's
+    /// spacing; for [`Inversion::Exponential`] it is 1/(2c). For a radius or an exponent a is
+    /// R/r², measured from the viewpoint that lies one diagonal of the bounding box before the
+    /// centroid. The radius and exponent of the answer are those of this viewpoint.
     ///
-    /// Exact for (x, y, z + a·(x² + y²)) as rounded to `f64`: coordinates relative to a
-    /// center near the middle of the bounding box, in units of a power of two near its
-    /// size, along the direction and two axes across. Equal coordinates across an axis
-    /// stay equal when `direction` is along an axis.
+    /// Exact for (x, y, z + a·(x² + y²)) as rounded to `f64`. Coordinates are relative to a center
+    /// near the middle of the bounding box, in units of a power of two near its size, along the
+    /// direction and two axes across. Where `direction` is along an axis, equal coordinates stay
+    /// equal.
     ///
     /// ```
     /// use hidden_point_removal::{Options, PointCloud};
@@ -76,7 +77,7 @@ impl PointCloud {
         Ok((self.voted(visible, options)?, chosen, inversion))
     }
 
-    /// a, and the radius that it is one diagonal of the box before the centroid.
+    /// a, and the radius that belongs to it one diagonal of the box before the centroid.
     fn bend(
         &self,
         ahead: DVec3,
@@ -110,7 +111,7 @@ impl PointCloud {
             .blocks
             .farthest_distance(&self.sequence.points, viewpoint)?;
         if let Radius::Auto = choice {
-            // Where there is no spacing, any bend gives the same answer.
+            // Without a spacing any bend gives the same answer.
             let bend = if spacing > 0.0 {
                 SPACINGS / spacing
             } else {
@@ -139,7 +140,7 @@ fn normalized(direction: [f64; 3]) -> Option<DVec3> {
     if !(direction.is_finite() && size > 0.0) {
         return None;
     }
-    // Scaled, so that squares can neither over- nor underflow.
+    // Scaled, so that squares neither overflow nor underflow.
     let direction = direction / size;
     Some(direction / square_root(direction.dot(direction)))
 }
@@ -151,7 +152,7 @@ struct Lift {
     right: DVec3,
     up: DVec3,
     ahead: DVec3,
-    /// In scaled coordinates.
+    /// The center in scaled coordinates.
     center: DVec3,
     /// k, a power of two that brings the box to a size near 1.
     scale: f64,
@@ -160,7 +161,7 @@ struct Lift {
 
 impl Lift {
     fn new(bounds: &Bounds, ahead: DVec3, bend: f64) -> Self {
-        /// Beyond, the lift alone counts; the products still are in range.
+        /// With a larger bend only the lift would count; products are still in range.
         const MAX_BEND: f64 = 1e50;
         let across = ahead.cross(DVec3::AXES[ahead.abs().min_position()]);
         let right = across / square_root(across.dot(across));

@@ -1,5 +1,5 @@
-//! Shadows (paper §5): a point is lit by the lights that see it, softened over its
-//! neighbors. Diffuse and ambient only; light passes through holes.
+//! Shadows (paper §5): a light lights the points that it sees; brightness is then softened
+//! over neighbors. Diffuse and ambient light only; light passes through holes.
 
 use alloc::vec::Vec;
 
@@ -10,21 +10,21 @@ use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::point_cloud::PointCloud;
 use crate::view::options::Options;
 
-/// Neighbors of a point where there is no mesh.
+/// How many neighbors a point has where there is no mesh.
 const NEIGHBORS: usize = 6;
-/// More rounds would change little and take long.
+/// The largest number of rounds; more change little and take long.
 const MOST_ROUNDS: f64 = 1000.0;
 
 /// How light is spread and softened.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lighting<'a> {
-    /// The mesh whose vertices the points are, as indices into the cloud: shadows are
-    /// softened along its edges. Without it among the 6 nearest points.
+    /// A mesh of the points, as indices into the cloud: shadows are softened along its edges.
+    /// Without a mesh they are softened over the 6 nearest points.
     pub triangles: Option<&'a [[u32; 3]]>,
-    /// So many times every point takes the mean of itself and its neighbors; 1 by
-    /// default, at most 1000.
+    /// How many times every point takes the mean of itself and its neighbors: 1 by default, at
+    /// most 1000.
     pub smoothing: usize,
-    /// The brightness that no shadow takes away, from 0 to 1; 0 by default.
+    /// The brightness of a point that no light sees, from 0 to 1; 0 by default.
     pub ambient: f64,
 }
 
@@ -104,7 +104,7 @@ impl PointCloud {
             let links = Links::along_edges(triangles, brightness.len())?;
             return links.average(brightness, lighting.smoothing);
         }
-        // Equal points are one.
+        // Equal points count as one.
         let count = self.sequence.points.len();
         let links = Links::among_nearest(&Neighbors::new(&self.sequence.points)?, count)?;
         let mut distinct = filled(count, 0.0)?;
@@ -122,7 +122,7 @@ impl PointCloud {
     }
 }
 
-/// Which others each of some things is beside: lists one after another.
+/// The neighbors of every point, as lists one after another.
 struct Links {
     /// Where each list starts in `others`, with an end mark.
     starts: Vec<usize>,
@@ -150,7 +150,7 @@ impl Links {
     }
 
     fn along_edges(triangles: &[[u32; 3]], count: usize) -> Result<Self, OutOfMemory> {
-        // Each with a number that sorts it by its ends.
+        // Each edge has a number that sorts it by its ends.
         let mut edges: Vec<(u64, u32)> = with_capacity(triangles.len() * 6)?;
         let edge = |from: u32, to: u32| (u64::from(from) << 32 | u64::from(to), to);
         for &[a, b, c] in triangles {
@@ -174,7 +174,7 @@ impl Links {
         Ok(Self { starts, others })
     }
 
-    /// Each value becomes the mean of itself and the linked ones, so many times.
+    /// Each value becomes the mean of itself and its neighbors' values, `rounds` times.
     fn average(&self, values: &mut Vec<f64>, rounds: usize) -> Result<(), OutOfMemory> {
         let mut next = filled(values.len(), 0.0)?;
         for _ in 0..rounds {

@@ -1,4 +1,4 @@
-//! One answer from several: a cloud in parts that are never all in one place.
+//! One answer for a cloud in parts, from the answers of the parts.
 
 use alloc::vec::Vec;
 
@@ -9,18 +9,17 @@ use crate::cloud::point_cloud::{NonFinite, PointCloud};
 use crate::cloud::points::{Given, Points, Position, checked_len};
 use crate::view::options::{Exponential, Inversion, Options, Radius};
 
-/// Which points of a cloud are visible, from what is visible in its parts?
+/// Which points of a cloud are visible, given the visible points of its parts?
 ///
-/// However a cloud is divided, a point that its own part hides is hidden by the
-/// whole, and what is hidden hides nothing that the visible points do not. So with
-/// one viewpoint and one radius for all, visible(A ∪ B) =
-/// visible(visible(A) ∪ visible(B)), exactly: tiles can be asked where they are, and
-/// only their visible points brought together.
+/// A point that its own part hides is hidden in the whole cloud. A hidden point hides only
+/// points that visible points hide too. So with one viewpoint and one radius,
+/// visible(A ∪ B) = visible(visible(A) ∪ visible(B)), exactly. Each tile can be asked where it
+/// is; only its visible points are brought together.
 ///
-/// Each part is positions and as many ids, which are the caller's own numbers: the
-/// points visible in that part from `viewpoint` with the radius of `options`, or any
-/// more of its points. Equal positions share one answer, in whichever parts they
-/// are. Returns the ids of the visible points, ascending, each once.
+/// A part is a list of positions and a list of as many ids, the caller's own numbers. It holds
+/// at least the points that are visible in that part from `viewpoint` with the radius of
+/// `options`. Equal positions share one answer, also across parts. Returns the ids of the
+/// visible points, ascending, each once.
 ///
 /// ```
 /// use hidden_point_removal::{Options, PointCloud, merge_visible};
@@ -62,14 +61,14 @@ pub fn merge_visible<P: Position>(
     )
 }
 
-/// The same for `parts` parts in either precision, all in the same.
+/// The same for `parts` parts, all in the same precision.
 pub(crate) fn merge<'a>(
     parts: usize,
     part: &dyn Fn(usize) -> (Given<'a>, &'a [u32]),
     viewpoint: [f64; 3],
     options: &Options,
 ) -> Result<Vec<u32>, Error> {
-    // Anything else would be chosen anew, for what is left of the cloud.
+    // Any other choice would depend on the points that are left.
     let resolved = match options.inversion {
         Inversion::Spherical | Inversion::Power(_) => {
             matches!(options.radius, Radius::Absolute(_))
@@ -79,7 +78,7 @@ pub(crate) fn merge<'a>(
     if !resolved {
         return Err(Error::MergeRadius);
     }
-    // The neighbors in a part, or among what is visible, are not those in the cloud.
+    // The neighbors of a point in a part are not its neighbors in the cloud.
     let asked = [("denoise", options.denoise), ("vote", options.vote)];
     if let Some((option, _)) = asked.into_iter().find(|(_, k)| k.is_some()) {
         return Err(Error::MergeNeighbors { option });

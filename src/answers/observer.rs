@@ -8,10 +8,9 @@ use crate::view::options::Options;
 
 /// Looks at a cloud from one viewpoint after another.
 ///
-/// A view from near the last one is found from it, faster than anew; a view from
-/// elsewhere takes as long as [`PointCloud::visible_from`]. The answers are the same
-/// in any case, to the bit. Memory is kept from view to view: about 150 bytes for
-/// each visible point.
+/// A view from near the last viewpoint starts from the last hull, which is faster. A view from
+/// elsewhere takes as long as [`PointCloud::visible_from`]. The answers are the same, to the
+/// bit. The observer keeps about 150 bytes for each visible point.
 ///
 /// ```
 /// use hidden_point_removal::{Options, PointCloud};
@@ -32,7 +31,7 @@ pub struct Observer<'a> {
 }
 
 impl PointCloud {
-    /// An observer of this cloud that has seen nothing yet.
+    /// An observer of this cloud, without a last view.
     #[must_use]
     pub fn observer(&self) -> Observer<'_> {
         Observer {
@@ -56,14 +55,13 @@ impl Observer<'_> {
             .visible_from_with(&mut self.memory, viewpoint, options)
     }
 
-    /// Whether the last view was found from the one before it.
+    /// Whether the last view started from the view before it.
     #[must_use]
     pub fn moved(&self) -> bool {
         self.memory.moved()
     }
 
-    /// Forgets the last view, so that the next one is found anew; the memory stays
-    /// reserved.
+    /// Forgets the last view: the next one starts anew. The memory stays reserved.
     pub fn forget(&mut self) {
         self.memory.forget();
     }

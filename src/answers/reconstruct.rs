@@ -1,5 +1,5 @@
-//! View-dependent reconstruction (paper §5): the hull's own triangles, between points
-//! where they are.
+//! View-dependent reconstruction (paper §5): the hull's own triangles, drawn between the
+//! points at their own places.
 
 use alloc::vec::Vec;
 
@@ -13,30 +13,30 @@ use crate::cloud::point_cloud::PointCloud;
 use crate::hull;
 use crate::view::options::Options;
 
-/// The longest edge kept, in spacings, unless the caller says otherwise. The paper's
-/// 2.5 % of the diameter leaves webs on dense clouds.
+/// The default of the longest edge, in spacings. The paper's 2.5 % of the diameter leaves webs
+/// on dense clouds.
 const SPACINGS: f64 = 5.0;
 
-/// What is visible from a viewpoint, as a mesh.
+/// The visible points of a view, and the mesh between them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reconstruction {
     /// The visible points.
     pub visibility: Visibility,
-    /// Corners as indices into the cloud, counter-clockwise seen from the viewpoint,
-    /// ordered by their corners.
+    /// Triangles as indices into the cloud, counter-clockwise seen from the viewpoint, ordered by
+    /// their corners.
     pub triangles: Vec<[u32; 3]>,
 }
 
 impl PointCloud {
-    /// The surface that `viewpoint` sees, as far as points tell: triangles of the convex
-    /// hull of the flipped points, with the corners back in their places. The hull is
-    /// the one that visibility is found with; no second one is built.
+    /// The surface that `viewpoint` sees: the triangles of the convex hull of the flipped points,
+    /// with the corners back at their own places. It is the hull that decides visibility; no
+    /// second hull is built.
     ///
-    /// Triangles with an edge longer than `max_edge` are left out (`None`: 5 spacings;
-    /// infinity keeps all), and so are those at the viewpoint. Equal points are
-    /// represented by the one with the lowest index. With [`Options::denoise`] the hull
-    /// is that of the denoised points, but edges are measured where the points are; with
-    /// [`Options::vote`] triangles with a corner that was voted hidden are left out.
+    /// Triangles with an edge longer than `max_edge` are left out (`None`: 5 spacings; infinity
+    /// keeps all), and so are triangles that touch the viewpoint. The lowest index stands for
+    /// equal points. With [`Options::denoise`] the hull is that of the denoised points, but edges
+    /// are measured between the points as given. With [`Options::vote`] a triangle is left out if
+    /// one of its corners was voted hidden.
     ///
     /// ```
     /// use hidden_point_removal::{Options, PointCloud};
@@ -80,7 +80,7 @@ impl PointCloud {
         })
     }
 
-    /// What is visible and all triangles, with the caller's indices.
+    /// The visible points and all triangles, with the caller's indices.
     fn triangulate(
         &self,
         viewpoint: [f64; 3],
@@ -105,8 +105,7 @@ impl PointCloud {
         Ok((visibility, triangles))
     }
 
-    /// Which distinct point each index of the cloud belongs to; some number for those
-    /// that belong to none.
+    /// The distinct point of each index of the cloud; any number for an index without a point.
     pub(crate) fn places(&self) -> Result<Vec<u32>, OutOfMemory> {
         let mut places: Vec<u32> = filled(self.len(), 0)?;
         for k in 0..self.sequence.points.len() {
@@ -118,8 +117,8 @@ impl PointCloud {
     }
 }
 
-/// Sorts triangles of a surface by their first two corners: an edge in one direction is
-/// that of one triangle alone.
+/// Sorts triangles of a surface by their first two corners, which no other triangle has in
+/// this order.
 fn sort_by_corners(triangles: &mut [[u32; 3]]) -> Result<(), OutOfMemory> {
     let mut edges: Vec<(u64, u32)> = with_capacity(triangles.len())?;
     for &[a, b, c] in &*triangles {

@@ -1,5 +1,5 @@
-//! A view divided among several threads or workers, each of which answers for its own
-//! points without knowing of the others.
+//! A view divided among several threads or workers. Each answers for its own points, without
+//! the others.
 
 use glam::DVec3;
 
@@ -16,13 +16,13 @@ use crate::view::options::{Inversion, Options};
 use crate::view::resolved::View;
 
 impl PointCloud {
-    /// The share of [`PointCloud::visible_from`] that falls to one sector of the view:
-    /// every visible point is in the answer of exactly one of the sectors, so that all
-    /// of them together are the answer, exactly.
+    /// The part of [`PointCloud::visible_from`] that belongs to one sector of the view. Every
+    /// visible point is in the answer of exactly one sector, so all sectors together are exactly
+    /// the whole answer.
     ///
-    /// For several threads, one sector each, or several processes with the same points.
-    /// Sectors take about equal time, and each a little more than its part of the
-    /// whole. Clouds below some 200,000 points gain little.
+    /// For several threads, or several processes with the same points: one sector each. Sectors
+    /// take about equal time, each a little more than its share of the whole. Clouds below
+    /// 200,000 points gain little.
     ///
     /// ```
     /// use hidden_point_removal::{Error, Options, PointCloud, Sector};
@@ -63,7 +63,7 @@ impl PointCloud {
         options: &Options,
         sector: Sector,
     ) -> Result<Visibility, Error> {
-        // Where a point's answer takes others' answers, or others' places, the first
+        // With a vote or denoising, a point's answer needs those of its neighbors: the first
         // sector answers for all.
         if sector.count > 1 && options.denoise.is_none() && options.vote.is_none() {
             let view = self.view(viewpoint, options)?;
@@ -101,7 +101,7 @@ impl PointCloud {
         sample.extend(Division::sample(&self.blocks));
         let points = self.sequence.points.gathered(&sample)?;
         let center = DVec3::from_array(viewpoint);
-        // Sparser points need a smaller sphere, as for the automatic radius of a surface.
+        // Sparser points need a smaller sphere, as in the automatic radius.
         let sparser = square_root(points.len() as f64 / self.statistics.count as f64);
         let mut coarse = radius * sparser;
         for point in points.iter() {

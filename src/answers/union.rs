@@ -1,4 +1,4 @@
-//! One answer from several viewpoints (paper §5: viewpoints added around C help at
+//! One answer from several viewpoints (paper §5: more viewpoints around C help at
 //! silhouettes).
 
 use alloc::vec::Vec;
@@ -15,13 +15,13 @@ use crate::view::radius::ChosenRadius;
 use crate::view::resolved::resolved_inversion;
 
 impl PointCloud {
-    /// Which points are visible from one of `viewpoints`, or from several? Each view
-    /// chooses its own R by `options`; the answer tells the largest, and how many hulls
-    /// all choices took together. No viewpoint sees nothing.
+    /// Which points are visible from at least one of `viewpoints`? Each view chooses its own R by
+    /// `options`. The answer holds the largest R, and the number of hulls that all choices took.
+    /// Without viewpoints nothing is visible.
     ///
-    /// A union over a small ring ([`ring_of_viewpoints`]) finds points at silhouettes
-    /// that one view misses, but shows too much of a plane that is seen edge-on;
-    /// [`PointCloud::visible_from_at_least`] two of them is the safe form.
+    /// A union over a small ring ([`ring_of_viewpoints`]) finds points at silhouettes that one
+    /// view misses. But it shows too much of a plane that is seen edge-on. There, ask for at
+    /// least two viewpoints with [`PointCloud::visible_from_at_least`].
     ///
     /// # Errors
     /// As [`PointCloud::visible_from`].
@@ -93,13 +93,13 @@ impl PointCloud {
     }
 }
 
-/// `count` viewpoints evenly around `viewpoint`, on a circle across its line to
-/// `target`, of a radius that is `fraction` of their distance; usually 4 and 0.05. The
-/// viewpoint itself is not among them.
+/// `count` viewpoints, evenly on a circle around `viewpoint`. The circle is perpendicular to the
+/// line to `target`, and its radius is `fraction` of the distance to it; usual values are 4 and
+/// 0.05. The viewpoint itself is not in the list.
 ///
 /// # Errors
-/// [`Error::Viewpoint`] for a viewpoint or a target that is not finite, or a ring out
-/// of range; [`Error::OutOfRange`] for a `fraction` that is negative or not finite;
+/// [`Error::Viewpoint`] for a viewpoint or a target that is not finite, or a ring that
+/// overflows; [`Error::OutOfRange`] for a `fraction` that is negative or not finite;
 /// [`Error::OutOfMemory`].
 pub fn ring_of_viewpoints(
     viewpoint: [f64; 3],
@@ -118,7 +118,7 @@ pub fn ring_of_viewpoints(
     finite(center)?;
     finite(ahead)?;
 
-    // Scaled, so that squares can neither over- nor underflow.
+    // Scaled, so that squares neither overflow nor underflow.
     let size = ahead.abs().max_element();
     let (mut right, mut up, mut radius) = (DVec3::ZERO, DVec3::ZERO, 0.0);
     if size > 0.0 {

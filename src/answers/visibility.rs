@@ -73,8 +73,8 @@ impl Visibility {
         self.chosen.evaluations
     }
 
-    /// The inversion used, with numbers only: asked with it (and with the radius of a
-    /// spherical one), any part of the cloud is flipped alike.
+    /// The inversion that was used, with numbers only. A part of the cloud that is asked with it
+    /// (and with the radius, if it is spherical) is flipped in the same way.
     #[must_use]
     pub fn inversion(&self) -> Inversion {
         self.inversion
@@ -131,7 +131,7 @@ impl PointCloud {
         options: &Options,
     ) -> Result<Visibility, Error> {
         if options.denoise.is_some() {
-            // Other points, whose hull would be no use here.
+            // The hull of other points is no start for this cloud.
             return self.after_denoising(options, |cloud, options| {
                 cloud.visible_from(viewpoint, options)
             });
@@ -146,8 +146,8 @@ impl PointCloud {
         }
     }
 
-    /// Marks what is visible in `memory`; returns what the view was resolved to. Points
-    /// are taken where they are, and no votes are counted.
+    /// Marks the visible points in `memory`, and returns the resolved view. It neither denoises
+    /// points nor counts votes.
     fn look(
         &self,
         memory: &mut hull::Memory,
@@ -155,7 +155,7 @@ impl PointCloud {
         options: &Options,
     ) -> Result<View, Error> {
         let view = self.view(viewpoint, options)?;
-        // Hulls of one kind of flip are no start for another.
+        // The hull of one kind of flip is no start for another kind.
         let is_spherical = view.inversion == Inversion::Spherical;
         if !is_spherical {
             memory.forget();
@@ -167,8 +167,8 @@ impl PointCloud {
         Ok(view)
     }
 
-    /// For each distinct point whether it is visible, and what the view was resolved to.
-    /// Votes are counted, but points are taken where they are.
+    /// Whether each distinct point is visible, and the resolved view. It counts votes but does not
+    /// denoise points.
     pub(crate) fn marks(
         &self,
         memory: &mut hull::Memory,
@@ -181,7 +181,7 @@ impl PointCloud {
         Ok((self.voted(visible, options)?, view))
     }
 
-    /// What is visible by the vote that `options` ask for, if they do.
+    /// The marks after the vote, if `options` ask for one.
     pub(crate) fn voted(&self, visible: Vec<bool>, options: &Options) -> Result<Vec<bool>, Error> {
         match options.vote {
             Some(k) => self.vote(k, &visible),
@@ -200,8 +200,8 @@ impl PointCloud {
         Ok(Visibility::new(indices, self.len(), chosen, inversion))
     }
 
-    /// The radius that `rule` chooses for `viewpoint` in spherical flipping, without
-    /// asking what is visible.
+    /// The radius that `rule` chooses for `viewpoint` in spherical flipping. Visible points are
+    /// not computed.
     ///
     /// # Errors
     /// As [`PointCloud::visible_from`].
@@ -214,8 +214,8 @@ impl PointCloud {
     }
 }
 
-/// The caller's indices, ascending and all below `len`, of the distinct points marked as
-/// `visible`; `indices_of` lists those of one.
+/// The caller's indices of the distinct points marked as `visible`, ascending and below `len`.
+/// `indices_of` lists the indices of one distinct point.
 pub(crate) fn marked_indices<'a>(
     len: usize,
     visible: &[bool],

@@ -1,4 +1,4 @@
-//! Clouds that are not of three dimensions: two as three with z = 0, four and more by linear
+//! Clouds of other dimensions than three: two as three with z = 0, four and more by linear
 //! programs.
 
 pub(crate) mod higher;

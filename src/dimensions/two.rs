@@ -1,6 +1,6 @@
-//! Clouds in a plane: the paper's own figures. They are answered as clouds of three
-//! dimensions in the plane z = 0, whose hull is a polygon (`hull::flat`), so the same
-//! operations round alike and the answers are exact.
+//! Clouds of two dimensions, as in the paper's figures. They are answered as clouds in space
+//! with z = 0, whose hull is a polygon (`hull::flat`). The operations are the same, so the
+//! answers are exact.
 
 use alloc::vec::Vec;
 
@@ -86,15 +86,14 @@ impl PointCloud2d {
         self.cloud.is_empty()
     }
 
-    /// How many of all points given were left out because they are not finite.
+    /// How many points were left out because they are not finite.
     #[must_use]
     pub fn skipped(&self) -> usize {
         self.cloud.skipped()
     }
 
-    /// The mean distance of a point to its 6 nearest others, in the cloud's units: what the
-    /// automatic rules go by. Measured at 2048 distinct points where there are more; 0 where
-    /// there are fewer than two.
+    /// The mean distance of a point from its 6 nearest other points; see
+    /// [`PointCloud::spacing`].
     #[must_use]
     pub fn spacing(&self) -> f64 {
         self.cloud.spacing()
@@ -114,7 +113,7 @@ impl PointCloud2d {
         self.cloud.visible_from(lift(viewpoint), options)
     }
 
-    /// Which points are visible from one of `viewpoints`, or from several? See
+    /// Which points are visible from at least one of `viewpoints`? See
     /// [`PointCloud::visible_from_any`].
     ///
     /// # Errors

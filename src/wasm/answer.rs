@@ -1,5 +1,5 @@
-//! What a query answers, as JavaScript receives it. All numbers are doubles, as its own
-//! are: the code that writes a field is compiled once for each type.
+//! The answer of a query, as JavaScript receives it. All numbers are doubles, because the code
+//! that writes a field is compiled for each type.
 
 use js_sys::Uint32Array;
 use serde::Serialize;
@@ -20,7 +20,7 @@ struct Answer {
     radius: f64,
     exponent: f64,
     evaluations: f64,
-    /// c of the exponential inversion, which may have been chosen; otherwise 0.
+    /// c of the exponential inversion, as given or as chosen; otherwise 0.
     scale: f64,
 }
 

@@ -7,12 +7,12 @@ use crate::NonFinite;
 
 #[wasm_bindgen]
 extern "C" {
-    /// Chosen by the caller and checked on the JavaScript side.
+    /// The caller's choices. JavaScript has checked them.
     #[wasm_bindgen(typescript_type = "CloudOptions")]
     pub type CloudOptions;
     #[wasm_bindgen(method, getter, js_name = skipNonFinite)]
     fn skip_non_finite(this: &CloudOptions) -> bool;
-    /// Told which share of the building is done.
+    /// A function that is called with the share of the building that is done.
     #[wasm_bindgen(method, getter)]
     pub(super) fn progress(this: &CloudOptions) -> Option<Function>;
 }

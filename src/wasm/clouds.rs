@@ -1,4 +1,4 @@
-//! The clouds that JavaScript holds numbers of, and what the last view left behind.
+//! The clouds, each with the number that JavaScript holds, and the hull of the last view.
 
 use alloc::vec::Vec;
 use core::cell::RefCell;
@@ -24,8 +24,8 @@ pub(super) enum Cloud {
     Hyper(PointCloudNd),
 }
 
-/// What the next view may start from: the last one's hull, and its room. One for all
-/// clouds, so that many clouds need no more than one.
+/// The hull of the last view, from which the next one may start. All clouds share one, so that
+/// many clouds take no more memory.
 struct LastView {
     handle: u32,
     memory: Memory,
@@ -97,8 +97,8 @@ pub(super) fn with_cloud<T>(
     })
 }
 
-/// Asks a cloud what it sees. What noise handling needs is kept for the next view, where
-/// there is room for that.
+/// Asks a cloud for a view. Neighbors for noise handling are kept for the next view, where
+/// there is memory.
 pub(super) fn with_view<T>(
     handle: u32,
     options: &Options,
@@ -131,7 +131,7 @@ pub(super) fn with_hyper<T>(
     })
 }
 
-/// Runs `view` with the last view's memory, which knows nothing of other clouds.
+/// Runs `view` with the memory of the last view; a view of another cloud is forgotten first.
 pub(super) fn with_memory<T>(handle: u32, view: impl FnOnce(&mut Memory) -> T) -> T {
     LAST_VIEW.with_borrow_mut(|last| {
         let last = last.get_or_insert_with(|| LastView {
@@ -146,7 +146,7 @@ pub(super) fn with_memory<T>(handle: u32, view: impl FnOnce(&mut Memory) -> T) -
     })
 }
 
-/// Gives back what is kept of the cloud's last view.
+/// Frees the memory of the cloud's last view.
 fn forget(handle: u32) {
     LAST_VIEW.with_borrow_mut(|last| {
         if last.as_ref().is_some_and(|last| last.handle == handle) {

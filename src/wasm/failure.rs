@@ -1,5 +1,5 @@
-//! What JavaScript receives as an exception. It words the message itself
-//! (src/ts/failure.ts): the formatting of numbers alone would be 30 kB of wasm.
+//! An error, as JavaScript receives it. JavaScript words the message (src/ts/failure.ts): the
+//! formatting of numbers alone would add 30 kB of wasm.
 
 use serde::Serialize;
 use wasm_bindgen::JsValue;
@@ -7,7 +7,7 @@ use wasm_bindgen::JsValue;
 use super::objects::to_js;
 use crate::{Error, MAX_POINTS};
 
-/// A refusal: which one, and the option and the numbers its message names.
+/// A refusal: its code, and the option and the numbers that its message names.
 #[derive(Serialize)]
 pub(super) struct Failure {
     code: &'static str,
@@ -17,7 +17,7 @@ pub(super) struct Failure {
 }
 
 impl Failure {
-    /// A number that names no cloud (any more).
+    /// The number belongs to no cloud, or no longer does.
     pub(super) const DISPOSED: Self = Self {
         code: "disposed",
         problem: "disposed",

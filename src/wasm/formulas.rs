@@ -1,4 +1,4 @@
-//! What needs no cloud.
+//! Functions that need no cloud.
 
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
@@ -6,8 +6,8 @@ use wasm_bindgen::prelude::*;
 use super::answer::refused;
 use crate::{permissible_curvature, radius_bound, ring_of_viewpoints};
 
-/// Fills `ring`, three numbers a viewpoint, with viewpoints around `viewpoint`, across its
-/// line to `target`.
+/// Fills `ring`, three numbers a viewpoint, with viewpoints around `viewpoint`, on a circle
+/// perpendicular to the line to `target`.
 #[wasm_bindgen(js_name = ringOfViewpoints)]
 pub fn ring(
     viewpoint: &Float64Array,
@@ -30,7 +30,7 @@ pub fn curvature(radius: f64, r: f64, beta: f64) -> Result<f64, JsValue> {
     permissible_curvature(radius, r, beta).map_err(refused)
 }
 
-/// The radius from which on the back of a body shows through its front.
+/// The radius above which the back of a body shows through its front.
 #[wasm_bindgen(js_name = radiusBound)]
 pub fn bound(thickness: f64, distance: f64, spacing: f64) -> Result<f64, JsValue> {
     radius_bound(thickness, distance, spacing).map_err(refused)

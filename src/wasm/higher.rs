@@ -27,7 +27,7 @@ pub fn create(
     }))
 }
 
-/// Adds points to such a cloud.
+/// Adds points to a cloud of four or more dimensions.
 #[wasm_bindgen(js_name = appendHyper, unchecked_return_type = "CloudSize")]
 pub fn append(handle: u32, positions: &Float64Array) -> Result<JsValue, JsValue> {
     let positions = numbers(positions).map_err(refused)?;

@@ -1,8 +1,7 @@
 //! The JavaScript bindings: check, copy in, call, copy out, map errors.
 //!
-//! Clouds stay on this side and JavaScript holds a number for each, so that a
-//! number from an instance that was given up can never free memory of the next
-//! one. Typed arrays arrive as JavaScript objects, never as `&[f32]`: the glue
+//! Clouds stay in wasm, and JavaScript holds a number for each. So a number from an instance
+//! that was given up can never free memory of the next instance. Typed arrays arrive as JavaScript objects, never as `&[f32]`: the glue
 //! would copy those before any code here runs, and trap where memory is refused.
 
 mod answer;
@@ -24,7 +23,7 @@ use std::panic;
 
 use wasm_bindgen::prelude::*;
 
-/// Runs once for each instance: a panic says what happened before it traps.
+/// Runs once for each instance: a panic prints its message before it traps.
 #[wasm_bindgen(start)]
 fn start() {
     panic::set_hook(Box::new(|info| {

@@ -5,8 +5,8 @@ use serde_wasm_bindgen::Serializer;
 use wasm_bindgen::prelude::*;
 
 pub(super) fn to_js(value: &impl Serialize) -> JsValue {
-    /// Flattened, a struct is written as a map of names. As a struct, serde-wasm-bindgen
-    /// would look for its names in a hash map, and the wasm be 0.8 kB larger.
+    /// `flatten` writes a struct as a map of names. Otherwise serde-wasm-bindgen keeps names in a
+    /// hash map, and the wasm is 0.8 kB larger.
     #[derive(Serialize)]
     struct Object<T> {
         #[serde(flatten)]

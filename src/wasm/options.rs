@@ -1,4 +1,4 @@
-//! Options of a view as JavaScript hands them over: checked for type there, for range here.
+//! Options of a view. JavaScript has checked their types; the crate checks their ranges.
 
 use js_sys::Uint32Array;
 use wasm_bindgen::prelude::*;
@@ -7,8 +7,8 @@ use crate::{Exponential, Inversion, Options, Radius};
 
 #[wasm_bindgen]
 extern "C" {
-    /// Read field by field: what serde says about a field of the wrong type brings the
-    /// formatting of floats along, 30 kB. Numbers stand for the choices (src/ts/options.ts).
+    /// Read field by field, without serde: its messages about wrong types bring the formatting of
+    /// floats, 30 kB. Numbers stand for the choices (src/ts/options.ts).
     #[wasm_bindgen(typescript_type = "ViewOptions")]
     pub type ViewOptions;
     #[wasm_bindgen(method, getter)]
@@ -23,15 +23,15 @@ extern "C" {
     fn denoise(this: &ViewOptions) -> f64;
     #[wasm_bindgen(method, getter)]
     fn vote(this: &ViewOptions) -> f64;
-    /// JavaScript makes the arrays of an answer: it knows of memory that can be used again,
-    /// and a refused allocation of its own is an error rather than a trap.
+    /// JavaScript makes the arrays of an answer. It can reuse memory, and a refused allocation
+    /// there is an error rather than a trap.
     #[wasm_bindgen(method, catch)]
     pub(super) fn memory(this: &ViewOptions, length: u32) -> Result<Uint32Array, JsValue>;
 }
 
 impl ViewOptions {
     pub(super) fn read(&self) -> Options {
-        // Conversions of integers saturate; 0 is none, which JavaScript refuses itself.
+        // Conversions saturate. 0 stands for no option; JavaScript refuses a 0 of the caller.
         let neighbors = |k: f64| (k > 0.0).then_some(k as usize);
         Options {
             radius: self.read_radius(),

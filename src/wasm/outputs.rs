@@ -1,4 +1,4 @@
-//! What is made of views: meshes and light.
+//! Meshes and light, which are made of views.
 
 use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
@@ -9,7 +9,7 @@ use super::options::ViewOptions;
 use super::transfer::{corners, triples};
 use crate::Lighting;
 
-/// What is visible from (x, y, z), and the triangles between it.
+/// The points that are visible from (x, y, z), and the triangles between them.
 #[wasm_bindgen(unchecked_return_type = "Answer")]
 pub fn reconstruct(
     handle: u32,
@@ -26,8 +26,8 @@ pub fn reconstruct(
     Ok(answer(&mesh.visibility, &mesh.triangles, options)?)
 }
 
-/// Writes the brightness of every index under the lights, x, y, z of one after another,
-/// into `target`, which has the length of the cloud.
+/// Writes the brightness of every index into `target`, which has the length of the cloud.
+/// `lights` holds x, y, z of one light after another.
 #[wasm_bindgen]
 pub fn illuminate(
     handle: u32,

@@ -52,7 +52,7 @@ pub fn remove(handle: u32, indices: &Uint32Array) -> Result<JsValue, JsValue> {
     }))
 }
 
-/// The ids of what is visible among single-precision positions, one id for each.
+/// The ids of the visible points among single-precision positions; each position has one id.
 #[wasm_bindgen(js_name = mergeVisibleF32)]
 pub fn merge_visible_f32(
     positions: &Float32Array,
@@ -65,7 +65,7 @@ pub fn merge_visible_f32(
     merge_visible(singles(positions), ids, [x, y, z], options)
 }
 
-/// The ids of what is visible among double-precision positions, one id for each.
+/// The ids of the visible points among double-precision positions; each position has one id.
 #[wasm_bindgen(js_name = mergeVisibleF64)]
 pub fn merge_visible_f64(
     positions: &Float64Array,
@@ -86,7 +86,7 @@ fn create_cloud(
     let listener = options.progress();
     let mut progress = |share: f64| {
         if let Some(listener) = &listener {
-            // It posts a message, which does not throw.
+            // The function posts a message, which does not throw.
             let _ = listener.call1(&JsValue::UNDEFINED, &share.into());
         }
     };

@@ -1,4 +1,4 @@
-//! Typed arrays into the memory of the wasm and out of it, with no trap where memory
+//! Copies typed arrays into the memory of the wasm and out of it, without a trap where memory
 //! is refused.
 
 use alloc::vec::Vec;
@@ -57,7 +57,7 @@ fn zeros<T: Copy + Default>(count: u32) -> Result<Vec<T>, Error> {
     Ok(zeros)
 }
 
-/// The caller's own copy: views of this memory would die when it grows.
+/// A copy for the caller: a view of the wasm's memory dies when that memory grows.
 #[inline(never)]
 pub(super) fn copy_out(indices: &[u32], options: &ViewOptions) -> Result<Uint32Array, Error> {
     let copy = options

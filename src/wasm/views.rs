@@ -22,7 +22,7 @@ pub fn visible_from(
     visible_in_sector(handle, x, y, z, options, 0, 1)
 }
 
-/// Which of the points that fall to sector `number` of `count` are visible from (x, y, z)?
+/// Which points of sector `number` of `count` are visible from (x, y, z)?
 #[wasm_bindgen(js_name = visibleInSector, unchecked_return_type = "Answer")]
 pub fn visible_in_sector(
     handle: u32,
@@ -43,8 +43,8 @@ pub fn visible_in_sector(
     answered(seen, options)
 }
 
-/// Which points are visible from at least `k` of the viewpoints, x, y, z of one after
-/// another?
+/// Which points are visible from at least `k` of the viewpoints? `viewpoints` holds x, y, z of
+/// one viewpoint after another.
 #[wasm_bindgen(js_name = visibleFromSeveral, unchecked_return_type = "Answer")]
 pub fn visible_from_several(
     handle: u32,
@@ -55,7 +55,7 @@ pub fn visible_from_several(
     let view = options.read();
     let seen = with_view(handle, &view, |cloud| {
         let viewpoints = triples(viewpoints)?;
-        // Any of none is an answer, one of none a refusal.
+        // "Any of no viewpoints" is an empty answer; "one of no viewpoints" is refused.
         if viewpoints.is_empty() {
             cloud.visible_from_any(&viewpoints, &view)
         } else {

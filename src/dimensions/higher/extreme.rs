@@ -1,26 +1,26 @@
 //! The definition in four and more dimensions, one small linear program a point.
 //!
-//! λq ∉ K for every λ > 1 exactly when no sum Σ cⱼqⱼ = q with cⱼ ≥ 0 has Σ cⱼ < 1. The
-//! least Σ cⱼ is found by the simplex method: a basis of as many points as dimensions,
-//! whose cone holds q, and their plane m·x = 1, from which any point beyond enters. At
-//! the end q is hidden where m·q < 1. Points that were beyond some plane are likely to
-//! be again: they are looked at first, all others only before a point is called visible
-//! (Clarkson: More output-sensitive geometric algorithms, 1994).
+//! λq ∉ K for every λ > 1 exactly when no sum Σ cⱼqⱼ = q with cⱼ ≥ 0 has Σ cⱼ < 1. The simplex
+//! method finds the least Σ cⱼ. Its basis holds as many points as there are dimensions, and
+//! their cone holds q. A point beyond their plane m·x = 1 enters the basis. At the end q is
+//! hidden where m·q < 1. A point that was beyond one plane is likely to be beyond another, so
+//! such points are tried first, and all others only before q is called visible (Clarkson: More
+//! output-sensitive geometric algorithms, 1994).
 //!
-//! All of this is rounded: what is within `TOLERANCE` of the boundary is visible.
+//! All of this is rounded. A point within `TOLERANCE` of the boundary is visible.
 
 use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, filled, push, reserve, with_capacity};
 
-/// Of the distance to the plane that decides, relative to that of the plane itself.
+/// The tolerance of m·q − 1: the distance from the plane relative to the plane's own distance.
 pub(super) const TOLERANCE: f64 = 1e-10;
-/// What counts as nothing in coordinates of size 1.
+/// A number that counts as 0 where coordinates have size 1.
 const NOTHING: f64 = 1e-12;
-/// Simplex steps for one point; some twenty are usual.
+/// The largest number of simplex steps for one point; about twenty are usual.
 const MOST_STEPS: usize = 10_000;
 
-/// Marks the visible ones among flipped points, given as rows of `dimension` numbers.
+/// Marks the visible points among flipped ones, which are rows of `dimension` numbers.
 pub(super) fn mark_visible(q: &[f64], dimension: usize) -> Result<Vec<bool>, OutOfMemory> {
     let count = q.len() / dimension;
     let mut visible = filled(count, false)?;
@@ -36,16 +36,16 @@ pub(super) fn mark_visible(q: &[f64], dimension: usize) -> Result<Vec<bool>, Out
     Ok(visible)
 }
 
-/// Points in as many coordinates as they span dimensions. Leaving out the others maps
-/// their subspace one-to-one and keeps rays, planes and convexity.
+/// Points with as many coordinates as they span dimensions. Leaving out the other coordinates
+/// maps their subspace one-to-one, and keeps rays, planes and convexity.
 struct Frame {
     points: Vec<f64>,
-    /// As many points that span all.
+    /// The points that span all, as many as there are dimensions.
     corners: Vec<usize>,
 }
 
 impl Frame {
-    /// By elimination with the largest pivot among all points and coordinates.
+    /// Elimination, with the largest pivot among all points and coordinates.
     fn new(q: &[f64], dimension: usize) -> Result<Self, OutOfMemory> {
         let largest = q.iter().fold(0.0f64, |most, x| most.max(x.abs()));
         let mut scaled: Vec<f64> = with_capacity(q.len())?;
@@ -93,8 +93,8 @@ struct Solver<'a> {
     start: Vec<f64>,
     /// Points that were beyond some plane.
     likely: Vec<usize>,
-    /// Of the present basis: its inverse, row by row, and how much of each of its
-    /// points the sum takes.
+    /// The inverse of the present basis, row by row, and the share of each of its points in
+    /// the sum.
     inverse: Vec<f64>,
     shares: Vec<f64>,
     plane: Vec<f64>,
@@ -116,7 +116,7 @@ impl<'a> Solver<'a> {
         };
         reserve(&mut solver.likely, rank)?;
         solver.likely.extend_from_slice(corners);
-        // From unit vectors to the corners, one by one, each where it fits best.
+        // The corners replace the unit vectors one by one, each where it fits best.
         for i in 0..rank {
             solver.inverse[i * rank + i] = 1.0;
         }
@@ -165,8 +165,8 @@ impl<'a> Solver<'a> {
         Ok(self.height(query) >= 1.0 - TOLERANCE)
     }
 
-    /// A basis of `query` and corners. The sum aims a tiny bit into their cone, a
-    /// different bit for each, so that no step is in vain and none comes twice.
+    /// A basis of `query` and corners. The sum is moved a little into their cone, by a different
+    /// amount for each. So every step gains, and no basis comes twice.
     fn begin(&mut self, query: usize) {
         self.inverse.copy_from_slice(&self.start);
         self.aim(query);
@@ -191,7 +191,7 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Exchanges row `row` of the basis for the point that `direction` is of.
+    /// Replaces row `row` of the basis by the point that `direction` belongs to.
     fn replace(&mut self, row: usize) {
         let rank = self.rank;
         let pivot = self.direction[row];
@@ -233,8 +233,8 @@ impl<'a> Solver<'a> {
         farthest
     }
 
-    /// Takes `point` into the basis for the one that is used up first; false where
-    /// rounding leaves none.
+    /// Takes `point` into the basis, in place of the point whose share reaches 0 first; false
+    /// where rounding leaves no such point.
     fn enter(&mut self, point: usize) -> bool {
         self.aim(point);
         let mut leaving: Option<(f64, usize)> = None;

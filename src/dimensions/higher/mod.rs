@@ -23,11 +23,10 @@ pub const MAX_DIMENSION: usize = 64;
 /// A point cloud of four or more dimensions.
 ///
 /// Answers follow the same definition and the same flip as those of
-/// [`PointCloud`](crate::PointCloud), but not to the bit: each point is decided by a
-/// small linear program in floating point, and what is within 10⁻¹⁰ of the hull's
-/// boundary (relative to its distance) counts as on it, visible. The order of the input
-/// and duplicates do not matter. With n points, v of them visible, a query takes
-/// O(n·v·D) steps of some tens of passes: seconds for ten thousand points.
+/// [`PointCloud`](crate::PointCloud), but not to the bit. A small linear program in floating
+/// point decides each point. A point within 10⁻¹⁰ of the hull's boundary, relative to its
+/// distance, counts as visible. The order of the input and duplicates do not matter. With n
+/// points, v of them visible, a query takes O(n·v·D) time: seconds for ten thousand points.
 pub struct PointCloudNd {
     rows: Rows,
     non_finite: NonFinite,
@@ -95,14 +94,14 @@ impl PointCloudNd {
         self.rows.len() == 0
     }
 
-    /// How many of all points given were left out because they are not finite.
+    /// How many points were left out because they are not finite.
     #[must_use]
     pub fn skipped(&self) -> usize {
         self.skipped
     }
 
-    /// The mean distance of a point to its 6 nearest others, in the cloud's units: what the
-    /// automatic rules go by. Measured at 512 distinct points where there are more; 0 where
+    /// The mean distance of a point from its 6 nearest other points, in the cloud's units. The
+    /// automatic rules depend on it. It is measured at up to 512 distinct points, and is 0 where
     /// there are fewer than two.
     #[must_use]
     pub fn spacing(&self) -> f64 {
@@ -127,7 +126,7 @@ impl PointCloudNd {
         self.answer(&visible, chosen, inversion)
     }
 
-    /// Which points are visible from one of `viewpoints`, or from several? See
+    /// Which points are visible from at least one of `viewpoints`? See
     /// [`PointCloud::visible_from_any`](crate::PointCloud::visible_from_any).
     ///
     /// # Errors
@@ -191,7 +190,7 @@ impl PointCloudNd {
         self.answer(&visible, chosen, inversion)
     }
 
-    /// For each distinct point whether it is visible, and what the view was resolved to.
+    /// Whether each distinct point is visible, and the resolved radius and inversion.
     fn marks(
         &self,
         viewpoint: &[f64],

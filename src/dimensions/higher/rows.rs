@@ -1,5 +1,5 @@
-//! The points of a cloud of any dimension: rows of numbers, their order by
-//! coordinates, and what is measured in that order.
+//! The points of a cloud of any dimension: rows of numbers, their order by coordinates, and
+//! statistics measured in this order.
 
 use alloc::vec::Vec;
 
@@ -10,13 +10,14 @@ use crate::base::sort::{ordered, sort_by_numbers};
 use crate::cloud::point_cloud::NonFinite;
 use crate::cloud::points::checked_len;
 
-/// Neighbors whose mean distance is a point's spacing, and points that are measured.
+/// The spacing of a point is its mean distance from `NEIGHBORS` points; it is measured at
+/// `SAMPLES` points.
 const NEIGHBORS: usize = 6;
 const SAMPLES: usize = 512;
 
 pub(super) struct Rows {
     pub dimension: usize,
-    /// Of every index ever given, without -0.
+    /// The row of every index ever given. No number is -0.
     coordinates: Vec<f64>,
     present: Vec<bool>,
     /// The present indices sorted by coordinates, and where each distinct point starts.
@@ -114,7 +115,7 @@ impl Rows {
         &self.coordinates[index as usize * self.dimension..][..self.dimension]
     }
 
-    /// Sorts what is present, and measures it in that order.
+    /// Sorts the present rows, and measures them in this order.
     fn arrange(&mut self) -> Result<(), OutOfMemory> {
         let mut keyed: Vec<(u64, u32)> = with_capacity(self.present.len())?;
         let present = (0..self.present.len() as u32).filter(|&i| self.present[i as usize]);
@@ -131,7 +132,7 @@ impl Rows {
                 starts.push(k as u32);
             }
         }
-        // From here on nothing fails.
+        // Nothing below can fail.
         self.centroid = filled(self.dimension, 0.0)?;
         (self.order, self.starts) = (order, starts);
         self.measure();
@@ -145,7 +146,7 @@ impl Rows {
             return;
         }
         for axis in 0..self.dimension {
-            // Relative to one point, which keeps the detail of clouds far away.
+            // Coordinates relative to one point keep the detail of clouds far away.
             let origin = self.at(0)[axis];
             let sum: f64 = (0..count).map(|k| self.at(k)[axis] - origin).sum();
             self.centroid[axis] = origin + sum / count as f64;
@@ -165,12 +166,12 @@ impl Rows {
         self.spacing = sum / samples as f64;
     }
 
-    /// The mean distance of a distinct point to its nearest others.
+    /// The mean distance of a distinct point from its nearest other points.
     fn spacing_at(&self, point: usize) -> f64 {
         let mut nearest = [f64::INFINITY; NEIGHBORS];
         for other in (0..self.starts.len()).filter(|&other| other != point) {
             let squared = squared(self.at(point), self.at(other));
-            // The least ones, ascending.
+            // The smallest distances, ascending.
             if let Some(place) = nearest.iter().position(|&least| squared < least) {
                 nearest.copy_within(place..NEIGHBORS - 1, place + 1);
                 nearest[place] = squared;
