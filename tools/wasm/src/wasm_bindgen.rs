@@ -1,4 +1,4 @@
-//! The `wasm-bindgen` command, unchanged: wasm-pack calls it.
+//! The `wasm-bindgen` command, unchanged.
 
 use std::env;
 
