@@ -1,3 +1,6 @@
+import { copyFileSync } from "node:fs";
+
+import { inRoot } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
 
@@ -5,7 +8,7 @@ import { unlessUnchanged } from "../lib/stamp.js";
 export async function buildDemo(): Promise<void> {
   const work = {
     name: "demo",
-    inputs: ["www", "dist", "package.json", "package-lock.json"],
+    inputs: ["www", "dist", "package.json", "package-lock.json", "THIRD_PARTY.md"],
     ignore: ["www/dist", "www/public/samples"],
     outputs: ["www/dist/index.html", "www/dist/hidden-point-cloud.js", "www/dist/hidden-point-cloud.d.ts"],
   };
@@ -19,6 +22,8 @@ export async function buildDemo(): Promise<void> {
       const options = ["--config", config, "--configLoader", "runner", "--logLevel", "warn"];
       await mustRun("vite", ["build", "www", ...options], `The ${what} could not be built`);
     }
+    // The licenses of the code inside ask for it.
+    copyFileSync(inRoot("THIRD_PARTY.md"), inRoot("www/dist/THIRD_PARTY.md"));
   });
   say(`Demo page and element: ${result}`);
 }

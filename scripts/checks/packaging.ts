@@ -7,17 +7,26 @@ import { FAIL, PASS, checkCommand, sum } from "./check.js";
 import { vitest } from "./vitest.js";
 
 /** Everything a user of the npm package gets. */
-const WANTED = /^(dist\/.+\.(js|d\.ts|wasm)|README\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
-const INDISPENSABLE = ["dist/index.js", "dist/index.d.ts", "dist/wasm/hpr_bg.wasm", "README.md", "LICENSE-MIT"];
+const WANTED = /^(dist\/.+\.(js|d\.ts|wasm)|README\.md|THIRD_PARTY\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
+const INDISPENSABLE = [
+  "dist/index.js",
+  "dist/index.d.ts",
+  "dist/wasm/hpr_bg.wasm",
+  "README.md",
+  "LICENSE-MIT",
+  "THIRD_PARTY.md",
+];
 
 export const packagingChecks: Check[] = [
   {
     title: "Packaging: npm package",
+    part: "packaging",
     needs: [BUILD],
     run: npmPackage,
   },
   {
     title: "Packaging: what package.json promises, and the types as every resolver finds them",
+    part: "packaging",
     needs: [BUILD],
     run: async () =>
       sum([
@@ -27,6 +36,7 @@ export const packagingChecks: Check[] = [
   },
   {
     title: "Packaging: the npm package in its users' projects",
+    part: "packaging",
     needs: [BUILD],
     run: async () => vitest("tests/consumers", { env: { HPR_CHROMIUM: await setUpBrowser() } }),
   },

@@ -1,0 +1,54 @@
+import { dirname } from "node:path";
+
+import { Problem, run } from "../lib/run.js";
+import { WASM_TARGET } from "../setup/rust.js";
+import type { Component } from "./component.js";
+import { licenseText } from "./component.js";
+
+interface Metadata {
+  packages: CratePackage[];
+  resolve: { root: string; nodes: { id: string; deps: { pkg: string; dep_kinds: { kind: string | null }[] }[] }[] };
+}
+
+interface CratePackage {
+  id: string;
+  name: string;
+  version: string;
+  license: string | null;
+  manifest_path: string;
+  targets: { kind: string[] }[];
+}
+
+/** The crates that the wasm is compiled from. Programs that run while it is compiled are no part of it. */
+export async function cratesOfWasm(): Promise<Component[]> {
+  const { packages, resolve } = await metadata();
+  const byId = new Map(packages.map((one) => [one.id, one]));
+  const depsOf = new Map(resolve.nodes.map(({ id, deps }) => [id, deps]));
+  const found = new Set<string>();
+  const visit = (id: string): void => {
+    if (found.has(id) || byId.get(id)?.targets.some(({ kind }) => kind.includes("proc-macro"))) return;
+    found.add(id);
+    for (const { pkg, dep_kinds } of depsOf.get(id) ?? []) {
+      if (dep_kinds.some(({ kind }) => kind === null)) visit(pkg);
+    }
+  };
+  visit(resolve.root);
+  found.delete(resolve.root);
+  return packages
+    .filter(({ id }) => found.has(id))
+    .map(({ name, version, license, manifest_path }) => ({
+      name,
+      version,
+      license: license ?? undefined,
+      text: licenseText(dirname(manifest_path)),
+    }));
+}
+
+async function metadata(): Promise<Metadata> {
+  const features = ["--features", "wasm", "--filter-platform", WASM_TARGET];
+  const args = ["metadata", "--format-version", "1", "--locked", ...features];
+  const { ok, output } = await run("cargo", args, { show: "nothing" });
+  const json = output.split("\n").find((line) => line.startsWith("{"));
+  if (!ok || json === undefined) throw new Problem(`cargo metadata failed: ${output}`);
+  return JSON.parse(json) as Metadata;
+}

@@ -1,0 +1,38 @@
+import { readFileSync } from "node:fs";
+
+import { inRoot } from "../lib/paths.js";
+
+const CRATES_IO = "registry+https://github.com/rust-lang/crates.io-index";
+const NPM = "https://registry.npmjs.org/";
+
+/** Everything in the lock files that has no checksum or comes from elsewhere than the two registries. */
+export function notLocked(): string[] {
+  return [...crates("Cargo.lock"), ...crates("tools/wasm/Cargo.lock"), ...packages()];
+}
+
+function crates(file: string): string[] {
+  const [, ...entries] = readFileSync(inRoot(file), "utf8").split("[[package]]\n");
+  const field = (entry: string, name: string) => new RegExp(`^${name} = "([^"]*)"`, "m").exec(entry)?.[1];
+  return (
+    entries
+      .map((entry) => ({ name: field(entry, "name")!, source: field(entry, "source"), sum: field(entry, "checksum") }))
+      // The project's own crates have no source.
+      .filter(
+        ({ name, source, sum }) =>
+          !/^(hidden-point-removal|hpr-wasm-tools)$/.test(name) && !(source === CRATES_IO && sum),
+      )
+      .map(({ name, source = "no source" }) => `${file}: ${name} (${source})`)
+  );
+}
+
+function packages(): string[] {
+  const lock = JSON.parse(readFileSync(inRoot("package-lock.json"), "utf8")) as {
+    packages: Record<string, { resolved?: string; integrity?: string; link?: boolean; inBundle?: boolean }>;
+  };
+  return Object.entries(lock.packages)
+    .filter(([path, { resolved = NPM, integrity, inBundle }]) => {
+      // A package inside another one's archive shares that one's checksum.
+      return path !== "" && inBundle !== true && !(resolved.startsWith(NPM) && integrity !== undefined);
+    })
+    .map(([path, { resolved = "no checksum" }]) => `package-lock.json: ${path} (${resolved})`);
+}
