@@ -1,40 +1,26 @@
-// npm test: sets up whatever is missing, then runs every check. A check that
-// fails does not keep the others from running; the last lines name what failed
+// npm test [-- part …]: sets up whatever is missing, then runs every check, or those of the parts
+// named. A check that fails does not keep the others from running; the last lines name what failed
 // and add everything up.
-import { buildCheck } from "./checks/build.js";
+import { checks } from "./checks/all.js";
 import type { Check, Outcome } from "./checks/check.js";
-import { FAIL, PASS, sum } from "./checks/check.js";
-import { packagingChecks } from "./checks/packaging.js";
-import { rustChecks } from "./checks/rust.js";
-import { pageCheck, typescriptChecks } from "./checks/typescript.js";
+import { FAIL, sum } from "./checks/check.js";
+import { chosenParts } from "./checks/parts.js";
+import { inOrder, withNeeds } from "./lib/schedule.js";
 import { command } from "./lib/command.js";
 import { collected, print } from "./lib/output.js";
 import { Problem } from "./lib/run.js";
-import { setUpForChecks } from "./setup/setup.js";
 
-const setUpCheck: Check = {
-  title: "Set-up",
-  run: async () => {
-    await setUpForChecks();
-    return PASS;
-  },
-};
-
-/** Two rows of checks beside each other: most use one core, and cargo keeps others of its kind waiting. */
-const BESIDE = [
-  [...rustChecks, pageCheck],
-  [...typescriptChecks, ...packagingChecks],
-];
+/** Most checks use one core, and those that use two wait for a browser half of the time. */
+const AT_ONCE = 2;
 
 const rows: string[] = [];
 const outcomes = new Map<string, Outcome>();
 
 await command(async () => {
   const started = Date.now();
-  if ((await outcomeOf(setUpCheck)).failed === 0) {
-    await outcomeOf(buildCheck);
-    await Promise.all(BESIDE.map(inTurn));
-  }
+  const parts = chosenParts(process.argv.slice(3));
+  const chosen = withNeeds(checks, ({ part }) => part !== undefined && parts.has(part));
+  await inOrder(chosen, AT_ONCE, shown);
 
   const total = sum([...outcomes.values()]);
   heading("Summary");
@@ -44,21 +30,20 @@ await command(async () => {
   if (total.failed > 0) process.exitCode = 1;
 });
 
-/** Shows what each check prints when it has ended, so that nothing else comes in between. */
-async function inTurn(checks: Check[]): Promise<void> {
-  for (const check of checks) {
-    print(`\n… ${check.title}\n`);
-    print((await collected(() => outcomeOf(check))).output);
-  }
+/** Shows what a check prints when it has ended, so that nothing else comes in between. */
+async function shown(check: Check): Promise<void> {
+  print(`\n… ${check.title}\n`);
+  print((await collected(() => recorded(check))).output);
 }
 
-async function outcomeOf(check: Check): Promise<Outcome> {
+async function recorded(check: Check): Promise<void> {
   heading(check.title);
   const began = Date.now();
   const outcome = await tried(check);
   outcomes.set(check.title, outcome);
-  rows.push(`${seconds(began)}  ${check.title}: ${words(outcome)}`);
-  return outcome;
+  const result = outcome.skipped === undefined ? words(outcome) : `skipped: ${outcome.skipped}`;
+  if (outcome.skipped !== undefined) print(`${result}\n`);
+  rows.push(`${seconds(began)}  ${check.title}: ${result}`);
 }
 
 async function tried(check: Check): Promise<Outcome> {

@@ -1,13 +1,36 @@
 import { build } from "../build/build.js";
+import { setUpForBuild, setUpForChecks } from "../setup/setup.js";
 import type { Check } from "./check.js";
 import { PASS } from "./check.js";
 
+export const SETUP = "Set-up: Rust";
+export const TOOLS = "Set-up: wasm-bindgen";
 export const BUILD = "Build: WebAssembly, npm package, demo page";
 
-export const buildCheck: Check = {
-  title: BUILD,
-  run: async () => {
-    await build();
-    return PASS;
+/** Checks of no part: what others need. */
+export const groundwork: Check[] = [
+  {
+    title: SETUP,
+    run: async () => {
+      await setUpForChecks();
+      return PASS;
+    },
   },
-};
+  {
+    title: TOOLS,
+    needs: [SETUP],
+    run: async () => {
+      await setUpForBuild();
+      return PASS;
+    },
+  },
+  {
+    title: BUILD,
+    needs: [TOOLS],
+    locks: "wasm",
+    run: async () => {
+      await build();
+      return PASS;
+    },
+  },
+];

@@ -1,18 +1,23 @@
 import { run } from "../lib/run.js";
+import type { Job } from "../lib/schedule.js";
+import type { Part } from "./parts.js";
 
 /** How many tests a check ran; a check that is one yes or no counts as one. */
 export interface Outcome {
   passed: number;
   failed: number;
-  /** What failed, by name, with the first line of why, as far as the check can tell. */
+  /** The names of failed tests, each with the first line of its message, as far as the check can tell. */
   failures?: string[];
+  /** Why the check ran nothing, where this machine or this repository lacks something. */
+  skipped?: string;
 }
 
 /** One heading of `npm test`. */
-export interface Check {
-  title: string;
-  /** Titles of the checks this one makes no sense without. */
-  needs?: string[];
+export interface Check extends Job {
+  /** Without a part, a check runs only where a chosen one needs it. */
+  part?: Part;
+  /** The folder of target/ that cargo locks: two cargo commands that share one would wait for each other. */
+  locks?: "debug" | "fuzz" | "wasm";
   run: () => Promise<Outcome>;
 }
 
@@ -25,7 +30,7 @@ export async function checkCommand(name: string, args: string[], env: Record<str
 }
 
 /** Several outcomes as one. */
-export function sum(outcomes: Outcome[]): Required<Outcome> {
+export function sum(outcomes: Outcome[]): Required<Omit<Outcome, "skipped">> {
   return {
     passed: outcomes.reduce((total, one) => total + one.passed, 0),
     failed: outcomes.reduce((total, one) => total + one.failed, 0),

@@ -1,5 +1,3 @@
-import { availableParallelism } from "node:os";
-
 import { setUpBrowser } from "../setup/browser.js";
 import type { Check, Outcome } from "./check.js";
 import { checkCommand, sum } from "./check.js";
@@ -9,6 +7,7 @@ import { vitest } from "./vitest.js";
 export const typescriptChecks: Check[] = [
   {
     title: "TypeScript: types",
+    part: "types",
     needs: [BUILD],
     run: async () => {
       const outcomes: Outcome[] = [];
@@ -20,30 +19,39 @@ export const typescriptChecks: Check[] = [
   },
   {
     title: "TypeScript: lints",
+    part: "lint",
     needs: [BUILD],
     run: () => checkCommand("eslint", ["--max-warnings", "0", "."]),
   },
   {
     title: "TypeScript, CSS, HTML: formatting",
+    part: "format",
     run: () => checkCommand("prettier", ["--check", "."]),
   },
   {
     title: "TypeScript: documentation",
+    part: "docs",
     needs: [BUILD],
     // Every name a user can write has to be explained, and every link to lead somewhere.
     run: () => checkCommand("typedoc", ["--logLevel", "Warn"]),
   },
   {
     title: "npm package, under Node",
+    part: "package",
     needs: [BUILD],
     run: () => vitest("tests/package"),
+  },
+  {
+    title: "Commands",
+    part: "scripts",
+    run: () => vitest("tests/scripts"),
   },
 ];
 
 export const pageCheck: Check = {
   title: "Demo page, in Chromium",
+  part: "page",
   needs: [BUILD],
-  // Alone on the machine for most of it, and each file waits for its browser half of the time.
-  run: async () =>
-    vitest("tests/browser", { env: { HPR_CHROMIUM: await setUpBrowser() }, atOnce: availableParallelism() }),
+  // Each file waits for its browser half of the time.
+  run: async () => vitest("tests/browser", { env: { HPR_CHROMIUM: await setUpBrowser() }, atOnce: 2 }),
 };

@@ -10,9 +10,11 @@ export async function setUpForBuild(): Promise<void> {
   await setUpWasmTools();
 }
 
-/** What the checks need besides (the browser is set up by the tests that open it). */
+/** Everything the Rust checks need besides the tools of a build (the browser is set up by the tests that open it). */
 export async function setUpForChecks(): Promise<void> {
-  await setUpForBuild();
+  await setUpRust();
+  await setUpLinker();
+  await setUpTarget(WASM_TARGET);
   await setUpTarget(BARE_TARGET);
   await setUpComponents();
 }

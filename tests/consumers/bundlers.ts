@@ -9,13 +9,14 @@ import type { Consumer, Visit } from "./consumer";
 import { installed, project } from "./install";
 import { html, serve, STRICT } from "./serve";
 
-/** Built by nobody's configuration but what is said here. */
+/** No configuration file of this repository counts. */
 const BARE: vite.InlineConfig = { configFile: false, logLevel: "warn" };
 const CORS = { "access-control-allow-origin": "*" };
 
 export const bundlers = (visit: Visit): Consumer[] => [
   {
     name: "Vite, development server",
+    further: true,
     version: vite.version,
     run: async () => {
       const server = await vite.createServer({
@@ -51,6 +52,7 @@ export const bundlers = (visit: Visit): Consumer[] => [
   },
   {
     name: "Vite, built, scripts on another origin",
+    further: true,
     version: vite.version,
     run: async () => {
       await using cdn = await serve(project("vite", "cdn"), { headers: CORS });
@@ -82,6 +84,7 @@ export const bundlers = (visit: Visit): Consumer[] => [
   },
   {
     name: "webpack, built, scripts on another origin",
+    further: true,
     version: webpack.version,
     run: async () => {
       await using cdn = await serve(project("webpack", "cdn"), { headers: CORS });
@@ -107,6 +110,7 @@ export const bundlers = (visit: Visit): Consumer[] => [
   },
   {
     name: "esbuild, ./inline, a classic script in a file",
+    further: true,
     version: esbuild.version,
     run: async () => {
       await buildWithEsbuild({ entryPoints: ["classic.js"], format: "iife", outdir: "built" });

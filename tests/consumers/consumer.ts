@@ -1,4 +1,4 @@
-/** What a consumer says is visible, in its own thread and through the worker entry. */
+/** The indices that a consumer finds visible, in its own thread and through the worker entry. */
 export interface Answered {
   here?: number[];
   there?: number[];
@@ -8,12 +8,14 @@ export interface Answered {
 /** One way in which the package is used. */
 export interface Consumer {
   name: string;
-  /** Of what builds or runs it. */
+  /** The version of the program that builds or runs it. */
   version: string;
+  /** Run by `npm run consumers` only: slow, or close to another one. */
+  further?: true;
   /** Why it cannot be run here, if so. */
   lacking?: string;
   run: () => Promise<Answered>;
 }
 
-/** How a page's answer is read: opens the address and waits for its `<output>`. */
+/** Reads the answer of a page: opens the address and waits for its `<output>`. */
 export type Visit = (address: string) => Promise<Answered>;

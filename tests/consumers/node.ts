@@ -14,8 +14,8 @@ export const nodeScripts: Consumer[] = [
     ...(canRequire() ? {} : { lacking: "this Node cannot require ES modules" }),
   },
   script("a server that renders pages", "server-side.mjs"),
-  elsewhere("Deno", ["deno", "run", "--allow-all", "--node-modules-dir=manual"]),
-  elsewhere("Bun", ["bun"]),
+  { ...elsewhere("Deno", ["deno", "run", "--allow-all", "--node-modules-dir=manual"]), further: true },
+  { ...elsewhere("Bun", ["bun"]), further: true },
   {
     name: "npx hidden-point-removal",
     version: process.version,

@@ -32,6 +32,7 @@ type Serve = (sendTo: string, onSent: (text: string) => void, cdn: string) => Re
 function consumer({ name, command, version }: Browser, how: string, open: Serve): Consumer {
   return {
     name: `${name}${how}`,
+    further: true,
     version: version ?? "",
     ...(version === undefined ? { lacking: `there is no ${name} here` } : {}),
     run: async () => {

@@ -1,0 +1,19 @@
+import { groundwork } from "./build.js";
+import type { Check } from "./check.js";
+import { packagingChecks } from "./packaging.js";
+import { pythonCheck } from "./python.js";
+import { rustChecks } from "./rust.js";
+import { supplyChecks } from "./supply.js";
+import { pageCheck, typescriptChecks } from "./typescript.js";
+
+/** Every check of `npm test`; earlier ones are begun first, and a check stands behind what it needs. */
+export const checks: Check[] = [
+  ...groundwork,
+  // The longest first, so that short ones fill the gaps.
+  pageCheck,
+  ...rustChecks,
+  ...typescriptChecks,
+  ...packagingChecks,
+  ...supplyChecks,
+  pythonCheck,
+];
