@@ -1,0 +1,45 @@
+// npm run fuzz -- --minutes M --seed N [--only NAME]: every fuzzer of tests/fuzz, with its share of
+// the minutes; says what was tried and what was wrong. Ends with status 1 if anything was wrong.
+import { availableParallelism } from "node:os";
+
+import { buildPackage } from "./build/package.js";
+import { buildWasm } from "./build/wasm.js";
+import { askedFor } from "./fuzz/arguments.js";
+import { allFuzzers } from "./fuzz/fuzzers.js";
+import { runFuzzer } from "./fuzz/run.js";
+import { inOrder } from "./lib/schedule.js";
+import { command } from "./lib/command.js";
+import { mustRun } from "./lib/run.js";
+import { setUpForBuild } from "./setup/setup.js";
+
+await command(async () => {
+  const fuzzers = allFuzzers();
+  const { minutes, seed, only } = askedFor(
+    process.argv.slice(3),
+    fuzzers.map(({ title }) => title),
+  );
+  const chosen = fuzzers.filter(({ title }) => only === undefined || title === only);
+  await setUpForBuild();
+  await buildWasm();
+  await buildPackage();
+  const examples = chosen.flatMap(({ example }) => (example === undefined ? [] : ["--example", example]));
+  if (examples.length > 0) {
+    const args = ["build", "--locked", "--profile", "fuzz", ...examples];
+    await mustRun("cargo", args, "The fuzzers do not build");
+  }
+
+  const atOnce = Math.min(availableParallelism(), chosen.length);
+  const share = (minutes * atOnce) / chosen.length;
+  console.log(`seed ${seed}, ${minutes} minutes: ${share.toFixed(2)} for each of ${chosen.length} fuzzers\n`);
+  const rows: string[] = [];
+  let wrong = 0;
+  await inOrder(chosen, atOnce, async (fuzzer) => {
+    const report = await runFuzzer(fuzzer, share, seed);
+    wrong += report.wrong;
+    rows.push(
+      `${fuzzer.title.padEnd(16)} ${report.tried.toLocaleString("en").padStart(14)} tried ${report.wrong} wrong`,
+    );
+  });
+  console.log(`\n${rows.sort().join("\n")}\n\n${wrong === 0 ? "nothing was wrong" : `${wrong} wrong`} (seed ${seed})`);
+  if (wrong > 0) process.exitCode = 1;
+});

@@ -1,0 +1,37 @@
+import { existsSync, readFileSync } from "node:fs";
+
+import { inRoot } from "../lib/paths.js";
+
+/**
+ * A program that takes `--minutes M --seed N`, prints a last line `N tried, M wrong`, and prints
+ * before it the facts that repeat each wrong answer.
+ */
+export interface Fuzzer {
+  title: string;
+  /** The Rust example, where the fuzzer is one. */
+  example?: string;
+  command: string[];
+}
+
+/** Functions of TypeScript files, `(minutes, seed) => Promise<{ tried, wrong }>`, by title. */
+const FUNCTIONS: Record<string, { file: string; name: string }> = {
+  files: { file: "tests/fuzz/files.ts", name: "fuzzFiles" },
+  border: { file: "tests/fuzz/border.ts", name: "fuzzBorder" },
+};
+
+/** Every Rust example `fuzz_…` of Cargo.toml, and the functions whose file is there. */
+export function allFuzzers(): Fuzzer[] {
+  const examples = [...readFileSync(inRoot("Cargo.toml"), "utf8").matchAll(/^name = "fuzz_(\w+)"$/gm)];
+  const inRust = examples.map(([, title]) => rust(title!));
+  const functions = Object.entries(FUNCTIONS).filter(([, { file }]) => existsSync(inRoot(file)));
+  return [...inRust, ...functions.map(([title, { file, name }]) => typescript(title, file, name))];
+}
+
+function rust(title: string): Fuzzer {
+  const example = `fuzz_${title}`;
+  return { title, example, command: [inRoot("target", "fuzz", "examples", example)] };
+}
+
+function typescript(title: string, file: string, name: string): Fuzzer {
+  return { title, command: [process.execPath, inRoot("target", "scripts", "fuzz", "function.js"), file, name] };
+}

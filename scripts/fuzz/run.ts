@@ -1,0 +1,24 @@
+import { run } from "../lib/run.js";
+import type { Fuzzer } from "./fuzzers.js";
+
+export interface Tally {
+  tried: number;
+  wrong: number;
+}
+
+/** Runs one fuzzer and reads its last line. A fuzzer that crashes, or gives no count, counts as one wrong. */
+export async function runFuzzer({ title, command }: Fuzzer, minutes: number, seed: number): Promise<Tally> {
+  const [program = "", ...args] = command;
+  console.log(`… ${title}`);
+  const asked = ["--minutes", String(minutes), "--seed", String(seed)];
+  const { ok, output } = await run(program, [...args, ...asked], { show: "nothing" });
+  const { tried, wrong } = tallyIn(output);
+  const counted = { tried, wrong: ok ? wrong : Math.max(wrong, 1) };
+  if (counted.wrong > 0) console.log(`--- ${title}:\n${output.trimEnd()}\n---`);
+  return counted;
+}
+
+function tallyIn(output: string): Tally {
+  const [, tried, wrong] = /(\d+) tried, (\d+) wrong\s*$/.exec(output) ?? [];
+  return tried === undefined ? { tried: 0, wrong: 1 } : { tried: Number(tried), wrong: Number(wrong) };
+}
