@@ -1,9 +1,8 @@
-// Runs one of the project's commands: `node scripts/bootstrap.mjs start|test|build|bench|docs|figures`.
+// Runs one of the project's commands: `node scripts/bootstrap.mjs NAME` runs scripts/NAME.ts.
 //
-// The commands are written in TypeScript, which nothing can run on a fresh
-// clone; this file, the only plain JavaScript among the scripts, gets them
-// there: it installs the npm packages when they do not match the lock file,
-// compiles the scripts when they changed, and hands over.
+// The commands are written in TypeScript, which a fresh clone cannot run. This file, the only plain
+// JavaScript among the scripts, installs the npm packages when they do not match the lock file,
+// compiles the scripts when they changed, and starts the command.
 import { spawnSync } from "node:child_process";
 import { existsSync, readFileSync, readdirSync, statSync, writeFileSync, mkdirSync } from "node:fs";
 import { dirname, join } from "node:path";
