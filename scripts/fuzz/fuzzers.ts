@@ -3,8 +3,8 @@ import { existsSync, readFileSync } from "node:fs";
 import { inRoot } from "../lib/paths.js";
 
 /**
- * A program that takes `--minutes M --seed N`, prints a last line `N tried, M wrong`, and prints
- * before it the facts that repeat each wrong answer.
+ * A program that takes `--minutes M --seed N` and prints a last line `N tried, M wrong`; before it, the
+ * facts that repeat each wrong answer.
  */
 export interface Fuzzer {
   title: string;
@@ -13,7 +13,7 @@ export interface Fuzzer {
   command: string[];
 }
 
-/** Functions of TypeScript files, `(minutes, seed) => Promise<{ tried, wrong }>`, by title. */
+/** Functions of TypeScript files, `(minutes, seed) => Promise<{ tried, wrong } | wrong>`, by title. */
 const FUNCTIONS: Record<string, { file: string; name: string }> = {
   files: { file: "tests/fuzz/files.ts", name: "fuzzFiles" },
   border: { file: "tests/fuzz/border.ts", name: "fuzzBorder" },

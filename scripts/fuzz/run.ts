@@ -18,7 +18,11 @@ export async function runFuzzer({ title, command }: Fuzzer, minutes: number, see
   return counted;
 }
 
-function tallyIn(output: string): Tally {
-  const [, tried, wrong] = /(\d+) tried, (\d+) wrong\s*$/.exec(output) ?? [];
-  return tried === undefined ? { tried: 0, wrong: 1 } : { tried: Number(tried), wrong: Number(wrong) };
+/** The last line, `N tried, M wrong`; or the sum of the lines that end in `N cases, M wrong`. */
+export function tallyIn(output: string): Tally {
+  const last = /(\d+) tried, (\d+) wrong\s*$/.exec(output);
+  const lines = last === null ? [...output.matchAll(/(\d+) cases, (\d+) wrong$/gm)] : [last];
+  if (lines.length === 0) return { tried: 0, wrong: 1 };
+  const total = (group: number) => lines.reduce((sum, line) => sum + Number(line[group]), 0);
+  return { tried: total(1), wrong: total(2) };
 }

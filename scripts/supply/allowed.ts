@@ -22,7 +22,7 @@ export function isAllowed(expression: string, allowed: ReadonlySet<string>): boo
   let at = 0;
   const either = (): boolean => {
     let value = both();
-    while (tokens[at] === "OR" || tokens[at] === "/") {
+    while (tokens[at] === "OR") {
       at++;
       // Both sides have to be read, whatever the first one was.
       value = both() || value;
@@ -41,8 +41,7 @@ export function isAllowed(expression: string, allowed: ReadonlySet<string>): boo
     const token = tokens[at++];
     if (token !== "(") return token !== undefined && allowed.has(token);
     const value = either();
-    at++;
-    return value;
+    return tokens[at++] === ")" && value;
   };
   return either() && at >= tokens.length;
 }

@@ -1,11 +1,12 @@
 //! Moving viewpoints, each answer compared with that of a view that starts anew:
-//! `cargo run --release --example fuzz_motion -- --views 10000 [--seed N]`
+//! `cargo run --profile fuzz --example fuzz_motion -- --minutes 5 [--seed N]`,
+//! or `--views 10000` for a number of views.
 //!
 //! Walks around, in and through scanned and generated clouds, by steps of all sizes
 //! and with every choice of the radius. A wrong answer is printed with what repeats it,
 //! and ends the run with status 1.
 
-use std::time::{SystemTime, UNIX_EPOCH};
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
 use hidden_point_removal::{Options, PointCloud};
 
@@ -25,31 +26,40 @@ struct Subject {
     name: &'static str,
     points: Points,
     cloud: PointCloud,
-    /// Views out of a hundred.
+    /// Views, or seconds, out of a hundred.
     share: usize,
 }
 
 fn main() {
-    let views = argument("--views").map_or(1000, |x| x.parse().expect("a number"));
+    // Either of the two ends a cloud's walks.
+    let views: Option<usize> = argument("--views").map(|x| x.parse().expect("a number"));
+    let default = if views.is_some() { 1e6 } else { 1.0 };
+    let minutes: f64 = argument("--minutes").map_or(default, |x| x.parse().expect("a number"));
     let now = SystemTime::now()
         .duration_since(UNIX_EPOCH)
         .expect("a clock");
     let seed: u64 = argument("--seed").map_or(now.as_secs(), |x| x.parse().expect("a number"));
-    println!("seed {seed}, {views} views");
+    println!("seed {seed}");
+    let mut tried = 0;
     for subject in subjects() {
-        let views = views * subject.share / 100;
+        let share = subject.share as f64 / 100.0;
+        let end = Instant::now() + Duration::from_secs_f64(minutes * 60.0 * share);
+        let views = views.map_or(usize::MAX, |views| views * subject.share / 100);
         let mut rng = Rng::new(seed);
-        let mut warm = 0;
-        for first in (0..views).step_by(WALK) {
-            let last = views.min(first + WALK);
-            warm += walk(&subject, &mut rng, first..last);
+        let (mut done, mut warm) = (0, 0);
+        while done < views && Instant::now() < end {
+            let last = views.min(done.saturating_add(WALK));
+            warm += walk(&subject, &mut rng, done..last);
+            done = last;
         }
         println!(
-            "{} ({} points): {views} views, {warm} of them warm, wrong 0",
+            "{} ({} points): {done} views, {warm} of them warm, wrong 0",
             subject.name,
             subject.points.len()
         );
+        tried += done;
     }
+    println!("{tried} tried, 0 wrong");
 }
 
 fn argument(name: &str) -> Option<String> {
@@ -72,7 +82,7 @@ fn walk(subject: &Subject, rng: &mut Rng, views: std::ops::Range<usize>) -> usiz
                 "wrong: {}, view {view}, from {before:?} to {viewpoint:?} with {options:?}",
                 subject.name
             );
-            println!("{different}");
+            println!("{different}\n{} tried, 1 wrong", view + 1);
             std::process::exit(1);
         }
         warm += usize::from(observer.moved());

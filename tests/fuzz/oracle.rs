@@ -1,5 +1,5 @@
 //! Random scenes against the definition, for as long as you like:
-//! `cargo run --release --example fuzz_oracle -- --minutes 5 [--seed N] [--kind TEXT]`
+//! `cargo run --profile fuzz --example fuzz_oracle -- --minutes 5 [--seed N] [--kind TEXT]`
 //!
 //! Small scenes are compared with the naive oracle, larger ones with certificates
 //! for every point. A wrong answer is cut down to the fewest points that still
@@ -52,13 +52,15 @@ fn main() {
             if is_wrong(&scene) {
                 println!("wrong: {} with seed {seed}, {n} points", kind.name);
                 report(shrink(scene));
+                println!("{} tried, 1 wrong", scenes + 1);
                 std::process::exit(1);
             }
             scenes += 1;
             points += n as u64;
         }
     }
-    println!("{scenes} scenes with {points} points answered by the definition");
+    println!("{points} points in all");
+    println!("{scenes} tried, 0 wrong");
 }
 
 fn argument(name: &str) -> Option<String> {

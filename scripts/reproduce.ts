@@ -1,0 +1,67 @@
+// npm run reproduce: builds the last commit twice, each time from nothing, in another folder and with another
+// home of cargo, and compares every byte of the npm package. Writes tests/release/REPRODUCED.md.
+import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+
+import { command } from "./lib/command.js";
+import { environment, inRoot } from "./lib/paths.js";
+import { Problem, mustRun, run, say } from "./lib/run.js";
+import { digestOfAll, digestsIn } from "./release/digests.js";
+import { setUpForBuild } from "./setup/setup.js";
+
+const RESULT = "tests/release/REPRODUCED.md";
+const WASM = "wasm/hpr_bg.wasm";
+
+await command(async () => {
+  await setUpForBuild();
+  const folder = mkdtempSync(join(tmpdir(), "hpr-reproduce-"));
+  try {
+    const first = await built(join(folder, "first"), {});
+    const second = await built(join(folder, "another", "place"), { CARGO_HOME: join(folder, "cargo") });
+    const names = [...new Set([...first.keys(), ...second.keys()])];
+    const different = names.filter((name) => first.get(name) !== second.get(name));
+    if (different.length > 0) throw new Problem(`The two builds differ in: ${different.join(", ")}`);
+    mkdirSync(inRoot("tests/release"), { recursive: true });
+    writeFileSync(inRoot(RESULT), await report(first));
+    console.log(`The two builds are equal: ${names.length} files (${RESULT})`);
+  } finally {
+    rmSync(folder, { recursive: true });
+  }
+});
+
+/** Builds the last commit in a folder of its own; returns the digests of the npm package's files. */
+async function built(folder: string, env: Record<string, string>): Promise<Map<string, string>> {
+  say(`Building in ${folder}…`);
+  await mustRun("git", ["clone", "--quiet", inRoot("."), folder], "The repository could not be copied");
+  mkdirSync(join(folder, "target"));
+  // Neither is built from the sources of this repository.
+  symlinkSync(inRoot("node_modules"), join(folder, "node_modules"), "dir");
+  symlinkSync(inRoot("target", "tools"), join(folder, "target", "tools"), "dir");
+  const args = [join(folder, "scripts", "bootstrap.mjs"), "build", "package"];
+  // The path of commands is for this folder; the build makes its own.
+  const { PATH = "" } = environment();
+  await mustRun(process.execPath, args, "The build failed", { env: { ...env, PATH } });
+  return digestsIn(join(folder, "dist"));
+}
+
+async function report(digests: Map<string, string>): Promise<string> {
+  const versionOf = async (program: string, ...args: string[]) =>
+    (await run(program, args, { show: "nothing" })).output.trim().split("\n").at(-1)!;
+  const commit = await versionOf("git", "log", "-1", "--format=%h, %as");
+  return `# Two clean builds, the same bytes
+
+Written by \`npm run reproduce\`: the npm package of one commit, built twice from nothing, in different folders
+and with different homes of cargo.
+
+| | |
+|---|---|
+| commit | ${commit} |
+| compiler | ${await versionOf("rustc", "--version")} |
+| wasm-opt | ${await versionOf("wasm-opt", "--version")} |
+| TypeScript | ${await versionOf("tsc", "--version")} |
+| files compared | ${digests.size}, all equal |
+| sha256 of \`dist/${WASM}\` | \`${digests.get(WASM) ?? ""}\` |
+| sha256 of all names and digests | \`${digestOfAll(digests)}\` |
+`;
+}
