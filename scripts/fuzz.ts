@@ -20,8 +20,10 @@ await command(async () => {
   );
   const chosen = fuzzers.filter(({ title }) => only === undefined || title === only);
   await setUpForBuild();
-  await buildWasm();
-  await buildPackage();
+  if (chosen.some(({ example }) => example === undefined)) {
+    await buildWasm();
+    await buildPackage();
+  }
   const examples = chosen.flatMap(({ example }) => (example === undefined ? [] : ["--example", example]));
   if (examples.length > 0) {
     const args = ["build", "--locked", "--profile", "fuzz", ...examples];
