@@ -11,6 +11,7 @@ export const BUILD = "Build: WebAssembly, npm package, demo page";
 export const groundwork: Check[] = [
   {
     title: SETUP,
+    part: undefined,
     run: async () => {
       await setUpForChecks();
       return PASS;
@@ -18,6 +19,7 @@ export const groundwork: Check[] = [
   },
   {
     title: TOOLS,
+    part: undefined,
     needs: [SETUP],
     run: async () => {
       await setUpForBuild();
@@ -26,6 +28,7 @@ export const groundwork: Check[] = [
   },
   {
     title: BUILD,
+    part: undefined,
     needs: [TOOLS],
     locks: "wasm",
     run: async () => {

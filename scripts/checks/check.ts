@@ -14,8 +14,8 @@ export interface Outcome {
 
 /** One heading of `npm test`. */
 export interface Check extends Job {
-  /** Without a part, a check runs only where a chosen one needs it. */
-  part?: Part;
+  /** With no part, a check runs only where a chosen one needs it. */
+  part: Part | undefined;
   /** The folder of target/ that cargo locks: two cargo commands that share one would wait for each other. */
   locks?: "debug" | "fuzz" | "wasm";
   run: () => Promise<Outcome>;

@@ -15,6 +15,7 @@ const source = join(root, "src");
 
 export const roomsCheck: Check = {
   title: "Rust: imports go downward",
+  part: "lint",
   run: () => {
     const imports = importsOfAll();
     const wrong = [...upward(imports), ...circles(imports)];

@@ -39,6 +39,8 @@ export const typescriptChecks: Check[] = [
     title: "npm package, under Node",
     part: "package",
     needs: [BUILD],
+    // Some of its tests run examples of the crate.
+    locks: "fuzz",
     run: () => vitest("tests/package"),
   },
   {

@@ -72,7 +72,9 @@ describe("commands", () => {
         "run",
         "--quiet",
         "--locked",
-        "--release",
+        // As the native tests are compiled, which is quicker than for a release.
+        "--profile",
+        "fuzz",
         "--manifest-path",
         join(root, "Cargo.toml"),
         "--example",

@@ -14,7 +14,8 @@ const folder = mkdtempSync(join(tmpdir(), "hpr-native-"));
 const cargo = (...args: string[]) => execFileSync("cargo", args, { cwd: root, encoding: "utf8", stdio: "pipe" });
 
 beforeAll(() => {
-  cargo("build", "--locked", "--release", "--example", "filter_xyz");
+  // In the profile of the native tests, so that the crate is compiled once.
+  cargo("build", "--locked", "--profile", "fuzz", "--example", "filter_xyz");
 }, 300_000);
 afterAll(() => {
   rmSync(folder, { recursive: true });
@@ -27,7 +28,7 @@ function visibleNatively(positions: Float64Array, viewpoint: number[]): number[]
     [...positions.subarray(3 * i, 3 * i + 3), i].join(" "),
   );
   writeFileSync(file, lines.join("\n"));
-  const example = ["run", "--quiet", "--locked", "--release", "--example", "filter_xyz"];
+  const example = ["run", "--quiet", "--locked", "--profile", "fuzz", "--example", "filter_xyz"];
   const kept = cargo(...example, "--", file, viewpoint.join(","));
   return kept
     .trim()
