@@ -15,6 +15,7 @@ const WASM = "wasm/hpr_bg.wasm";
 
 await command(async () => {
   await setUpForBuild();
+  const commit = await lastLine("git", "log", "-1", "--format=%h, %as");
   const folder = mkdtempSync(join(tmpdir(), "hpr-reproduce-"));
   try {
     const first = await built(join(folder, "first"), {});
@@ -23,7 +24,7 @@ await command(async () => {
     const different = names.filter((name) => first.get(name) !== second.get(name));
     if (different.length > 0) throw new Problem(`The two builds differ in: ${different.join(", ")}`);
     mkdirSync(inRoot("tests/release"), { recursive: true });
-    writeFileSync(inRoot(RESULT), await report(first));
+    writeFileSync(inRoot(RESULT), await report(commit, first));
     console.log(`The two builds are equal: ${names.length} files (${RESULT})`);
   } finally {
     rmSync(folder, { recursive: true });
@@ -45,10 +46,11 @@ async function built(folder: string, env: Record<string, string>): Promise<Map<s
   return digestsIn(join(folder, "dist"));
 }
 
-async function report(digests: Map<string, string>): Promise<string> {
-  const versionOf = async (program: string, ...args: string[]) =>
-    (await run(program, args, { show: "nothing" })).output.trim().split("\n").at(-1)!;
-  const commit = await versionOf("git", "log", "-1", "--format=%h, %as");
+async function lastLine(program: string, ...args: string[]): Promise<string> {
+  return (await run(program, args, { show: "nothing" })).output.trim().split("\n").at(-1)!;
+}
+
+async function report(commit: string, digests: Map<string, string>): Promise<string> {
   return `# Two clean builds, the same bytes
 
 Written by \`npm run reproduce\`: the npm package of one commit, built twice from nothing, in different folders
@@ -57,9 +59,9 @@ and with different homes of cargo.
 | | |
 |---|---|
 | commit | ${commit} |
-| compiler | ${await versionOf("rustc", "--version")} |
-| wasm-opt | ${await versionOf("wasm-opt", "--version")} |
-| TypeScript | ${await versionOf("tsc", "--version")} |
+| compiler | ${await lastLine("rustc", "--version")} |
+| wasm-opt | ${await lastLine("wasm-opt", "--version")} |
+| TypeScript | ${await lastLine("tsc", "--version")} |
 | files compared | ${digests.size}, all equal |
 | sha256 of \`dist/${WASM}\` | \`${digests.get(WASM) ?? ""}\` |
 | sha256 of all names and digests | \`${digestOfAll(digests)}\` |
