@@ -5,7 +5,7 @@ import { delimiter, join } from "node:path";
 /** The repository: this file runs as target/scripts/lib/paths.js. */
 export const root = join(import.meta.dirname, "..", "..", "..");
 
-/** Where the wasm-bindgen commands are installed. */
+/** Where wasm-pack and the wasm-bindgen commands are installed. */
 export const toolsRoot = join(root, "target", "tools");
 const toolsBin = join(toolsRoot, "bin");
 

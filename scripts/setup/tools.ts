@@ -4,23 +4,25 @@ import { join } from "node:path";
 import { inRoot, toolsRoot } from "../lib/paths.js";
 import { Problem, mustRun, run, say } from "../lib/run.js";
 
+const WASM_PACK = "0.15.1";
+
 // The tools run for seconds but take minutes to optimize.
 const QUICK_BUILD = ["--debug", "--locked", "--root", toolsRoot, "--target-dir", join(toolsRoot, "build")];
 const NO_DEBUG_INFO = { CARGO_PROFILE_DEV_DEBUG: "0" };
 
-/** The wasm-bindgen commands of the version that the crate is locked to. */
+/** wasm-pack, and the wasm-bindgen commands of the version the crate is locked to. */
 export async function setUpWasmTools(): Promise<void> {
   const version = lockedVersion("Cargo.lock");
-  if (await hasWasmBindgen(version)) return;
+  if ((await hasWasmPack()) && (await hasWasmBindgen(version))) return;
   if (lockedVersion("tools/wasm/Cargo.lock") !== version) {
     throw new Problem(
       `Cargo.lock has wasm-bindgen ${version}, but tools/wasm builds another version: ` +
         "set it in the Cargo.toml there, and run `cargo update` there.",
     );
   }
-  say(`Building wasm-bindgen ${version} (a minute or two)…`);
+  say(`Building wasm-bindgen ${version} and wasm-pack (about two minutes)…`);
   const args = ["install", "--path", inRoot("tools", "wasm"), "--force", ...QUICK_BUILD];
-  await mustRun("cargo", args, "wasm-bindgen could not be built", { env: NO_DEBUG_INFO });
+  await mustRun("cargo", args, "wasm-bindgen and wasm-pack could not be built", { env: NO_DEBUG_INFO });
   // 800 MB that only a new version would look at again.
   rmSync(join(toolsRoot, "build"), { recursive: true, force: true });
 }
@@ -29,6 +31,12 @@ export async function setUpWasmTools(): Promise<void> {
 async function hasWasmBindgen(version: string): Promise<boolean> {
   const found = [await versionOf("wasm-bindgen"), await versionOf("wasm-bindgen-test-runner")];
   return found.every((one) => one === version);
+}
+
+/** Any wasm-pack will do that is not older than the one the build was made with. */
+async function hasWasmPack(): Promise<boolean> {
+  const found = await versionOf("wasm-pack");
+  return found !== undefined && found.localeCompare(WASM_PACK, "en", { numeric: true }) >= 0;
 }
 
 async function versionOf(command: string): Promise<string | undefined> {

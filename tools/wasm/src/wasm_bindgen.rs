@@ -1,4 +1,4 @@
-//! The `wasm-bindgen` command, unchanged.
+//! The `wasm-bindgen` command, unchanged: wasm-pack calls it.
 
 use std::env;
 
