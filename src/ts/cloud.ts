@@ -92,7 +92,7 @@ export class PointCloud {
    *
    * @param positions the coordinates of one point after another: x, y, z unless
    *   `dimension` says otherwise. A Float32Array stays in single precision (up to three
-   *   dimensions); an array of numbers is read in double precision.
+   *   dimensions); everything else is read in double precision.
    * @throws HprError `not-initialised`, `option`, `positions-type`,
    *   `positions-length`, `non-finite`, `too-large`, `internal`.
    */

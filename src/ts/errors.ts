@@ -20,7 +20,7 @@ export type HprErrorCode =
  * | code | when |
  * |---|---|
  * | `positions-length` | the length is not a multiple of the stride |
- * | `positions-type` | not a Float32Array, a Float64Array or an array of numbers, or transferred away |
+ * | `positions-type` | not a typed array of numbers or an array of numbers, or transferred away; BigInt and 16-bit float arrays are refused |
  * | `non-finite` | NaN or an infinity among the positions |
  * | `viewpoint` | not three finite numbers (as many as the dimension); a direction that is zero |
  * | `radius` | not finite, not positive, smaller than the farthest distance, or overflowing |

@@ -3,7 +3,7 @@ import { requireInstance } from "./instance.js";
 import { allocating } from "./memory.js";
 import { givenOptions } from "./options.js";
 import { coreOptions } from "./perform.js";
-import { MAX_LENGTH, type Positions, readPositions, readViewpoint } from "./positions.js";
+import { MAX_LENGTH, type Positions, positionsGone, readPositions, readViewpoint } from "./positions.js";
 import { plainView, typedArrayType } from "./typed-arrays.js";
 import { Kernel, type ResolvedInversion, Rule, type ViewSettings, viewSettings } from "./view-options.js";
 
@@ -58,9 +58,14 @@ export function mergeVisible(
   );
 }
 
-interface ReadPart {
+interface Points {
   positions: Float32Array | Float64Array;
   ids: Uint32Array;
+}
+
+interface ReadPart extends Points {
+  /** How many points it had when it was read. */
+  count: number;
 }
 
 function readSettings(options: unknown): ViewSettings {
@@ -84,53 +89,71 @@ function readParts(parts: unknown): ReadPart[] {
   if (!Array.isArray(parts)) {
     throw new HprError("option", `parts must be an array of { positions, ids }, got ${describe(parts)}`);
   }
-  return Array.from(parts, readPart);
+  const read = Array.from(parts, readPart);
+  // A getter of one part may have taken away the memory of an earlier part. From here on no getter runs.
+  read.forEach(requireMemory);
+  return read;
+}
+
+function requireMemory({ positions, ids, count }: ReadPart, number: number): void {
+  if (positions.length !== 3 * count) {
+    throw inPart(number, positionsGone());
+  }
+  if (ids.length !== count) {
+    throw new HprError("option", `parts[${number}].ids has been transferred away or made smaller`);
+  }
 }
 
 function readPart(part: unknown, number: number): ReadPart {
-  const name = `parts[${number}]`;
   if (typeof part !== "object" || part === null) {
-    throw new HprError("option", `${name} must be { positions, ids }, got ${describe(part)}`);
+    throw new HprError("option", `parts[${number}] must be { positions, ids }, got ${describe(part)}`);
   }
   const { positions, ids } = part as Partial<Record<"positions" | "ids", unknown>>;
+  // Before the ids: only positions in an array of their own kind have getters.
+  const ownPositions = readPositionsOf(number, positions);
   const ownIds = typedArrayType(ids) === "Uint32Array" ? plainView(ids as Uint32Array, Uint32Array) : undefined;
   if (ownIds === undefined) {
-    throw new HprError("option", `${name}.ids must be a Uint32Array, not transferred away, got ${describe(ids)}`);
-  }
-  const numbers = readPositionsOf(name, positions);
-  if (numbers.length !== 3 * ownIds.length) {
     throw new HprError(
-      "positions-length",
-      `${name}: expected 3 numbers for each of ${ownIds.length} ids, got ${numbers.length}`,
+      "option",
+      `parts[${number}].ids must be a Uint32Array, not transferred away, got ${describe(ids)}`,
     );
   }
-  return { positions: numbers, ids: ownIds };
+  const count = ownIds.length;
+  if (ownPositions.length !== 3 * count) {
+    const message = `expected 3 numbers for each of ${count} ids, got ${ownPositions.length}`;
+    throw inPart(number, new HprError("positions-length", message));
+  }
+  return { positions: ownPositions, ids: ownIds, count };
 }
 
-/** Refusals say which part they are about. */
-function readPositionsOf(name: string, positions: unknown): Float32Array | Float64Array {
+function readPositionsOf(number: number, positions: unknown): Float32Array | Float64Array {
   try {
     return readPositions(positions, 3);
   } catch (cause) {
-    throw cause instanceof HprError ? new HprError(cause.code, `${name}: ${cause.message}`, { cause }) : cause;
+    throw cause instanceof HprError ? inPart(number, cause) : cause;
   }
 }
 
+/** Says which part a refusal is about. */
+function inPart(number: number, cause: HprError): HprError {
+  return new HprError(cause.code, `parts[${number}]: ${cause.message}`, { cause });
+}
+
 /** All parts as one, in single precision only where every part is. */
-function joined(parts: ReadPart[]): ReadPart {
-  const count = parts.reduce((sum, { ids }) => sum + ids.length, 0);
-  if (3 * count > MAX_LENGTH) {
-    throw new HprError("too-large", `${count} points exceed what this memory can address`);
+function joined(parts: ReadPart[]): Points {
+  const total = parts.reduce((sum, { count }) => sum + count, 0);
+  if (3 * total > MAX_LENGTH) {
+    throw new HprError("too-large", `${total} points exceed what this memory can address`);
   }
   const single = parts.every(({ positions }) => positions.BYTES_PER_ELEMENT === 4);
-  return allocating(`${count} points`, () => {
-    const positions = single ? new Float32Array(3 * count) : new Float64Array(3 * count);
-    const ids = new Uint32Array(count);
+  return allocating(`${total} points`, () => {
+    const positions = single ? new Float32Array(3 * total) : new Float64Array(3 * total);
+    const ids = new Uint32Array(total);
     let start = 0;
     for (const part of parts) {
       positions.set(part.positions, 3 * start);
       ids.set(part.ids, start);
-      start += part.ids.length;
+      start += part.count;
     }
     return { positions, ids };
   });

@@ -1,13 +1,14 @@
 import { describe, HprError } from "./errors.js";
 import { allocating } from "./memory.js";
-import { plainView, typedArrayType } from "./typed-arrays.js";
+import { isNumberArray, type NumberArray, plainNumbers, typedArrayType } from "./typed-arrays.js";
 
 /**
  * Coordinates of points, x, y, z after one another. A Float32Array is kept in
- * single precision, everything else in double. Views of a SharedArrayBuffer are
- * welcome. The positions are always copied.
+ * single precision. Any other typed array of numbers, or array of numbers, is read in
+ * double precision; arrays of BigInts and of 16-bit floats are refused. Views of a
+ * SharedArrayBuffer are accepted. The positions are always copied.
  */
-export type Positions = Float32Array | Float64Array | ArrayLike<number>;
+export type Positions = NumberArray | ArrayLike<number>;
 
 /** The core's limit, known here so that nothing is copied in vain. */
 export const MOST_POINTS = 2 ** 28;
@@ -16,14 +17,16 @@ export const MAX_LENGTH = 2 ** 32 - 1;
 
 /**
  * Positions in a form that wasm can copy from: a plain view of the memory of the
- * caller's own typed array, or a new array.
+ * caller's own array of floats, or a new array.
  */
 export function readPositions(positions: unknown, stride: number): Float32Array | Float64Array {
-  if (isFloatArray(positions)) {
+  if (isNumberArray(positions)) {
     const numbers = viewOf(positions);
     checkLimits(numbers.length, stride);
     checkMultiple(numbers.length, stride);
-    return numbers;
+    return isFloatArray(numbers)
+      ? numbers
+      : allocating(`${numbers.length} coordinates`, () => new Float64Array(numbers));
   }
   const numbers = fromArrayLike(positions, stride);
   // Only now: that [[1, 2, 3]] is nested says more than its length.
@@ -131,18 +134,19 @@ export function isFloatArray(value: unknown): value is Float32Array | Float64Arr
   return type === "Float32Array" || type === "Float64Array";
 }
 
-function viewOf(positions: Float32Array | Float64Array): Float32Array | Float64Array {
-  const numbers =
-    typedArrayType(positions) === "Float32Array"
-      ? plainView(positions as Float32Array, Float32Array)
-      : plainView(positions as Float64Array, Float64Array);
+function viewOf(positions: NumberArray): NumberArray {
+  const numbers = plainNumbers(positions);
   if (numbers === undefined) {
-    throw new HprError(
-      "positions-type",
-      "the memory of the positions is gone: their buffer has been transferred away or made smaller",
-    );
+    throw positionsGone();
   }
   return numbers;
+}
+
+export function positionsGone(): HprError {
+  return new HprError(
+    "positions-type",
+    "the memory of the positions is gone: their buffer has been transferred away or made smaller",
+  );
 }
 
 function checkLimits(length: number, stride: number): void {
@@ -169,7 +173,7 @@ function fromArrayLike(positions: unknown, stride: number): Float64Array {
   if (length === undefined) {
     throw new HprError(
       "positions-type",
-      `positions must be a Float32Array, a Float64Array or an array of numbers, got ${describe(positions)}`,
+      `positions must be a typed array of numbers or an array of numbers, got ${describe(positions)}`,
     );
   }
   checkLimits(length, stride);

@@ -4,19 +4,51 @@
  */
 const prototype = Object.getPrototypeOf(Uint8Array.prototype) as Uint8Array;
 
-type TypedArray = Uint8Array | Uint32Array | Float32Array | Float64Array;
+/** A typed array whose elements are numbers, and which positions may be read from. */
+export type NumberArray =
+  | Int8Array
+  | Uint8Array
+  | Uint8ClampedArray
+  | Int16Array
+  | Uint16Array
+  | Int32Array
+  | Uint32Array
+  | Float32Array
+  | Float64Array;
 type TypedArrayClass<T> = new (buffer: ArrayBufferLike, byteOffset: number, length: number) => T;
+
+/** By name. Float16Array is not among them: not every platform has it. */
+const NUMBER_ARRAYS = new Map<string | undefined, TypedArrayClass<NumberArray>>([
+  ["Int8Array", Int8Array],
+  ["Uint8Array", Uint8Array],
+  ["Uint8ClampedArray", Uint8ClampedArray],
+  ["Int16Array", Int16Array],
+  ["Uint16Array", Uint16Array],
+  ["Int32Array", Int32Array],
+  ["Uint32Array", Uint32Array],
+  ["Float32Array", Float32Array],
+  ["Float64Array", Float64Array],
+]);
 
 /** The name of a typed array's built-in type; undefined for anything else. */
 export function typedArrayType(value: unknown): string | undefined {
   return ownGetter(Symbol.toStringTag, value) as string | undefined;
 }
 
+export function isNumberArray(value: unknown): value is NumberArray {
+  return NUMBER_ARRAYS.has(typedArrayType(value));
+}
+
+/** {@link plainView} for an array whose type is known only when it is read. */
+export function plainNumbers(view: NumberArray): NumberArray | undefined {
+  return plainView(view, NUMBER_ARRAYS.get(typedArrayType(view))!);
+}
+
 /**
  * The same memory in a plain typed array, which no subclass has a say in.
  * Undefined where the memory is gone: transferred away, or cut off by a resize.
  */
-export function plainView<T extends TypedArray>(view: T, Plain: TypedArrayClass<T>): T | undefined {
+export function plainView<T extends NumberArray>(view: T, Plain: TypedArrayClass<T>): T | undefined {
   try {
     // Throws where the memory is gone, and does nothing else.
     prototype.keys.call(view);

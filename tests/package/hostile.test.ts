@@ -99,6 +99,43 @@ describe("typed arrays of a class of their own", () => {
   });
 });
 
+describe("typed arrays of numbers", () => {
+  const grid = Array.from({ length: 300 }, (_, i) => (i * i) % 101);
+  const whole = new PointCloud(grid).visibleFrom([200, 50, 50]);
+  it.each([Int8Array, Uint8Array, Uint8ClampedArray, Int16Array, Uint16Array, Int32Array, Uint32Array])(
+    "of any kind are read, in double precision: %o",
+    async (Type) => {
+      expect(new PointCloud(Type.from(grid)).visibleFrom([200, 50, 50])).toEqual(whole);
+      const strided = new PointCloud(Type.from(grid), { dimension: 2, stride: 3 });
+      expect(strided.visibleFrom([200, 50])).toEqual(
+        new PointCloud(grid, { dimension: 2, stride: 3 }).visibleFrom([200, 50]),
+      );
+      strided.append(Type.of(1, 2, 3));
+      expect(strided).toHaveLength(101);
+      const positions = Type.from(grid);
+      const creating = WorkerPointCloud.create(positions);
+      positions.fill(0);
+      const remote = await creating;
+      expect(await remote.visibleFrom([200, 50, 50])).toEqual(whole);
+      await remote.dispose();
+      await expectRefusal("option", /transfer/, () => WorkerPointCloud.create(positions, { transfer: true }));
+      await expectRefusal("positions-type", /gone/, () => new PointCloud(transferredAway(positions)));
+    },
+  );
+
+  it("larger than single precision can tell stay apart", () => {
+    // 2²⁴ + 1 is 2²⁴ as a Float32Array has it.
+    const near = Int32Array.of(0, 0, 2 ** 24 + 1, 0, 0, 2 ** 24);
+    expect([...new PointCloud(near).visibleFrom([0, 0, 2 ** 25]).indices]).toEqual([0]);
+  });
+
+  it("but those of 16-bit floats are refused", async () => {
+    // What platforms that have them say they are.
+    const halves = withOwn(new DataView(new ArrayBuffer(6)), Symbol.toStringTag, { value: "Float16Array" });
+    await expectRefusal("positions-type", /Float16Array/, () => new PointCloud(loose(halves)));
+  });
+});
+
 describe("sizes beyond every limit", () => {
   it("are refused before anything is copied", async () => {
     const tooMany = { length: 3 * (2 ** 28 + 1) };

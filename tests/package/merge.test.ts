@@ -57,6 +57,16 @@ describe("parts that were seen with one radius", () => {
     expect(mergeVisible(parts, farAway, together)).toEqual(whole.indices);
   });
 
+  it("are read in double precision where one of them is, whichever comes first", () => {
+    // In single precision 1 + 2⁻⁴⁰ is 1, and both points would be visible.
+    const single = { positions: Float32Array.of(0, 0, 1, 5, 5, 5), ids: Uint32Array.of(1, 3) };
+    const double = { positions: Float64Array.of(0, 0, 1 + 2 ** -40), ids: Uint32Array.of(2) };
+    expect(mergeVisible([single, double], farAway, { radius: 100 })).toEqual(Uint32Array.of(2, 3));
+    expect(mergeVisible([double, single], farAway, { radius: 100 })).toEqual(Uint32Array.of(2, 3));
+    const whole = { positions: Int16Array.of(0, 0, 1, 5, 5, 5), ids: Uint32Array.of(1, 3) };
+    expect(mergeVisible([whole, double], farAway, { radius: 100 })).toEqual(Uint32Array.of(2, 3));
+  });
+
   it("share the answer of equal points, and give an id once", () => {
     const parts = [
       { positions: [0, 0, 1, 0, 0, 0], ids: Uint32Array.of(9, 8) },
@@ -109,6 +119,27 @@ describe("what is refused", () => {
     expect(problem).toBeInstanceOf(HprError);
     expect(problem.code).toBe(code);
     expect(problem.message).toMatch(names);
+  });
+
+  it.each<["positions" | "ids", string, RegExp]>([
+    ["positions", "positions-type", /^parts\[0\]: the memory of the positions is gone/],
+    ["ids", "option", /^parts\[0\]\.ids has been transferred away/],
+  ])("%s whose memory a later part's getter takes away: %s", async (what, code, message) => {
+    for (const Type of [Float32Array, Float64Array]) {
+      const first = { positions: Type.of(0, 0, 1), ids: Uint32Array.of(1) };
+      const second = {
+        get positions() {
+          const { buffer } = first[what];
+          structuredClone(buffer, { transfer: [buffer] });
+          return [0, 1, 0];
+        },
+        ids,
+      };
+      const problem = await problemOf(() => mergeVisible([first, second], farAway, radius));
+      expect(problem).toBeInstanceOf(HprError);
+      expect(problem.code).toBe(code);
+      expect(problem.message).toMatch(message);
+    }
   });
 
   it("not-initialised, before init() has resolved", async () => {

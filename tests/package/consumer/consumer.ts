@@ -44,6 +44,9 @@ export async function everything(): Promise<HprErrorCode | undefined> {
   await initInline();
   try {
     using cloud = new PointCloud(new Float32Array(12), reading);
+    cloud.append(new Uint16Array(4));
+    // @ts-expect-error BigInts are no coordinates.
+    cloud.append(new BigInt64Array(4));
     const visible: Visibility = cloud.visibleFrom([0, 0, 5], options);
     const indices: Uint32Array = visible.indices;
     visible.maskInto(new Uint8Array(cloud.length));

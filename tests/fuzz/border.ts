@@ -1,0 +1,72 @@
+// The public API under arguments of any kind: every call is answered rightly or refused as the contract says.
+import fc from "fast-check";
+import { init } from "hidden-point-removal";
+import { WorkerPointCloud } from "hidden-point-removal/worker";
+import { actingArguments, actingChanges, disappearingMemory } from "./border/acting.js";
+import { changes } from "./border/changes.js";
+import { flights } from "./border/flight.js";
+import { formulas, outputs, rings } from "./border/functions.js";
+import { disappearingParts, merges } from "./border/merging.js";
+import { oneShot, questions } from "./border/single.js";
+
+interface Property {
+  name: string;
+  /** How many cases take about a second, or less. */
+  pace: number;
+  /** Tries so many cases. `wrong` says what is wrong, and what repeats it. */
+  check: (seed: number, cases: number) => Promise<{ tried: number; wrong: string | undefined }>;
+}
+
+const entry = <T>(name: string, pace: number, property: fc.IAsyncProperty<T>): Property => ({
+  name,
+  pace,
+  check: async (seed, cases) => {
+    const found = await fc.check(property, { seed, numRuns: cases });
+    const wrong = found.failed ? `${String(found.errorInstance)}\n${fc.defaultReportMessage(found)}` : undefined;
+    return { tried: found.numRuns, wrong };
+  },
+});
+
+export const PROPERTIES: readonly Property[] = [
+  entry("any cloud, asked anything, here and in a worker", 100, questions),
+  entry("the whole operation in one call", 300, oneShot),
+  entry("any sequence of changes and questions", 40, changes),
+  entry("parts of any kind, merged", 300, merges),
+  entry("parts whose memory goes away while they are read", 300, disappearingParts),
+  entry("arguments that act while they are read", 100, actingArguments),
+  entry("changes that act while they are read", 40, actingChanges),
+  entry("memory that goes away while arguments are read", 40, disappearingMemory),
+  entry("bounds as formulas", 500, formulas),
+  entry("rings of viewpoints", 200, rings),
+  entry("arrays that answers are written into", 300, outputs),
+  entry("workers that end in flight", 10, flights),
+];
+
+/** Runs all properties in turn until the time is over. Returns how many runs found something wrong. */
+export async function fuzzBorder(minutes: number, seed: number): Promise<number> {
+  await init();
+  // Keeps the shared worker alive between cases.
+  const resident = await WorkerPointCloud.create([], { shared: true });
+  const end = Date.now() + 60_000 * minutes;
+  const all = new Map<string, { tried: number; wrong: number }>();
+  let round = 0;
+  do {
+    for (const { name, pace, check } of PROPERTIES) {
+      const { tried, wrong } = await check(seed + round, 3 * pace);
+      const sums = all.get(name) ?? { tried: 0, wrong: 0 };
+      sums.tried += tried;
+      if (wrong !== undefined) {
+        sums.wrong += 1;
+        console.log(`WRONG: ${name}: ${wrong}`);
+      }
+      all.set(name, sums);
+    }
+    round += 1;
+  } while (Date.now() < end);
+  await resident.dispose();
+  console.log(`border: ${round} rounds, seeds ${seed} to ${seed + round - 1}`);
+  for (const [name, { tried, wrong }] of all) {
+    console.log(`  ${name}: ${tried} cases, ${wrong} wrong`);
+  }
+  return [...all.values()].reduce((sum, { wrong }) => sum + wrong, 0);
+}

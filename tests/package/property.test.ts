@@ -1,0 +1,24 @@
+// The public API under arguments of any kind; `fuzzBorder` runs the same for as long as one likes.
+import { init } from "hidden-point-removal";
+import { WorkerPointCloud } from "hidden-point-removal/worker";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { PROPERTIES } from "../fuzz/border.js";
+
+const SEED = 20261122;
+let resident: WorkerPointCloud;
+
+beforeAll(async () => {
+  await init();
+  // Keeps the shared worker alive between cases.
+  resident = await WorkerPointCloud.create([], { shared: true });
+});
+
+afterAll(async () => {
+  await resident.dispose();
+});
+
+describe(`every call is answered rightly or refused as documented, with seed ${SEED}`, () => {
+  it.each(PROPERTIES)("$name", async ({ check, pace }) => {
+    expect((await check(SEED, pace)).wrong).toBeUndefined();
+  });
+});
