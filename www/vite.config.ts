@@ -2,6 +2,7 @@ import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
 import { COMMON } from "./build/common.ts";
 import { offline } from "./build/offline-plugin.ts";
+import { policy } from "./build/policy-plugin.ts";
 import { samples } from "./build/samples-plugin.ts";
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
@@ -10,5 +11,5 @@ export default defineConfig({
   ...COMMON,
   root: here("."),
   build: { outDir: here("dist"), emptyOutDir: true, target: "es2022", chunkSizeWarningLimit: 900 },
-  plugins: [samples(), offline()],
+  plugins: [samples(), policy(), offline()],
 });

@@ -6,7 +6,7 @@
  */
 import { mkdirSync, writeFileSync } from "node:fs";
 import type { Page } from "playwright-core";
-import { launchBrowser, servePage } from "./site.js";
+import { addStyle, launchBrowser, servePage } from "./site.js";
 
 const WIDTH = 470;
 const HEIGHT = 384;
@@ -24,7 +24,7 @@ const page = await browser.newPage({ viewport: { width: WIDTH + PANEL, height: H
 // Few and small enough points for the back to shine through the front, as it does in any viewer.
 await page.goto(`${site.address}?sample=dragon_res3`);
 await page.locator('#status[data-state="ready"]').waitFor();
-await page.addStyleTag({ content: "#tools { display: none }" });
+await addStyle(page, "#tools { display: none }");
 // A little closer than the page begins.
 for (let step = 0; step < 2; step++) await page.locator("#view").press("+");
 await page.locator("#view").blur();

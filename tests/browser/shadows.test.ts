@@ -12,6 +12,7 @@ import {
   unfold,
   upToDate,
 } from "./support.js";
+import { addStyle } from "./site.js";
 
 /** A wall of two by two, and a small plate before its middle. */
 function wall(): number[] {
@@ -84,7 +85,7 @@ test.for(["points", "surface"])("on the %s nothing but the lights shades", async
   const headlight = await openWall(`&show=${show}&light=0,0,4&ambient=0`);
   const bright = await openWall(`&show=${show}&light=9,9,9&ambient=1`);
   const handle = "#lights { display: none }";
-  for (const page of [headlight, bright]) await page.addStyleTag({ content: handle });
+  for (const page of [headlight, bright]) await addStyle(page, handle);
   expect(await differentPixels(headlight, await picture(headlight), await picture(bright))).toBe(0);
 });
 

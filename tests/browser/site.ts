@@ -2,7 +2,7 @@ import { existsSync, readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import type { AddressInfo } from "node:net";
 import { extname, join, normalize } from "node:path";
-import { type Browser, chromium } from "playwright-core";
+import { type Browser, chromium, type Page } from "playwright-core";
 import { root } from "../root.js";
 
 const DIST = join(root, "www", "dist");
@@ -71,4 +71,13 @@ export async function servePage(
 
 export function launchBrowser(): Promise<Browser> {
   return chromium.launch({ executablePath: process.env["HPR_CHROMIUM"] ?? "/usr/bin/chromium" });
+}
+
+/** Adds a style in the way that the page's security policy allows. */
+export async function addStyle(page: Page, css: string): Promise<void> {
+  await page.evaluate((text) => {
+    const sheet = new CSSStyleSheet();
+    sheet.replaceSync(text);
+    document.adoptedStyleSheets.push(sheet);
+  }, css);
 }

@@ -65,9 +65,17 @@ export async function openPage(
     if (message.type() === "error") errors.push(message.text());
   });
   page.on("pageerror", (error) => errors.push(String(error)));
+  await page.addInitScript(reportViolations);
   await prepare?.(page);
   await page.goto(site.address + query);
   return page;
+}
+
+/** Runs in the page: what its security policy refuses is an error of the test. */
+function reportViolations(): void {
+  addEventListener("securitypolicyviolation", ({ effectiveDirective, blockedURI, sourceFile, lineNumber }) => {
+    console.error(`security policy: ${effectiveDirective} refuses ${blockedURI} in ${sourceFile}:${lineNumber}`);
+  });
 }
 
 /** Opens the page and waits until its cloud is there. */

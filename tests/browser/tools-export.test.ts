@@ -3,6 +3,7 @@ import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { at, clickPoint, everything, openBall, tool, visible, within } from "./ball.js";
 import { differentPixels, drag, EVERY_PIXEL, openReady, picture, settled, status, upToDate } from "./support.js";
+import { addStyle } from "./site.js";
 
 const COLOR = (index: number) => [index % 256, (7 * index) % 256, 255 - (index % 256)];
 
@@ -169,11 +170,11 @@ test("the picture is saved as one sees it, marks included", async () => {
   const png = await saved(page, "PNG");
   expect(png.name).toBe("utm-picture.png");
   await tool(page, "Export").click();
-  await page.addStyleTag({ content: "#tools { visibility: hidden }" });
+  await addStyle(page, "#tools { visibility: hidden }");
   await page.locator("#view").blur();
   const shown = await picture(page);
   expect(await differentPixels(page, shown, png.content)).toBeLessThan(60);
-  await page.addStyleTag({ content: "#marks { visibility: hidden }" });
+  await addStyle(page, "#marks { visibility: hidden }");
   expect(await differentPixels(page, await picture(page), png.content)).toBeGreaterThan(200);
 });
 
