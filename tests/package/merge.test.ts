@@ -94,6 +94,7 @@ describe("what is refused", () => {
     ["option", /inversion power.*17/, [part], { radius: 100, inversion: { power: 17 } }],
     ["option", /inversion exponential.*"auto"/, [part], { inversion: { exponential: "auto" } }],
     ["option", /radius.*inversion exponential/, [part], { radius: 100, inversion: { exponential: 1 } }],
+    ["option", /radius.*"auto"/, [part], { radius: "auto", inversion: { exponential: 1 } }],
     ["option", /inversion.*"cubic"/, [part], { radius: 100, inversion: "cubic" }],
     ["option", /parts.*undefined/, undefined, radius],
     ["option", /parts.*Object/, part, radius],
@@ -140,6 +141,12 @@ describe("what is refused", () => {
       expect(problem.code).toBe(code);
       expect(problem.message).toMatch(message);
     }
+  });
+
+  it("with the refusal of the part itself as the cause", async () => {
+    const problem = await problemOf(() => mergeVisible([{ positions: [0, 0, 1, 2], ids }], farAway, radius));
+    expect(problem.cause).toBeInstanceOf(HprError);
+    expect(problem.message).toBe(`parts[0]: ${(problem.cause as Error).message}`);
   });
 
   it("not-initialised, before init() has resolved", async () => {
