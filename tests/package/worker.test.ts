@@ -300,6 +300,15 @@ describe("requests given up", () => {
     expect(await settled(aborted)).toEqual(none.slice(2));
   });
 
+  it("end the worker that was being started for a cloud", async () => {
+    const controller = new AbortController();
+    const creating = settled([WorkerPointCloud.create(sphere, { signal: controller.signal })]);
+    controller.abort();
+    expect(await creating).toEqual(["aborted"]);
+    // A thread that has ended has no number any more.
+    await expect.poll(() => started.map(({ threadId }) => threadId)).toEqual([-1]);
+  });
+
   it("are those whose signal aborts: waiting, running, or not yet asked", async () => {
     const cloud = await WorkerPointCloud.create(sphere);
     const [running, waiting] = [new AbortController(), new AbortController()];
@@ -391,6 +400,8 @@ describe("a worker that is gone", () => {
     expect((await cloud.autoRadius(farAway)).radius).toBeGreaterThan(0);
     expect(await codesOf(pendingIn(cloud))).toEqual(Array<string>(5).fill("internal"));
     expect(await codesOf([cloud.autoRadius(farAway)])).toEqual(["internal"]);
+    // Its memory is given back without dispose().
+    await expect.poll(() => started[0]!.threadId).toBe(-1);
     expect((await problemOf(() => new hpr.PointCloud(sphere).visibleFrom(farAway))).code).toBe("internal");
     const next = await hpr.WorkerPointCloud.create(sphere);
     expect((await next.visibleFrom(farAway)).count).toBeGreaterThan(10);
