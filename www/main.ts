@@ -1,11 +1,11 @@
-import { byId } from "./panel/dom.ts";
+import { byId } from "./controls/dom.ts";
 import { showEmbedded } from "./panel/embedded.ts";
 import { Message } from "./panel/message.ts";
 import { bindSheet } from "./panel/sheet.ts";
-import { readParams } from "./params.ts";
-import { SAMPLES } from "./samples.ts";
-import { startSession } from "./session.ts";
-import { Status } from "./status.ts";
+import { readParams } from "./settings/params.ts";
+import { SAMPLES } from "./samples/samples.ts";
+import { startSession } from "./page/session.ts";
+import { Status } from "./page/status.ts";
 import { canDraw } from "./view/stage.ts";
 
 const params = readParams(

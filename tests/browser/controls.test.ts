@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { TimedView } from "../../www/ask/inquiry.js";
-import { sentenceOf } from "../../www/sentence.js";
+import { sentenceOf } from "../../www/view/sentence.js";
 import {
   answerInNode,
   differentPixels,

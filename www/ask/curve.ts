@@ -1,4 +1,4 @@
-import type { Settings, Viewpoint } from "../settings.ts";
+import type { Settings, Viewpoint } from "../settings/settings.ts";
 import type { Inquiry } from "./inquiry.ts";
 import { isSameView, methodOf, type ViewQuestion } from "./question.ts";
 

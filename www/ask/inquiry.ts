@@ -1,4 +1,4 @@
-import type { Settings, Viewpoint } from "../settings.ts";
+import type { Settings, Viewpoint } from "../settings/settings.ts";
 import { askLight, type LightAnswer } from "./lights.ts";
 import { Newest } from "./newest.ts";
 import {

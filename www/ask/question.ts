@@ -1,4 +1,4 @@
-import type { Inversion, Radius, Settings, Viewpoint, Viewpoints } from "../settings.ts";
+import type { Inversion, Radius, Settings, Viewpoint, Viewpoints } from "../settings/settings.ts";
 
 /** How the library is to decide what a viewpoint or a light sees. */
 export interface Method {

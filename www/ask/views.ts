@@ -1,6 +1,6 @@
 import { HprError, type Visibility, type VisibilityOptions } from "hidden-point-removal";
 import type { RequestOptions } from "hidden-point-removal/worker";
-import { USUAL_EDGE, type Viewpoint } from "../settings.ts";
+import { USUAL_EDGE, type Viewpoint } from "../settings/settings.ts";
 import type { Shape, ViewQuestion } from "./question.ts";
 import type { WorkerCloud } from "./worker-cloud.ts";
 

@@ -6,7 +6,7 @@ import {
   type VisibilityOptions,
 } from "hidden-point-removal";
 import type { WorkerPointCloud } from "hidden-point-removal/worker";
-import type { Viewpoint } from "../settings.ts";
+import type { Viewpoint } from "../settings/settings.ts";
 import type { Method } from "./question.ts";
 
 /** The library's limit. */

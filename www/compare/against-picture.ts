@@ -1,7 +1,7 @@
 import type { TimedView } from "../ask/inquiry.ts";
 import { Newest } from "../ask/newest.ts";
-import type { Settings } from "../settings.ts";
-import type { Viewer } from "../viewer.ts";
+import type { Settings } from "../settings/settings.ts";
+import type { Viewer } from "../view/viewer.ts";
 import { pictureFrom } from "./picture.ts";
 import type { PictureAnswer, PictureQuestion } from "./protocol.ts";
 import { Reference, sentenceOf } from "./reference.ts";

@@ -1,9 +1,9 @@
 import type { TimedView } from "../ask/inquiry.ts";
 import { Newest } from "../ask/newest.ts";
 import { isSamePlace } from "../ask/question.ts";
-import type { KnownSurface } from "../samples.ts";
-import type { Viewpoint } from "../settings.ts";
-import type { Viewer } from "../viewer.ts";
+import type { KnownSurface } from "../samples/samples.ts";
+import type { Viewpoint } from "../settings/settings.ts";
+import type { Viewer } from "../view/viewer.ts";
 import type { TruthAnswer, TruthQuestion } from "./protocol.ts";
 import { Reference, sentenceOf } from "./reference.ts";
 

@@ -1,8 +1,8 @@
 import { download } from "../loaders/download.ts";
 import { readFaces } from "../loaders/faces.ts";
-import { makeRings, skinOfRings } from "../rings.ts";
-import { scanRoom, type Surface } from "../room.ts";
-import type { KnownSurface } from "../samples.ts";
+import { makeRings, skinOfRings } from "../samples/rings.ts";
+import { scanRoom, type Surface } from "../samples/living-room.ts";
+import type { KnownSurface } from "../samples/samples.ts";
 import { streetTruth } from "../samples/street.ts";
 import type { Vector } from "../samples/trace.ts";
 import { grid, joined } from "./mesh.ts";

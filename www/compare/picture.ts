@@ -1,8 +1,8 @@
 import { Matrix4, Vector3 } from "three";
-import type { Viewpoint } from "../settings.ts";
+import type { Viewpoint } from "../settings/settings.ts";
 import { clipping } from "../view/stage.ts";
 import { inLocal } from "../view/framing.ts";
-import type { Viewer } from "../viewer.ts";
+import type { Viewer } from "../view/viewer.ts";
 import type { Picture } from "./zbuffer.ts";
 
 /** The picture as it is on screen, but taken from exactly there: the camera may have gone on since we were asked. */

@@ -1,5 +1,5 @@
-import type { Parts } from "./parts.ts";
-import type { KnownSurface } from "../samples.ts";
+import type { Parts } from "../view/parts.ts";
+import type { KnownSurface } from "../samples/samples.ts";
 import type { Picture } from "./zbuffer.ts";
 
 /** What the page tells a worker that holds a reference: the cloud, in pieces so that sending it holds nothing up, then questions one at a time. */

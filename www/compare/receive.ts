@@ -1,5 +1,5 @@
 /// <reference lib="webworker" />
-import type { Parts } from "./parts.ts";
+import type { Parts } from "../view/parts.ts";
 import type { Reply, Told } from "./protocol.ts";
 
 /** A worker's way to answer: `null` when it has given up, since `stopped` said so. */

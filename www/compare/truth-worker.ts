@@ -1,6 +1,6 @@
-import { HIDDEN, partsOf, VISIBLE } from "./parts.ts";
+import { HIDDEN, partsOf, VISIBLE } from "../view/parts.ts";
 import { oracleFor } from "./oracles.ts";
-import type { KnownSurface } from "../samples.ts";
+import type { KnownSurface } from "../samples/samples.ts";
 import type { TruthAnswer, TruthQuestion } from "./protocol.ts";
 import { receive } from "./receive.ts";
 import type { Oracle } from "./tracer.ts";

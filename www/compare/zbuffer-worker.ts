@@ -1,4 +1,4 @@
-import { OUTSIDE, partsOf, VISIBLE } from "./parts.ts";
+import { OUTSIDE, partsOf, VISIBLE } from "../view/parts.ts";
 import type { PictureAnswer, PictureQuestion } from "./protocol.ts";
 import { receive } from "./receive.ts";
 import { Projected, zBuffer } from "./zbuffer.ts";

@@ -1,4 +1,4 @@
-import { HIDDEN, OUTSIDE, VISIBLE } from "./parts.ts";
+import { HIDDEN, OUTSIDE, VISIBLE } from "../view/parts.ts";
 
 /*
  * How viewers without anything better tell what is visible: every point is drawn as a splat of some pixels into a buffer

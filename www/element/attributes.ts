@@ -1,6 +1,6 @@
-import { type Settings, USUAL_SETTINGS } from "../settings.ts";
-import { SAMPLES } from "../samples.ts";
-import { type ValueName, type ValueOf, VALUES, type Written } from "../values.ts";
+import { type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
+import { SAMPLES } from "../samples/samples.ts";
+import { type ValueName, type ValueOf, VALUES, type Written } from "../settings/values.ts";
 import type { AskedView } from "../view/framing.ts";
 import { Problem } from "./problem.ts";
 

@@ -1,4 +1,4 @@
-import { parsePlace } from "../values.ts";
+import { parsePlace } from "../settings/values.ts";
 import { valueOf, type WrittenAttribute } from "./attributes.ts";
 
 /** A property that is an attribute: what it is for what the attribute says, and what is written there; `null` for nothing. */

@@ -1,4 +1,4 @@
-import type { Attribute, LoadedCloud } from "../cloud.ts";
+import type { Attribute, LoadedCloud } from "../cloud/cloud.ts";
 import { isWhole, type Values } from "./numbers.ts";
 
 /** More than these are not worth the memory they take. */

@@ -1,4 +1,4 @@
-import type { LoadedCloud } from "../cloud.ts";
+import type { LoadedCloud } from "../cloud/cloud.ts";
 import { attributesOf } from "./attributes.ts";
 import { type NumberType, newValues, type Values } from "./numbers.ts";
 

@@ -14,7 +14,7 @@ import {
 } from "three";
 import { type GLTF, GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { MeshoptDecoder } from "three/addons/libs/meshopt_decoder.module.js";
-import type { LoadedCloud } from "../cloud.ts";
+import type { LoadedCloud } from "../cloud/cloud.ts";
 import { bytes, type Reading } from "./blocks.ts";
 import { CloudBuilder, type Column } from "./builder.ts";
 import { checkByteLength } from "./limits.ts";

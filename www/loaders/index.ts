@@ -1,4 +1,4 @@
-import type { PreparedCloud } from "../cloud.ts";
+import type { PreparedCloud } from "../cloud/cloud.ts";
 import { LoadProblem, missingPart } from "./problem.ts";
 import type { LoadReply, LoadRequest } from "./protocol.ts";
 import script from "./worker.ts?worker&url";

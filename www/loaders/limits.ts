@@ -1,5 +1,5 @@
 import type { Values } from "./numbers.ts";
-import type { LoadedCloud } from "../cloud.ts";
+import type { LoadedCloud } from "../cloud/cloud.ts";
 import { LoadProblem } from "./problem.ts";
 
 /** Of more points every so manyth is shown: beyond, finding the visible ones takes many seconds and gigabytes. */

@@ -1,4 +1,4 @@
-import type { LoadedCloud } from "../cloud.ts";
+import type { LoadedCloud } from "../cloud/cloud.ts";
 import { lines, type Reading } from "./blocks.ts";
 import { CloudBuilder } from "./builder.ts";
 import { LoadProblem } from "./problem.ts";

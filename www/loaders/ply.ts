@@ -1,4 +1,4 @@
-import type { LoadedCloud } from "../cloud.ts";
+import type { LoadedCloud } from "../cloud/cloud.ts";
 import { bytes, type Reading } from "./blocks.ts";
 import { bytesOf, numberReader, type NumberType } from "./numbers.ts";
 import { LoadProblem } from "./problem.ts";

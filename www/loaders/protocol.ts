@@ -1,5 +1,5 @@
-import type { PreparedCloud } from "../cloud.ts";
-import type { ShapeName } from "../shapes.ts";
+import type { PreparedCloud } from "../cloud/cloud.ts";
+import type { ShapeName } from "../samples/shapes.ts";
 
 /** What the page asks of the loading worker; one request each. */
 export type LoadRequest =

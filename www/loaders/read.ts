@@ -1,4 +1,4 @@
-import type { LoadedCloud } from "../cloud.ts";
+import type { LoadedCloud } from "../cloud/cloud.ts";
 import { bytes, type Reading } from "./blocks.ts";
 import { LoadProblem, missingPart } from "./problem.ts";
 

@@ -1,4 +1,4 @@
-import type { LoadedCloud } from "../cloud.ts";
+import type { LoadedCloud } from "../cloud/cloud.ts";
 import { type Reading, bytes, eachRow, lines } from "./blocks.ts";
 import { CloudBuilder, type Column } from "./builder.ts";
 import { type NumberReader, numberReader, type NumberType } from "./numbers.ts";

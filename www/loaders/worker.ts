@@ -1,6 +1,6 @@
 /// <reference lib="webworker" />
-import { type LoadedCloud, prepareCloud } from "../cloud.ts";
-import { SHAPES } from "../shapes.ts";
+import { type LoadedCloud, prepareCloud } from "../cloud/cloud.ts";
+import { SHAPES } from "../samples/shapes.ts";
 import { download, downloadRanges } from "./download.ts";
 import { checkedCloud, MAX_POINTS } from "./limits.ts";
 import { LoadProblem } from "./problem.ts";

@@ -1,7 +1,7 @@
-import type { Cloud } from "../cloud.ts";
-import type { Store } from "../settings.ts";
+import type { Cloud } from "../cloud/cloud.ts";
+import type { Store } from "../settings/settings.ts";
 import { colorChoices, type Legend } from "../view/colors.ts";
-import { byId } from "./dom.ts";
+import { byId } from "../controls/dom.ts";
 
 export interface ColorControl {
   /** Another cloud has other things to be colored by. */

@@ -1,10 +1,10 @@
 import type { ViewAnswer } from "../ask/views.ts";
-import { type Inversion, type Settings, type Store, USUAL_SETTINGS } from "../settings.ts";
-import { Moves } from "../moves.ts";
-import type { Viewer } from "../viewer.ts";
-import type { Cloud } from "../cloud.ts";
+import { type Inversion, type Settings, type Store, USUAL_SETTINGS } from "../settings/settings.ts";
+import { Moves } from "../view/moves.ts";
+import type { Viewer } from "../view/viewer.ts";
+import type { Cloud } from "../cloud/cloud.ts";
 import { bindColor, type ColorControl } from "./color.ts";
-import { byId } from "./dom.ts";
+import { byId } from "../controls/dom.ts";
 import { bindFullScreen } from "./full-screen.ts";
 import { bindInversion } from "./inversion.ts";
 import { bindLook } from "./look.ts";

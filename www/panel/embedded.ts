@@ -1,5 +1,5 @@
-import { readable } from "../address.ts";
-import { byId } from "./dom.ts";
+import { readable } from "../settings/address.ts";
+import { byId } from "../controls/dom.ts";
 
 /** In a frame of another page: the picture alone, and a link to all of it as it is now. */
 export function showEmbedded(): void {

@@ -1,4 +1,4 @@
-import { byId } from "./dom.ts";
+import { byId } from "../controls/dom.ts";
 
 export interface FileActions {
   /** With what the user has to know besides. */

@@ -1,4 +1,4 @@
-import { byId } from "./dom.ts";
+import { byId } from "../controls/dom.ts";
 
 /** What is going on, in the middle of the canvas, as long as that is empty. #status says the same to screen readers. */
 export class FirstLoad {

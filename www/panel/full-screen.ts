@@ -1,4 +1,4 @@
-import { byId } from "./dom.ts";
+import { byId } from "../controls/dom.ts";
 
 /** The button for the cloud on the whole screen, where the browser can; the returned function does the same. */
 export function bindFullScreen(): () => void {

@@ -1,7 +1,7 @@
-import { AUTOMATIC_C, type Inversion, type Store } from "../settings.ts";
-import { byId } from "./dom.ts";
-import { Segmented } from "./segmented.ts";
-import { Slider } from "./slider.ts";
+import { AUTOMATIC_C, type Inversion, type Store } from "../settings/settings.ts";
+import { byId } from "../controls/dom.ts";
+import { Segmented } from "../controls/segmented.ts";
+import { Slider } from "../controls/slider.ts";
 
 type Kind = "spherical" | "exponential" | "power";
 

@@ -1,7 +1,7 @@
-import type { Up } from "../cloud.ts";
-import type { HiddenMode, Store } from "../settings.ts";
-import { Segmented } from "./segmented.ts";
-import { Slider } from "./slider.ts";
+import type { Up } from "../cloud/cloud.ts";
+import type { HiddenMode, Store } from "../settings/settings.ts";
+import { Segmented } from "../controls/segmented.ts";
+import { Slider } from "../controls/slider.ts";
 
 /** What changes the picture and nothing that is found: hidden points, their size, the lens, which way is up. */
 export function bindLook(store: Store): void {

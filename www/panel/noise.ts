@@ -1,5 +1,5 @@
-import type { Store } from "../settings.ts";
-import { bindNumbers } from "./segmented.ts";
+import type { Store } from "../settings/settings.ts";
+import { bindNumbers } from "../controls/segmented.ts";
 
 export function bindNoise(store: Store): void {
   const showDenoise = bindNumbers("denoise", (denoise) => {

@@ -1,4 +1,4 @@
-import { byId } from "./dom.ts";
+import { byId } from "../controls/dom.ts";
 
 /** The bar along the top of the cloud while one is loading, and the button that stops it. */
 export class Progress {

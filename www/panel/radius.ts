@@ -1,8 +1,8 @@
 import { isAutomatic } from "../ask/question.ts";
 import type { ViewAnswer } from "../ask/views.ts";
-import type { Store } from "../settings.ts";
-import { byId } from "./dom.ts";
-import { Slider } from "./slider.ts";
+import type { Store } from "../settings/settings.ts";
+import { byId } from "../controls/dom.ts";
+import { Slider } from "../controls/slider.ts";
 
 type Choice = "auto" | "search" | "opposite" | "hand";
 

@@ -1,5 +1,5 @@
-import { SAMPLES, type Sample, sampleNamed } from "../samples.ts";
-import { byId, nextFrame } from "./dom.ts";
+import { SAMPLES, type Sample, sampleNamed } from "../samples/samples.ts";
+import { byId, nextFrame } from "../controls/dom.ts";
 
 /** In CSS pixels; made twice as large by tests/browser/thumbnails.ts. */
 const THUMBNAIL = { width: 84, height: 56 };

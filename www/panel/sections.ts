@@ -1,5 +1,5 @@
-import { type Settings, USUAL_SETTINGS } from "../settings.ts";
-import { byId } from "./dom.ts";
+import { type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
+import { byId } from "../controls/dom.ts";
 
 /** The settings of each folded section. */
 const SECTIONS: Record<string, (keyof Settings)[]> = {

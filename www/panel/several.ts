@@ -1,6 +1,6 @@
-import type { Store, Viewpoints } from "../settings.ts";
-import { byId } from "./dom.ts";
-import { Segmented } from "./segmented.ts";
+import type { Store, Viewpoints } from "../settings/settings.ts";
+import { byId } from "../controls/dom.ts";
+import { Segmented } from "../controls/segmented.ts";
 
 const NOTES: Record<Viewpoints, string> = {
   one: "What the camera’s place sees.",

@@ -1,8 +1,8 @@
-import { addLight, lightByKey } from "../light-moves.ts";
-import type { Store } from "../settings.ts";
-import type { Viewer } from "../viewer.ts";
-import { byId } from "./dom.ts";
-import { Slider } from "./slider.ts";
+import { addLight, lightByKey } from "../lights/moves.ts";
+import type { Store } from "../settings/settings.ts";
+import type { Viewer } from "../view/viewer.ts";
+import { byId } from "../controls/dom.ts";
+import { Slider } from "../controls/slider.ts";
 
 const MOST_LIGHTS = 8;
 

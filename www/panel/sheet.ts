@@ -1,4 +1,4 @@
-import { byId } from "./dom.ts";
+import { byId } from "../controls/dom.ts";
 
 /** On a phone the panel is a bar; this button opens the rest of it. */
 export function bindSheet(): void {

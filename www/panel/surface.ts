@@ -1,8 +1,8 @@
 import type { ViewAnswer } from "../ask/views.ts";
-import type { Settings, Store } from "../settings.ts";
-import { byId } from "./dom.ts";
-import { Segmented } from "./segmented.ts";
-import { Slider } from "./slider.ts";
+import type { Settings, Store } from "../settings/settings.ts";
+import { byId } from "../controls/dom.ts";
+import { Segmented } from "../controls/segmented.ts";
+import { Slider } from "../controls/slider.ts";
 
 const number = new Intl.NumberFormat("en-US");
 

@@ -1,7 +1,7 @@
-import type { Store, ThemeChoice } from "../settings.ts";
+import type { Store, ThemeChoice } from "../settings/settings.ts";
 import { type Theme, type ThemeName, THEMES } from "../view/theme.ts";
-import { byId } from "./dom.ts";
-import { Segmented } from "./segmented.ts";
+import { byId } from "../controls/dom.ts";
+import { Segmented } from "../controls/segmented.ts";
 
 /** The theme that is chosen, or the system's as long as none is: on the page, its marks and, by `apply`, the canvas. */
 export function bindTheme(store: Store, apply: (theme: Theme) => void): void {

@@ -1,6 +1,6 @@
-import type { Moves } from "../moves.ts";
-import type { Store } from "../settings.ts";
-import { byId } from "./dom.ts";
+import type { Moves } from "../view/moves.ts";
+import type { Store } from "../settings/settings.ts";
+import { byId } from "../controls/dom.ts";
 
 /** The button that keeps the viewpoint where it is while the camera moves on. */
 export function bindFreeze(store: Store, moves: Moves): void {

@@ -1,5 +1,5 @@
-import type { LoadedCloud } from "../cloud.ts";
-import { mulberry32 } from "../room.ts";
+import type { LoadedCloud } from "../cloud/cloud.ts";
+import { mulberry32 } from "./living-room.ts";
 import { makeScene, type Material } from "./street-scene.ts";
 import type { Hit, Solid, Vector } from "./trace.ts";
 

@@ -1,10 +1,10 @@
 import type { AgainstPicture } from "../compare/against-picture.ts";
 import type { AgainstSurface } from "../compare/against-surface.ts";
-import { byId } from "../panel/dom.ts";
-import { Segmented } from "../panel/segmented.ts";
-import { Slider } from "../panel/slider.ts";
-import type { KnownSurface } from "../samples.ts";
-import type { Against, Store } from "../settings.ts";
+import { byId } from "../controls/dom.ts";
+import { Segmented } from "../controls/segmented.ts";
+import { Slider } from "../controls/slider.ts";
+import type { KnownSurface } from "../samples/samples.ts";
+import type { Against, Store } from "../settings/settings.ts";
 
 const number = new Intl.NumberFormat("en-US");
 

@@ -1,8 +1,8 @@
 import { AgainstPicture } from "../compare/against-picture.ts";
 import { AgainstSurface } from "../compare/against-surface.ts";
-import { byId } from "../panel/dom.ts";
-import type { Settings, Store } from "../settings.ts";
-import type { Viewer } from "../viewer.ts";
+import { byId } from "../controls/dom.ts";
+import type { Settings, Store } from "../settings/settings.ts";
+import type { Viewer } from "../view/viewer.ts";
 import { CompareCard, type Sides } from "./compare-card.ts";
 
 /** Beside the middle, where one takes hold of the cloud to turn it. */

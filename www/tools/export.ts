@@ -1,6 +1,6 @@
 import type { TimedView } from "../ask/inquiry.ts";
-import { byId } from "../panel/dom.ts";
-import { Segmented } from "../panel/segmented.ts";
+import { byId } from "../controls/dom.ts";
+import { Segmented } from "../controls/segmented.ts";
 import { BATCH, copy, save } from "./files.ts";
 import { pictureWithMarks } from "./picture.ts";
 import type { Bench, Tool } from "./tool.ts";

@@ -1,5 +1,5 @@
 import { MOST_PIXELS } from "../view/points.ts";
-import type { Viewer } from "../viewer.ts";
+import type { Viewer } from "../view/viewer.ts";
 import { Area } from "./area.ts";
 import { Projection } from "./projection.ts";
 

@@ -1,4 +1,4 @@
-import { byId } from "../panel/dom.ts";
+import { byId } from "../controls/dom.ts";
 
 /** The sheet with all keys. A modal dialog keeps the focus, closes by Escape and gives the focus back by itself. */
 export function bindKeysSheet(): void {

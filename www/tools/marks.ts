@@ -1,4 +1,4 @@
-import type { Viewer } from "../viewer.ts";
+import type { Viewer } from "../view/viewer.ts";
 import { includes } from "./find.ts";
 import { Projection } from "./projection.ts";
 

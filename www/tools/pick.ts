@@ -1,4 +1,4 @@
-import { byId } from "../panel/dom.ts";
+import { byId } from "../controls/dom.ts";
 import { copy } from "./files.ts";
 import { pointAt, type Spot } from "./find.ts";
 import type { Mark } from "./marks.ts";

@@ -1,9 +1,9 @@
 import { isAutomatic } from "../ask/question.ts";
 import { Curve } from "../ask/curve.ts";
 import type { TimedView } from "../ask/inquiry.ts";
-import { byId } from "../panel/dom.ts";
-import type { Store } from "../settings.ts";
-import type { Viewer } from "../viewer.ts";
+import { byId } from "../controls/dom.ts";
+import type { Store } from "../settings/settings.ts";
+import type { Viewer } from "../view/viewer.ts";
 
 /** The drawing's own units; the exponents go as far as the slider. */
 const FRAME = { left: 34, right: 272, top: 8, bottom: 92 };

@@ -1,5 +1,5 @@
-import { byId } from "../panel/dom.ts";
-import { Segmented } from "../panel/segmented.ts";
+import { byId } from "../controls/dom.ts";
+import { Segmented } from "../controls/segmented.ts";
 import { pointsWithin } from "./find.ts";
 import { onDrag } from "./pointer.ts";
 import type { Bench, Tool } from "./tool.ts";

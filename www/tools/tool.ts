@@ -1,4 +1,4 @@
-import type { Viewer } from "../viewer.ts";
+import type { Viewer } from "../view/viewer.ts";
 import type { Spot } from "./find.ts";
 import type { Marks } from "./marks.ts";
 

@@ -1,6 +1,6 @@
-import { byId } from "../panel/dom.ts";
-import type { Store } from "../settings.ts";
-import type { Viewer } from "../viewer.ts";
+import { byId } from "../controls/dom.ts";
+import type { Store } from "../settings/settings.ts";
+import type { Viewer } from "../view/viewer.ts";
 import { Compare } from "./compare.ts";
 import { Export, type ExportActions } from "./export.ts";
 import { bindKeysSheet } from "./keys.ts";

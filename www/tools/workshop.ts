@@ -1,7 +1,7 @@
 import type { TimedView } from "../ask/inquiry.ts";
-import { nextFrame } from "../panel/dom.ts";
-import type { Store } from "../settings.ts";
-import type { Viewer } from "../viewer.ts";
+import { nextFrame } from "../controls/dom.ts";
+import type { Store } from "../settings/settings.ts";
+import type { Viewer } from "../view/viewer.ts";
 import type { ExportActions } from "./export.ts";
 import type { Plot } from "./plot.ts";
 import type { Tools } from "./tools.ts";

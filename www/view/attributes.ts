@@ -1,5 +1,5 @@
 import { BufferAttribute, type BufferGeometry, Color, DynamicDrawUsage, Sphere, Vector2, Vector3 } from "three";
-import { type Cloud, type Up, upVector } from "../cloud.ts";
+import { type Cloud, type Up, upVector } from "../cloud/cloud.ts";
 import { spreadOf } from "./spread.ts";
 import type { Theme } from "./theme.ts";
 

@@ -1,6 +1,6 @@
-import { type Attribute, type Cloud, type Up, upVector } from "../cloud.ts";
+import { type Attribute, type Cloud, type Up, upVector } from "../cloud/cloud.ts";
 import type { Values } from "../loaders/numbers.ts";
-import { OWN_COLORS } from "../settings.ts";
+import { OWN_COLORS } from "../settings/settings.ts";
 import { spreadOf } from "./spread.ts";
 import type { Theme } from "./theme.ts";
 

@@ -1,7 +1,7 @@
 import { Vector3 } from "three";
-import { type Cloud, type Up, upVector } from "../cloud.ts";
-import type { Sample } from "../samples.ts";
-import type { Settings, Viewpoint } from "../settings.ts";
+import { type Cloud, type Up, upVector } from "../cloud/cloud.ts";
+import type { Sample } from "../samples/samples.ts";
+import type { Settings, Viewpoint } from "../settings/settings.ts";
 import type { Pose } from "./navigation.ts";
 
 /** Where a cloud is first looked at from: the camera's pose, and the same place in the file's coordinates. */

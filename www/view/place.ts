@@ -1,6 +1,6 @@
 import { Vector3 } from "three";
-import type { Viewpoint } from "../settings.ts";
-import type { Viewer } from "../viewer.ts";
+import type { Viewpoint } from "../settings/settings.ts";
+import type { Viewer } from "./viewer.ts";
 import { inFile, inLocal } from "./framing.ts";
 
 /** Where a place is in the picture, in CSS pixels from its left and top; `null` behind the camera. */

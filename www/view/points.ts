@@ -8,9 +8,9 @@ import {
   ShaderMaterial,
   Vector2,
 } from "three";
-import type { Cloud } from "../cloud.ts";
-import type { Parts } from "../compare/parts.ts";
-import type { HiddenMode } from "../settings.ts";
+import type { Cloud } from "../cloud/cloud.ts";
+import type { Parts } from "./parts.ts";
+import type { HiddenMode } from "../settings/settings.ts";
 import { type CloudAttributes, display, TINT_SHADER } from "./attributes.ts";
 import type { Theme } from "./theme.ts";
 

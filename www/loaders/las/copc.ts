@@ -1,5 +1,5 @@
 import { Copc, type Hierarchy } from "copc";
-import type { LoadedCloud } from "../../cloud.ts";
+import type { LoadedCloud } from "../../cloud/cloud.ts";
 import type { Reading } from "../blocks.ts";
 import { LoadProblem } from "../problem.ts";
 import { checkFormat, damaged } from "./las.ts";

@@ -1,4 +1,4 @@
-import type { LoadedCloud } from "../../cloud.ts";
+import type { LoadedCloud } from "../../cloud/cloud.ts";
 import { bytes, eachRow, type Reading } from "../blocks.ts";
 import { checkByteLength } from "../limits.ts";
 import { LoadProblem } from "../problem.ts";

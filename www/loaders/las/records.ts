@@ -1,4 +1,4 @@
-import type { LoadedCloud } from "../../cloud.ts";
+import type { LoadedCloud } from "../../cloud/cloud.ts";
 import { CloudBuilder } from "../builder.ts";
 import type { LasHeader } from "./header.ts";
 

@@ -1,11 +1,11 @@
-import type { LoadedCloud } from "./cloud.ts";
+import type { LoadedCloud } from "../cloud/cloud.ts";
 
 /** The clouds that the page generates, each downloaded when it is wanted. */
 export const SHAPES = {
-  room: async () => (await import("./room.ts")).makeRoom(),
+  room: async () => (await import("./living-room.ts")).makeRoom(),
   rings: async () => (await import("./rings.ts")).makeRings(),
-  street: async () => (await import("./samples/street.ts")).makeStreet(),
-  tile: async () => (await import("./samples/tile.ts")).makeTile(),
+  street: async () => (await import("./street.ts")).makeStreet(),
+  tile: async () => (await import("./tile.ts")).makeTile(),
 } satisfies Record<string, () => Promise<LoadedCloud>>;
 
 export type ShapeName = keyof typeof SHAPES;

@@ -1,4 +1,4 @@
-import type { HiddenMode, Settings, Store } from "./settings.ts";
+import type { HiddenMode, Settings, Store } from "../settings/settings.ts";
 import type { Viewer } from "./viewer.ts";
 
 const FIELD_OF_VIEW = { least: 5, most: 100 };

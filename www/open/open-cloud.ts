@@ -1,13 +1,13 @@
 import { WorkerPointCloud } from "hidden-point-removal/worker";
-import { Inquiry } from "./ask/inquiry.ts";
-import { WorkerCloud } from "./ask/worker-cloud.ts";
-import type { Cloud, Up } from "./cloud.ts";
-import { loadCloud, type LoadRequest } from "./loaders/index.ts";
-import { type KnownSurface, NO_SURFACE, type Sample, usualLook } from "./samples.ts";
-import { type Against, OWN_COLORS, type Settings } from "./settings.ts";
-import { colorChoices } from "./view/colors.ts";
-import { type AskedView, findHome, type Home, inReachOnly } from "./view/framing.ts";
-import type { Opened } from "./viewer.ts";
+import { Inquiry } from "../ask/inquiry.ts";
+import { WorkerCloud } from "../ask/worker-cloud.ts";
+import type { Cloud, Up } from "../cloud/cloud.ts";
+import { loadCloud, type LoadRequest } from "../loaders/index.ts";
+import { type KnownSurface, NO_SURFACE, type Sample, usualLook } from "../samples/samples.ts";
+import { type Against, OWN_COLORS, type Settings } from "../settings/settings.ts";
+import { colorChoices } from "../view/colors.ts";
+import { type AskedView, findHome, type Home, inReachOnly } from "../view/framing.ts";
+import type { Opened } from "../view/viewer.ts";
 
 /** What is to be opened, and how it is to be seen. */
 export interface Wish {

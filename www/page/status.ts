@@ -1,8 +1,8 @@
-import { inversionText } from "./address.ts";
-import type { TimedView } from "./ask/inquiry.ts";
-import { byId } from "./panel/dom.ts";
-import { sentenceOf } from "./sentence.ts";
-import type { Inversion } from "./settings.ts";
+import { inversionText } from "../settings/address.ts";
+import type { TimedView } from "../ask/inquiry.ts";
+import { byId } from "../controls/dom.ts";
+import { sentenceOf } from "../view/sentence.ts";
+import type { Inversion } from "../settings/settings.ts";
 
 /** The sentence changes not more often than this, in milliseconds, and is announced when it has stood for this long. */
 const CALM = 800;

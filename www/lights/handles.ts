@@ -1,7 +1,7 @@
-import { lightByKey } from "../light-moves.ts";
-import type { Store } from "../settings.ts";
-import type { Viewer } from "../viewer.ts";
-import { placeAt, project } from "./place.ts";
+import { lightByKey } from "./moves.ts";
+import type { Store } from "../settings/settings.ts";
+import type { Viewer } from "../view/viewer.ts";
+import { placeAt, project } from "../view/place.ts";
 
 /** A handle over the picture for each light: dragged across the picture, or moved around the cloud by keys. */
 export class LightHandles {

@@ -1,4 +1,4 @@
-import type { LoadedCloud } from "./cloud.ts";
+import type { LoadedCloud } from "../cloud/cloud.ts";
 
 /*
  * An airplane some 15 meters long as a designer might sketch it: nothing but rings of points, cross-sections far apart

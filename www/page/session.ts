@@ -1,23 +1,23 @@
 import { HprError } from "hidden-point-removal";
-import { Address, type CloudName } from "./address.ts";
-import { LoadProblem, type LoadRequest } from "./loaders/index.ts";
-import { keepForOffline } from "./offline/keep.ts";
-import { openCloud, type Place, requestFor, type Wish } from "./opening.ts";
-import { Controls } from "./panel/controls.ts";
-import { byId } from "./panel/dom.ts";
-import { FirstLoad } from "./panel/first-load.ts";
-import { onFile } from "./panel/files.ts";
-import type { Message } from "./panel/message.ts";
-import { Progress } from "./panel/progress.ts";
-import { SamplePicker } from "./panel/sample-picker.ts";
-import type { Params } from "./params.ts";
-import { type Sample, sampleNamed } from "./samples.ts";
-import { Store, USUAL_SETTINGS } from "./settings.ts";
+import { Address, type CloudName } from "../settings/address.ts";
+import { LoadProblem, type LoadRequest } from "../loaders/index.ts";
+import { keepForOffline } from "../offline/keep.ts";
+import { openCloud, type Place, requestFor, type Wish } from "../open/open-cloud.ts";
+import { Controls } from "../panel/controls.ts";
+import { byId } from "../controls/dom.ts";
+import { FirstLoad } from "../panel/first-load.ts";
+import { onFile } from "../panel/files.ts";
+import type { Message } from "../panel/message.ts";
+import { Progress } from "../panel/progress.ts";
+import { SamplePicker } from "../panel/sample-picker.ts";
+import type { Params } from "../settings/params.ts";
+import { type Sample, sampleNamed } from "../samples/samples.ts";
+import { Store, USUAL_SETTINGS } from "../settings/settings.ts";
 import type { Status } from "./status.ts";
-import type { AskedView } from "./view/framing.ts";
-import { Workshop } from "./tools/workshop.ts";
-import { LightHandles } from "./view/light-handles.ts";
-import { Viewer } from "./viewer.ts";
+import type { AskedView } from "../view/framing.ts";
+import { Workshop } from "../tools/workshop.ts";
+import { LightHandles } from "../lights/handles.ts";
+import { Viewer } from "../view/viewer.ts";
 
 /** What is to be opened, and what the page has to know of it besides. */
 interface Source extends Wish {

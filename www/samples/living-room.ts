@@ -1,4 +1,4 @@
-import type { LoadedCloud } from "./cloud.ts";
+import type { LoadedCloud } from "../cloud/cloud.ts";
 
 /*
  * A living room of 6 × 2.7 × 4.6 meters as a scanner might leave it: points spread evenly over every surface, two

@@ -1,20 +1,20 @@
 import { Matrix4, Quaternion } from "three";
-import type { LightAnswer } from "./ask/lights.ts";
-import { isSamePlace } from "./ask/question.ts";
-import type { Inquiry, TimedView } from "./ask/inquiry.ts";
-import type { Cloud, Up } from "./cloud.ts";
-import type { Parts } from "./compare/parts.ts";
-import type { KnownSurface } from "./samples.ts";
-import type { Settings, Store, Viewpoint } from "./settings.ts";
-import { CloudAttributes } from "./view/attributes.ts";
-import { colorBy, type Legend } from "./view/colors.ts";
-import { type Home, inFile, inLocal } from "./view/framing.ts";
-import { ViewpointMarker } from "./view/marker.ts";
-import { Navigation } from "./view/navigation.ts";
-import { CloudPoints, THROUGH_OPACITY } from "./view/points.ts";
-import { Stage } from "./view/stage.ts";
-import { Surface } from "./view/surface.ts";
-import { type Theme, THEMES } from "./view/theme.ts";
+import type { LightAnswer } from "../ask/lights.ts";
+import { isSamePlace } from "../ask/question.ts";
+import type { Inquiry, TimedView } from "../ask/inquiry.ts";
+import type { Cloud, Up } from "../cloud/cloud.ts";
+import type { Parts } from "./parts.ts";
+import type { KnownSurface } from "../samples/samples.ts";
+import type { Settings, Store, Viewpoint } from "../settings/settings.ts";
+import { CloudAttributes } from "./attributes.ts";
+import { colorBy, type Legend } from "./colors.ts";
+import { type Home, inFile, inLocal } from "./framing.ts";
+import { ViewpointMarker } from "./marker.ts";
+import { Navigation } from "./navigation.ts";
+import { CloudPoints, THROUGH_OPACITY } from "./points.ts";
+import { Stage } from "./stage.ts";
+import { Surface } from "./surface.ts";
+import { type Theme, THEMES } from "./theme.ts";
 
 /** A cloud that is ready to be shown, with the first answer about it. */
 export interface Opened {

@@ -1,9 +1,9 @@
 import { Vector3 } from "three";
-import { upVector } from "./cloud.ts";
-import type { Store, Viewpoint } from "./settings.ts";
-import { inFile, inLocal } from "./view/framing.ts";
-import { placeAt } from "./view/place.ts";
-import type { Viewer } from "./viewer.ts";
+import { upVector } from "../cloud/cloud.ts";
+import type { Store, Viewpoint } from "../settings/settings.ts";
+import { inFile, inLocal } from "../view/framing.ts";
+import { placeAt } from "../view/place.ts";
+import type { Viewer } from "../view/viewer.ts";
 
 /** Radians, and a share of the distance, for each press of a key. */
 const TURN = Math.PI / 36;

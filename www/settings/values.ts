@@ -1,6 +1,6 @@
-import type { Up } from "./cloud.ts";
-import { MOST_SPLAT } from "./compare/zbuffer.ts";
-import { MAX_POINTS } from "./loaders/limits.ts";
+import type { Up } from "../cloud/cloud.ts";
+import { MOST_SPLAT } from "../compare/zbuffer.ts";
+import { MAX_POINTS } from "../loaders/limits.ts";
 import type {
   Against,
   HiddenMode,

@@ -1,4 +1,4 @@
-import type { Up } from "./cloud.ts";
+import type { Up } from "../cloud/cloud.ts";
 
 /** x, y, z in the file's own coordinates. */
 export type Viewpoint = [number, number, number];

@@ -1,4 +1,4 @@
-import type { Values } from "./loaders/numbers.ts";
+import type { Values } from "../loaders/numbers.ts";
 
 /** Which way is up in a file's coordinates. */
 export type Up = "y" | "z" | "-y";

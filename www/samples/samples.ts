@@ -1,5 +1,5 @@
-import type { Up } from "./cloud.ts";
-import { type Settings, USUAL_SETTINGS } from "./settings.ts";
+import type { Up } from "../cloud/cloud.ts";
+import { type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
 import type { ShapeName } from "./shapes.ts";
 
 /**
