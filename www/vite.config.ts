@@ -1,6 +1,7 @@
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
 import { COMMON } from "./build/common.ts";
+import { html } from "./build/html-plugin.ts";
 import { offline } from "./build/offline-plugin.ts";
 import { policy } from "./build/policy-plugin.ts";
 import { samples } from "./build/samples-plugin.ts";
@@ -11,5 +12,5 @@ export default defineConfig({
   ...COMMON,
   root: here("."),
   build: { outDir: here("dist"), emptyOutDir: true, target: "es2022", chunkSizeWarningLimit: 900 },
-  plugins: [samples(), policy(), offline()],
+  plugins: [samples(), html(), policy(), offline()],
 });

@@ -6,7 +6,7 @@ import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
 import { gunzipSync } from "node:zlib";
 
-import { makeRoom } from "../../www/samples/living-room.js";
+import { make as makeRoom } from "../../www/samples/living-room.js";
 import { bumpySurface, sphere, terrainUtm, unevenSurface } from "./generators.js";
 import { root } from "./paths.js";
 import type { Point } from "./measure.js";

@@ -1,14 +1,14 @@
 import { createRequire } from "node:module";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { grid, type Mesh } from "../../www/compare/mesh.js";
+import { grid, type Mesh } from "../../www/samples/mesh.js";
 import { RayTracer } from "../fidelity/rays.js";
 import { errorsOf } from "../fidelity/score.js";
-import { readParams } from "../../www/settings/params.js";
+import { readAddress } from "../../www/settings/read-address.js";
 import { oracleFor } from "../../www/compare/oracles.js";
 import { readFaces } from "../../www/loaders/faces.js";
-import { makeRoom } from "../../www/samples/living-room.js";
-import { makeRings, skinOfRings } from "../../www/samples/rings.js";
+import { make as makeRoom } from "../../www/samples/living-room.js";
+import { make as makeRings, skinOfRings } from "../../www/samples/rings.js";
 import { partsOf } from "../../www/view/parts.js";
 import { Projected, zBuffer } from "../../www/compare/zbuffer.js";
 import { DISTANCE, MIDDLE, openBall, positions as ballPositions, tool } from "./ball.js";
@@ -164,7 +164,7 @@ test("faces of one's own files are read and cut into triangles", async () => {
 });
 
 test("of the street a scanner saw all that its own beams met", async () => {
-  const street = await oracleFor({ shape: "street" }, new Float32Array());
+  const street = await oracleFor({ sample: "street" }, new Float32Array());
   const sees = street.from([-21, 1.1, 1.75]);
   // The first of three stations; its 60,000 points come first.
   const tried = Array.from({ length: 6000 }, (_, i) => 7 * i);
@@ -177,7 +177,7 @@ test("of the street a scanner saw all that its own beams met", async () => {
 });
 
 test("in the room the ceiling is seen and the floor under the rug is not, also where noise has put it", async () => {
-  const room = await oracleFor({ shape: "room" }, new Float32Array());
+  const room = await oracleFor({ sample: "room" }, new Float32Array());
   const { positions } = makeRoom();
   expect(room.count).toBe(positions.length / 3);
   const sees = room.from([-0.2, 2.4, 0.3]);
@@ -323,7 +323,7 @@ test("where no surface is known, the choice is not offered and says why", async 
   served.set("clouds/ball.ply", binaryPly(ball(300), "float", true));
   const page = await openReady("?src=clouds/ball.ply&compare=0.5&against=surface", SMALL);
   expect(await page.locator("#message p").textContent()).toBe(
-    "There is no true surface to compare with, so all points are. It is known of samples, and of PLY and OBJ meshes that are shown whole.",
+    "There is no true surface to compare with, so the comparison is with all points. It is known of samples, and of PLY and OBJ meshes that are shown whole.",
   );
   expect(await page.getByLabel("True surface").isDisabled()).toBe(true);
   expect(await page.getByRole("radio", { name: "All points" }).isChecked()).toBe(true);
@@ -356,8 +356,8 @@ test("where no surface is known, the choice is not offered and says why", async 
 
 test("what the address asks for and cannot be is named in a sentence", () => {
   for (const query of ["against=mesh", "splat=0", "splat=2.5", "splat=65"])
-    expect(readParams(query, ["bunny"]).notes, query).toEqual([expect.stringMatching(/in the address is not/)]);
-  expect(readParams("against=surface&splat=7", ["bunny"])).toMatchObject({
+    expect(readAddress(query, ["bunny"]).notes, query).toEqual([expect.stringMatching(/in the address is not/)]);
+  expect(readAddress("against=surface&splat=7", ["bunny"])).toMatchObject({
     notes: [],
     settings: { against: "surface", splat: 7 },
   });

@@ -1,5 +1,5 @@
 // Surfaces made here, as meshes, and points scattered over their faces.
-import { grid, joined, type Mesh } from "../../www/compare/mesh.js";
+import { grid, joined, type Mesh } from "../../www/samples/mesh.js";
 import { roomSurfaces } from "../../www/samples/living-room.js";
 import { bumpyRadius, direction, seeded } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";

@@ -3,7 +3,7 @@
 import { readFileSync } from "node:fs";
 import { gunzipSync } from "node:zlib";
 
-import type { Mesh } from "../../www/compare/mesh.js";
+import type { Mesh } from "../../www/samples/mesh.js";
 import { bunny36k, type Cloud, dragon, sharedFile } from "../bench/clouds.js";
 import { direction, seeded } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";

@@ -2,7 +2,7 @@
 import { init, PointCloud } from "hidden-point-removal";
 import { beforeAll, describe, expect, test } from "vitest";
 
-import { grid, joined, type Mesh } from "../../www/compare/mesh.js";
+import { grid, joined, type Mesh } from "../../www/samples/mesh.js";
 import type { Point } from "../bench/measure.js";
 import { type Curve, curves, meanCurve } from "../fidelity/curves.js";
 import { AUTOMATIC, METHODS } from "../fidelity/methods.js";

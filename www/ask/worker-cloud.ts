@@ -6,11 +6,9 @@ import {
   type VisibilityOptions,
 } from "hidden-point-removal";
 import type { WorkerPointCloud } from "hidden-point-removal/worker";
+import { MOST_POWER } from "../settings/limits.ts";
 import type { Viewpoint } from "../settings/settings.ts";
 import type { Method } from "./question.ts";
-
-/** The library's limit. */
-const MOST_POWER = 16;
 
 /** The cloud in its worker, asked in the terms of the page. */
 export class WorkerCloud {

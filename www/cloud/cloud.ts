@@ -1,4 +1,6 @@
-import type { Values } from "../loaders/numbers.ts";
+/** Numbers of one kind, as many bytes wide as the file has them. */
+export type Values =
+  Int8Array | Uint8Array | Int16Array | Uint16Array | Int32Array | Uint32Array | Float32Array | Float64Array;
 
 /** Which way is up in a file's coordinates. */
 export type Up = "y" | "z" | "-y";

@@ -1,32 +1,27 @@
 import { BufferAttribute, BufferGeometry, DoubleSide, Ray, Vector3 } from "three";
 import { MeshBVH } from "three-mesh-bvh";
-import type { Mesh } from "./mesh.ts";
+import type { OnFaces } from "../samples/generator.ts";
+import type { Mesh } from "../samples/mesh.ts";
 
-/** Tells whether a viewpoint sees a point of the cloud. */
+/** Whether a viewpoint sees a point of the cloud. */
 export type Sight = (point: number) => boolean;
 
-/** A surface of which it is known what can be seen of it from anywhere. */
+/** A known surface: for any viewpoint it is certain which points can be seen. */
 export interface Oracle {
   /** The points of the cloud that lie on it. */
   count: number;
   from: (viewpoint: readonly number[]) => Sight;
 }
 
-/** Points on a mesh that are not its vertices, each with the face it lies on. */
-export interface OnFaces {
-  positions: Float32Array;
-  faces: Uint32Array;
-}
-
 /**
- * A point is seen where the segment from it to the viewpoint meets no face but its own: the one that it lies on, or those
- * that it is a corner of.
+ * A point is seen if the segment from it to the viewpoint meets no face but the point's own: the face that it lies on, or
+ * the faces that it is a corner of.
  */
 export function meshOracle(mesh: Mesh, on: OnFaces | null = null): Oracle {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(mesh.positions, 3));
   geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
-  // Indirect: the triangles keep their order, and so their numbers.
+  // Indirect: the triangles keep their order, and with it their numbers.
   const tree = new MeshBVH(geometry, { indirect: true });
   const { triangles } = mesh;
   const positions = on ? on.positions : mesh.positions;

@@ -1,3 +1,4 @@
+import { MOST_SPLAT } from "../settings/limits.ts";
 import { HIDDEN, OUTSIDE, VISIBLE } from "../view/parts.ts";
 
 /*
@@ -26,7 +27,6 @@ const TOLERANCE = 1.75;
 const SPACINGS = 1.75;
 /** Splats are squares up to so many pixels and discs above, as points are on the page. */
 const SQUARE = 3;
-export const MOST_SPLAT = 64;
 /** So many depths tell the middle one well enough. */
 const SAMPLE = 10_000;
 

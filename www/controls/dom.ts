@@ -1,9 +1,9 @@
-/** When the page has been drawn as it is now: for what may come after that. */
+/** Resolves when the page has been drawn as it is now: for work that may come after that. */
 export function nextFrame(): Promise<unknown> {
   return new Promise((resolve) => requestAnimationFrame(resolve));
 }
 
-/** An element that index.html is known to have. */
+/** An element of index.html. */
 export function byId(id: string): HTMLElement;
 export function byId<T extends HTMLElement>(id: string, type: new () => T): T;
 export function byId(id: string, type = HTMLElement): HTMLElement {

@@ -1,7 +1,7 @@
 import { byId } from "./dom.ts";
 
 /** A row of radio buttons of which one is chosen. */
-export class Segmented<Value extends string> {
+export class Segmented<Value extends string = string> {
   readonly #inputs: HTMLInputElement[];
 
   constructor(id: string, onChange: (value: Value) => void) {
@@ -17,18 +17,8 @@ export class Segmented<Value extends string> {
     return this.#inputs.find((input) => input.checked)!.value as Value;
   }
 
-  /** A value that no button stands for leaves none chosen. */
+  /** A value without a button leaves none chosen. */
   set value(value: Value) {
     for (const input of this.#inputs) input.checked = input.value === value;
   }
-}
-
-/** The same where the values are numbers. */
-export function bindNumbers(id: string, onChange: (value: number) => void): (value: number) => void {
-  const segmented = new Segmented(id, (value) => {
-    onChange(Number(value));
-  });
-  return (value) => {
-    segmented.value = String(value);
-  };
 }

@@ -4,12 +4,12 @@ import { byId } from "./dom.ts";
 export class Slider {
   readonly #input: HTMLInputElement;
   readonly #output: HTMLOutputElement;
-  readonly #format: (value: number) => string;
+  readonly #text: (value: number) => string;
 
-  constructor(id: string, format: (value: number) => string, onInput: (value: number) => void) {
+  constructor(id: string, text: (value: number) => string, onInput: (value: number) => void) {
     this.#input = byId(id, HTMLInputElement);
     this.#output = byId(`${id}-value`, HTMLOutputElement);
-    this.#format = format;
+    this.#text = text;
     this.#input.addEventListener("input", () => {
       this.#show(this.value);
       onInput(this.value);
@@ -21,26 +21,26 @@ export class Slider {
     return this.#input.valueAsNumber;
   }
 
-  /** The knob stops at the ends of its range; what is written is the value itself. */
+  /** The knob stops at the ends of its track; the output shows the value itself. */
   set value(value: number) {
     this.#input.value = String(value);
     this.#show(value);
   }
 
-  /** Marks a value under the track of a slider of the class `marked`. */
+  /** Marks a value under the track; for a slider of the class `marked`. */
   mark(value: number): void {
     const { min, max } = this.#input;
     const share = (value - Number(min)) / (Number(max) - Number(min));
     this.#input.parentElement!.style.setProperty("--mark", String(Math.min(1, Math.max(0, share))));
   }
 
-  /** Until there is a value to write. */
+  /** Shows no value as long as none is known. */
   clear(): void {
     this.#output.textContent = "";
   }
 
   #show(value: number): void {
-    this.#output.textContent = this.#format(value);
+    this.#output.textContent = this.#text(value);
     this.#input.ariaValueText = this.#output.textContent;
   }
 }

@@ -1,118 +1,117 @@
-import { type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
 import { SAMPLES } from "../samples/samples.ts";
-import { type ValueName, type ValueOf, VALUES, type Written } from "../settings/values.ts";
-import type { AskedView } from "../view/framing.ts";
-import { Problem } from "./problem.ts";
+import { type AnyParameter, type Parameter, PARAMETERS, type SettingName, SETTINGS } from "../settings/table.ts";
 
-/** By attribute: what the same is called in the page's address, whose values are written the same way. */
-const WRITTEN_AS = {
-  limit: "points",
-  exponent: "exponent",
-  radius: "radius",
-  inversion: "inversion",
-  "hidden-points": "hidden",
-  viewpoint: "view",
-  target: "target",
-  "point-size": "size",
-  fov: "fov",
-  up: "up",
-} as const satisfies Record<string, ValueName>;
-
-export type WrittenAttribute = keyof typeof WRITTEN_AS;
-
-/** Those that say which points there are. */
-export const SOURCES: readonly string[] = ["src", "sample", "limit", "skip-non-finite"];
-export const ATTRIBUTES: readonly string[] = [
-  ...new Set([...SOURCES, ...Object.keys(WRITTEN_AS), "frozen", "color", "label", "announce"]),
-];
-
-/** What the attributes say together. */
-export interface Reading {
-  src: string | null;
-  sample: string | null;
-  limit: number | undefined;
-  skipNonFinite: boolean;
-  /** Of the settings those that are asked for. */
-  settings: Partial<Settings>;
-  frozen: boolean;
-  view: AskedView | null;
-  /** By attribute. */
-  problems: Map<string, Problem>;
+/** An attribute of the element. Its property has the same name in camel case. */
+export interface Attribute {
+  /** Its meaning, for the documents. */
+  is: string;
+  /** What holds without it, for the documents. */
+  without?: string;
+  /** How its value is written; where this is missing, any text will do, or it is a flag. */
+  written?: AnyParameter;
+  /** The setting that it makes. */
+  setting?: SettingName;
+  /**
+   * The property: the attribute's `text`, a `flag`, the `value` that the text stands for, the text if it can be used
+   * (`word`), or an `own` one, which the element defines.
+   */
+  property: "text" | "flag" | "value" | "word" | "own";
+  /** It names the points. */
+  ofSource?: true;
 }
 
-/** What an attribute says; `undefined` where it is not there, or says nothing that can be used. */
-export function valueOf<Name extends WrittenAttribute>(
-  element: Element,
-  attribute: Name,
-): ValueOf<(typeof WRITTEN_AS)[Name]> | undefined {
-  const text = element.getAttribute(attribute);
-  return text === null ? undefined : writtenAs(attribute).parse(text);
+/** A row of the table of settings or parameters, as an attribute. */
+function like<T>(row: Parameter<T>, rest: Omit<Attribute, "written" | "is" | "without"> & Partial<Attribute>) {
+  return { is: row.is, ...(row.without === undefined ? {} : { without: row.without }), ...rest, written: row };
 }
 
-export function readAttributes(element: Element): Reading {
-  const problems = new Map<string, Problem>();
-  const refuse = (attribute: string, sentence: string) =>
-    problems.set(attribute, new Problem("attribute", sentence, { attribute }));
-  const read = <Name extends WrittenAttribute>(attribute: Name) => {
-    const value = valueOf(element, attribute);
-    const text = element.getAttribute(attribute);
-    if (text !== null && value === undefined)
-      refuse(attribute, `The attribute ${attribute}="${text}" is not ${writtenAs(attribute).refusal}.`);
-    return value;
-  };
+/** The one table of attributes. The document's table is made from it. */
+export const ATTRIBUTES = {
+  src: {
+    is: "the address of a LAS, LAZ, COPC, PLY, PCD, XYZ, TXT, CSV, OBJ, glTF or GLB file. Setting it stops the loading of another file",
+    property: "text",
+    ofSource: true,
+  },
+  sample: {
+    is: `a cloud of the demo page, instead of \`src\`: ${listed(SAMPLES.map(({ name }) => name))}. Those of the dragon and the bunny need the folder \`samples/\` beside the module`,
+    property: "text",
+    ofSource: true,
+  },
+  limit: like(PARAMETERS.points, { property: "value", ofSource: true }),
+  "skip-non-finite": {
+    is: "leaves points out that have no position; the others are numbered anew",
+    without: "such a file is refused",
+    property: "flag",
+    ofSource: true,
+  },
+  exponent: like(PARAMETERS.exponent, { property: "value" }),
+  radius: like(SETTINGS.radius, { setting: "radius", property: "own" }),
+  inversion: like(SETTINGS.inversion, { setting: "inversion", property: "word" }),
+  "hidden-points": like(SETTINGS.hidden, {
+    is: `${SETTINGS.hidden.is}; follows the key \`H\``,
+    setting: "hidden",
+    property: "value",
+  }),
+  frozen: {
+    is: "the viewpoint stays where it is while the camera moves on; follows the key `V`",
+    without: "the viewpoint goes with the camera",
+    property: "flag",
+  },
+  viewpoint: like(PARAMETERS.view, {
+    is: "where the camera is at first. Set again, it moves the camera there again",
+    property: "own",
+  }),
+  target: like(PARAMETERS.target, { is: "what the camera looks at from the `viewpoint`", property: "own" }),
+  "point-size": like(SETTINGS.size, { setting: "size", property: "value" }),
+  fov: like(SETTINGS.fieldOfView, { setting: "fieldOfView", property: "value" }),
+  up: like(SETTINGS.up, {
+    is: `${SETTINGS.up.is}. Changing it goes back to the first view`,
+    setting: "up",
+    property: "value",
+  }),
+  color: like(SETTINGS.color, { setting: "color", property: "text" }),
+  label: {
+    is: "what the cloud is, for people who do not see it",
+    without: "“Point cloud”",
+    property: "text",
+  },
+  announce: {
+    is: "screen readers hear how many points are visible, once that number has settled",
+    without: "they do not",
+    property: "flag",
+  },
+} satisfies Record<string, Attribute>;
 
-  // An empty one is not an address: it would be that of the page around.
-  const src = element.getAttribute("src") || null;
-  if (element.getAttribute("src") === "") refuse("src", "The attribute src names no file.");
-  let sample = element.getAttribute("sample");
-  if (sample !== null && !SAMPLES.some(({ name }) => name === sample)) {
-    refuse("sample", `The attribute sample="${sample}" is not one of ${SAMPLES.map(({ name }) => name).join(", ")}.`);
-    sample = null;
-  }
-  if (src !== null && element.hasAttribute("sample"))
-    refuse("sample", "The attributes src and sample exclude each other, so src is used.");
+export type AttributeName = keyof typeof ATTRIBUTES;
 
-  const [exponent, radius] = [read("exponent"), read("radius")];
-  if (exponent !== undefined && radius !== undefined)
-    refuse("radius", "The attributes exponent and radius exclude each other, so exponent is used.");
-  const [at, target] = [read("viewpoint"), read("target")];
-  if (target && !element.hasAttribute("viewpoint"))
-    refuse("target", "The attribute target needs a viewpoint to be looked at from, so the usual view is used.");
-  const settings: Partial<Record<keyof Settings, unknown>> = {
-    radius: exponent === undefined ? radius : { exponent },
-    inversion: read("inversion"),
-    hidden: read("hidden-points"),
-    color: element.getAttribute("color") ?? undefined,
-    size: read("point-size"),
-    fieldOfView: read("fov"),
-    up: read("up"),
-  };
-  const limit = read("limit");
-  for (const name of src === null && sample !== null ? SOURCES.slice(2) : []) {
-    if (element.hasAttribute(name)) refuse(name, `The attribute ${name} is for files; the samples are as they are.`);
-  }
-  return {
-    src,
-    sample,
-    limit,
-    skipNonFinite: element.hasAttribute("skip-non-finite"),
-    settings: Object.fromEntries(Object.entries(settings).filter(([, value]) => value !== undefined)),
-    frozen: element.hasAttribute("frozen"),
-    view: at ? { at, target: target ?? null } : null,
-    problems,
-  };
+/** Those whose values are written as in the page's address. */
+export type WrittenAttribute = {
+  [Name in AttributeName]: (typeof ATTRIBUTES)[Name] extends { written: unknown } ? Name : never;
+}[AttributeName];
+
+export type ValueOf<Name extends WrittenAttribute> =
+  (typeof ATTRIBUTES)[Name]["written"] extends Parameter<infer T> ? T : never;
+
+export const ATTRIBUTE_NAMES = Object.keys(ATTRIBUTES) as AttributeName[];
+
+/** Those that name the points. */
+export const SOURCES: readonly string[] = ATTRIBUTE_NAMES.filter((name) => rowOf(name).ofSource);
+
+export function rowOf(name: AttributeName): Attribute {
+  return ATTRIBUTES[name];
 }
 
-/** Of the settings that attributes make, those that are others now: where an attribute is gone, the usual ones. */
-export function changedSettings(before: Reading, now: Reading, usual: Partial<Settings>): Partial<Settings> {
-  const whole = ({ settings }: Reading): Settings => ({ ...USUAL_SETTINGS, ...usual, ...settings });
-  const [old, next] = [whole(before), whole(now)];
-  const changed = Object.entries(next).filter(
-    ([name, value]) => JSON.stringify(value) !== JSON.stringify(old[name as keyof Settings]),
-  );
-  return Object.fromEntries(changed);
+/** What an attribute says; `undefined` if it is not there, or cannot be used. */
+export function valueOf<Name extends WrittenAttribute>(element: Element, name: Name): ValueOf<Name> | undefined {
+  return anyValueOf(element, name) as ValueOf<Name> | undefined;
 }
 
-function writtenAs<Name extends WrittenAttribute>(attribute: Name): Written<ValueOf<(typeof WRITTEN_AS)[Name]>> {
-  return VALUES[WRITTEN_AS[attribute]] as unknown as Written<ValueOf<(typeof WRITTEN_AS)[Name]>>;
+/** The same for an attribute that is not known beforehand. */
+export function anyValueOf(element: Element, name: AttributeName): unknown {
+  const text = element.getAttribute(name);
+  return text === null ? undefined : rowOf(name).written?.parse(text);
+}
+
+function listed(words: readonly string[]): string {
+  return `${words.slice(0, -1).join(", ")} or ${words.at(-1)!}`;
 }

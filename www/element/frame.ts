@@ -1,11 +1,10 @@
+import { ELEMENT_KEYS, spokenKeys } from "../controls/keys.ts";
 import style from "./element.css?inline";
 
-/** Screen readers hear of a new sentence when it has stood for so many milliseconds. */
+/** Milliseconds that a new sentence has to stand before screen readers hear it. */
 const SETTLED = 1000;
-const KEYS =
-  "Arrow keys orbit, Shift and arrow keys pan, plus and minus zoom, square brackets change the field of view, F freezes the viewpoint, H shows hidden points, R resets the view, Enter picks the point in the middle.";
 
-/** What is in the element's shadow: the picture and what is said over it, each with its slot and its part for the page. */
+/** The element's shadow: the picture and the words over it, each with its slot and its part for the page. */
 export class Frame {
   readonly #root: ShadowRoot;
   readonly #bar = make("progress", "progress");
@@ -19,7 +18,7 @@ export class Frame {
 
   constructor(root: ShadowRoot) {
     this.#root = root;
-    // Unlike a style element, also where the page's security policy forbids those.
+    // A style element would need the permission of the page's security policy.
     const sheet = new CSSStyleSheet();
     sheet.replaceSync(style);
     root.adoptedStyleSheets = [sheet];
@@ -33,7 +32,7 @@ export class Frame {
     root.append(this.#bar, this.#loading, this.#error, this.#fallback, this.#live);
   }
 
-  /** A new one each time: a canvas that has been given up draws no more. */
+  /** A new canvas each time: one that has been given up draws no more. */
   newCanvas(): HTMLCanvasElement {
     const canvas = make("canvas", "canvas");
     canvas.tabIndex = 0;
@@ -51,10 +50,10 @@ export class Frame {
 
   setLabel(label: string | null): void {
     this.#label = label;
-    if (this.#canvas) this.#canvas.ariaLabel = `${label ?? "Point cloud"}. ${KEYS}`;
+    if (this.#canvas) this.#canvas.ariaLabel = `${label ?? "Point cloud"}. ${spokenKeys(ELEMENT_KEYS)}.`;
   }
 
-  /** `null`: under way, but nobody knows how far. */
+  /** `null`: it is loading, but nobody knows how far it is. */
   showProgress(fraction: number | null): void {
     this.#bar.hidden = false;
     if (fraction === null) this.#bar.removeAttribute("value");
@@ -65,7 +64,7 @@ export class Frame {
     this.#bar.hidden = true;
   }
 
-  /** In the middle, where the picture is empty. */
+  /** In the middle of the empty picture. */
   sayLoading(sentence: string | null): void {
     say(this.#loading, sentence);
   }
@@ -74,7 +73,7 @@ export class Frame {
     say(this.#error, sentence);
   }
 
-  /** What the page has put into the element, in the place of the picture; `false` where that is nothing. */
+  /** Shows what the page has put into the element instead of the picture; `false` if it has put nothing there. */
   showFallback(): boolean {
     const slot = this.#fallback.querySelector("slot")!;
     const filled = slot.assignedNodes().some((node) => node instanceof Element || node.textContent!.trim() !== "");
@@ -89,7 +88,7 @@ export class Frame {
     }, SETTLED);
   }
 
-  /** Nothing is to be heard any more. */
+  /** Screen readers hear nothing more. */
   hush(): void {
     clearTimeout(this.#announcing);
     this.#live.textContent = "";

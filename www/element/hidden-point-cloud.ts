@@ -1,11 +1,13 @@
 import type { TimedView } from "../ask/inquiry.ts";
+import { SETTINGS } from "../settings/table.ts";
 import { canDraw } from "../view/stage.ts";
 import type * as Api from "./api.ts";
-import { ATTRIBUTES, type Reading, readAttributes, SOURCES, valueOf } from "./attributes.ts";
+import { ATTRIBUTE_NAMES, SOURCES, valueOf } from "./attributes.ts";
 import { Frame } from "./frame.ts";
 import { Pointing } from "./pointing.ts";
 import { Problem } from "./problem.ts";
 import { adoptEarly, placeOf, reflect, write } from "./properties.ts";
+import { type Reading, readAttributes } from "./reading.ts";
 import { type Listener, Showing } from "./showing.ts";
 
 type Events = Api.HiddenPointCloudEventMap;
@@ -30,7 +32,7 @@ type Own = Omit<Api.HiddenPointCloudElement, keyof HTMLElement | Reflected>;
 const Base = "HTMLElement" in globalThis ? HTMLElement : (Object as unknown as typeof HTMLElement);
 
 class HiddenPointCloud extends Base implements Own {
-  static readonly observedAttributes = ATTRIBUTES;
+  static readonly observedAttributes: readonly string[] = ATTRIBUTE_NAMES;
 
   readonly #frame = new Frame(this.attachShadow({ mode: "open", delegatesFocus: true }));
   #showing: { showing: Showing; pointing: Pointing } | null = null;
@@ -212,7 +214,8 @@ class HiddenPointCloud extends Base implements Own {
         this.#emit("error", { error: problem });
       },
       moved: ({ hidden, freeze }) => {
-        if (hidden !== (valueOf(this, "hidden-points") ?? "off")) this.setAttribute("hidden-points", hidden);
+        if (hidden !== (valueOf(this, "hidden-points") ?? SETTINGS.hidden.usual))
+          this.setAttribute("hidden-points", hidden);
         this.toggleAttribute("frozen", freeze !== null);
       },
     };

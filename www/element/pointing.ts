@@ -1,3 +1,4 @@
+import { isKeyOf } from "../controls/keys.ts";
 import { includes, pointAt } from "../tools/find.ts";
 import { onClick, TOLERANCE } from "../tools/pointer.ts";
 import { project } from "../view/place.ts";
@@ -9,7 +10,7 @@ interface Options {
   tolerance?: number;
 }
 
-/** From the pointer to points and back, in client coordinates; only while there is a cloud. */
+/** From the pointer to points and back, in client coordinates. Without a cloud there are no points. */
 export class Pointing {
   readonly #canvas: HTMLCanvasElement;
   readonly #viewer: Viewer;
@@ -37,7 +38,7 @@ export class Pointing {
     return at && { x: left + at.x * scale, y: top + at.y * scale };
   }
 
-  /** Tells of visible points that are clicked, or in the middle at Enter. */
+  /** Tells of visible points that are clicked, and at Enter of the one in the middle. */
   onPick(tell: (point: PickedPoint) => void): void {
     const at = (x: number, y: number, tolerance: number) => {
       const index = this.#viewer.cloud ? pointAt(this.#viewer, { x, y, tolerance }, false) : null;
@@ -49,11 +50,11 @@ export class Pointing {
     });
     this.#canvas.addEventListener("keydown", (event) => {
       const { width, height } = this.#viewer.stage.size;
-      if (event.key === "Enter" && !event.repeat) at(width / 2, height / 2, TOLERANCE);
+      if (isKeyOf("middle", event) && !event.repeat) at(width / 2, height / 2, TOLERANCE);
     });
   }
 
-  /** Where the picture is, and how much larger than in its own pixels: the page may have scaled the element. */
+  /** Where the picture is, and its scale: the page may have scaled the element. */
   get #frame(): { left: number; top: number; scale: number } {
     const { left, top, width } = this.#canvas.getBoundingClientRect();
     return { left, top, scale: width / this.#canvas.clientWidth || 1 };

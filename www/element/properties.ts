@@ -1,37 +1,43 @@
-import { parsePlace } from "../settings/values.ts";
-import { valueOf, type WrittenAttribute } from "./attributes.ts";
+import { PLACE } from "../settings/kinds.ts";
+import { SETTINGS } from "../settings/table.ts";
+import { anyValueOf, ATTRIBUTE_NAMES, type AttributeName, rowOf, valueOf } from "./attributes.ts";
 
-/** A property that is an attribute: what it is for what the attribute says, and what is written there; `null` for nothing. */
-interface Reflected {
-  attribute: string;
-  get: (element: Element) => unknown;
-  text: (value: unknown) => string | null;
+/** Gives a class of elements the properties of the attributes, but for those of places, which know the camera. */
+export function reflect(prototype: Element): void {
+  for (const attribute of ATTRIBUTE_NAMES) {
+    const get = getterOf(attribute);
+    if (!get) continue;
+    const isFlag = rowOf(attribute).property === "flag";
+    Object.defineProperty(prototype, propertyOf(attribute), {
+      configurable: true,
+      enumerable: true,
+      get(this: Element) {
+        return get(this);
+      },
+      set(this: Element, given: unknown) {
+        write(this, attribute, isFlag ? (given ? "" : null) : textOf(given));
+      },
+    });
+  }
 }
 
-/** Whatever it is: that it is no text or number, the attribute's own check tells. */
-// eslint-disable-next-line @typescript-eslint/no-base-to-string
-const plainly = (given: unknown) => (given === null || given === undefined ? null : String(given));
+/** What a property is while its attribute says nothing that can be used, where that is not `null`. */
+const OTHERWISE: Partial<Record<AttributeName, unknown>> = { "hidden-points": SETTINGS.hidden.usual };
 
-function text(attribute: string): Reflected {
-  return { attribute, get: (element) => element.getAttribute(attribute), text: plainly };
-}
-
-function flag(attribute: string): Reflected {
-  return { attribute, get: (element) => element.hasAttribute(attribute), text: (value) => (value ? "" : null) };
-}
-
-/** Where the attribute says nothing that can be used, `otherwise`. */
-function value(attribute: WrittenAttribute, otherwise: unknown = null): Reflected {
-  return { attribute, get: (element) => valueOf(element, attribute) ?? otherwise, text: plainly };
-}
-
-/** As written, where that can be used. */
-function word(attribute: WrittenAttribute): Reflected {
-  return {
-    attribute,
-    get: (element) => (valueOf(element, attribute) === undefined ? null : element.getAttribute(attribute)),
-    text: plainly,
-  };
+/** `null` for a property that the class itself defines. */
+function getterOf(attribute: AttributeName): ((element: Element) => unknown) | null {
+  switch (rowOf(attribute).property) {
+    case "text":
+      return (element) => element.getAttribute(attribute);
+    case "flag":
+      return (element) => element.hasAttribute(attribute);
+    case "value":
+      return (element) => anyValueOf(element, attribute) ?? OTHERWISE[attribute] ?? null;
+    case "word":
+      return (element) => (anyValueOf(element, attribute) === undefined ? null : element.getAttribute(attribute));
+    case "own":
+      return attribute === "radius" ? radius : null;
+  }
 }
 
 /** A rule's name, or a number. */
@@ -41,50 +47,21 @@ function radius(element: Element): unknown {
   return "rule" in chosen ? chosen.rule : chosen.length;
 }
 
-/** Those of three numbers have a getter of their own, which knows the camera. */
-export const REFLECTED = {
-  src: text("src"),
-  sample: text("sample"),
-  limit: value("limit"),
-  skipNonFinite: flag("skip-non-finite"),
-  exponent: value("exponent"),
-  radius: { attribute: "radius", get: radius, text: plainly },
-  inversion: word("inversion"),
-  hiddenPoints: value("hidden-points", "off"),
-  frozen: flag("frozen"),
-  pointSize: value("point-size"),
-  fov: value("fov"),
-  up: value("up"),
-  color: text("color"),
-  label: text("label"),
-  announce: flag("announce"),
-} satisfies Record<string, Reflected>;
-
-/** Gives a class of elements the properties. */
-export function reflect(prototype: Element): void {
-  for (const [name, { attribute, get, text: written }] of Object.entries(REFLECTED)) {
-    Object.defineProperty(prototype, name, {
-      configurable: true,
-      enumerable: true,
-      get(this: Element) {
-        return get(this);
-      },
-      set(this: Element, given: unknown) {
-        write(this, attribute, written(given));
-      },
-    });
-  }
+/** Any value as text: the attribute's own check refuses a text that cannot be used. */
+function textOf(given: unknown): string | null {
+  // eslint-disable-next-line @typescript-eslint/no-base-to-string
+  return given === null || given === undefined ? null : String(given);
 }
 
 /** `null` takes the attribute away. */
-export function write(element: Element, attribute: string, given: string | null): void {
+export function write(element: Element, attribute: AttributeName, given: string | null): void {
   if (given === null) element.removeAttribute(attribute);
   else element.setAttribute(attribute, given);
 }
 
-/** What was set on an element before the module had come: as properties of its own they would hide those of the class. */
+/** Takes over what was set on an element before the module was loaded: such properties would hide those of the class. */
 export function adoptEarly(element: Element): void {
-  for (const name of [...Object.keys(REFLECTED), "viewpoint", "target"]) {
+  for (const name of ATTRIBUTE_NAMES.map(propertyOf)) {
     const descriptor = Object.getOwnPropertyDescriptor(element, name);
     if (!descriptor) continue;
     // eslint-disable-next-line @typescript-eslint/no-dynamic-delete
@@ -93,9 +70,14 @@ export function adoptEarly(element: Element): void {
   }
 }
 
+/** In camel case. */
+function propertyOf(attribute: AttributeName): string {
+  return attribute.replace(/-(\w)/g, (_, letter: string) => letter.toUpperCase());
+}
+
 /** Three finite numbers. */
 export function placeOf(given: ArrayLike<number>): [number, number, number] {
-  const place = parsePlace(Array.from(given).join(","));
+  const place = PLACE.parse(Array.from(given).join(","));
   if (!place) throw new TypeError("expected three finite numbers");
   return place;
 }

@@ -2,14 +2,17 @@ import type { TimedView } from "../ask/inquiry.ts";
 import type { Cloud } from "../cloud/cloud.ts";
 import type { LoadRequest } from "../loaders/index.ts";
 import { Moves } from "../view/moves.ts";
-import { openCloud, type Ready, requestFor, usableColor } from "../open/open-cloud.ts";
+import { openCloud, type Ready } from "../open/open-cloud.ts";
+import { addressOf, nameOf, requestForAddress, requestForSample } from "../open/source.ts";
+import { usableColor } from "../open/usable.ts";
 import { sentenceOf } from "../view/sentence.ts";
 import { sampleNamed } from "../samples/samples.ts";
-import { type Settings, Store, USUAL_SETTINGS } from "../settings/settings.ts";
+import { type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
+import { Store } from "../settings/store.ts";
 import { inReachOnly } from "../view/framing.ts";
 import { Viewer } from "../view/viewer.ts";
 import { themeOf } from "./colors.ts";
-import { changedSettings, type Reading } from "./attributes.ts";
+import { changedSettings, type Reading } from "./reading.ts";
 import type { Frame } from "./frame.ts";
 import { Problem, problemOf } from "./problem.ts";
 
@@ -126,7 +129,7 @@ export class Showing {
     const settings = { ...USUAL_SETTINGS, ...asked.settings };
     const ready = await openCloud(
       {
-        request: sample ? requestFor(sample, import.meta.url) : fileRequest(asked, name),
+        request: sample ? requestForSample(sample, import.meta.url) : fileRequest(asked, name),
         sample,
         view: asked.view,
         settings: asked.settings,
@@ -226,13 +229,6 @@ export class Showing {
 }
 
 function fileRequest({ src, limit, skipNonFinite }: Reading, name: string): LoadRequest {
-  if (!URL.canParse(src!, document.baseURI))
-    throw new Problem("source", `${name} could not be downloaded: “${src}” is no address.`);
-  const url = new URL(src!, document.baseURI).href;
-  return { kind: "url", name, url, skipNonFinite, ...(limit === undefined ? {} : { limit }) };
-}
-
-function nameOf(src: string): string {
-  const url = URL.canParse(src, document.baseURI) ? new URL(src, document.baseURI) : null;
-  return url?.pathname.split("/").pop() || src;
+  if (!addressOf(src!)) throw new Problem("source", `${name} could not be downloaded: “${src}” is no address.`);
+  return requestForAddress(src!, { skipNonFinite, ...(limit === undefined ? {} : { limit }) });
 }

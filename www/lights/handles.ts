@@ -1,5 +1,5 @@
 import { lightByKey } from "./moves.ts";
-import type { Store } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { placeAt, project } from "../view/place.ts";
 

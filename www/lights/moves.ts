@@ -1,6 +1,8 @@
 import { Vector3 } from "three";
 import { upVector } from "../cloud/cloud.ts";
-import type { Store, Viewpoint } from "../settings/settings.ts";
+import { pressed } from "../controls/keys.ts";
+import type { Viewpoint } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
 import { inFile, inLocal } from "../view/framing.ts";
 import { placeAt } from "../view/place.ts";
 import type { Viewer } from "../view/viewer.ts";
@@ -46,8 +48,8 @@ export function addLight(store: Store, viewer: Viewer): void {
 /** Arrow keys turn a light around the middle of the cloud, plus and minus bring it nearer and farther. */
 export function lightByKey(event: KeyboardEvent, i: number, store: Store, viewer: Viewer): void {
   const { cloud } = viewer;
-  const step = STEPS[event.key];
-  if (!cloud || !step || event.ctrlKey || event.metaKey || event.altKey) return;
+  const found = pressed(event, ["light"]);
+  if (!cloud || !found) return;
   event.preventDefault();
   event.stopPropagation();
   const lights = [...store.current.lights];
@@ -56,7 +58,7 @@ export function lightByKey(event: KeyboardEvent, i: number, store: Store, viewer
   const around = up.clone().cross(place);
   // Straight above there is no side to turn to but the camera's.
   if (around.lengthSq() < 1e-9 * place.lengthSq()) around.setFromMatrixColumn(viewer.stage.camera.matrixWorld, 0);
-  const [sideways, upwards, farther] = step;
+  const [sideways, upwards, farther] = STEPS[found.nth]!;
   place
     .applyAxisAngle(up, sideways * TURN)
     .applyAxisAngle(around.normalize(), upwards * TURN)
@@ -65,12 +67,13 @@ export function lightByKey(event: KeyboardEvent, i: number, store: Store, viewer
   store.change({ lights });
 }
 
-const STEPS: Record<string, [sideways: number, upwards: number, farther: number]> = {
-  ArrowLeft: [-1, 0, 1],
-  ArrowRight: [1, 0, 1],
-  ArrowUp: [0, -1, 1],
-  ArrowDown: [0, 1, 1],
-  "+": [0, 0, NEARER],
-  "=": [0, 0, NEARER],
-  "-": [0, 0, 1 / NEARER],
-};
+/** By the order of the keys: left, right, up, down, plus, plus without Shift, minus. */
+const STEPS: readonly [sideways: number, upwards: number, farther: number][] = [
+  [-1, 0, 1],
+  [1, 0, 1],
+  [0, -1, 1],
+  [0, 1, 1],
+  [0, 0, NEARER],
+  [0, 0, NEARER],
+  [0, 0, 1 / NEARER],
+];

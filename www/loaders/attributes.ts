@@ -1,5 +1,5 @@
-import type { Attribute, LoadedCloud } from "../cloud/cloud.ts";
-import { isWhole, type Values } from "./numbers.ts";
+import type { Attribute, LoadedCloud, Values } from "../cloud/cloud.ts";
+import { isWhole } from "./numbers.ts";
 
 /** More than these are not worth the memory they take. */
 const MOST_ATTRIBUTES = 8;

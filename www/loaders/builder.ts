@@ -1,6 +1,6 @@
-import type { LoadedCloud } from "../cloud/cloud.ts";
+import type { LoadedCloud, Values } from "../cloud/cloud.ts";
 import { attributesOf } from "./attributes.ts";
-import { type NumberType, newValues, type Values } from "./numbers.ts";
+import { type NumberType, newValues } from "./numbers.ts";
 
 /** What a file has besides positions. Those called red, green and blue become the colors. */
 export interface Column {

@@ -1,9 +1,6 @@
-import type { Values } from "./numbers.ts";
-import type { LoadedCloud } from "../cloud/cloud.ts";
+import type { LoadedCloud, Values } from "../cloud/cloud.ts";
 import { LoadProblem } from "./problem.ts";
 
-/** Of more points every so manyth is shown: beyond, finding the visible ones takes many seconds and gigabytes. */
-export const MAX_POINTS = 10_000_000;
 /** Of files that have to be in memory as a whole: LAZ, compressed PCD, GLB. Others are read a piece at a time. */
 export const MAX_BYTES = 1_000_000_000;
 

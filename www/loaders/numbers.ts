@@ -1,8 +1,7 @@
+import type { Values } from "../cloud/cloud.ts";
+
 /** The kinds of numbers a file's rows are made of. */
 export type NumberType = "int8" | "uint8" | "int16" | "uint16" | "int32" | "uint32" | "float32" | "float64";
-
-export type Values =
-  Int8Array | Uint8Array | Int16Array | Uint16Array | Int32Array | Uint32Array | Float32Array | Float64Array;
 
 const ARRAYS = {
   int8: Int8Array,

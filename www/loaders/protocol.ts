@@ -1,10 +1,9 @@
 import type { PreparedCloud } from "../cloud/cloud.ts";
-import type { ShapeName } from "../samples/shapes.ts";
 
 /** What the page asks of the loading worker; one request each. */
 export type LoadRequest =
   | { kind: "sample"; name: string; url: string }
-  | { kind: "shape"; name: string; shape: ShapeName }
+  | { kind: "shape"; name: string; shape: string }
   | ({ kind: "url"; name: string; url: string } & ReadOptions)
   | ({ kind: "file"; name: string; file: File } & ReadOptions);
 

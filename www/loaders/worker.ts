@@ -1,8 +1,9 @@
 /// <reference lib="webworker" />
 import { type LoadedCloud, prepareCloud } from "../cloud/cloud.ts";
-import { SHAPES } from "../samples/shapes.ts";
+import { makeSample } from "../samples/samples.ts";
 import { download, downloadRanges } from "./download.ts";
-import { checkedCloud, MAX_POINTS } from "./limits.ts";
+import { MAX_POINTS } from "../settings/limits.ts";
+import { checkedCloud } from "./limits.ts";
 import { LoadProblem } from "./problem.ts";
 import type { LoadReply, LoadRequest } from "./protocol.ts";
 import { readFile } from "./read.ts";
@@ -52,7 +53,7 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   };
   if (request.kind === "shape") {
     progress("Making", null);
-    return SHAPES[request.shape]();
+    return makeSample(request.shape);
   }
   if (request.kind === "sample") {
     const data = await (await download(name, request.url, downloading, NOT_KEPT)).arrayBuffer();

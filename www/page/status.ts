@@ -1,4 +1,4 @@
-import { inversionText } from "../settings/address.ts";
+import { SETTINGS } from "../settings/table.ts";
 import type { TimedView } from "../ask/inquiry.ts";
 import { byId } from "../controls/dom.ts";
 import { sentenceOf } from "../view/sentence.ts";
@@ -65,7 +65,7 @@ export class Status {
       radius: String(visibility.radius),
       exponent: String(visibility.exponent),
       evaluations: String(visibility.evaluations),
-      inversion: inversionText(visibility.inversion as Inversion),
+      inversion: SETTINGS.inversion.write(visibility.inversion as Inversion),
       show: question.shape.kind,
       milliseconds: String(milliseconds),
       refilters: String(this.#refilters),

@@ -1,5 +1,5 @@
 import type { Cloud } from "../cloud/cloud.ts";
-import type { Store } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
 import { colorChoices, type Legend } from "../view/colors.ts";
 import { byId } from "../controls/dom.ts";
 

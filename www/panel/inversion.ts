@@ -1,34 +1,39 @@
-import { AUTOMATIC_C, type Inversion, type Store } from "../settings/settings.ts";
 import { byId } from "../controls/dom.ts";
 import { Segmented } from "../controls/segmented.ts";
 import { Slider } from "../controls/slider.ts";
+import { MOST_POWER } from "../settings/limits.ts";
+import type { Inversion } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
+import { SETTINGS } from "../settings/table.ts";
 
-type Kind = "spherical" | "exponential" | "power";
+/** The library's automatic c, in spacings. */
+const AUTOMATIC_C = 0.07;
 
-/** How points are flipped, with each kind's own parameter: automatic until its slider is moved. */
+/**
+ * The kind of flip and the parameter of each kind, which is automatic until its slider is moved. The returned function
+ * shows the parameter that an answer was found with.
+ */
 export function bindInversion(store: Store): (resolved: Inversion) => void {
-  const kind = new Segmented<Kind>("inversion", (value) => {
-    store.change({
-      inversion: value === "spherical" ? value : value === "power" ? { power: "auto" } : { exponential: "auto" },
-    });
+  const kind = new Segmented("inversion", (text) => {
+    store.change({ inversion: SETTINGS.inversion.parse(text)! });
   });
-  // Both over many powers of ten: c itself, and what γ has above 1.
+  // Both sliders go over many powers of ten: of c, and of γ − 1.
   const scale = new Slider(
     "scale",
-    (value) => `${digits(10 ** value)} spacings`,
-    (value) => {
-      store.change({ inversion: { exponential: Number((10 ** value).toPrecision(4)) } });
+    (at) => `${digits(10 ** at)} spacings`,
+    (at) => {
+      store.change({ inversion: { exponential: Number((10 ** at).toPrecision(4)) } });
     },
   );
   const power = new Slider(
     "power",
-    (value) => `1 + ${digits(10 ** value)}`,
-    (value) => {
-      store.change({ inversion: { power: Math.min(16, 1 + Number((10 ** value).toPrecision(4))) } });
+    (at) => `1 + ${digits(10 ** at)}`,
+    (at) => {
+      store.change({ inversion: { power: Math.min(MOST_POWER, 1 + Number((10 ** at).toPrecision(4))) } });
     },
   );
-  scale.value = scaleAt(AUTOMATIC_C);
-  scale.mark(scaleAt(AUTOMATIC_C));
+  scale.value = Math.log10(AUTOMATIC_C);
+  scale.mark(Math.log10(AUTOMATIC_C));
   const [scaleAuto, powerAuto] = [byId("scale-auto", HTMLButtonElement), byId("power-auto", HTMLButtonElement)];
   scaleAuto.addEventListener("click", () => {
     store.change({ inversion: { exponential: "auto" } });
@@ -38,13 +43,13 @@ export function bindInversion(store: Store): (resolved: Inversion) => void {
   });
 
   store.follow(({ inversion }) => {
-    kind.value = inversion === "spherical" ? inversion : "power" in inversion ? "power" : "exponential";
+    kind.value = SETTINGS.inversion.write(inversion).split(":")[0]!;
     byId("scale-choice").hidden = kind.value !== "exponential";
     byId("power-choice").hidden = kind.value !== "power";
     if (inversion === "spherical") return;
     if ("exponential" in inversion) {
       scaleAuto.setAttribute("aria-pressed", String(inversion.exponential === "auto"));
-      scale.value = scaleAt(inversion.exponential === "auto" ? AUTOMATIC_C : inversion.exponential);
+      scale.value = Math.log10(inversion.exponential === "auto" ? AUTOMATIC_C : inversion.exponential);
     } else {
       powerAuto.setAttribute("aria-pressed", String(inversion.power === "auto"));
       if (inversion.power !== "auto") power.value = Math.log10(inversion.power - 1);
@@ -56,10 +61,6 @@ export function bindInversion(store: Store): (resolved: Inversion) => void {
     if (automatic && typeof resolved === "object" && "power" in resolved)
       power.value = Math.log10((resolved.power as number) - 1);
   };
-}
-
-function scaleAt(spacings: number): number {
-  return Math.log10(spacings);
 }
 
 function digits(value: number): string {

@@ -1,11 +1,12 @@
 import { byId } from "../controls/dom.ts";
+import { isKeyOf } from "../controls/keys.ts";
 
 export interface MessageAction {
   label: string;
   run: () => void;
 }
 
-/** A sentence over the cloud, with what can be done about it. Screen readers hear the same sentence from #status. */
+/** A sentence over the cloud, with buttons for what can be done. Screen readers hear the same sentence from #status. */
 export class Message {
   readonly #box = byId("message");
   readonly #text = this.#box.querySelector("p")!;
@@ -13,7 +14,7 @@ export class Message {
 
   constructor() {
     document.addEventListener("keydown", (event) => {
-      if (event.key === "Escape" && !this.#box.hidden) this.#dismiss();
+      if (isKeyOf("cancel", event) && !this.#box.hidden) this.#dismiss();
     });
   }
 

@@ -1,6 +1,6 @@
 import { isAutomatic } from "../ask/question.ts";
 import type { ViewAnswer } from "../ask/views.ts";
-import type { Store } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
 import { byId } from "../controls/dom.ts";
 import { Slider } from "../controls/slider.ts";
 

@@ -1,22 +1,18 @@
-import type { Store, Viewpoints } from "../settings/settings.ts";
 import { byId } from "../controls/dom.ts";
-import { Segmented } from "../controls/segmented.ts";
+import type { Viewpoints } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
 
 const NOTES: Record<Viewpoints, string> = {
-  one: "What the camera’s place sees.",
-  any: "And what four places around it see, at 5 % of the distance.",
-  two: "What two of it and four places around it see, at 5 % of the distance.",
+  one: "Points that the camera’s place sees.",
+  any: "Points that it sees, or one of four places around it at 5 % of the distance.",
+  two: "Points that at least two see: it and four places around it at 5 % of the distance.",
 };
 
-/** From how many viewpoints points are to be seen; the surface is that of one. */
-export function bindViewpoints(store: Store): void {
-  const choice = new Segmented<Viewpoints>("viewpoints", (viewpoints) => {
-    store.change({ viewpoints });
-  });
+/** Explains the choice of viewpoints, and takes it away while the surface is shown. */
+export function explainViewpoints(store: Store): void {
   const group = byId("viewpoints", HTMLFieldSetElement);
   const note = byId("viewpoints-note");
   store.follow(({ viewpoints, show }) => {
-    choice.value = viewpoints;
     group.disabled = show === "surface";
     note.textContent = show === "surface" ? "A surface is that of one viewpoint." : NOTES[viewpoints];
   });

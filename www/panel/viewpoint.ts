@@ -1,5 +1,5 @@
 import type { Moves } from "../view/moves.ts";
-import type { Store } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
 import { byId } from "../controls/dom.ts";
 
 /** The button that keeps the viewpoint where it is while the camera moves on. */

@@ -1,22 +1,14 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
+import type { Truth } from "./generator.ts";
+import { grid, joined } from "./mesh.ts";
+import { mulberry32 } from "./random.ts";
+import { box, type Color, cylinder, dot, legs, rectangle, sphere, type Surface, type Vector } from "./surfaces.ts";
 
 /*
  * A living room of 6 × 2.7 × 4.6 meters as a scanner might leave it: points spread evenly over every surface, two
  * millimeters of noise, muted colors with soft baked light. y is up, the floor is y = 0, the middle is x = z = 0.
  * A fixed seed: the same points on every machine.
  */
-
-type Vector = [number, number, number];
-type Color = [number, number, number];
-
-/** A piece of surface: how large it is, and a point on it with its normal for two numbers in 0 … 1. */
-export interface Surface {
-  area: number;
-  color: Color;
-  /** By how many flat pieces along u and v it is told well enough from a round one. */
-  pieces: [number, number];
-  at(u: number, v: number): { point: Vector; normal: Vector };
-}
 
 const POINTS = 300_000;
 const NOISE = 0.002;
@@ -35,7 +27,7 @@ const BRASS: Color = [190, 160, 96];
 const LINEN: Color = [236, 224, 196];
 const BOOKS: Color[] = [[146, 74, 66], [72, 96, 128], [196, 172, 120], [86, 116, 96], [120, 96, 120], [206, 200, 188]]; // prettier-ignore
 
-export function makeRoom(): LoadedCloud {
+export function make(): LoadedCloud {
   const positions = new Float32Array(3 * POINTS);
   const colors = new Uint8Array(3 * POINTS);
   let i = 0;
@@ -51,7 +43,7 @@ export function makeRoom(): LoadedCloud {
   return { positions, colors };
 }
 
-/** Where a point is on its surface, how far off it is measured, and a number from 0 to 1 of its own. */
+/** Where a point lies on its surface, its measured distance from it, and a random number from 0 to 1 for its color. */
 interface Place {
   surface: Surface;
   u: number;
@@ -61,10 +53,42 @@ interface Place {
 }
 
 /** All surfaces of the room, and the places of its points on them, surface after surface. */
-export function scanRoom(): { surfaces: Surface[]; places: Iterable<Place> } {
+function scanRoom(): { surfaces: Surface[]; places: Iterable<Place> } {
   const random = mulberry32(20070802);
   const surfaces = roomSurfaces(random);
   return { surfaces, places: scatter(surfaces, random) };
+}
+
+/** The surfaces as flat pieces, and each point on one of these: where its surface is, not where the noise has put it. */
+export function truth(): Truth {
+  const { surfaces, places } = scanRoom();
+  const mesh = joined(surfaces.map((surface) => grid(...surface.pieces, (u, v) => surface.at(u, v).point)));
+  const firstFace = new Map<Surface, number>();
+  let faces = 0;
+  for (const surface of surfaces) {
+    firstFace.set(surface, faces);
+    faces += 2 * surface.pieces[0] * surface.pieces[1];
+  }
+  const on = { positions: [] as number[], faces: [] as number[] };
+  for (const { surface, u, v } of places) {
+    const { place, face } = onPieces(surface, u, v);
+    on.positions.push(...place);
+    on.faces.push(firstFace.get(surface)! + face);
+  }
+  return { mesh, on: { positions: Float32Array.from(on.positions), faces: Uint32Array.from(on.faces) } };
+}
+
+/** The point of the flat pieces in the place of a point of the surface, and the number of its triangle in `grid`. */
+function onPieces(surface: Surface, u: number, v: number): { place: Vector; face: number } {
+  const [columns, rows] = surface.pieces;
+  const [column, row] = [Math.floor(u * columns), Math.floor(v * rows)];
+  const [across, up] = [u * columns - column, v * rows - row];
+  const corner = (right: number, above: number) => surface.at((column + right) / columns, (row + above) / rows).point;
+  const lower = across + up <= 1;
+  const [from, a, b] = lower ? [corner(0, 0), corner(1, 0), corner(0, 1)] : [corner(1, 1), corner(0, 1), corner(1, 0)];
+  const [alongA, alongB] = lower ? [across, up] : [1 - across, 1 - up];
+  const place = from.map((value, axis) => value + alongA * (a[axis]! - value) + alongB * (b[axis]! - value)) as Vector;
+  return { place, face: 2 * (row * columns + column) + (lower ? 0 : 1) };
 }
 
 function* scatter(surfaces: readonly Surface[], random: () => number): Generator<Place> {
@@ -79,7 +103,7 @@ function* scatter(surfaces: readonly Surface[], random: () => number): Generator
     let v = random();
     for (; i < end; i++) {
       const here = { u, v };
-      // M. Roberts' R2 sequence fills a square evenly, as a scanner would; independent random points leave holes.
+      // M. Roberts' R2 sequence fills a square evenly, as a scanner does; independent random points leave holes.
       u = (u + 0.7548776662466927) % 1;
       v = (v + 0.5698402909980532) % 1;
       yield { surface, ...here, off: NOISE * (random() + random() + random() - 1.5), grain: random() };
@@ -87,7 +111,7 @@ function* scatter(surfaces: readonly Surface[], random: () => number): Generator
   }
 }
 
-/** All there is in the room; `random` decides about books and leaves. */
+/** Everything in the room; `random` decides about books and leaves. */
 export function roomSurfaces(random: () => number): Surface[] {
   return [...shell(), ...furniture(random)];
 }
@@ -96,7 +120,7 @@ function shell(): Surface[] {
   return [
     rectangle([-3, 0, -2.3], [6, 0, 0], [0, 0, 4.6], [0, 1, 0], OAK),
     rectangle([-3, 2.7, -2.3], [6, 0, 0], [0, 0, 4.6], [0, -1, 0], CEILING),
-    // The back wall has a window of 1.8 × 1.3 m, seen as a hole with a frame.
+    // The back wall has a window of 1.8 × 1.3 m: a hole with a frame.
     rectangle([-3, 0, -2.3], [1.5, 0, 0], [0, 2.7, 0], [0, 0, 1], PLASTER),
     rectangle([0.3, 0, -2.3], [2.7, 0, 0], [0, 2.7, 0], [0, 0, 1], PLASTER),
     rectangle([-1.5, 0, -2.3], [1.8, 0, 0], [0, 0.9, 0], [0, 0, 1], PLASTER),
@@ -194,82 +218,4 @@ function plant(x: number, z: number, random: () => number): Surface[] {
     parts.push(sphere(center, 0.05 + 0.06 * random(), LEAF));
   }
   return parts;
-}
-
-function rectangle(corner: Vector, a: Vector, b: Vector, normal: Vector, color: Color): Surface {
-  const area = Math.hypot(...a) * Math.hypot(...b);
-  return {
-    area,
-    color,
-    pieces: [1, 1],
-    at: (u, v) => ({ point: corner.map((value, axis) => value + u * a[axis]! + v * b[axis]!) as Vector, normal }),
-  };
-}
-
-function box([x, y, z]: Vector, [w, h, d]: Vector, color: Color): Surface[] {
-  return [
-    rectangle([x, y, z], [w, 0, 0], [0, 0, d], [0, -1, 0], color),
-    rectangle([x, y + h, z], [w, 0, 0], [0, 0, d], [0, 1, 0], color),
-    rectangle([x, y, z], [0, h, 0], [0, 0, d], [-1, 0, 0], color),
-    rectangle([x + w, y, z], [0, h, 0], [0, 0, d], [1, 0, 0], color),
-    rectangle([x, y, z], [w, 0, 0], [0, h, 0], [0, 0, -1], color),
-    rectangle([x, y, z + d], [w, 0, 0], [0, h, 0], [0, 0, 1], color),
-  ];
-}
-
-/** Four legs under the corners of a box. */
-function legs([x, y, z]: Vector, [w, h, d]: Vector, thick: number, color: Color): Surface[] {
-  const size: Vector = [thick, h, thick];
-  return [
-    ...box([x, y, z], size, color),
-    ...box([x + w - thick, y, z], size, color),
-    ...box([x, y, z + d - thick], size, color),
-    ...box([x + w - thick, y, z + d - thick], size, color),
-  ];
-}
-
-/** An upright cylinder or a truncated cone, open at both ends. */
-function cylinder([x, y, z]: Vector, bottom: number, top: number, height: number, color: Color): Surface {
-  return {
-    area: Math.PI * (bottom + top) * height,
-    color,
-    pieces: [64, 1],
-    at(u, v) {
-      const turn = 2 * Math.PI * u;
-      const r = bottom + (top - bottom) * v;
-      const normal: Vector = [Math.cos(turn), 0, Math.sin(turn)];
-      return { point: [x + r * normal[0], y + height * v, z + r * normal[2]], normal };
-    },
-  };
-}
-
-function sphere([x, y, z]: Vector, r: number, color: Color): Surface {
-  return {
-    area: 4 * Math.PI * r * r,
-    color,
-    pieces: [64, 32],
-    at(u, v) {
-      // Archimedes: even in height and in longitude is even on the sphere.
-      const turn = 2 * Math.PI * u;
-      const up = 2 * v - 1;
-      const ring = Math.sqrt(1 - up * up);
-      const normal: Vector = [ring * Math.cos(turn), up, ring * Math.sin(turn)];
-      return { point: [x + r * normal[0], y + r * up, z + r * normal[2]], normal };
-    },
-  };
-}
-
-function dot(a: Vector, b: Vector): number {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-/** A small well-known generator (Tommy Ettinger's mulberry32): 32 bits of state, the same numbers everywhere. */
-export function mulberry32(seed: number): () => number {
-  let state = seed;
-  return () => {
-    state = (state + 0x6d2b79f5) | 0;
-    let t = Math.imul(state ^ (state >>> 15), 1 | state);
-    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
-    return ((t ^ (t >>> 14)) >>> 0) / 4294967296;
-  };
 }

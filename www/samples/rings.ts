@@ -1,8 +1,9 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
+import type { Truth } from "./generator.ts";
 
 /*
  * An airplane some 15 meters long as a designer might sketch it: nothing but rings of points, cross-sections far apart
- * compared with the points along them. Sparse and uneven, so that one sees through it between the rings. x is forward,
+ * compared with the points along them. It is sparse and uneven: one can look through between the rings. x is forward,
  * y up, z to the right.
  */
 
@@ -11,7 +12,7 @@ type Vector = [number, number, number];
 /** A closed curve: a place for each turn from 0 to 1. */
 type Ring = (turn: number) => Vector;
 
-/** Along the fuselage: x, how far its middle is above 0, half its height and half its width. */
+/** Along the fuselage: x, the height of its middle, half its height and half its width. */
 const FUSELAGE: [x: number, y: number, height: number, width: number][] = [
   [7.0, -0.15, 0.12, 0.12],
   [6.2, -0.12, 0.42, 0.4],
@@ -29,7 +30,7 @@ const FUSELAGE: [x: number, y: number, height: number, width: number][] = [
 const FUSELAGE_RINGS = 40;
 const FUSELAGE_POINTS = 26;
 
-/** A wing from its root to its tip: the leading edge, the chord backwards along x, and the thickness as a part of it. */
+/** A wing from its root to its tip: the leading edge, the chord backwards along x, and the thickness as a share of it. */
 interface Wing {
   root: Vector;
   tip: Vector;
@@ -64,20 +65,24 @@ const FIN: Wing = {
   points: 22,
 };
 
-/** What is covered by one skin: its rings in a row, and how many points each has. */
+/** A part with one skin: its rings in a row, and the number of points of each. */
 interface Body {
   rings: Ring[];
   points: number;
 }
 
-export function makeRings(): LoadedCloud {
+export function make(): LoadedCloud {
   const points = bodies().flatMap(({ rings, points: count }) =>
     rings.flatMap((ring) => Array.from({ length: count }, (_, i) => ring(i / count))),
   );
   return { positions: Float32Array.from(points.flat()), colors: null };
 }
 
-/** The skin of the airplane: triangles between the points of neighboring rings, and over the first and the last ring of each body. */
+export function truth(): Truth {
+  return { mesh: { positions: make().positions as Float32Array, triangles: skinOfRings() }, on: null };
+}
+
+/** The skin of the airplane: triangles between neighboring rings, and over the first and the last ring of each body. */
 export function skinOfRings(): Uint32Array {
   const triangles: number[] = [];
   let first = 0;

@@ -1,13 +1,14 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
-import { mulberry32 } from "./living-room.ts";
+import type { Truth } from "./generator.ts";
+import { mulberry32 } from "./random.ts";
 import { makeScene, type Material } from "./street-scene.ts";
-import type { Hit, Solid, Vector } from "./trace.ts";
+import type { Hit, Vector } from "./trace.ts";
 
 /*
- * A street of 70 meters with houses, trees and parked cars, as a terrestrial laser scanner sees it from three places on
- * it: rays in even steps of both angles, one point for what each hits first. Glass lets most of them through, so there
- * are points of the rooms behind the façades, which nobody in the street would see through the walls. Meters; x along the
- * street, z up. A fixed seed: the same points on every machine.
+ * A street of 70 meters with houses, trees and parked cars, as a terrestrial laser scanner sees it from three places:
+ * rays in even steps of both angles, with one point where a ray hits first. Glass lets most rays through. So there are
+ * points of the rooms behind the façades, which nobody in the street would see through the walls. Units are meters; x is
+ * along the street, z up. The seed is fixed: the points are the same on every machine.
  */
 
 const SEED = 2007;
@@ -18,11 +19,11 @@ const STATIONS: Vector[] = [
 ];
 const TURNS = 500;
 const STEPS = 158;
-/** Of the lowest and the highest ray, in degrees. */
+/** The angles of the lowest and the highest ray, in degrees. */
 const LOWEST = -42;
 const HIGHEST = 58;
 const REACH = 48;
-/** Of the measured distance, one standard deviation, in meters. */
+/** One standard deviation of the measured distance, in meters. */
 const NOISE = 0.004;
 /** The share of the beams that a pane sends back. */
 const PANE = 0.06;
@@ -37,7 +38,7 @@ const LABELS = {
   66: "behind glass",
 };
 
-export function makeStreet(): LoadedCloud {
+export function make(): LoadedCloud {
   const most = STATIONS.length * TURNS * STEPS;
   const positions = new Float32Array(3 * most);
   const colors = new Uint8Array(3 * most);
@@ -68,15 +69,15 @@ export function makeStreet(): LoadedCloud {
   };
 }
 
-/** All that was scanned, and the places on its surfaces that the beams met. One looks through its panes. */
-export function streetTruth(): { scene: Solid<Material>; places: Float64Array } {
+/** Everything that was scanned, with panes that one can look through, and the places that the beams met. */
+export function truth(): Truth {
   const places: number[] = [];
   for (const { from, along, hit } of scan())
     places.push(...from.map((value, axis) => value + hit.distance * along[axis]!));
   return { scene: makeScene(mulberry32(SEED), () => true), places: Float64Array.from(places) };
 }
 
-/** Every beam that comes back, with the distance that is measured. */
+/** Every beam that comes back, with the measured distance. */
 function* scan(): Generator<{
   from: Vector;
   along: Vector;
@@ -109,7 +110,7 @@ function shade(normal: Vector, { kind }: Material, random: () => number): number
   return kind === 66 ? 0.8 * light : light;
 }
 
-/** Near enough: the sum of a few even numbers. */
+/** Near enough to a normal distribution: the sum of four even ones. */
 function gaussian(random: () => number): number {
   return (random() + random() + random() + random() - 2) * Math.sqrt(3);
 }

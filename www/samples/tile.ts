@@ -1,17 +1,18 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
-import { mulberry32 } from "./living-room.ts";
+import { mulberry32 } from "./random.ts";
 import { makeLand, type Return } from "./tile-land.ts";
 
 /*
- * A tile of 320 × 320 meters as an airplane's laser scanner maps it, in UTM coordinates (zone 32 north, meters, z up): far
- * from the origin, in whole millimeters, which need 64 bits. Flight lines run north, and the beam swings across them, so
- * walls are seen on one side only. Of a beam into a tree, a part comes back from the ground. The same on every machine.
+ * A tile of 320 × 320 meters as an airplane's laser scanner maps it, in UTM coordinates (zone 32 north, meters, z up). They
+ * are far from the origin and in whole millimeters, so they need 64 bits. Flight lines run north and the beam swings across
+ * them, so walls are seen on one side only. A part of a beam into a tree comes back from the ground. The points are the same
+ * on every machine.
  */
 
 const EAST = 512_000;
 const NORTH = 5_403_000;
 const SIDE = 320;
-/** Between two sweeps along the line of flight, and two beams of a sweep. */
+/** The distance of two sweeps along the line of flight, and of two beams of a sweep. */
 const STEP = 0.66;
 const FLIGHT_HEIGHT = 700;
 const LINES = [70, 250];
@@ -19,7 +20,7 @@ const LINES = [70, 250];
 const NOISE = 0.02;
 
 const LABELS = { 2: "ground", 3: "low vegetation", 5: "high vegetation", 6: "building", 9: "water", 11: "road" };
-/** How a surface looks from above, and how much of the light it sends back. */
+/** The color of a surface from above, and the share of the light that it sends back. */
 const LOOKS: Record<number, { color: readonly [number, number, number]; gloss: number }> = {
   2: { color: [132, 146, 92], gloss: 0.5 },
   3: { color: [116, 136, 74], gloss: 0.55 },
@@ -29,7 +30,7 @@ const LOOKS: Record<number, { color: readonly [number, number, number]; gloss: n
   11: { color: [140, 140, 142], gloss: 0.25 },
 };
 
-export function makeTile(): LoadedCloud {
+export function make(): LoadedCloud {
   const random = mulberry32(32632);
   const land = makeLand(SIDE, random);
   const positions: number[] = [];
@@ -57,7 +58,7 @@ export function makeTile(): LoadedCloud {
         const northing = y + STEP * 0.3 * random();
         const across = (x - line) / FLIGHT_HEIGHT;
         const first = land.first(x, northing, across);
-        // A mirror of water sends hardly anything back to the airplane.
+        // Water is a mirror: it sends hardly anything back to the airplane.
         if (!first || (first.kind === 9 && random() < 0.85)) continue;
         put(first, 1);
         if (first.kind !== 5 || random() > 0.4) continue;

@@ -1,9 +1,11 @@
-import { type Inversion, type Radius, type Settings, type Store, USUAL_SETTINGS, type Viewpoint } from "./settings.ts";
+import { rowOf, type Settings, USUAL_SETTINGS, type Viewpoint } from "./settings.ts";
+import type { Store } from "./store.ts";
+import { PARAMETERS, type SettingName, SETTINGS } from "./table.ts";
 
-/** What the address says of a cloud: a sample of the page or a file on the web, by its parameter and value. */
+/** How the address names a cloud, by parameter and value: a sample of the page, or a file on the web. */
 export type CloudName = ["sample" | "src", string];
 
-/** What the cloud would be seen with if the address said nothing. */
+/** The settings that a cloud is seen with if the address says nothing. */
 export type Usual = Pick<Settings, "size" | "fieldOfView" | "up">;
 
 export interface CameraPlace {
@@ -12,19 +14,25 @@ export interface CameraPlace {
   target: Viewpoint | null;
 }
 
-/** The address is written when nothing has changed for so many milliseconds: browsers refuse to write it every frame. */
+/** The address of a cloud, and the settings that it need not say. */
+interface Named {
+  name: CloudName;
+  usual: Usual;
+}
+
+/** Milliseconds without a change before the address is written: browsers refuse to write it every frame. */
 const CALM = 300;
 
-/** Keeps the page's address such that, copied, it shows the same cloud, picture and settings again. */
+/** Keeps the page's address such that a copy of it shows the same cloud, picture and settings again. */
 export class Address {
-  /** The camera's place where that is not the usual one. */
+  /** `null` for the usual place. */
   readonly #camera: () => CameraPlace | null;
   readonly #store: Store;
   /** `null`: a file from this device, which no address can open. */
-  #cloud: { name: CloudName; usual: Usual } | null = null;
-  /** What the address was of before a cloud was chosen that is not there yet. */
-  #before: { cloud: { name: CloudName; usual: Usual } | null; href: string } | null = null;
-  /** Whether the picture is divided only to show what the page is about. */
+  #cloud: Named | null = null;
+  /** The address before a cloud was chosen. It comes back if that cloud cannot be opened. */
+  #before: { cloud: Named | null; href: string } | null = null;
+  /** Whether the picture is divided only as an introduction to the page. */
   readonly #introducing: () => boolean;
   #timer: ReturnType<typeof setTimeout> | undefined;
 
@@ -37,25 +45,26 @@ export class Address {
     });
   }
 
-  /** From now on the address is that of this cloud. */
+  /** This cloud is on screen now, and the address follows it. */
   begin(name: CloudName | null, usual: Usual): void {
     this.#cloud = name && { name, usual };
     this.#before = null;
     this.touch();
   }
 
-  /** At once, for a cloud that is about to be loaded: what belonged to the one before goes. */
+  /** Names a cloud at once that is about to be loaded. Parameters of the cloud before it go. */
   choose([parameter, value]: CloudName): void {
     this.#before ??= { cloud: this.#cloud, href: location.href };
     this.#cloud = null;
     const address = new URL(location.href);
-    for (const name of ["src", "view", "target", "freeze", "light", "color", "size", "fov", "up"])
+    const ofCloud = Object.values(SETTINGS).filter((row) => row.ofCloud);
+    for (const name of ["src", "view", "target", ...ofCloud.map((row) => row.parameter)])
       address.searchParams.delete(name);
     address.searchParams.set(parameter, value);
     replace(address);
   }
 
-  /** What was chosen will not come: the cloud before it has stayed, and with it its address. */
+  /** The chosen cloud could not be opened: the one before has stayed, and its address comes back. */
   giveUp(): void {
     if (!this.#before) return;
     this.#cloud = this.#before.cloud;
@@ -73,7 +82,7 @@ export class Address {
     }, CALM);
   }
 
-  /** The page as it is now, for others to open; `null` where no address can. */
+  /** The page as it is now, for others to open; `null` if no address can open it. */
   link(): string | null {
     this.#write();
     return this.#cloud && location.href;
@@ -87,7 +96,7 @@ export class Address {
     const introducing = this.#introducing();
     const settings = introducing ? { ...this.#store.current, compare: null } : this.#store.current;
     const values = { ...settingsInAddress(settings, usual), ...cameraInAddress(this.#camera()) };
-    // Whoever has done nothing yet is shown it again the next time.
+    // Nothing has been done yet: the bare address stays, and brings the introduction the next time.
     if (introducing && address.search === "" && Object.values(values).every((texts) => texts.length === 0)) return;
     searchParams.delete(name[0] === "src" ? "sample" : "src");
     searchParams.set(...name);
@@ -99,47 +108,33 @@ export class Address {
   }
 }
 
-/** Every parameter with its values; none where the setting is the usual one. */
+/** Every parameter with its values; with none where the setting is the usual one. */
 function settingsInAddress(now: Settings, usual: Usual): Record<string, string[]> {
-  const unless = (usually: string | number, value: string | number) => (value === usually ? [] : [String(value)]);
-  return {
-    exponent: "exponent" in now.radius ? [String(now.radius.exponent)] : [],
-    radius: "exponent" in now.radius ? [] : unless("auto", radiusText(now.radius)),
-    inversion: unless("spherical", inversionText(now.inversion)),
-    viewpoints: unless("one", now.viewpoints),
-    denoise: unless(0, now.denoise),
-    vote: unless(0, now.vote),
-    show: unless("points", now.show),
-    edge: unless(USUAL_SETTINGS.edge, now.edge === Infinity ? "all" : now.edge),
-    light: now.lights.map(String),
-    soft: unless(USUAL_SETTINGS.soft, now.soft),
-    ambient: unless(USUAL_SETTINGS.ambient, now.ambient),
-    smoothing: unless(USUAL_SETTINGS.smoothing, now.smoothing),
-    freeze: now.freeze ? [String(now.freeze)] : [],
-    compare: now.compare === null ? [] : [String(now.compare)],
-    against: now.compare === null ? [] : unless("all", now.against),
-    splat: now.compare === null || now.against !== "zbuffer" ? [] : unless("auto", now.splat),
-    hidden: unless("off", now.hidden),
-    color: unless(USUAL_SETTINGS.color, now.color),
-    size: unless(usual.size, now.size),
-    fov: unless(usual.fieldOfView, now.fieldOfView),
-    up: unless(usual.up, now.up),
-    theme: unless(USUAL_SETTINGS.theme, now.theme),
+  // A radius has one of two parameters.
+  const { radius } = now;
+  const texts: Record<string, string[]> = {
+    exponent: "exponent" in radius ? [PARAMETERS.exponent.write(radius.exponent)] : [],
   };
+  const write = (name: SettingName) => {
+    const row = rowOf(name);
+    const usually = { ...USUAL_SETTINGS, ...usual }[name];
+    const text = row.write(now[name]);
+    texts[row.parameter] = text === row.write(usually) ? [] : [text];
+  };
+  for (const name of Object.keys(SETTINGS)) write(name as SettingName);
+  texts[SETTINGS.lights.parameter] = now.lights.map(String);
+  if ("exponent" in radius) texts[SETTINGS.radius.parameter] = [];
+  // Without a comparison its kind means nothing, and without the z-buffer the width of its points.
+  if (now.compare === null) texts[SETTINGS.against.parameter] = [];
+  if (now.compare === null || now.against !== "zbuffer") texts[SETTINGS.splat.parameter] = [];
+  return texts;
 }
 
 function cameraInAddress(camera: CameraPlace | null): Record<string, string[]> {
-  return { view: camera ? [String(camera.view)] : [], target: camera?.target ? [String(camera.target)] : [] };
-}
-
-function radiusText(radius: Exclude<Radius, { exponent: number }>): string {
-  return "rule" in radius ? radius.rule : String(radius.length);
-}
-
-export function inversionText(inversion: Inversion): string {
-  if (inversion === "spherical") return inversion;
-  const [kind, value] = "power" in inversion ? ["power", inversion.power] : ["exponential", inversion.exponential];
-  return value === "auto" ? kind : `${kind}:${value}`;
+  return {
+    view: camera ? [PARAMETERS.view.write(camera.view)] : [],
+    target: camera?.target ? [PARAMETERS.target.write(camera.target)] : [],
+  };
 }
 
 function replace(address: URL): void {

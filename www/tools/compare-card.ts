@@ -4,7 +4,8 @@ import { byId } from "../controls/dom.ts";
 import { Segmented } from "../controls/segmented.ts";
 import { Slider } from "../controls/slider.ts";
 import type { KnownSurface } from "../samples/samples.ts";
-import type { Against, Store } from "../settings/settings.ts";
+import type { Against } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
 
 const number = new Intl.NumberFormat("en-US");
 

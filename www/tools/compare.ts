@@ -1,15 +1,16 @@
 import { AgainstPicture } from "../compare/against-picture.ts";
 import { AgainstSurface } from "../compare/against-surface.ts";
 import { byId } from "../controls/dom.ts";
-import type { Settings, Store } from "../settings/settings.ts";
+import { pressed } from "../controls/keys.ts";
+import type { Settings } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { CompareCard, type Sides } from "./compare-card.ts";
 
 /** Beside the middle, where one takes hold of the cloud to turn it. */
 const FIRST = 0.42;
-/** Shares of the width for each press of a key. */
-const STEP = 0.02;
-const LEAP = 0.1;
+/** Shares of the width, by the order of the keys: left, right, down, up, page down, page up, home, end. */
+const STEPS = [-0.02, 0.02, -0.02, 0.02, -0.1, 0.1, -1, 1];
 
 const number = new Intl.NumberFormat("en-US");
 
@@ -136,21 +137,10 @@ export class Compare {
     });
     divider.addEventListener("keydown", (event) => {
       const { compare } = this.#store.current;
-      if (compare === null || event.ctrlKey || event.metaKey || event.altKey) return;
-      const places: Record<string, number> = {
-        ArrowLeft: compare - STEP,
-        ArrowRight: compare + STEP,
-        ArrowDown: compare - STEP,
-        ArrowUp: compare + STEP,
-        PageDown: compare - LEAP,
-        PageUp: compare + LEAP,
-        Home: 0,
-        End: 1,
-      };
-      const place = places[event.key];
-      if (place === undefined) return;
+      const found = pressed(event, ["divide"]);
+      if (compare === null || !found) return;
       event.preventDefault();
-      moveTo(place);
+      moveTo(compare + STEPS[found.nth]!);
     });
   }
 }

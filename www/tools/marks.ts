@@ -4,13 +4,13 @@ import { Projection } from "./projection.ts";
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** How far a text is from its point, and from the edge of the picture. */
+/** The distances of a text from its point, and from the edge of the picture. */
 const ASIDE = 14;
 const EDGE = 6;
 /** The width that is kept for an ellipsis. */
 const DOTS = 14;
 
-/** Something drawn over the picture that is fastened to points of the cloud. */
+/** A mark over the picture, fastened to points of the cloud. */
 export interface Mark {
   remove(): void;
 }
@@ -18,12 +18,12 @@ export interface Mark {
 interface Fastened {
   element: SVGGElement;
   anchors: readonly number[];
-  /** Gone with its anchor; else drawn faintly. */
+  /** While an anchor is hidden the mark is hidden too; other marks are drawn faintly. */
   hides: boolean;
   place: (ends: { x: number; y: number }[]) => void;
 }
 
-/** Marks over the picture: they go with their points, and show whether these are seen from here. */
+/** Marks over the picture. They move with their points, and show whether these are visible. */
 export class Marks {
   readonly svg: SVGSVGElement;
   readonly #viewer: Viewer;
@@ -66,20 +66,20 @@ export class Marks {
     return this.#fasten({ element, anchors: [from, to], hides: false, place });
   }
 
-  /** A text beside a point, as long as that is seen. */
+  /** A text beside a point, as long as the point is visible. */
   note(index: number, text: string): Mark {
-    const label = withText(text);
+    const label = new Fitted(text);
     const line = create("line", { y2: -11 });
-    const element = group("note", [line, create("circle", { r: 3, class: "dot" }), label]);
+    const element = group("note", [line, create("circle", { r: 3, class: "dot" }), label.element]);
     const place = ([at]: { x: number; y: number }[]) => {
       move(element, at!);
-      const side = fit(label, text, at!.x, this.#viewer.stage.size.width);
+      const side = label.fit(at!.x, this.#viewer.stage.size.width);
       set(line, { x2: 11 * side });
     };
     return this.#fasten({ element, anchors: [index], hides: true, place });
   }
 
-  /** Once more where its points are now. Called every frame; does nothing while nothing has moved. */
+  /** Moves the marks to their points. Called every frame; does nothing while nothing has moved. */
   place(): void {
     if (this.#all.size === 0 || !this.#viewer.cloud) return;
     const { camera, size } = this.#viewer.stage;
@@ -98,7 +98,7 @@ export class Marks {
     }
   }
 
-  /** Other points are visible now, or there are other marks. */
+  /** Other points are visible, or there are other marks. */
   invalidate(): void {
     this.#placed = "";
     this.place();
@@ -142,21 +142,49 @@ function withText(text: string): SVGTextElement {
   return element;
 }
 
-/** Puts a text beside a place, to its left (-1) where its right (1) has too little room and less, and cuts what has none. */
-function fit(label: SVGTextElement, text: string, x: number, width: number): 1 | -1 {
-  label.textContent = text;
-  const length = label.getComputedTextLength();
-  const [left, right] = [x - ASIDE - EDGE, width - x - ASIDE - EDGE];
-  const side = length > right && left > right ? -1 : 1;
-  const room = Math.max(left, right);
-  if (length > room) {
-    let kept = text.length;
-    while (kept > 1 && label.getSubStringLength(0, kept) > room - DOTS) kept--;
-    label.textContent = `${text.slice(0, kept).trimEnd()}…`;
+/** A text that is cut where the picture has too little room for it. */
+class Fitted {
+  readonly element: SVGTextElement;
+  readonly #text: string;
+  /** The lengths of the text's beginnings, by their number of letters. Measuring lays the page out, so it is done once. */
+  #lengths: number[] | null = null;
+  /** How many letters are shown, with an ellipsis if that is not all. */
+  #kept: number;
+
+  constructor(text: string) {
+    this.element = withText(text);
+    this.#text = text;
+    this.#kept = text.length;
   }
-  set(label, { "text-anchor": side > 0 ? "start" : "end" });
-  move(label, { x: ASIDE * side, y: -ASIDE });
-  return side;
+
+  /** Puts the text to the right of a place (1), or to the left (-1) if there is more room and the right has too little. */
+  fit(x: number, width: number): 1 | -1 {
+    this.#lengths ??= this.#measured();
+    const whole = this.#lengths.length - 1;
+    const length = this.#lengths[whole]!;
+    const [left, right] = [x - ASIDE - EDGE, width - x - ASIDE - EDGE];
+    const side = length > right && left > right ? -1 : 1;
+    const room = Math.max(left, right);
+    let kept = whole;
+    if (length > room) while (kept > 1 && this.#lengths[kept]! > room - DOTS) kept--;
+    this.#show(kept);
+    set(this.element, { "text-anchor": side > 0 ? "start" : "end" });
+    move(this.element, { x: ASIDE * side, y: -ASIDE });
+    return side;
+  }
+
+  #show(kept: number): void {
+    if (kept === this.#kept) return;
+    this.#kept = kept;
+    const cut = kept < this.#text.length;
+    this.element.textContent = cut ? `${this.#text.slice(0, kept).trimEnd()}…` : this.#text;
+  }
+
+  #measured(): number[] {
+    return Array.from({ length: this.#text.length + 1 }, (_, kept) =>
+      kept === 0 ? 0 : this.element.getSubStringLength(0, kept),
+    );
+  }
 }
 
 function move(element: SVGElement, { x, y }: { x: number; y: number }): void {

@@ -2,7 +2,7 @@ import { isAutomatic } from "../ask/question.ts";
 import { Curve } from "../ask/curve.ts";
 import type { TimedView } from "../ask/inquiry.ts";
 import { byId } from "../controls/dom.ts";
-import type { Store } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 
 /** The drawing's own units; the exponents go as far as the slider. */

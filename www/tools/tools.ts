@@ -1,5 +1,6 @@
 import { byId } from "../controls/dom.ts";
-import type { Store } from "../settings/settings.ts";
+import { type Action, isKeyOf, pressed } from "../controls/keys.ts";
+import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { Compare } from "./compare.ts";
 import { Export, type ExportActions } from "./export.ts";
@@ -42,14 +43,7 @@ export class Tools {
     this.#compare = new Compare(viewer, store, introduce);
     bindKeysSheet();
     byId("tools").hidden = false;
-    this.#bindKeys(
-      {
-        c: () => {
-          this.#compare.toggle();
-        },
-      },
-      viewer,
-    );
+    this.#bindKeys(viewer);
   }
 
   /** Whether the picture is divided only to show what the page is about. */
@@ -93,27 +87,25 @@ export class Tools {
     active?.open?.();
   }
 
-  #bindKeys(others: Record<string, () => void>, viewer: Viewer): void {
-    const keys: Record<string, () => void> = { ...others };
-    for (const tool of this.#tools)
-      keys[tool.name[0]!] = () => {
-        this.#toggle(tool);
-      };
+  #bindKeys(viewer: Viewer): void {
+    const actions: Action[] = ["compare", "middle", ...this.#tools.map(({ name }) => name)];
     this.#canvas.addEventListener("keydown", (event) => {
-      if (event.ctrlKey || event.metaKey || event.altKey || event.repeat) return;
+      const found = pressed(event, actions);
       // In a frame of another page there are no tools.
-      if (!byId("tools").checkVisibility()) return;
-      const { width, height } = viewer.stage.size;
-      if (event.key !== "Enter") {
-        keys[event.key.toLowerCase()]?.();
+      if (!found || event.repeat || !byId("tools").checkVisibility()) return;
+      if (found.action === "compare") {
+        this.#compare.toggle();
+      } else if (found.action !== "middle") {
+        this.#toggle(this.#tools.find(({ name }) => name === found.action)!);
       } else if (viewer.cloud) {
         // Else the same press would send off the form that has just got the focus.
         event.preventDefault();
+        const { width, height } = viewer.stage.size;
         this.#active?.click?.({ x: width / 2, y: height / 2, tolerance: TOLERANCE });
       }
     });
     this.#stage.addEventListener("keydown", (event) => {
-      if (event.key !== "Escape" || !this.#active) return;
+      if (!isKeyOf("cancel", event) || !this.#active) return;
       // First what has been begun, then the tool itself.
       if (!this.#active.cancel?.()) this.#show(null);
       this.#canvas.focus();

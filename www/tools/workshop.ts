@@ -1,6 +1,6 @@
 import type { TimedView } from "../ask/inquiry.ts";
 import { nextFrame } from "../controls/dom.ts";
-import type { Store } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import type { ExportActions } from "./export.ts";
 import type { Plot } from "./plot.ts";

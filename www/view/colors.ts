@@ -1,5 +1,4 @@
-import { type Attribute, type Cloud, type Up, upVector } from "../cloud/cloud.ts";
-import type { Values } from "../loaders/numbers.ts";
+import { type Attribute, type Cloud, type Up, upVector, type Values } from "../cloud/cloud.ts";
 import { OWN_COLORS } from "../settings/settings.ts";
 import { spreadOf } from "./spread.ts";
 import type { Theme } from "./theme.ts";

@@ -1,23 +1,27 @@
-import type { HiddenMode, Settings, Store } from "../settings/settings.ts";
+import { type Action, pressed } from "../controls/keys.ts";
+import { FIELD_OF_VIEW } from "../settings/limits.ts";
+import type { HiddenMode, Settings } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
+import { SETTINGS } from "../settings/table.ts";
 import type { Viewer } from "./viewer.ts";
 
-const FIELD_OF_VIEW = { least: 5, most: 100 };
-const HIDDEN: readonly HiddenMode[] = ["off", "dimmed", "shown"];
+/** The key goes through them in turn. */
+const HIDDEN = Object.keys(SETTINGS.hidden.labels!) as HiddenMode[];
 
 /** What keys and buttons do to the picture, the same in the page and in an element. */
 export class Moves {
   readonly #viewer: Viewer;
   readonly #store: Store;
-  /** What a reset goes back to. */
+  /** A reset goes back to these. */
   readonly #usual: () => Pick<Settings, "fieldOfView">;
 
-  /** Also gives the canvas its keys, those of the navigation and `more` besides. */
+  /** Also binds the keys of the canvas; `more` are those that only the page has. */
   constructor(
     canvas: HTMLCanvasElement,
     viewer: Viewer,
     store: Store,
     usual: () => Pick<Settings, "fieldOfView">,
-    more: Record<string, () => void> = {},
+    more: Partial<Record<Action, () => void>> = {},
   ) {
     this.#viewer = viewer;
     this.#store = store;
@@ -26,20 +30,22 @@ export class Moves {
       const wanted = store.current.fieldOfView * factor;
       store.change({ fieldOfView: Math.min(FIELD_OF_VIEW.most, Math.max(FIELD_OF_VIEW.least, wanted)) });
     };
-    const keys: Record<string, () => void> = {
+    const actions: Partial<Record<Action, () => void>> = {
       ...more,
-      v: () => {
+      freeze: () => {
         this.freeze(!this.frozen);
       },
-      r: () => {
+      reset: () => {
         this.reset();
       },
-      h: () => {
+      hidden: () => {
         this.#nextHidden();
       },
     };
+    const names = Object.keys(actions) as Action[];
     canvas.addEventListener("keydown", (event) => {
-      if (!event.ctrlKey && !event.metaKey && !event.altKey) keys[event.key.toLowerCase()]?.();
+      const found = pressed(event, names);
+      if (found) actions[found.action]!();
     });
   }
 
@@ -53,7 +59,7 @@ export class Moves {
       this.#store.change({ freeze: frozen ? this.#viewer.viewpoint : null });
   }
 
-  /** Looks at the cloud as for the first time. */
+  /** Goes back to the first view of the cloud. */
   reset(): void {
     this.#store.change({ fieldOfView: this.#usual().fieldOfView });
     this.#viewer.reset();

@@ -1,5 +1,6 @@
 import { type PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { pressed } from "../controls/keys.ts";
 
 /** Where the camera stands and what it looks at, in the recentered coordinates. */
 export interface Pose {
@@ -10,7 +11,7 @@ export interface Pose {
 
 /** Orbit, pan and zoom by mouse and touch (OrbitControls) and by keys while the canvas has the focus. */
 export class Navigation {
-  /** Asks for a field of view so many times as wide as now. */
+  /** Asks for another field of view, by its ratio to the present one. */
   onFieldOfView: (factor: number) => void = () => undefined;
   /** The camera has been moved. */
   onMove: () => void = () => undefined;
@@ -37,7 +38,7 @@ export class Navigation {
         if (others || event.altKey) event.stopImmediatePropagation();
         if (others || !event.altKey) return;
         event.preventDefault();
-        this.onFieldOfView((event.deltaY || event.deltaX) > 0 ? 1.08 : 1 / 1.08);
+        this.onFieldOfView((event.deltaY || event.deltaX) > 0 ? LENS_STEP : 1 / LENS_STEP);
       },
       { capture: true, passive: false },
     );
@@ -80,71 +81,42 @@ export class Navigation {
     return controls;
   }
 
-  /** Whether what is done over the picture is meant for it. */
+  /** Whether the wheel and one finger are meant for the picture, and not for the page around it. */
   get #attended(): boolean {
     return !this.#polite || (document.hasFocus() && this.#canvas.matches(":focus"));
   }
 
-  /** Orbit controls take all of it. */
+  /** Orbit controls would take all touches. */
   #shareTouch(): void {
     this.#canvas.style.touchAction = this.#attended ? "none" : "pan-y";
   }
 
   #onKey(event: KeyboardEvent): void {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    const action = event.shiftKey ? (this.#panKeys[event.key] ?? this.#keys[event.key]) : this.#keys[event.key];
-    if (!action) return;
+    const found = pressed(event, ["pan", "orbit", "zoom", "lens"]);
+    if (!found) return;
     event.preventDefault();
-    action();
+    const { action, nth } = found;
+    if (action === "zoom") {
+      // "+" may be written without Shift, as "=".
+      if (nth < 2) this.#controls.dollyIn(ZOOM_STEP);
+      else this.#controls.dollyOut(ZOOM_STEP);
+      return;
+    }
+    if (action === "lens") {
+      this.onFieldOfView(nth === 0 ? 1 / LENS_STEP : LENS_STEP);
+      return;
+    }
+    // Left, right, up, down.
+    const sign = nth % 2 === 0 ? 1 : -1;
+    const sideways = nth < 2;
+    if (action === "pan") this.#controls.pan(sideways ? sign * PAN_STEP : 0, sideways ? 0 : sign * PAN_STEP);
+    else if (sideways) this.#controls.rotateLeft(sign * ORBIT_STEP);
+    else this.#controls.rotateUp(sign * ORBIT_STEP);
   }
-
-  readonly #keys: Record<string, () => void> = {
-    ArrowLeft: () => {
-      this.#controls.rotateLeft(ORBIT_STEP);
-    },
-    ArrowRight: () => {
-      this.#controls.rotateLeft(-ORBIT_STEP);
-    },
-    ArrowUp: () => {
-      this.#controls.rotateUp(ORBIT_STEP);
-    },
-    ArrowDown: () => {
-      this.#controls.rotateUp(-ORBIT_STEP);
-    },
-    "+": () => {
-      this.#controls.dollyIn(ZOOM_STEP);
-    },
-    "=": () => {
-      this.#controls.dollyIn(ZOOM_STEP);
-    },
-    "-": () => {
-      this.#controls.dollyOut(ZOOM_STEP);
-    },
-    "[": () => {
-      this.onFieldOfView(1 / 1.08);
-    },
-    "]": () => {
-      this.onFieldOfView(1.08);
-    },
-  };
-
-  readonly #panKeys: Record<string, () => void> = {
-    ArrowLeft: () => {
-      this.#controls.pan(PAN_STEP, 0);
-    },
-    ArrowRight: () => {
-      this.#controls.pan(-PAN_STEP, 0);
-    },
-    ArrowUp: () => {
-      this.#controls.pan(0, PAN_STEP);
-    },
-    ArrowDown: () => {
-      this.#controls.pan(0, -PAN_STEP);
-    },
-  };
 }
 
-/** Radians, a share of the distance, and pixels for each press of a key. */
+/** For each press of a key: radians, a share of the distance, pixels, and a factor of the field of view. */
 const ORBIT_STEP = Math.PI / 36;
 const ZOOM_STEP = 0.92;
 const PAN_STEP = 24;
+const LENS_STEP = 1.08;

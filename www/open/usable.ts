@@ -1,0 +1,34 @@
+import type { Cloud } from "../cloud/cloud.ts";
+import type { LoadRequest } from "../loaders/index.ts";
+import type { KnownSurface, Sample } from "../samples/samples.ts";
+import { type Against, OWN_COLORS } from "../settings/settings.ts";
+import { colorChoices } from "../view/colors.ts";
+
+const NO_SURFACE = "It is known of samples, and of PLY and OBJ meshes that are shown whole.";
+
+/** Settings of the cloud before, or of the address, may not suit this cloud. `asked`: then a sentence says so. */
+export function usableColor(color: string, cloud: Cloud, asked: boolean): { color: string; notes: string[] } {
+  if (colorChoices(cloud).some(({ value }) => value === color)) return { color, notes: [] };
+  const notes = asked ? [`It has nothing called “${color}” to be colored by, so it has its usual colors.`] : [];
+  return { color: OWN_COLORS, notes };
+}
+
+/** As above. The surface of some clouds is not known, so nothing can be compared with it. */
+export function usableAgainst(
+  against: Against,
+  surface: KnownSurface | string,
+  asked: boolean,
+): { against: Against; notes: string[] } {
+  if (against !== "surface" || typeof surface !== "string") return { against, notes: [] };
+  return {
+    against: "all",
+    notes: asked ? [`There is no true surface to compare with, so the comparison is with all points. ${surface}`] : [],
+  };
+}
+
+/** The surface that the cloud was taken from. The faces of the user's own mesh are read again when they are needed. */
+export function surfaceOf(request: LoadRequest, sample: Sample | null, isMesh = false): KnownSurface | string {
+  if (isMesh && request.kind === "file") return { file: request.file };
+  if (isMesh && request.kind === "url") return { file: request.url };
+  return sample?.surface ?? NO_SURFACE;
+}

@@ -1,0 +1,29 @@
+import type { Up } from "../cloud/cloud.ts";
+import type { Sample } from "../samples/samples.ts";
+import { type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
+
+/** Below these numbers of points, points are drawn smaller: at the size that closes a dense surface, a sparse one looks scaly. */
+const SIZES = [
+  { below: 20_000, size: 1.4 },
+  { below: 200_000, size: 2 },
+];
+const LARGE = 3;
+
+/** The settings that a cloud is seen with if nobody has said anything else. `taken`: which way was up, as the file says. */
+export function usualLook(
+  sample: Sample | null,
+  name: string,
+  count: number,
+  taken: Up | undefined,
+): Pick<Settings, "size" | "fieldOfView" | "up"> {
+  return {
+    size: sample?.pointSize ?? SIZES.find(({ below }) => count < below)?.size ?? LARGE,
+    fieldOfView: sample?.fieldOfView ?? USUAL_SETTINGS.fieldOfView,
+    up: sample?.up ?? taken ?? usualUp(name),
+  };
+}
+
+/** Scanners and surveyors have z up, modelers y. */
+function usualUp(name: string): Up {
+  return /\.(ply|obj|gltf|glb)$/i.test(name) ? "y" : "z";
+}

@@ -1,0 +1,201 @@
+import { LoadProblem } from "../loaders/index.ts";
+import { keepForOffline } from "../offline/keep.ts";
+import { openCloud, type Wish } from "../open/open-cloud.ts";
+import { requestForAddress, requestForSample } from "../open/source.ts";
+import { FirstLoad } from "../panel/first-load.ts";
+import type { Message } from "../panel/message.ts";
+import type { Panel } from "../panel/panel.ts";
+import { Progress } from "../panel/progress.ts";
+import { SamplePicker } from "../panel/sample-picker.ts";
+import { type Sample, sampleNamed } from "../samples/samples.ts";
+import type { Address, CloudName } from "../settings/address.ts";
+import type { Store } from "../settings/store.ts";
+import type { Workshop } from "../tools/workshop.ts";
+import type { AskedView } from "../view/framing.ts";
+import type { Viewer } from "../view/viewer.ts";
+import { type Notices, sentenceOf } from "./notices.ts";
+import type { Status } from "./status.ts";
+
+/** A cloud that the page opens. */
+export interface Source extends Wish {
+  /** Its name in the address; `null` for a file from this device. */
+  name: CloudName | null;
+  /** Sentences that the user has to read about it. */
+  notes: string[];
+  /** Why the cloud that was asked for could not be opened, if this one is in its place. */
+  insteadOf?: string;
+}
+
+/** The parts of the page that take part when a cloud is opened. */
+interface Parts {
+  viewer: Viewer;
+  store: Store;
+  panel: Panel;
+  address: Address;
+  workshop: Workshop;
+  status: Status;
+  message: Message;
+  notices: Notices;
+}
+
+/** Opens one cloud after another. The cloud on screen stays until the next one has its first answer. */
+export class Opening {
+  /** The words for the cloud on screen. */
+  shownName = "";
+  /** The view that was asked for; it stays in the address although it is the first one. */
+  askedView: AskedView | null = null;
+  readonly #parts: Parts;
+  /** The sample that is shown if the first cloud cannot be opened. */
+  readonly #usual: Sample;
+  readonly #picker: SamplePicker;
+  readonly #firstLoad = new FirstLoad();
+  readonly #progress = new Progress(() => {
+    this.#stop();
+  });
+  #loading = new AbortController();
+  /** The cloud that is being loaded. */
+  #source: Source | null = null;
+
+  constructor(parts: Parts, usual: Sample) {
+    this.#parts = parts;
+    this.#usual = usual;
+    this.#picker = new SamplePicker((sample) => {
+      const source = fromSample(sample);
+      if (source.name) parts.address.choose(source.name);
+      void this.open(source);
+    });
+  }
+
+  /** Gives up a cloud that is being loaded, and loads this one. */
+  async open(source: Source): Promise<void> {
+    this.#loading.abort();
+    const { signal } = (this.#loading = new AbortController());
+    this.#source = source;
+    this.#begin(source);
+    try {
+      await this.#show(source, signal);
+    } catch (error) {
+      if (signal.aborted) return;
+      this.#end();
+      this.#refuse(error, source);
+      return;
+    }
+    this.#end();
+  }
+
+  #begin(source: Source): void {
+    const { message } = this.#parts;
+    if (source.notes.length > 0) message.show(source.notes.join(" "));
+    // The sentence about the cloud that could not be opened stays until the user does something else.
+    else if (source.insteadOf === undefined) message.hide();
+    this.#say(`Loading ${source.request.name}.`, source);
+    this.#progress.show(null);
+  }
+
+  #say(sentence: string, { insteadOf }: Source): void {
+    if (insteadOf === undefined) this.#parts.status.loading(sentence);
+    this.#firstLoad.say(sentence);
+  }
+
+  async #show(source: Source, signal: AbortSignal): Promise<void> {
+    const { viewer, store, panel, address, workshop, status, message } = this.#parts;
+    const { request, sample, name, notes, insteadOf } = source;
+    const ready = await openCloud(source, {
+      settings: () => store.current,
+      aspect: () => viewer.stage.camera.aspect,
+      asked: "in the address",
+      shared: false,
+      signal,
+      onProgress: (step, fraction) => {
+        this.#say(step, source);
+        this.#progress.show(fraction);
+      },
+    });
+    const more = [...ready.refusals, ...ready.notes];
+    if (more.length > 0) message.show([...notes, ...more].join(" "));
+    status.loaded();
+    viewer.clear();
+    store.change(ready.settings);
+    this.askedView = ready.view;
+    panel.prepare(ready.opened.cloud);
+    workshop.clear();
+    viewer.show(ready.opened);
+    this.shownName = sample?.name ?? request.name;
+    workshop.begin().catch(() => {
+      message.show("The tools of this page could not be loaded; reload the page to try again.");
+    });
+    panel.usual = ready.usual;
+    address.begin(insteadOf === undefined ? name : null, ready.usual);
+    this.#firstLoad.hide();
+    if (insteadOf !== undefined) status.error(insteadOf);
+    keepForOffline(request.kind === "sample" ? request.url : null);
+    if (sample) this.#picker.showSample(sample);
+    else this.#picker.showOwn(request.name);
+  }
+
+  #end(): void {
+    this.#source = null;
+    this.#progress.hide();
+  }
+
+  /** Gives up the cloud that is being loaded; the one on screen stays. */
+  #stop(): void {
+    const source = this.#source;
+    if (!source) return;
+    this.#loading.abort();
+    this.#end();
+    this.#refuse(new LoadProblem(`${source.request.name} was not opened: its loading was stopped.`), source);
+  }
+
+  #refuse(error: unknown, source: Source): void {
+    const { notices, address, viewer } = this.#parts;
+    const sentence = sentenceOf(error, `${source.request.name} could not be opened`);
+    const again = withoutNonFinite(error, source);
+    notices.error(sentence, again ? [{ label: "Load without them", run: () => void this.open(again) }] : []);
+    this.#picker.restore();
+    address.giveUp();
+    // The page does not stay empty.
+    if (viewer.cloud === null && source.sample !== this.#usual)
+      void this.open({ ...fromSample(this.#usual), insteadOf: sentence });
+    else this.#firstLoad.hide();
+  }
+}
+
+export function fromSample(sample: Sample, view: AskedView | null = null): Source {
+  return {
+    request: requestForSample(sample, document.baseURI),
+    sample,
+    name: ["sample", sample.name],
+    view,
+    settings: {},
+    notes: [],
+  };
+}
+
+export function fromAddress(text: string, view: AskedView | null, limit: { limit?: number }): Source {
+  const request = requestForAddress(text, { skipNonFinite: false, ...limit });
+  return { request, sample: null, name: ["src", text], view, settings: {}, notes: [] };
+}
+
+export function fromFile(file: File, notes: string[], limit: { limit?: number }): Source {
+  const request = { kind: "file", name: file.name, file, skipNonFinite: false, ...limit } as const;
+  return { request, sample: null, name: null, view: null, settings: {}, notes };
+}
+
+/** The same cloud without the points that have no position, if nothing else was wrong with it. */
+function withoutNonFinite(error: unknown, source: Source): Source | null {
+  const { request } = source;
+  const possible =
+    error instanceof LoadProblem && error.nonFinite > 0 && (request.kind === "file" || request.kind === "url");
+  return possible ? { ...source, request: { ...request, skipNonFinite: true } } : null;
+}
+
+/** The cloud that the page's address asks for. */
+export function firstSource(
+  wishes: { sample: string; src: string | null } & Pick<Source, "view" | "settings" | "notes">,
+  limit: { limit?: number },
+): Source {
+  const { sample, src, view, settings, notes } = wishes;
+  const source = src === null ? fromSample(sampleNamed(sample), view) : fromAddress(src, view, limit);
+  return { ...source, settings, notes };
+}

@@ -1,0 +1,63 @@
+import type { LightHandles } from "../lights/handles.ts";
+import type { Message } from "../panel/message.ts";
+import type { Panel } from "../panel/panel.ts";
+import type { Address } from "../settings/address.ts";
+import type { Store } from "../settings/store.ts";
+import type { Workshop } from "../tools/workshop.ts";
+import type { Viewer } from "../view/viewer.ts";
+import type { Notices } from "./notices.ts";
+import type { Status } from "./status.ts";
+
+interface Parts {
+  viewer: Viewer;
+  store: Store;
+  panel: Panel;
+  address: Address;
+  workshop: Workshop;
+  handles: LightHandles;
+  status: Status;
+  message: Message;
+  notices: Notices;
+}
+
+/** Who hears of what: the viewer draws and asks, the other parts follow. */
+export function wire({ viewer, store, panel, address, workshop, handles, status, message, notices }: Parts): void {
+  viewer.onFrame = () => {
+    handles.place();
+    workshop.place();
+  };
+  viewer.stage.onCamera = () => {
+    address.touch();
+  };
+  viewer.stage.onLost = () => {
+    message.show(
+      "The browser has taken the picture away to save memory; it is drawn again as soon as the browser allows, or when you reload the page.",
+    );
+  };
+  viewer.stage.onRestored = () => {
+    message.hide();
+  };
+  store.follow((now) => {
+    status.describe(now.freeze !== null);
+  });
+  viewer.onAnswer = (answer, total) => {
+    panel.follow(answer);
+    workshop.answer(answer);
+    status.answer(answer, total, store.current.freeze !== null);
+    notices.tell(answer.note);
+  };
+  viewer.onLight = (light) => {
+    status.lit(light?.question.lights.length ?? 0);
+    if (light?.note) notices.tell(light.note);
+  };
+  viewer.onAutomatic = (exponent) => {
+    panel.markAutomatic(exponent);
+    workshop.markAutomatic(exponent);
+  };
+  viewer.onBusy = (busy) => {
+    status.busy(busy);
+  };
+  viewer.onError = (error) => {
+    notices.refuseView(error);
+  };
+}

@@ -1,0 +1,116 @@
+import type { Inversion, Radius, Viewpoint } from "./types.ts";
+import { MOST_POWER } from "./limits.ts";
+
+/** A kind of value: how it is written as text, in the address and in attributes. */
+export interface Kind<T> {
+  /** `undefined` for a text that cannot be used. */
+  parse: (text: string) => T | undefined;
+  write: (value: T) => string;
+  /** The texts that can be used, in words; a text that stands for itself is in backticks. */
+  values: string;
+}
+
+/** One of several words. */
+export function oneOf<T extends string>(...words: T[]): Kind<T> {
+  const quoted = words.map((word) => `\`${word}\``);
+  return {
+    parse: (text) => words.find((word) => word === text),
+    write: String,
+    values: `${quoted.slice(0, -1).join(", ")} or ${quoted.at(-1)!}`,
+  };
+}
+
+export function between(least: number, most: number, what = "a number"): Kind<number> {
+  return {
+    parse: (text) => {
+      const value = parseNumber(text);
+      return value >= least && value <= most ? value : undefined;
+    },
+    write: String,
+    values: `${what} from ${least} to ${most}`,
+  };
+}
+
+export function wholeBetween(least: number, most: number): Kind<number> {
+  return {
+    parse: (text) => {
+      const value = parseNumber(text);
+      return Number.isInteger(value) && value >= least && value <= most ? value : undefined;
+    },
+    write: String,
+    values: `an integer from ${least} to ${most}`,
+  };
+}
+
+/** A kind with one more word. */
+export function orWord<T, Word extends string | number>(
+  { parse, write, values }: Kind<T>,
+  word: string,
+  meaning: Word,
+): Kind<T | Word> {
+  return {
+    parse: (text) => (text === word ? meaning : parse(text)),
+    write: (value) => (value === meaning ? word : write(value as T)),
+    values: `${values} or \`${word}\``,
+  };
+}
+
+export const POSITIVE: Kind<number> = {
+  parse: (text) => {
+    const value = parseNumber(text);
+    return value > 0 && value < Infinity ? value : undefined;
+  },
+  write: String,
+  values: "a positive number",
+};
+
+/** x, y, z in the file's own coordinates. */
+export const PLACE: Kind<Viewpoint> = {
+  parse: (text) => {
+    const numbers = text.split(",").map(parseNumber);
+    return numbers.length === 3 && numbers.every(Number.isFinite) ? (numbers as Viewpoint) : undefined;
+  },
+  write: String,
+  values: "three numbers `x,y,z`",
+};
+
+/** Any text; whether the cloud has something of that name shows when it is loaded. */
+export const NAME: Kind<string> = { parse: (text) => text, write: String, values: "a name" };
+
+const RULE = oneOf<Extract<Radius, { rule: string }>["rule"]>("auto", "search", "opposite");
+
+/** A rule or a length. A radius that is given by its exponent is written by another parameter. */
+export const RADIUS: Kind<Radius> = {
+  parse: (text) => {
+    const rule = RULE.parse(text);
+    if (rule) return { rule };
+    const length = POSITIVE.parse(text);
+    return length === undefined ? undefined : { length };
+  },
+  write: (radius) => ("rule" in radius ? radius.rule : "length" in radius ? String(radius.length) : ""),
+  values: "`auto`, `search`, `opposite` or a positive number",
+};
+
+/** A word, and after a colon its parameter. */
+export const INVERSION: Kind<Inversion> = {
+  parse: (text) => {
+    const [word, parameter, ...more] = text.split(":");
+    if (more.length > 0) return undefined;
+    const value = parameter === undefined ? "auto" : parseNumber(parameter);
+    if (word === "spherical" && parameter === undefined) return "spherical";
+    if (word === "exponential" && (value === "auto" || (value > 0 && value < Infinity))) return { exponential: value };
+    if (word === "power" && (value === "auto" || (value > 1 && value <= MOST_POWER))) return { power: value };
+    return undefined;
+  },
+  write: (inversion) => {
+    if (inversion === "spherical") return inversion;
+    const [word, value] = "power" in inversion ? ["power", inversion.power] : ["exponential", inversion.exponential];
+    return value === "auto" ? word : `${word}:${value}`;
+  },
+  values: `\`spherical\`, \`exponential\`, \`exponential:c\` with a positive c, \`power\` or \`power:γ\` with γ above 1 and at most ${MOST_POWER}`,
+};
+
+/** Like Number, but an empty text is no number. */
+function parseNumber(text: string): number {
+  return text.trim() === "" ? NaN : Number(text);
+}

@@ -1,0 +1,33 @@
+/*
+ * How large a value may be. Each limit stands here once: the address, the panel, the element, the loaders and the
+ * documents take it from here.
+ */
+
+/** Of a larger file the page shows an even share of the points. More would take many seconds and gigabytes. */
+export const MAX_POINTS = 10_000_000;
+
+/** The page's exponents, log₁₀ of radius ÷ farthest distance, go from 0 to this. */
+export const MOST_EXPONENT = 6;
+
+/** The library's limit of γ. */
+export const MOST_POWER = 16;
+
+/** The library's limit is the number of points. The page's is lower: with 100 neighbors a large sample takes minutes. */
+export const MOST_NEIGHBORS = 100;
+
+export const MOST_LIGHTS = 8;
+
+/** Rounds that smooth the light. */
+export const MOST_ROUNDS = 1000;
+
+/** Of a point, in multiples of the points' rough distance from one another. */
+export const POINT_SIZE = { least: 0.05, most: 50 };
+
+/** Vertical, in degrees. */
+export const FIELD_OF_VIEW = { least: 5, most: 100 };
+
+/** How wide the z-buffer may draw a point, in pixels. */
+export const MOST_SPLAT = 64;
+
+/** The farthest place from which a cloud can be looked at, in radii of the cloud. Further out, f32 is too coarse. */
+export const REACH = 1e6;

@@ -1,0 +1,78 @@
+import { PLACE } from "./kinds.ts";
+import { MOST_LIGHTS } from "./limits.ts";
+import { rowOf, type Settings, type Viewpoint } from "./settings.ts";
+import { type Parameter, PARAMETERS, refusalOf, type SettingName, SETTINGS } from "./table.ts";
+
+/** What the address of the page asks for. The notes name, in plain words, everything that cannot be used. */
+export interface Wishes {
+  sample: string;
+  src: string | null;
+  /** Where the camera stands, in the file's own coordinates, and what it looks at. */
+  view: Viewpoint | null;
+  target: Viewpoint | null;
+  /** How many points of a file are shown at most; `null` for as many as the page can. */
+  points: number | null;
+  /** Nothing but the picture. */
+  embed: boolean;
+  /** The settings that are in the address. */
+  settings: Partial<Settings>;
+  notes: string[];
+}
+
+/** The first of the samples is the usual one. */
+export function readAddress(search: string, samples: readonly string[]): Wishes {
+  const query = new URLSearchParams(search);
+  const notes: string[] = [];
+
+  let sample = query.get("sample") ?? samples[0]!;
+  if (!samples.includes(sample)) {
+    notes.push(`There is no sample called “${sample}”, so this is the ${samples[0]}.`);
+    sample = samples[0]!;
+  }
+  const src = query.get("src");
+  if (src === "") notes.push(`The address names no file after “src=”, so this is the ${sample}.`);
+
+  /** `undefined` where the address does not have it, or has something that cannot be used. */
+  const read = <T>(name: string, row: Parameter<T>): T | undefined => {
+    const text = query.get(name);
+    const value = text === null ? undefined : row.parse(text);
+    if (text !== null && value === undefined)
+      notes.push(`The ${row.called ?? name} in the address is not ${refusalOf(row)}.`);
+    return value;
+  };
+
+  const exponent = read("exponent", PARAMETERS.exponent);
+  const found: Partial<Record<SettingName, unknown>> = {};
+  for (const name of Object.keys(SETTINGS) as SettingName[]) {
+    const row = rowOf(name);
+    const value = name === "lights" ? undefined : read(row.parameter, row);
+    if (value !== undefined) found[name] = value;
+  }
+  const settings = found as Partial<Settings>;
+  if (settings.radius && exponent !== undefined)
+    notes.push("Radius and exponent in the address exclude each other, so the exponent is used.");
+  if (exponent !== undefined) settings.radius = { exponent };
+  if (query.has("light")) settings.lights = readLights(query.getAll("light"), notes);
+
+  return {
+    sample,
+    src: src === "" ? null : src,
+    view: read("view", PARAMETERS.view) ?? null,
+    target: read("target", PARAMETERS.target) ?? null,
+    points: read("points", PARAMETERS.points) ?? null,
+    embed: read("embed", PARAMETERS.embed) === "1",
+    settings,
+    notes,
+  };
+}
+
+/** The parameter stands once for each light. */
+function readLights(texts: readonly string[], notes: string[]): Viewpoint[] {
+  const places = texts.map(PLACE.parse);
+  const lights = places.filter((place) => place !== undefined).slice(0, MOST_LIGHTS);
+  if (lights.length < places.length)
+    notes.push(
+      `A light in the address is not three numbers x,y,z, or is one more than ${MOST_LIGHTS}; it is left out.`,
+    );
+  return lights;
+}

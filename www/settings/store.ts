@@ -1,0 +1,29 @@
+import type { Settings } from "./settings.ts";
+
+type Listener = (now: Settings, before: Settings) => void;
+
+/** The settings as they are now. Each change makes a new object, so a value that is the same object is unchanged. */
+export class Store {
+  #settings: Settings;
+  readonly #listeners: Listener[] = [];
+
+  constructor(settings: Settings) {
+    this.#settings = settings;
+  }
+
+  get current(): Settings {
+    return this.#settings;
+  }
+
+  change(part: Partial<Settings>): void {
+    const before = this.#settings;
+    this.#settings = { ...before, ...part };
+    for (const listener of this.#listeners) listener(this.#settings, before);
+  }
+
+  /** Calls the listener with the settings now, and at every change from now on. */
+  follow(listener: Listener): void {
+    this.#listeners.push(listener);
+    listener(this.#settings, this.#settings);
+  }
+}

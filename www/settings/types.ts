@@ -1,0 +1,23 @@
+/** x, y, z in the file's own coordinates. */
+export type Viewpoint = [number, number, number];
+
+/** What happens to the hidden points. */
+export type HiddenMode = "off" | "dimmed" | "shown";
+
+/**
+ * How the flipping sphere's radius R is chosen, or how large it is: in the file's units, or as
+ * log₁₀(R ÷ farthest distance).
+ */
+export type Radius = { rule: "auto" | "search" | "opposite" } | { exponent: number } | { length: number };
+
+/** How points are flipped. The exponential's c is counted in spacings, so that it suits clouds of any size. */
+export type Inversion = "spherical" | { exponential: number | "auto" } | { power: number | "auto" };
+
+/** The colors of the page: those that the system asks for, or always one theme. */
+export type ThemeChoice = "system" | "dark" | "light";
+
+/** One viewpoint, or five (it and a ring of four around it): a point is seen by any of the five, or by at least two. */
+export type Viewpoints = "one" | "any" | "two";
+
+/** The answer is compared with all points, with the z-buffer of the same picture, or with rays to the true surface. */
+export type Against = "all" | "zbuffer" | "surface";
