@@ -406,8 +406,18 @@ test("one who does not see it is told what it is, and with announce what is visi
   );
   await settledState(page, "a");
   const canvas = page.locator("#a").locator("canvas");
-  expect(await canvas.getAttribute("aria-label")).toMatch(/^A rabbit\. Arrow keys orbit/);
+  const label = (await canvas.getAttribute("aria-label"))!;
+  expect(label).toMatch(/^A rabbit\. Arrow keys orbit/);
   await page.keyboard.press("Tab");
+  // The key that the label names freezes the viewpoint; F, which it once named, does not.
+  const [, named] = /(\w+) freezes the viewpoint/.exec(label)!;
+  const frozen = () => element(page, "a", (cloud) => cloud.frozen);
+  await page.keyboard.press("f");
+  expect(await frozen()).toBe(false);
+  await page.keyboard.press(named!.toLowerCase());
+  expect(await frozen()).toBe(true);
+  await page.keyboard.press(named!.toLowerCase());
+  expect(await frozen()).toBe(false);
   expect(await element(page, "a", (cloud) => cloud.shadowRoot!.activeElement?.localName)).toBe("canvas");
   await expect
     .poll(() => page.locator("#a").getByRole("status").textContent())

@@ -1,10 +1,10 @@
 import type { UserConfig } from "vite";
 
-/** What the page and the element are built with alike. */
+/** Options of Vite that the page and the element share. */
 export const COMMON = {
   // Relative addresses: both can be served from any folder of any site.
   base: "./",
-  // Of the decoder's builds the one for workers; the copc package would bring another.
+  // The decoder's build for workers; the copc package would bring another one.
   resolve: { alias: [{ find: /^laz-perf$/, replacement: "laz-perf/lib/worker/index.js" }] },
   worker: { format: "es" },
   // Its worker and its wasm are found beside its files.

@@ -2,7 +2,7 @@ import { readFileSync } from "node:fs";
 import ts from "typescript";
 import type { Plugin } from "vite";
 
-/** Writes the types that a source file exports beside what is built. */
+/** Writes the types of a source file beside the built files. */
 export function declarations(source: string, fileName: string): Plugin {
   return {
     name: "declarations",

@@ -6,7 +6,7 @@ import { type Plugin, transformWithOxc } from "vite";
 
 const SOURCE = fileURLToPath(new URL("../offline/service-worker.ts", import.meta.url));
 const PAGE = "index.html";
-/** Whose names change with their content. */
+/** The folder of files whose names change with their content. */
 const HASHED = "assets/";
 const SAMPLES = "samples/";
 

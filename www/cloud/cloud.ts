@@ -2,29 +2,29 @@
 export type Values =
   Int8Array | Uint8Array | Int16Array | Uint16Array | Int32Array | Uint32Array | Float32Array | Float64Array;
 
-/** Which way is up in a file's coordinates. */
+/** The direction that is up in a file's coordinates. */
 export type Up = "y" | "z" | "-y";
 
-/** A number for each point: how strongly it sent the light back, what it is part of, when it was seen. */
+/** A number for each point, for example its intensity, its class or its time. */
 export interface Attribute {
   name: string;
-  /** Categories are whole numbers, few of them, whose order means nothing. */
+  /** Categories are a few whole numbers whose order means nothing. */
   kind: "scalar" | "category";
   values: Values;
-  /** What a category's numbers stand for, where that is known. */
+  /** The meaning of a category's numbers, if it is known. */
   labels?: Readonly<Record<number, string>>;
 }
 
-/** What a loader hands over: the file's own coordinates, and colors as the file shows them (sRGB bytes), or none. */
+/** The result of a loader: the file's own coordinates, and its colors (sRGB bytes), if it has any. */
 export interface LoadedCloud {
   positions: Float32Array | Float64Array;
   colors: Uint8Array | null;
   attributes?: Attribute[];
-  /** The file has faces, and all of their corners are among the positions, in its own order. */
+  /** The file has faces, and the positions are all of its vertices, in its own order. */
   isMesh?: boolean;
-  /** What the user has to know about it, in plain sentences. */
+  /** Sentences that the user has to read about it. */
   notes?: string[];
-  /** What the file says of how it was taken: which way was up, and from where where it knows. */
+  /** How the cloud was taken, if the file says so: which way was up, and from which place. */
   taken?: { up: Up; from?: [number, number, number] };
 }
 
@@ -41,14 +41,14 @@ export interface Cloud {
   radius: number;
 }
 
-/** What the page takes over from a loader: a cloud ready to draw, with the file's own coordinates and what it says. */
+/** A cloud ready to draw, with the file's own coordinates and the loader's words about it. */
 export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "isMesh" | "notes" | "taken"> {
   cloud: Cloud;
-  /** The positions once more, to be given away to the hull's worker: that takes what it gets. */
+  /** A copy of the positions for the hull's worker, which keeps what it gets. */
   copy: Float32Array | Float64Array;
 }
 
-/** Goes over all coordinates a few times: for a worker, not for the page's thread. */
+/** Slow for many points: meant for a worker, not for the page's thread. */
 export function prepareCloud({ positions, colors, attributes = [], ...said }: LoadedCloud): PreparedCloud {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
@@ -67,7 +67,7 @@ export function prepareCloud({ positions, colors, attributes = [], ...said }: Lo
 
   const size = high.map((value, axis) => value - low[axis]!) as [number, number, number];
   const radius = Math.hypot(...size) / 2;
-  // A single point, or many equal ones, still need a distance to be looked at from.
+  // A single point, or many equal ones, still need a size to be looked at.
   const cloud = {
     colors,
     attributes,

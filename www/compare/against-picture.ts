@@ -6,9 +6,9 @@ import { pictureFrom } from "./picture.ts";
 import type { PictureAnswer, PictureQuestion } from "./protocol.ts";
 import { Reference, sentenceOf } from "./reference.ts";
 
-/** Ours beside the z-buffer of the same picture, for as long as it is wanted: computed anew with every answer and every turn of the camera. */
+/** Our answer beside the z-buffer of the same picture. The z-buffer is computed again for every answer and every turn. */
 export class AgainstPicture {
-  /** The z-buffer's last answer, and ours that it stands beside. */
+  /** The z-buffer's last answer, and our answer to compare with it. */
   result: { picture: PictureAnswer; ours: TimedView } | null = null;
   problem: string | null = null;
   readonly #viewer: Viewer;
@@ -31,7 +31,7 @@ export class AgainstPicture {
   follow(settings: Settings): void {
     const { answer } = this.#viewer.scene;
     const { matrix, ...rest } = pictureFrom(this.#viewer, answer.question.viewpoint);
-    // Orbit controls come back some bits off when nothing has moved.
+    // Orbit controls return a few bits off when nothing has moved.
     const wanted = JSON.stringify([answer.asked, matrix.map(Math.fround), rest, settings.splat]);
     if (wanted === this.#wanted || this.problem !== null) return;
     this.#wanted = wanted;

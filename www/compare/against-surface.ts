@@ -7,14 +7,14 @@ import type { Viewer } from "../view/viewer.ts";
 import type { TruthAnswer, TruthQuestion } from "./protocol.ts";
 import { Reference, sentenceOf } from "./reference.ts";
 
-/** So many milliseconds the view has to rest before rays are traced. */
+/** Milliseconds that the view has to rest before rays are traced. */
 const REST = 300;
 
-/** Ours beside the truth, for as long as it is wanted: rays are traced when the view rests. */
+/** Our answer beside the truth. Rays are traced when the view rests. */
 export class AgainstSurface {
   result: { truth: TruthAnswer; ours: TimedView } | null = null;
   problem: string | null = null;
-  /** 0 … 1 while rays are traced. */
+  /** From 0 to 1 while rays are traced. */
   progress: number | null = null;
   stopped = false;
   readonly #viewer: Viewer;
@@ -23,7 +23,7 @@ export class AgainstSurface {
   readonly #worker: Reference<TruthQuestion, TruthAnswer>;
   readonly #origin: Viewpoint;
   readonly #newest = new Newest<TimedView>((ours) => this.#ask(ours));
-  /** The viewpoint of the truth that is known or traced. */
+  /** The viewpoint whose truth is known or being traced. */
   #at: Viewpoint | null = null;
   #asked: TimedView | null = null;
   #since = -Infinity;
@@ -32,10 +32,10 @@ export class AgainstSurface {
   constructor(viewer: Viewer, surface: KnownSurface, changed: () => void) {
     this.#viewer = viewer;
     this.#changed = changed;
-    // The worker is not where the page is.
+    // The worker's own address is not the page's.
     this.#surface = "faces" in surface ? { faces: new URL(surface.faces, document.baseURI).href } : surface;
     const { positions, cloud } = viewer.scene;
-    // A mesh is traced in f32: as the file has it where it is that, and else, as a map's is, around its middle.
+    // A mesh is traced in f32. Coordinates in f64, such as a map's, are taken from the middle of the cloud.
     const single = positions instanceof Float32Array;
     this.#origin = single ? [0, 0, 0] : cloud.center;
     this.#worker = new Reference(
@@ -55,7 +55,7 @@ export class AgainstSurface {
       this.#leave(answer.question.viewpoint);
     if (inquiry.busy) this.#since = performance.now();
     const rests = performance.now() - this.#since >= REST;
-    // Seen from the same place, the truth is known, and only ours has changed.
+    // From the same place the truth is known, and only our answer has changed.
     const due = this.result ? answer !== this.#asked : rests && !this.stopped && this.progress === null;
     if (!due || this.problem !== null) return;
     this.#asked = answer;
@@ -66,7 +66,7 @@ export class AgainstSurface {
     this.#newest.want(answer);
   }
 
-  /** Gives up what is being traced, until the view is another or `again`. */
+  /** Stops the tracing until the view changes, or until `again`. */
   stop(): void {
     this.stopped = true;
     this.#worker.stop();
@@ -82,7 +82,7 @@ export class AgainstSurface {
     this.#worker.dispose();
   }
 
-  /** The view has moved: what was traced belongs to another. */
+  /** The view has moved, so the traced truth belongs to another place. */
   #leave(at: Viewpoint): void {
     this.#at = at;
     this.#since = performance.now();
@@ -103,14 +103,14 @@ export class AgainstSurface {
     const { question, visibility } = ours;
     const at = this.#at!;
     try {
-      // Exactly that place: one some bits off would be traced anew.
+      // Exactly that place: a place a few bits off would be traced again.
       const viewpoint = at.map((value, axis) => value - this.#origin[axis]!) as Viewpoint;
       const current = isSamePlace(question.viewpoint, at, this.#viewer.scene.cloud.radius);
       const truth = current
         ? await this.#worker.ask({ surface: this.#surface, viewpoint, visible: visibility.indices })
         : null;
       if (this.#isOver()) return;
-      // What came for a view that has been left since is not shown.
+      // A truth about a place that has been left is not shown.
       if (truth !== null && !this.stopped && this.#at === at) {
         this.result = { truth, ours };
         this.#viewer.showParts(truth.parts, true);

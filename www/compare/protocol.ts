@@ -2,7 +2,7 @@ import type { Parts } from "../view/parts.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import type { Picture } from "./zbuffer.ts";
 
-/** What the page tells a worker that holds a reference: the cloud, in pieces so that sending it holds nothing up, then questions one at a time. */
+/** From the page to a worker with a reference: the cloud in pieces, so that nothing stops, then one question at a time. */
 export type Told<Question> =
   | { kind: "points"; count: number; at: number; points: Float32Array }
   | { kind: "ask"; question: Question }
@@ -16,7 +16,7 @@ export type Reply<Answer> =
 
 export interface PictureQuestion {
   picture: Picture;
-  /** The width of a point's splat in pixels, or from which spacing of the cloud it is to be chosen. */
+  /** The width of a splat in pixels, or the spacing of the cloud, by which it is chosen. */
   splat: number | { spacing: number };
   /** Our answer. */
   visible: Uint32Array;
@@ -25,10 +25,10 @@ export interface PictureQuestion {
 export interface PictureAnswer {
   parts: Parts;
   splat: number;
-  /** Points in the picture, and how many of them the z-buffer shows. */
+  /** The number of points in the picture, and of those that the z-buffer shows. */
   inside: number;
   visible: number;
-  /** Of the z-buffer alone. */
+  /** The time of the z-buffer alone. */
   milliseconds: number;
 }
 
@@ -40,8 +40,8 @@ export interface TruthQuestion {
 
 export interface TruthAnswer {
   parts: Parts;
-  /** Points that can be seen. */
+  /** The number of points that can be seen. */
   visible: number;
-  /** Of the rays alone, without what is made once for a cloud. */
+  /** The time of the rays alone, without the preparation of the cloud. */
   milliseconds: number;
 }

@@ -2,7 +2,7 @@
 import type { Parts } from "../view/parts.ts";
 import type { Reply, Told } from "./protocol.ts";
 
-/** A worker's way to answer: `null` when it has given up, since `stopped` said so. */
+/** Answers a question; `null` if it gave up because `stopped`. */
 type Ask<Question> = (
   positions: Float32Array,
   question: Question,
@@ -10,7 +10,7 @@ type Ask<Question> = (
   progress: (fraction: number) => void,
 ) => Promise<{ parts: Parts } | null>;
 
-/** A worker's side: gathers the cloud and answers about it. */
+/** The worker's side: receives the cloud and answers questions about it. */
 export function receive(ask: Ask<never>): void {
   const post = (reply: Reply<{ parts: Parts }>, moved: Transferable[] = []) => {
     self.postMessage(reply, { transfer: moved });

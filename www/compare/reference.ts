@@ -3,7 +3,7 @@ import type { Reply, Told } from "./protocol.ts";
 /** Points sent in one go: copying them takes a fraction of a frame. */
 const PIECE = 250_000;
 
-/** A worker that holds the cloud and what ours is compared with; asked one question at a time. */
+/** The page's side: a worker with the cloud and a reference, which is asked one question at a time. */
 export class Reference<Question, Answer> {
   onProgress: (fraction: number) => void = () => undefined;
   readonly #worker: Worker;
@@ -32,7 +32,7 @@ export class Reference<Question, Answer> {
     this.#sent = this.#send(positions);
   }
 
-  /** `null` when it was stopped. */
+  /** `null` if it was stopped. */
   async ask(question: Question): Promise<Answer | null> {
     await this.#sent;
     if (this.#ended) return null;
@@ -71,7 +71,7 @@ export class Reference<Question, Answer> {
   }
 }
 
-/** With one full stop at its end. */
+/** The error in words, with one full stop at the end. */
 export function sentenceOf(error: unknown): string {
   return `${(error instanceof Error ? error.message : String(error)).replace(/\.$/, "")}.`;
 }

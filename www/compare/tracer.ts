@@ -14,8 +14,8 @@ export interface Oracle {
 }
 
 /**
- * A point is seen if the segment from it to the viewpoint meets no face but the point's own: the face that it lies on, or
- * the faces that it is a corner of.
+ * A point is seen if the segment from it to the viewpoint meets no face but the point's own: the face that it lies on,
+ * or the faces that it is a corner of.
  */
 export function meshOracle(mesh: Mesh, on: OnFaces | null = null): Oracle {
   const geometry = new BufferGeometry();

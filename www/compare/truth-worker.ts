@@ -5,7 +5,7 @@ import type { TruthAnswer, TruthQuestion } from "./protocol.ts";
 import { receive } from "./receive.ts";
 import type { Oracle } from "./tracer.ts";
 
-/** Messages are looked at, and progress is told, after so many milliseconds; the clock is looked at after so many rays. */
+/** Milliseconds between two reports of progress, at which messages are read; rays between two looks at the clock. */
 const TURN = 50;
 const RAYS = 64;
 
@@ -16,7 +16,7 @@ interface Traced {
 }
 
 let oracle: Oracle | null = null;
-/** What was traced last: other settings of ours do not change the truth. */
+/** The last truth. Our settings do not change it. */
 let traced: Traced | null = null;
 
 receive(

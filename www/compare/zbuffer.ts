@@ -2,37 +2,38 @@ import { MOST_SPLAT } from "../settings/limits.ts";
 import { HIDDEN, OUTSIDE, VISIBLE } from "../view/parts.ts";
 
 /*
- * How viewers without anything better tell what is visible: every point is drawn as a splat of some pixels into a buffer
- * of depths, and those count as visible that lie no deeper than what their own pixel holds. Here in plain arithmetic
- * instead of on the graphics card, so that it is the same everywhere and can be tested.
+ * The usual way to find visible points. Every point is drawn as a splat of some pixels into a buffer of depths. A point is
+ * visible if it lies no deeper than the depth of its own pixel. It is plain arithmetic here and not on the graphics card,
+ * so that it is the same everywhere and can be tested.
  */
 
-/** A picture of the cloud: the camera's matrix from the cloud to clip space by columns, and how many pixels it has. */
+/** A picture of the cloud: the camera's matrix from the cloud to clip space, by columns, and its size in pixels. */
 export interface Picture {
   matrix: readonly number[];
   width: number;
   height: number;
   /** Points nearer than this are not in it. */
   near: number;
-  /** Pixels that a unit has at distance 1. */
+  /** The length of a unit at distance 1, in pixels. */
   pixels: number;
 }
 
 /*
- * A point may lie so many widths of a splat deeper than its pixel holds, since neighbors on a slope draw over one another;
- * and a splat is automatically as wide as so many spacings of the cloud, at the middle depth of what is in the picture. Both
- * are what errs least over 24 ray-traced views of the bunny and three of the dragons, for the z-buffer to be at its best.
+ * TOLERANCE: a point may lie this many widths of a splat deeper than its pixel, since neighbors on a slope cover one
+ * another. SPACINGS: an automatic splat is as wide as this many spacings of the cloud, at the middle depth of the picture.
+ * These values have the fewest errors over 24 ray-traced views of the bunny and three of the dragons: the z-buffer is at
+ * its best.
  */
 const TOLERANCE = 1.75;
 const SPACINGS = 1.75;
-/** Splats are squares up to so many pixels and discs above, as points are on the page. */
+/** Up to this width in pixels a splat is a square, above it is a disc, like the points of the page. */
 const SQUARE = 3;
-/** So many depths tell the middle one well enough. */
+/** This many depths are enough to find the middle one. */
 const SAMPLE = 10_000;
 
-/** Where a picture shows each point of a cloud. */
+/** The place of each point in a picture. */
 export class Projected {
-  /** In pixels from the left and the top; what is not in the picture has a depth of 0. */
+  /** In pixels from the left and the top. A point outside the picture has depth 0. */
   readonly x: Float64Array;
   readonly y: Float64Array;
   readonly depth: Float64Array;
@@ -58,7 +59,7 @@ export class Projected {
     }
   }
 
-  /** The width in whole pixels that closes a surface of points so far apart, in the middle of what is to be seen. */
+  /** The width in whole pixels that closes a surface of such a spacing at the middle depth. */
   splatFor(spacing: number): number {
     const inside = this.depth.filter((depth) => depth > 0);
     const step = Math.ceil(inside.length / SAMPLE);
@@ -72,7 +73,7 @@ export class Projected {
   }
 }
 
-/** What the z-buffer says of every point. */
+/** The z-buffer's answer about every point. */
 export function zBuffer({ x, y, depth, picture }: Projected, splat: number): Uint8Array {
   const { width, height, pixels } = picture;
   const buffer = new Float64Array(width * height).fill(Infinity);
@@ -81,7 +82,7 @@ export function zBuffer({ x, y, depth, picture }: Projected, splat: number): Uin
   for (let i = 0; i < depth.length; i++) {
     const own = depth[i]!;
     if (own === 0) continue;
-    // The pixels whose middle the splat covers: as many a row as it is wide.
+    // A splat covers the pixels whose middle is in it: in each row as many as it is wide.
     const left = Math.ceil(x[i]! - half - 0.5);
     const top = Math.ceil(y[i]! - half - 0.5);
     const right = Math.min(width, left + splat);

@@ -87,7 +87,7 @@ export function spokenKeys(actions: readonly Action[]): string {
   return sentence.charAt(0).toUpperCase() + sentence.slice(1);
 }
 
-/** Which of the actions a key asks for, and by which of the action's keys. With Ctrl, Meta or Alt it is the browser's. */
+/** The action that a key asks for, and the number of the key among the action's. With Ctrl, Meta or Alt: `null`. */
 export function pressed<Name extends Action>(
   event: KeyboardEvent,
   among: readonly Name[],

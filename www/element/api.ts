@@ -1,13 +1,13 @@
 /*
- * What `hidden-point-cloud.js` gives a page. This file is published beside it as its types, so it depends on nothing.
+ * The interface of `hidden-point-cloud.js`. This file is published beside it as its types, so it imports nothing.
  */
 
 /** x, y, z in the file's own coordinates. */
 export type Place = [number, number, number];
 
-/** A point that was met in the picture. */
+/** A point of the picture. */
 export interface PickedPoint {
-  /** Of the point in the file, counted from 0. */
+  /** The number of the point in the file, counted from 0. */
   index: number;
   position: Place;
   /** Whether it can be seen from the viewpoint. */
@@ -15,42 +15,42 @@ export interface PickedPoint {
 }
 
 /**
- * What went wrong. `attribute`: a value that cannot be used, or does not suit the cloud or the place; the usual one is
- * used instead. `source`: the file could not be had, or not be read. `webgl`: the browser cannot draw, or has taken the picture away for the time being. The others are
- * those of the package: `load` (the WebAssembly file or a worker), `too-large`, `internal`.
+ * What went wrong. `attribute`: a value cannot be used, or does not suit the cloud or the place, and the usual one is used.
+ * `source`: the file could not be downloaded, or not be read. `webgl`: the browser cannot draw, or has taken the picture
+ * away for a while. The package's own codes are `load` (the WebAssembly file or a worker), `too-large` and `internal`.
  */
 export interface HiddenPointCloudError extends Error {
   readonly code: string;
-  /** The attribute's name, where it is one. */
+  /** The name of the attribute, if a single one is to blame. */
   readonly attribute?: string;
 }
 
-/** None of them bubbles. */
+/** The events. None of them bubbles. */
 export interface HiddenPointCloudEventMap {
-  /** A cloud is there, with its first answer. `notes`: sentences about the file, such as that not all of its points are shown. */
+  /** A cloud is there, with its first answer. `notes`: sentences about the file, e.g. that only a share of it is shown. */
   load: CustomEvent<{ total: number; notes: string[] }>;
-  /** Other points are visible; also after `load`. `radius` is 0 where the inversion has none. */
+  /** Other points are visible; also after `load`. `radius` is 0 if the inversion has none. */
   change: CustomEvent<{ count: number; viewpoint: Place; radius: number; milliseconds: number }>;
-  /** How far the loading is, from 0 to 1; `null` where nobody knows. */
+  /** The progress of the loading, from 0 to 1; `null` if it is not known. */
   progress: CustomEvent<{ fraction: number | null }>;
   error: CustomEvent<{ error: HiddenPointCloudError }>;
-  /** A visible point was clicked, or is in the middle of the picture when Enter is pressed. */
+  /** A visible point was clicked, or was in the middle of the picture when Enter was pressed. */
   pick: CustomEvent<PickedPoint>;
 }
 
 export type RadiusRule = "auto" | "search" | "opposite";
 
-/** `<hidden-point-cloud>`. Each property up to `announce` is the attribute of its name; `null` stands for none. */
+/** `<hidden-point-cloud>`. Each property up to `announce` is the attribute of its name; `null` without the attribute. */
 export interface HiddenPointCloudElement extends HTMLElement {
   /** Address of a LAS, LAZ, COPC, PLY, PCD, XYZ, TXT, CSV, OBJ, glTF or GLB file. */
   src: string | null;
   /** One of the demo page's own clouds, whose files are beside the module. `src` goes first. */
   sample: string | null;
-  /** Of more points than these, only every so manyth is shown. */
+  /** How many points of a file are shown at most; of a larger file an even share is shown. */
   limit: number | null;
-  /** Leaves points out whose coordinates are not finite; else such a file is refused. */
+  /** Leaves points out whose coordinates are not finite. Otherwise such a file is refused. */
   skipNonFinite: boolean;
-  /** log₁₀ of radius ÷ farthest distance, 0 to 6. Goes before `radius`. */
+  /** log₁₀ of radius ÷ farthest distance, 0 to 6. With it, `radius` is not used. */
   exponent: number | null;
   /** How the flipping sphere's radius is chosen, or how large it is in the file's units. */
   radius: RadiusRule | number | null;
@@ -59,25 +59,25 @@ export interface HiddenPointCloudElement extends HTMLElement {
   hiddenPoints: "off" | "dimmed" | "shown";
   /** Whether the viewpoint stays where it is while the camera moves on. */
   frozen: boolean;
-  /** Where the camera is, also when it has been moved; to be set with `target` for another first view. */
+  /** Where the camera is now. Setting it, alone or with `target`, makes another first view. */
   viewpoint: Place | null;
   /** What the camera looks at. */
   target: Place | null;
-  /** In multiples of the points' rough distance from one another, 0.05 to 50. */
+  /** The size of a point, in multiples of the points' rough distance from one another, 0.05 to 50. */
   pointSize: number | null;
   /** The vertical field of view in degrees, 5 to 100. */
   fov: number | null;
   up: "y" | "z" | "-y" | null;
   /** `own`, `plain`, `height` or the name of an attribute of the file. */
   color: string | null;
-  /** What the cloud is, for those who do not see it. */
+  /** What the cloud is, for people who do not see it. */
   label: string | null;
-  /** Whether screen readers hear how many points are visible when that has changed. */
+  /** Whether screen readers hear how many points are visible, when that number has changed. */
   announce: boolean;
 
   /** `empty`: there is no `src`, or the element is in no document. */
   readonly state: "empty" | "loading" | "ready" | "error";
-  /** Settled when the cloud of `src`, or of `sample`, is there or has failed; a new promise for each new one. */
+  /** Settled when the cloud of `src` or `sample` is there, or has failed. Each new one has a new promise. */
   readonly ready: Promise<void>;
   /** How many points there are; 0 without a cloud. */
   readonly count: number;
@@ -87,9 +87,12 @@ export interface HiddenPointCloudElement extends HTMLElement {
 
   /** Back to the first view. */
   reset(): void;
-  /** The visible point there, or with `through` any; in client coordinates, as events of the mouse have them. `tolerance` in CSS pixels, 8. */
+  /**
+   * The visible point at a place, or with `through` any point. In client coordinates, as mouse events have them;
+   * `tolerance` is 8 CSS pixels by default.
+   */
   pick(clientX: number, clientY: number, options?: { through?: boolean; tolerance?: number }): PickedPoint | null;
-  /** Where a place is in the picture, in client coordinates; `null` where that is behind the camera. */
+  /** The place of a position in the picture, in client coordinates; `null` behind the camera. */
   project(position: ArrayLike<number>): { x: number; y: number } | null;
   /** The picture as it is, as a PNG file. */
   toBlob(): Promise<Blob>;
@@ -116,7 +119,7 @@ export interface HiddenPointCloudElement extends HTMLElement {
   ): void;
 }
 
-/** To be made by `document.createElement`, or with `new`. Importing the module defines the element. */
+/** Make one by `document.createElement` or with `new`. Importing the module defines the element. */
 export declare const HiddenPointCloudElement: { new (): HiddenPointCloudElement; prototype: HiddenPointCloudElement };
 
 declare global {

@@ -1,4 +1,6 @@
+import { shownKeys } from "../controls/keys.ts";
 import { SAMPLES } from "../samples/samples.ts";
+import { FORMATS, listed } from "../settings/formats.ts";
 import { type AnyParameter, type Parameter, PARAMETERS, type SettingName, SETTINGS } from "../settings/table.ts";
 
 /** An attribute of the element. Its property has the same name in camel case. */
@@ -28,12 +30,15 @@ function like<T>(row: Parameter<T>, rest: Omit<Attribute, "written" | "is" | "wi
 /** The one table of attributes. The document's table is made from it. */
 export const ATTRIBUTES = {
   src: {
-    is: "the address of a LAS, LAZ, COPC, PLY, PCD, XYZ, TXT, CSV, OBJ, glTF or GLB file. Setting it stops the loading of another file",
+    is: `the address of a ${listed(FORMATS, "or")} file; COPC is LAZ. Setting it stops the loading of another file`,
     property: "text",
     ofSource: true,
   },
   sample: {
-    is: `a cloud of the demo page, instead of \`src\`: ${listed(SAMPLES.map(({ name }) => name))}. Those of the dragon and the bunny need the folder \`samples/\` beside the module`,
+    is: `a cloud of the demo page, instead of \`src\`: ${listed(
+      SAMPLES.map(({ name }) => name),
+      "or",
+    )}. Those of the dragon and the bunny need the folder \`samples/\` beside the module`,
     property: "text",
     ofSource: true,
   },
@@ -48,12 +53,12 @@ export const ATTRIBUTES = {
   radius: like(SETTINGS.radius, { setting: "radius", property: "own" }),
   inversion: like(SETTINGS.inversion, { setting: "inversion", property: "word" }),
   "hidden-points": like(SETTINGS.hidden, {
-    is: `${SETTINGS.hidden.is}; follows the key \`H\``,
+    is: `${SETTINGS.hidden.is}; follows the key \`${shownKeys("hidden").join()}\``,
     setting: "hidden",
     property: "value",
   }),
   frozen: {
-    is: "the viewpoint stays where it is while the camera moves on; follows the key `V`",
+    is: `the viewpoint stays where it is while the camera moves on; follows the key \`${shownKeys("freeze").join()}\``,
     without: "the viewpoint goes with the camera",
     property: "flag",
   },
@@ -110,8 +115,4 @@ export function valueOf<Name extends WrittenAttribute>(element: Element, name: N
 export function anyValueOf(element: Element, name: AttributeName): unknown {
   const text = element.getAttribute(name);
   return text === null ? undefined : rowOf(name).written?.parse(text);
-}
-
-function listed(words: readonly string[]): string {
-  return `${words.slice(0, -1).join(", ")} or ${words.at(-1)!}`;
 }

@@ -1,7 +1,7 @@
 import { Color } from "three";
 import { type Theme, THEMES } from "../view/theme.ts";
 
-/** The theme that suits the page's own `--canvas` and `--accent`: dark points on a light background, light ones on a dark one. */
+/** The theme for the page's own `--canvas` and `--accent`: the light one for a light canvas, else the dark one. */
 export function themeOf(element: Element): Theme {
   const style = getComputedStyle(element);
   const [background, accent] = ["--canvas", "--accent"].map((name) => style.getPropertyValue(name).trim()) as [

@@ -28,7 +28,7 @@ type Reflected = Exclude<
 >;
 type Own = Omit<Api.HiddenPointCloudElement, keyof HTMLElement | Reflected>;
 
-/** Where there are no elements, as on a server, importing this does no more than define the class. */
+/** On a server there are no elements: importing this defines the class and does nothing else. */
 const Base = "HTMLElement" in globalThis ? HTMLElement : (Object as unknown as typeof HTMLElement);
 
 class HiddenPointCloud extends Base implements Own {
@@ -38,12 +38,12 @@ class HiddenPointCloud extends Base implements Own {
   #showing: { showing: Showing; pointing: Pointing } | null = null;
   #state: Own["state"] = "empty";
   #ready = new Settling();
-  /** Whether the attributes name other points than those that are there or on their way. */
+  /** Whether the attributes name another cloud than the one that is shown or being loaded. */
   #stale = true;
-  /** Whether the view has been asked for, if only once more. */
+  /** Whether an attribute of the view was set, maybe to the same value again. */
   #looks = false;
   #updating = false;
-  /** By attribute, what has been told already. */
+  /** The messages that have been told already, by attribute. */
   #told = new Map<string, string>();
 
   connectedCallback(): void {
@@ -52,7 +52,7 @@ class HiddenPointCloud extends Base implements Own {
   }
 
   disconnectedCallback(): void {
-    // What is only being moved is back before anybody has seen that it was gone.
+    // An element that is moved in the document is back at once.
     queueMicrotask(() => {
       if (!this.isConnected) this.#sleep();
     });
@@ -64,7 +64,7 @@ class HiddenPointCloud extends Base implements Own {
   }
 
   attributeChangedCallback(name: string, before: string | null, now: string | null): void {
-    // Writing the same address once more tries it once more.
+    // Setting the same address again tries it again.
     const renamed =
       name === "src" || (SOURCES.includes(name) && before !== now && !(name === "sample" && this.getAttribute("src")));
     if (renamed) this.#renew();
@@ -132,7 +132,7 @@ class HiddenPointCloud extends Base implements Own {
     return showing?.cloud ? showing.viewer.scene.visible : new Uint32Array(0);
   }
 
-  /** Attributes that are written together are followed together. */
+  /** Attributes that are written together take effect together. */
   #touch(): void {
     if (this.#updating) return;
     this.#updating = true;
@@ -159,7 +159,7 @@ class HiddenPointCloud extends Base implements Own {
     showing.open();
   }
 
-  /** `null` where nothing can be drawn, which is told once. */
+  /** `null` if nothing can be drawn, which is told once. */
   #wake(reading: Reading): Showing | null {
     if (this.#state === "error") return null;
     const canvas = this.#frame.newCanvas();
@@ -239,7 +239,7 @@ class HiddenPointCloud extends Base implements Own {
     this.#ready.reject(problem);
   }
 
-  /** Not once more those that have been told, as long as the attribute says the same. */
+  /** The problems that have not been told yet. A problem is told again after its attribute has changed. */
   #newProblems({ problems }: Reading): Problem[] {
     const fresh = [...problems]
       .filter(([attribute, { message }]) => this.#told.get(attribute) !== message)
@@ -271,11 +271,11 @@ class Settling {
         reject(problem);
       };
     });
-    // The event tells; who does not ask need not hear of it twice.
+    // The error event tells it. A promise that nobody waits for must not report it as well.
     this.promise.catch(() => undefined);
   }
 
-  /** Another one, unless this one still waits. */
+  /** A new promise if this one is settled. */
   renewed(): Settling {
     return this.#settled ? new Settling() : this;
   }

@@ -2,7 +2,7 @@ import { HprError } from "hidden-point-removal";
 import { LoadProblem } from "../loaders/problem.ts";
 import type { HiddenPointCloudError } from "./api.ts";
 
-/** What an `error` event holds. */
+/** The error of an `error` event. */
 export class Problem extends Error implements HiddenPointCloudError {
   override readonly name = "HiddenPointCloudError";
   readonly code: string;

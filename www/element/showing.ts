@@ -16,10 +16,10 @@ import { changedSettings, type Reading } from "./reading.ts";
 import type { Frame } from "./frame.ts";
 import { Problem, problemOf } from "./problem.ts";
 
-/** What a sentence says of places. */
+/** How a sentence calls places that attributes ask for: the view "that is asked for". */
 const ASKED = "that is asked for";
 
-/** What a showing tells the element. */
+/** A showing tells these to its element. */
 export interface Listener {
   loaded: (total: number, notes: string[]) => void;
   failed: (problem: Problem) => void;
@@ -27,11 +27,11 @@ export interface Listener {
   progressed: (fraction: number | null) => void;
   /** Something is wrong, but there is a picture. */
   refused: (problem: Problem) => void;
-  /** Keys have changed these, not attributes. */
+  /** Keys have changed the settings, and not attributes. */
   moved: (settings: Settings) => void;
 }
 
-/** The picture of an element from when it comes into a document until it leaves. */
+/** The picture of an element while that is in a document. */
 export class Showing {
   readonly viewer: Viewer;
   readonly canvas: HTMLCanvasElement;
@@ -86,15 +86,15 @@ export class Showing {
     return this.viewer.cloud;
   }
 
-  /** The attributes are others; those of the view may also be the same once more. */
+  /** The attributes have changed. `look`: one of the view was set, maybe to the same value again. */
   follow(reading: Reading, look: boolean): void {
     const before = this.#reading;
     this.#reading = reading;
-    // What is being loaded comes to it when it is there.
+    // A cloud that is being loaded follows when it is there.
     if (this.#ready) this.#apply(before, this.#ready, look);
   }
 
-  /** Opens what the attributes name, in the place of what is there or on its way. */
+  /** Opens the cloud that the attributes name, instead of the one that is there or being loaded. */
   open(): void {
     this.#loading.abort();
     const { signal } = (this.#loading = new AbortController());
@@ -176,7 +176,7 @@ export class Showing {
     }
     this.#obey(() => {
       if (Object.keys(changed).length > 0) this.#store.change(changed);
-      // What is frozen together with a new view is frozen where one was.
+      // Frozen before the camera goes to a new view, so that the old viewpoint stays.
       if (reading.frozen !== before.frozen) this.moves.freeze(reading.frozen);
       if (look || JSON.stringify(reading.view) !== JSON.stringify(before.view)) this.#look(ready);
     });
@@ -198,14 +198,14 @@ export class Showing {
   }
 
   #hear(answer: TimedView): void {
-    // The first one is told when the cloud is.
+    // The first answer is told together with the cloud.
     if (!this.#ready) return;
     if (answer.note !== null && answer.note !== this.#note) this.#tell.refused(new Problem("attribute", answer.note));
     this.#note = answer.note;
     this.#tell.answered(answer);
   }
 
-  /** What screen readers are to hear of the last answer. */
+  /** An answer in words, for screen readers. */
   sentence(answer: TimedView): string {
     return sentenceOf(answer, this.cloud?.count ?? 0, this.moves.frozen);
   }

@@ -3,7 +3,7 @@ import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { placeAt, project } from "../view/place.ts";
 
-/** A handle over the picture for each light: dragged across the picture, or moved around the cloud by keys. */
+/** A handle over the picture for each light. It is dragged, or moved around the cloud by keys. */
 export class LightHandles {
   readonly #container: HTMLElement;
   readonly #viewer: Viewer;
@@ -20,7 +20,7 @@ export class LightHandles {
     });
   }
 
-  /** Puts the handles where their lights are in the picture; out of it there is none. */
+  /** Moves the handles to their lights. A light outside the picture has no handle. */
   place(): void {
     const { lights } = this.#store.current;
     const { width, height } = this.#viewer.stage.size;
@@ -51,7 +51,7 @@ export class LightHandles {
       if (!handle.hasPointerCapture(event.pointerId)) return;
       const { left, top, width, height } = this.#container.getBoundingClientRect();
       const lights = [...this.#store.current.lights];
-      // Not out of the picture, where nobody could take hold of it again.
+      // Not out of the picture: nobody could drag it back.
       const [x, y] = [clamp(event.clientX - left, width), clamp(event.clientY - top, height)];
       lights[i] = placeAt(this.#viewer, x, y, lights[i]!);
       this.#store.change({ lights });
@@ -60,7 +60,7 @@ export class LightHandles {
   }
 }
 
-/** Within a length, a little off its ends. */
+/** A value between 0 and a length, with some distance from the ends. */
 function clamp(value: number, length: number): number {
   return Math.min(length - 8, Math.max(8, value));
 }

@@ -10,21 +10,21 @@ import type { Viewer } from "../view/viewer.ts";
 /** Radians, and a share of the distance, for each press of a key. */
 const TURN = Math.PI / 36;
 const NEARER = 0.92;
-/** Where the first lights come, as parts of the picture's width and height: in sight, and not beside the camera. */
+/** The places of the first lights, as shares of the picture's width and height: visible, and away from the middle. */
 const SPOTS = [
   [0.16, 0.16],
   [0.76, 0.2],
   [0.2, 0.84],
   [0.8, 0.84],
 ] as const;
-/** Further ones come nearer and nearer to the middle. */
+/** Each further ring of places is this much nearer to the middle. */
 const INWARDS = 0.8;
 /** Lights nearer to each other than this share of their distance can't be told apart. */
 const APART = 0.04;
-/** How far away they are, as a share of the distance to what is looked at. */
+/** The distance of a new light, as a share of the distance to the camera's target. */
 const AHEAD = 0.7;
 
-/** A light for the picture as it is now, in front of the cloud and to a side. */
+/** Adds a light that suits the present picture: in front of the cloud and to a side. */
 export function addLight(store: Store, viewer: Viewer): void {
   const { cloud, viewpoint } = viewer;
   if (!cloud) return;
@@ -38,14 +38,14 @@ export function addLight(store: Store, viewer: Viewer): void {
     const [x, y] = SPOTS[i % SPOTS.length]!.map((share) => 0.5 + inwards * (share - 0.5)) as [number, number];
     const place = placeAt(viewer, x * width, y * height, like);
     const isFree = lights.every((light) => new Vector3(...light).distanceTo(new Vector3(...place)) > gap);
-    // As many tries as lights are enough, unless some of them are in the middle.
+    // This many tries find a free place, unless many lights are in the middle.
     if (!isFree && i <= 2 * lights.length) continue;
     store.change({ lights: [...lights, place] });
     return;
   }
 }
 
-/** Arrow keys turn a light around the middle of the cloud, plus and minus bring it nearer and farther. */
+/** Arrow keys turn a light around the middle of the cloud; plus and minus move it nearer and farther. */
 export function lightByKey(event: KeyboardEvent, i: number, store: Store, viewer: Viewer): void {
   const { cloud } = viewer;
   const found = pressed(event, ["light"]);
@@ -56,7 +56,7 @@ export function lightByKey(event: KeyboardEvent, i: number, store: Store, viewer
   const place = inLocal(cloud, lights[i]!);
   const up = new Vector3(...upVector(store.current.up));
   const around = up.clone().cross(place);
-  // Straight above there is no side to turn to but the camera's.
+  // A light straight above has no side of its own: the camera's is taken.
   if (around.lengthSq() < 1e-9 * place.lengthSq()) around.setFromMatrixColumn(viewer.stage.camera.matrixWorld, 0);
   const [sideways, upwards, farther] = STEPS[found.nth]!;
   place
@@ -67,7 +67,7 @@ export function lightByKey(event: KeyboardEvent, i: number, store: Store, viewer
   store.change({ lights });
 }
 
-/** By the order of the keys: left, right, up, down, plus, plus without Shift, minus. */
+/** In the order of the keys: left, right, up, down, plus, plus without Shift, minus. */
 const STEPS: readonly [sideways: number, upwards: number, farther: number][] = [
   [-1, 0, 1],
   [1, 0, 1],

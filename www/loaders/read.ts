@@ -1,8 +1,7 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
+import { FORMATS, listed } from "../settings/formats.ts";
 import { bytes, type Reading } from "./blocks.ts";
 import { LoadProblem, missingPart } from "./problem.ts";
-
-export const FORMATS = "LAS, LAZ, PLY, PCD, XYZ, TXT, CSV, OBJ, glTF and GLB";
 
 /** Reads a file by what it begins with, and by the ending of its name where its beginning says nothing. */
 export async function readFile(reading: Reading, base: string | null): Promise<LoadedCloud> {
@@ -37,7 +36,7 @@ async function readBy(reading: Reading, base: string | null): Promise<LoadedClou
   }
   const encoding = encodingOf(data);
   if (encoding === "utf-8" && looksBinary(start))
-    throw new LoadProblem(`${name} is not a point cloud this page knows. It opens ${FORMATS} files.`);
+    throw new LoadProblem(`${name} is not a point cloud this page knows. It opens ${listed(FORMATS, "and")} files.`);
   const isObj = ending === "obj" || /^v[ \t]+[-+.\d]/m.test(start);
   return isObj
     ? (await import("./obj.ts")).readObj(reading, encoding)

@@ -2,14 +2,14 @@ import type { Up } from "../cloud/cloud.ts";
 import type { Sample } from "../samples/samples.ts";
 import { type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
 
-/** Below these numbers of points, points are drawn smaller: at the size that closes a dense surface, a sparse one looks scaly. */
+/** The fewer the points, the smaller their size: at the size that closes a dense surface, a sparse one looks scaly. */
 const SIZES = [
   { below: 20_000, size: 1.4 },
   { below: 200_000, size: 2 },
 ];
 const LARGE = 3;
 
-/** The settings that a cloud is seen with if nobody has said anything else. `taken`: which way was up, as the file says. */
+/** The usual settings for a cloud. `taken`: which way was up, if the file says so. */
 export function usualLook(
   sample: Sample | null,
   name: string,

@@ -4,13 +4,13 @@ import { byId } from "../controls/dom.ts";
 import { sentenceOf } from "../view/sentence.ts";
 import type { Inversion } from "../settings/settings.ts";
 
-/** The sentence changes not more often than this, in milliseconds, and is announced when it has stood for this long. */
+/** Milliseconds between two changes of the sentence, and before a sentence that stays is announced. */
 const CALM = 800;
 const SETTLED = 1000;
 
 /**
- * The #status line: its data-attributes tell at once and in full precision, its sentence in calm and rounded. Screen
- * readers hear of a new sentence once the movement that changes it has stopped.
+ * The #status line. Its data-attributes change at once and in full precision, its sentence calmly and rounded. Screen
+ * readers hear a new sentence when the movement that changes it has stopped.
  */
 export class Status {
   readonly #element: HTMLElement;
@@ -20,14 +20,14 @@ export class Status {
   #announcing: ReturnType<typeof setTimeout> | undefined;
   #refilters = 0;
   #last: (TimedView & { total: number }) | null = null;
-  /** Answers to what was asked before this moment do not end a "loading" or an "error". */
+  /** Answers to questions before this moment do not end a "loading" or an "error". */
   #since = Infinity;
 
   constructor(element: HTMLElement) {
     this.#element = element;
   }
 
-  /** Until `loaded` or `error`, whatever the cloud that is still there has to answer. */
+  /** Until `loaded` or `error`; answers about the cloud that is still on screen do not change it. */
   loading(sentence: string): void {
     this.#since = Infinity;
     this.#element.dataset["state"] = "loading";
@@ -40,7 +40,7 @@ export class Status {
     this.#interrupt();
   }
 
-  /** The attributes of the cloud that is still there stay, and its next question makes it "ready" again. */
+  /** The attributes of the cloud on screen stay. The answer to its next question makes it "ready" again. */
   error(sentence: string): void {
     this.#since = performance.now();
     this.#element.dataset["state"] = "error";
@@ -78,13 +78,13 @@ export class Status {
     this.describe(frozen);
   }
 
-  /** How many lights the picture is lit by; without any there is no shadow. */
+  /** The number of lights. */
   lit(lights: number): void {
     if (lights > 0) this.#element.dataset["lights"] = String(lights);
     else delete this.#element.dataset["lights"];
   }
 
-  /** The sentence about the last answer, once more with what has become of the viewpoint. */
+  /** Says the last answer again, since the viewpoint may have been frozen or not. */
   describe(frozen: boolean): void {
     if (!this.#last || this.#element.dataset["state"] !== "ready") return;
     this.#say(sentenceOf(this.#last, this.#last.total, frozen));

@@ -4,12 +4,12 @@ import { colorChoices, type Legend } from "../view/colors.ts";
 import { byId } from "../controls/dom.ts";
 
 export interface ColorControl {
-  /** Another cloud has other things to be colored by. */
+  /** Offers what the attributes of a cloud can color. */
   offer: (cloud: Cloud) => void;
   explain: (legend: Legend | null) => void;
 }
 
-/** What points are colored by, and under it what the colors mean. */
+/** The choice of colors, and a legend of what they mean. */
 export function bindColor(store: Store): ColorControl {
   const select = byId("color", HTMLSelectElement);
   const legend = byId("legend");

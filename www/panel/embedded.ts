@@ -1,7 +1,7 @@
 import { readable } from "../settings/address.ts";
 import { byId } from "../controls/dom.ts";
 
-/** In a frame of another page: the picture alone, and a link to all of it as it is now. */
+/** In a frame of another page: the picture alone, and a link to the whole page as it is now. */
 export function showEmbedded(): void {
   document.body.classList.add("embedded");
   const link = byId("whole-page", HTMLAnchorElement);
@@ -12,6 +12,6 @@ export function showEmbedded(): void {
     link.href = readable(address).href;
   };
   follow();
-  // The address goes with the camera and the settings.
+  // The address follows the camera and the settings.
   for (const event of ["pointerdown", "focus", "click"]) link.addEventListener(event, follow);
 }

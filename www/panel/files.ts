@@ -1,9 +1,9 @@
 import { byId } from "../controls/dom.ts";
 
 export interface FileActions {
-  /** With what the user has to know besides. */
+  /** `notes`: sentences that the user has to read about the file. */
   open: (file: File, notes: string[]) => void;
-  /** What was dropped cannot be opened. */
+  /** Something was dropped that cannot be opened. */
   refuse: (sentence: string) => void;
 }
 
@@ -15,7 +15,7 @@ export function onFile({ open, refuse }: FileActions): void {
   });
   input.addEventListener("change", () => {
     const file = input.files?.[0];
-    // Emptied, so that choosing the same file again is a change again.
+    // Empty again, so that choosing the same file is a change.
     if (file) open(file, []);
     input.value = "";
   });
@@ -26,12 +26,12 @@ export function onFile({ open, refuse }: FileActions): void {
     hint.hidden = false;
   });
   document.addEventListener("dragleave", (event) => {
-    // Without a related target the pointer has left the window, not just one element for another.
+    // Without a related target the pointer has left the window, and not only an element.
     if (event.relatedTarget === null) hint.hidden = true;
   });
   document.addEventListener("drop", (event) => {
     hint.hidden = true;
-    // Whatever it is: the browser would leave the page for it.
+    // Otherwise the browser would leave the page and open what was dropped.
     event.preventDefault();
     const { items, files } = event.dataTransfer!;
     const file = files[0];

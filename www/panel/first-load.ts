@@ -1,6 +1,6 @@
 import { byId } from "../controls/dom.ts";
 
-/** What is going on, in the middle of the canvas, as long as that is empty. #status says the same to screen readers. */
+/** The progress in words, in the middle of the empty canvas. #status says the same to screen readers. */
 export class FirstLoad {
   readonly #element = byId("first-load");
   #done = false;

@@ -1,13 +1,13 @@
 import { byId } from "../controls/dom.ts";
 
-/** The button for the cloud on the whole screen, where the browser can; the returned function does the same. */
+/** The button for the whole screen, if the browser has one. The returned function does the same. */
 export function bindFullScreen(): () => void {
   const button = byId("full-screen", HTMLButtonElement);
   if (!document.fullscreenEnabled) return () => undefined;
   button.hidden = false;
   const toggle = () => {
     const done = document.fullscreenElement ? document.exitFullscreen() : document.documentElement.requestFullscreen();
-    // Where the browser refuses, the page stays as it is, as one sees.
+    // If the browser refuses, the page stays as it is, and the user sees that.
     done.catch(() => undefined);
   };
   button.addEventListener("click", toggle);

@@ -29,7 +29,7 @@ export class Message {
     this.#box.hidden = true;
   }
 
-  /** The focus must not go with the button. */
+  /** The focus must not vanish with the button. */
   #dismiss(): void {
     if (this.#box.contains(document.activeElement)) byId("view").focus();
     this.hide();

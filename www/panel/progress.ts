@@ -9,7 +9,7 @@ export class Progress {
     this.#cancel.addEventListener("click", onCancel);
   }
 
-  /** `null`: under way, but nobody knows how far. */
+  /** `null`: it is loading, but nobody knows how far it is. */
   show(fraction: number | null): void {
     this.#bar.hidden = this.#cancel.hidden = false;
     if (fraction === null) this.#bar.removeAttribute("value");
@@ -17,7 +17,7 @@ export class Progress {
   }
 
   hide(): void {
-    // The focus must not go with the button.
+    // The focus must not vanish with the button.
     if (document.activeElement === this.#cancel) byId("view").focus();
     this.#bar.hidden = this.#cancel.hidden = true;
   }

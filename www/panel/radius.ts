@@ -13,7 +13,7 @@ const NOTES: Record<Choice, string> = {
   hand: "Exponent: log₁₀ of radius ÷ farthest distance. The mark is the automatic one.",
 };
 
-/** How the radius is chosen; moving the slider is choosing it by hand. */
+/** The choice of the radius. Moving the slider chooses it by hand. */
 export class RadiusControl {
   readonly #store: Store;
   readonly #slider: Slider;
@@ -48,7 +48,7 @@ export class RadiusControl {
     });
   }
 
-  /** The exponent of an answer: unless it is set by hand the slider follows it. */
+  /** Shows the exponent of an answer, unless the slider was set by hand. */
   follow({ question, visibility }: ViewAnswer): void {
     const { radius, inversion } = this.#store.current;
     if (isAutomatic(question.method)) this.#slider.mark(visibility.exponent);

@@ -4,7 +4,7 @@ import { byId, nextFrame } from "../controls/dom.ts";
 /** In CSS pixels; made twice as large by tests/browser/thumbnails.ts. */
 const THUMBNAIL = { width: 84, height: 56 };
 
-/** Small pictures of some samples, the list of all, and the line under it that says where the current cloud is from. */
+/** Small pictures of some samples, the list of all, and under it the source of the current cloud. */
 export class SamplePicker {
   readonly #select = byId("sample", HTMLSelectElement);
   readonly #credit = byId("credit");
@@ -22,7 +22,7 @@ export class SamplePicker {
       ),
     );
     this.#select.addEventListener("change", () => {
-      // The entry for one's own file stands for what is shown already.
+      // The empty value is the entry of the user's own file, which is on screen already.
       if (this.#select.value !== "") onPick(sampleNamed(this.#select.value));
     });
   }
@@ -49,13 +49,13 @@ export class SamplePicker {
     this.#credit.textContent = "";
   }
 
-  /** After a cloud that could not be opened: back to the one that is still there. */
+  /** Goes back to the cloud on screen, after another one could not be opened. */
   restore(): void {
     void this.#showPictures();
     this.#select.value = this.#shown ?? "";
   }
 
-  /** Not before the first cloud is there, or is known not to come: until then it has the line to itself. */
+  /** Loads the pictures after the first cloud, so that they do not slow that one down. */
   async #showPictures(): Promise<void> {
     await nextFrame();
     for (const button of this.#thumbnails.querySelectorAll("button")) {

@@ -1,7 +1,7 @@
 import { type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
 import { byId } from "../controls/dom.ts";
 
-/** The settings of each folded section. */
+/** The settings in each folded section. */
 const SECTIONS: Record<string, (keyof Settings)[]> = {
   "flip-section": ["inversion", "viewpoints"],
   "noise-section": ["denoise", "vote"],
@@ -9,7 +9,7 @@ const SECTIONS: Record<string, (keyof Settings)[]> = {
   "shadow-section": ["lights", "soft", "ambient", "smoothing"],
 };
 
-/** Unfolds the sections in which the address has set something: what one sees must be found. */
+/** Unfolds the sections with a setting that is not usual: the user must find what changes the picture. */
 export function bindSections(settings: Settings): void {
   for (const [id, names] of Object.entries(SECTIONS)) {
     if (names.some((name) => settings[name] !== USUAL_SETTINGS[name])) byId(id, HTMLDetailsElement).open = true;

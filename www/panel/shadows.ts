@@ -16,7 +16,7 @@ export function bindShadows(store: Store, viewer: Viewer): void {
 
   const remove = (i: number) => {
     store.change({ lights: store.current.lights.filter((_, other) => other !== i) });
-    // The focus must not go with the row.
+    // The focus must not vanish with the row.
     add.focus();
   };
   const row = (i: number) => {

@@ -1,6 +1,6 @@
 import { box, cylinder, group, type Hit, type Solid, sphere, type Vector } from "./trace.ts";
 
-/** What a surface is made of: its color, its class (numbers as in LAS files, from 64 on our own), how well it reflects. */
+/** A material: its color, its class (numbers as in LAS files, our own from 64 on), its reflectance. */
 export interface Material {
   color: Vector;
   kind: number;
@@ -34,14 +34,14 @@ const FACADE = 6.4;
 const DEPTH = 4.2;
 const STOREY = 3.3;
 
-/** `throughPane` is asked for each ray that comes to a window. */
+/** `throughPane` decides for each ray at a window whether it passes. */
 export function makeScene(random: () => number, throughPane: () => boolean): Solid<Material> {
   const solids: Solid<Material>[] = [ground()];
   for (const side of [-1, 1] as const) {
     for (let x = -HALF_LENGTH; x < HALF_LENGTH - 4;) {
       const width = Math.min(HALF_LENGTH - x, 8 + 5 * random());
       const storeys = 3 + Math.floor(2.4 * random());
-      // Here and there one looks between two houses.
+      // Here and there is a gap between two houses.
       if (random() < 0.86)
         solids.push(
           house(
@@ -146,7 +146,7 @@ function house(
   };
 }
 
-/** What is hit behind a pane, with its distance from the eye. */
+/** The hit behind a pane, with its distance from the eye. */
 function behind(
   pane: number,
   eye: Vector,

@@ -1,4 +1,4 @@
-/** Where a beam comes back from: meters in the tile, its class as in LAS files, how bright it is there. */
+/** The place where a beam comes back: meters in the tile, the class as in LAS files, the brightness. */
 export interface Return {
   x: number;
   y: number;
@@ -10,7 +10,7 @@ export interface Return {
 interface House {
   x: number;
   y: number;
-  /** Of its ridge, against east. */
+  /** The angle between its ridge and east. */
   turn: number;
   halfLength: number;
   halfWidth: number;
@@ -32,7 +32,7 @@ const CELL = 10;
 /** Steps of a beam on its way down. */
 const DOWN = 0.6;
 
-/** Hills, a stream, a road with houses along it, trees: what a beam from above meets. */
+/** Hills, a stream, a road with houses along it, and trees, for beams from above. */
 export function makeLand(side: number, random: () => number) {
   const houses: House[] = [];
   const trees: Tree[] = [];
@@ -68,7 +68,7 @@ export function makeLand(side: number, random: () => number) {
   }
 
   const near = cells(side, [...houses, ...trees]);
-  /** What stands highest at a place. */
+  /** The highest thing at a place. */
   const surface = (x: number, y: number): Return => {
     let found = groundAt(x, y);
     for (const thing of near(x, y)) {
@@ -79,12 +79,12 @@ export function makeLand(side: number, random: () => number) {
   };
 
   return {
-    /** The beam that would meet the ground's middle height at (x, y), leaning by `across` meters to the west for each meter down. */
+    /** The first return of a beam to (x, y) that goes `across` meters to the west for each meter down. */
     first(x: number, y: number, across: number): Return | null {
       const things = near(x, y);
       if (things.length === 0) return groundAt(x, y);
       const ground = terrain(x, y);
-      // From above all that stands there, down to where the beam meets something.
+      // From above all things there, down to the first that the beam meets.
       const highest = things.reduce(
         (most, thing) => Math.max(most, "ridge" in thing ? thing.base + thing.ridge + 1 : thing.top),
         ground,
@@ -94,7 +94,7 @@ export function makeLand(side: number, random: () => number) {
         if (east < 0 || east > side) return null;
         const hit = surface(east, y);
         if (hit.z < z) continue;
-        // A wall is met from the side, between this step and the last; a roof or the ground where it is.
+        // A beam meets a wall from the side, between the last step and this one; a roof or the ground from above.
         const wall = hit.kind === 6 && hit.z - z > 1.2;
         return wall ? { ...hit, z: z + DOWN * random() } : hit;
       }

@@ -1,4 +1,4 @@
-/** What a ray can hit: boxes along the axes, spheres and upright cylinders. */
+/** Things that a ray can hit: boxes along the axes, spheres and upright cylinders. */
 
 export type Vector = [number, number, number];
 
@@ -8,10 +8,10 @@ export interface Hit<M> {
   material: M;
 }
 
-/** Tells where a ray hits first, nearer than `reach`; `along` has length 1. */
+/** The first hit of a ray that is nearer than `reach`. `along` has length 1. */
 export type Solid<M> = (from: Vector, along: Vector, reach: number) => Hit<M> | null;
 
-/** A box from its lower corner to its upper one; from inside it is hit from within. */
+/** A box from its lower corner to its upper one. A ray from inside hits its inner sides. */
 export function box<M>(low: Vector, high: Vector, material: M): Solid<M> {
   return (from, along, reach) => {
     let enter = -Infinity;
@@ -63,7 +63,7 @@ export function cylinder<M>([cx, cy, cz]: Vector, radius: number, height: number
   };
 }
 
-/** Several as one, asked only when the ray comes near them. */
+/** Several solids as one. They are asked only if the ray comes near them. */
 export function group<M>(solids: readonly Solid<M>[], around?: { center: Vector; radius: number }): Solid<M> {
   return (from, along, reach) => {
     if (around) {

@@ -3,7 +3,7 @@
  * documents take it from here.
  */
 
-/** Of a larger file the page shows an even share of the points. More would take many seconds and gigabytes. */
+/** From a larger file the page shows an even share of the points. More would take many seconds and gigabytes. */
 export const MAX_POINTS = 10_000_000;
 
 /** The page's exponents, log₁₀ of radius ÷ farthest distance, go from 0 to this. */

@@ -5,10 +5,13 @@ interface Place {
   y: number;
 }
 
-/** What a closed line in the picture surrounds. */
+/** The inside of a closed line in the picture. */
 export class Area {
   readonly box: Box;
-  /** The parts of the line that pass through a row of pixels, by row from the box's top: four numbers each, where it begins, at which height it ends, and how far it goes sideways for each pixel down. */
+  /**
+   * By row of pixels from the top of the box, the parts of the line that pass through it. Each is four numbers: x and y of
+   * its beginning, y of its end, and its way sideways for each pixel down.
+   */
   readonly #rows: number[][];
 
   constructor(line: readonly Place[]) {
@@ -23,11 +26,11 @@ export class Area {
     }
   }
 
-  /** Of places in the box. */
+  /** For places in the box. */
   holds(x: number, y: number): boolean {
     const parts = this.#rows[this.#rowOf(y)];
     if (!parts) return false;
-    // Odd: a ray to the right leaves the line once more than it enters. Parts in other rows it does not meet.
+    // A ray to the right crosses the line an odd number of times. It does not meet parts in other rows.
     let inside = false;
     for (let i = 0; i < parts.length; i += 4) {
       const from = parts[i + 1]!;

@@ -16,13 +16,13 @@ interface Row {
   more: string;
 }
 
-/** What is said on either side of the divider, where it is not that all points are on its left. */
+/** The words on both sides of the divider. */
 export interface Sides {
   left: string;
   right: string;
 }
 
-/** The choice of what ours is compared with, and the figures of it. */
+/** The choice of the comparison, and its figures. */
 export class CompareCard {
   readonly #card = byId("compare-card");
   readonly #against: Segmented<Against>;
@@ -36,7 +36,7 @@ export class CompareCard {
   readonly #result = byId("compare-result");
   readonly #store: Store;
 
-  /** `onStop`: gives up tracing, or takes it up again. */
+  /** `onStop`: stops the tracing, or starts it again. */
   constructor(store: Store, onStop: () => void) {
     this.#store = store;
     this.#against = new Segmented<Against>("against", (against) => {
@@ -70,14 +70,14 @@ export class CompareCard {
     if (splat !== "auto") this.#splat.value = splat;
   }
 
-  /** All points: there is nothing to count. */
+  /** A comparison with all points: there is nothing to count. */
   showAll(): void {
     this.#tracing.hidden = true;
     this.#fill([], 0, 0);
     this.#result.textContent = "";
   }
 
-  /** `null`: nothing is known yet, and all points are on the left. */
+  /** `null` as long as nothing is known; then all points are on the left. */
   showPicture({ result, problem }: AgainstPicture): Sides | null {
     this.#tracing.hidden = true;
     if (problem !== null || !result) {

@@ -7,16 +7,16 @@ import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { CompareCard, type Sides } from "./compare-card.ts";
 
-/** Beside the middle, where one takes hold of the cloud to turn it. */
+/** The divider's first place: beside the middle, since the middle is needed to turn the cloud. */
 const FIRST = 0.42;
-/** Shares of the width, by the order of the keys: left, right, down, up, page down, page up, home, end. */
+/** Shares of the width, in the order of the keys: left, right, down, up, page down, page up, home, end. */
 const STEPS = [-0.02, 0.02, -0.02, 0.02, -0.1, 0.1, -1, 1];
 
 const number = new Intl.NumberFormat("en-US");
 
 /**
- * The line that divides the picture: what ours is compared with to its left, ours to its right. To `introduce` it, it is
- * there from the beginning, with all points to its left and without its card, until the camera moves for the first time.
+ * The line that divides the picture: the reference is to its left, our answer to its right. As an introduction to the
+ * page it is there from the beginning, with all points to its left and without its card, until the camera first moves.
  */
 export class Compare {
   readonly #viewer: Viewer;
@@ -24,9 +24,9 @@ export class Compare {
   readonly #divider = byId("divider");
   readonly #note = byId("compare-note");
   readonly #card: CompareCard;
-  /** What ours is compared with, where that is not simply all points. */
+  /** `null` for a comparison with all points. */
   #reference: AgainstPicture | AgainstSurface | null = null;
-  /** Whether it is there only until the camera moves. */
+  /** Whether it is there only as an introduction, until the camera moves. */
   introducing: boolean;
 
   constructor(viewer: Viewer, store: Store, introduce: boolean) {
@@ -56,14 +56,14 @@ export class Compare {
     this.#store.change({ compare: this.#store.current.compare === null ? FIRST : null });
   }
 
-  /** The cloud goes, or something else is compared. */
+  /** Another cloud or another comparison is about to come. */
   drop(): void {
     this.#reference?.dispose();
     this.#reference = null;
     this.#viewer.showParts(null);
   }
 
-  /** Says once more what is on either side. */
+  /** Writes again what is on both sides. */
   follow(): void {
     const { compare } = this.#store.current;
     const idle = compare === null || this.#viewer.cloud === null;

@@ -6,13 +6,13 @@ import { pictureWithMarks } from "./picture.ts";
 import type { Bench, Tool } from "./tool.ts";
 
 export interface ExportActions {
-  /** What the cloud is called. */
+  /** The name of the cloud. */
   name: () => string;
-  /** The page as it is now, for others to open; `null` where no address can. */
+  /** The page as it is now, for others to open; `null` if no address can open it. */
   link: () => string | null;
 }
 
-/** What is seen, or selected, as a file; the picture as one; and a link to all of it. */
+/** Saves the visible or the selected points, or the picture; copies a link to the page. */
 export class Export implements Tool {
   readonly name = "export";
   readonly uses = "nothing";
@@ -33,7 +33,7 @@ export class Export implements Tool {
     byId("copy-link").addEventListener("click", () => void this.#copyLink());
   }
 
-  /** Offers the selection while there is one. */
+  /** Offers the selection if there is one. */
   open(): void {
     this.#output.textContent = "";
     const none = this.#selected().length === 0;

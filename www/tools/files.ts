@@ -1,11 +1,11 @@
-/** Points written at once: not for longer than a frame takes. */
+/** Points written in one go: less work than a frame takes. */
 export const BATCH = 8192;
 
-/** Puts pieces together to a file that the browser saves. Between the pieces the page goes on drawing. */
+/** Joins pieces to a file that the browser saves. Between the pieces the page goes on drawing. */
 export async function save(name: string, parts: Iterable<BlobPart>): Promise<void> {
   const done: Blob[] = [];
   for (const part of parts) {
-    // Each by itself: text is encoded here, and megabytes of it at the end would hold the page up.
+    // Each piece by itself: text is encoded here, and encoding megabytes at once would stop the page.
     done.push(new Blob([part]));
     await new Promise((resolve) => setTimeout(resolve));
   }
@@ -13,13 +13,13 @@ export async function save(name: string, parts: Iterable<BlobPart>): Promise<voi
   link.href = URL.createObjectURL(new Blob(done));
   link.download = name;
   link.click();
-  // The browser has begun to read it by then.
+  // By then the browser has begun to read it.
   setTimeout(() => {
     URL.revokeObjectURL(link.href);
   }, 60_000);
 }
 
-/** Whether the browser lets the page copy: not without a secure connection, nor where the user forbids it. */
+/** `false` if the browser does not let the page copy: without a secure connection, or if the user forbids it. */
 export async function copy(text: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(text);

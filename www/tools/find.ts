@@ -3,19 +3,19 @@ import type { Viewer } from "../view/viewer.ts";
 import { Area } from "./area.ts";
 import { Projection } from "./projection.ts";
 
-/** A place in the picture, in CSS pixels from its left and top, and how many of them a point may be off. */
+/** A place in the picture, in CSS pixels from its left and top, and the largest distance of a point from it. */
 export interface Spot {
   x: number;
   y: number;
   tolerance: number;
 }
 
-/** Points further behind the nearest than so many tolerances are another surface. */
+/** A point that lies this many tolerances behind the nearest one belongs to another surface. */
 const LAYER = 4;
 
 /**
- * The point that is meant at a spot: of those within the tolerance that nearest to the spot, on the surface nearest to the
- * camera. Where there is none, of those drawn so large that they cover the spot.
+ * The point that is meant at a spot. Among the points within the tolerance, on the surface nearest to the camera, it is the
+ * one nearest to the spot. If there is none, points count that are drawn so large that they cover the spot.
  */
 export function pointAt(viewer: Viewer, { x, y, tolerance }: Spot, through: boolean): number | null {
   const { pointWidth, pixelRatio } = viewer.stage;
@@ -27,7 +27,7 @@ export function pointAt(viewer: Viewer, { x, y, tolerance }: Spot, through: bool
   );
 }
 
-/** Of points that may be off by what `allowed` says of each, at most `most`. */
+/** Among points whose distance from (x, y) is at most `allowed`, which is at most `most`. */
 function nearestAt(
   viewer: Viewer,
   x: number,
@@ -39,7 +39,7 @@ function nearestAt(
   const found: { index: number; off: number; ahead: number }[] = [];
   let behind = Infinity;
   const at = projectionOf(viewer);
-  // A little more than the circle: what is on its rim is decided below.
+  // A little more than the circle: points on its rim are decided below.
   const reach = most + 1;
   at.each({ left: x - reach, right: x + reach, top: y - reach, bottom: y + reach }, among, (index) => {
     const off = Math.hypot(at.x - x, at.y - y);

@@ -4,7 +4,7 @@ import type { Mark } from "./marks.ts";
 import { NO_POINT } from "./pick.ts";
 import type { Bench, Tool } from "./tool.ts";
 
-/** Texts on points: each is there as long as its point is seen. */
+/** Texts on points. A text is there as long as its point is visible. */
 export class Label implements Tool {
   readonly name = "label";
   readonly uses = "clicks";

@@ -4,7 +4,7 @@ import type { Mark } from "./marks.ts";
 import { NO_POINT } from "./pick.ts";
 import type { Bench, Tool } from "./tool.ts";
 
-/** The distance between two clicked points, in the file's units; as many as one likes. */
+/** The distance between two clicked points, in the file's units. There may be many. */
 export class Measure implements Tool {
   readonly name = "measure";
   readonly uses = "clicks";

@@ -6,7 +6,7 @@ import type { Bench, Tool } from "./tool.ts";
 
 export const NO_POINT = { visible: "No visible point there.", any: "No point there." };
 
-/** Tells which point is clicked: its place in the file's coordinates, and its index. */
+/** Shows the place of a clicked point, in the file's coordinates, and its index. */
 export class Pick implements Tool {
   readonly name = "pick";
   readonly uses = "clicks";

@@ -1,6 +1,6 @@
 import type { Stage } from "../view/stage.ts";
 
-/** The picture as it is, with the marks over it, as a PNG file. */
+/** The picture and the marks over it, as a PNG file. */
 export async function pictureWithMarks(stage: Stage, marks: SVGSVGElement): Promise<Blob> {
   const picture = await createImageBitmap(await stage.snapshot());
   const canvas = new OffscreenCanvas(picture.width, picture.height);
@@ -10,7 +10,7 @@ export async function pictureWithMarks(stage: Stage, marks: SVGSVGElement): Prom
   return canvas.convertToBlob({ type: "image/png" });
 }
 
-/** An SVG of this page stands alone once it has its size; its style is its own. */
+/** The SVG has its own style; with its size it can stand alone. */
 async function imageOf(
   svg: SVGSVGElement,
   { width, height }: { width: number; height: number },

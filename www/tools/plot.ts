@@ -5,11 +5,11 @@ import { byId } from "../controls/dom.ts";
 import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 
-/** The drawing's own units; the exponents go as far as the slider. */
+/** In the units of the drawing. */
 const FRAME = { left: 34, right: 272, top: 8, bottom: 92 };
 const MOST = 6;
 
-/** The share of visible points against the exponent, for the view as it is; a click chooses the exponent. */
+/** The share of visible points against the exponent, for the present view. A click chooses an exponent. */
 export class Plot {
   readonly #viewer: Viewer;
   readonly #store: Store;
@@ -30,7 +30,7 @@ export class Plot {
     });
   }
 
-  /** For a cloud that has come in the place of another. */
+  /** Another cloud is shown. */
   clear(): void {
     const { inquiry, cloud } = this.#viewer.scene;
     this.#curve = new Curve(inquiry, cloud.radius);

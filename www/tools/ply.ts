@@ -1,6 +1,6 @@
 import { BATCH } from "./files.ts";
 
-/** A number for each point besides its place and color. */
+/** An attribute: a number for each point. */
 export interface Field {
   name: string;
   values: ArrayLike<number> & { constructor: unknown };
@@ -64,7 +64,7 @@ const KIND_OF = new Map<unknown, Kind>([
 
 const TAKEN = ["x", "y", "z", "red", "green", "blue"];
 
-/** A binary PLY file in pieces: every number as wide as the cloud has it, so that nothing is lost. */
+/** A binary PLY file in pieces. Every number is as wide as in the cloud, so that nothing is lost. */
 export function* plyParts({ positions, colors, fields, indices, comments }: PlyContent): Generator<BlobPart> {
   const columns: { name: string; kind: Kind; valueOf: (index: number) => number }[] = [];
   const add = (name: string, values: Field["values"], valueOf: (index: number) => number) => {
@@ -105,7 +105,7 @@ export function* plyParts({ positions, colors, fields, indices, comments }: PlyC
   }
 }
 
-/** A property is one word, and no two are the same. */
+/** The name of a property is one word, and no two names are the same. */
 function named(fields: readonly Field[]): [string, Field["values"]][] {
   const used = new Set(TAKEN);
   return fields.map(({ name, values }) => {

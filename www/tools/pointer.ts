@@ -1,16 +1,16 @@
 import type { Spot } from "./find.ts";
 
-/** A press that goes no further, in pixels, is a click. */
+/** A press that moves less than this, in pixels, is a click. */
 const STILL = 5;
-/** How far from a click a point may be: fingers are wide. */
+/** The largest distance of a point from a click. Fingers are wide. */
 export const TOLERANCE = 8;
 const TOUCH_TOLERANCE = 16;
 
-/** Tells clicks on the canvas from drags, which turn the camera. */
+/** Calls `click` for a click on the canvas, and not for a drag, which turns the camera. */
 export function onClick(canvas: HTMLElement, click: (spot: Spot) => void): void {
   let pressed: PointerEvent | null = null;
   canvas.addEventListener("pointerdown", (event) => {
-    // A second finger makes it something else.
+    // With a second finger it is no click.
     pressed = event.isPrimary && event.button === 0 ? event : null;
   });
   canvas.addEventListener("pointerup", (event) => {
@@ -31,7 +31,7 @@ export function onClick(canvas: HTMLElement, click: (spot: Spot) => void): void 
   });
 }
 
-/** Takes drags on the canvas from the camera as long as `wanted` says so and tells all places each has been at. */
+/** While `wanted`, drags on the canvas do not move the camera: the handlers get the path of each drag instead. */
 export function onDrag(
   canvas: HTMLElement,
   wanted: () => boolean,
@@ -45,7 +45,7 @@ export function onDrag(
     const { left, top } = canvas.getBoundingClientRect();
     return { x: event.clientX - left, y: event.clientY - top };
   };
-  // In the capture phase, before the orbit controls.
+  // In the capture phase: before the orbit controls get the event.
   canvas.addEventListener(
     "pointerdown",
     (event) => {

@@ -12,13 +12,13 @@ export interface Box {
 export class Projection {
   x = 0;
   y = 0;
-  /** How far ahead of the camera. */
+  /** The distance ahead of the camera. */
   ahead = 0;
   readonly #local: Float32Array;
   readonly #matrix: Matrix4["elements"];
   readonly #width: number;
   readonly #height: number;
-  /** Pixels that a unit has at distance 1. */
+  /** The length of a unit at distance 1, in pixels. */
   readonly #pixels: number;
 
   constructor(local: Float32Array, camera: PerspectiveCamera, { width, height }: { width: number; height: number }) {
@@ -29,7 +29,7 @@ export class Projection {
     this.#pixels = (camera.projectionMatrix.elements[5] * height) / 2;
   }
 
-  /** Goes to a point; `false` for what is behind the camera or out of the picture. */
+  /** Goes to a point; `false` if it is behind the camera or out of the picture. */
   to(index: number): boolean {
     const m = this.#matrix;
     const x = this.#local[3 * index]!;
@@ -42,13 +42,13 @@ export class Projection {
     return this.x >= 0 && this.y >= 0 && this.x <= this.#width && this.y <= this.#height;
   }
 
-  /** Goes to those of the points, or of all of them, that are in the picture and in a box of it. */
+  /** Goes to each of the points, or of all points, that is in the picture and in a box of it. */
   each(box: Box, indices: Uint32Array | null, visit: (index: number) => void): void {
     const local = this.#local;
     const width = this.#width;
     const height = this.#height;
     const [a, b, , d, e, f, , h, i, j, , l, m, n, , p] = this.#matrix;
-    // In shares of the picture from its middle, times how far ahead: nothing is divided for what is elsewhere.
+    // In shares of the picture from its middle, times the distance ahead: points elsewhere need no division.
     const [left, right] = [Math.max(-1, (2 * box.left) / width - 1), Math.min(1, (2 * box.right) / width - 1)];
     const [top, bottom] = [Math.min(1, 1 - (2 * box.top) / height), Math.max(-1, 1 - (2 * box.bottom) / height)];
     const count = indices ? indices.length : local.length / 3;
@@ -70,7 +70,7 @@ export class Projection {
     }
   }
 
-  /** The length of so many pixels at the point's distance. */
+  /** The length of a number of pixels at the point's distance. */
   lengthOf(pixels: number): number {
     return (pixels * this.ahead) / this.#pixels;
   }

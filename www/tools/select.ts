@@ -8,7 +8,7 @@ type Place = { x: number; y: number };
 
 const number = new Intl.NumberFormat("en-US");
 
-/** Points within a line or a box that is drawn over the picture; with Shift more of them, with Alt fewer. */
+/** Selects the points within a line or a box that is drawn over the picture. Shift adds, Alt takes away. */
 export class Select implements Tool {
   readonly name = "select";
   readonly uses = "drags";
@@ -96,7 +96,7 @@ function box(a: Place, b: Place): Place[] {
   return [a, { x: b.x, y: a.y }, b, { x: a.x, y: b.y }];
 }
 
-/** All are ascending, the results too. */
+/** The indices are ascending, the results too. */
 function joined(a: Uint32Array, b: Uint32Array): Uint32Array {
   const all = new Uint32Array(a.length + b.length);
   let count = 0;

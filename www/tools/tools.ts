@@ -13,7 +13,7 @@ import { onClick, TOLERANCE } from "./pointer.ts";
 import { Select } from "./select.ts";
 import type { Bench, Tool } from "./tool.ts";
 
-/** The bar over the cloud: at most one of its tools is at work, and has the clicks or the drags. */
+/** The bar over the cloud. At most one of its tools is at work, and takes the clicks or the drags. */
 export class Tools {
   readonly #tools: Tool[];
   readonly #marks: Marks;
@@ -46,12 +46,12 @@ export class Tools {
     this.#bindKeys(viewer);
   }
 
-  /** Whether the picture is divided only to show what the page is about. */
+  /** Whether the picture is divided only as an introduction to the page. */
   get introducing(): boolean {
     return this.#compare.introducing;
   }
 
-  /** For a cloud that is shown in the place of another. */
+  /** Another cloud is about to be shown. */
   clear(): void {
     for (const tool of this.#tools) tool.clear?.();
     this.#compare.drop();
@@ -98,7 +98,7 @@ export class Tools {
       } else if (found.action !== "middle") {
         this.#toggle(this.#tools.find(({ name }) => name === found.action)!);
       } else if (viewer.cloud) {
-        // Else the same press would send off the form that has just got the focus.
+        // Otherwise the same press would submit the form that has just got the focus.
         event.preventDefault();
         const { width, height } = viewer.stage.size;
         this.#active?.click?.({ x: width / 2, y: height / 2, tolerance: TOLERANCE });
@@ -106,7 +106,7 @@ export class Tools {
     });
     this.#stage.addEventListener("keydown", (event) => {
       if (!isKeyOf("cancel", event) || !this.#active) return;
-      // First what has been begun, then the tool itself.
+      // First gives up a step that has been begun, then the tool itself.
       if (!this.#active.cancel?.()) this.#show(null);
       this.#canvas.focus();
     });

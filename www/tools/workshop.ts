@@ -6,14 +6,14 @@ import type { ExportActions } from "./export.ts";
 import type { Plot } from "./plot.ts";
 import type { Tools } from "./tools.ts";
 
-/** The tools over the cloud and the plot. They are loaded once the first cloud is there, which does not wait for them. */
+/** The tools over the cloud, and the plot. They are loaded after the first cloud, which does not wait for them. */
 export class Workshop {
   readonly #load: () => Promise<{ tools: Tools; plot: Plot }>;
   readonly #viewer: Viewer;
   #here: { tools: Tools; plot: Plot } | null = null;
   #coming = false;
   readonly #introduce: boolean;
-  /** The exponent of the automatic radius, as last heard of. */
+  /** The last known exponent of the automatic radius. */
   #automatic: number | null = null;
 
   constructor(viewer: Viewer, store: Store, actions: ExportActions, introduce: boolean) {
@@ -25,7 +25,7 @@ export class Workshop {
     };
   }
 
-  /** Whether the picture is divided only to show what the page is about. */
+  /** Whether the picture is divided only as an introduction to the page. */
   get introducing(): boolean {
     return this.#here ? this.#here.tools.introducing : this.#introduce;
   }
@@ -35,7 +35,7 @@ export class Workshop {
     this.#here?.tools.clear();
   }
 
-  /** A cloud is shown. Rejects where the tools cannot be had. */
+  /** A cloud is shown. Rejects if the tools cannot be loaded. */
   async begin(): Promise<void> {
     if (this.#here) {
       this.#here.plot.clear();

@@ -3,10 +3,10 @@ import { type Cloud, type Up, upVector } from "../cloud/cloud.ts";
 import { spreadOf } from "./spread.ts";
 import type { Theme } from "./theme.ts";
 
-/** How much of a selected point's own color is covered. */
+/** The share of a selected point's own color that is covered. */
 const CHOSEN_COVERAGE = 0.65;
 
-/** Before a vertex shader's `main`: the color of a vertex, and how much of it the lights leave. */
+/** Stands before the `main` of a vertex shader: the color of a vertex, and its brightness under the lights. */
 export const TINT_SHADER = /* glsl */ `
   uniform vec3 up, low, high;
   uniform vec2 heights;
@@ -29,13 +29,13 @@ export const TINT_SHADER = /* glsl */ `
   }
 `;
 
-/** What points and surface of a cloud share: places, colors and light, once on the graphics card. */
+/** Places, colors and light, which the points and the surface of a cloud share on the graphics card. */
 export class CloudAttributes {
-  /** For the materials of all that is drawn of the cloud. */
+  /** Shared by all materials of the cloud. */
   readonly uniforms = {
     up: { value: new Vector3(0, 1, 0) },
     heights: { value: new Vector2(-1, 1) },
-    // Drawn as they are: the shading pass and the screen both take display colors.
+    // Not converted: the shading pass and the screen both take display colors.
     low: { value: new Color() },
     high: { value: new Color() },
     lit: { value: false },
@@ -72,7 +72,7 @@ export class CloudAttributes {
     if (this.#color) geometry.setAttribute("color", this.#color);
     if (this.#brightness) geometry.setAttribute("brightness", this.#brightness);
     if (this.#chosen) geometry.setAttribute("chosen", this.#chosen);
-    // Else three.js looks for it, in all points, and for each geometry anew.
+    // Otherwise three.js computes it from all points, for each geometry again.
     geometry.boundingSphere = this.#bounds;
     this.#geometries.push(geometry);
   }
@@ -95,7 +95,7 @@ export class CloudAttributes {
     this.uniforms.heights.value.copy(rampHeights(this.#local, this.uniforms.up.value));
   }
 
-  /** Three bytes a point; `null` for the file's own colors, or two tones where it has none. */
+  /** Three bytes a point; `null` for the file's own colors, or for two tones if it has none. */
   setTints(tints: Uint8Array | null): void {
     const colors = tints ?? this.#ownColors;
     this.uniforms.colored.value = colors !== null;
@@ -105,7 +105,7 @@ export class CloudAttributes {
       this.#color.needsUpdate = true;
       return;
     }
-    // A copy: what is written here must not change the file's own.
+    // A copy: the file's own colors must not change.
     this.#color = new BufferAttribute(colors.slice(), 3, true).setUsage(DynamicDrawUsage);
     for (const geometry of this.#geometries) geometry.setAttribute("color", this.#color);
   }
@@ -124,12 +124,12 @@ export class CloudAttributes {
   }
 }
 
-/** As the shaders take colors: three.js' own are linear. */
+/** The display color that the shaders take; the colors of three.js are linear. */
 export function display(color: string): Color {
   return new Color(color).convertLinearToSRGB();
 }
 
-/** The heights between which the colors run: not from the lowest to the highest point, or a few strays would take the ramp. */
+/** The heights of the first and the last color. A few stray points below and above do not count. */
 function rampHeights(local: Float32Array, { x, y, z }: Vector3): Vector2 {
   const [low, high] = spreadOf(
     local.length / 3,

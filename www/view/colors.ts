@@ -20,8 +20,8 @@ const STEPS = 256;
 const MOST_ENTRIES = 12;
 
 /**
- * Matplotlib's viridis (van der Walt and Smith, 2015; CC0) at 16 places, straight between them, at most 7 of 255 off the
- * whole map: even to the eye, also to one that does not tell red from green, and readable without color.
+ * Matplotlib's viridis (van der Walt and Smith, 2015; CC0) at 16 places, linear between them, at most 7 of 255 off the
+ * whole map. It is even to the eye, also for the color-blind, and readable in gray.
  */
 const VIRIDIS_STOPS = [
   "#440154", "#481a6c", "#472f7d", "#414487", "#39568c", "#31688e", "#2a788e", "#23888e",
@@ -29,7 +29,7 @@ const VIRIDIS_STOPS = [
 ]; // prettier-ignore
 const VIRIDIS = Array.from({ length: STEPS }, (_, i) => viridis(i / (STEPS - 1)));
 
-/** Tableau 10: for categories, well apart from one another. */
+/** Tableau 10: colors for categories, easy to tell apart. */
 const TABLEAU = [
   "#4e79a7",
   "#f28e2c",
@@ -42,7 +42,7 @@ const TABLEAU = [
   "#9c755f",
   "#bab0ab",
 ];
-/** Classes that have a color of their own in everybody's mind; others take those above in turn. */
+/** Classes that everybody connects with a color. Other classes take the colors above in turn. */
 const CLASS_COLORS: Readonly<Record<string, string>> = {
   "never classified": "#9aa0a6",
   unclassified: "#b9bec4",
@@ -60,7 +60,7 @@ const CLASS_COLORS: Readonly<Record<string, string>> = {
 
 type Rgb = readonly [number, number, number];
 
-/** What a cloud can be colored by, with the words for it. */
+/** Everything that a cloud can be colored by, with a label. */
 export function colorChoices({ colors, attributes }: Cloud): { value: string; label: string }[] {
   return [
     { value: OWN_COLORS, label: colors ? "Its own colors" : "Two tones" },
@@ -89,13 +89,13 @@ function heights({ local, center }: Cloud, up: Up): (i: number) => number {
   return (i) => sign * (local[3 * i + axis]! + center[axis]);
 }
 
-/** Not from the least to the largest: a few strays would take the map. */
+/** A few stray values below and above do not count. */
 function ramp(count: number, value: (i: number) => number): Coloring {
   const [low, high] = spreadOf(count, value);
   const scale = high > low ? (STEPS - 1) / (high - low) : 0;
   const tints = painted(count, VIRIDIS, (i) => {
     const step = Math.round((value(i) - low) * scale);
-    // Not a number stands at the low end.
+    // NaN gets the lowest color.
     return step > 0 ? Math.min(STEPS - 1, step) : 0;
   });
   return { tints, legend: { kind: "ramp", low, high, colors: VIRIDIS_STOPS } };
@@ -117,19 +117,19 @@ function categories({ values, labels = {} }: Attribute): Coloring {
     color: shown.get(value)!,
     count: counts[known.indexOf(value)]!,
   }));
-  // The largest ones, where there are too many to be listed.
+  // If there are too many for the list, the largest ones.
   if (entries.length > MOST_ENTRIES) entries.sort((a, b) => b.count - a.count).splice(MOST_ENTRIES);
   return { tints, legend: { kind: "categories", entries } };
 }
 
-/** The values there are, in the order they are met, how many of each, and for every point the number of its own. */
+/** The different values in the order of the file, their counts, and for each point the number of its value. */
 function numbered(values: Values): { known: number[]; counts: number[]; numbers: Uint32Array } {
   const numberOf = new Map<number, number>();
   const counts: number[] = [];
   const numbers = new Uint32Array(values.length);
   let [value, number] = [NaN, -1];
   for (let i = 0; i < values.length; i++) {
-    // Neighbors in a file mostly belong together.
+    // Neighbors in a file mostly have the same value.
     if (values[i] !== value) {
       value = values[i]!;
       number = numberOf.get(value) ?? numberOf.size;
@@ -141,7 +141,7 @@ function numbered(values: Values): { known: number[]; counts: number[]; numbers:
   return { known: [...numberOf.keys()], counts, numbers };
 }
 
-/** Each point in one of some colors. */
+/** Gives each point one of the colors. */
 function painted(count: number, colors: readonly Rgb[], colorOf: (i: number) => number): Uint8Array {
   const bytes = Uint8Array.from(colors.flat());
   const tints = new Uint8Array(3 * count);

@@ -16,14 +16,14 @@ import {
 } from "three";
 
 /*
- * Eye-dome lighting (C. Boucheny, 2009): a scan has no normals to shade by, so a pixel is darkened by how far its
- * neighbors stand in front of it. Edges, folds and slopes come out, and points that shine through from behind show.
+ * Eye-dome lighting (C. Boucheny, 2009). A scan has no normals to shade by. So a pixel is darkened by the distance that its
+ * neighbors stand in front of it. Edges, folds and slopes become visible, and so do points that shine through from behind.
  */
 
 const STRENGTH = 150;
-/** Points wider than this many device pixels are shaded more softly, or each would get a rim of its own. */
+/** Points wider than this many device pixels are shaded more softly, since each would get its own dark rim. */
 const SOFT_FROM = 2;
-/** How far away the neighbors are, in device pixels; with wide points as far as this share of what they are wider. */
+/** The distance of the neighbors in device pixels; for wide points it grows by this share of their extra width. */
 const REACH = 1.6;
 const WIDE = 0.5;
 
@@ -47,7 +47,7 @@ const fragmentShader = /* glsl */ `
     vec2(1.0, 0.0), vec2(0.7, 0.7), vec2(0.0, 1.0), vec2(-0.7, 0.7),
     vec2(-1.0, 0.0), vec2(-0.7, -0.7), vec2(0.0, -1.0), vec2(0.7, -0.7));
 
-  /* log2 of the distance from the eye: a step counts by its share of the distance. */
+  /* log2 of the distance from the eye: equal ratios of distance are equal steps. */
   float logDistance(float depth) {
     float near = planes.x, far = planes.y;
     return log2(near * far / (far - depth * (far - near)));
@@ -80,7 +80,7 @@ const fragmentShader = /* glsl */ `
 export class EyeDome {
   /** The width of a point in the scene's units. */
   pointWidth = 1;
-  /** Off where something else tells the shape: the picture is drawn as it is. */
+  /** If it is off, the picture is drawn without shading; something else shows the shape. */
   enabled = true;
   readonly #target: WebGLRenderTarget;
   readonly #material: ShaderMaterial;
@@ -126,13 +126,13 @@ export class EyeDome {
     this.#material.uniforms["background"]!.value = color;
   }
 
-  /** Draws the scene shaded onto the screen; its depths go along, so that more can be drawn among the points. */
+  /** Draws the shaded scene onto the screen, with its depths, so that more can be drawn among the points. */
   render(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
     this.#shade(renderer, scene, camera);
     this.#draw(renderer, null);
   }
 
-  /** Draws a scene over the one before, however near that is: as one layer, however many points lie behind one another. */
+  /** Draws a scene as one transparent layer over the one before, whatever their depths are. */
   renderOver(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera, opacity: number): void {
     this.#shade(renderer, scene, camera);
     this.#draw(renderer, opacity);
@@ -161,7 +161,7 @@ export class EyeDome {
     this.#material.uniforms["softness"]!.value = (this.pointWidth * pixels) / SOFT_FROM;
   }
 
-  /** Onto the screen: with `null` in the place of what is there, else as a layer of that opacity. */
+  /** Draws onto the screen: a layer of an opacity, or with `null` a new picture. */
   #draw(renderer: WebGLRenderer, layer: number | null): void {
     const { uniforms } = this.#material;
     uniforms["layer"]!.value = layer !== null;

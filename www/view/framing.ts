@@ -4,7 +4,7 @@ import type { Sample } from "../samples/samples.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import type { Pose } from "./navigation.ts";
 
-/** Where a cloud is first looked at from: the camera's pose, and the same place in the file's coordinates. */
+/** The first view of a cloud: the camera's pose, and its place in the file's coordinates. */
 export interface Home {
   pose: Pose;
   viewpoint: Viewpoint;
@@ -16,16 +16,16 @@ export interface Lens {
   aspect: number;
 }
 
-/** From a little to the side and above, for files nobody has chosen a view for. */
+/** The first direction for files that nobody has chosen a view for: a little from the side and from above. */
 const FROM: Record<Up, [number, number, number]> = { y: [0.55, 0.4, 1], z: [0.55, -1, 0.5], "-y": [0.3, -0.25, -1] };
 
-/** A place to look from that was asked for, and what is looked at, if not the middle of the cloud. */
+/** A view that was asked for. Without a target the camera looks at the middle of the cloud. */
 export interface AskedView {
   at: Viewpoint;
   target: Viewpoint | null;
 }
 
-/** The view asked for, or the sample's own, or one from which the whole cloud is in the picture. */
+/** The view that was asked for, or the sample's own, or a view of the whole cloud. */
 export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: AskedView | null, lens: Lens): Home {
   const upward = new Vector3(...upVector(up));
   const at = (viewpoint: Viewpoint, target: Vector3) => ({
@@ -36,7 +36,7 @@ export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: Aske
   if (view) {
     const from = inLocal(cloud, view.at);
     const target = view.target ? inLocal(cloud, view.target) : new Vector3();
-    // Where one stands there is nothing to turn to: look ahead.
+    // The camera stands at its target and cannot turn to it: it looks ahead.
     const ahead = from.distanceTo(target) > 1e-6 * cloud.radius;
     return at(view.at, ahead ? target : from.add(new Vector3(...FROM[up]).setLength(-0.1 * cloud.radius)));
   }
@@ -50,12 +50,12 @@ export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: Aske
   };
 }
 
-/** Whether anything of the cloud could be seen from there: beyond, it is far below a pixel, and further out f32 gives up. */
+/** Whether the cloud could be seen from there. From further away it is far smaller than a pixel. */
 function isInReach(cloud: Cloud, view: Viewpoint): boolean {
   return Math.hypot(...view.map((value, axis) => value - cloud.center[axis]!)) <= 1e6 * cloud.radius;
 }
 
-/** Of the places that are asked for those in reach, and what is to be said about the others: the view "in the address" … */
+/** Keeps the places that are in reach, and says in notes that the others are not. `asked`: "in the address". */
 export function inReachOnly(
   cloud: Cloud,
   view: AskedView | null,
@@ -98,12 +98,12 @@ export function inLocal({ center }: Cloud, place: Viewpoint): Vector3 {
   return new Vector3(place[0] - center[0], place[1] - center[1], place[2] - center[2]);
 }
 
-/** A place in the recentered coordinates in those of the file. */
+/** From the recentered coordinates to those of the file. */
 export function inFile(cloud: Cloud, local: Vector3): Viewpoint {
   return [local.x + cloud.center[0], local.y + cloud.center[1], local.z + cloud.center[2]];
 }
 
-/** How far away along `from` the camera has to be for all corners of the bounding box to be in the picture. */
+/** The least distance along `from` at which all corners of the bounding box are in the picture. */
 function fittingDistance({ size, radius }: Cloud, from: Vector3, up: Vector3, { fov, aspect }: Lens): number {
   const tangent = Math.tan((fov * Math.PI) / 360);
   const right = up.clone().cross(from).normalize();

@@ -1,7 +1,7 @@
 import { CameraHelper, Color, type Object3D, PerspectiveCamera, type Quaternion, Vector3 } from "three";
 import type { Theme } from "./theme.ts";
 
-/** Where the frozen viewpoint is: a small camera in the accent color, of a fixed share of the cloud's size. */
+/** Marks the frozen viewpoint: a small camera in the accent color. Its size is a fixed share of the cloud's. */
 export class ViewpointMarker {
   readonly #parent: Object3D;
   #helper: CameraHelper | null = null;
@@ -32,7 +32,7 @@ export class ViewpointMarker {
     this.#paint();
   }
 
-  /** From within the marker there would be nothing but its lines across the picture. */
+  /** From inside the marker one would see nothing but its lines, so it is hidden there. */
   follow(camera: PerspectiveCamera): void {
     if (this.#helper) this.#helper.visible = camera.position.distanceTo(this.#at) > this.#size;
   }

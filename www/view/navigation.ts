@@ -17,7 +17,7 @@ export class Navigation {
   onMove: () => void = () => undefined;
   readonly #camera: PerspectiveCamera;
   readonly #canvas: HTMLCanvasElement;
-  /** Whether the wheel and one finger scroll the page around the picture until that has the focus. */
+  /** Whether the wheel and one finger scroll the page around, as long as the picture does not have the focus. */
   readonly #polite: boolean;
   #controls: OrbitControls;
 
@@ -29,11 +29,11 @@ export class Navigation {
     canvas.addEventListener("keydown", (event) => {
       this.#onKey(event);
     });
-    // In the capture phase, so that the orbit controls do not zoom as well. Some systems turn the wheel sideways with Alt.
+    // In the capture phase, so that the orbit controls do not zoom as well. With Alt some systems scroll sideways.
     canvas.addEventListener(
       "wheel",
       (event) => {
-        // With Ctrl it is a pinch on a touchpad, or would zoom the whole page.
+        // With Ctrl it is a pinch on a touchpad, or it would zoom the whole page.
         const others = !this.#attended && !event.ctrlKey;
         if (others || event.altKey) event.stopImmediatePropagation();
         if (others || !event.altKey) return;
@@ -62,7 +62,7 @@ export class Navigation {
     return this.#controls.target;
   }
 
-  /** OrbitControls read the camera's up once, when they are made: a new home gets new ones. */
+  /** OrbitControls read the camera's up only when they are made, so each first view gets new ones. */
   #place({ at, target, up }: Pose): OrbitControls {
     this.#camera.up.copy(up);
     this.#camera.position.copy(at);
@@ -73,7 +73,7 @@ export class Navigation {
     controls.minDistance = distance / 1000;
     controls.maxDistance = distance * 1000;
     controls.update();
-    // The controls go by angles and come back a few bits off; the viewpoint asked for is the one to answer.
+    // The controls compute with angles and are a few bits off. The answer is for exactly the place that was asked for.
     this.#camera.position.copy(at);
     controls.addEventListener("change", () => {
       this.onMove();
@@ -97,7 +97,7 @@ export class Navigation {
     event.preventDefault();
     const { action, nth } = found;
     if (action === "zoom") {
-      // "+" may be written without Shift, as "=".
+      // "=" is "+" without Shift.
       if (nth < 2) this.#controls.dollyIn(ZOOM_STEP);
       else this.#controls.dollyOut(ZOOM_STEP);
       return;

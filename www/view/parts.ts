@@ -1,13 +1,13 @@
-/** What a reference says of a point. */
+/** The answer of a reference about a point. */
 export const HIDDEN = 0;
 export const VISIBLE = 1;
-/** It lies outside the picture, of which alone a z-buffer knows. */
+/** It lies outside the picture, so a z-buffer does not know it. */
 export const OUTSIDE = 2;
 
-/** Our answer beside that of a reference. */
+/** Our answer beside the answer of a reference. */
 export interface Parts {
   /**
-   * All points, by what is said of them, each part in ascending order; where every part but the last ends, `ends` says:
+   * All points in five parts, each in ascending order. `ends` holds the ends of the first four parts:
    *
    *     order   [ both see | only ours | only the reference | ours, outside | the rest ]
    */
@@ -15,7 +15,7 @@ export interface Parts {
   ends: [both: number, onlyOurs: number, onlyReference: number, outside: number];
 }
 
-/** `said` has one of the above for each point; `ours` is ascending. */
+/** `said`: the reference's answer about each point. `ours`: our visible points, ascending. */
 export function partsOf(said: Uint8Array, ours: Uint32Array): Parts {
   const kinds = new Uint8Array(said.length);
   const sizes = [0, 0, 0, 0, 0];

@@ -14,23 +14,23 @@ import type { HiddenMode } from "../settings/settings.ts";
 import { type CloudAttributes, display, TINT_SHADER } from "./attributes.ts";
 import type { Theme } from "./theme.ts";
 
-/** How much of the theme's color for hidden points covers their own. */
+/** The share of a hidden point's own color that the theme's color for hidden points covers. */
 const COVERAGE = 0.7;
 
-/** How much is seen of hidden points that are drawn through the visible ones, and how wide they are at most, in spacings. */
+/** Hidden points that are drawn through the visible ones: their opacity, and their greatest width in spacings. */
 export const THROUGH_OPACITY: Record<HiddenMode, number> = { off: 0, dimmed: 0.4, shown: 0.85 };
 const THROUGH_WIDTH = 0.45;
 
-/** Device pixels: above, one near point covers the view. */
+/** The greatest width of a point in device pixels: a wider one would cover the view. */
 export const MOST_PIXELS = 160;
-/** Device pixels: further to the right than any picture goes. */
+/** In device pixels: to the right of any picture. */
 const EVERYWHERE = 1e9;
 
 const vertexShader = /* glsl */ `
   ${TINT_SHADER}
-  /* The width of a point in the cloud's units, and how many pixels a unit has at distance 1. */
+  /* The width of a point in the cloud's units, and the length of a unit at distance 1 in pixels. */
   uniform float width, pixels;
-  /* The least pixels of a point: below, it flickers. */
+  /* The least width of a point in pixels: a smaller one flickers. */
   uniform float least;
   uniform vec3 cover;
   uniform float coverage;
@@ -47,7 +47,7 @@ const vertexShader = /* glsl */ `
 `;
 
 const fragmentShader = /* glsl */ `
-  /* Pixels from the left between which it is drawn. */
+  /* It is drawn between these two distances from the left, in pixels. */
   uniform vec2 between;
   varying vec3 tint;
   varying float size;
@@ -63,22 +63,22 @@ const fragmentShader = /* glsl */ `
 type Draw = Points<BufferGeometry, ShaderMaterial>;
 
 /**
- * The cloud as draws of the same points: `solid` for the visible ones, `ghost` for the hidden ones. They share one index
- * buffer, written anew for each answer: first the visible points, then the hidden ones, if these are drawn at all.
+ * The cloud in several draws of the same points: `solid` for the visible ones, `ghost` for the hidden ones. They share one
+ * index buffer, which is written for each answer: first the visible points, then the hidden ones, if these are drawn.
  *
  *      index   [ visible …… | hidden …………… ]
  *                solid ────   ghost ───────
  *
- * Beside a reference they are those of `Parts`: what both see is drawn everywhere, the rest on its own side of the divider.
+ * Beside a reference the draws are the parts of `Parts`: points that both see are drawn everywhere, the others on one side.
  */
 export class CloudPoints {
   readonly solid: Draw;
   readonly ghost: Draw;
-  /** What only ours shows: mostly behind what the reference does. */
+  /** Points that only our answer shows: mostly behind points of the reference. */
   readonly extra: Draw;
-  /** What else ours and the reference tell apart. */
+  /** The other differences between our answer and the reference. */
   readonly different = new Group();
-  /** Of that, what only the reference shows. */
+  /** Points that only the reference shows; a part of `different`. */
   readonly #missing: Draw;
   readonly #order: BufferAttribute;
   readonly #spacing: number;
@@ -88,11 +88,11 @@ export class CloudPoints {
   #width = 0;
   #visible: Uint32Array = new Uint32Array();
   #hiddenListed = true;
-  /** Whether the hidden points, or what only ours shows, are drawn through the others: as specks, for both to be seen. */
+  /** Whether `ghost` and `extra` are drawn through the other points: as specks, so that both can be seen. */
   #throughOthers = true;
-  /** Where the picture is divided, as a share of its width from its left: hidden points are left of it. */
+  /** The place of the divider, as a share of the picture's width. Hidden points are to its left. */
   #divider = 1;
-  /** Whether what only the reference shows is drawn on both sides. */
+  /** Whether points that only the reference shows are drawn on both sides. */
   #fill = false;
 
   constructor(cloud: Cloud, attributes: CloudAttributes, theme: Theme) {
@@ -173,13 +173,13 @@ export class CloudPoints {
     this.#upload(visible.length, order.length);
   }
 
-  /** What of the order has been written anew; three.js forgets the ranges once they are on the graphics card. */
+  /** Sends a range of the order to the graphics card. Then three.js forgets the range. */
   #upload(from: number, to: number): void {
     this.#order.addUpdateRange(from, to - from);
     this.#order.needsUpdate = true;
   }
 
-  /** The answer beside a reference, whose own points `fill` the gaps of ours or stay on their side. Keeps the order for itself. */
+  /** Draws our answer beside a reference. With `fill` the reference's points fill our gaps on our side, too. Keeps `order`. */
   setParts({ order, ends }: Parts, fill: boolean): void {
     this.#order.array = order;
     this.#order.clearUpdateRanges();
@@ -190,7 +190,7 @@ export class CloudPoints {
     this.#setRanges(ends);
   }
 
-  /** Hidden points, and up to which share of the picture's width. */
+  /** Shows hidden points, up to a share of the picture's width. */
   show(mode: HiddenMode, frozen: boolean, divider = 1): void {
     this.#divider = divider;
     this.ghost.visible = mode !== "off";
@@ -211,14 +211,14 @@ export class CloudPoints {
     for (const [{ material }, color] of colors) material.uniforms["cover"]!.value = display(color);
   }
 
-  /** In multiples of the points' rough distance from one another; the width of a point in the cloud's units. */
+  /** Takes multiples of the points' rough distance from one another; returns the width of a point in the cloud's units. */
   setPointSize(size: number): number {
     this.#width = size * this.#spacing;
     this.#setWidths();
     return this.#width;
   }
 
-  /** One draw after another, and the hidden points in the last. */
+  /** Gives each draw its part of the order; the hidden points are the last. */
   #setRanges(ends: readonly number[]): void {
     let from = 0;
     [...ends, this.#order.count].forEach((end, i) => {
@@ -242,12 +242,12 @@ export class CloudPoints {
   }
 }
 
-/** As if the points lay evenly on the faces of their bounding box: near enough for a surface, and nothing to search. */
+/** As if the points lay evenly on the faces of their bounding box. It is near enough for a surface, and needs no search. */
 function roughSpacing({ size: [x, y, z], count }: Cloud): number {
   return Math.sqrt((2 * (x * y + y * z + z * x)) / count);
 }
 
-/** Few points are drawn large enough to be found. */
+/** A few points are drawn larger, so that they can be found. */
 function leastPixels(count: number): number {
   return count < 100 ? 6 : count < 1000 ? 3 : 1.5;
 }

@@ -2,7 +2,7 @@ import type { TimedView } from "../ask/inquiry.ts";
 
 const number = new Intl.NumberFormat("en-US");
 
-/** What people and screen readers are told of an answer. */
+/** An answer in words, for everybody and for screen readers. */
 export function sentenceOf({ visibility, quick, milliseconds }: TimedView, total: number, frozen: boolean): string {
   const one = visibility.count === 1;
   const where = frozen
@@ -14,7 +14,7 @@ export function sentenceOf({ visibility, quick, milliseconds }: TimedView, total
   return `${number.format(visibility.count)} of ${number.format(total)} ${total === 1 ? "point" : "points"} (${share}) ${where}, found in ${time}\u00a0ms${standIn}.`;
 }
 
-/** Rounded, but neither to none nor to all where that is not so. */
+/** Rounded, but to 0 % only for none, and to 100 % only for all. */
 function percent(count: number, total: number): string {
   const share = total > 0 ? Math.round((100 * count) / total) : 0;
   if (share === 0 && count > 0) return "<\u00a01\u00a0%";

@@ -1,8 +1,8 @@
-/** The share of the values below and above which there may be strays, and how many values tell where that is. */
+/** The share of values at either end that may be strays, and the number of values that are looked at. */
 const STRAYS = 0.01;
 const SAMPLE = 5000;
 
-/** Between which two of a cloud's values nearly all are; two equal ones where nothing else is finite. */
+/** The two values between which nearly all values are; finite ones only. */
 export function spreadOf(count: number, value: (i: number) => number): [low: number, high: number] {
   const step = Math.ceil(count / SAMPLE);
   const sample = new Float64Array(Math.ceil(count / step));

@@ -3,19 +3,19 @@ import { display } from "./attributes.ts";
 import { EyeDome } from "./eye-dome.ts";
 import { type Theme, THEMES } from "./theme.ts";
 
-/** The canvas: one camera, the shaded points, those drawn through them, and an overlay of what is drawn among them unshaded. */
+/** The canvas: one camera, the shaded points, points drawn through them, and an overlay among them without shading. */
 export class Stage {
   readonly camera = new PerspectiveCamera(45, 1, 0.01, 100);
   readonly points = new Scene();
   readonly through = new Scene();
   readonly overlay = new Scene();
-  /** Called before each frame is drawn or found unchanged. */
+  /** Called before each frame, also before one that need not be drawn. */
   onFrame: () => void = () => undefined;
-  /** Called before a frame from another place, or in another direction, than the last. */
+  /** Called before a frame whose camera has moved or turned. */
   onCamera: () => void = () => undefined;
-  /** Called when the picture has got another shape, before it is drawn anew. */
+  /** Called when the picture has got another size, before it is drawn again. */
   onResize: () => void = () => undefined;
-  /** Called when the browser takes the picture's memory away, as it may at any time, and when it gives it back. */
+  /** Called when the browser takes the picture's memory away, and when it gives it back. It may do so at any time. */
   onLost: () => void = () => undefined;
   onRestored: () => void = () => undefined;
 
@@ -30,7 +30,7 @@ export class Stage {
   #shape = { width: 1, height: 1 };
   #changed = true;
   #drawnFrom = "";
-  /** Half the size of what is to be seen, around the origin. */
+  /** The radius of everything that is drawn, around the origin. */
   #extent = 1;
   #throughOpacity = 1;
 
@@ -54,12 +54,12 @@ export class Stage {
     });
   }
 
-  /** Of the picture in CSS pixels. */
+  /** The size of the picture in CSS pixels. */
   get size(): { width: number; height: number } {
     return this.#shape;
   }
 
-  /** Of the picture in its own pixels. */
+  /** The size of the picture in its own pixels. */
   get resolution(): Vector2 {
     return this.#renderer.getDrawingBufferSize(new Vector2());
   }
@@ -74,7 +74,7 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Of a point, in the cloud's units. */
+  /** The width of a point in the cloud's units. */
   get pointWidth(): number {
     return this.#eyeDome.pointWidth;
   }
@@ -90,7 +90,7 @@ export class Stage {
     this.invalidate();
   }
 
-  /** How much of the points drawn through the others is seen. */
+  /** The opacity of points that are drawn through the others. */
   setThroughOpacity(opacity: number): void {
     this.#throughOpacity = opacity;
     this.invalidate();
@@ -101,26 +101,26 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Something other than the camera has changed: draw again. */
+  /** Draws the next frame although the camera has not moved. */
   invalidate(): void {
     this.#changed = true;
   }
 
-  /** Draws no more, and gives the graphics card its memory back; the canvas is of no further use. */
+  /** Stops drawing and frees the memory of the graphics card. The canvas cannot be used again. */
   dispose(): void {
     this.#resizing.disconnect();
     this.#renderer.setAnimationLoop(null);
     this.#eyeDome.dispose();
     this.#renderer.dispose();
     this.onLost = () => undefined;
-    // Browsers keep only so many pictures alive, and a context goes late by itself.
+    // Browsers keep only a few contexts alive, and would free this one late.
     this.#renderer.forceContextLoss();
   }
 
   #resize(): void {
     const { clientWidth: width, clientHeight: height } = this.#canvas;
     if (width === 0 || height === 0) return;
-    // Asked of the document once: each time it would have to be laid out first.
+    // Kept: reading it again makes the browser lay the document out.
     this.#shape = { width, height };
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.#renderer.setSize(width, height, false);
@@ -129,16 +129,16 @@ export class Stage {
     this.invalidate();
   }
 
-  /** How many of its own pixels the picture has for each CSS pixel. */
+  /** Pixels of the picture for each CSS pixel. */
   get pixelRatio(): number {
     return this.#renderer.getPixelRatio();
   }
 
-  /** The picture as it is now, as a PNG file; rejects where there is none. */
+  /** The present picture as a PNG file; rejects if there is none. */
   snapshot(): Promise<Blob> {
     if (this.#renderer.getContext().isContextLost())
       return Promise.reject(new Error("the browser has taken the picture away"));
-    // What is drawn is there to be read until the browser has shown it.
+    // A picture can be read only until the browser has shown it.
     this.invalidate();
     this.#frame();
     return new Promise((resolve, reject) => {
@@ -170,18 +170,18 @@ export class Stage {
 }
 
 /**
- * Between which distances something of that extent, so far away, is drawn. As tight as it allows: the depth buffer is shared
- * by clouds of a millimeter and of a hundred kilometers.
+ * The two distances between which a thing is drawn. They are as near to each other as possible, since clouds of a
+ * millimeter and of a hundred kilometers share one depth buffer.
  */
 export function clipping(distance: number, extent: number): { near: number; far: number } {
   const far = distance + 1.1 * extent;
   return { near: Math.max(distance - 1.1 * extent, far / 5000), far };
 }
 
-/** What three.js asks for. */
+/** The same attributes that three.js asks for. */
 const CONTEXT: WebGLContextAttributes = { alpha: true, antialias: false, powerPreference: "high-performance" };
 
-/** Whether this browser can draw on a canvas: asked before three.js, which logs where it cannot, and takes over the context that is made here. */
+/** Whether this browser can draw on a canvas. Asked before three.js, which would log an error; it takes this context over. */
 export function canDraw(canvas: HTMLCanvasElement): boolean {
   return canvas.getContext("webgl2", CONTEXT) !== null;
 }

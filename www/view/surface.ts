@@ -18,14 +18,14 @@ const vertexShader = /* glsl */ `
 
 const fragmentShader = /* glsl */ `
   uniform bool lit;
-  /* Of the surface's inside, seen when the viewpoint is frozen and the camera behind it. */
+  /* The color of the surface's inside, which is seen if the viewpoint is frozen and the camera behind the surface. */
   uniform vec3 inside;
   varying vec3 tint, place;
   varying float bright;
 
   void main() {
     vec3 base = gl_FrontFacing ? tint : inside;
-    // Where there are lights, nothing but them shades; else a lamp a little above the viewer.
+    // If there are lights, only they shade; otherwise a lamp a little above the viewer does.
     float shade = bright;
     if (!lit) {
       vec3 across = normalize(cross(dFdx(place), dFdy(place)));
@@ -36,7 +36,7 @@ const fragmentShader = /* glsl */ `
   }
 `;
 
-/** The reconstructed surface: triangles between the cloud's own points, flat between their edges. */
+/** The reconstructed surface: flat triangles between the cloud's own points. */
 export class Surface {
   readonly mesh: Mesh<BufferGeometry, ShaderMaterial>;
 
@@ -65,7 +65,7 @@ export class Surface {
     if (!triangles) return;
     const { geometry } = this.mesh;
     const last = geometry.index;
-    // A little more than needed, so that not each answer of an orbit takes new memory on the graphics card.
+    // A little more than needed, so that most answers need no new memory on the graphics card.
     const index =
       last && triangles.length <= last.array.length
         ? last

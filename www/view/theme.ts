@@ -1,19 +1,19 @@
-/** What the canvas is drawn in. The page around it has the same colors from theme.css. */
+/** The colors of the canvas. The page around it has the same colors from styles/theme.css. */
 export interface Theme {
   background: string;
-  /** Where a file has no colors: from low to high, two calm tones that leave the shape to the shading. */
+  /** For files without colors: two calm tones from low to high. The shading shows the shape. */
   low: string;
   high: string;
-  /** All points alike. */
+  /** For all points, if they are drawn in one color. */
   plain: string;
-  /** Hidden points have a hue of their own; dimmed ones are nearer the background where nothing stands before them. */
+  /** Hidden points have a hue of their own. Dimmed ones that nothing covers are nearer to the background. */
   hidden: string;
   hiddenDimmed: string;
   /** Selected points. */
   chosen: string;
   /**
-   * Where ours and a reference differ. Apart in hue for everyone, also for eyes that do not tell red from green or blue
-   * from yellow, and in neither color are points drawn else. The page's swatches have them from theme.css.
+   * The differences between our answer and a reference. Everybody can tell the two hues apart, also the color-blind, and
+   * nothing else is drawn in them. The page's swatches have the same colors from styles/theme.css.
    */
   onlyOurs: string;
   onlyReference: string;

@@ -20,14 +20,14 @@ import { type Theme, THEMES } from "./theme.ts";
 /** A cloud that is ready to be shown, with the first answer about it. */
 export interface Opened {
   cloud: Cloud;
-  /** As the file has them. */
+  /** The file's own coordinates. */
   positions: Float32Array | Float64Array;
   inquiry: Inquiry;
   home: Home;
   answer: TimedView;
-  /** Where to look at it from with that side up, in a picture of the shape it has now. */
+  /** The first view with that side up, for the present shape of the picture. */
   findHome: (up: Up) => Home;
-  /** The surface its points were taken from; where it is not known, a sentence says why. */
+  /** The surface that its points were taken from; if it is not known, a sentence says why. */
   surface: KnownSurface | string;
 }
 
@@ -35,11 +35,11 @@ type Shown = Opened & {
   attributes: CloudAttributes;
   points: CloudPoints;
   mesh: Surface;
-  /** The way one looks from where the viewpoint stays. */
+  /** The direction of the frozen viewpoint. */
   frozen: Quaternion | null;
 };
 
-/** What is on screen: one cloud, the camera before it, and the viewpoint its points are filtered for. */
+/** The picture: one cloud, the camera, and the viewpoint whose visible points are shown. */
 export class Viewer {
   readonly stage: Stage;
   readonly navigation: Navigation;
@@ -47,9 +47,9 @@ export class Viewer {
   onLight: (answer: LightAnswer | null) => void = () => undefined;
   onAutomatic: (exponent: number) => void = () => undefined;
   onError: (error: unknown) => void = () => undefined;
-  /** Whether the picture lags behind the camera and the settings; told whenever it may have changed. */
+  /** Whether an answer for the present camera and settings is still to come. Called whenever that may have changed. */
   onBusy: (busy: boolean) => void = () => undefined;
-  /** What the colors mean, whenever they are others. */
+  /** Called with a legend whenever the colors change. */
   onLegend: (legend: Legend | null) => void = () => undefined;
   /** Called before each frame. */
   onFrame: () => void = () => undefined;
@@ -60,10 +60,10 @@ export class Viewer {
   #theme = THEMES.dark;
   #lit = false;
   #surfaceShown = false;
-  /** Whether points are drawn by what a reference says of them. */
+  /** Whether the picture shows our answer beside a reference. */
   #compared = false;
 
-  /** `polite`: the page around the picture can be scrolled over it. */
+  /** `polite`: over the picture one can scroll the page around it. */
   constructor(canvas: HTMLCanvasElement, store: Store, polite: boolean) {
     this.#store = store;
     this.stage = new Stage(canvas);
@@ -77,7 +77,7 @@ export class Viewer {
     this.navigation.onMove = () => {
       this.#inquire();
     };
-    // Who has not moved yet goes on seeing the whole cloud; who has stays there.
+    // Before the first move, the whole cloud stays in the picture; afterwards the camera stays where it is.
     this.stage.onResize = () => {
       if (this.isHome) this.reset();
     };
@@ -91,22 +91,22 @@ export class Viewer {
     return this.#shown?.cloud ?? null;
   }
 
-  /** What the tools work on; only while there is a cloud. */
+  /** For the tools; only while there is a cloud. */
   get scene(): Opened & { visible: Uint32Array } {
     return { ...this.#shown!, visible: this.#shown!.answer.visibility.indices };
   }
 
-  /** The way one looks from the viewpoint: the camera's, or that of where it stays. */
+  /** The direction of the viewpoint: the camera's, or the frozen one. */
   get direction(): Quaternion {
     return this.#shown!.frozen ?? this.stage.camera.quaternion;
   }
 
-  /** Whether the camera stands where it stood at first. */
+  /** Whether the camera stands at the place of the first view. */
   get isHome(): boolean {
     return this.#shown !== null && this.stage.camera.position.equals(this.#shown.home.pose.at);
   }
 
-  /** Whether it looks at what it looked at first; orbit controls change that by a bit each time. */
+  /** Whether it looks at the target of the first view. Orbit controls move that by a few bits. */
   get isTargetHome(): boolean {
     return (
       this.#shown !== null &&
@@ -114,19 +114,19 @@ export class Viewer {
     );
   }
 
-  /** The camera's place in the file's coordinates: at home exactly the numbers that were asked for. */
+  /** The camera's place in the file's coordinates. At the first view these are exactly the numbers that were asked for. */
   get viewpoint(): Viewpoint {
     const { cloud, home } = this.#shown!;
     return this.isHome ? home.viewpoint : inFile(cloud, this.stage.camera.position);
   }
 
-  /** What the camera looks at, in the file's coordinates; `null` for the middle of the cloud. */
+  /** The camera's target in the file's coordinates; `null` for the middle of the cloud. */
   get target(): Viewpoint | null {
     const { target } = this.navigation;
     return target.lengthSq() === 0 ? null : inFile(this.#shown!.cloud, target);
   }
 
-  /** Takes the cloud away, so that settings can be made for the next. */
+  /** Removes the cloud, so that the settings for the next one can be made. */
   clear(): void {
     if (!this.#shown) return;
     this.#shown.inquiry.dispose();
@@ -140,7 +140,7 @@ export class Viewer {
     this.stage.invalidate();
   }
 
-  /** Ends the picture, its worker and its hold on the canvas, which is of no further use. */
+  /** Ends the picture and its worker. The canvas cannot be used again. */
   dispose(): void {
     this.clear();
     this.#marker.remove();
@@ -180,7 +180,7 @@ export class Viewer {
     this.#setUp(this.#store.current.up);
     this.#paint(this.#store.current);
     inquiry.onView(answer);
-    // What is wrong with the worker shows in the next answer.
+    // If something is wrong with the worker, the next answer tells it.
     inquiry.findAutomatic().catch(() => undefined);
     this.#inquire();
   }
@@ -191,14 +191,14 @@ export class Viewer {
     this.stage.invalidate();
   }
 
-  /** Makes another view the first one, and goes there. */
+  /** Makes another view the first one, and moves the camera there. */
   setHome(findHome: Opened["findHome"]): void {
     if (!this.#shown) return;
     this.#shown.findHome = findHome;
     this.reset();
   }
 
-  /** Draws the last answer beside a reference until told anew, also while there are newer answers; `null` for those alone. */
+  /** Draws the last answer beside a reference, also while newer answers come; with `null`, the newest answer alone. */
   showParts(parts: Parts | null, fill = false): void {
     if (!this.#shown || (!parts && !this.#compared)) return;
     this.#compared = parts !== null;
@@ -218,7 +218,7 @@ export class Viewer {
     this.#paint(this.#store.current);
   }
 
-  /** Looks at the cloud as for the first time. */
+  /** Goes back to the first view. */
   reset(): void {
     if (!this.#shown) return;
     this.#shown.home = this.#shown.findHome(this.#store.current.up);
@@ -234,7 +234,7 @@ export class Viewer {
     if (now.color !== before.color || turned) this.#paint(now);
     if (now.freeze !== before.freeze) this.#placeMarker(now.freeze);
     this.#applyLook(now);
-    // Upright another way, the cloud is looked at as for the first time.
+    // With another side up, the camera goes back to the first view.
     if (turned) this.reset();
     this.#inquire();
   }
@@ -256,7 +256,7 @@ export class Viewer {
     this.#setShape();
   }
 
-  /** The surface in the place of the points, unless they are compared. */
+  /** Shows the surface instead of the points, unless there is a comparison. */
   #setShape(): void {
     const { points, mesh, answer } = this.#shown!;
     this.#surfaceShown = answer.triangles !== null && !this.#compared;
@@ -265,7 +265,7 @@ export class Viewer {
     this.#setShading();
   }
 
-  /** Points have no normals to shade by; a surface has, and light is not to be shaded once more. */
+  /** Points have no normals, so they are shaded by their depths. A surface, and points under lights, are not. */
   #setShading(): void {
     this.stage.setEyeDome(!this.#surfaceShown && !this.#lit);
   }
@@ -284,8 +284,8 @@ export class Viewer {
   }
 
   /**
-   * Points have no size of their own, so nothing of a cloud really covers anything: as long as the viewpoint goes with the
-   * camera, hidden points are drawn through the visible ones. Seen from elsewhere, they stand where they are.
+   * Points have no size of their own, so they do not really cover each other. While the viewpoint goes with the camera,
+   * hidden points are drawn through the visible ones. From another place they are drawn where they are.
    */
   #applyLook({ hidden: chosen, freeze, compare, size, fieldOfView }: Settings): void {
     const { points } = this.#shown!;
@@ -298,7 +298,7 @@ export class Viewer {
     this.stage.setFieldOfView(fieldOfView);
   }
 
-  /** Marks where the viewpoint stays, in the direction of the camera if that is there, else of what it looks at. */
+  /** Marks the frozen viewpoint. It has the direction of the camera if that stands there, else it looks at the target. */
   #placeMarker(freeze: Viewpoint | null): void {
     this.#marker.remove();
     const { cloud } = this.#shown!;
@@ -315,7 +315,7 @@ export class Viewer {
     );
     this.#shown!.frozen = here ? camera.quaternion.clone() : toTarget;
     this.#marker.place(at, this.#shown!.frozen, 0.18 * cloud.radius);
-    // The marker has to be in the picture too, from wherever one looks back at it.
+    // The marker must be in the picture, too, from wherever the camera looks back at it.
     this.stage.setExtent(Math.max(cloud.radius, at.length() + 0.2 * cloud.radius));
   }
 }

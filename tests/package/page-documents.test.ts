@@ -1,0 +1,94 @@
+// The tables of settings and keys in the documents are those of the page. After a change of the page,
+// `HPR_WRITE=1 npx vitest run tests/package/page-documents.test.ts` writes them anew.
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { expect, test } from "vitest";
+import { ELEMENT_KEYS, KEYS, type Key, shownKeys } from "../../www/controls/keys.js";
+import { ATTRIBUTE_NAMES, rowOf } from "../../www/element/attributes.js";
+import { SAMPLES } from "../../www/samples/samples.js";
+import { type AnyParameter, PARAMETERS, type Setting, SETTINGS } from "../../www/settings/table.js";
+import { root } from "../root.js";
+
+type AnyRow = Setting<never>;
+
+const settings = Object.values(SETTINGS) as unknown as AnyRow[];
+const parameters = Object.entries(PARAMETERS) as unknown as [string, AnyParameter][];
+
+function table(head: readonly string[], rows: readonly (readonly string[])[]): string {
+  const line = (cells: readonly string[]) => `| ${cells.join(" | ")} |`;
+  return [line(head), `|${"---|".repeat(head.length)}`, ...rows.map(line)].join("\n");
+}
+
+/** The usual value, where the row has no words of its own for it. */
+function without(row: AnyParameter, usual?: AnyRow): string {
+  return row.without ?? (usual ? `\`${usual.write(usual.usual)}\`` : "");
+}
+
+const BLOCKS: Record<string, { document: string; text: () => string }> = {
+  "parameters of the address": {
+    document: "docs/ADDRESS.md",
+    text: () => {
+      const names = SAMPLES.map(({ name }) => name).join(", ");
+      const clouds = [
+        ["`sample`", "a cloud of the page", names, SAMPLES[0]!.name],
+        ["`src`", "a file on the web, instead of `sample`; another site must allow it by CORS", "an address", ""],
+      ];
+      const others = parameters.map(([name, row]) => [`\`${name}\``, row.is, row.values, without(row)]);
+      const rows = settings.map((row) => [`\`${row.parameter}\``, row.is, row.values, without(row, row)]);
+      return table(["parameter", "sets", "values", "without it"], [...clouds, ...others, ...rows]);
+    },
+  },
+  "attributes of the element": {
+    document: "docs/EMBED.md",
+    text: () =>
+      table(
+        ["attribute", "is", "values", "without it"],
+        ATTRIBUTE_NAMES.map((name) => {
+          const { is, written, setting, without: words } = rowOf(name);
+          const usual = setting && (SETTINGS[setting] as unknown as AnyRow);
+          return [`\`${name}\``, is, written?.values ?? "", words ?? (usual ? without(usual as never, usual) : "")];
+        }),
+      ),
+  },
+  "keys of the element": {
+    document: "docs/EMBED.md",
+    text: () =>
+      table(
+        ["keys", "do"],
+        ELEMENT_KEYS.map((action) => {
+          const { does, shift }: Key = KEYS[action];
+          const shown = shownKeys(action).map((key) => `\`${key}\``);
+          return [shown.join(shift ? " + " : " "), does];
+        }),
+      ),
+  },
+};
+
+test.for(Object.keys(BLOCKS))("the %s in the document are those of the page", (name) => {
+  const { document, text } = BLOCKS[name]!;
+  const [begin, end] = [`<!-- ${name} -->\n\n`, `\n\n<!-- end -->`];
+  const file = join(root, document);
+  const whole = readFileSync(file, "utf8");
+  const from = whole.indexOf(begin) + begin.length;
+  const to = whole.indexOf(end, from);
+  expect(whole).toContain(begin);
+  if (process.env["HPR_WRITE"]) writeFileSync(file, whole.slice(0, from) + text() + whole.slice(to));
+  else expect(whole.slice(from, to)).toBe(text());
+});
+
+test("every setting has a parameter of its own, and its usual value can be written and read again", () => {
+  const names = [...settings.map((row) => row.parameter), ...parameters.map(([name]) => name)];
+  expect(new Set(names).size).toBe(names.length);
+  // No light, no frozen viewpoint and no divider are not written.
+  const written = settings.filter(({ usual }) => usual !== null && !Array.isArray(usual));
+  expect(written.length).toBe(settings.length - 3);
+  for (const { parameter, usual, write, parse } of written) expect(parse(write(usual)), parameter).toEqual(usual);
+});
+
+test("no two actions of the page's canvas have the same key", () => {
+  const elsewhere = new Set(["light", "divide"]);
+  const pressed = Object.entries(KEYS)
+    .filter(([action]) => !elsewhere.has(action))
+    .flatMap(([, { keys, ...key }]) => keys.map((each) => ("shift" in key ? `Shift ${each}` : each)));
+  expect(new Set(pressed).size).toBe(pressed.length);
+});
