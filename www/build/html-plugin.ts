@@ -2,7 +2,9 @@ import type { Plugin } from "vite";
 import { type Action, type Key, KEYS, SHEET, shownKeys, spokenKeys } from "../controls/keys.ts";
 import { FORMATS, listed } from "../settings/formats.ts";
 import { MAX_POINTS } from "../settings/limits.ts";
-import { PARAMETERS, type Setting, SETTINGS, type Slider } from "../settings/table.ts";
+import { type Slider, SLIDERS } from "../settings/sliders.ts";
+import { type Setting, type SettingName, SETTINGS } from "../settings/table.ts";
+import { SETTING_WORDS } from "../settings/words.ts";
 
 /**
  * Fills index.html from the tables of settings, keys and formats:
@@ -45,7 +47,8 @@ export function filled(page: string): string {
 }
 
 function choices(name: string): string {
-  const { labels, usual, write } = known(rows()[name], name);
+  const { usual, write } = known(rows()[name], name);
+  const { labels } = SETTING_WORDS[name as SettingName];
   return Object.entries(known(labels, name))
     .map(([value, label]) => {
       const checked = value === write(usual) ? " checked" : "";
@@ -55,7 +58,7 @@ function choices(name: string): string {
 }
 
 function ends(name: string): string {
-  const { least, most, step } = known((rows()[name] ?? parameters()[name])?.slider, name);
+  const { least, most, step } = known((SLIDERS as Record<string, Slider | undefined>)[name], name);
   return ` min="${least}" max="${most}" step="${step}"`;
 }
 
@@ -73,14 +76,8 @@ function sheet(): string {
   }).join("");
 }
 
-type Row = Omit<Setting<never>, "slider"> & { slider?: Slider<never> };
-
-function rows(): Record<string, Row | undefined> {
-  return SETTINGS as unknown as Record<string, Row | undefined>;
-}
-
-function parameters(): Record<string, { slider?: Slider<never> } | undefined> {
-  return PARAMETERS as unknown as Record<string, { slider?: Slider<never> } | undefined>;
+function rows(): Record<string, Setting<never> | undefined> {
+  return SETTINGS as unknown as Record<string, Setting<never> | undefined>;
 }
 
 function known<T>(value: T | undefined, name: string): T {

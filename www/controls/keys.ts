@@ -12,8 +12,8 @@ export interface Key {
   shown?: readonly string[];
   /** As one says them. */
   said?: string;
-  /** What they do, as the end of a sentence that begins with them. */
-  does: string;
+  /** The end of a sentence that begins with them; for the keys that screen readers and the document name. */
+  does?: string;
 }
 
 const ARROWS = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"];
@@ -26,23 +26,22 @@ export const KEYS = {
   freeze: { keys: ["v"], does: "freezes the viewpoint" },
   hidden: { keys: ["h"], does: "shows hidden points" },
   reset: { keys: ["r"], does: "resets the view" },
-  fullScreen: { keys: ["f"], does: "shows the cloud on the whole screen" },
+  fullScreen: { keys: ["f"] },
   pick: { keys: ["p"], does: "picks a point" },
-  measure: { keys: ["m"], does: "measures a distance" },
-  label: { keys: ["l"], does: "labels a point" },
-  select: { keys: ["s"], does: "selects points" },
-  compare: { keys: ["c"], does: "divides the picture" },
-  export: { keys: ["e"], does: "saves points or the picture" },
+  measure: { keys: ["m"] },
+  label: { keys: ["l"] },
+  select: { keys: ["s"] },
+  compare: { keys: ["c"] },
+  export: { keys: ["e"] },
   middle: { keys: ["Enter"], shown: ["Enter"], does: "picks the point in the middle" },
-  cancel: { keys: ["Escape"], shown: ["Esc"], does: "gives up or closes" },
+  cancel: { keys: ["Escape"], shown: ["Esc"] },
   sheet: { keys: ["?"], said: "the question mark", does: "shows all keys" },
   /** While a light has the focus. */
-  light: { keys: [...ARROWS, "+", "=", "-"], shown: ["arrow keys", "+", "−"], does: "move the light" },
+  light: { keys: [...ARROWS, "+", "=", "-"], shown: ["arrow keys", "+", "−"] },
   /** While the divider has the focus. */
   divide: {
     keys: ["ArrowLeft", "ArrowRight", "ArrowDown", "ArrowUp", "PageDown", "PageUp", "Home", "End"],
     shown: ["←", "→"],
-    does: "move the divider",
   },
 } satisfies Record<string, Key>;
 
@@ -81,7 +80,7 @@ export function spokenKeys(actions: readonly Action[]): string {
   const sentence = actions
     .map((action) => {
       const { said, does }: Key = KEYS[action];
-      return `${said ?? shownKeys(action).join(" ")} ${does}`;
+      return `${said ?? shownKeys(action).join(" ")} ${does!}`;
     })
     .join(", ");
   return sentence.charAt(0).toUpperCase() + sentence.slice(1);

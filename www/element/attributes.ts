@@ -1,14 +1,7 @@
-import { shownKeys } from "../controls/keys.ts";
-import { SAMPLES } from "../samples/samples.ts";
-import { FORMATS, listed } from "../settings/formats.ts";
 import { type AnyParameter, type Parameter, PARAMETERS, type SettingName, SETTINGS } from "../settings/table.ts";
 
 /** An attribute of the element. Its property has the same name in camel case. */
 export interface Attribute {
-  /** Its meaning, for the documents. */
-  is: string;
-  /** What holds without it, for the documents. */
-  without?: string;
   /** How its value is written; where this is missing, any text will do, or it is a flag. */
   written?: AnyParameter;
   /** The setting that it makes. */
@@ -22,69 +15,25 @@ export interface Attribute {
   ofSource?: true;
 }
 
-/** A row of the table of settings or parameters, as an attribute. */
-function like<T>(row: Parameter<T>, rest: Omit<Attribute, "written" | "is" | "without"> & Partial<Attribute>) {
-  return { is: row.is, ...(row.without === undefined ? {} : { without: row.without }), ...rest, written: row };
-}
-
-/** The one table of attributes. The document's table is made from it. */
+/** The one table of attributes. With words.ts, the document's table is made from it. */
 export const ATTRIBUTES = {
-  src: {
-    is: `the address of a ${listed(FORMATS, "or")} file; COPC is LAZ. Setting it stops the loading of another file`,
-    property: "text",
-    ofSource: true,
-  },
-  sample: {
-    is: `a cloud of the demo page, instead of \`src\`: ${listed(
-      SAMPLES.map(({ name }) => name),
-      "or",
-    )}. Those of the dragon and the bunny need the folder \`samples/\` beside the module`,
-    property: "text",
-    ofSource: true,
-  },
-  limit: like(PARAMETERS.points, { property: "value", ofSource: true }),
-  "skip-non-finite": {
-    is: "leaves points out that have no position; the others are numbered anew",
-    without: "such a file is refused",
-    property: "flag",
-    ofSource: true,
-  },
-  exponent: like(PARAMETERS.exponent, { property: "value" }),
-  radius: like(SETTINGS.radius, { setting: "radius", property: "own" }),
-  inversion: like(SETTINGS.inversion, { setting: "inversion", property: "word" }),
-  "hidden-points": like(SETTINGS.hidden, {
-    is: `${SETTINGS.hidden.is}; follows the key \`${shownKeys("hidden").join()}\``,
-    setting: "hidden",
-    property: "value",
-  }),
-  frozen: {
-    is: `the viewpoint stays where it is while the camera moves on; follows the key \`${shownKeys("freeze").join()}\``,
-    without: "the viewpoint goes with the camera",
-    property: "flag",
-  },
-  viewpoint: like(PARAMETERS.view, {
-    is: "where the camera is at first. Set again, it moves the camera there again",
-    property: "own",
-  }),
-  target: like(PARAMETERS.target, { is: "what the camera looks at from the `viewpoint`", property: "own" }),
-  "point-size": like(SETTINGS.size, { setting: "size", property: "value" }),
-  fov: like(SETTINGS.fieldOfView, { setting: "fieldOfView", property: "value" }),
-  up: like(SETTINGS.up, {
-    is: `${SETTINGS.up.is}. Changing it goes back to the first view`,
-    setting: "up",
-    property: "value",
-  }),
-  color: like(SETTINGS.color, { setting: "color", property: "text" }),
-  label: {
-    is: "what the cloud is, for people who do not see it",
-    without: "“Point cloud”",
-    property: "text",
-  },
-  announce: {
-    is: "screen readers hear how many points are visible, once that number has settled",
-    without: "they do not",
-    property: "flag",
-  },
+  src: { property: "text", ofSource: true },
+  sample: { property: "text", ofSource: true },
+  limit: { written: PARAMETERS.points, property: "value", ofSource: true },
+  "skip-non-finite": { property: "flag", ofSource: true },
+  exponent: { written: PARAMETERS.exponent, property: "value" },
+  radius: { written: SETTINGS.radius, setting: "radius", property: "own" },
+  inversion: { written: SETTINGS.inversion, setting: "inversion", property: "word" },
+  "hidden-points": { written: SETTINGS.hidden, setting: "hidden", property: "value" },
+  frozen: { property: "flag" },
+  viewpoint: { written: PARAMETERS.view, property: "own" },
+  target: { written: PARAMETERS.target, property: "own" },
+  "point-size": { written: SETTINGS.size, setting: "size", property: "value" },
+  fov: { written: SETTINGS.fieldOfView, setting: "fieldOfView", property: "value" },
+  up: { written: SETTINGS.up, setting: "up", property: "value" },
+  color: { written: SETTINGS.color, setting: "color", property: "text" },
+  label: { property: "text" },
+  announce: { property: "flag" },
 } satisfies Record<string, Attribute>;
 
 export type AttributeName = keyof typeof ATTRIBUTES;

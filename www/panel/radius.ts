@@ -1,5 +1,6 @@
 import { isAutomatic } from "../ask/question.ts";
 import type { ViewAnswer } from "../ask/views.ts";
+import { SLIDERS } from "../settings/sliders.ts";
 import type { Store } from "../settings/store.ts";
 import { byId } from "../controls/dom.ts";
 import { Slider } from "../controls/slider.ts";
@@ -20,13 +21,9 @@ export class RadiusControl {
 
   constructor(store: Store) {
     this.#store = store;
-    this.#slider = new Slider(
-      "exponent",
-      (value) => value.toFixed(2),
-      (exponent) => {
-        store.change({ radius: { exponent } });
-      },
-    );
+    this.#slider = new Slider("exponent", SLIDERS.exponent.text, (exponent) => {
+      store.change({ radius: { exponent } });
+    });
     this.#slider.clear();
     const buttons = [...byId("radius").querySelectorAll("button")];
     for (const button of buttons) {

@@ -1,12 +1,13 @@
 import { Segmented } from "../controls/segmented.ts";
 import { Slider } from "../controls/slider.ts";
 import { rowOf, type Settings } from "../settings/settings.ts";
+import { type Slider as SliderRow, SLIDERS } from "../settings/sliders.ts";
 import type { Store } from "../settings/store.ts";
 import type { SettingName } from "../settings/table.ts";
 
 /** Settings whose only control is one row of buttons or one slider. The other controls have files of their own. */
 const CHOICES = ["hidden", "viewpoints", "denoise", "vote", "show", "up", "theme"] as const;
-const SLIDERS = ["edge", "soft", "ambient", "smoothing", "size", "fieldOfView"] as const;
+const SLIDING = ["edge", "soft", "ambient", "smoothing", "size", "fieldOfView"] as const;
 
 /** Settings that change when the user changes another one: another way up makes a frozen view meaningless. */
 const TOGETHER: Partial<Record<SettingName, Partial<Settings>>> = { up: { freeze: null } };
@@ -14,7 +15,7 @@ const TOGETHER: Partial<Record<SettingName, Partial<Settings>>> = { up: { freeze
 /** Binds the controls that index.html marks with the name of their setting. */
 export function bindSettings(store: Store): void {
   for (const name of CHOICES) bindChoice(store, name);
-  for (const name of SLIDERS) bindSlider(store, name);
+  for (const name of SLIDING) bindSlider(store, name);
 }
 
 /** A row of buttons, one for each text that the panel offers for the setting. */
@@ -28,8 +29,8 @@ function bindChoice(store: Store, name: (typeof CHOICES)[number]): void {
   });
 }
 
-function bindSlider(store: Store, name: (typeof SLIDERS)[number]): void {
-  const { text, at, from } = rowOf(name).slider!;
+function bindSlider(store: Store, name: (typeof SLIDING)[number]): void {
+  const { text, at, from }: SliderRow = SLIDERS[name];
   const slider = new Slider(idOf(name), text, (place) => {
     store.change({ [name]: from ? from(place) : place });
   });

@@ -5,6 +5,7 @@ import { Segmented } from "../controls/segmented.ts";
 import { Slider } from "../controls/slider.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import type { Against } from "../settings/settings.ts";
+import { SLIDERS } from "../settings/sliders.ts";
 import type { Store } from "../settings/store.ts";
 
 const number = new Intl.NumberFormat("en-US");
@@ -26,6 +27,7 @@ export interface Sides {
 export class CompareCard {
   readonly #card = byId("compare-card");
   readonly #against: Segmented<Against>;
+  readonly #surfaceChoice = this.#card.querySelector<HTMLInputElement>('[value="surface"]')!;
   readonly #againstNote = byId("against-note");
   readonly #splat: Slider;
   readonly #splatAuto = byId("splat-auto", HTMLButtonElement);
@@ -42,13 +44,10 @@ export class CompareCard {
     this.#against = new Segmented<Against>("against", (against) => {
       store.change({ against });
     });
-    this.#splat = new Slider(
-      "splat",
-      (width) => `${width} px`,
-      (splat) => {
-        store.change({ splat });
-      },
-    );
+    this.#surfaceChoice.setAttribute("aria-describedby", this.#againstNote.id);
+    this.#splat = new Slider("splat", SLIDERS.splat.text, (splat) => {
+      store.change({ splat });
+    });
     this.#splatAuto.addEventListener("click", () => {
       store.change({ splat: "auto" });
     });
@@ -62,7 +61,7 @@ export class CompareCard {
     const { against, splat } = this.#store.current;
     this.#against.value = against;
     const unknown = typeof surface === "string";
-    this.#card.querySelector<HTMLInputElement>('[value="surface"]')!.disabled = unknown;
+    this.#surfaceChoice.disabled = unknown;
     this.#againstNote.hidden = !unknown;
     this.#againstNote.textContent = unknown ? `No true surface. ${surface}` : "";
     byId("splat-choice").hidden = against !== "zbuffer";

@@ -2,12 +2,12 @@ import { isAutomatic } from "../ask/question.ts";
 import { Curve } from "../ask/curve.ts";
 import type { TimedView } from "../ask/inquiry.ts";
 import { byId } from "../controls/dom.ts";
+import { MOST_EXPONENT } from "../settings/limits.ts";
 import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 
 /** In the units of the drawing. */
 const FRAME = { left: 34, right: 272, top: 8, bottom: 92 };
-const MOST = 6;
 
 /** The share of visible points against the exponent, for the present view. A click chooses an exponent. */
 export class Plot {
@@ -23,9 +23,9 @@ export class Plot {
     this.#store = store;
     this.#drawing.addEventListener("click", (event) => {
       const { x } = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.#drawing.getScreenCTM()!.inverse());
-      const exponent = ((x - FRAME.left) / (FRAME.right - FRAME.left)) * MOST;
+      const exponent = ((x - FRAME.left) / (FRAME.right - FRAME.left)) * MOST_EXPONENT;
       // As fine as the slider.
-      const step = Math.round(20 * Math.min(MOST, Math.max(0, exponent))) / 20;
+      const step = Math.round(20 * Math.min(MOST_EXPONENT, Math.max(0, exponent))) / 20;
       if (store.current.inversion === "spherical") store.change({ radius: { exponent: step } });
     });
   }
@@ -85,7 +85,7 @@ export class Plot {
 }
 
 function across(exponent: number): number {
-  return FRAME.left + (Math.min(MOST, Math.max(0, exponent)) / MOST) * (FRAME.right - FRAME.left);
+  return FRAME.left + (Math.min(MOST_EXPONENT, Math.max(0, exponent)) / MOST_EXPONENT) * (FRAME.right - FRAME.left);
 }
 
 function place(drawing: SVGSVGElement, name: string, exponent: number): void {

@@ -1,6 +1,7 @@
 import { Vector3 } from "three";
 import { type Cloud, type Up, upVector } from "../cloud/cloud.ts";
 import type { Sample } from "../samples/samples.ts";
+import { REACH } from "../settings/limits.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import type { Pose } from "./navigation.ts";
 
@@ -52,7 +53,7 @@ export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: Aske
 
 /** Whether the cloud could be seen from there. From further away it is far smaller than a pixel. */
 function isInReach(cloud: Cloud, view: Viewpoint): boolean {
-  return Math.hypot(...view.map((value, axis) => value - cloud.center[axis]!)) <= 1e6 * cloud.radius;
+  return Math.hypot(...view.map((value, axis) => value - cloud.center[axis]!)) <= REACH * cloud.radius;
 }
 
 /** Keeps the places that are in reach, and says in notes that the others are not. `asked`: "in the address". */

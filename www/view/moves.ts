@@ -1,12 +1,9 @@
 import { type Action, pressed } from "../controls/keys.ts";
 import { FIELD_OF_VIEW } from "../settings/limits.ts";
-import type { HiddenMode, Settings } from "../settings/settings.ts";
+import type { Settings } from "../settings/settings.ts";
 import type { Store } from "../settings/store.ts";
-import { SETTINGS } from "../settings/table.ts";
+import { HIDDEN_MODES } from "../settings/table.ts";
 import type { Viewer } from "./viewer.ts";
-
-/** The key goes through them in turn. */
-const HIDDEN = Object.keys(SETTINGS.hidden.labels!) as HiddenMode[];
 
 /** What keys and buttons do to the picture, the same in the page and in an element. */
 export class Moves {
@@ -66,7 +63,7 @@ export class Moves {
   }
 
   #nextHidden(): void {
-    const at = HIDDEN.indexOf(this.#store.current.hidden);
-    this.#store.change({ hidden: HIDDEN[(at + 1) % HIDDEN.length]! });
+    const at = HIDDEN_MODES.indexOf(this.#store.current.hidden);
+    this.#store.change({ hidden: HIDDEN_MODES[(at + 1) % HIDDEN_MODES.length]! });
   }
 }

@@ -1,0 +1,129 @@
+import { MAX_POINTS, REACH } from "./limits.ts";
+import type { PARAMETERS, SettingName } from "./table.ts";
+
+/*
+ * The words of the documents and of index.html about the table of settings. They stand apart from the table, since the
+ * scripts that are downloaded do not need them. A row without words is a type error.
+ */
+
+export interface Words {
+  /** What it sets. */
+  is: string;
+  /** What holds without it; the usual value if this is missing. */
+  without?: string;
+}
+
+/** The labels are those of the choices that the panel offers, by their texts. */
+export type SettingWords = Words & { labels?: Readonly<Record<string, string>> };
+
+const NEIGHBORS = { 0: "Off", 6: "6", 16: "16", 32: "32" };
+
+export const SETTING_WORDS: Record<SettingName, SettingWords> = {
+  radius: {
+    is: "the radius of the flipping sphere: a rule, or a length in the file’s units. Excludes `exponent`",
+  },
+  inversion: {
+    is: "how points are flipped; c counts in spacings",
+    labels: { spherical: "Spherical", exponential: "Exponential", power: "Power" },
+  },
+  viewpoints: {
+    is: "who has to see a point: the one viewpoint, or of five viewpoints any or at least two",
+    labels: { one: "One place", any: "Any of 5", two: "At least 2" },
+  },
+  denoise: {
+    is: "how many nearest neighbors smooth the noise of a point",
+    without: "0: off",
+    labels: NEIGHBORS,
+  },
+  vote: {
+    is: "how many nearest neighbors vote on a point",
+    without: "0: off",
+    labels: NEIGHBORS,
+  },
+  show: {
+    is: "the visible points, or the surface between them",
+    labels: { points: "Points", surface: "Surface" },
+  },
+  edge: {
+    is: "the longest edge of the surface’s triangles",
+  },
+  lights: {
+    is: "where a light is; with a light there are shadows",
+    without: "no light",
+  },
+  soft: {
+    is: "the radius of a light, as a share of its distance from the middle of the cloud",
+    without: "0: a point",
+  },
+  ambient: {
+    is: "how bright a point is that no light reaches",
+  },
+  smoothing: {
+    is: "how many rounds smooth the light",
+  },
+  freeze: {
+    is: `where the viewpoint stays while the camera moves on; within ${powerOfTen(REACH)} radii of the cloud`,
+    without: "the viewpoint goes with the camera",
+  },
+  hidden: {
+    is: "how hidden points are drawn",
+    labels: { off: "Off", dimmed: "Dimmed", shown: "Shown" },
+  },
+  compare: {
+    is: "where the picture is divided, as a share of its width; visible points are to the right",
+    without: "it is not divided",
+  },
+  against: {
+    is: "what is to the left of the divider: all points, the z-buffer of the same picture, or the truth, where the surface is known",
+    labels: { all: "All points", zbuffer: "Z-buffer", surface: "True surface" },
+  },
+  splat: {
+    is: "how wide the z-buffer draws a point, in pixels",
+  },
+  color: {
+    is: "what points are colored by",
+  },
+  size: {
+    is: "the size of a point, in multiples of the points’ rough distance from one another",
+    without: "by their number",
+  },
+  fieldOfView: {
+    is: "the vertical field of view",
+  },
+  up: {
+    is: "which way is up",
+    without: "by the file",
+    labels: { y: "Y", z: "Z", "-y": "−Y" },
+  },
+  theme: {
+    is: "the colors of the page",
+    labels: { system: "System", dark: "Dark", light: "Light" },
+  },
+};
+
+export const PARAMETER_WORDS: Record<keyof typeof PARAMETERS, Words> = {
+  view: {
+    is: `where the camera is, in the file’s coordinates; within ${powerOfTen(REACH)} radii of the cloud`,
+    without: "all of the cloud is seen",
+  },
+  target: {
+    is: "what the camera looks at",
+    without: "the middle of the cloud",
+  },
+  exponent: {
+    is: "the radius as log₁₀ of radius ÷ farthest distance",
+    without: "automatic",
+  },
+  points: {
+    is: "how many points of a file are shown at most; of a larger file an even share is shown",
+    without: `${MAX_POINTS / 1e6} million`,
+  },
+  embed: {
+    is: "`1` shows the picture alone, for a frame in another page",
+    without: "`0`",
+  },
+};
+
+function powerOfTen(value: number): string {
+  return `10${String(Math.log10(value)).replace(/\d/g, (digit) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(digit)]!)}`;
+}
