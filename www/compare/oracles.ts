@@ -1,7 +1,8 @@
 import { download } from "../loaders/download.ts";
 import { readFaces } from "../loaders/faces.ts";
 import type { Truth } from "../samples/generator.ts";
-import { generatorOf, type KnownSurface } from "../samples/samples.ts";
+import { generatorOf } from "../samples/generators.ts";
+import type { KnownSurface } from "../samples/samples.ts";
 import type { Solid, Vector } from "../samples/trace.ts";
 import { meshOracle, type Oracle } from "./tracer.ts";
 

@@ -1,9 +1,10 @@
 import type { PreparedCloud } from "../cloud/cloud.ts";
+import type { GeneratorName } from "../samples/generators.ts";
 
 /** What the page asks of the loading worker; one request each. */
 export type LoadRequest =
   | { kind: "sample"; name: string; url: string }
-  | { kind: "shape"; name: string; shape: string }
+  | { kind: "shape"; name: string; shape: GeneratorName }
   | ({ kind: "url"; name: string; url: string } & ReadOptions)
   | ({ kind: "file"; name: string; file: File } & ReadOptions);
 

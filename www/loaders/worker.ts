@@ -1,6 +1,6 @@
 /// <reference lib="webworker" />
 import { type LoadedCloud, prepareCloud } from "../cloud/cloud.ts";
-import { makeSample } from "../samples/samples.ts";
+import { makeSample } from "../samples/generators.ts";
 import { download, downloadRanges } from "./download.ts";
 import { MAX_POINTS } from "../settings/limits.ts";
 import { checkedCloud } from "./limits.ts";

@@ -9,10 +9,10 @@ export interface FileOptions {
 }
 
 /** The bytes of a sample lie beside the page, or beside the element's module: `base` is the address of either. */
-export function requestForSample({ name, label, from }: Sample, base: string): LoadRequest {
+export function requestForSample({ label, from }: Sample, base: string): LoadRequest {
   return "file" in from
     ? { kind: "sample", name: label, url: new URL(from.file, base).href }
-    : { kind: "shape", name: label, shape: name };
+    : { kind: "shape", name: label, shape: from.generator };
 }
 
 /** A file on the web. A text that is no address is kept as it is: downloading it fails in plain words. */

@@ -1,22 +1,22 @@
-import type { LoadedCloud, Up } from "../cloud/cloud.ts";
-import type { Generator } from "./generator.ts";
+import type { Up } from "../cloud/cloud.ts";
+import type { GeneratorName } from "./generators.ts";
 
 /*
- * The clouds that the page brings along. A new one is an entry here, and a generator or a file that
- * build/samples-plugin.ts makes.
+ * The clouds that the page brings along. A new one is an entry here, and a file that build/samples-plugin.ts makes or a
+ * generator, with its line in generators.ts.
  */
 
 /**
  * A surface that a cloud was taken from: triangles between its points, in a file that build/samples-plugin.ts makes; the
  * truth of a sample's generator; or the faces of the user's own file, which is opened once more for them.
  */
-export type KnownSurface = { faces: string } | { sample: string } | { file: Blob | string };
+export type KnownSurface = { faces: string } | { sample: GeneratorName } | { file: Blob | string };
 
 export interface Sample {
   name: string;
   label: string;
   /** A file of little-endian f32 x y z, made by build/samples-plugin.ts, or a generator, downloaded when it is needed. */
-  from: { file: string } | { generator: () => Promise<Generator> };
+  from: { file: string } | { generator: GeneratorName };
   up: Up;
   /** What its visible points can be compared with; a sentence says why there is nothing. */
   surface: KnownSurface | string;
@@ -72,7 +72,7 @@ export const SAMPLES: readonly Sample[] = [
   {
     name: "room",
     label: "Room from inside, 300k",
-    from: { generator: () => import("./living-room.ts") },
+    from: { generator: "room" },
     surface: { sample: "room" },
     up: "y",
     picture: "Room",
@@ -84,7 +84,7 @@ export const SAMPLES: readonly Sample[] = [
   {
     name: "rings",
     label: "Airplane of rings, 2.4k",
-    from: { generator: () => import("./rings.ts") },
+    from: { generator: "rings" },
     surface: { sample: "rings" },
     up: "y",
     picture: "Rings",
@@ -95,7 +95,7 @@ export const SAMPLES: readonly Sample[] = [
   {
     name: "street",
     label: "Street, laser scanned, 180k",
-    from: { generator: () => import("./street.ts") },
+    from: { generator: "street" },
     surface: { sample: "street" },
     up: "z",
     picture: "Street",
@@ -107,7 +107,7 @@ export const SAMPLES: readonly Sample[] = [
   {
     name: "tile",
     label: "Map tile in UTM, 240k",
-    from: { generator: () => import("./tile.ts") },
+    from: { generator: "tile" },
     surface: "Its trees have no surface: chance decides where a beam meets one.",
     up: "z",
     picture: "Map tile",
@@ -118,15 +118,4 @@ export const SAMPLES: readonly Sample[] = [
 
 export function sampleNamed(name: string): Sample {
   return SAMPLES.find((sample) => sample.name === name)!;
-}
-
-export async function generatorOf(name: string): Promise<Generator> {
-  const { from } = sampleNamed(name);
-  if (!("generator" in from)) throw new Error(`${name} is a file`);
-  return from.generator();
-}
-
-/** The points of a sample that has a generator. */
-export async function makeSample(name: string): Promise<LoadedCloud> {
-  return (await generatorOf(name)).make();
 }
