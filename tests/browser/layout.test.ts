@@ -213,7 +213,7 @@ test("with the system's own colors one sees what is chosen", async () => {
     .evaluateAll((buttons) =>
       buttons
         .filter((button) => button.checkVisibility())
-        .map((button) => [button.textContent, getComputedStyle(button).backgroundColor]),
+        .map((button) => [button.textContent.trim(), getComputedStyle(button).backgroundColor]),
     );
   expect(pressed.map(([name]) => name)).toEqual(expect.arrayContaining(["Pick", "Automatic", "Unfreeze viewpoint"]));
   expect(new Set(pressed.map(([, background]) => background)).size).toBe(1);
