@@ -42,6 +42,11 @@ export class HprError extends Error {
   }
 }
 
+/** Anything may be thrown. */
+export function asError(thrown: unknown): Error {
+  return thrown instanceof Error ? thrown : new Error(String(thrown));
+}
+
 /** A refused value as it appears in a message. */
 export function describe(value: unknown): string {
   switch (typeof value) {

@@ -6,8 +6,6 @@ import { HiddenPointFilter } from "hidden-point-removal/three";
 import * as THREE from "three";
 import { afterEach, beforeAll, beforeEach, describe, expect, it, vi } from "vitest";
 
-import { HprError } from "../../src/ts/errors.js";
-import { Recovery } from "../../src/ts/three/recovery.js";
 import { OriginalWorker, replaceWorker } from "./node-workers";
 import { bumpySphere } from "./support";
 import { drawn } from "./three-support";
@@ -15,73 +13,6 @@ import { drawn } from "./three-support";
 const sphere = bumpySphere(1, 3000);
 
 beforeAll(() => init());
-
-describe("what was lost is made again", () => {
-  const lost = new HprError("internal", "the worker died");
-  let made = 0;
-  let recovery: Recovery;
-
-  beforeEach(() => {
-    vi.useFakeTimers();
-    made = 0;
-    recovery = new Recovery(() => made++);
-  });
-
-  afterEach(() => {
-    vi.useRealTimers();
-  });
-
-  /** Loses it again and again as soon as it is made, for so many milliseconds. */
-  function lose(milliseconds: number, wish?: boolean): number[] {
-    const times: number[] = [];
-    let before = made;
-    for (let now = 0; now < milliseconds; now += 10) {
-      vi.advanceTimersByTime(10);
-      if (wish !== undefined) recovery.wish(wish);
-      if (made > before) {
-        before = made;
-        times.push(now + 10);
-        recovery.notices(lost);
-      }
-    }
-    return times;
-  }
-
-  it("at once, then after growing delays, then not of itself", () => {
-    expect(recovery.notices(lost)).toBe(true);
-    expect(recovery).toMatchObject({ isLost: true, isUnderWay: true });
-    expect(lose(60_000)).toEqual([10, 210, 1210]);
-    expect(recovery).toMatchObject({ isLost: true, isUnderWay: false });
-  });
-
-  it.each([
-    [true, [10, 210, 1210, 2210, 3210, 4210]],
-    [false, [10, 210, 1210]],
-  ])("then after pauses, while somebody wants it; another view: %s", (isNew, times) => {
-    recovery.notices(lost);
-    expect(lose(5000, isNew)).toEqual(times);
-    expect(lose(isNew ? 999 : 30_000, isNew)).toHaveLength(1);
-  });
-
-  it("at once again when there was an answer in between", () => {
-    recovery.notices(lost);
-    lose(5000);
-    vi.advanceTimersByTime(1000);
-    recovery.wish(true);
-    recovery.answered();
-    expect(recovery.isLost).toBe(false);
-    recovery.notices(lost);
-    expect(lose(5000)).toEqual([10, 210, 1210]);
-  });
-
-  it("not when it was another error, nor after the end", () => {
-    expect(recovery.notices(new HprError("radius", "too small"))).toBe(false);
-    expect(recovery.isLost).toBe(false);
-    recovery.notices(lost);
-    recovery.stop();
-    expect(lose(5000)).toEqual([]);
-  });
-});
 
 /** One cloud, in one piece or as a node, and what is told of its filter. */
 function pointsOf(positions = sphere) {

@@ -1,4 +1,6 @@
-import { HprError } from "../errors.js";
+import { Follower, type Round } from "../follow/follower.js";
+import { Newest } from "../follow/newest.js";
+import type { RecoveryTimes } from "../follow/recovery.js";
 import type { VisibilityOptions } from "../view-options.js";
 import type { Visibility } from "../visibility.js";
 import { WorkerPointCloud } from "../worker/client.js";
@@ -18,18 +20,17 @@ interface Listener {
 
 type ReadPositions = () => Float32Array | Float64Array;
 
-/** A layer's cloud in the worker that all layers share, asked one view at a time: the newest next. */
+/** The layer makes a lost cloud again at once. If that is lost, too, it waits for other data. */
+const ONCE: RecoveryTimes = { delays: [0], pause: Infinity, longPause: Infinity };
+
+/** A layer's cloud, in the worker that all layers share. */
 export class Sight {
   readonly #tell: Listener;
-  #read: ReadPositions | undefined;
+  readonly #views = new Newest<View>((a, b) => JSON.stringify(a) === JSON.stringify(b));
+  #follower: Follower | undefined;
   #cloud: WorkerPointCloud | undefined;
-  #wanted: View | undefined;
-  #asked = "";
-  #busy = false;
-  /** The worker was lost, and the next one has not answered yet. */
-  #recovering = false;
-  /** Which cloud it is about: what comes of earlier ones is left alone. */
-  #epoch = 0;
+  /** What reads the positions, until it is called. */
+  #unread: ReadPositions | undefined;
 
   constructor(tell: Listener) {
     this.#tell = tell;
@@ -43,97 +44,76 @@ export class Sight {
   /** Throws what reading the positions throws. They are read again when the worker is lost. */
   setPositions(read: ReadPositions): void {
     this.dispose();
-    this.#recovering = false;
-    this.#read = read;
-    this.#create(read());
+    const positions = read();
+    this.#unread = () => positions;
+    this.#follower = new Follower(
+      {
+        next: () => this.#next(),
+        refused: (error) => {
+          this.#tell.error(error);
+        },
+        lost: () => {
+          this.#dropCloud();
+          this.#unread = read;
+        },
+      },
+      ONCE,
+    );
+    this.#follower.follow();
   }
 
   want(view: View): void {
-    this.#wanted = view;
-    this.#next();
+    this.#views.want(view);
+    this.#follower?.follow();
   }
 
   dispose(): void {
-    this.#epoch += 1;
-    this.#busy = false;
-    this.#asked = "";
-    this.#read = undefined;
+    this.#follower?.stop();
+    this.#follower = undefined;
+    this.#dropCloud();
+  }
+
+  #next(): Round | undefined {
+    if (this.#unread !== undefined) {
+      return this.#preparing(this.#unread);
+    }
+    return this.#cloud !== undefined && this.#views.isNew ? this.#viewing(this.#cloud) : undefined;
+  }
+
+  #preparing(read: ReadPositions): Round<WorkerPointCloud> {
+    return {
+      ask: () => {
+        this.#unread = undefined;
+        this.#views.forget();
+        return WorkerPointCloud.create(read(), { shared: true });
+      },
+      use: (cloud) => {
+        this.#cloud = cloud;
+        return undefined;
+      },
+      leave: (cloud) => void cloud.dispose(),
+    };
+  }
+
+  #viewing(cloud: WorkerPointCloud): Round<Visibility> {
+    const begun = performance.now();
+    return {
+      ask: () => {
+        const { from, isDirection, options } = this.#views.take();
+        return isDirection ? cloud.visibleFromDirection(from, options) : cloud.visibleFrom(from, options);
+      },
+      use: (answer) => {
+        this.#follower?.answered();
+        return () => {
+          this.#tell.answer(answer, performance.now() - begun);
+          cloud.recycle(answer);
+        };
+      },
+    };
+  }
+
+  #dropCloud(): void {
     void this.#cloud?.dispose();
     this.#cloud = undefined;
-  }
-
-  #create(positions: Float32Array | Float64Array): void {
-    const epoch = this.#epoch;
-    WorkerPointCloud.create(positions, { shared: true }).then(
-      (cloud) => {
-        if (epoch === this.#epoch) {
-          this.#cloud = cloud;
-          this.#next();
-        } else {
-          void cloud.dispose();
-        }
-      },
-      (error: unknown) => {
-        this.#fail(error, epoch);
-      },
-    );
-  }
-
-  #next(): void {
-    const [cloud, view] = [this.#cloud, this.#wanted];
-    if (cloud === undefined || view === undefined || this.#busy) {
-      return;
-    }
-    const asked = JSON.stringify(view);
-    if (asked === this.#asked) {
-      return;
-    }
-    this.#asked = asked;
-    this.#busy = true;
-    const epoch = this.#epoch;
-    const begun = performance.now();
-    const { from, isDirection, options } = view;
-    const answer = isDirection ? cloud.visibleFromDirection(from, options) : cloud.visibleFrom(from, options);
-    answer.then(
-      (visibility) => {
-        if (epoch === this.#epoch) {
-          this.#busy = this.#recovering = false;
-          this.#tell.answer(visibility, performance.now() - begun);
-          cloud.recycle(visibility);
-          this.#next();
-        }
-      },
-      (error: unknown) => {
-        this.#fail(error, epoch);
-      },
-    );
-  }
-
-  #fail(error: unknown, epoch: number): void {
-    if (epoch !== this.#epoch) {
-      return;
-    }
-    this.#busy = false;
-    if (error instanceof HprError && error.code === "internal") {
-      // With the worker, its clouds are lost.
-      const [read, wasRecovering] = [this.#read, this.#recovering];
-      this.dispose();
-      if (!wasRecovering && this.#createAgain(read)) {
-        return;
-      }
-    }
-    this.#tell.error(error as Error);
-    this.#next();
-  }
-
-  #createAgain(read: ReadPositions | undefined): boolean {
-    try {
-      if (read !== undefined) this.setPositions(read);
-    } catch {
-      // The data has become something else; the layer hears of that, too.
-      return false;
-    }
-    this.#recovering = true;
-    return read !== undefined;
   }
 }

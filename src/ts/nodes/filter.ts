@@ -1,10 +1,11 @@
 import type { Camera, Object3D, Points } from "three";
 
 import { describe, HprError } from "../errors.js";
+import { Follower, type Round } from "../follow/follower.js";
 import { type Box, extentOf } from "../three/box.js";
 import { Eye, requireUniformScale } from "../three/eye.js";
-import { Recovery } from "../three/recovery.js";
-import { asError, Reporter } from "../three/reporter.js";
+import { Reporter } from "../three/reporter.js";
+import type { Visibility } from "../visibility.js";
 import { Gathered } from "./gathered.js";
 import type { Refused } from "./node.js";
 import { NodeSet } from "./node-set.js";
@@ -31,6 +32,13 @@ export interface HiddenPointNodesFilterEvents {
    * unhandled rejection.
    */
   error: { error: Error; points: Points | null };
+}
+
+/** An answer, and the viewpoint or the direction that it was asked for. */
+interface Asked {
+  answer: Visibility;
+  viewpoint: number[] | null;
+  direction: number[] | null;
 }
 
 /**
@@ -66,16 +74,21 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
   readonly #eye = new Eye();
   readonly #nodes: NodeSet;
   readonly #gathered: Gathered;
-  readonly #recovery = new Recovery(() => {
-    this.#askedVersion = undefined;
-    this.#next();
+  readonly #follower = new Follower({
+    next: () => this.#next(),
+    refused: (error, again) => {
+      if (!again) this.#untold.push({ error, points: null });
+      this.#tell();
+    },
+    lost: (isComingBack) => {
+      this.#lost(isComingBack);
+    },
   });
   /** The set of nodes that was asked last; undefined when it is to be asked again. */
   #askedVersion: number | undefined;
-  #busy = false;
+  /** Whether the cloud was lost with its worker and is to be made again. */
+  #isDropped = false;
   #visible = 0;
-  /** A view was refused, and nothing has been answered since. */
-  #refused = false;
   #disposed = false;
   /** What listeners are told when everything else is done: they may throw. */
   #untold: { error: Error; points: Points | null }[] = [];
@@ -119,7 +132,7 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
    * the last `update`, unless that was refused.
    */
   get settled(): boolean {
-    return !this.#busy && !this.#recovery.isUnderWay && (this.#recovery.isLost || !this.#wantsAnswer());
+    return !this.#follower.isWaiting && (this.#follower.isLost || !this.#wantsAnswer());
   }
 
   /**
@@ -137,11 +150,11 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
       }
       this.#eye.look(this.#root, camera);
       this.#nodes.takeUp();
-      this.#recovery.wish(this.#wantsAnswer());
-      this.#next();
     } catch (error) {
-      this.#refuse(error);
+      this.#follower.refuse(error);
+      return;
     }
+    this.#follower.wish(this.#wantsAnswer());
     this.#tell();
   }
 
@@ -151,9 +164,9 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
       return;
     }
     this.#disposed = true;
+    this.#follower.stop();
     this.#nodes.dispose();
     this.#gathered.close();
-    this.#recovery.stop();
   }
 
   #wantsAnswer(): boolean {
@@ -161,32 +174,49 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     return isNew && this.enabled && !this.frozen && !this.#disposed;
   }
 
-  #next(): void {
-    if (this.#busy || this.#recovery.isLost || !this.#wantsAnswer()) {
-      return;
+  #next(): Round | undefined {
+    if (this.#isDropped) {
+      this.#isDropped = false;
+      this.#askedVersion = undefined;
     }
-    this.#busy = true;
-    void this.#round().then(
-      (change) => {
-        this.#busy = false;
-        this.#next();
-        this.#tell();
-        if (change !== undefined && !this.#disposed) {
-          this.dispatchEvent({ type: "change", ...change });
-        }
-      },
-      (error: unknown) => {
-        this.#busy = false;
-        this.#refuse(error);
-        this.#next();
-        this.#tell();
-      },
-    );
+    return this.#wantsAnswer() ? this.#viewing() : undefined;
   }
 
   /** Brings the cloud up to date, asks it for the newest view, and draws that. */
-  async #round(): Promise<HiddenPointNodesFilterEvents["change"] | undefined> {
+  #viewing(): Round<Asked | undefined> {
     const begun = performance.now();
+    const gathered = this.#gathered;
+    return {
+      ask: () => this.#ask(),
+      use: (asked) => {
+        if (asked === undefined) {
+          this.#visible = 0;
+          return () => {
+            this.#tell();
+          };
+        }
+        const { answer, viewpoint, direction } = asked;
+        const { count, radius } = answer;
+        for (const [node, own] of gathered.split(answer.indices)) {
+          if (this.#nodes.isPresent(node) && node.display.drawn.isSame) {
+            node.display.answer(own);
+          }
+        }
+        gathered.recycle(answer);
+        this.#visible = count;
+        this.#follower.answered();
+        const milliseconds = performance.now() - begun;
+        const change = { count, nodes: gathered.nodes, milliseconds, viewpoint, direction, radius };
+        return () => {
+          this.#tell();
+          this.dispatchEvent({ type: "change", ...change });
+        };
+      },
+    };
+  }
+
+  /** Undefined if no node has a point. */
+  async #ask(): Promise<Asked | undefined> {
     const gathered = this.#gathered;
     this.#askedVersion = this.#nodes.version;
     await gathered.follow(this.#nodes.present(), this.#refuseNode);
@@ -194,45 +224,20 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     const { isDirection } = this.#eye;
     const from = this.#eye.ask();
     if (gathered.isEmpty) {
-      this.#visible = 0;
       return undefined;
     }
     const answer = await gathered.visibleFrom(from, isDirection);
-    const { count, radius } = answer;
-    if (this.#disposed) {
-      return undefined;
-    }
-    for (const [node, own] of gathered.split(answer.indices)) {
-      if (this.#nodes.isPresent(node) && node.display.drawn.isSame) {
-        node.display.answer(own);
-      }
-    }
-    gathered.recycle(answer);
-    this.#visible = count;
-    this.#refused = false;
-    this.#recovery.answered();
-    const milliseconds = performance.now() - begun;
-    const [viewpoint, direction] = isDirection ? [null, from] : [from, null];
-    return { count, nodes: gathered.nodes, milliseconds, viewpoint, direction, radius };
+    return isDirection ? { answer, viewpoint: null, direction: from } : { answer, viewpoint: from, direction: null };
   }
 
-  #refuse(thrown: unknown): void {
-    if (this.#disposed) {
-      return;
-    }
-    const error = asError(thrown);
-    if (this.#recovery.notices(error)) {
-      this.#gathered.drop();
-      if (this.#recovery.isUnderWay) {
-        return;
-      }
+  #lost(isComingBack: boolean): void {
+    this.#gathered.drop();
+    this.#isDropped = true;
+    if (!isComingBack && this.#eye.isNew) {
       // Another view may do better.
-      if (this.#eye.isNew) this.#eye.ask();
+      this.#eye.ask();
     }
-    if (!this.#refused) {
-      this.#refused = true;
-      this.#untold.push({ error, points: null });
-    }
+    this.#tell();
   }
 
   #tell(): void {

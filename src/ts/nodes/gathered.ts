@@ -1,7 +1,6 @@
-import { HprError } from "../errors.js";
+import { asError, HprError } from "../errors.js";
 import { allocating } from "../memory.js";
 import { type Cloud, prepareCloud } from "../three/cloud.js";
-import { asError } from "../three/reporter.js";
 import type { Visibility } from "../visibility.js";
 import type { CloudNode, Refused } from "./node.js";
 import type { NodesSettings } from "./options.js";

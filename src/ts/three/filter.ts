@@ -1,6 +1,8 @@
 import type { Camera, Points } from "three";
 
 import { HprError } from "../errors.js";
+import { Follower, type Round } from "../follow/follower.js";
+import { Readiness } from "../follow/readiness.js";
 import type { Visibility } from "../visibility.js";
 import { boxOf, extentOf } from "./box.js";
 import { type Cloud, prepareCloud } from "./cloud.js";
@@ -8,9 +10,7 @@ import { Display } from "./display.js";
 import { type DrawnPoints, requireUnfiltered } from "./drawn-points.js";
 import { Eye, requireUniformScale } from "./eye.js";
 import { type FilterSettings, type HiddenPointFilterOptions, readFilterOptions, requirePoints } from "./options.js";
-import { Readiness } from "./readiness.js";
-import { Recovery } from "./recovery.js";
-import { asError, Reporter } from "./reporter.js";
+import { Reporter } from "./reporter.js";
 
 /** What a filter tells its listeners. */
 export interface HiddenPointFilterEvents {
@@ -61,14 +61,18 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
   readonly #settings: FilterSettings;
   readonly #eye = new Eye();
   readonly #display: Display;
-  readonly #recovery = new Recovery(() => {
-    this.#prepareAgain();
+  readonly #follower = new Follower({
+    next: () => this.#next(),
+    refused: (error, again) => {
+      this.#refused(error, again);
+    },
+    lost: (isComingBack) => {
+      this.#lost(isComingBack);
+    },
   });
   #cloud: Cloud | undefined;
-  /** A cloud or an answer is awaited; nothing else is asked for meanwhile. */
-  #busy = false;
-  /** Something was refused, and nothing has been answered since. */
-  #refused = false;
+  /** Whether the points are to be taken up before anything else. */
+  #isStale = true;
   #disposed = false;
 
   /**
@@ -85,7 +89,7 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
     requireUniformScale(points);
     this.#display = new Display(points, this.#settings);
     try {
-      this.#prepare();
+      this.#follower.follow(true);
     } catch (error) {
       this.#display.dispose();
       throw error;
@@ -122,10 +126,17 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
       }
       this.#eye.look(this.#points, camera);
     } catch (error) {
-      this.#refuse(error);
+      this.#follower.refuse(error);
       return;
     }
-    this.#keepUp();
+    const { isUnchanged } = this.#drawn;
+    if (this.#follower.isBusy || this.#follower.isLost) {
+      // The answer on its way may be about other points.
+      this.#display.leaveOthers();
+    } else if (!isUnchanged) {
+      this.#isStale = true;
+    }
+    this.#follower.wish(this.#eye.isNew || !isUnchanged);
   }
 
   /**
@@ -137,146 +148,93 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
       return;
     }
     this.#disposed = true;
+    this.#follower.stop();
     this.#display.dispose();
     this.#dropCloud();
-    this.#recovery.stop();
-    // Who has disposed of it knows.
+    // The caller of dispose() knows.
     this.#readiness.reject(new HprError("disposed", "this filter has been disposed of"), true);
   }
 
-  /** Takes the points up as they are, and asks for the view if there is one. */
-  #prepare(): void {
-    const read = this.#drawn.take();
-    this.#eye.extent = extentOf([boxOf(read.numbers)]);
-    this.#eye.forget();
-    this.#dropCloud();
-    this.#await(prepareCloud(read, this.#settings), (cloud) => {
-      if (this.#disposed) {
-        void cloud.dispose();
-        return;
-      }
-      this.#cloud = cloud;
-      if (this.#wantsAnswer()) {
-        this.#ask();
-        return;
-      }
-      // A view that comes in the same breath counts.
-      queueMicrotask(() => {
-        if (!this.#busy) {
-          this.#readiness.resolve();
-        }
-      });
-    });
-  }
-
-  #keepUp(): void {
-    const { isUnchanged } = this.#drawn;
-    if (this.#busy || this.#recovery.isLost) {
-      // What is awaited may be about others.
-      this.#display.leaveOthers();
-      this.#recovery.wish(this.#eye.isNew || !isUnchanged);
-    } else if (!isUnchanged) {
-      this.#prepareAgain();
-    } else if (this.#wantsAnswer()) {
-      this.#ask();
+  #next(): Round | undefined {
+    if (this.#isStale) {
+      return this.#preparing();
     }
-  }
-
-  #prepareAgain(): void {
-    this.#display.leaveOthers();
-    try {
-      this.#prepare();
-    } catch (error) {
-      this.#refuse(error);
-    }
+    return this.#cloud !== undefined && this.#wantsAnswer() ? this.#viewing(this.#cloud) : undefined;
   }
 
   #wantsAnswer(): boolean {
-    return this.#cloud !== undefined && this.enabled && !this.frozen && this.#eye.isNew;
+    return this.enabled && !this.frozen && this.#eye.isNew;
   }
 
-  #ask(): void {
+  /** Takes the points up as they are. */
+  #preparing(): Round<Cloud> {
+    return {
+      ask: () => {
+        this.#isStale = false;
+        this.#dropCloud();
+        this.#display.leaveOthers();
+        const read = this.#drawn.take();
+        this.#eye.extent = extentOf([boxOf(read.numbers)]);
+        this.#eye.forget();
+        return prepareCloud(read, this.#settings);
+      },
+      use: (cloud) => {
+        this.#cloud = cloud;
+        // A view that comes in the same breath counts.
+        queueMicrotask(() => {
+          if (!this.#follower.isBusy) {
+            this.#readiness.resolve();
+          }
+        });
+        return undefined;
+      },
+      leave: (cloud) => void cloud.dispose(),
+    };
+  }
+
+  #viewing(cloud: Cloud): Round<Visibility> {
     const begun = performance.now();
-    const { isDirection } = this.#eye;
-    const from = this.#eye.ask();
-    const { view } = this.#settings;
-    let asked: Visibility | Promise<Visibility>;
-    try {
-      asked = isDirection ? this.#cloud!.visibleFromDirection(from, view) : this.#cloud!.visibleFrom(from, view);
-    } catch (error) {
-      this.#refuse(error);
-      return;
-    }
-    this.#await(asked, (answer) => {
-      this.#apply(answer, begun);
-    });
+    return {
+      ask: () => {
+        const { isDirection } = this.#eye;
+        const from = this.#eye.ask();
+        const { view } = this.#settings;
+        return isDirection ? cloud.visibleFromDirection(from, view) : cloud.visibleFrom(from, view);
+      },
+      use: (answer) => {
+        if (!this.#drawn.isSame) {
+          return undefined;
+        }
+        this.#display.answer(answer.indices, this.#settings.inWorker);
+        cloud.recycle(answer);
+        this.#follower.answered();
+        this.#readiness.resolve();
+        const milliseconds = performance.now() - begun;
+        return () => {
+          this.dispatchEvent({ type: "change", count: answer.count, milliseconds });
+        };
+      },
+    };
   }
 
-  #apply(answer: Visibility, begun: number): void {
-    if (this.#disposed || !this.#drawn.isSame) {
-      return;
+  #lost(isComingBack: boolean): void {
+    this.#dropCloud();
+    this.#isStale = true;
+    if (!isComingBack && this.#eye.isNew) {
+      // Another view may do better.
+      this.#eye.ask();
     }
-    try {
-      this.#display.answer(answer.indices, this.#settings.inWorker);
-      this.#cloud?.recycle(answer);
-    } catch (error) {
-      this.#refuse(error);
-      return;
+  }
+
+  #refused(error: Error, again: boolean): void {
+    if (!again) {
+      this.#readiness.reject(error, this.isHeard);
+      this.dispatchEvent({ type: "error", error });
     }
-    this.#refused = false;
-    this.#recovery.answered();
-    this.#readiness.resolve();
-    const milliseconds = performance.now() - begun;
-    if (this.#wantsAnswer()) {
-      this.#ask();
-    }
-    this.dispatchEvent({ type: "change", count: answer.count, milliseconds });
   }
 
   get #drawn(): DrawnPoints {
     return this.#display.drawn;
-  }
-
-  /** Goes on at once with what is there at once. */
-  #await<T>(asked: T | Promise<T>, use: (value: T) => void): void {
-    if (!(asked instanceof Promise)) {
-      use(asked);
-      return;
-    }
-    this.#busy = true;
-    void asked.then(
-      (value) => {
-        this.#busy = false;
-        use(value);
-      },
-      (error: unknown) => {
-        this.#busy = false;
-        this.#refuse(error);
-        // Nobody may call update again where frames are drawn on demand.
-        if (this.#wantsAnswer()) this.#ask();
-      },
-    );
-  }
-
-  #refuse(thrown: unknown): void {
-    if (this.#disposed) {
-      return;
-    }
-    const error = asError(thrown);
-    if (this.#recovery.notices(error)) {
-      this.#dropCloud();
-      if (this.#recovery.isUnderWay) {
-        return;
-      }
-      // Another view may do better.
-      if (this.#eye.isNew) this.#eye.ask();
-    }
-    if (this.#refused) {
-      return;
-    }
-    this.#refused = true;
-    this.#readiness.reject(error, this.isHeard);
-    this.dispatchEvent({ type: "error", error });
   }
 
   #dropCloud(): void {

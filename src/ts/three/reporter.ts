@@ -30,8 +30,3 @@ export abstract class Reporter<Events extends { error: { error: Error } }> exten
     return this.#heard.size > 0;
   }
 }
-
-/** Anything may be thrown. */
-export function asError(thrown: unknown): Error {
-  return thrown instanceof Error ? thrown : new Error(String(thrown));
-}

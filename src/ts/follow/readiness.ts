@@ -15,7 +15,10 @@ export class Readiness {
     this.#settle.resolve();
   }
 
-  /** An error that nobody is told otherwise is an unhandled rejection, also of a promise that is settled. */
+  /**
+   * An error that nobody is told of in another way becomes an unhandled rejection, also when the
+   * promise is settled already.
+   */
   reject(error: Error, isTold: boolean): void {
     if (isTold) {
       this.promise.catch(() => undefined);

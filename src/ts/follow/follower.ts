@@ -1,0 +1,175 @@
+import { asError } from "../errors.js";
+import { Recovery, type RecoveryTimes } from "./recovery.js";
+
+/** One question, and what is done with its answer. */
+export interface Round<Answer = unknown> {
+  /** Asks the question. It may be answered at once. */
+  ask(): Answer | Promise<Answer>;
+  /**
+   * Takes the answer up. An error that it throws is a refusal.
+   *
+   * @returns the function that tells the listeners. It is called when the next round has begun, for listeners may throw.
+   */
+  use(answer: Answer): (() => void) | undefined;
+  /** Whether an error means that the question was given up. This is no refusal. */
+  isGivenUp?(error: unknown): boolean;
+  /** Disposes of an answer that came after the end. */
+  leave?(answer: Answer): void;
+}
+
+/** What a follower asks, and who is told. */
+export interface Course {
+  /** The round that is due now: always about the newest view. Undefined if nothing is to be asked. */
+  next(): Round | undefined;
+  /** A question was refused. `again`: so was the one before, and nothing has been answered since. */
+  refused(error: Error, again: boolean): void;
+  /**
+   * The worker was lost: drop all that was made in it. `isComingBack`: the next round begins without
+   * a wish. Without this method, a loss is a refusal like any other.
+   */
+  lost?(isComingBack: boolean): void;
+}
+
+/**
+ * Keeps answers up with something that moves, such as a camera. One round is on its way at a time.
+ * When it ends, the next one asks about the view at that time; the views in between are left out.
+ *
+ * A course may give several rounds to one view, for instance a quick answer first and a better one
+ * later: `next` decides.
+ *
+ *     follow ──► next ──► ask ┄┄► use ──► follow
+ *                          └┄┄┄┄► refused, or lost ┄┄► follow
+ */
+export class Follower {
+  readonly #course: Course;
+  readonly #recovery: Recovery;
+  #isBusy = false;
+  /** A question was refused, and nothing has been answered since. */
+  #isRefused = false;
+  #isStopped = false;
+
+  constructor(course: Course, times?: RecoveryTimes) {
+    this.#course = course;
+    this.#recovery = new Recovery(() => {
+      this.follow();
+    }, times);
+  }
+
+  /** Whether a round is on its way. */
+  get isBusy(): boolean {
+    return this.#isBusy;
+  }
+
+  /** Whether the worker was lost and there is no other yet. */
+  get isLost(): boolean {
+    return this.#recovery.isLost;
+  }
+
+  /** Whether something is on its way, be it only another worker. */
+  get isWaiting(): boolean {
+    return this.#isBusy || this.#recovery.isUnderWay;
+  }
+
+  /**
+   * Begins the next round. If one is on its way, the next one begins when it ends.
+   *
+   * @throws what the question is refused with at once, if `throws`. Otherwise this is told.
+   */
+  follow(throws = false): void {
+    if (this.#isBusy || this.#isStopped || this.isLost) {
+      return;
+    }
+    const round = this.#course.next();
+    if (round === undefined) {
+      return;
+    }
+    let asked: unknown;
+    try {
+      asked = round.ask();
+    } catch (error) {
+      if (throws) {
+        throw error;
+      }
+      this.refuse(error);
+      return;
+    }
+    if (!(asked instanceof Promise)) {
+      this.#use(round, asked);
+      return;
+    }
+    this.#isBusy = true;
+    void asked.then(
+      (answer) => {
+        this.#isBusy = false;
+        this.#use(round, answer);
+      },
+      (error: unknown) => {
+        this.#isBusy = false;
+        this.#fail(round, error);
+      },
+    );
+  }
+
+  /** As `follow`, in each frame in which an answer is wanted: also brings back what was lost. */
+  wish(isNew: boolean): void {
+    this.#recovery.wish(isNew);
+    this.follow();
+  }
+
+  /** To be called when an answer is taken up: the next refusal is told again. */
+  answered(): void {
+    this.#isRefused = false;
+    this.#recovery.answered();
+  }
+
+  /** Something was refused, in a round or outside. */
+  refuse(thrown: unknown): void {
+    if (this.#isStopped) {
+      return;
+    }
+    const error = asError(thrown);
+    if (this.#course.lost !== undefined && this.#recovery.notices(error)) {
+      const { isUnderWay } = this.#recovery;
+      this.#course.lost(isUnderWay);
+      if (isUnderWay) {
+        return;
+      }
+    }
+    const again = this.#isRefused;
+    this.#isRefused = true;
+    this.#course.refused(error, again);
+  }
+
+  /** Nothing is asked or told any more. */
+  stop(): void {
+    this.#isStopped = true;
+    this.#recovery.stop();
+  }
+
+  #use(round: Round, answer: unknown): void {
+    if (this.#isStopped) {
+      round.leave?.(answer);
+      return;
+    }
+    let tell: (() => void) | undefined;
+    try {
+      tell = round.use(answer);
+    } catch (error) {
+      this.#fail(round, error);
+      return;
+    }
+    this.follow();
+    tell?.();
+  }
+
+  /** Goes on by itself: where frames are drawn on demand, there may be no other. */
+  #fail(round: Round, error: unknown): void {
+    try {
+      if (round.isGivenUp?.(error) !== true) {
+        this.refuse(error);
+      }
+    } finally {
+      this.follow();
+    }
+  }
+}

@@ -1,0 +1,502 @@
+// How answers keep up with a camera: the one room that all adapters and the demo page share. The
+// time, the questions and the answers are the tests' own.
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+
+import { HprError } from "../../src/ts/errors.js";
+import { type Course, Follower, type Round } from "../../src/ts/follow/follower.js";
+import { Newest } from "../../src/ts/follow/newest.js";
+import { Overtaken } from "../../src/ts/follow/overtaken.js";
+import { Readiness } from "../../src/ts/follow/readiness.js";
+import { Recovery, type RecoveryTimes } from "../../src/ts/follow/recovery.js";
+import { Rest } from "../../src/ts/follow/rest.js";
+
+const LOST = new HprError("internal", "the worker died");
+
+beforeEach(() => {
+  vi.useFakeTimers({ toFake: ["setTimeout", "clearTimeout", "performance"] });
+});
+
+afterEach(() => {
+  vi.useRealTimers();
+});
+
+/** Lets all that is settled be noticed. */
+const settled = () => new Promise((resolve) => setImmediate(resolve));
+
+/** A question that was asked: the test answers it. */
+interface Asked {
+  question: string;
+  overtaken: AbortSignal;
+  answer: (answer: string) => void;
+  refuse: (error: Error) => void;
+}
+
+/** Something that moves, its follower, and a record of all that happens. */
+class Scene {
+  readonly asked: Asked[] = [];
+  readonly log: string[] = [];
+  readonly newest = new Overtaken<string>((a, b) => a === b);
+  readonly follower: Follower;
+  /** What is thrown or returned at once, by question, instead of a promise. */
+  readonly atOnce = new Map<string, string | Error>();
+  /** What a listener throws. */
+  thrownByListener: Error | undefined;
+
+  constructor(times?: RecoveryTimes) {
+    const course: Course = {
+      next: () => (this.newest.isNew ? this.round() : undefined),
+      refused: (error, again) => {
+        this.log.push(`${error.message}${again ? " again" : ""}`);
+        if (this.thrownByListener !== undefined) throw this.thrownByListener;
+      },
+    };
+    if (times !== undefined) {
+      course.lost = (isComingBack) => {
+        this.log.push(isComingBack ? "lost" : "lost for good");
+        this.newest.forget();
+      };
+    }
+    this.follower = new Follower(course, times);
+  }
+
+  /** One frame. */
+  see(question: string): void {
+    this.newest.want(question);
+    this.follower.follow();
+  }
+
+  get questions(): string[] {
+    return this.asked.map(({ question }) => question);
+  }
+
+  get last(): Asked {
+    return this.asked.at(-1)!;
+  }
+
+  round(): Round<string> {
+    const question = this.newest.take();
+    const overtaken = this.newest.signal;
+    return {
+      ask: () => {
+        const ready = this.atOnce.get(question);
+        if (ready instanceof Error) throw ready;
+        if (ready !== undefined) return ready;
+        return new Promise<string>((answer, refuse) => {
+          this.asked.push({ question, overtaken, answer, refuse });
+        });
+      },
+      use: (answer) => {
+        if (answer === "unusable") throw new Error("cannot be drawn");
+        this.log.push(`${question}: ${answer}`);
+        this.follower.answered();
+        return () => {
+          this.log.push(`told ${question}`);
+          if (this.thrownByListener !== undefined) throw this.thrownByListener;
+        };
+      },
+      isGivenUp: (error) => {
+        if (error !== overtaken.reason) return false;
+        this.log.push(`${question} given up`);
+        this.newest.forget();
+        return true;
+      },
+      leave: (answer) => {
+        this.log.push(`${answer} left`);
+      },
+    };
+  }
+}
+
+describe("a follower", () => {
+  let scene: Scene;
+
+  beforeEach(() => {
+    scene = new Scene();
+  });
+
+  it("asks one question at a time, and then the newest", async () => {
+    for (const view of ["a", "b", "c", "d"]) scene.see(view);
+    expect(scene.questions).toEqual(["a"]);
+    expect(scene.follower.isBusy).toBe(true);
+    scene.last.answer("1");
+    await settled();
+    expect(scene.questions).toEqual(["a", "d"]);
+    scene.last.answer("2");
+    await settled();
+    expect(scene.log).toEqual(["a: 1", "told a", "d: 2", "told d"]);
+    expect(scene.follower.isBusy).toBe(false);
+  });
+
+  it("asks the same view once", async () => {
+    scene.see("a");
+    scene.see("a");
+    scene.last.answer("1");
+    await settled();
+    scene.see("a");
+    await settled();
+    expect(scene.questions).toEqual(["a"]);
+  });
+
+  it("tells of an answer when the next question is on its way, whatever listeners throw", async () => {
+    const unhandled: unknown[] = [];
+    const listener = (error: unknown) => unhandled.push(error);
+    process.on("unhandledRejection", listener);
+    scene.see("a");
+    scene.see("b");
+    scene.thrownByListener = new Error("a listener's own");
+    scene.last.answer("1");
+    await settled();
+    expect(scene.questions).toEqual(["a", "b"]);
+    expect(scene.log).toEqual(["a: 1", "told a"]);
+    await settled();
+    process.off("unhandledRejection", listener);
+    expect(unhandled).toEqual([scene.thrownByListener]);
+  });
+
+  it("answers at once where that is possible, and leaves what listeners throw to the caller", () => {
+    scene.atOnce.set("a", "1").set("b", "2");
+    scene.see("a");
+    expect(scene.log).toEqual(["a: 1", "told a"]);
+    expect(scene.follower.isBusy).toBe(false);
+    scene.thrownByListener = new Error("a listener's own");
+    expect(() => {
+      scene.see("b");
+    }).toThrow(scene.thrownByListener);
+    expect(scene.log).toEqual(["a: 1", "told a", "b: 2", "told b"]);
+  });
+
+  it("aborts the signal of a question that is overtaken, and uses its answer if it still comes", async () => {
+    scene.see("a");
+    const [first] = scene.asked;
+    scene.see("a");
+    expect(first!.overtaken.aborted).toBe(false);
+    scene.see("b");
+    expect(first!.overtaken.aborted).toBe(true);
+    first!.answer("1");
+    await settled();
+    expect(scene.log).toEqual(["a: 1", "told a"]);
+    expect(scene.questions).toEqual(["a", "b"]);
+    expect(scene.last.overtaken.aborted).toBe(false);
+  });
+
+  it.each([
+    ["the newer one", ["b"], ["a", "b"]],
+    ["itself, where the view has come back", ["b", "a"], ["a", "a"]],
+  ])("goes on from a question that was given up to %s, without a word", async (_, views, questions) => {
+    scene.see("a");
+    const [first] = scene.asked;
+    for (const view of views) scene.see(view);
+    first!.refuse(first!.overtaken.reason as DOMException);
+    await settled();
+    expect(scene.questions).toEqual(questions);
+    expect(scene.log).toEqual(["a given up"]);
+  });
+
+  it("says whether a refusal follows another, until there is an answer", async () => {
+    for (const view of ["a", "b"]) {
+      scene.see(view);
+      scene.last.refuse(new Error(`${view} refused`));
+      await settled();
+    }
+    scene.see("c");
+    scene.last.answer("1");
+    await settled();
+    scene.see("d");
+    scene.last.refuse(new Error("d refused"));
+    await settled();
+    expect(scene.log).toEqual(["a refused", "b refused again", "c: 1", "told c", "d refused"]);
+  });
+
+  it("does not ask a refused view again, but asks another", async () => {
+    scene.see("a");
+    scene.last.refuse(new Error("refused"));
+    await settled();
+    scene.see("a");
+    expect(scene.questions).toEqual(["a"]);
+    scene.see("b");
+    expect(scene.questions).toEqual(["a", "b"]);
+  });
+
+  it("asks a view that came while another was refused by itself, also where a listener throws", async () => {
+    const unhandled: unknown[] = [];
+    const listener = (error: unknown) => unhandled.push(error);
+    process.on("unhandledRejection", listener);
+    scene.see("a");
+    scene.see("b");
+    scene.thrownByListener = new Error("a listener's own");
+    scene.last.refuse(new Error("refused"));
+    await settled();
+    expect(scene.questions).toEqual(["a", "b"]);
+    expect(scene.log).toEqual(["refused"]);
+    await settled();
+    process.off("unhandledRejection", listener);
+    expect(unhandled).toEqual([scene.thrownByListener]);
+  });
+
+  it("takes what is thrown while asking or while drawing for a refusal", async () => {
+    scene.atOnce.set("a", new Error("wrong at once"));
+    scene.see("a");
+    scene.see("b");
+    scene.last.answer("unusable");
+    await settled();
+    expect(scene.log).toEqual(["wrong at once", "cannot be drawn again"]);
+    scene.see("c");
+    scene.last.refuse("no error" as unknown as Error);
+    await settled();
+    expect(scene.log.at(-1)).toBe("no error again");
+  });
+
+  it("throws the first refusal instead where it is told to", () => {
+    scene.atOnce.set("a", new Error("wrong at once"));
+    scene.newest.want("a");
+    expect(() => {
+      scene.follower.follow(true);
+    }).toThrow("wrong at once");
+    expect(scene.log).toEqual([]);
+  });
+
+  it.each([
+    [
+      "leaves an answer",
+      (asked: Asked) => {
+        asked.answer("1");
+      },
+      ["1 left"],
+    ],
+    [
+      "says nothing of a refusal",
+      (asked: Asked) => {
+        asked.refuse(LOST);
+      },
+      [],
+    ],
+  ])("%s that comes after the end, and asks nothing more", async (_, settle, log) => {
+    scene = new Scene({ delays: [0], pause: 0, longPause: 0 });
+    scene.see("a");
+    scene.see("b");
+    scene.follower.stop();
+    settle(scene.last);
+    await settled();
+    scene.see("c");
+    scene.follower.refuse(new Error("refused"));
+    vi.advanceTimersByTime(1000);
+    expect(scene.questions).toEqual(["a"]);
+    expect(scene.log).toEqual(log);
+  });
+
+  it("may give one view several rounds, each a better answer, for as long as no other view is wanted", async () => {
+    const stages = ["draft", "exact"];
+    let [stage, view] = [0, "a"];
+    const asked: string[] = [];
+    const follower = new Follower({
+      next: () => {
+        const question = stages[stage] === undefined ? undefined : `${view} ${stages[stage++]!}`;
+        return question === undefined
+          ? undefined
+          : { ask: () => Promise.resolve(asked.push(question)), use: () => undefined };
+      },
+      refused: () => undefined,
+    });
+    follower.follow();
+    expect(asked).toEqual(["a draft"]);
+    [stage, view] = [0, "b"];
+    await settled();
+    expect(asked).toEqual(["a draft", "b draft", "b exact"]);
+  });
+});
+
+describe("a follower whose worker is lost", () => {
+  const TIMES: RecoveryTimes = { delays: [0, 100], pause: 1000, longPause: 5000 };
+  let scene: Scene;
+
+  beforeEach(() => {
+    scene = new Scene(TIMES);
+  });
+
+  async function lose(): Promise<void> {
+    scene.last.refuse(LOST);
+    await settled();
+  }
+
+  it("asks again by itself, without a word", async () => {
+    scene.see("a");
+    await lose();
+    expect(scene.follower).toMatchObject({ isLost: true, isBusy: false, isWaiting: true });
+    scene.see("b");
+    expect(scene.questions).toEqual(["a"]);
+    vi.advanceTimersByTime(0);
+    expect(scene.questions).toEqual(["a", "b"]);
+    expect(scene.follower).toMatchObject({ isLost: false, isBusy: true });
+    expect(scene.log).toEqual(["lost"]);
+  });
+
+  it("says so when it is lost for good, once, and asks again when that is wished for, after a pause", async () => {
+    scene.see("a");
+    for (const delay of TIMES.delays) {
+      await lose();
+      vi.advanceTimersByTime(delay);
+    }
+    await lose();
+    expect(scene.questions).toEqual(["a", "a", "a"]);
+    expect(scene.log).toEqual(["lost", "lost", "lost for good", "the worker died"]);
+    expect(scene.follower).toMatchObject({ isLost: true, isWaiting: false });
+    vi.advanceTimersByTime(999);
+    scene.follower.wish(true);
+    vi.advanceTimersByTime(1);
+    scene.follower.wish(false);
+    expect(scene.questions).toHaveLength(3);
+    scene.follower.wish(true);
+    expect(scene.questions).toHaveLength(4);
+    await lose();
+    expect(scene.log.slice(4)).toEqual(["lost for good", "the worker died again"]);
+    vi.advanceTimersByTime(5000);
+    scene.follower.wish(false);
+    scene.last.answer("1");
+    await settled();
+    expect(scene.log.slice(6)).toEqual(["a: 1", "told a"]);
+    scene.see("b");
+    await lose();
+    expect(scene.log.at(-1)).toBe("lost");
+  });
+
+  it("forgets about it at the end", async () => {
+    scene.see("a");
+    await lose();
+    expect(vi.getTimerCount()).toBe(1);
+    scene.follower.stop();
+    expect(vi.getTimerCount()).toBe(0);
+  });
+
+  it("takes the loss for any other refusal where there is nothing to make again", async () => {
+    scene = new Scene();
+    scene.see("a");
+    await lose();
+    expect(scene.log).toEqual(["the worker died"]);
+    expect(scene.follower.isLost).toBe(false);
+  });
+});
+
+describe("what was lost is made again", () => {
+  let made = 0;
+  let recovery: Recovery;
+
+  beforeEach(() => {
+    made = 0;
+    recovery = new Recovery(() => made++);
+  });
+
+  /** Loses it again and again as soon as it is made, for so many milliseconds. */
+  function lose(milliseconds: number, wish?: boolean): number[] {
+    const times: number[] = [];
+    let before = made;
+    for (let now = 0; now < milliseconds; now += 10) {
+      vi.advanceTimersByTime(10);
+      if (wish !== undefined) recovery.wish(wish);
+      if (made > before) {
+        before = made;
+        times.push(now + 10);
+        recovery.notices(LOST);
+      }
+    }
+    return times;
+  }
+
+  it("at once, then after growing delays, then not of itself", () => {
+    expect(recovery.notices(LOST)).toBe(true);
+    expect(recovery).toMatchObject({ isLost: true, isUnderWay: true });
+    expect(lose(60_000)).toEqual([10, 210, 1210]);
+    expect(recovery).toMatchObject({ isLost: true, isUnderWay: false });
+  });
+
+  it.each([
+    [true, [10, 210, 1210, 2210, 3210, 4210]],
+    [false, [10, 210, 1210]],
+  ])("then after pauses, while somebody wants it; another view: %s", (isNew, times) => {
+    recovery.notices(LOST);
+    expect(lose(5000, isNew)).toEqual(times);
+    expect(lose(isNew ? 999 : 30_000, isNew)).toHaveLength(1);
+  });
+
+  it("at once again when there was an answer in between", () => {
+    recovery.notices(LOST);
+    lose(5000);
+    vi.advanceTimersByTime(1000);
+    recovery.wish(true);
+    recovery.answered();
+    expect(recovery.isLost).toBe(false);
+    recovery.notices(LOST);
+    expect(lose(5000)).toEqual([10, 210, 1210]);
+  });
+
+  it("not when it was another error, nor after the end", () => {
+    expect(recovery.notices(new HprError("radius", "too small"))).toBe(false);
+    expect(recovery.isLost).toBe(false);
+    recovery.notices(LOST);
+    recovery.stop();
+    expect(lose(5000)).toEqual([]);
+  });
+});
+
+describe("the newest question", () => {
+  it("is another only beyond what counts as the same, and stays until then", () => {
+    const newest = new Newest<{ at: number }>((a, b) => Math.abs(a.at - b.at) < 1);
+    expect(newest.isNew).toBe(false);
+    const first = { at: 0 };
+    newest.want(first);
+    newest.want({ at: 0.6 });
+    expect(newest.wanted).toBe(first);
+    expect(newest.take()).toBe(first);
+    expect([newest.isNew, newest.asked]).toEqual([false, first]);
+    newest.want({ at: 1.2 });
+    expect(newest.isNew).toBe(true);
+    newest.want({ at: 0.1 });
+    expect(newest.isNew).toBe(false);
+  });
+
+  it("can be asked anew, and taken back", () => {
+    const newest = new Newest<string>((a, b) => a === b);
+    newest.want("a");
+    newest.take();
+    newest.forget();
+    expect(newest.isNew).toBe(true);
+    newest.clear();
+    expect([newest.isNew, newest.wanted, newest.asked]).toEqual([false, undefined, undefined]);
+    newest.want("a");
+    expect(newest.isNew).toBe(true);
+  });
+});
+
+it("rest is reached so many milliseconds after the last move", () => {
+  const rest = new Rest(250);
+  expect(rest.isReached).toBe(true);
+  rest.moved();
+  vi.advanceTimersByTime(200);
+  rest.moved();
+  vi.advanceTimersByTime(249);
+  expect(rest.isReached).toBe(false);
+  vi.advanceTimersByTime(1);
+  expect(rest.isReached).toBe(true);
+});
+
+describe("readiness", () => {
+  it("is settled once", async () => {
+    const readiness = new Readiness();
+    readiness.resolve();
+    readiness.reject(LOST, true);
+    await expect(readiness.promise).resolves.toBeUndefined();
+  });
+
+  it("rejects where nobody is told, and reports what comes after that", async () => {
+    const reject = vi.spyOn(Promise, "reject").mockReturnValue(Promise.resolve());
+    const readiness = new Readiness();
+    const rejected = expect(readiness.promise).rejects.toBe(LOST);
+    readiness.reject(LOST, false);
+    await rejected;
+    expect(reject).not.toHaveBeenCalled();
+    readiness.reject(LOST, true);
+    expect(reject).not.toHaveBeenCalled();
+    readiness.reject(LOST, false);
+    expect(reject).toHaveBeenCalledExactlyOnceWith(LOST);
+    reject.mockRestore();
+  });
+});
