@@ -1,10 +1,11 @@
+import { Rest } from "../../src/ts/follow/rest.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import type { Inquiry } from "./inquiry.ts";
 import { isSameView, methodOf, type ViewQuestion } from "./question.ts";
 
 /** From the least radius there is to the end of the slider; every other one first, so that the shape is soon there. */
 const EXPONENTS = [0, 2, 4, 6, 1, 3, 5, 0.5, 1.5, 2.5, 3.5, 4.5, 5.5];
-/** So many milliseconds everything has to be at rest. */
+/** So many milliseconds the picture has to be at rest. */
 const REST = 400;
 
 /** How many points are visible with one radius after another. Each is asked by itself, and only while nothing else is. */
@@ -14,7 +15,7 @@ export class Curve {
   readonly #inquiry: Inquiry;
   readonly #size: number;
   #question: ViewQuestion | null = null;
-  #since = 0;
+  readonly #rest = new Rest(REST);
   #asking = false;
 
   constructor(inquiry: Inquiry, size: number) {
@@ -24,7 +25,6 @@ export class Curve {
 
   /** Called every frame as long as the curve is looked at; `changed` after every change of it. */
   follow(viewpoint: Viewpoint, settings: Settings, changed: () => void): void {
-    const now = performance.now();
     const viewpoints = settings.show === "points" ? settings.viewpoints : "one";
     const question: ViewQuestion = {
       viewpoint,
@@ -34,12 +34,12 @@ export class Curve {
     if (!this.#question || !isSameView(question, this.#question, this.#size)) {
       this.#question = question;
       this.counts.clear();
-      this.#since = now;
+      this.#rest.moved();
       changed();
     }
-    if (this.#inquiry.busy) this.#since = now;
+    if (this.#inquiry.busy) this.#rest.moved();
     const next = EXPONENTS.find((exponent) => !this.counts.has(exponent));
-    if (next === undefined || this.#asking || now - this.#since < REST) return;
+    if (next === undefined || this.#asking || !this.#rest.isReached) return;
     this.#asking = true;
     void this.#ask(this.#question, next).then(() => {
       this.#asking = false;

@@ -1,6 +1,8 @@
+import { Follower, type Round } from "../../src/ts/follow/follower.ts";
+import { Overtaken } from "../../src/ts/follow/overtaken.ts";
+import { Rest } from "../../src/ts/follow/rest.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import { askLight, type LightAnswer } from "./lights.ts";
-import { Newest } from "./newest.ts";
 import {
   isAutomatic,
   isSlow,
@@ -27,10 +29,13 @@ export interface TimedView extends ViewAnswer {
   milliseconds: number;
 }
 
-/** What has not moved for so many milliseconds is at rest. */
+/** A viewpoint or a light that has not moved for so many milliseconds is at rest. */
 const REST = 250;
 
-/** Keeps the answers up with the viewpoint and the settings: what is seen, and how it is lit. Each is asked anew only when something it depends on has changed. */
+/**
+ * Keeps the answers up with the viewpoint and the settings: which points are seen, and how they are lit. Each is asked
+ * anew only when something it depends on has changed.
+ */
 export class Inquiry {
   onView: (answer: TimedView) => void = () => undefined;
   /** `null`: there are no lights. */
@@ -42,63 +47,83 @@ export class Inquiry {
   readonly #cloud: WorkerCloud;
   readonly #second: SecondCloud;
   readonly #size: number;
-  readonly #views = new Newest<ViewQuestion>((question, overtaken) => this.#view(question, overtaken));
-  readonly #lights = new Newest<LightQuestion>((question, overtaken) => this.#light(question, overtaken));
-  #wanted: { view: ViewQuestion | null; light: LightQuestion | null } = { view: null, light: null };
-  #answered: { view: ViewQuestion | null; light: LightQuestion | null } = { view: null, light: null };
+  readonly #views = new Overtaken<ViewQuestion>((a, b) => isSameView(a, b, this.#size));
+  readonly #lights = new Overtaken<LightQuestion>(isSameLight);
+  readonly #viewFollower = new Follower({
+    next: () => (this.#views.isNew ? this.#viewRound() : undefined),
+    refused: (error) => {
+      // A refused question is not waited for either.
+      this.#answered.view = this.#views.asked;
+      this.onError(error);
+    },
+  });
+  readonly #lightFollower = new Follower({
+    next: () => (this.#lights.isNew ? this.#lightRound() : undefined),
+    refused: (error) => {
+      this.#answered.light = this.#lights.asked;
+      this.onError(error);
+    },
+  });
+  #answered: { view?: ViewQuestion | undefined; light?: LightQuestion | undefined } = {};
   #mesh: Uint32Array | null = null;
-  #viewpoint: { at: Viewpoint; since: number } | null = null;
-  #lamps: { at: Settings["lights"]; since: number } | null = null;
+  #viewpoint: Viewpoint | null = null;
+  readonly #viewpointRest = new Rest(REST);
+  #lamps: Settings["lights"] | null = null;
+  readonly #lampsRest = new Rest(REST);
   #freeSince = 0;
   #upToDate = false;
 
-  /** `another` makes the same cloud once more, for what takes long. */
+  /** `another` makes the same cloud once more, for questions that take long. */
   constructor(cloud: WorkerCloud, another: () => Promise<WorkerCloud>, size: number) {
     this.#cloud = cloud;
     this.#second = new SecondCloud(another);
     this.#size = size;
   }
 
-  /** Whether an answer to what was last followed is still to come. */
+  /** Whether an answer to the last question that was followed is still to come. */
   get busy(): boolean {
     return !this.#upToDate;
   }
 
   /** The first answer, before anything is shown. */
   async first(viewpoint: Viewpoint, settings: Settings): Promise<TimedView> {
-    const question = { viewpoint, method: methodOf(settings), shape: shapeOf(settings) };
-    this.#wanted.view = question;
-    this.#viewpoint = { at: viewpoint, since: -Infinity };
-    return this.#ask(this.#cloud, undefined, question);
+    this.#viewpoint = viewpoint;
+    this.#views.want({ viewpoint, method: methodOf(settings), shape: shapeOf(settings) });
+    return this.#ask(this.#cloud, undefined, this.#views.take());
   }
 
   /** Tells the automatic exponent where the answer itself does not, unless a newer question waits. */
   async findAutomatic(): Promise<void> {
-    const question = this.#wanted.view;
+    const question = this.#views.wanted;
     if (!question?.method.radius || isAutomatic(question.method)) return;
     const { exponent } = await this.#cloud.points.autoRadius(question.viewpoint);
-    if (question === this.#wanted.view) this.onAutomatic(exponent);
+    if (question === this.#views.wanted) this.onAutomatic(exponent);
   }
 
   /** Called every frame and after every change; does nothing while the questions stay the same. */
   follow(viewpoint: Viewpoint, settings: Settings): void {
-    const now = performance.now();
-    if (!this.#viewpoint || !isSamePlace(viewpoint, this.#viewpoint.at, this.#size))
-      this.#viewpoint = { at: viewpoint, since: now };
-    if (this.#lamps?.at !== settings.lights)
-      this.#lamps = { at: settings.lights, since: this.#lamps ? now : -Infinity };
-    const moving = now - this.#viewpoint.since < REST;
+    if (!this.#viewpoint || !isSamePlace(viewpoint, this.#viewpoint, this.#size)) {
+      this.#viewpoint = viewpoint;
+      this.#viewpointRest.moved();
+    }
+    if (this.#lamps !== settings.lights) {
+      // The first lights are at rest where they are.
+      if (this.#lamps) this.#lampsRest.moved();
+      this.#lamps = settings.lights;
+    }
+    const moving = !this.#viewpointRest.isReached;
 
     const view: ViewQuestion = { viewpoint, method: methodOf(settings), shape: shapeOf(settings) };
     this.#wantView(moving ? quickView(view) : view);
     const { lights, soft, ambient, smoothing } = settings;
     const light: LightQuestion = { lights, soft, ambient, smoothing, method: view.method, mesh: this.#mesh };
-    this.#wantLight(light, moving, now - this.#lamps.since < REST);
+    this.#wantLight(light, moving, !this.#lampsRest.isReached);
 
+    const answered = this.#answered;
     this.#upToDate =
-      this.#answered.view !== null &&
-      isSameView(this.#answered.view, view, this.#size) &&
-      (lights.length === 0 || (this.#answered.light !== null && isSameLight(this.#answered.light, light)));
+      answered.view !== undefined &&
+      isSameView(answered.view, view, this.#size) &&
+      (lights.length === 0 || (answered.light !== undefined && isSameLight(answered.light, light)));
   }
 
   /** An answer besides those for the picture, which go first. */
@@ -115,57 +140,72 @@ export class Inquiry {
 
   dispose(): void {
     this.onView = this.onLight = this.onAutomatic = this.onError = () => undefined;
+    this.#viewFollower.stop();
+    this.#lightFollower.stop();
     void this.#cloud.points.dispose();
     this.#second.dispose();
   }
 
   #wantView(question: ViewQuestion): void {
-    if (this.#wanted.view && isSameView(question, this.#wanted.view, this.#size)) return;
-    this.#wanted.view = question;
     this.#views.want(question);
+    this.#viewFollower.follow();
   }
 
   #wantLight(question: LightQuestion, viewMoving: boolean, lightsMoving: boolean): void {
-    const { light: last } = this.#wanted;
+    const last = this.#lights.wanted;
     if (question.lights.length === 0) {
       if (last) this.onLight(null);
-      this.#wanted.light = this.#answered.light = null;
+      this.#lights.clear();
+      this.#answered.light = undefined;
       return;
     }
-    // Every point has its light, seen or not: while the surface moves under a light that does not, the last one serves.
+    // The light of a point does not depend on whether it is seen: while the view moves, the last mesh serves.
     const asked = viewMoving && last ? { ...question, mesh: last.mesh } : question;
-    const wanted = lightsMoving ? quickLight(asked) : asked;
-    if (last && isSameLight(wanted, last)) return;
-    this.#wanted.light = wanted;
-    this.#lights.want(wanted);
+    this.#lights.want(lightsMoving ? quickLight(asked) : asked);
+    this.#lightFollower.follow();
   }
 
-  async #view(question: ViewQuestion, overtaken: AbortSignal): Promise<void> {
-    try {
-      this.onView(await this.#ask(...(await this.#placeFor(question, overtaken)), question));
-      if (question === this.#wanted.view) await this.findAutomatic();
-    } catch (error) {
-      if (isAbort(error)) return;
-      this.onError(error);
-    }
-    // Also what was refused is not to be waited for.
-    this.#answered.view = question;
+  #viewRound(): Round {
+    const question = this.#views.take();
+    const overtaken = this.#views.signal;
+    return {
+      ask: async () => {
+        this.onView(await this.#ask(...(await this.#placeFor(question, overtaken)), question));
+        if (question === this.#views.wanted) await this.findAutomatic();
+      },
+      use: () => {
+        this.#answered.view = question;
+        return undefined;
+      },
+      isGivenUp: (error) => isGivenUp(error, this.#views),
+    };
   }
 
-  async #light(question: LightQuestion, overtaken: AbortSignal): Promise<void> {
-    try {
-      const [cloud, signal] = await this.#placeFor(question, overtaken);
-      const answer = await askLight(cloud, question, signal);
-      this.#noteFree(cloud);
-      if (this.#wanted.light) this.onLight(answer);
-    } catch (error) {
-      if (isAbort(error)) return;
-      this.onError(error);
-    }
-    if (this.#wanted.light) this.#answered.light = question;
+  #lightRound(): Round<LightAnswer> {
+    const question = this.#lights.take();
+    const overtaken = this.#lights.signal;
+    return {
+      ask: async () => {
+        const [cloud, signal] = await this.#placeFor(question, overtaken);
+        const answer = await askLight(cloud, question, signal);
+        this.#noteFree(cloud);
+        return answer;
+      },
+      use: (answer) => {
+        if (this.#lights.wanted) {
+          this.onLight(answer);
+          this.#answered.light = question;
+        }
+        return undefined;
+      },
+      isGivenUp: (error) => isGivenUp(error, this.#lights),
+    };
   }
 
-  /** Where a question is asked, and what gives it up: an answer that comes soon is shown also where the camera has moved on. */
+  /**
+   * Where a question is asked, and the signal that gives it up. An answer that comes soon is shown even if the camera has
+   * moved on.
+   */
   async #placeFor(
     { method }: { method: Method },
     overtaken: AbortSignal,
@@ -189,7 +229,9 @@ export class Inquiry {
   }
 }
 
-/** Another question has come in the place of this one. */
-function isAbort(error: unknown): boolean {
-  return error instanceof DOMException && error.name === "AbortError";
+/** Another question has overtaken one, which is open again then. */
+function isGivenUp(error: unknown, questions: { forget(): void }): boolean {
+  const isAbort = error instanceof DOMException && error.name === "AbortError";
+  if (isAbort) questions.forget();
+  return isAbort;
 }

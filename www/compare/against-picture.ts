@@ -1,10 +1,17 @@
 import type { TimedView } from "../ask/inquiry.ts";
-import { Newest } from "../ask/newest.ts";
+import { Follower, type Round } from "../../src/ts/follow/follower.ts";
+import { Newest } from "../../src/ts/follow/newest.ts";
 import type { Settings } from "../settings/settings.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { pictureFrom } from "./picture.ts";
 import type { PictureAnswer, PictureQuestion } from "./protocol.ts";
 import { Reference, sentenceOf } from "./reference.ts";
+
+/** The settings, and what the picture depends on, as text. */
+interface Wanted {
+  settings: Settings;
+  key: string;
+}
 
 /** Our answer beside the z-buffer of the same picture. The z-buffer is computed again for every answer and every turn. */
 export class AgainstPicture {
@@ -14,9 +21,15 @@ export class AgainstPicture {
   readonly #viewer: Viewer;
   readonly #changed: () => void;
   readonly #worker: Reference<PictureQuestion, PictureAnswer>;
-  readonly #newest = new Newest<Settings>((settings) => this.#ask(settings));
-  #wanted = "";
-  #ended = false;
+  readonly #newest = new Newest<Wanted>((a, b) => a.key === b.key);
+  readonly #follower = new Follower({
+    next: () => (this.#newest.isNew ? this.#round(this.#newest.take()) : undefined),
+    refused: (error) => {
+      this.problem = `The z-buffer could not be computed: ${sentenceOf(error)}`;
+      this.#viewer.showParts(null);
+      this.#changed();
+    },
+  });
 
   constructor(viewer: Viewer, changed: () => void) {
     this.#viewer = viewer;
@@ -29,39 +42,34 @@ export class AgainstPicture {
 
   /** Called every frame. */
   follow(settings: Settings): void {
+    if (this.problem !== null) return;
     const { answer } = this.#viewer.scene;
     const { matrix, ...rest } = pictureFrom(this.#viewer, answer.question.viewpoint);
     // Orbit controls return a few bits off when nothing has moved.
-    const wanted = JSON.stringify([answer.asked, matrix.map(Math.fround), rest, settings.splat]);
-    if (wanted === this.#wanted || this.problem !== null) return;
-    this.#wanted = wanted;
-    this.#newest.want(settings);
+    const key = JSON.stringify([answer.asked, matrix.map(Math.fround), rest, settings.splat]);
+    this.#newest.want({ settings, key });
+    this.#follower.follow();
   }
 
   dispose(): void {
-    this.#ended = true;
+    this.#follower.stop();
     this.#worker.dispose();
   }
 
-  #isOver(): boolean {
-    return this.#ended;
-  }
-
-  async #ask({ splat }: Settings): Promise<void> {
-    if (this.#ended) return;
-    try {
-      const width = splat === "auto" ? { spacing: this.#viewer.scene.inquiry.spacing } : splat;
-      const { answer: ours } = this.#viewer.scene;
-      const picture = pictureFrom(this.#viewer, ours.question.viewpoint);
-      const answer = await this.#worker.ask({ picture, splat: width, visible: ours.visibility.indices });
-      if (answer === null) return;
-      this.result = { picture: answer, ours };
-      this.#viewer.showParts(answer.parts);
-    } catch (error) {
-      if (this.#isOver()) return;
-      this.problem = `The z-buffer could not be computed: ${sentenceOf(error)}`;
-      this.#viewer.showParts(null);
-    }
-    this.#changed();
+  #round({ settings: { splat } }: Wanted): Round<PictureAnswer | null> {
+    const { answer: ours } = this.#viewer.scene;
+    return {
+      ask: () => {
+        const width = splat === "auto" ? { spacing: this.#viewer.scene.inquiry.spacing } : splat;
+        const picture = pictureFrom(this.#viewer, ours.question.viewpoint);
+        return this.#worker.ask({ picture, splat: width, visible: ours.visibility.indices });
+      },
+      use: (answer) => {
+        if (answer === null) return undefined;
+        this.result = { picture: answer, ours };
+        this.#viewer.showParts(answer.parts);
+        return this.#changed;
+      },
+    };
   }
 }

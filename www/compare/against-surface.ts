@@ -1,6 +1,8 @@
 import type { TimedView } from "../ask/inquiry.ts";
-import { Newest } from "../ask/newest.ts";
 import { isSamePlace } from "../ask/question.ts";
+import { Follower, type Round } from "../../src/ts/follow/follower.ts";
+import { Newest } from "../../src/ts/follow/newest.ts";
+import { Rest } from "../../src/ts/follow/rest.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import type { Viewpoint } from "../settings/settings.ts";
 import type { Viewer } from "../view/viewer.ts";
@@ -22,12 +24,19 @@ export class AgainstSurface {
   readonly #surface: KnownSurface;
   readonly #worker: Reference<TruthQuestion, TruthAnswer>;
   readonly #origin: Viewpoint;
-  readonly #newest = new Newest<TimedView>((ours) => this.#ask(ours));
+  readonly #newest = new Newest<TimedView>((a, b) => a === b);
+  readonly #follower = new Follower({
+    next: () => (this.#newest.isNew ? this.#round(this.#newest.take()) : undefined),
+    refused: (error) => {
+      this.problem = `No rays could be traced: ${sentenceOf(error)}`;
+      this.#viewer.showParts(null);
+      this.progress = null;
+      this.#changed();
+    },
+  });
   /** The viewpoint whose truth is known or being traced. */
   #at: Viewpoint | null = null;
-  #asked: TimedView | null = null;
-  #since = -Infinity;
-  #ended = false;
+  readonly #rest = new Rest(REST);
 
   constructor(viewer: Viewer, surface: KnownSurface, changed: () => void) {
     this.#viewer = viewer;
@@ -53,17 +62,20 @@ export class AgainstSurface {
     const { answer, inquiry, cloud } = this.#viewer.scene;
     if (!this.#at || !isSamePlace(answer.question.viewpoint, this.#at, cloud.radius))
       this.#leave(answer.question.viewpoint);
-    if (inquiry.busy) this.#since = performance.now();
-    const rests = performance.now() - this.#since >= REST;
+    if (inquiry.busy) this.#rest.moved();
     // From the same place the truth is known, and only our answer has changed.
-    const due = this.result ? answer !== this.#asked : rests && !this.stopped && this.progress === null;
+    const due = this.result
+      ? answer !== this.#newest.wanted
+      : this.#rest.isReached && !this.stopped && this.progress === null;
     if (!due || this.problem !== null) return;
-    this.#asked = answer;
     if (!this.result) {
+      // Also an answer that was asked about before: its rays were given up.
+      this.#newest.forget();
       this.progress = 0;
       this.#changed();
     }
     this.#newest.want(answer);
+    this.#follower.follow();
   }
 
   /** Stops the tracing until the view changes, or until `again`. */
@@ -78,14 +90,14 @@ export class AgainstSurface {
   }
 
   dispose(): void {
-    this.#ended = true;
+    this.#follower.stop();
     this.#worker.dispose();
   }
 
   /** The view has moved, so the traced truth belongs to another place. */
   #leave(at: Viewpoint): void {
     this.#at = at;
-    this.#since = performance.now();
+    this.#rest.moved();
     if (this.progress !== null) this.#worker.stop();
     if (!this.result && !this.stopped) return;
     this.result = null;
@@ -94,33 +106,25 @@ export class AgainstSurface {
     this.#changed();
   }
 
-  #isOver(): boolean {
-    return this.#ended;
-  }
-
-  async #ask(ours: TimedView): Promise<void> {
-    if (this.#ended) return;
+  #round(ours: TimedView): Round<TruthAnswer | null> {
     const { question, visibility } = ours;
     const at = this.#at!;
-    try {
-      // Exactly that place: a place a few bits off would be traced again.
-      const viewpoint = at.map((value, axis) => value - this.#origin[axis]!) as Viewpoint;
-      const current = isSamePlace(question.viewpoint, at, this.#viewer.scene.cloud.radius);
-      const truth = current
-        ? await this.#worker.ask({ surface: this.#surface, viewpoint, visible: visibility.indices })
-        : null;
-      if (this.#isOver()) return;
-      // A truth about a place that has been left is not shown.
-      if (truth !== null && !this.stopped && this.#at === at) {
-        this.result = { truth, ours };
-        this.#viewer.showParts(truth.parts, true);
-      }
-    } catch (error) {
-      if (this.#isOver()) return;
-      this.problem = `No rays could be traced: ${sentenceOf(error)}`;
-      this.#viewer.showParts(null);
-    }
-    this.progress = null;
-    this.#changed();
+    return {
+      ask: () => {
+        // Exactly that place: a place a few bits off would be traced again.
+        const viewpoint = at.map((value, axis) => value - this.#origin[axis]!) as Viewpoint;
+        const current = isSamePlace(question.viewpoint, at, this.#viewer.scene.cloud.radius);
+        return current ? this.#worker.ask({ surface: this.#surface, viewpoint, visible: visibility.indices }) : null;
+      },
+      use: (truth) => {
+        // A truth about a place that has been left is not shown.
+        if (truth !== null && !this.stopped && this.#at === at) {
+          this.result = { truth, ours };
+          this.#viewer.showParts(truth.parts, true);
+        }
+        this.progress = null;
+        return this.#changed;
+      },
+    };
   }
 }
