@@ -1,26 +1,15 @@
 /// <reference lib="esnext.disposable" preserve="true" />
+import type { ChosenRadius } from "./answers.js";
+import { CoreCloud } from "./core-cloud.js";
 import { addDisposeSymbol } from "./dispose-symbol.js";
-import { HprError } from "./errors.js";
-import { type Instance, requireInstance } from "./instance.js";
+import { requireInstance } from "./instance.js";
+import { CLOUD_OPTIONS, cloudSettings, givenOptions, pick, type PointCloudOptions } from "./options.js";
+import type { Positions } from "./positions.js";
 import {
-  CLOUD_OPTIONS,
-  type CloudSettings,
-  cloudSettings,
-  type CloudSize,
-  givenOptions,
-  pick,
-  type PointCloudOptions,
-} from "./options.js";
-import { perform } from "./perform.js";
-import { packed, type Positions, readIndices, readPositions } from "./positions.js";
-import {
-  type Answers,
   directionQuery,
   ILLUMINATION_OPTIONS,
   type IlluminationOptions,
   illuminationQuery,
-  type Query,
-  type QueryKind,
   radiusQuery,
   RECONSTRUCTION_OPTIONS,
   type ReconstructionOptions,
@@ -28,25 +17,8 @@ import {
   severalQuery,
   viewQuery,
 } from "./queries.js";
-import { Spares } from "./spares.js";
 import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "./view-options.js";
-import {
-  type ChosenRadius,
-  type Reconstruction,
-  ReconstructionAnswer,
-  takeMemory,
-  type Visibility,
-  VisibilityAnswer,
-} from "./visibility.js";
-
-/** A cloud whose building is followed: `progress` is told which share of it is done, and must not throw. */
-export let build: (positions: Positions, options: PointCloudOptions, progress: (share: number) => void) => PointCloud;
-
-/** Asks what was read before, maybe in another thread. */
-export let ask: <K extends QueryKind>(cloud: PointCloud, query: Query<K>) => Answers[K];
-
-/** Gives memory for the indices of answers to come. */
-export let giveMemory: (cloud: PointCloud, buffer: ArrayBuffer | undefined) => void;
+import { type Reconstruction, ReconstructionAnswer, type Visibility, VisibilityAnswer } from "./visibility.js";
 
 /**
  * A point cloud in the memory of the wasm: prepared once, then asked from as
@@ -61,30 +33,10 @@ export class PointCloud {
   /** The same as {@link PointCloud.dispose}, on platforms that have `Symbol.dispose`. */
   declare readonly [Symbol.dispose]: () => void;
 
-  readonly #instance: Instance;
-  readonly #settings: CloudSettings;
-  #handle: number | undefined;
-  #size: CloudSize;
-  readonly #spares = new Spares();
-
-  static #progress: ((share: number) => void) | undefined;
+  readonly #core: CoreCloud;
 
   static {
     addDisposeSymbol(this.prototype);
-    build = (positions, options, progress) => {
-      try {
-        PointCloud.#progress = progress;
-        return new PointCloud(positions, options);
-      } finally {
-        PointCloud.#progress = undefined;
-      }
-    };
-    ask = (cloud, query) => cloud.#ask(query);
-    giveMemory = (cloud, buffer) => {
-      if (cloud.#handle !== undefined) {
-        cloud.#spares.keep(buffer);
-      }
-    };
   }
 
   /**
@@ -97,22 +49,9 @@ export class PointCloud {
    *   `positions-length`, `non-finite`, `too-large`, `internal`.
    */
   constructor(positions: Positions, options?: PointCloudOptions) {
-    this.#instance = requireInstance();
+    const instance = requireInstance();
     const settings = cloudSettings(givenOptions(options, CLOUD_OPTIONS));
-    const numbers = readPacked(positions, settings);
-    const choices = { skipNonFinite: settings.skipNonFinite, progress: PointCloud.#progress };
-    const { handle, ...size } = this.#instance.call((bindings) => {
-      if (settings.dimension > 3) {
-        return bindings.createHyperCloud(numbers as Float64Array, settings.dimension, choices);
-      }
-      return numbers.BYTES_PER_ELEMENT === 4
-        ? bindings.createCloudF32(numbers as Float32Array, choices)
-        : bindings.createCloudF64(numbers as Float64Array, choices);
-    });
-    this.#settings = settings;
-    this.#handle = handle;
-    this.#size = size;
-    unreachable.register(this, { instance: this.#instance, handle }, this);
+    this.#core = new CoreCloud(instance, positions, settings);
   }
 
   /**
@@ -120,12 +59,12 @@ export class PointCloud {
    * index, and the length of a mask.
    */
   get length(): number {
-    return this.#size.length;
+    return this.#core.size.length;
   }
 
   /** How many of the points given are left out because a coordinate is not finite. */
   get skipped(): number {
-    return this.#size.skipped;
+    return this.#core.size.skipped;
   }
 
   /**
@@ -134,7 +73,7 @@ export class PointCloud {
    * where there are more; 0 where there are fewer than two.
    */
   get spacing(): number {
-    return this.#size.spacing;
+    return this.#core.size.spacing;
   }
 
   /**
@@ -147,9 +86,9 @@ export class PointCloud {
    * @throws HprError `viewpoint`, `option`, `radius`, `too-large`, `disposed`, `internal`.
    */
   visibleFrom(viewpoint: ArrayLike<number>, options?: VisibilityOptions): Visibility {
-    this.#requireHandle();
+    this.#core.requireOpen();
     const given = givenOptions(options, VIEW_OPTIONS);
-    return new VisibilityAnswer(this.#ask(viewQuery(this.#settings.dimension, viewpoint, given)));
+    return new VisibilityAnswer(this.#core.ask(viewQuery(this.#core.dimension, viewpoint, given)));
   }
 
   /**
@@ -167,9 +106,9 @@ export class PointCloud {
    * @throws HprError `viewpoint` for the direction, otherwise as {@link PointCloud.visibleFrom}.
    */
   visibleFromDirection(direction: ArrayLike<number>, options?: VisibilityOptions): Visibility {
-    this.#requireHandle();
+    this.#core.requireOpen();
     const given = givenOptions(options, VIEW_OPTIONS);
-    return new VisibilityAnswer(this.#ask(directionQuery(this.#settings.dimension, direction, given)));
+    return new VisibilityAnswer(this.#core.ask(directionQuery(this.#core.dimension, direction, given)));
   }
 
   /**
@@ -180,9 +119,9 @@ export class PointCloud {
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
   visibleFromAny(viewpoints: readonly ArrayLike<number>[], options?: VisibilityOptions): Visibility {
-    this.#requireHandle();
+    this.#core.requireOpen();
     const given = givenOptions(options, VIEW_OPTIONS);
-    return new VisibilityAnswer(this.#ask(severalQuery(this.#settings.dimension, viewpoints, given)));
+    return new VisibilityAnswer(this.#core.ask(severalQuery(this.#core.dimension, viewpoints, given)));
   }
 
   /**
@@ -193,9 +132,9 @@ export class PointCloud {
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
   visibleFromAtLeast(k: number, viewpoints: readonly ArrayLike<number>[], options?: VisibilityOptions): Visibility {
-    this.#requireHandle();
+    this.#core.requireOpen();
     const given = givenOptions(options, VIEW_OPTIONS);
-    return new VisibilityAnswer(this.#ask(severalQuery(this.#settings.dimension, viewpoints, given, { k })));
+    return new VisibilityAnswer(this.#core.ask(severalQuery(this.#core.dimension, viewpoints, given, { k })));
   }
 
   /**
@@ -206,8 +145,8 @@ export class PointCloud {
    * @throws HprError `viewpoint`, `option`, `radius`, `too-large`, `disposed`, `internal`.
    */
   autoRadius(viewpoint: ArrayLike<number>, rule?: RadiusRule): ChosenRadius {
-    this.#requireHandle();
-    return this.#ask(radiusQuery(this.#settings.dimension, viewpoint, rule));
+    this.#core.requireOpen();
+    return this.#core.ask(radiusQuery(this.#core.dimension, viewpoint, rule));
   }
 
   /**
@@ -219,9 +158,9 @@ export class PointCloud {
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
   reconstruct(viewpoint: ArrayLike<number>, options?: ReconstructionOptions): Reconstruction {
-    this.#requireHandle();
+    this.#core.requireOpen();
     const given = givenOptions(options, RECONSTRUCTION_OPTIONS);
-    return new ReconstructionAnswer(this.#ask(reconstructionQuery(this.#settings.dimension, viewpoint, given)));
+    return new ReconstructionAnswer(this.#core.ask(reconstructionQuery(this.#core.dimension, viewpoint, given)));
   }
 
   /**
@@ -234,9 +173,9 @@ export class PointCloud {
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
   illuminate(lights: readonly ArrayLike<number>[], options?: IlluminationOptions): Float32Array {
-    this.#requireHandle();
+    this.#core.requireOpen();
     const given = givenOptions(options, ILLUMINATION_OPTIONS);
-    return this.#ask(illuminationQuery(this.#settings.dimension, lights, given)).brightness;
+    return this.#core.ask(illuminationQuery(this.#core.dimension, lights, given)).brightness;
   }
 
   /**
@@ -251,17 +190,7 @@ export class PointCloud {
    *   `too-large`, `disposed`, `internal`; the cloud is unchanged then.
    */
   append(positions: Positions): void {
-    this.#requireHandle();
-    const numbers = readPacked(positions, this.#settings);
-    const handle = this.#requireHandle();
-    this.#size = this.#instance.call((bindings) => {
-      if (this.#settings.dimension > 3) {
-        return bindings.appendHyper(handle, numbers as Float64Array);
-      }
-      return numbers.BYTES_PER_ELEMENT === 4
-        ? bindings.appendF32(handle, numbers as Float32Array)
-        : bindings.appendF64(handle, numbers as Float64Array);
-    });
+    this.#core.append(positions);
   }
 
   /**
@@ -274,10 +203,7 @@ export class PointCloud {
    *   `disposed`, `internal`; the cloud is unchanged then.
    */
   remove(indices: ArrayLike<number>): void {
-    this.#requireHandle();
-    const integers = readIndices(indices);
-    const handle = this.#requireHandle();
-    this.#size = this.#instance.call((bindings) => bindings.remove(handle, integers));
+    this.#core.remove(indices);
   }
 
   /**
@@ -289,33 +215,12 @@ export class PointCloud {
    * @throws HprError `option` for what is no answer of a cloud.
    */
   recycle(answer: Visibility): void {
-    giveMemory(this, takeMemory(answer));
+    this.#core.keepMemory(VisibilityAnswer.takeMemory(answer));
   }
 
   /** Gives the cloud's memory back. Answers already given stay valid. May be called twice. */
   dispose(): void {
-    this.#spares.clear();
-    const handle = this.#handle;
-    if (handle !== undefined) {
-      this.#handle = undefined;
-      unreachable.unregister(this);
-      freeCloud({ instance: this.#instance, handle });
-    }
-  }
-
-  /** Getters of the arguments may have disposed of the cloud while they were read. */
-  #ask<K extends QueryKind>(query: Query<K>): Answers[K] {
-    const handle = this.#requireHandle();
-    const { dimension } = this.#settings;
-    const { length } = this.#size;
-    return perform({ instance: this.#instance, handle, dimension, length, spares: this.#spares }, query);
-  }
-
-  #requireHandle(): number {
-    if (this.#handle === undefined) {
-      throw new HprError("disposed", "this cloud has been disposed of");
-    }
-    return this.#handle;
+    this.#core.dispose();
   }
 }
 
@@ -338,21 +243,5 @@ export function hiddenPointRemoval(
     return cloud.visibleFrom(viewpoint, pick(given, VIEW_OPTIONS));
   } finally {
     cloud.dispose();
-  }
-}
-
-function readPacked(positions: unknown, { stride, dimension }: CloudSettings): Float32Array | Float64Array {
-  return packed(readPositions(positions, stride), stride, dimension);
-}
-
-/** Clouds that were never disposed of, freed once nothing refers to them any more. */
-const unreachable = new FinalizationRegistry(freeCloud);
-
-/** A lost instance took its clouds along, and their numbers may be in use again. */
-function freeCloud({ instance, handle }: { instance: Instance; handle: number }): void {
-  if (instance.alive) {
-    instance.call((bindings) => {
-      bindings.freeCloud(handle);
-    });
   }
 }

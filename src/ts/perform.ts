@@ -1,7 +1,8 @@
+import type { Answers, Found } from "./answers.js";
 import { HprError } from "./errors.js";
 import type { Bindings, Instance } from "./instance.js";
 import { allocating } from "./memory.js";
-import type { Answers, Found, Query, QueryKind } from "./queries.js";
+import type { Query, QueryKind } from "./queries.js";
 import { roomIn, type Spares } from "./spares.js";
 import { resolvedInversion, type ViewSettings } from "./view-options.js";
 

@@ -5,14 +5,12 @@ import { coreDimension, readViewpoint, readViewpoints } from "./positions.js";
 import { plainView, typedArrayType } from "./typed-arrays.js";
 import {
   requireSpace,
-  type ResolvedInversion,
   ruleSettings,
   VIEW_OPTIONS,
   type ViewSettings,
   viewSettings,
   type VisibilityOptions,
 } from "./view-options.js";
-import type { ChosenRadius } from "./visibility.js";
 
 /** How a mesh is made of one view. */
 export interface ReconstructionOptions extends VisibilityOptions {
@@ -68,23 +66,6 @@ export interface Questions {
 
 export type QueryKind = keyof Questions;
 export type Query<K extends QueryKind = QueryKind> = { [P in K]: { kind: P } & Questions[P] }[K];
-
-/** What is visible, with the length of the cloud that was asked. */
-export interface Found extends ChosenRadius {
-  indices: Uint32Array<ArrayBuffer>;
-  inversion: ResolvedInversion;
-  length: number;
-}
-
-/** The answers, by kind of query. */
-export interface Answers {
-  visibleFrom: Found;
-  visibleFromDirection: Found;
-  visibleFromSeveral: Found;
-  autoRadius: ChosenRadius;
-  reconstruct: Found & { triangles: Uint32Array<ArrayBuffer> };
-  illuminate: { brightness: Float32Array<ArrayBuffer> };
-}
 
 // `given` are options already gathered, under the names of these lists: a worker has more.
 

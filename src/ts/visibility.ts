@@ -1,25 +1,8 @@
+import type { Answers, ChosenRadius, Found } from "./answers.js";
 import { describe, HprError } from "./errors.js";
 import { allocating } from "./memory.js";
-import type { Answers, Found } from "./queries.js";
 import { plainView, typedArrayType } from "./typed-arrays.js";
 import type { ResolvedInversion } from "./view-options.js";
-
-/** Takes the memory of an answer's indices: gone for whoever still looks at them. */
-export let takeMemory: (answer: unknown) => ArrayBuffer | undefined;
-
-/** How a radius was chosen. */
-export interface ChosenRadius {
-  /**
-   * R, the radius of the flipping sphere in the cloud's units; 0 where no point
-   * is away from the viewpoint. With an inversion by power its unit S, with an
-   * exponential one 0.
-   */
-  readonly radius: number;
-  /** log₁₀(R ÷ farthest distance), the paper's parameter; 0 where there is no R. */
-  readonly exponent: number;
-  /** Hulls computed to choose R, the final one not counted. */
-  readonly evaluations: number;
-}
 
 /**
  * Which points are visible, from one viewpoint or several. The masks are made from `indices`
@@ -73,19 +56,22 @@ export class VisibilityAnswer implements Visibility {
   readonly inversion: ResolvedInversion;
   readonly #cloudLength: number;
 
-  static {
-    takeMemory = (answer) => {
-      if (typeof answer !== "object" || answer === null || !(#cloudLength in answer)) {
-        throw new HprError("option", `recycle needs an answer of a cloud, got ${describe(answer)}`);
-      }
-      try {
-        const { buffer } = answer.indices;
-        return structuredClone(buffer as ArrayBuffer, { transfer: [buffer as ArrayBuffer] });
-      } catch {
-        // Gone already: recycled before, or transferred away.
-        return undefined;
-      }
-    };
+  /**
+   * Takes the memory of an answer's indices away from everybody who still looks at them.
+   *
+   * @throws HprError `option` for what is no answer of a cloud.
+   */
+  static takeMemory(answer: unknown): ArrayBuffer | undefined {
+    if (typeof answer !== "object" || answer === null || !(#cloudLength in answer)) {
+      throw new HprError("option", `recycle needs an answer of a cloud, got ${describe(answer)}`);
+    }
+    try {
+      const { buffer } = answer.indices;
+      return structuredClone(buffer as ArrayBuffer, { transfer: [buffer as ArrayBuffer] });
+    } catch {
+      // Gone already: recycled before, or transferred away.
+      return undefined;
+    }
   }
 
   constructor(answer: Found) {

@@ -4,7 +4,6 @@ import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 import { root } from "../root.js";
-import type { Cloud } from "./clouds.js";
 
 export { root };
 
@@ -22,8 +21,15 @@ export function scratch(name: string): string {
 
 export type Precision = "f32" | "f64";
 
+/** What a file for other programs needs of a cloud. */
+interface Named {
+  name: string;
+  positions: Float32Array | Float64Array;
+}
+
 /** The cloud's positions as raw little-endian numbers in a file, and their precision. */
-export function writeCloud({ name, positions }: Cloud): [file: string, precision: Precision] {
+export function writeCloud(cloud: Named): [file: string, precision: Precision] {
+  const { name, positions } = cloud;
   const precision = positions.BYTES_PER_ELEMENT === 4 ? "f32" : "f64";
   const file = scratch(`${name}.${precision}`);
   writeFileSync(file, positions);

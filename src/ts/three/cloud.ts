@@ -1,7 +1,8 @@
 import { PointCloud } from "../cloud.js";
 import { runningInstance } from "../instance.js";
 import { init } from "../loader.js";
-import { listHiddenToo, WorkerPointCloud } from "../worker/client.js";
+import { WorkerPointCloud } from "../worker/client.js";
+import { listHiddenToo } from "../worker/listing.js";
 import type { ReadPositions } from "./attribute.js";
 
 /** Both answer alike, one of them with promises. */

@@ -29,7 +29,7 @@ export function startBrowserWorker(events: ThreadEvents): Thread {
   };
 }
 
-/** A worker, and what to call once its script has been read. */
+/** A worker, and the function to call once its script has been read. */
 interface NewWorker {
   worker: Worker;
   script: URL | undefined;
@@ -62,9 +62,18 @@ function create(): Worker {
 }
 
 /**
- * Where a bundler has put the worker's script is told by nothing but the call it has
- * rewritten: that is made once with a constructor which only takes the address down.
- * Undefined where `Worker` cannot be replaced.
+ * The address of the worker's script, wherever a bundler has put it. Undefined where `Worker`
+ * cannot be replaced.
+ *
+ * Bundlers rewrite the call in `create`, and nothing else tells the address. So this makes the call
+ * once with a constructor that only notes the address. The global is replaced for that one
+ * synchronous call and put back. There are ways without this, and each is worse:
+ *
+ * - `new URL("./worker-thread.js", import.meta.url)` outside of `new Worker(…)` makes bundlers copy
+ *   that one file without the modules that it imports. It would have to be a second copy of all of
+ *   them in one file, which the user's bundler neither shares, minifies nor maps to its sources.
+ * - A local variable with the name `Worker` hides the call from webpack, which follows scopes.
+ * - The error for a script of another origin comes without its address.
  */
 function scriptAddress(): URL | undefined {
   const scope = globalThis as { Worker: unknown };

@@ -1,4 +1,5 @@
 /// <reference lib="esnext.disposable" preserve="true" />
+import type { Answers, ChosenRadius } from "../answers.js";
 import { addDisposeSymbol } from "../dispose-symbol.js";
 import { describe, HprError } from "../errors.js";
 import { moduleForWorker } from "../loader.js";
@@ -14,7 +15,6 @@ import {
 } from "../options.js";
 import { isFloatArray, type Positions, readIndices, readPositions } from "../positions.js";
 import {
-  type Answers,
   directionQuery,
   ILLUMINATION_OPTIONS,
   type IlluminationOptions,
@@ -29,14 +29,7 @@ import {
   viewQuery,
 } from "../queries.js";
 import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../view-options.js";
-import {
-  type ChosenRadius,
-  type Reconstruction,
-  ReconstructionAnswer,
-  takeMemory,
-  type Visibility,
-  VisibilityAnswer,
-} from "../visibility.js";
+import { type Reconstruction, ReconstructionAnswer, type Visibility, VisibilityAnswer } from "../visibility.js";
 import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
 import { type Progress, readProgress } from "./progress.js";
 import { RequestQueue } from "./request-queue.js";
@@ -90,9 +83,6 @@ export interface RequestOptions {
 /** How one view is computed, and when it need not be. */
 export interface WorkerVisibilityOptions extends VisibilityOptions, RequestOptions {}
 
-/** From now on the cloud's answers have the hidden points' indices in memory, too (see `hidden.ts`): a cloud of one worker. */
-export let listHiddenToo: (cloud: WorkerPointCloud) => void;
-
 const CREATE_OPTIONS = ["transfer", "workers", "shared", "signal", "onProgress"] as const;
 const REQUEST_OPTIONS = ["latest", "signal"] as const;
 
@@ -116,9 +106,6 @@ export class WorkerPointCloud {
 
   static {
     addDisposeSymbol(this.prototype);
-    listHiddenToo = (cloud) => {
-      cloud.#queue.listing = true;
-    };
   }
 
   private constructor(queue: RequestQueue, settings: CloudSettings, size: CloudSize) {
@@ -333,7 +320,7 @@ export class WorkerPointCloud {
    * @throws HprError `option` for what is no answer of a cloud.
    */
   recycle(answer: Visibility): void {
-    this.#queue.recycle(takeMemory(answer));
+    this.#queue.recycle(VisibilityAnswer.takeMemory(answer));
   }
 
   /**

@@ -1,6 +1,7 @@
+import type { Answers, Found } from "../answers.js";
 import { HprError, type HprErrorCode } from "../errors.js";
 import type { CloudSettings, CloudSize } from "../options.js";
-import type { Answers, Query } from "../queries.js";
+import type { Query } from "../queries.js";
 
 /**
  * What the page and its worker say to each other. The worker says `"ready"` once. After
@@ -29,6 +30,16 @@ export interface Replies extends Answers {
   remove: CloudSize;
   forget: object;
 }
+
+type KindWithIndices = { [Kind in keyof Replies]: Replies[Kind] extends Found ? Kind : never }[keyof Replies];
+
+/** The kinds of requests whose replies have indices, which may be written into spare memory: all of them, and no other. */
+export const WITH_INDICES: Readonly<Record<KindWithIndices, true>> = {
+  visibleFrom: true,
+  visibleFromDirection: true,
+  visibleFromSeveral: true,
+  reconstruct: true,
+};
 
 export type Reply<Value = unknown> = { value: Value } | { error: { code: HprErrorCode; message: string } };
 

@@ -1,15 +1,14 @@
+import type { Answers } from "../answers.js";
 import { HprError } from "../errors.js";
-import type { Answers, Query, QueryKind } from "../queries.js";
+import type { Query, QueryKind } from "../queries.js";
 import { Spares } from "../spares.js";
 import { abortError, BY_SIGNAL } from "./abort.js";
-import { isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { isListing } from "./listing.js";
+import { isProgress, READY, type Replies, type Reply, type Request, WITH_INDICES } from "./protocol.js";
 import { Team } from "./team.js";
 import type { ThreadEvents } from "./thread.js";
 
 type Kind = Request["kind"];
-
-/** The kinds of requests whose answers have indices. */
-const HAS_INDICES = /^(visibleFrom|reconstruct)/;
 
 interface AskOptions {
   /** May be dropped when a newer request with the same name here comes before it has started. */
@@ -38,8 +37,6 @@ export class RequestQueue implements ThreadEvents {
   #waiting: Pending[] = [];
   #closed: Error | undefined;
   readonly #spares = new Spares();
-  /** Whether answers list hidden points, too; only for a worker that is alone or shared. */
-  listing = false;
 
   /** Starts so many workers, which act as one, or takes part in the shared one. */
   async start(workers: number | "shared"): Promise<void> {
@@ -161,10 +158,10 @@ export class RequestQueue implements ThreadEvents {
     this.#running = next;
     this.#team.setBusy(next !== undefined);
     if (next !== undefined) {
-      const { request } = next;
+      const { request, owner } = next;
       this.#team.post(
-        HAS_INDICES.test(request.kind)
-          ? ({ ...request, spare: this.#spares.take(), listing: this.listing } as Request)
+        request.kind in WITH_INDICES
+          ? ({ ...request, spare: this.#spares.take(), listing: isListing(owner) } as Request)
           : request,
       );
     }

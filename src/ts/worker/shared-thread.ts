@@ -1,5 +1,6 @@
 import { type Letter, READY } from "./protocol.js";
-import { startThread, type Thread, type ThreadEvents } from "./thread.js";
+import { startThread } from "./start-thread.js";
+import type { Thread, ThreadEvents } from "./thread.js";
 
 /**
  * A thread in which several clouds live, each seen from outside as if it had the thread to

@@ -1,29 +1,27 @@
-import { ask, build, giveMemory, type PointCloud } from "../cloud.js";
+import { CoreCloud } from "../core-cloud.js";
 import { withHidden } from "../hidden.js";
+import { requireInstance } from "../instance.js";
 import { importNodeModule } from "../node.js";
-import type { CloudSize } from "../options.js";
 import { initSync } from "../start.js";
 import { failedReply, type Letter, type Progress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 
 type Post = (message: unknown, transfer: ArrayBuffer[]) => void;
 
 /** By the numbers they are given outside. */
-const clouds = new Map<number, PointCloud>();
+const clouds = new Map<number, CoreCloud>();
 
 function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
   const { cloud: number, content: request } = letter;
   if (request.kind === "create") {
     initSync(request.module);
-    const { dimension, stride, skipNonFinite } = request.settings;
-    const nonFinite = skipNonFinite ? "skip" : "error";
     const report = (progress: number) => {
       if (request.reporting) {
         post({ cloud: number, content: { progress } satisfies Progress } satisfies Letter, []);
       }
     };
-    const created = build(request.positions, { dimension, stride, nonFinite }, report);
+    const created = new CoreCloud(requireInstance(), request.positions, request.settings, report);
     clouds.set(number, created);
-    return sizeOf(created);
+    return created.size;
   }
   const cloud = clouds.get(number);
   if (request.kind === "forget") {
@@ -37,23 +35,19 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
   switch (request.kind) {
     case "append":
       cloud.append(request.positions);
-      return sizeOf(cloud);
+      return cloud.size;
     case "remove":
       cloud.remove(request.indices);
-      return sizeOf(cloud);
+      return cloud.size;
     default: {
-      giveMemory(cloud, request.spare);
-      const found = ask(cloud, request);
+      cloud.keepMemory(request.spare);
+      const found = cloud.ask(request);
       if (request.listing === true && "indices" in found) {
         found.indices = withHidden(found.indices, found.length);
       }
       return found;
     }
   }
-}
-
-function sizeOf({ length, skipped, spacing }: PointCloud): CloudSize {
-  return { length, skipped, spacing };
 }
 
 /** Every request gets a reply, whatever is thrown. */

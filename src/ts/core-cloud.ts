@@ -1,0 +1,128 @@
+import type { Answers } from "./answers.js";
+import { HprError } from "./errors.js";
+import type { Instance } from "./instance.js";
+import type { CloudSettings, CloudSize } from "./options.js";
+import { perform } from "./perform.js";
+import { packed, readIndices, readPositions } from "./positions.js";
+import type { Query, QueryKind } from "./queries.js";
+import { Spares } from "./spares.js";
+
+/**
+ * A cloud in the memory of the wasm, asked with queries that were read before, maybe in another
+ * thread. `PointCloud` is this with the methods that a user calls; a worker needs no more than this.
+ */
+export class CoreCloud {
+  readonly #instance: Instance;
+  readonly #settings: CloudSettings;
+  #handle: number | undefined;
+  #size: CloudSize;
+  readonly #spares = new Spares();
+
+  /**
+   * @param progress is told which share of the building is done, and must not throw.
+   * @throws HprError as the constructor of `PointCloud`.
+   */
+  constructor(instance: Instance, positions: unknown, settings: CloudSettings, progress?: (share: number) => void) {
+    const numbers = readPacked(positions, settings);
+    const choices = { skipNonFinite: settings.skipNonFinite, progress };
+    const { handle, ...size } = instance.call((bindings) => {
+      if (settings.dimension > 3) {
+        return bindings.createHyperCloud(numbers as Float64Array, settings.dimension, choices);
+      }
+      return numbers.BYTES_PER_ELEMENT === 4
+        ? bindings.createCloudF32(numbers as Float32Array, choices)
+        : bindings.createCloudF64(numbers as Float64Array, choices);
+    });
+    this.#instance = instance;
+    this.#settings = settings;
+    this.#handle = handle;
+    this.#size = size;
+    unreachable.register(this, { instance, handle }, this);
+  }
+
+  get dimension(): number {
+    return this.#settings.dimension;
+  }
+
+  get size(): CloudSize {
+    return this.#size;
+  }
+
+  /** @throws HprError `disposed`. */
+  requireOpen(): void {
+    this.#requireHandle();
+  }
+
+  /** @throws HprError as the methods of `PointCloud`. */
+  ask<K extends QueryKind>(query: Query<K>): Answers[K] {
+    // Getters of the arguments may have disposed of the cloud while they were read.
+    const handle = this.#requireHandle();
+    const { dimension } = this.#settings;
+    const { length } = this.#size;
+    return perform({ instance: this.#instance, handle, dimension, length, spares: this.#spares }, query);
+  }
+
+  /** @throws HprError as `PointCloud.append`. */
+  append(positions: unknown): void {
+    this.#requireHandle();
+    const numbers = readPacked(positions, this.#settings);
+    const handle = this.#requireHandle();
+    this.#size = this.#instance.call((bindings) => {
+      if (this.#settings.dimension > 3) {
+        return bindings.appendHyper(handle, numbers as Float64Array);
+      }
+      return numbers.BYTES_PER_ELEMENT === 4
+        ? bindings.appendF32(handle, numbers as Float32Array)
+        : bindings.appendF64(handle, numbers as Float64Array);
+    });
+  }
+
+  /** @throws HprError as `PointCloud.remove`. */
+  remove(indices: ArrayLike<number>): void {
+    this.#requireHandle();
+    const integers = readIndices(indices);
+    const handle = this.#requireHandle();
+    this.#size = this.#instance.call((bindings) => bindings.remove(handle, integers));
+  }
+
+  /** Keeps memory for the indices of answers to come. */
+  keepMemory(buffer: ArrayBuffer | undefined): void {
+    if (this.#handle !== undefined) {
+      this.#spares.keep(buffer);
+    }
+  }
+
+  /** May be called twice. */
+  dispose(): void {
+    this.#spares.clear();
+    const handle = this.#handle;
+    if (handle !== undefined) {
+      this.#handle = undefined;
+      unreachable.unregister(this);
+      freeCloud({ instance: this.#instance, handle });
+    }
+  }
+
+  #requireHandle(): number {
+    if (this.#handle === undefined) {
+      throw new HprError("disposed", "this cloud has been disposed of");
+    }
+    return this.#handle;
+  }
+}
+
+function readPacked(positions: unknown, { stride, dimension }: CloudSettings): Float32Array | Float64Array {
+  return packed(readPositions(positions, stride), stride, dimension);
+}
+
+/** Clouds that were never disposed of, freed once nothing refers to them any more. */
+const unreachable = new FinalizationRegistry(freeCloud);
+
+/** A lost instance took its clouds along, and their numbers may be in use again. */
+function freeCloud({ instance, handle }: { instance: Instance; handle: number }): void {
+  if (instance.alive) {
+    instance.call((bindings) => {
+      bindings.freeCloud(handle);
+    });
+  }
+}
