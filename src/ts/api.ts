@@ -1,13 +1,19 @@
 // What every entry has in common: all but where the wasm comes from.
-export type { ChosenRadius } from "./answers.js";
-export { hiddenPointRemoval, PointCloud } from "./cloud.js";
-export type { InitInput, SyncInitInput, WasmModule } from "./compile.js";
-export { HprError, type HprErrorCode } from "./errors.js";
-export { permissibleCurvature, radiusBound, type RingOptions, ringOfViewpoints, simdEnabled } from "./formulas.js";
-export { type MergeOptions, mergeVisible, type VisiblePart } from "./merge.js";
-export type { PointCloudOptions } from "./options.js";
-export type { Positions } from "./positions.js";
-export type { IlluminationOptions, ReconstructionOptions } from "./queries.js";
-export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./view-options.js";
-export { initSync } from "./start.js";
-export type { Reconstruction, Visibility } from "./visibility.js";
+export type { ChosenRadius } from "./query/answers.js";
+export { hiddenPointRemoval, PointCloud } from "./cloud/cloud.js";
+export type { InitInput, SyncInitInput, WasmModule } from "./instance/compile.js";
+export { HprError, type HprErrorCode } from "./base/errors.js";
+export {
+  permissibleCurvature,
+  radiusBound,
+  type RingOptions,
+  ringOfViewpoints,
+  simdEnabled,
+} from "./cloud/formulas.js";
+export { type MergeOptions, mergeVisible, type VisiblePart } from "./cloud/merge.js";
+export type { PointCloudOptions } from "./query/options.js";
+export type { Positions } from "./query/positions.js";
+export type { IlluminationOptions, ReconstructionOptions } from "./query/queries.js";
+export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
+export { initSync } from "./instance/start.js";
+export type { Reconstruction, Visibility } from "./cloud/visibility.js";

@@ -1,7 +1,8 @@
-import { compile, type InitInput, type WasmModule } from "./compile.js";
-import { compiledOnce, initFrom, startedModule } from "./start.js";
+import { compile, type InitInput, type WasmModule } from "./instance/compile.js";
+import { compiledOnce, initFrom, startedModule } from "./instance/start.js";
 
-// One literal expression: bundlers look for exactly this form.
+// One literal expression: bundlers look for exactly this form. Others keep the address as it is, so
+// this file stays beside the folder `wasm`.
 const ownFile = compiledOnce(() => compile(new URL("./wasm/hpr_bg.wasm", import.meta.url)));
 
 /**

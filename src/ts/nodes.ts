@@ -1,4 +1,4 @@
-export { HprError, type HprErrorCode } from "./errors.js";
+export { HprError, type HprErrorCode } from "./base/errors.js";
 export { HiddenPointNodesFilter, type HiddenPointNodesFilterEvents } from "./nodes/filter.js";
 export type { HiddenPointNodesFilterOptions } from "./nodes/options.js";
-export type { Inversion } from "./view-options.js";
+export type { Inversion } from "./query/view-options.js";

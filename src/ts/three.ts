@@ -1,4 +1,4 @@
-export { HprError, type HprErrorCode } from "./errors.js";
+export { HprError, type HprErrorCode } from "./base/errors.js";
 export { HiddenPointFilter, type HiddenPointFilterEvents } from "./three/filter.js";
 export type { HiddenPointFilterOptions } from "./three/options.js";
-export type { Inversion, RadiusRule, VisibilityOptions } from "./view-options.js";
+export type { Inversion, RadiusRule, VisibilityOptions } from "./query/view-options.js";

@@ -1,10 +1,10 @@
-export type { ChosenRadius } from "./answers.js";
-export { HprError, type HprErrorCode } from "./errors.js";
-export type { PointCloudOptions } from "./options.js";
-export type { Positions } from "./positions.js";
-export type { IlluminationOptions, ReconstructionOptions } from "./queries.js";
-export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./view-options.js";
-export type { Reconstruction, Visibility } from "./visibility.js";
+export type { ChosenRadius } from "./query/answers.js";
+export { HprError, type HprErrorCode } from "./base/errors.js";
+export type { PointCloudOptions } from "./query/options.js";
+export type { Positions } from "./query/positions.js";
+export type { IlluminationOptions, ReconstructionOptions } from "./query/queries.js";
+export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
+export type { Reconstruction, Visibility } from "./cloud/visibility.js";
 export {
   type RequestOptions,
   WorkerPointCloud,

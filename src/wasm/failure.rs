@@ -1,4 +1,4 @@
-//! An error, as JavaScript receives it. JavaScript words the message (src/ts/failure.ts): the
+//! An error, as JavaScript receives it. JavaScript words the message (src/ts/instance/failure.ts): the
 //! formatting of numbers alone would add 30 kB of wasm.
 
 use serde::Serialize;

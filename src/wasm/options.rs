@@ -8,7 +8,7 @@ use crate::{Exponential, Inversion, Options, Radius};
 #[wasm_bindgen]
 extern "C" {
     /// Read field by field, without serde: its messages about wrong types bring the formatting of
-    /// floats, 30 kB. Numbers stand for the choices (src/ts/options.ts).
+    /// floats, 30 kB. Numbers stand for the choices (src/ts/query/view-options.ts).
     #[wasm_bindgen(typescript_type = "ViewOptions")]
     pub type ViewOptions;
     #[wasm_bindgen(method, getter)]

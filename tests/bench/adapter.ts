@@ -6,7 +6,7 @@ import { runInNewContext } from "node:vm";
 import { HiddenPointFilter } from "hidden-point-removal/three";
 import { BufferAttribute, BufferGeometry, Group, PerspectiveCamera, Points } from "three";
 
-import { withHidden } from "../../src/ts/hidden.js";
+import { withHidden } from "../../src/ts/cloud/hidden.js";
 import { DrawnPoints } from "../../src/ts/three/drawn-points.js";
 import { bumpy, type Cloud, dragon } from "./clouds.js";
 import { median, type Row, type Table } from "./report.js";

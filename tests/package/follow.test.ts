@@ -2,7 +2,7 @@
 // time, the questions and the answers are the tests' own.
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
-import { HprError } from "../../src/ts/errors.js";
+import { HprError } from "../../src/ts/base/errors.js";
 import { type Course, Follower, type Round } from "../../src/ts/follow/follower.js";
 import { Newest } from "../../src/ts/follow/newest.js";
 import { Overtaken } from "../../src/ts/follow/overtaken.js";

@@ -3,7 +3,7 @@
 import { readFileSync } from "node:fs";
 import { extname } from "node:path";
 
-import { HprError } from "../errors.js";
+import { HprError } from "../base/errors.js";
 import { WorkerPointCloud } from "../worker.js";
 import { HELP, readArguments, type Settings, UsageProblem } from "./arguments.js";
 import { readWhole, writeWhole } from "./files.js";

@@ -1,8 +1,8 @@
 import { createIterable } from "@deck.gl/core";
 
-import { HprError } from "../errors.js";
-import { allocating } from "../memory.js";
-import { isFloatArray } from "../positions.js";
+import { HprError } from "../base/errors.js";
+import { allocating } from "../base/memory.js";
+import { isFloatArray } from "../query/positions.js";
 
 /** What deck.gl calls binary data: attributes instead of objects. */
 export interface BinaryData {

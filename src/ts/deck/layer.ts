@@ -2,9 +2,9 @@ import { CompositeLayer, type DefaultProps, type Layer, type UpdateParameters, t
 import { DataFilterExtension } from "@deck.gl/extensions";
 import { PointCloudLayer, type PointCloudLayerProps } from "@deck.gl/layers";
 
-import { HprError } from "../errors.js";
-import type { VisibilityOptions } from "../view-options.js";
-import type { Visibility } from "../visibility.js";
+import { HprError } from "../base/errors.js";
+import type { VisibilityOptions } from "../query/view-options.js";
+import type { Visibility } from "../cloud/visibility.js";
 import { isBinary, positionsOf } from "./data.js";
 import { Sight } from "./sight.js";
 

@@ -1,8 +1,8 @@
 import { Follower, type Round } from "../follow/follower.js";
 import { Newest } from "../follow/newest.js";
 import type { RecoveryTimes } from "../follow/recovery.js";
-import type { VisibilityOptions } from "../view-options.js";
-import type { Visibility } from "../visibility.js";
+import type { VisibilityOptions } from "../query/view-options.js";
+import type { Visibility } from "../cloud/visibility.js";
 import { WorkerPointCloud } from "../worker/client.js";
 
 /** Where a layer is seen from, or along which direction. */

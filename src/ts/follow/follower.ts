@@ -1,4 +1,4 @@
-import { asError } from "../errors.js";
+import { asError } from "../base/errors.js";
 import { Recovery, type RecoveryTimes } from "./recovery.js";
 
 /** One question, and what is done with its answer. */

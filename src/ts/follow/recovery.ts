@@ -1,4 +1,4 @@
-import { HprError } from "../errors.js";
+import { HprError } from "../base/errors.js";
 
 /** When something that was lost is made again. All in milliseconds. */
 export interface RecoveryTimes {

@@ -1,4 +1,4 @@
-import { loadError, type WasmModule } from "../compile.js";
+import { loadError, type WasmModule } from "../instance/compile.js";
 import { gzippedWasm } from "../wasm/embedded.js";
 
 /** Compiles the wasm this entry carries, gzipped and written in base64. */

@@ -1,5 +1,5 @@
-import type { InitInput } from "../compile.js";
-import { compiledOnce, initFrom } from "../start.js";
+import type { InitInput } from "../instance/compile.js";
+import { compiledOnce, initFrom } from "../instance/start.js";
 import { compileEmbedded } from "./embedded.js";
 
 const embedded = compiledOnce(compileEmbedded);

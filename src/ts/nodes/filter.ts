@@ -1,11 +1,11 @@
 import type { Camera, Object3D, Points } from "three";
 
-import { describe, HprError } from "../errors.js";
+import { describe, HprError } from "../base/errors.js";
 import { Follower, type Round } from "../follow/follower.js";
 import { type Box, extentOf } from "../three/box.js";
 import { Eye, requireUniformScale } from "../three/eye.js";
 import { Reporter } from "../three/reporter.js";
-import type { Visibility } from "../visibility.js";
+import type { Visibility } from "../cloud/visibility.js";
 import { Gathered } from "./gathered.js";
 import type { Refused } from "./node.js";
 import { NodeSet } from "./node-set.js";

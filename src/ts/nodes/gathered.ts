@@ -1,7 +1,7 @@
-import { asError, HprError } from "../errors.js";
-import { allocating } from "../memory.js";
+import { asError, HprError } from "../base/errors.js";
+import { allocating } from "../base/memory.js";
 import { type Cloud, prepareCloud } from "../three/cloud.js";
-import type { Visibility } from "../visibility.js";
+import type { Visibility } from "../cloud/visibility.js";
 import type { CloudNode, Refused } from "./node.js";
 import type { NodesSettings } from "./options.js";
 

@@ -1,6 +1,6 @@
 import { Matrix4, type Points } from "three";
 
-import { nonFinite } from "../failure.js";
+import { nonFinite } from "../instance/failure.js";
 import { versionOf } from "../three/attribute.js";
 import { type Box, boxOf } from "../three/box.js";
 import { Display } from "../three/display.js";

@@ -1,6 +1,6 @@
 import type { Points } from "three";
 
-import { describe, HprError } from "../errors.js";
+import { describe, HprError } from "../base/errors.js";
 import { type FilterSettings, type HiddenPointFilterOptions, readFilterOptions } from "../three/options.js";
 
 /** Those of a `HiddenPointFilter`, for all nodes as one cloud, and which nodes there are. */

@@ -1,9 +1,9 @@
 import type { BufferAttribute, GLBufferAttribute, InterleavedBufferAttribute } from "three";
 
-import { describe, HprError } from "../errors.js";
-import { allocating } from "../memory.js";
-import { isFloatArray } from "../positions.js";
-import { typedArrayType } from "../typed-arrays.js";
+import { describe, HprError } from "../base/errors.js";
+import { allocating } from "../base/memory.js";
+import { isFloatArray } from "../query/positions.js";
+import { typedArrayType } from "../base/typed-arrays.js";
 
 export type PositionAttribute = BufferAttribute | InterleavedBufferAttribute;
 

@@ -1,5 +1,5 @@
-import { PointCloud } from "../cloud.js";
-import { runningInstance } from "../instance.js";
+import { PointCloud } from "../cloud/cloud.js";
+import { runningInstance } from "../instance/instance.js";
 import { init } from "../loader.js";
 import { WorkerPointCloud } from "../worker/client.js";
 import { listHiddenToo } from "../worker/listing.js";

@@ -1,6 +1,6 @@
 import { BufferGeometry, type Material, Points, type PointsMaterial } from "three";
 
-import { describe, HprError } from "../errors.js";
+import { describe, HprError } from "../base/errors.js";
 import type { DrawnPoints } from "./drawn-points.js";
 
 /** What is left of the opacity of hidden points. */

@@ -1,8 +1,8 @@
 import { BufferAttribute, type BufferGeometry, DynamicDrawUsage, type Points } from "three";
 
-import { describe, HprError } from "../errors.js";
-import { listHidden, orderIn } from "../hidden.js";
-import { allocating } from "../memory.js";
+import { describe, HprError } from "../base/errors.js";
+import { listHidden, orderIn } from "../cloud/hidden.js";
+import { allocating } from "../base/memory.js";
 import { type PositionAttribute, readPositions, type ReadPositions, requirePositions, versionOf } from "./attribute.js";
 
 /** A geometry as its user left it. */

@@ -1,6 +1,6 @@
 import type { Camera, Object3D } from "three";
 
-import { describe, HprError } from "../errors.js";
+import { describe, HprError } from "../base/errors.js";
 
 /** How far from a similarity a matrix may be: those written in single precision are, by rounding. */
 const DISTORTION = 1e-5;

@@ -1,9 +1,9 @@
 import type { Camera, Points } from "three";
 
-import { HprError } from "../errors.js";
+import { HprError } from "../base/errors.js";
 import { Follower, type Round } from "../follow/follower.js";
 import { Readiness } from "../follow/readiness.js";
-import type { Visibility } from "../visibility.js";
+import type { Visibility } from "../cloud/visibility.js";
 import { boxOf, extentOf } from "./box.js";
 import { type Cloud, prepareCloud } from "./cloud.js";
 import { Display } from "./display.js";

@@ -1,8 +1,8 @@
 import type { Material, Points } from "three";
 
-import { describe, HprError } from "../errors.js";
-import { givenOptions, pick } from "../options.js";
-import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "../view-options.js";
+import { describe, HprError } from "../base/errors.js";
+import { givenOptions, pick } from "../query/options.js";
+import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "../query/view-options.js";
 
 /** How points are filtered: how each view is computed, and the following. */
 export interface HiddenPointFilterOptions extends VisibilityOptions {

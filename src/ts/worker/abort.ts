@@ -1,4 +1,4 @@
-import { describe, HprError } from "../errors.js";
+import { describe, HprError } from "../base/errors.js";
 
 export const BY_SIGNAL = "aborted by its signal";
 

@@ -69,9 +69,9 @@ function create(): Worker {
  * once with a constructor that only notes the address. The global is replaced for that one
  * synchronous call and put back. There are ways without this, and each is worse:
  *
- * - `new URL("./worker-thread.js", import.meta.url)` outside of `new Worker(…)` makes bundlers copy
- *   that one file without the modules that it imports. It would have to be a second copy of all of
- *   them in one file, which the user's bundler neither shares, minifies nor maps to its sources.
+ * - The same `new URL(…)` outside of `new Worker(…)` makes bundlers copy that one file without the
+ *   modules that it imports. It would have to be a second copy of all of them in one file, which
+ *   the user's bundler neither shares, minifies nor maps to its sources.
  * - A local variable with the name `Worker` hides the call from webpack, which follows scopes.
  * - The error for a script of another origin comes without its address.
  */

@@ -1,9 +1,9 @@
 /// <reference lib="esnext.disposable" preserve="true" />
-import type { Answers, ChosenRadius } from "../answers.js";
-import { addDisposeSymbol } from "../dispose-symbol.js";
-import { describe, HprError } from "../errors.js";
+import type { Answers, ChosenRadius } from "../query/answers.js";
+import { addDisposeSymbol } from "../base/dispose-symbol.js";
+import { describe, HprError } from "../base/errors.js";
 import { moduleForWorker } from "../loader.js";
-import { allocating } from "../memory.js";
+import { allocating } from "../base/memory.js";
 import {
   CLOUD_OPTIONS,
   type CloudSettings,
@@ -12,8 +12,8 @@ import {
   givenOptions,
   pick,
   type PointCloudOptions,
-} from "../options.js";
-import { isFloatArray, type Positions, readIndices, readPositions } from "../positions.js";
+} from "../query/options.js";
+import { isFloatArray, type Positions, readIndices, readPositions } from "../query/positions.js";
 import {
   directionQuery,
   ILLUMINATION_OPTIONS,
@@ -27,9 +27,9 @@ import {
   reconstructionQuery,
   severalQuery,
   viewQuery,
-} from "../queries.js";
-import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../view-options.js";
-import { type Reconstruction, ReconstructionAnswer, type Visibility, VisibilityAnswer } from "../visibility.js";
+} from "../query/queries.js";
+import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
+import { type Reconstruction, ReconstructionAnswer, type Visibility, VisibilityAnswer } from "../cloud/visibility.js";
 import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
 import { type Progress, readProgress } from "./progress.js";
 import { RequestQueue } from "./request-queue.js";

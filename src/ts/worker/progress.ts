@@ -1,4 +1,4 @@
-import { describe, HprError } from "../errors.js";
+import { describe, HprError } from "../base/errors.js";
 
 /** Tells a listener of the caller how far something has come, in numbers that only grow. */
 export class Progress {

@@ -1,7 +1,7 @@
-import type { Answers, Found } from "../answers.js";
-import { HprError, type HprErrorCode } from "../errors.js";
-import type { CloudSettings, CloudSize } from "../options.js";
-import type { Query } from "../queries.js";
+import type { Answers, Found } from "../query/answers.js";
+import { HprError, type HprErrorCode } from "../base/errors.js";
+import type { CloudSettings, CloudSize } from "../query/options.js";
+import type { Query } from "../query/queries.js";
 
 /**
  * What the page and its worker say to each other. The worker says `"ready"` once. After

@@ -1,7 +1,7 @@
-import type { Answers } from "../answers.js";
-import { HprError } from "../errors.js";
-import type { Query, QueryKind } from "../queries.js";
-import { Spares } from "../spares.js";
+import type { Answers } from "../query/answers.js";
+import { HprError } from "../base/errors.js";
+import type { Query, QueryKind } from "../query/queries.js";
+import { Spares } from "../cloud/spares.js";
 import { abortError, BY_SIGNAL } from "./abort.js";
 import { isListing } from "./listing.js";
 import { isProgress, READY, type Replies, type Reply, type Request, WITH_INDICES } from "./protocol.js";

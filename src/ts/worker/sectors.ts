@@ -1,5 +1,5 @@
-import { allocating } from "../memory.js";
-import { roomIn } from "../spares.js";
+import { allocating } from "../base/memory.js";
+import { roomIn } from "../cloud/spares.js";
 import type { Replies } from "./protocol.js";
 
 type Answer = Replies["visibleFrom"];

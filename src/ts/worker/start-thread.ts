@@ -1,5 +1,5 @@
-import { HprError } from "../errors.js";
-import { importNodeModule } from "../node.js";
+import { HprError } from "../base/errors.js";
+import { importNodeModule } from "../base/node.js";
 import { startBrowserWorker } from "./browser-thread.js";
 import type { Thread, ThreadEvents } from "./thread.js";
 

@@ -1,4 +1,4 @@
-import { allocating } from "../memory.js";
+import { allocating } from "../base/memory.js";
 import { failedReply, isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 import { Sectors } from "./sectors.js";
 import { joinThread } from "./shared-thread.js";

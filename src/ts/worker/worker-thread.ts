@@ -1,8 +1,8 @@
-import { CoreCloud } from "../core-cloud.js";
-import { withHidden } from "../hidden.js";
-import { requireInstance } from "../instance.js";
-import { importNodeModule } from "../node.js";
-import { initSync } from "../start.js";
+import { CoreCloud } from "../cloud/core-cloud.js";
+import { withHidden } from "../cloud/hidden.js";
+import { requireInstance } from "../instance/instance.js";
+import { importNodeModule } from "../base/node.js";
+import { initSync } from "../instance/start.js";
 import { failedReply, type Letter, type Progress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 
 type Post = (message: unknown, transfer: ArrayBuffer[]) => void;

@@ -1,5 +1,5 @@
-import { describe, HprError } from "../errors.js";
-import { hasNodeModules, importNodeModule } from "../node.js";
+import { describe, HprError } from "../base/errors.js";
+import { hasNodeModules, importNodeModule } from "../base/node.js";
 
 /** More would each wait for memory, and every one holds the whole cloud. */
 const MAX_WORKERS = 64;

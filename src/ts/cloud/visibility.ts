@@ -1,8 +1,8 @@
-import type { Answers, ChosenRadius, Found } from "./answers.js";
-import { describe, HprError } from "./errors.js";
-import { allocating } from "./memory.js";
-import { plainView, typedArrayType } from "./typed-arrays.js";
-import type { ResolvedInversion } from "./view-options.js";
+import type { Answers, ChosenRadius, Found } from "../query/answers.js";
+import { describe, HprError } from "../base/errors.js";
+import { allocating } from "../base/memory.js";
+import { plainView, typedArrayType } from "../base/typed-arrays.js";
+import type { ResolvedInversion } from "../query/view-options.js";
 
 /**
  * Which points are visible, from one viewpoint or several. The masks are made from `indices`

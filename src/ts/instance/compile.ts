@@ -1,5 +1,5 @@
-import { describe, HprError, typeTag } from "./errors.js";
-import { hasNodeModules, importNodeModule } from "./node.js";
+import { describe, HprError, typeTag } from "../base/errors.js";
+import { hasNodeModules, importNodeModule } from "../base/node.js";
 
 /**
  * `WebAssembly.Module`, written so that these types also compile where the

@@ -1,11 +1,11 @@
-import { describe, HprError } from "./errors.js";
-import { requireInstance } from "./instance.js";
-import { allocating } from "./memory.js";
-import { givenOptions } from "./options.js";
+import { describe, HprError } from "../base/errors.js";
+import { requireInstance } from "../instance/instance.js";
+import { allocating } from "../base/memory.js";
+import { givenOptions } from "../query/options.js";
 import { coreOptions } from "./perform.js";
-import { MAX_LENGTH, type Positions, positionsGone, readPositions, readViewpoint } from "./positions.js";
-import { plainView, typedArrayType } from "./typed-arrays.js";
-import { Kernel, type ResolvedInversion, Rule, type ViewSettings, viewSettings } from "./view-options.js";
+import { MAX_LENGTH, type Positions, positionsGone, readPositions, readViewpoint } from "../query/positions.js";
+import { plainView, typedArrayType } from "../base/typed-arrays.js";
+import { Kernel, type ResolvedInversion, Rule, type ViewSettings, viewSettings } from "../query/view-options.js";
 
 /** What is visible in one part of a cloud, or any more of that part. */
 export interface VisiblePart {

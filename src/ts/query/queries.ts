@@ -1,8 +1,8 @@
-import { describe, HprError } from "./errors.js";
-import { allocating } from "./memory.js";
+import { describe, HprError } from "../base/errors.js";
+import { allocating } from "../base/memory.js";
 import { integer, number } from "./options.js";
 import { coreDimension, readViewpoint, readViewpoints } from "./positions.js";
-import { plainView, typedArrayType } from "./typed-arrays.js";
+import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import {
   requireSpace,
   ruleSettings,

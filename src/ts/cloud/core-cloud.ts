@@ -1,10 +1,10 @@
-import type { Answers } from "./answers.js";
-import { HprError } from "./errors.js";
-import type { Instance } from "./instance.js";
-import type { CloudSettings, CloudSize } from "./options.js";
+import type { Answers } from "../query/answers.js";
+import { HprError } from "../base/errors.js";
+import type { Instance } from "../instance/instance.js";
+import type { CloudSettings, CloudSize } from "../query/options.js";
 import { perform } from "./perform.js";
-import { packed, readIndices, readPositions } from "./positions.js";
-import type { Query, QueryKind } from "./queries.js";
+import { packed, readIndices, readPositions } from "../query/positions.js";
+import type { Query, QueryKind } from "../query/queries.js";
 import { Spares } from "./spares.js";
 
 /**

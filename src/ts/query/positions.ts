@@ -1,6 +1,6 @@
-import { describe, HprError } from "./errors.js";
-import { allocating } from "./memory.js";
-import { isNumberArray, type NumberArray, plainNumbers, typedArrayType } from "./typed-arrays.js";
+import { describe, HprError } from "../base/errors.js";
+import { allocating } from "../base/memory.js";
+import { isNumberArray, type NumberArray, plainNumbers, typedArrayType } from "../base/typed-arrays.js";
 
 /**
  * Coordinates of points, x, y, z after one another. A Float32Array is kept in

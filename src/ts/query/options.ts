@@ -1,4 +1,4 @@
-import { describe, HprError, typeTag } from "./errors.js";
+import { describe, HprError, typeTag } from "../base/errors.js";
 
 /** How a cloud's positions are to be read. */
 export interface PointCloudOptions {

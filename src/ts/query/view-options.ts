@@ -1,4 +1,4 @@
-import { describe, HprError } from "./errors.js";
+import { describe, HprError } from "../base/errors.js";
 import { givenOptions, integer, number } from "./options.js";
 import { MOST_POINTS } from "./positions.js";
 

@@ -1,10 +1,10 @@
 /// <reference lib="esnext.disposable" preserve="true" />
-import type { ChosenRadius } from "./answers.js";
+import type { ChosenRadius } from "../query/answers.js";
 import { CoreCloud } from "./core-cloud.js";
-import { addDisposeSymbol } from "./dispose-symbol.js";
-import { requireInstance } from "./instance.js";
-import { CLOUD_OPTIONS, cloudSettings, givenOptions, pick, type PointCloudOptions } from "./options.js";
-import type { Positions } from "./positions.js";
+import { addDisposeSymbol } from "../base/dispose-symbol.js";
+import { requireInstance } from "../instance/instance.js";
+import { CLOUD_OPTIONS, cloudSettings, givenOptions, pick, type PointCloudOptions } from "../query/options.js";
+import type { Positions } from "../query/positions.js";
 import {
   directionQuery,
   ILLUMINATION_OPTIONS,
@@ -16,8 +16,8 @@ import {
   reconstructionQuery,
   severalQuery,
   viewQuery,
-} from "./queries.js";
-import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "./view-options.js";
+} from "../query/queries.js";
+import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import { type Reconstruction, ReconstructionAnswer, type Visibility, VisibilityAnswer } from "./visibility.js";
 
 /**

@@ -1,10 +1,10 @@
-import type { Answers, Found } from "./answers.js";
-import { HprError } from "./errors.js";
-import type { Bindings, Instance } from "./instance.js";
-import { allocating } from "./memory.js";
-import type { Query, QueryKind } from "./queries.js";
+import type { Answers, Found } from "../query/answers.js";
+import { HprError } from "../base/errors.js";
+import type { Bindings, Instance } from "../instance/instance.js";
+import { allocating } from "../base/memory.js";
+import type { Query, QueryKind } from "../query/queries.js";
 import { roomIn, type Spares } from "./spares.js";
-import { resolvedInversion, type ViewSettings } from "./view-options.js";
+import { resolvedInversion, type ViewSettings } from "../query/view-options.js";
 
 /** A cloud in the memory of an instance. */
 interface Target {

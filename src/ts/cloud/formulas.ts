@@ -1,8 +1,8 @@
-import { HprError } from "./errors.js";
-import { requireInstance } from "./instance.js";
-import { allocating } from "./memory.js";
-import { givenOptions, integer, number } from "./options.js";
-import { readViewpoint } from "./positions.js";
+import { HprError } from "../base/errors.js";
+import { requireInstance } from "../instance/instance.js";
+import { allocating } from "../base/memory.js";
+import { givenOptions, integer, number } from "../query/options.js";
+import { readViewpoint } from "../query/positions.js";
 
 /** How viewpoints are added around one. */
 export interface RingOptions {

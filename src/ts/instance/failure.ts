@@ -1,4 +1,4 @@
-import { HprError, type HprErrorCode } from "./errors.js";
+import { HprError, type HprErrorCode } from "../base/errors.js";
 
 /**
  * A refusal as the wasm throws it: which one, and the option and numbers its message names

@@ -1,6 +1,6 @@
-import { HprError } from "./errors.js";
+import { HprError } from "../base/errors.js";
 import { refusal } from "./failure.js";
-import * as glue from "./wasm/hpr_bg.js";
+import * as glue from "../wasm/hpr_bg.js";
 
 /** What the wasm exports, as the generated glue presents it. */
 export type Bindings = Omit<typeof glue, "__wbg_set_wasm">;

@@ -1,4 +1,4 @@
-import { allocating } from "./memory.js";
+import { allocating } from "../base/memory.js";
 
 /** Lists, after the first numbers of `order`, which ascend, all others below its length, ascending too. */
 export function listHidden(order: Uint32Array, visible: number): void {
