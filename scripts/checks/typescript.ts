@@ -24,6 +24,12 @@ export const typescriptChecks: Check[] = [
     run: () => checkCommand("eslint", ["--max-warnings", "0", "."]),
   },
   {
+    title: "TypeScript: imports go downward",
+    // The generated glue is a room, too, and tests import the built package.
+    needs: [BUILD],
+    run: () => checkCommand("depcruise", ["--config", ".dependency-cruiser.mjs", "src/ts", "www", "scripts", "tests"]),
+  },
+  {
     title: "TypeScript, CSS, HTML: formatting",
     part: "format",
     run: () => checkCommand("prettier", ["--check", "."]),

@@ -2,7 +2,7 @@ import { Copc, type Hierarchy } from "copc";
 import type { LoadedCloud } from "../../cloud/cloud.ts";
 import type { Reading } from "../blocks.ts";
 import { LoadProblem } from "../problem.ts";
-import { checkFormat, damaged } from "./las.ts";
+import { checkFormat, damaged } from "./compressed.ts";
 import { type LasHeader, parseHeader } from "./header.ts";
 import { type LazPerf, startLazPerf } from "./perf.ts";
 import { RecordTaker } from "./records.ts";

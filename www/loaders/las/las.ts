@@ -3,8 +3,9 @@ import { bytes, eachRow, type Reading } from "../blocks.ts";
 import { checkByteLength } from "../limits.ts";
 import { LoadProblem } from "../problem.ts";
 import { endsEarly } from "../rows.ts";
+import { checkFormat, damaged } from "./compressed.ts";
 import { type LasHeader, readHeader } from "./header.ts";
-import { LAZ_FORMATS, startLazPerf } from "./perf.ts";
+import { startLazPerf } from "./perf.ts";
 import { RecordTaker } from "./records.ts";
 
 /** Points decompressed between two looks at how far it is. */
@@ -29,15 +30,6 @@ export async function readLas(reading: Reading): Promise<LoadedCloud> {
     });
   }
   return taker.finish();
-}
-
-export function checkFormat(name: string, { format }: LasHeader): void {
-  if (!LAZ_FORMATS.includes(format))
-    throw new LoadProblem(`${name} has compressed points of format ${format}, which this page cannot decompress.`);
-}
-
-export function damaged(name: string): LoadProblem {
-  return new LoadProblem(`${name} is broken: its compressed points cannot be decompressed.`);
 }
 
 /** The file goes into the decoder's memory as it is, and its points come out one after another. */
