@@ -1,5 +1,5 @@
-//! An error, as JavaScript receives it. JavaScript words the message (src/ts/instance/failure.ts): the
-//! formatting of numbers alone would add 30 kB of wasm.
+//! An error, as JavaScript receives it. JavaScript words the message
+//! (src/ts/instance/failure.ts): the formatting of numbers alone would add 30 kB of wasm.
 
 use serde::Serialize;
 use wasm_bindgen::JsValue;
