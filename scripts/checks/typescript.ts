@@ -26,6 +26,7 @@ export const typescriptChecks: Check[] = [
   {
     title: "TypeScript: imports go downward",
     // The generated glue is a room, too, and tests import the built package.
+    part: "lint",
     needs: [BUILD],
     run: () => checkCommand("depcruise", ["--config", ".dependency-cruiser.mjs", "src/ts", "www", "scripts", "tests"]),
   },
