@@ -158,6 +158,35 @@ mod tests {
         }
     }
 
+    /// On an axis |q| is a coordinate, with nothing rounded after the flip.
+    #[test]
+    fn what_hidden_from_tells_flips_to_less() {
+        let mut state = 1u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1);
+            (state >> 11) as f64 / (1u64 << 53) as f64
+        };
+        let mut hidden = 0;
+        for _ in 0..20_000 {
+            let radius = 1.0 + 1000.0 * random();
+            let flip = Flip::new([0.0; 3], sphere(radius));
+            let length = radius * (1.0 + random());
+            let from = flip.hidden_from(length);
+            let nearest = from.sqrt().to_bits();
+            for bits in nearest - 3..nearest + 4 {
+                let d = f64::from_bits(bits);
+                if d * d >= from {
+                    let q = flip.apply([d, 0.0, 0.0]).map(|q| q.x);
+                    assert!(q < Some(length), "{d} flips to {q:?}, not below {length}");
+                    hidden += 1;
+                }
+            }
+        }
+        assert!(hidden > 60_000, "{hidden}");
+    }
+
     #[test]
     fn points_at_the_viewpoint_are_left_out() {
         let flip = Flip::new([1.0, 2.0, 3.0], sphere(10.0));

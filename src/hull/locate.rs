@@ -29,7 +29,11 @@ impl Hull {
     /// Two neighbors' dual planes agree on their edge, so which of m·q is the
     /// larger tells on which side of that edge the ray passes, and the largest
     /// m·q of all belongs to the face it pierces. If that one has q inside, all have.
+    ///
+    /// Inside and on the boundary, the face returned is outer, too: the next hint.
     pub(super) fn locate(&self, q: DVec3, hint: FaceId) -> Location {
+        #[cfg(debug_assertions)]
+        self.assert_is_outer(hint);
         let mut id = hint;
         let mut height = self.surface.face(id).data.m.dot(q);
         for step in 0..PATIENCE + self.surface.slots() {
@@ -79,8 +83,9 @@ impl Hull {
         self.search(q, id)
     }
 
-    /// The better of an outer face and any other to start a walk at. Where a face was
-    /// replaced, its number may since be that of one far away.
+    /// The better of an outer face and another, kept since it was last seen, to start a
+    /// walk at. The other one may have been replaced: its number may be unused, or that of a face
+    /// far away, of a ghost face or of one seen edge-on. So it is asked for first.
     #[inline]
     pub(super) fn nearer_hint(&self, q: DVec3, hint: FaceId, other: FaceId) -> FaceId {
         if hint == other || !self.is_sound(other) {
@@ -96,7 +101,9 @@ impl Hull {
 
     /// How far the hull certainly reaches along the ray of `direction`, whose
     /// length is near 1: K holds `direction` times this. 0 where the answer is in
-    /// doubt or the ray leaves K at once. Also the face to start the next walk at.
+    /// doubt or the ray leaves K at once. Also the face to start the next walk at,
+    /// which is no hint for [`Hull::locate`]: this walk may end at a ghost or edge-on face,
+    /// whose infinite error makes the reach 0.
     pub(super) fn reach_along(&self, direction: DVec3, hint: FaceId) -> (FaceId, f64) {
         let mut id = hint;
         let mut face = self.surface.face(id);

@@ -57,6 +57,10 @@ impl Memory {
         if !moved {
             self.visible.fill(false);
         }
+        #[cfg(debug_assertions)]
+        if moved {
+            self.hull.assert_is_hull();
+        }
         Ok(moved)
     }
 
@@ -160,6 +164,8 @@ impl Memory {
     /// Reads the complete hull. A point found exactly on the boundary is visible only if
     /// it still is; one at the viewpoint is in any case.
     pub(super) fn finish(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
+        #[cfg(debug_assertions)]
+        self.hull.assert_is_hull();
         self.hull.mark_outer_vertices(&mut self.visible);
         self.holds_hull = true;
         let Some(mut hint) = self.hull.outer_face() else {

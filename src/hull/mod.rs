@@ -11,6 +11,8 @@
 pub(crate) mod division;
 
 mod around;
+#[cfg(debug_assertions)]
+mod assertions;
 mod chain;
 mod depth;
 mod dual_plane;

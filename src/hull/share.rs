@@ -11,6 +11,24 @@
 //! That no point of a block lies above a face is mostly known from a bound of m·q
 //! over all of its directions. Blocks of which it is not known enter the hull, until
 //! every point is hidden or has such a face; in the end that may be all of them.
+//!
+//! An insertion puts new faces under the numbers of those that it replaces, and a new
+//! face may be a ghost face or seen edge-on, which tells nothing about what is visible:
+//! its corners may be hidden, and no walk may start at it. So three statements hold
+//! here, although face numbers are kept while blocks enter:
+//!
+//! - *Every hint is an outer face.* The first one is the face of the first tetrahedron.
+//!   A walk starts at an outer face, goes by way of outer faces, and returns an outer
+//!   one, as an insertion does. `settle_vertices`, which starts walks at faces
+//!   that it kept, asks `is_open` immediately before, which is true of outer faces only.
+//! - *Every face that marks is outer*, for the same reason: `is_open` is asked about its
+//!   number, and no insertion comes between the answer and the mark.
+//! - *Every outer face with a vertex to be decided is in `open`*, so that none is left out. At
+//!   first the list is made of all faces. From then on outer faces only arise in the fan of
+//!   an insertion, whose faces all enter the list, and a number leaves the list
+//!   only when its face marks or is not open any more. A face stays not open until it is
+//!   replaced, because vertices are only ever closed and faces do not turn. When the list is empty, a vertex that is
+//!   not marked has no outer face: its ray stays in K beyond it.
 
 use alloc::vec::Vec;
 
@@ -76,7 +94,10 @@ pub(super) fn mark_visible(
         }
     }
     share.settle_vertices()?;
-    share.settle_boundary()
+    share.settle_boundary()?;
+    #[cfg(debug_assertions)]
+    share.hull.assert_is_hull();
+    Ok(())
 }
 
 struct Share<'a> {
@@ -85,6 +106,7 @@ struct Share<'a> {
     division: Division,
     /// Only own points are marked.
     visible: &'a mut [bool],
+    /// An outer face.
     hint: FaceId,
     /// Own vertices not marked yet; empty until the hull is of all near points.
     open_vertices: Vec<bool>,
@@ -115,16 +137,18 @@ impl Share<'_> {
         Ok(matches!(location, Location::Outside(_)))
     }
 
-    /// Whether own vertices of a face of the surface are not marked yet.
+    /// Whether a number is that of an outer face with own vertices not marked yet.
     #[inline]
     fn is_open(&self, face: FaceId) -> bool {
-        self.hull
-            .corners(face)
-            .is_some_and(|corners| corners.iter().any(|&v| self.open_vertices[v as usize]))
+        let is_open = |&v: &Vertex| self.open_vertices[v as usize];
+        let corners = self.hull.corners(face);
+        corners.is_some_and(|corners| corners.iter().any(is_open)) && self.hull.is_outer(face)
     }
 
-    /// Own vertices of `face` are visible.
+    /// Own vertices of `face`, an outer one that no far point lies above, are visible.
     fn mark(&mut self, face: FaceId) {
+        #[cfg(debug_assertions)]
+        self.hull.assert_is_outer(face);
         for vertex in self.hull.corners(face).into_iter().flatten() {
             if core::mem::take(&mut self.open_vertices[vertex as usize]) {
                 self.visible[self.hull.point(vertex) as usize] = true;
@@ -147,12 +171,12 @@ impl Share<'_> {
                 let (m, limit) = self.hull.support(face);
                 if self.division.bound_of_all(m) < limit {
                     self.mark(face);
-                } else if self.hull.is_outer(face) {
+                } else {
                     push(&mut open, face)?;
                 }
             }
         }
-        // The faces in `open` are all that a vertex not marked yet still has.
+        // Every open face is in `open`; some numbers there may be of other faces.
         let mut failed: Vec<(FaceId, u32)> = Vec::new();
         while !open.is_empty() {
             failed.clear();
@@ -168,6 +192,7 @@ impl Share<'_> {
             }
             open.clear();
             for &(face, block) in &failed {
+                // Not if a block that entered before has replaced it.
                 if self.is_open(face) {
                     push(&mut open, face)?;
                     self.hint = face;
@@ -178,8 +203,8 @@ impl Share<'_> {
         Ok(())
     }
 
+    /// Adds a far block to the hull, and the numbers of all new faces to `open`.
     #[cold]
-    /// Adds a far block to the hull, and new faces of vertices not marked yet to `open`.
     fn enter(&mut self, block: u32, open: &mut Vec<FaceId>) -> Result<(), OutOfMemory> {
         if self.division.roles[block as usize] != Role::Far {
             return Ok(());
@@ -192,8 +217,7 @@ impl Share<'_> {
                 push(&mut self.open_vertices, false)?;
                 let fan = self.hull.surface.fan();
                 reserve(open, fan.len())?;
-                let is_open = |&face: &FaceId| self.is_open(face) && self.hull.is_outer(face);
-                open.extend(fan.iter().copied().filter(is_open));
+                open.extend_from_slice(fan);
             }
         }
         Ok(())

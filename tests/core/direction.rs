@@ -10,7 +10,7 @@ use hidden_point_removal::{
 
 use crate::common::rng::Rng;
 use crate::common::scenes::KINDS;
-use crate::common::{ask, indices_of, shapes};
+use crate::common::{ask, indices_of, lower, shapes};
 
 fn along(points: &[[f64; 3]], direction: [f64; 3], options: &Options) -> Visibility {
     let cloud = PointCloud::new(points).unwrap();
@@ -19,42 +19,6 @@ fn along(points: &[[f64; 3]], direction: [f64; 3], options: &Options) -> Visibil
 
 fn exponential(scale: f64) -> Options {
     Options::with_inversion(Inversion::Exponential(Exponential::Scale(scale)))
-}
-
-/// The naive oracle, in exact integers: hidden when one, two or three points (as a
-/// point, a segment or a triangle) have something strictly below with the same x, y.
-fn lower(points: &[[i64; 3]]) -> Vec<bool> {
-    let turn = |a: [i64; 3], b: [i64; 3], c: [i64; 3]| {
-        (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-    };
-    // By Carathéodory a triangle is enough, degenerate ones included.
-    let above = |p: [i64; 3], [a, b, c]: [[i64; 3]; 3]| {
-        let all = turn(a, b, c);
-        if all != 0 {
-            let parts = [turn(p, b, c), turn(a, p, c), turn(a, b, p)];
-            let within = parts.iter().all(|part| part.signum() * all.signum() >= 0);
-            let w = parts[0] * a[2] + parts[1] * b[2] + parts[2] * c[2];
-            return within && (w - p[2] * all) * all.signum() < 0;
-        }
-        let on_segment = |a: [i64; 3], b: [i64; 3]| {
-            let axis = usize::from(a[0] == b[0]);
-            if a[..2] == b[..2] {
-                return p[..2] == a[..2] && a[2].min(b[2]) < p[2];
-            }
-            let (length, part) = (b[axis] - a[axis], p[axis] - a[axis]);
-            let sign = length.signum();
-            turn(a, b, p) == 0
-                && (0..=length.abs()).contains(&(part * sign))
-                && (a[2] * (length - part) + b[2] * part - p[2] * length) * sign < 0
-        };
-        on_segment(a, b) || on_segment(b, c) || on_segment(a, c)
-    };
-    let n = points.len();
-    let hidden = |p: [i64; 3]| {
-        (0..n)
-            .any(|i| (0..=i).any(|j| (0..=j).any(|k| above(p, [points[i], points[j], points[k]]))))
-    };
-    points.iter().map(|&p| !hidden(p)).collect()
 }
 
 #[test]
@@ -92,7 +56,7 @@ fn integers_along_the_axes_are_answered_by_the_definition() {
                     let answer = along(&points, direction, &exponential(0.5 / bend as f64));
                     assert_eq!(
                         answer.indices(),
-                        indices_of(&lower(&lifted)),
+                        indices_of(&lower::visible(&lifted)),
                         "case {case}, {points:?} along {direction:?}, a = {bend}"
                     );
                 }

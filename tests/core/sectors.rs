@@ -7,10 +7,10 @@ use hidden_point_removal::{Options, PointCloud, Radius, Sector};
 
 use crate::common::rng::Rng;
 use crate::common::scenes::{EXTREME, KINDS};
-use crate::common::shapes;
+use crate::common::{sectors, shapes, structured};
 
-/// Compares what all sectors together say with what the cloud says at once, and returns
-/// how many points each answered for.
+/// Panics where sectors and the whole differ; returns how many points each sector
+/// answered for.
 fn compare(
     cloud: &PointCloud,
     viewpoint: [f64; 3],
@@ -18,32 +18,8 @@ fn compare(
     count: u32,
     title: &str,
 ) -> Vec<usize> {
-    let whole = cloud.visible_from(viewpoint, options);
-    let mut all = Vec::new();
-    let mut counts = Vec::new();
-    for number in 0..count {
-        let sector = Sector::new(number, count).expect("a number below the count");
-        let part = cloud.visible_in_sector(viewpoint, options, sector);
-        match (&whole, part) {
-            (Ok(whole), Ok(part)) => {
-                assert_eq!(part.radius().to_bits(), whole.radius().to_bits(), "{title}");
-                assert_eq!(part.exponent().to_bits(), whole.exponent().to_bits());
-                assert!(part.indices().is_sorted(), "{title}");
-                counts.push(part.count());
-                all.extend(part.into_indices());
-            }
-            (whole, part) => assert_eq!(
-                part.map(|_| ()).unwrap_err().to_string(),
-                whole.as_ref().map(|_| ()).unwrap_err().to_string(),
-                "{title}"
-            ),
-        }
-    }
-    if let Ok(whole) = whole {
-        all.sort_unstable();
-        assert_eq!(all, whole.indices(), "{title}, {count} sectors");
-    }
-    counts
+    sectors::compare(cloud, viewpoint, options, count)
+        .unwrap_or_else(|difference| panic!("{title}: {difference}"))
 }
 
 #[test]
@@ -80,6 +56,39 @@ fn extreme_numbers_are_answered_too() {
             let title = format!("{} with seed {seed}", kind.name);
             compare(&cloud, scene.viewpoint, &scene.options, 3, &title);
         }
+    }
+}
+
+/// Short for `tests/fuzz/sectors.rs`.
+#[test]
+fn viewpoints_in_planes_and_on_lines_of_points_divide_too() {
+    let mut rng = Rng::new(12);
+    for &(kind, shape) in structured::SHAPES {
+        for n in [150, 700, 2200] {
+            let mut scene = structured::scene(&mut rng, shape, n);
+            let cloud = PointCloud::new(&scene.points).unwrap();
+            for count in [2, 2, 3, 5, 17] {
+                let title = format!("{kind}, {n} points, {:?}", scene.options);
+                compare(&cloud, scene.viewpoint, &scene.options, count, &title);
+                scene.viewpoint = structured::viewpoint(&mut rng, &scene.points);
+                scene.options = structured::options(&mut rng, &scene.points, scene.viewpoint);
+            }
+        }
+    }
+}
+
+/// Where digits are lost, the first sector answers for all.
+#[test]
+fn large_exponents_are_not_divided() {
+    let points = shapes::bumpy(&mut Rng::new(13), 4000);
+    let cloud = PointCloud::new(&points).unwrap();
+    let counts = |exponent: f64| {
+        let options = Options::with_exponent(exponent);
+        compare(&cloud, [0.0, 0.5, 3.0], &options, 3, "a large exponent")
+    };
+    assert!(counts(7.9).iter().all(|&count| count > 0));
+    for exponent in [8.0, 8.1, 12.0] {
+        assert_eq!(counts(exponent)[1..], [0, 0], "exponent {exponent}");
     }
 }
 

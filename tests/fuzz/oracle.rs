@@ -1,82 +1,92 @@
-//! Random scenes against the definition, for as long as you like:
+//! Small clouds against the definition:
 //! `cargo run --profile fuzz --example fuzz_oracle -- --minutes 5 [--seed N] [--kind TEXT]`
 //!
-//! Small scenes are compared with the naive oracle, larger ones with certificates
-//! for every point. A wrong answer is cut down to the fewest points that still
-//! show it, printed with its seed, and ends the run with status 1.
+//! Mostly degenerate clouds of every kind under every inversion. Each is asked for what
+//! is visible, and one cloud in two for something that follows from it as well
+//! (`Aspect`). See `run` for what is printed.
 
-use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+use hidden_point_removal::{Exponential, Inversion, Options, PointCloud, Visibility};
 
-use hidden_point_removal::{Exponential, Inversion, Options, PointCloud, Radius, Visibility};
-
+mod aspects;
 #[path = "../core/common/mod.rs"]
 mod common;
+mod run;
 
+use aspects::Aspect;
+use common::definition;
+use common::degenerate::DEGENERATE;
 use common::flip::{farthest, flip_as};
+use common::indices_of;
 use common::rng::Rng;
-use common::scenes::{EXTREME, KINDS, Scene};
-use common::{ask, indices_of, oracle, proved_flipped};
+use common::scenes::{EXTREME, KINDS, Kind, Scene};
+use run::{Run, argument, checked, literal, shrink};
+
+/// Clouds that only the enumeration can tell about have at most so many points.
+const FEW: usize = 9;
+/// One in so many clouds that certificates tell about is told by the enumeration, too.
+const CROSS_CHECKS: usize = 50;
 
 fn main() {
-    let minutes: f64 = argument("--minutes").map_or(1.0, |x| x.parse().expect("a number"));
-    let now = SystemTime::now()
-        .duration_since(UNIX_EPOCH)
-        .expect("a clock");
-    let seed: u64 = argument("--seed").map_or(now.as_secs(), |x| x.parse().expect("a number"));
-    // Only kinds of scenes with this in their name.
     let wanted = argument("--kind").unwrap_or_default();
-    println!("seed {seed}, {minutes} minutes");
-
-    let mut rng = Rng::new(seed);
-    let end = Instant::now() + Duration::from_secs_f64(minutes * 60.0);
-    let (mut scenes, mut points) = (0u64, 0u64);
-    while Instant::now() < end {
-        for (kind, extreme) in KINDS
-            .iter()
-            .map(|kind| (kind, false))
-            .chain(EXTREME.iter().map(|kind| (kind, true)))
-        {
-            let seed = rng.bits();
-            if !kind.name.contains(&wanted) {
-                continue;
-            }
-            let n = match rng.below(8) {
-                0 if !extreme => 20 + rng.below(1500),
-                1 | 2 if !extreme => 14 + rng.below(12),
-                _ => rng.below(14),
+    let mut run = Run::start();
+    let mut aspects = [0u64; Aspect::ALL.len()];
+    let mut points = 0;
+    let kinds: Vec<&Kind> = [DEGENERATE, KINDS, EXTREME]
+        .into_iter()
+        .flatten()
+        .filter(|kind| kind.name.contains(&wanted))
+        .collect();
+    while run.goes_on() {
+        for kind in &kinds {
+            let rng = &mut run.rng;
+            let n = match rng.below(10) {
+                0..6 => rng.below(13),
+                6..9 => 10 + rng.below(12),
+                _ => 20 + rng.below(21),
             };
-            let mut scene = kind.scene(seed, n);
+            let mut scene = kind.scene(rng.bits(), n);
             if rng.chance(3) {
-                scene.options = Options::with_inversion(inversion(&mut rng, &scene));
+                scene.options = Options::with_inversion(inversion(rng, &scene));
             }
-            if is_wrong(&scene) {
-                println!("wrong: {} with seed {seed}, {n} points", kind.name);
-                report(shrink(scene));
-                println!("{} tried, 1 wrong", scenes + 1);
-                std::process::exit(1);
+            if !has_certificates(&scene) {
+                scene.points.truncate(FEW);
             }
-            scenes += 1;
-            points += n as u64;
+            let aspect = rng.below(2 * Aspect::ALL.len());
+            let (aspect, seed) = (Aspect::ALL.get(aspect).copied(), rng.bits());
+            points += scene.points.len();
+            let wrong = match checked(|| check(&scene, aspect, seed)) {
+                Ok(Asked::Nothing) => continue,
+                Ok(asked) => {
+                    run.count(kind.name, 1);
+                    if let (Asked::More, Some(aspect)) = (asked, aspect) {
+                        aspects[aspect as usize] += 1;
+                    }
+                    continue;
+                }
+                Err(wrong) => wrong,
+            };
+            if run.count_wrong(kind.name) {
+                println!("wrong: {}, {aspect:?} with seed {seed}: {wrong}", kind.name);
+                let is_wrong = |scene: &Scene| checked(|| check(scene, aspect, seed)).is_err();
+                scene.options = resolved(&scene);
+                println!("{}", literal(&shrink(scene, is_wrong)));
+            }
         }
     }
-    println!("{points} points in all");
-    println!("{scenes} tried, 0 wrong");
-}
-
-fn argument(name: &str) -> Option<String> {
-    std::env::args().skip_while(|arg| arg != name).nth(1)
-}
-
-/// Any inversion for small scenes, mild ones where certificates have to follow.
-fn inversion(rng: &mut Rng, scene: &Scene) -> Inversion {
-    if scene.points.len() >= 30 {
-        return Inversion::Power(rng.between(1.001, 2.0));
+    println!("{points} points; asked for more:");
+    for (aspect, count) in Aspect::ALL.iter().zip(aspects) {
+        println!("  {aspect:?}: {count}");
     }
+    run.finish();
+}
+
+fn inversion(rng: &mut Rng, scene: &Scene) -> Inversion {
     let farthest = farthest(&scene.points, scene.viewpoint).max(1e-300);
-    match rng.below(4) {
+    match rng.below(5) {
         0 => Inversion::Power(rng.between(1.0001, 16.0)),
-        1 => Inversion::Power(2.0),
-        2 => Inversion::Exponential(Exponential::Auto),
+        1 => Inversion::Power(rng.between(1.001, 2.0)),
+        2 => Inversion::Power(rng.pick(&[2.0, 3.0, 16.0])),
+        3 => Inversion::Exponential(Exponential::Auto),
         _ => {
             let times = 10f64.powf(rng.between(-8.0, 3.0));
             Inversion::Exponential(Exponential::Scale(farthest * times))
@@ -84,55 +94,62 @@ fn inversion(rng: &mut Rng, scene: &Scene) -> Inversion {
     }
 }
 
-fn expected(scene: &Scene, answer: &Visibility) -> Vec<bool> {
+fn flipped(scene: &Scene, answer: &Visibility) -> Vec<Option<[f64; 3]>> {
     let flip = |&p: &[f64; 3]| flip_as(p, scene.viewpoint, answer);
-    let flipped: Vec<_> = scene.points.iter().map(flip).collect();
-    if scene.points.len() < 30 {
-        oracle::visible_flipped(&flipped)
-    } else {
-        proved_flipped(&flipped)
-    }
+    scene.points.iter().map(flip).collect()
 }
 
-fn is_wrong(scene: &Scene) -> bool {
-    let answer = ask(&scene.points, scene.viewpoint, &scene.options);
-    answer.indices() != indices_of(&expected(scene, &answer))
+fn asked(scene: &Scene) -> Option<Visibility> {
+    let cloud = PointCloud::new(&scene.points).ok()?;
+    cloud.visible_from(scene.viewpoint, &scene.options).ok()
 }
 
-/// Leaves out points, in ever smaller runs, while the answer stays wrong.
-fn shrink(mut scene: Scene) -> Scene {
-    let answer = ask(&scene.points, scene.viewpoint, &scene.options);
-    let inversion = answer.inversion();
-    scene.options = Options::with_inversion(inversion);
-    if !matches!(inversion, Inversion::Exponential(_)) {
-        scene.options.radius = Radius::Absolute(answer.radius());
+fn has_certificates(scene: &Scene) -> bool {
+    let answer = std::panic::catch_unwind(|| asked(scene)).ok().flatten();
+    answer.is_some_and(|answer| definition::has_certificates(&flipped(scene, &answer)))
+}
+
+/// The same options with the radius and inversion that the whole cloud is asked with, so that fewer points
+/// are asked with them, too.
+fn resolved(scene: &Scene) -> Options {
+    let answer = std::panic::catch_unwind(|| asked(scene)).ok().flatten();
+    answer.map_or(scene.options, |answer| aspects::given(&answer))
+}
+
+/// What a scene was asked for.
+enum Asked {
+    /// It was refused, as it should be.
+    Nothing,
+    Visible,
+    /// For an aspect, too.
+    More,
+}
+
+fn check(scene: &Scene, aspect: Option<Aspect>, seed: u64) -> Result<Asked, String> {
+    let answer = match PointCloud::new(&scene.points)
+        .and_then(|cloud| cloud.visible_from(scene.viewpoint, &scene.options))
+    {
+        Ok(answer) => answer,
+        // Radii of extreme distances, and given ones that are too small for them.
+        Err(error) if error.code() == "radius" => return Ok(Asked::Nothing),
+        Err(error) => return Err(format!("refused: {error}")),
+    };
+    let flipped = flipped(scene, &answer);
+    let expected = definition::visible(&flipped);
+    if answer.indices() != indices_of(&expected) {
+        let expected = indices_of(&expected);
+        return Err(format!(
+            "answered {:?}, expected {expected:?}",
+            answer.indices()
+        ));
     }
-    let mut run = scene.points.len() / 2;
-    while run > 0 {
-        let mut start = 0;
-        let before = scene.points.len();
-        while start < scene.points.len() {
-            let mut fewer = scene.points.clone();
-            fewer.drain(start..(start + run).min(fewer.len()));
-            std::mem::swap(&mut scene.points, &mut fewer);
-            if !is_wrong(&scene) {
-                scene.points = fewer;
-                start += run;
-            }
+    if seed.is_multiple_of(CROSS_CHECKS as u64) {
+        let otherwise = definition::visible_otherwise(&flipped);
+        if otherwise.is_some_and(|otherwise| otherwise != expected) {
+            return Err("certificates and enumeration disagree".to_string());
         }
-        if run > 1 || scene.points.len() == before {
-            run /= 2;
-        }
     }
-    scene
-}
-
-fn report(scene: Scene) {
-    let cloud = PointCloud::new(&scene.points).expect("an acceptable cloud");
-    let answer = cloud
-        .visible_from(scene.viewpoint, &scene.options)
-        .expect("an acceptable view");
-    println!("{scene:?}");
-    println!("answered {:?}", answer.indices());
-    println!("expected {:?}", indices_of(&expected(&scene, &answer)));
+    let rng = &mut Rng::new(seed);
+    let more = aspect.and_then(|aspect| aspect.check(scene, &answer, &expected, rng));
+    more.map_or(Ok(Asked::Visible), |more| more.map(|()| Asked::More))
 }

@@ -8,11 +8,16 @@
 #![allow(dead_code)]
 
 pub mod certify;
+pub mod definition;
+pub mod degenerate;
 pub mod flip;
+pub mod lower;
 pub mod oracle;
 pub mod rng;
 pub mod scenes;
+pub mod sectors;
 pub mod shapes;
+pub mod structured;
 pub mod walk;
 
 use hidden_point_removal::{Options, PointCloud, Position, Visibility};

@@ -6,7 +6,7 @@ use super::flip::farthest;
 use super::rng::Rng;
 use super::shapes::{self, AIMED_RADIUS, Points};
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Scene {
     pub points: Points,
     pub viewpoint: [f64; 3],
@@ -19,6 +19,10 @@ pub struct Kind {
 }
 
 impl Kind {
+    pub const fn new(name: &'static str, build: fn(&mut Rng, usize) -> Scene) -> Self {
+        Self { name, build }
+    }
+
     pub fn scene(&self, seed: u64, n: usize) -> Scene {
         (self.build)(&mut Rng::new(seed), n)
     }

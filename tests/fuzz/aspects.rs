@@ -1,0 +1,266 @@
+//! What follows from the definition's answer for a cloud: other ways to ask the same,
+//! and answers made of several.
+
+use hidden_point_removal::{
+    Exponential, Inversion, Options, PointCloud, PointCloud2d, Radius, Visibility, merge_visible,
+};
+
+use super::common::flip::flip_as;
+use super::common::rng::Rng;
+use super::common::scenes::Scene;
+use super::common::{definition, indices_of, lower, sectors};
+
+#[derive(Clone, Copy, Debug)]
+pub enum Aspect {
+    /// The visible points of parts, and some others, merged.
+    Merged,
+    /// Points appended in parts, others removed in between.
+    Changed,
+    /// A cloud of two dimensions, where the view is one.
+    Planar,
+    /// Several viewpoints at once.
+    Union,
+    /// The vote of a point and its neighbors.
+    Voted,
+    /// In single precision.
+    Single,
+    /// In several sectors.
+    Divided,
+    /// Along an axis, for small whole coordinates.
+    Direction,
+}
+
+impl Aspect {
+    pub const ALL: [Self; 8] = [
+        Self::Merged,
+        Self::Changed,
+        Self::Planar,
+        Self::Union,
+        Self::Voted,
+        Self::Single,
+        Self::Divided,
+        Self::Direction,
+    ];
+
+    /// Whether all is right, in view of the right `answer` to the scene, which is `visible`;
+    /// `None` where the scene cannot be asked for this.
+    pub fn check(
+        self,
+        scene: &Scene,
+        answer: &Visibility,
+        visible: &[bool],
+        rng: &mut Rng,
+    ) -> Option<Result<(), String>> {
+        let expected = indices_of(visible);
+        let (found, expected) = match self {
+            Self::Merged => (merged(scene, answer, rng)?, expected),
+            Self::Changed => (changed(scene, rng)?, expected),
+            Self::Planar => planar(scene)?,
+            Self::Single => (single(scene)?, expected),
+            Self::Union => union(scene, visible, rng)?,
+            Self::Voted => voted(scene, visible, rng)?,
+            Self::Direction => along_axis(scene, rng)?,
+            Self::Divided => {
+                let cloud = PointCloud::new(&scene.points).ok()?;
+                let count = 2 + rng.below(5) as u32;
+                let compared = sectors::compare(&cloud, scene.viewpoint, &scene.options, count);
+                return Some(compared.map(|_| ()));
+            }
+        };
+        let wrong = || format!("answered {found:?}, expected {expected:?}");
+        Some((found == expected).then_some(()).ok_or_else(wrong))
+    }
+}
+
+/// Options with the numbers that an answer was found with.
+pub fn given(answer: &Visibility) -> Options {
+    let inversion = answer.inversion();
+    let mut options = Options::with_inversion(inversion);
+    if !matches!(inversion, Inversion::Exponential(_)) && answer.radius() > 0.0 {
+        options.radius = Radius::Absolute(answer.radius());
+    }
+    options
+}
+
+fn merged(scene: &Scene, answer: &Visibility, rng: &mut Rng) -> Option<Vec<u32>> {
+    let options = given(answer);
+    let is_given = matches!(options.radius, Radius::Absolute(_))
+        || matches!(
+            options.inversion,
+            Inversion::Exponential(Exponential::Scale(_))
+        );
+    if !is_given {
+        return None;
+    }
+    let mut parts = vec![(Vec::new(), Vec::new()); 1 + rng.below(4)];
+    for (id, &point) in (0..).zip(&scene.points) {
+        loop {
+            let part = rng.below(parts.len());
+            parts[part].0.push(point);
+            parts[part].1.push(id);
+            if !rng.chance(6) {
+                break;
+            }
+        }
+    }
+    // Each part leaves out what it hides, all of it or some.
+    let keeps_some = rng.chance(2);
+    for (positions, ids) in &mut parts {
+        let cloud = PointCloud::new(positions).expect("an acceptable part");
+        let mask = cloud
+            .visible_from(scene.viewpoint, &options)
+            .expect("an acceptable view of a part")
+            .mask();
+        let kept = |&k: &usize| mask[k] == 1 || keeps_some && rng.chance(3);
+        let kept: Vec<usize> = (0..ids.len()).filter(kept).collect();
+        *positions = kept.iter().map(|&k| positions[k]).collect();
+        *ids = kept.iter().map(|&k| ids[k]).collect();
+    }
+    let parts: Vec<_> = parts.iter().map(|(p, ids)| (&p[..], &ids[..])).collect();
+    Some(merge_visible(&parts, scene.viewpoint, &options).expect("parts that merge"))
+}
+
+fn changed(scene: &Scene, rng: &mut Rng) -> Option<Vec<u32>> {
+    let n = scene.points.len();
+    let first = rng.below(n + 1);
+    let mut cloud = PointCloud::new(&scene.points[..first]).ok()?;
+    // Other points come and go; they take numbers, which are taken off again below.
+    let others: Vec<[f64; 3]> = (0..rng.below(4)).map(|_| rng.in_ball()).collect();
+    cloud.append(&others).ok()?;
+    let taken: Vec<u32> = (first as u32..(first + others.len()) as u32).collect();
+    if rng.chance(2) {
+        let _ = cloud.visible_from(scene.viewpoint, &scene.options);
+    }
+    cloud.remove(&taken).ok()?;
+    cloud.append(&scene.points[first..]).ok()?;
+    let answer = cloud.visible_from(scene.viewpoint, &scene.options).ok()?;
+    let number = |&i: &u32| {
+        if i < first as u32 {
+            i
+        } else {
+            i - others.len() as u32
+        }
+    };
+    Some(answer.indices().iter().map(number).collect())
+}
+
+fn planar(scene: &Scene) -> Option<(Vec<u32>, Vec<u32>)> {
+    let [x, y, z] = scene.viewpoint;
+    if scene.points.iter().any(|p| p[2] != z) {
+        return None;
+    }
+    let points: Vec<[f64; 2]> = scene.points.iter().map(|p| [p[0], p[1]]).collect();
+    let cloud = PointCloud2d::new(&points).ok()?;
+    // What is chosen automatically depends on the dimension: so there is another answer.
+    let answer = cloud.visible_from([x, y], &scene.options).ok()?;
+    let flat: Vec<_> = points.iter().map(|&[x, y]| [x, y, 0.0]).collect();
+    let flip = |&p: &[f64; 3]| flip_as(p, [x, y, 0.0], &answer);
+    let flipped: Vec<_> = flat.iter().map(flip).collect();
+    let expected = indices_of(&definition::visible(&flipped));
+    Some((answer.into_indices(), expected))
+}
+
+fn single(scene: &Scene) -> Option<Vec<u32>> {
+    let is_single = |x: &f64| f64::from(*x as f32) == *x;
+    if !scene.points.iter().flatten().all(is_single) {
+        return None;
+    }
+    let points: Vec<[f32; 3]> = scene.points.iter().map(|p| p.map(|x| x as f32)).collect();
+    let cloud = PointCloud::new(&points).ok()?;
+    let answer = cloud.visible_from(scene.viewpoint, &scene.options).ok()?;
+    Some(answer.into_indices())
+}
+
+/// Points that at least so many of a few viewpoints see.
+fn union(scene: &Scene, visible: &[bool], rng: &mut Rng) -> Option<(Vec<u32>, Vec<u32>)> {
+    let cloud = PointCloud::new(&scene.points).ok()?;
+    let mut viewpoints = vec![scene.viewpoint];
+    let mut counts: Vec<usize> = visible.iter().map(|&seen| usize::from(seen)).collect();
+    for _ in 0..rng.below(3) {
+        let nudge = rng.direction();
+        let viewpoint = core::array::from_fn(|i| scene.viewpoint[i] + nudge[i].round());
+        let answer = cloud.visible_from(viewpoint, &scene.options).ok()?;
+        let flip = |&p: &[f64; 3]| flip_as(p, viewpoint, &answer);
+        let flipped: Vec<_> = scene.points.iter().map(flip).collect();
+        if !definition::has_certificates(&flipped) {
+            return None;
+        }
+        for (count, seen) in counts.iter_mut().zip(definition::visible(&flipped)) {
+            *count += usize::from(seen);
+        }
+        viewpoints.push(viewpoint);
+    }
+    let least = 1 + rng.below(viewpoints.len());
+    let found = if least == 1 && rng.chance(2) {
+        cloud.visible_from_any(&viewpoints, &scene.options)
+    } else {
+        cloud.visible_from_at_least(least, &viewpoints, &scene.options)
+    };
+    let expected: Vec<bool> = counts.iter().map(|&count| count >= least).collect();
+    Some((found.ok()?.into_indices(), indices_of(&expected)))
+}
+
+/// Visible when more than two fifths of a point and its nearest distinct others are.
+fn voted(scene: &Scene, visible: &[bool], rng: &mut Rng) -> Option<(Vec<u32>, Vec<u32>)> {
+    let points = &scene.points;
+    // Squares of distances have to tell them apart.
+    let squared = |p: [f64; 3], q: [f64; 3]| {
+        let v: [f64; 3] = core::array::from_fn(|i| p[i] - q[i]);
+        v[0] * v[0] + v[1] * v[1] + v[2] * v[2]
+    };
+    if points.len() < 2
+        || points
+            .iter()
+            .flatten()
+            .any(|x| *x != 0.0 && x.abs() < 1e-100)
+    {
+        return None;
+    }
+    let k = 1 + rng.below(points.len() - 1);
+    let options = Options {
+        vote: Some(k),
+        ..scene.options
+    };
+    let cloud = PointCloud::new(points).ok()?;
+    let found = cloud.visible_from(scene.viewpoint, &options).ok()?;
+    let is_seen = |p: &[f64; 3]| visible[points.iter().position(|q| q == p).expect("a point")];
+    let wins = |p: &[f64; 3]| {
+        let mut near = points.clone();
+        near.sort_by(|a, b| {
+            let [of_a, of_b] = [a, b].map(|q| (squared(*p, *q), *q));
+            of_a.partial_cmp(&of_b).expect("finite numbers")
+        });
+        near.dedup();
+        near.truncate(k + 1);
+        5 * near.iter().filter(|q| is_seen(q)).count() > 2 * near.len()
+    };
+    let expected: Vec<bool> = points.iter().map(wins).collect();
+    Some((found.into_indices(), indices_of(&expected)))
+}
+
+/// The lower boundary of the lifted points, in integers: nothing rounds.
+fn along_axis(scene: &Scene, rng: &mut Rng) -> Option<(Vec<u32>, Vec<u32>)> {
+    const MOST: usize = 14;
+    let is_small = |x: &f64| x.fract() == 0.0 && x.abs() < 1000.0;
+    if scene.points.len() > MOST || !scene.points.iter().flatten().all(is_small) {
+        return None;
+    }
+    let (axis, sign) = (rng.below(3), if rng.chance(2) { 1 } else { -1 });
+    let bend = rng.pick(&[1i64, 2, 4]);
+    let mut direction = [0.0; 3];
+    direction[axis] = 2.5 * sign as f64;
+    let lifted: Vec<[i64; 3]> = scene
+        .points
+        .iter()
+        .map(|p| {
+            let p = p.map(|x| x as i64);
+            let [x, y] = [p[(axis + 1) % 3], p[(axis + 2) % 3]];
+            [x, y, sign * p[axis] + bend * (x * x + y * y)]
+        })
+        .collect();
+    let scale = Exponential::Scale(0.5 / bend as f64);
+    let options = Options::with_inversion(Inversion::Exponential(scale));
+    let cloud = PointCloud::new(&scene.points).ok()?;
+    let found = cloud.visible_from_direction(direction, &options).ok()?;
+    Some((found.into_indices(), indices_of(&lower::visible(&lifted))))
+}
