@@ -65,13 +65,12 @@ fn viewpoints_in_planes_and_on_lines_of_points_divide_too() {
     let mut rng = Rng::new(12);
     for &(kind, shape) in structured::SHAPES {
         for n in [150, 700, 2200] {
-            let mut scene = structured::scene(&mut rng, shape, n);
+            let mut scene = structured::scene(&mut rng, (kind, shape), n);
             let cloud = PointCloud::new(&scene.points).unwrap();
             for count in [2, 2, 3, 5, 17] {
                 let title = format!("{kind}, {n} points, {:?}", scene.options);
                 compare(&cloud, scene.viewpoint, &scene.options, count, &title);
-                scene.viewpoint = structured::viewpoint(&mut rng, &scene.points);
-                scene.options = structured::options(&mut rng, &scene.points, scene.viewpoint);
+                structured::move_on(&mut rng, kind, &mut scene);
             }
         }
     }

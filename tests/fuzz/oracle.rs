@@ -11,6 +11,7 @@ mod aspects;
 #[path = "../core/common/mod.rs"]
 mod common;
 mod run;
+mod shrink;
 
 use aspects::Aspect;
 use common::definition;
@@ -19,12 +20,13 @@ use common::flip::{farthest, flip_as};
 use common::indices_of;
 use common::rng::Rng;
 use common::scenes::{EXTREME, KINDS, Kind, Scene};
-use run::{Run, argument, checked, literal, shrink};
+use run::{Run, argument, checked, literal};
+use shrink::shrink;
 
 /// Clouds that only the enumeration can tell about have at most so many points.
 const FEW: usize = 9;
 /// One in so many clouds that certificates tell about is told by the enumeration, too.
-const CROSS_CHECKS: usize = 50;
+const CROSS_CHECKS: u64 = 50;
 
 fn main() {
     let wanted = argument("--kind").unwrap_or_default();
@@ -143,7 +145,7 @@ fn check(scene: &Scene, aspect: Option<Aspect>, seed: u64) -> Result<Asked, Stri
             answer.indices()
         ));
     }
-    if seed.is_multiple_of(CROSS_CHECKS as u64) {
+    if seed % CROSS_CHECKS == 0 {
         let otherwise = definition::visible_otherwise(&flipped);
         if otherwise.is_some_and(|otherwise| otherwise != expected) {
             return Err("certificates and enumeration disagree".to_string());

@@ -90,28 +90,6 @@ pub fn checked<T>(check: impl FnOnce() -> Result<T, String>) -> Result<T, String
     })
 }
 
-/// Leaves out points, in ever smaller runs, while the scene stays wrong.
-pub fn shrink(mut scene: Scene, is_wrong: impl Fn(&Scene) -> bool) -> Scene {
-    let mut run = scene.points.len() / 2;
-    while run > 0 {
-        let before = scene.points.len();
-        let mut start = 0;
-        while start < scene.points.len() {
-            let mut fewer = scene.points.clone();
-            fewer.drain(start..(start + run).min(fewer.len()));
-            std::mem::swap(&mut scene.points, &mut fewer);
-            if !is_wrong(&scene) {
-                scene.points = fewer;
-                start += run;
-            }
-        }
-        if run > 1 || scene.points.len() == before {
-            run /= 2;
-        }
-    }
-    scene
-}
-
 /// The scene as Rust, ready to become a fixture.
 pub fn literal(scene: &Scene) -> String {
     let mut text = format!("Scene {{\n    points: vec![  // {}\n", scene.points.len());

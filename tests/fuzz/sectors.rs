@@ -10,10 +10,12 @@ use hidden_point_removal::PointCloud;
 #[path = "../core/common/mod.rs"]
 mod common;
 mod run;
+mod shrink;
 
 use common::scenes::Scene;
 use common::{definition, flip, indices_of, sectors, structured};
-use run::{Run, checked, literal, shrink};
+use run::{Run, checked, literal};
+use shrink::shrink;
 
 /// Viewpoints that one cloud is asked from.
 const VIEWS: usize = 12;
@@ -30,7 +32,7 @@ fn main() {
                 21..23 => 900 + run.rng.below(1600),
                 _ => 2500 + run.rng.below(2500),
             };
-            let mut scene = structured::scene(&mut run.rng, shape, n);
+            let mut scene = structured::scene(&mut run.rng, (kind, shape), n);
             let in_single = run.rng.chance(2);
             let cloud = cloud_of(&scene, in_single);
             for _ in 0..VIEWS {
@@ -54,8 +56,7 @@ fn main() {
                 if outcome == Ok(true) {
                     run.count(kind, 1);
                 }
-                scene.viewpoint = structured::viewpoint(&mut run.rng, &scene.points);
-                scene.options = structured::options(&mut run.rng, &scene.points, scene.viewpoint);
+                structured::move_on(&mut run.rng, kind, &mut scene);
             }
         }
     }

@@ -78,6 +78,30 @@ describe("several workers", () => {
     }
   });
 
+  it("answer from a place in the plane of a wall what one does", async () => {
+    let state = 1;
+    const random = () => {
+      state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+      return state / 2 ** 32;
+    };
+    const size = [8, 6, 3];
+    const positions = new Float64Array(3 * 3000);
+    for (let i = 0; i < 3000; i++) {
+      const p = size.map((side) => random() * side);
+      const wall = Math.floor(random() * 6);
+      p[wall >> 1] = wall % 2 === 1 ? size[wall >> 1]! : 0;
+      positions.set(p, 3 * i);
+    }
+    const how = { exponent: 3 };
+    const direct = new PointCloud(positions).visibleFrom([2, 0, 1.5], how);
+    expect(direct.count).toBe(2795);
+    for (const workers of [2, 3]) {
+      const cloud = await WorkerPointCloud.create(positions, { workers });
+      expect((await cloud.visibleFrom([2, 0, 1.5], how)).mask()).toEqual(direct.mask());
+      await cloud.dispose();
+    }
+  });
+
   it("share clouds of every sort", async () => {
     const inputs: [ArrayLike<number>, object?][] = [
       [[]],

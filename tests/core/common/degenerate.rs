@@ -131,8 +131,8 @@ pub const DEGENERATE: &[Kind] = &[
         },
     ),
     Kind::new("rooms, lattices, planes and lines", |rng, n| {
-        let (_, shape) = rng.pick(structured::SHAPES);
-        structured::scene(rng, shape, n)
+        let kind = rng.pick(structured::SHAPES);
+        structured::scene(rng, kind, n)
     }),
 ];
 

@@ -6,7 +6,7 @@ use hidden_point_removal::{Exponential, Inversion, Options, Radius};
 use super::flip::farthest;
 use super::rng::Rng;
 use super::scenes::Scene;
-use super::shapes::{self, Points};
+use super::shapes::{self, AIMED_RADIUS, Points};
 
 /// Kinds of clouds of any size.
 pub const SHAPES: &[(&str, Shape)] = &[
@@ -20,8 +20,12 @@ pub const SHAPES: &[(&str, Shape)] = &[
     ("sphere around lattice walls", sphere_and_walls),
     ("lines through a point", lines),
     ("few places, many times", repeated),
-    ("aimed lattice", |rng, n| shapes::aimed(rng, n, 4, |_| true)),
-    ("spheres of a lattice", |rng, n| shapes::pythagorean(rng, n)),
+    ("lattice, after the flip", |rng, n| {
+        shapes::aimed(rng, n, 4, |_| true)
+    }),
+    ("spheres of a lattice", shapes::pythagorean),
+    ("cube with bumps, after the flip", flipped_cube),
+    ("clusters on a cube, after the flip", flipped_clusters),
     ("bumpy", shapes::bumpy),
 ];
 
@@ -175,6 +179,63 @@ fn repeated(rng: &mut Rng, n: usize) -> Points {
     })
 }
 
+/// Points that flip, as `shapes::aimed` do, exactly on to the sides of a cube, some of
+/// which have bumps: points exactly on a side are hidden from its other end.
+fn flipped_cube(rng: &mut Rng, n: usize) -> Points {
+    const SIDE: f64 = 3.0;
+    let unit = rng.pick(&[0.125, 0.25]);
+    let bumps: Points = many(1 + rng.below(3), || {
+        let height = SIDE + unit * f64::from(rng.integer(1, 3));
+        let [x, y] = [0; 2].map(|_| (rng.between(-2.5, 2.5) / unit).round() * unit);
+        [x, y, if rng.chance(2) { height } else { -height }]
+    });
+    let axes: Vec<usize> = bumps.iter().map(|_| rng.below(3)).collect();
+    many(n, || {
+        let mut q: [f64; 3] =
+            core::array::from_fn(|_| (rng.between(-SIDE, SIDE) / unit).round() * unit);
+        q[rng.below(3)] = if rng.chance(2) { SIDE } else { -SIDE };
+        if rng.chance(6) {
+            let bump = rng.below(bumps.len());
+            let [x, y, height] = bumps[bump];
+            let [dx, dy] = [0; 2].map(|_| unit * f64::from(rng.integer(-2, 2)));
+            let axis = axes[bump];
+            q[axis] = height;
+            q[(axis + 1) % 3] = x + dx;
+            q[(axis + 2) % 3] = y + dy;
+        }
+        shapes::aim(q)
+    })
+}
+
+/// Clusters of points that flip exactly on to the sides of a cube, a few of them above a
+/// side, and the cube's corners.
+fn flipped_clusters(rng: &mut Rng, n: usize) -> Points {
+    const SIDE: f64 = 3.0;
+    const UNIT: f64 = 1.0 / 64.0;
+    const CLUSTER: usize = 64;
+    let mut flipped: Points = (0..8)
+        .map(|corner| [1, 2, 4].map(|bit| if corner & bit == 0 { SIDE } else { -SIDE }))
+        .collect();
+    let sides: Vec<usize> = (0..2).map(|_| rng.below(6)).collect();
+    for cluster in 0..n.div_ceil(CLUSTER) {
+        let side = rng.pick(&sides);
+        let place = [0; 2].map(|_| (rng.between(-2.75, 2.75) / UNIT).round() * UNIT);
+        let height = if cluster % 5 == 4 {
+            SIDE + UNIT * f64::from(rng.integer(1, 12))
+        } else {
+            SIDE
+        };
+        for _ in 0..CLUSTER {
+            let [x, y] = place.map(|x| x + UNIT * f64::from(rng.integer(-8, 8)));
+            let z = if side % 2 == 0 { height } else { -height };
+            let mut q = [x, y, z];
+            q.rotate_right(side / 2);
+            flipped.push(q);
+        }
+    }
+    flipped.into_iter().map(shapes::aim).collect()
+}
+
 /// A viewpoint that has to do with the planes, lines and points of a cloud.
 pub fn viewpoint(rng: &mut Rng, points: &[[f64; 3]]) -> [f64; 3] {
     if points.is_empty() {
@@ -254,8 +315,15 @@ pub fn options(rng: &mut Rng, points: &[[f64; 3]], viewpoint: [f64; 3]) -> Optio
 }
 
 /// A cloud of about `n` points of a kind, with a viewpoint and options.
-pub fn scene(rng: &mut Rng, shape: Shape, n: usize) -> Scene {
+pub fn scene(rng: &mut Rng, (name, shape): (&str, Shape), n: usize) -> Scene {
     let mut points = shape(rng, n);
+    if is_aimed(name) {
+        return Scene {
+            points,
+            viewpoint: [0.0; 3],
+            options: Options::with_radius(AIMED_RADIUS),
+        };
+    }
     if rng.chance(4) {
         points
             .iter_mut()
@@ -268,4 +336,16 @@ pub fn scene(rng: &mut Rng, shape: Shape, n: usize) -> Scene {
         viewpoint,
         options,
     }
+}
+
+/// To another view of the same points, unless they are aimed for this one.
+pub fn move_on(rng: &mut Rng, name: &str, scene: &mut Scene) {
+    if !is_aimed(name) {
+        scene.viewpoint = viewpoint(rng, &scene.points);
+        scene.options = options(rng, &scene.points, scene.viewpoint);
+    }
+}
+
+fn is_aimed(name: &str) -> bool {
+    name.ends_with("after the flip")
 }
