@@ -83,9 +83,9 @@ impl Hull {
         self.search(q, id)
     }
 
-    /// The better of an outer face and another, kept since it was last seen, to start a
-    /// walk at. The other one may have been replaced: its number may be unused, or that of a face
-    /// far away, of a ghost face or of one seen edge-on. So it is asked for first.
+    /// The better of two faces to start a walk at: an outer face, and another number that
+    /// was kept over insertions. It may since be unused, or the number of a face far away,
+    /// of a ghost face or of one seen edge-on, so it is checked first.
     #[inline]
     pub(super) fn nearer_hint(&self, q: DVec3, hint: FaceId, other: FaceId) -> FaceId {
         if hint == other || !self.is_sound(other) {
@@ -101,9 +101,9 @@ impl Hull {
 
     /// How far the hull certainly reaches along the ray of `direction`, whose
     /// length is near 1: K holds `direction` times this. 0 where the answer is in
-    /// doubt or the ray leaves K at once. Also the face to start the next walk at,
-    /// which is no hint for [`Hull::locate`]: this walk may end at a ghost or edge-on face,
-    /// whose infinite error makes the reach 0.
+    /// doubt or the ray leaves K at once. Also the face to start the next such walk at,
+    /// which is no hint for [`Hull::locate`]: this walk may end at a ghost or edge-on
+    /// face, whose infinite error makes the reach 0.
     pub(super) fn reach_along(&self, direction: DVec3, hint: FaceId) -> (FaceId, f64) {
         let mut id = hint;
         let mut face = self.surface.face(id);

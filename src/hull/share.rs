@@ -19,16 +19,17 @@
 //!
 //! - *Every hint is an outer face.* The first one is the face of the first tetrahedron.
 //!   A walk starts at an outer face, goes by way of outer faces, and returns an outer
-//!   one, as an insertion does. `settle_vertices`, which starts walks at faces
-//!   that it kept, asks `is_open` immediately before, which is true of outer faces only.
+//!   one, as an insertion does. `settle_vertices` starts walks at faces that it kept.
+//!   It asks `is_open` immediately before, which is true of outer faces only.
 //! - *Every face that marks is outer*, for the same reason: `is_open` is asked about its
 //!   number, and no insertion comes between the answer and the mark.
-//! - *Every outer face with a vertex to be decided is in `open`*, so that none is left out. At
-//!   first the list is made of all faces. From then on outer faces only arise in the fan of
-//!   an insertion, whose faces all enter the list, and a number leaves the list
-//!   only when its face marks or is not open any more. A face stays not open until it is
-//!   replaced, because vertices are only ever closed and faces do not turn. When the list is empty, a vertex that is
-//!   not marked has no outer face: its ray stays in K beyond it.
+//! - *Every outer face with a vertex to be decided is in `open`*, so that none is left
+//!   out. At first the list is made of all faces. From then on outer faces only arise in
+//!   the fan of an insertion, and the whole fan enters the list. A number leaves the
+//!   list only when its face marks or is not open. Such a face stays not open until it
+//!   is replaced, because a marked vertex stays marked and a face does not turn. When the
+//!   list is empty, a vertex that is not marked has no outer face: its ray stays in K
+//!   beyond it.
 
 use alloc::vec::Vec;
 

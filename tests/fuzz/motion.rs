@@ -1,11 +1,11 @@
 //! Moving viewpoints, each answer compared with that of a view that starts anew:
 //! `cargo run --profile fuzz --example fuzz_motion -- --minutes 5 [--seed N]`
 //!
-//! Walks around, in and through small clouds of every kind under every inversion, whose
-//! cold answers are now and then compared with the definition, and through scanned and generated
-//! clouds of up to 437,645 points. Steps are of all sizes, along axes and between
-//! places that have to do with the points. See `run` for what is printed; "warm" are
-//! views that were found from the one before.
+//! Walks around, in and through small clouds of every kind under every inversion. One
+//! cold answer in eight is compared with the definition, too. Then walks through scanned
+//! and generated clouds of up to 437,645 points. Steps are of all sizes, along axes and
+//! between places in the planes of points. See `run` for what is printed; "warm" views
+//! were found from the one before.
 
 use hidden_point_removal::{Observer, PointCloud};
 

@@ -111,8 +111,8 @@ fn has_certificates(scene: &Scene) -> bool {
     answer.is_some_and(|answer| definition::has_certificates(&flipped(scene, &answer)))
 }
 
-/// The same options with the radius and inversion that the whole cloud is asked with, so that fewer points
-/// are asked with them, too.
+/// Options with the numbers that the whole cloud is asked with, so that fewer points are
+/// asked with them, too.
 fn resolved(scene: &Scene) -> Options {
     let answer = std::panic::catch_unwind(|| asked(scene)).ok().flatten();
     answer.map_or(scene.options, |answer| aspects::given(&answer))
