@@ -17,6 +17,7 @@ export interface Fuzzer {
 const FUNCTIONS: Record<string, { file: string; name: string }> = {
   files: { file: "tests/fuzz/files.ts", name: "fuzzFiles" },
   border: { file: "tests/fuzz/border.ts", name: "fuzzBorder" },
+  workers: { file: "tests/fuzz/workers.ts", name: "fuzzWorkers" },
 };
 
 /** Every Rust example `fuzz_…` of Cargo.toml, and the functions whose file is there. */
