@@ -1,3 +1,4 @@
+import { LONGEST_LINE, tooLong } from "../../src/ts/formats/text.js";
 import { LoadProblem } from "./problem.ts";
 
 /** Where a file is read from, how many points of it at most, and who wants to hear how far it is. */
@@ -9,7 +10,7 @@ export interface Reading {
   onProgress: (fraction: number) => void;
 }
 
-const BLOCK = 1 << 24;
+export const BLOCK = 1 << 24;
 
 /** A file's bytes from `start`, a piece at a time: of a large file only that piece is in memory. */
 export async function* blocks(
@@ -48,19 +49,37 @@ export async function eachRow(
   }
 }
 
-/** The lines of a text, by hundreds of thousands. */
-export async function* lines(reading: Reading, start: number, encoding = "utf-8"): AsyncGenerator<string[]> {
+/** The lines of a text, by hundreds of thousands. The first one is counted as `firstNumber`. */
+export async function* lines(
+  reading: Reading,
+  start: number,
+  { encoding = "utf-8", firstNumber = 1 } = {},
+): AsyncGenerator<string[]> {
   const decoder = new TextDecoder(encoding);
   let rest = "";
+  let number = firstNumber;
   for await (const block of blocks(reading, start)) {
     const text = rest + decoder.decode(block, { stream: true });
-    // What stands after the last line end is not whole yet; nor is a line end that may go on with the next piece.
+    // What stands after the last end of a line is not whole yet; nor is a return that the next block may go on.
     const end = Math.max(text.lastIndexOf("\n"), text.lastIndexOf("\r", text.length - 2)) + 1;
     rest = text.slice(end);
-    if (end > 0) yield split(text.slice(0, end)).slice(0, -1);
+    if (rest.length > LONGEST_LINE) throw tooLong(end > 0 ? number + split(text.slice(0, end)).length - 1 : number);
+    if (end === 0) continue;
+    const some = split(text.slice(0, end)).slice(0, -1);
+    checkLengths(some, number);
+    yield some;
+    number += some.length;
   }
   const last = rest + decoder.decode();
-  if (last !== "") yield split(last);
+  if (last === "") return;
+  const some = split(last);
+  checkLengths(some, number);
+  yield some;
+}
+
+function checkLengths(some: readonly string[], first: number): void {
+  const long = some.findIndex((line) => line.length > LONGEST_LINE);
+  if (long >= 0) throw tooLong(first + long);
 }
 
 function split(text: string): string[] {

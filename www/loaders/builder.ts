@@ -1,6 +1,7 @@
 import type { LoadedCloud, Values } from "../cloud/cloud.ts";
+import type { NumberType } from "../../src/ts/formats/numbers.js";
 import { attributesOf } from "./attributes.ts";
-import { type NumberType, newValues } from "./numbers.ts";
+import { newValues } from "./numbers.ts";
 
 /** What a file has besides positions. Those called red, green and blue become the colors. */
 export interface Column {

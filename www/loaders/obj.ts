@@ -1,4 +1,7 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
+import { numberIn } from "../../src/ts/formats/numbers.js";
+import { lineProblem } from "../../src/ts/formats/problem.js";
+import { trimmed, wordsOf } from "../../src/ts/formats/text.js";
 import { lines, type Reading } from "./blocks.ts";
 import { CloudBuilder } from "./builder.ts";
 import { LoadProblem } from "./problem.ts";
@@ -13,20 +16,25 @@ export async function readObj(reading: Reading, encoding: string): Promise<Loade
     null,
   );
   let faces = false;
-  for await (const some of lines(reading, 0, encoding)) {
+  let number = 0;
+  for await (const some of lines(reading, 0, { encoding })) {
     for (const text of some) {
+      number++;
       faces ||= /^\s*f\s/.test(text);
-      if (!/^\s*v\s/.test(text) || !builder.takes()) continue;
-      const line = text.trim();
-      const words = line.split(/\s+/);
-      if (words.length < 4)
-        throw new LoadProblem(
-          `${name} is broken: a vertex line has fewer than three numbers (“${line.slice(0, 40)}”).`,
-        );
-      const i = builder.put(Number(words[1]), Number(words[2]), Number(words[3]));
+      if (!/^\s*v\s/.test(text)) continue;
+      const line = trimmed(text.replace(/#.*/, ""));
+      const words = wordsOf(line);
+      // With a weight or a color behind, or both.
+      if (![4, 5, 7, 8].includes(words.length))
+        throw lineProblem(number, `has ${words.length - 1} values, and a vertex has 3, 4, 6 or 7`, line);
+      const [x, y, z] = words.slice(1, 4).map(numberIn);
+      if (x === undefined || y === undefined || z === undefined)
+        throw lineProblem(number, "is not a point, a value is no number", line);
+      if (!builder.takes()) continue;
+      const i = builder.put(x, y, z);
       // An OBJ file may color some vertices and not others: NaN there, and no color for the whole.
       for (let channel = 0; channel < 3; channel++)
-        builder.values[channel]![i] = words.length >= 7 ? Number(words[4 + channel]) : NaN;
+        builder.values[channel]![i] = words.length >= 7 ? Number(words[words.length - 3 + channel]) : NaN;
     }
   }
   if (builder.rows === 0) throw new LoadProblem(`${name} holds no points: it has no vertex lines (“v x y z”).`);

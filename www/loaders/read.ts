@@ -1,15 +1,18 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
 import { FORMATS, listed } from "../settings/formats.ts";
+import { FormatProblem } from "../../src/ts/formats/problem.js";
+import { looksBinary } from "../../src/ts/formats/text.js";
 import { bytes, type Reading } from "./blocks.ts";
-import { LoadProblem, missingPart } from "./problem.ts";
+import { LoadProblem, missingPart, problemOf } from "./problem.ts";
 
-/** Reads a file by what it begins with, and by the ending of its name where its beginning says nothing. */
+/** Reads a file by its first bytes, or by the ending of its name where the bytes say nothing. */
 export async function readFile(reading: Reading, base: string | null): Promise<LoadedCloud> {
   const { name } = reading;
   try {
     return await readBy(reading, base);
   } catch (error) {
     if (error instanceof LoadProblem) throw error;
+    if (error instanceof FormatProblem) throw problemOf(name, error);
     if (error instanceof TypeError && error.message.includes("import")) throw missingPart(name);
     if (error instanceof RangeError)
       throw new LoadProblem(`${name} could not be read: it is broken, or there is too little memory for it.`);
@@ -22,20 +25,21 @@ export async function readFile(reading: Reading, base: string | null): Promise<L
 async function readBy(reading: Reading, base: string | null): Promise<LoadedCloud> {
   const { name, blob } = reading;
   const data = await bytes(name, blob, 0, 4096);
-  const start = new TextDecoder("latin1").decode(data);
+  const start = new TextDecoder("latin1").decode(data).replace(/^ï»¿/, "");
   const ending = /\.([a-z0-9]+)$/i.exec(name)?.[1]?.toLowerCase() ?? "";
   if (start.startsWith("LASF")) return (await import("./las/las.ts")).readLas(reading);
-  if (start.startsWith("glTF") || (ending === "gltf" && /^\s*(ï»¿)?\{/.test(start)))
+  if (start.startsWith("glTF") || (ending === "gltf" && /^\s*\{/.test(start)))
     return (await import("./gltf.ts")).readGltf(reading, base);
   if (/^ply\s/.test(start)) return (await import("./ply.ts")).readPly(reading);
-  if (/^(#.*\.PCD|VERSION\s|FIELDS\s)/m.test(start) && ending !== "obj")
+  // Comments of any file may name a PCD file.
+  if (/^(#\s*\.PCD\b|VERSION\s|FIELDS\s)/.test(start) || (ending === "pcd" && /^(VERSION|FIELDS)\s/im.test(start)))
     return (await import("./pcd.ts")).readPcd(reading);
   if (/^(ply|pcd|las|laz|gltf|glb)$/.test(ending)) {
     const format = { gltf: "glTF", glb: "GLB" }[ending] ?? ending.toUpperCase();
     throw new LoadProblem(`${name} is not a point cloud: it does not begin like a ${format} file.`);
   }
   const encoding = encodingOf(data);
-  if (encoding === "utf-8" && looksBinary(start))
+  if (encoding === "utf-8" && looksBinary(new Uint8Array(data)))
     throw new LoadProblem(`${name} is not a point cloud this page knows. It opens ${listed(FORMATS, "and")} files.`);
   const isObj = ending === "obj" || /^v[ \t]+[-+.\d]/m.test(start);
   return isObj
@@ -48,9 +52,4 @@ function encodingOf(data: ArrayBuffer): "utf-8" | "utf-16le" | "utf-16be" {
   const [first, second] = new Uint8Array(data, 0, Math.min(data.byteLength, 2));
   if (first === 0xff && second === 0xfe) return "utf-16le";
   return first === 0xfe && second === 0xff ? "utf-16be" : "utf-8";
-}
-
-/** Text has no control characters but tabs and line ends. */
-function looksBinary(start: string): boolean {
-  return /[\u0000-\u0008\u000e-\u001f]/.test(start);
 }

@@ -1,127 +1,150 @@
+// Rows of which a header tells, from a file that is read a block at a time.
 import type { LoadedCloud } from "../cloud/cloud.ts";
-import { type Reading, bytes, eachRow, lines } from "./blocks.ts";
+import { checkByteOrder, ORDER_SAMPLE } from "../../src/ts/formats/byte-order.js";
+import { fitSingle, numberReader, type NumberReader, type NumberType } from "../../src/ts/formats/numbers.js";
+import { endsEarly } from "../../src/ts/formats/problem.js";
+import { type Axes, type Group, hasLists, rowBytes, walkRow } from "../../src/ts/formats/rows.js";
+import { TextRows } from "../../src/ts/formats/text-rows.js";
+import { checkRest } from "../../src/ts/formats/text.js";
+import { BLOCK, bytes, eachRow, lines, type Reading } from "./blocks.ts";
 import { CloudBuilder, type Column } from "./builder.ts";
-import { type NumberReader, numberReader, type NumberType } from "./numbers.ts";
-import { LoadProblem } from "./problem.ts";
 
-/** One number of a row: where it stands, in bytes in a binary file and by its turn in a text. */
-export interface Field {
-  name: string;
-  type: NumberType;
-  offset: number;
-  word: number;
+/** A file's points, and which of their other fields become attributes and colors. */
+export interface Points {
+  group: Group;
+  axes: Axes;
+  others: readonly (Column & { field: number })[];
 }
 
-/** A file of equal rows, of which a header tells. */
-export interface Rows {
-  /** Where the first row begins in the file. */
-  start: number;
-  count: number;
-  position: readonly [Field, Field, Field];
-  others: readonly Field[];
-  /** Text lines to be passed over first. */
-  skip?: number;
+export function builderFor({ limit }: Reading, { group, axes, others }: Points): CloudBuilder {
+  // A float of four bytes is one, also where a text writes it with more digits.
+  const single = fitSingle(axes.map((axis) => group.fields[axis]!.type));
+  return new CloudBuilder(single ? "float32" : "float64", others, limit, group.count);
 }
 
-/** Rows looked at to tell which byte order they are in. */
-const SAMPLE = 1000;
-
-export async function readBinaryRows(
+/** Reads rows in text: the lines from `start` on, which is the line of this number. */
+export async function readTextRows(
   reading: Reading,
-  rows: Rows,
-  rowBytes: number,
-  littleEndian = true,
+  { start, firstNumber }: { start: number; firstNumber: number },
+  groups: readonly Group[],
+  points: Points,
 ): Promise<LoadedCloud> {
-  const { start, count, position, others } = rows;
-  if (count * rowBytes > reading.blob.size - start) throw endsEarly(reading.name, count);
-  await checkByteOrder(reading, rows, rowBytes, littleEndian);
-
-  const builder = builderFor(reading, rows);
-  const [x, y, z] = position.map(({ type, offset }) => numberReader(type, offset, littleEndian)) as [
-    NumberReader,
-    NumberReader,
-    NumberReader,
-  ];
-  const readers = others.map(({ type, offset }) => numberReader(type, offset, littleEndian));
-  await eachRow(reading, { start, rowBytes, count }, (view, at) => {
-    if (!builder.takes()) return;
-    const i = builder.put(x(view, at), y(view, at), z(view, at));
-    for (let k = 0; k < readers.length; k++) builder.values[k]![i] = readers[k]!(view, at);
-  });
-  return builder.finish();
-}
-
-export async function readTextRows(reading: Reading, rows: Rows): Promise<LoadedCloud> {
-  const { name } = reading;
-  const { start, count, position, others, skip = 0 } = rows;
-  const builder = builderFor(reading, rows);
-  const words = Math.max(...position.map((field) => field.word)) + 1;
-  let toSkip = skip;
-  /** A line that is too short: the last one of a file that was cut may be. */
-  let short: string | null = null;
-  reading: for await (const some of lines(reading, start)) {
+  const { group, axes, others } = points;
+  const rows = new TextRows(groups, group, axes);
+  const builder = builderFor(reading, points);
+  let number = firstNumber;
+  for await (const some of lines(reading, start, { firstNumber })) {
     for (const line of some) {
-      if (builder.rows === count) break reading;
-      const trimmed = line.trim();
-      if (trimmed === "" || toSkip-- > 0 || !builder.takes()) continue;
-      const row = trimmed.split(/\s+/);
-      if (/\d,\d/.test(trimmed))
-        throw new LoadProblem(
-          `${name} is broken: its numbers have commas (“${trimmed.slice(0, 40)}”), which such a file writes as points.`,
-        );
-      if (short !== null)
-        throw new LoadProblem(`${name} is broken: a line has fewer numbers than its header promises (“${short}”).`);
-      if (row.length < words) {
-        short = trimmed.slice(0, 40);
-        continue;
-      }
-      const i = builder.put(
-        Number(row[position[0].word]),
-        Number(row[position[1].word]),
-        Number(row[position[2].word]),
-      );
-      for (let k = 0; k < others.length; k++) builder.values[k]![i] = Number(row[others[k]!.word]);
+      const point = rows.take(line, number++);
+      if (point === undefined || !builder.takes()) continue;
+      const i = builder.put(...point.position);
+      for (let k = 0; k < others.length; k++)
+        builder.values[k]![i] = Number(point.words[point.starts[others[k]!.field]!]);
     }
   }
-  if (builder.rows < count || short !== null) throw endsEarly(name, count);
+  rows.finish();
   return builder.finish();
 }
 
-export function endsEarly(name: string, promised: number): LoadProblem {
-  return new LoadProblem(
-    `${name} is broken: it ends before the ${promised.toLocaleString("en-US")} points its header promises.`,
+/** Reads binary rows from `start` on. */
+export async function readBinaryRows(
+  reading: Reading,
+  start: number,
+  points: Points,
+  littleEndian = true,
+): Promise<LoadedCloud> {
+  const { name, blob } = reading;
+  const { group, axes, others } = points;
+  const { count, fields } = group;
+  const size = rowBytes(fields);
+  const found = Math.floor((blob.size - start) / size);
+  if (found < count) throw endsEarly(found, count, group.name);
+  const sample = await bytes(name, blob, start, start + Math.min(count, ORDER_SAMPLE) * size);
+  checkByteOrder(new DataView(sample), fields, axes, littleEndian);
+
+  const builder = builderFor(reading, points);
+  const lists = hasLists(fields);
+  // Where lists have any length, a field begins in each row elsewhere.
+  const reader = (field: number): NumberReader =>
+    numberReader(fields[field]!.type, lists ? 0 : rowBytes(fields.slice(0, field)), littleEndian);
+  const [x, y, z] = axes.map(reader) as [NumberReader, NumberReader, NumberReader];
+  const readers = others.map(({ field, type }) =>
+    numberReader(type, lists ? 0 : rowBytes(fields.slice(0, field)), littleEndian),
   );
-}
-
-function builderFor({ limit }: Reading, { position, others, count }: Rows): CloudBuilder {
-  const columns: Column[] = others.map(({ name, type }) => ({ name, type }));
-  // A four-byte float is a float, also where a text writes it with more digits.
-  const single = position.every(({ type }) => type === "float32" || /8|16/.test(type));
-  return new CloudBuilder(single ? "float32" : "float64", columns, limit, count);
-}
-
-/** Numbers read in the wrong order of bytes are all but never ones that anybody measures. */
-async function checkByteOrder(
-  { name, blob }: Reading,
-  { start, count, position }: Rows,
-  rowBytes: number,
-  littleEndian: boolean,
-): Promise<void> {
-  const view = new DataView(await bytes(name, blob, start, start + Math.min(count, SAMPLE) * rowBytes));
-  const odd = (little: boolean) => {
-    let number = 0;
-    for (const { type, offset } of position.filter(({ type }) => type.startsWith("float"))) {
-      const read = numberReader(type, offset, little);
-      for (let at = 0; at < view.byteLength; at += rowBytes) if (isOdd(read(view, at))) number++;
-    }
-    return (number * rowBytes) / (3 * view.byteLength);
+  const put = (view: DataView, at: (field: number) => number) => {
+    if (!builder.takes()) return;
+    const i = builder.put(x(view, at(axes[0])), y(view, at(axes[1])), z(view, at(axes[2])));
+    for (let k = 0; k < readers.length; k++) builder.values[k]![i] = readers[k]!(view, at(others[k]!.field));
   };
-  if (count === 0 || odd(littleEndian) < 0.3 || odd(!littleEndian) > 0.01) return;
-  const other = littleEndian ? "big" : "little";
-  throw new LoadProblem(`${name} is broken: its numbers are ${other}-endian, and its header says that they are not.`);
+  if (lists) {
+    await eachListRow(reading, start, group, littleEndian, (view, starts) => {
+      put(view, (field) => starts[field]!);
+    });
+  } else {
+    await eachRow(reading, { start, rowBytes: size, count }, (view, at) => {
+      put(view, () => at);
+    });
+  }
+  return builder.finish();
 }
 
-function isOdd(value: number): boolean {
-  const size = Math.abs(value);
-  return !(size < 1e15) || (size > 0 && size < 1e-20);
+/** Goes over rows with lists, and gives back where they end. */
+export async function eachListRow(
+  { name, blob }: Reading,
+  start: number,
+  group: Group,
+  littleEndian: boolean,
+  onRow: (view: DataView, starts: readonly number[]) => void,
+): Promise<number> {
+  const starts: number[] = [];
+  let blockStart = start;
+  let length = BLOCK;
+  let view = new DataView(await bytes(name, blob, start, start + length));
+  let at = 0;
+  for (let row = 0; row < group.count;) {
+    const end = walkRow(view, group.fields, littleEndian, at, starts);
+    if (end !== undefined) {
+      onRow(view, starts);
+      at = end;
+      row++;
+      continue;
+    }
+    if (blockStart + view.byteLength >= blob.size) throw endsEarly(row, group.count, group.name);
+    // A row that does not fit into a block needs a longer one.
+    if (at === 0) length *= 2;
+    blockStart += at;
+    at = 0;
+    view = new DataView(await bytes(name, blob, blockStart, blockStart + length));
+  }
+  return blockStart + at;
+}
+
+/** Where the rows of a group end. */
+export async function endOfRows(reading: Reading, start: number, group: Group, littleEndian: boolean): Promise<number> {
+  const { name, count, fields } = group;
+  if (hasLists(fields)) return eachListRow(reading, start, group, littleEndian, () => undefined);
+  const size = rowBytes(fields);
+  const end = start + size * count;
+  if (end > reading.blob.size) throw endsEarly(Math.floor((reading.blob.size - start) / size), count, name);
+  return end;
+}
+
+/** Looks at what follows the last row, a block of it: a header with one field too few leaves much. */
+export async function checkEnd({ name, blob }: Reading, end: number, what: string): Promise<void> {
+  checkRest(new Uint8Array(await bytes(name, blob, end, end + BLOCK)), what);
+}
+
+/** A column for each field that is one number and no axis. */
+export function otherColumns(
+  { fields }: Group,
+  axes: Axes,
+  called: (name: string) => string,
+  typeOf: (name: string, type: NumberType) => NumberType = (_, type) => type,
+): (Column & { field: number })[] {
+  return fields.flatMap(({ name, type, count, length }, field) =>
+    // Fields of several numbers are descriptors, histograms and room between others.
+    axes.includes(field) || count > 1 || length !== undefined
+      ? []
+      : [{ name: called(name), type: typeOf(name, type), field }],
+  );
 }

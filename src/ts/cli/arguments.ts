@@ -1,9 +1,10 @@
 import { extname } from "node:path";
 import { parseArgs } from "node:util";
 
+import { type ChosenColumns, isNumber } from "../formats/axes.js";
 import { FORMATS } from "./formats/formats.js";
 
-export const HELP = `Usage: hidden-point-removal IN --from X,Y,Z -o OUT [--exponent E|auto]
+export const HELP = `Usage: hidden-point-removal IN --from X,Y,Z -o OUT [--exponent E|auto] [--columns X,Y,Z]
 
 Writes those points of a file that can be seen from a viewpoint.
 
@@ -12,8 +13,13 @@ Writes those points of a file that can be seen from a viewpoint.
   -o, --output OUT   the file to write, in the format of IN; - is standard output
   --exponent E       R is the farthest distance times 10^E (0 or more); the larger, the
                      more points; auto, the default, chooses it by the points' spacing
+  --columns X,Y,Z    which columns of IN are x, y and z: their names or numbers from 1
   -h, --help         shows this
   --version          shows the version
+
+Without --columns, x, y and z are the columns that IN calls so (or easting, northing and
+height), or the first three of a file without names; the columns are said in the end.
+A file that breaks the rules of its format is refused, with the number of the line.
 
 Everything a file says about a point (color, normal, any property) is copied as it
 is. Of a PLY file only the vertices are kept; compressed PCD data is written
@@ -29,6 +35,8 @@ export interface Settings {
   viewpoint: number[];
   /** Undefined for the automatic one. */
   exponent: number | undefined;
+  /** Undefined for those that the file names. */
+  columns: ChosenColumns | undefined;
 }
 
 /** Wrong usage: the message says what is wrong. */
@@ -53,6 +61,7 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
     output: values.output,
     viewpoint: viewpoint(values.from),
     exponent: exponent(values.exponent ?? "auto"),
+    columns: values.columns === undefined ? undefined : columns(values.columns),
   };
 }
 
@@ -65,12 +74,13 @@ function parsed(args: string[]) {
         from: { type: "string" },
         output: { type: "string", short: "o" },
         exponent: { type: "string" },
+        columns: { type: "string" },
         help: { type: "boolean", short: "h" },
         version: { type: "boolean" },
       },
     });
   } catch (error) {
-    // What follows is about how such words are written in general.
+    // The lines below the first one are about how such words are written in general.
     throw new UsageProblem((error as Error).message.split("\n", 1)[0]);
   }
 }
@@ -98,4 +108,12 @@ function exponent(text: string): number | undefined {
   if (!(value >= 0 && Number.isFinite(value)))
     throw new UsageProblem(`--exponent needs a number of 0 or more, or auto, not ${text}`);
   return value;
+}
+
+function columns(text: string): ChosenColumns {
+  const chosen = text.split(",").map((word) => word.trim());
+  const isChoice = (word: string) => word !== "" && (isNumber(word) || !/^[-+]?\d+$/.test(word));
+  if (chosen.length !== 3 || !chosen.every(isChoice) || new Set(chosen).size < 3)
+    throw new UsageProblem(`--columns needs three different columns, as in --columns 2,3,4, not ${text}`);
+  return chosen as unknown as ChosenColumns;
 }

@@ -1,15 +1,21 @@
-import { type FileHandle, open, realpath, rename, rm, stat } from "node:fs/promises";
+import { constants, rmSync } from "node:fs";
+import { type FileHandle, lstat, open, readlink, rename, rm, stat } from "node:fs/promises";
+import { dirname, resolve } from "node:path";
 
-import { FileProblem } from "./formats/point-file.js";
+import { FormatProblem } from "../formats/problem.js";
 
 const CHUNK = 1 << 24;
 
+/** A file that cannot be written. */
+export class OutputProblem extends Error {}
+
 /** A whole file; `onProgress` hears what share of it has been read. */
 export async function readWhole(name: string, onProgress: (share: number) => void): Promise<Buffer> {
-  const handle = await open(name);
+  // To open a FIFO would otherwise wait until another program writes to it.
+  const handle = await open(name, constants.O_RDONLY | nonBlocking());
   try {
     const stats = await handle.stat();
-    if (!stats.isFile()) throw new FileProblem("it is not a regular file");
+    if (!stats.isFile()) throw new FormatProblem("it is not a regular file");
     const { size } = stats;
     const file = room(size);
     let at = 0;
@@ -25,46 +31,124 @@ export async function readWhole(name: string, onProgress: (share: number) => voi
   }
 }
 
+/** Windows has no such flag. */
+function nonBlocking(): number {
+  return (constants as Partial<typeof constants>).O_NONBLOCK ?? 0;
+}
+
 function room(size: number): Buffer {
   try {
     return Buffer.allocUnsafe(size);
   } catch (cause) {
-    throw new FileProblem(`no memory for its ${size} bytes`, { cause });
+    throw new FormatProblem(`no memory for its ${size} bytes`, { cause });
   }
 }
 
 /**
- * Writes a file beside its place first, so that a failure leaves no half of it; "-" is
- * standard output. What it replaces is what a link leads to, and who may read it stays.
+ * Writes a file; "-" is standard output. A FIFO or a device is written to. A regular file is written beside its place first,
+ * so that a failure leaves no half of it. A link is followed, and who may read a file stays.
  */
 export async function writeWhole(name: string, parts: Iterable<Uint8Array>): Promise<void> {
   if (name === "-") {
-    // It comes a second time as an event, which ends the process if nobody listens.
+    // An error comes a second time as an event, which ends the process if nobody listens.
     process.stdout.on("error", () => undefined);
     for (const chunk of gathered(parts)) await print(chunk);
     return;
   }
-  const place = await realpath(name).catch(() => name);
-  const mode = await stat(place).then(
-    (stats) => stats.mode & 0o777,
-    () => undefined,
-  );
-  const unfinished = `${place}.${process.pid}.part`;
-  const handle = await open(unfinished, "w", mode);
   try {
-    await writeAll(handle, parts).finally(() => handle.close());
-    await rename(unfinished, place);
+    await writeNamed(name, parts);
   } catch (error) {
-    await rm(unfinished, { force: true });
-    throw error;
+    throw new OutputProblem(`${name} cannot be written: ${reason(error)}`, { cause: error });
   }
 }
 
+/** Without the name of the unfinished file, which the user has never seen. */
+function reason(error: unknown): string {
+  const { message } = error as Error;
+  return /^\w+: ([^,]*),/.exec(message)?.[1] ?? message;
+}
+
+async function writeNamed(name: string, parts: Iterable<Uint8Array>): Promise<void> {
+  const place = await linkedFrom(name);
+  const present = await stat(place).catch(() => undefined);
+  if (present === undefined || present.isFile()) {
+    await replace(place, parts, present === undefined ? undefined : present.mode & 0o777);
+  } else if (present.isDirectory()) {
+    throw new Error("it is a directory");
+  } else if (present.isBlockDevice()) {
+    throw new Error("it is a disk");
+  } else {
+    await writeInto(place, parts, present.isFIFO());
+  }
+}
+
+/** Where a file is, or will be: behind all links, also those to a file that is not there yet. */
+async function linkedFrom(name: string): Promise<string> {
+  let place = name;
+  for (let links = 0; links < 40; links++) {
+    const stats = await lstat(place).catch(() => undefined);
+    if (stats?.isSymbolicLink() !== true) return place;
+    // A link below /proc stands for an open file, which may have no name.
+    if ((await stat(place).catch(() => undefined))?.isFile() === false) return place;
+    place = resolve(dirname(place), await readlink(place));
+  }
+  throw new Error("its links lead to one another");
+}
+
+async function writeInto(place: string, parts: Iterable<Uint8Array>, isFifo: boolean): Promise<void> {
+  // To open a FIFO without a reader would wait for one, perhaps for ever.
+  const probe = isFifo ? await open(place, constants.O_WRONLY | nonBlocking()).catch(noReader) : undefined;
+  try {
+    const handle = await open(place, constants.O_WRONLY);
+    await writeAll(handle, parts).finally(() => handle.close());
+  } finally {
+    await probe?.close();
+  }
+}
+
+function noReader(error: NodeJS.ErrnoException): never {
+  throw error.code === "ENXIO" ? new Error("it is a FIFO that no program reads") : error;
+}
+
+async function replace(place: string, parts: Iterable<Uint8Array>, mode: number | undefined): Promise<void> {
+  const unfinished = `${place}.${process.pid}.part`;
+  const stopListening = onSignals(() => {
+    rmSync(unfinished, { force: true });
+  });
+  try {
+    const handle = await open(unfinished, "wx", mode);
+    try {
+      await writeAll(handle, parts).finally(() => handle.close());
+      await rename(unfinished, place);
+    } catch (error) {
+      await rm(unfinished, { force: true });
+      throw error;
+    }
+  } finally {
+    stopListening();
+  }
+}
+
+/** Cleans up when a signal ends the process, which then ends as without this. Gives back how to stop listening. */
+function onSignals(cleanUp: () => void): () => void {
+  const signals = ["SIGINT", "SIGTERM", "SIGHUP"] as const;
+  const end = (signal: NodeJS.Signals) => {
+    stop();
+    cleanUp();
+    process.kill(process.pid, signal);
+  };
+  const stop = () => {
+    for (const signal of signals) process.off(signal, end);
+  };
+  for (const signal of signals) process.on(signal, end);
+  return stop;
+}
+
 function print(chunk: Uint8Array): Promise<void> {
-  return new Promise((resolve, reject) => {
+  return new Promise((done, fail) => {
     process.stdout.write(chunk, (error) => {
-      if (error) reject(error);
-      else resolve();
+      if (error) fail(error);
+      else done();
     });
   });
 }

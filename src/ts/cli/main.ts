@@ -6,9 +6,10 @@ import { extname } from "node:path";
 import { HprError } from "../base/errors.js";
 import { WorkerPointCloud } from "../worker.js";
 import { HELP, readArguments, type Settings, UsageProblem } from "./arguments.js";
-import { readWhole, writeWhole } from "./files.js";
+import { FormatProblem } from "../formats/problem.js";
+import { OutputProblem, readWhole, writeWhole } from "./files.js";
 import { FORMATS } from "./formats/formats.js";
-import { FileProblem, type PointFile, written } from "./formats/point-file.js";
+import { type PointFile, written } from "./formats/point-file.js";
 import { Progress } from "./progress.js";
 
 process.exitCode = await main(process.argv.slice(2));
@@ -39,16 +40,18 @@ async function main(args: string[]): Promise<number> {
   }
 }
 
-async function filter({ input, output, viewpoint, exponent }: Settings, progress: Progress): Promise<string> {
+async function filter(settings: Settings, progress: Progress): Promise<string> {
+  const { input, output, viewpoint, exponent, columns } = settings;
   const bytes = await readWhole(input, (share) => {
     progress.show(0.2 * share, "reading");
   });
   progress.show(0.2, "understanding");
-  const file = FORMATS[extname(input).toLowerCase()]!(bytes);
+  const file = FORMATS[extname(input).toLowerCase()]!(bytes, columns);
   const { visible, length, skipped } = await ask(file, viewpoint, exponent, progress);
   progress.show(0.9, "writing");
   await writeWhole(output, written(file, visible));
   const notes = [
+    ...(file.columns === undefined ? [] : [file.columns]),
     ...(skipped > 0 ? [`${skipped} without a position`] : []),
     ...(file.leftOut.length > 0 ? [`left out: ${file.leftOut.join(", ")}`] : []),
   ];
@@ -71,9 +74,10 @@ async function ask({ positions }: PointFile, viewpoint: number[], exponent: numb
 }
 
 function reason(input: string, error: unknown): string {
-  if (error instanceof FileProblem) return `${input} cannot be read: ${error.message}`;
+  if (error instanceof FormatProblem) return `${input} cannot be read: ${error.message}`;
   if (error instanceof HprError) return `${error.message} (${error.code})`;
-  // What the system says names the file itself.
+  if (error instanceof OutputProblem) return error.message;
+  // A message of the system names the file itself.
   return error instanceof Error ? error.message : String(error);
 }
 

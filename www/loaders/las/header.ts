@@ -1,6 +1,6 @@
 import type { Column } from "../builder.ts";
 import { bytes } from "../blocks.ts";
-import { bytesOf, type NumberReader, numberReader, type NumberType } from "../numbers.ts";
+import { bytesOf, type NumberReader, numberReader, type NumberType } from "../../../src/ts/formats/numbers.js";
 import { LoadProblem } from "../problem.ts";
 
 /**

@@ -1,8 +1,7 @@
 import type { LoadedCloud } from "../../cloud/cloud.ts";
 import { bytes, eachRow, type Reading } from "../blocks.ts";
 import { checkByteLength } from "../limits.ts";
-import { LoadProblem } from "../problem.ts";
-import { endsEarly } from "../rows.ts";
+import { endsEarly, LoadProblem } from "../problem.ts";
 import { checkFormat, damaged } from "./compressed.ts";
 import { type LasHeader, readHeader } from "./header.ts";
 import { startLazPerf } from "./perf.ts";

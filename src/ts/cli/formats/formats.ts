@@ -1,10 +1,11 @@
+import type { ChosenColumns } from "../../formats/axes.js";
 import { readPcd } from "./pcd.js";
 import { readPly } from "./ply.js";
 import type { PointFile } from "./point-file.js";
 import { readTable } from "./table.js";
 
 /** What is read, by the end of a file's name. */
-export const FORMATS: Record<string, (file: Buffer) => PointFile> = {
+export const FORMATS: Record<string, (file: Buffer, chosen?: ChosenColumns) => PointFile> = {
   ".ply": readPly,
   ".pcd": readPcd,
   ".xyz": readTable,

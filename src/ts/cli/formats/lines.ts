@@ -1,45 +1,28 @@
+import { type Line, LONGEST_LINE, markLength, tooLong } from "../../formats/text.js";
 import { Numbers } from "./numbers.js";
-import { FileProblem, type Records } from "./point-file.js";
-
-/** A line of a text file: without its end, and where it is with its end. */
-export interface Line {
-  text: string;
-  number: number;
-  start: number;
-  end: number;
-}
+import type { Records } from "./point-file.js";
 
 const [LINE_FEED, RETURN] = [0x0a, 0x0d];
-/** What some programs write before text in UTF-8. */
-const BYTE_ORDER_MARK = /^\xef\xbb\xbf/;
 
-/** The lines from a place on, in Latin-1, which keeps one character a byte. */
+/** The lines from a place on, whatever they end with. */
 export function* linesOf(file: Buffer, from = 0, firstNumber = 1): Generator<Line> {
-  const last = endOfLines(file, from);
   let start = from;
+  let [feed, back] = [-1, -1];
   for (let number = firstNumber; start < file.length; number++) {
-    const found = file.indexOf(last, start);
-    const end = found < 0 ? file.length : found + 1;
-    const text = file.toString("latin1", start, end);
-    yield { text: (start === 0 ? text.replace(BYTE_ORDER_MARK, "") : text).trim(), number, start, end };
+    if (feed < start) feed = place(file, LINE_FEED, start);
+    if (back < start) back = place(file, RETURN, start);
+    const last = Math.min(feed, back);
+    const end = Math.min(last + (feed === back + 1 ? 2 : 1), file.length);
+    if (end - start > LONGEST_LINE) throw tooLong(number);
+    const textStart = start === 0 ? markLength(file) : start;
+    yield { text: file.toString("utf8", textStart, end), number, start, end };
     start = end;
   }
 }
 
-/** The last byte of each line, as the first one ends: in old files a return alone. */
-function endOfLines(file: Buffer, from: number): number {
-  const at = file.indexOf(RETURN, from);
-  const feed = file.indexOf(LINE_FEED, from);
-  return at >= 0 && (feed < 0 || at + 1 < feed) ? RETURN : LINE_FEED;
-}
-
-const NOT_FINITE = /^[-+]?(nan|inf|infinity)(\(.*\))?$/i;
-
-/** A coordinate as it is written, NaN for one that is missing; undefined for what is no number. */
-export function coordinate(word: string | undefined): number | undefined {
-  if (word === undefined || word === "") return undefined;
-  const value = Number(word);
-  return Number.isFinite(value) ? value : NOT_FINITE.test(word) || !Number.isNaN(value) ? NaN : undefined;
+function place(file: Buffer, byte: number, from: number): number {
+  const found = file.indexOf(byte, from);
+  return found < 0 ? Infinity : found;
 }
 
 /** Collects points that are one line each. */
@@ -53,10 +36,6 @@ export class LinePoints {
     this.#file = file;
   }
 
-  get count(): number {
-    return this.#starts.length;
-  }
-
   get numbers(): Float64Array<ArrayBuffer> {
     return this.#numbers.all();
   }
@@ -65,14 +44,9 @@ export class LinePoints {
     return { bytes: this.#file, start: (i) => this.#starts.at(i), end: (i) => this.#ends.at(i) };
   }
 
-  /** @param words the words of the line that are its x, y and z */
-  add(line: Line, words: (string | undefined)[]): void {
-    for (const word of words) {
-      const value = coordinate(word);
-      if (value === undefined) throw new FileProblem(`line ${line.number} is not a point: "${line.text.slice(0, 60)}"`);
-      this.#numbers.push(value);
-    }
-    this.#starts.push(line.start);
-    this.#ends.push(line.end);
+  add({ start, end }: Line, position: readonly number[]): void {
+    for (const value of position) this.#numbers.push(value);
+    this.#starts.push(start);
+    this.#ends.push(end);
   }
 }

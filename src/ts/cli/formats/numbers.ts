@@ -1,4 +1,4 @@
-import { FileProblem } from "./point-file.js";
+import { FormatProblem } from "../../formats/problem.js";
 
 /** Numbers one after another, as many as memory holds: an array ends the process at some 110 million. */
 export class Numbers {
@@ -29,7 +29,7 @@ export class Numbers {
       room.set(this.#room);
       this.#room = room;
     } catch (cause) {
-      throw new FileProblem(`no memory for more than ${this.#length} numbers`, { cause });
+      throw new FormatProblem(`no memory for more than ${this.#length} numbers`, { cause });
     }
   }
 }

@@ -1,9 +1,13 @@
+import type { Axes, Field } from "../../formats/rows.js";
+
 /** A file of points as it was read: what the cloud is made of, and what was written about each point. */
 export interface PointFile {
   /** x, y, z of one point after another, in the precision of the file. */
   positions: Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>;
   /** What a file of fewer points cannot keep, in words. */
   leftOut: string[];
+  /** Which columns are x, y and z, in words, where the file does not call them so. */
+  columns: string | undefined;
   /** The header of a file of so many points. */
   header: (count: number) => Uint8Array;
   records: Records;
@@ -16,8 +20,11 @@ export interface Records {
   end: (index: number) => number;
 }
 
-/** A file that cannot be read, or was asked for what it does not have: the message is for the user. */
-export class FileProblem extends Error {}
+/** Which fields are x, y and z, unless they are called so. */
+export function fieldsSaid(fields: readonly Field[], axes: Axes): string | undefined {
+  const names = axes.map((axis) => fields[axis]!.name);
+  return names.join("").toLowerCase() === "xyz" ? undefined : `x, y and z are ${names.join(", ")}`;
+}
 
 /** What takes so many bytes for each point, one after another. */
 export function equalRecords(bytes: Uint8Array, from: number, size: number): Records {

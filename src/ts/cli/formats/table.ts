@@ -1,62 +1,40 @@
-import { coordinate, type Line, LinePoints, linesOf } from "./lines.js";
-import { FileProblem, type PointFile } from "./point-file.js";
+import type { ChosenColumns } from "../../formats/axes.js";
+import { FormatProblem } from "../../formats/problem.js";
+import { columnsSaid, TableRows } from "../../formats/table.js";
+import { type Line, looksBinary, trimmed } from "../../formats/text.js";
+import { LinePoints, linesOf } from "./lines.js";
+import type { PointFile } from "./point-file.js";
 
-/** XYZ, TXT, CSV and PTS: one point a line. What stands above the first point is kept. */
-export function readTable(file: Buffer): PointFile {
+/** XYZ, TXT, CSV and PTS: one point a line. The lines above the first point are kept. */
+export function readTable(file: Buffer, chosen?: ChosenColumns): PointFile {
+  checkEncoding(file.subarray(0, 4096));
   const head: Line[] = [];
+  const rows = new TableRows(chosen);
   const points = new LinePoints(file);
-  let columns: number[] | undefined;
   for (const line of linesOf(file)) {
-    if (line.text === "" || isComment(line)) {
-      if (columns === undefined) head.push(line);
-      continue;
-    }
-    columns ??= columnsOf(line, head);
-    if (columns === undefined) {
-      head.push(line);
-      continue;
-    }
-    const words = split(line.text);
-    points.add(
-      line,
-      columns.map((column) => words[column]),
-    );
+    const point = rows.take(line.text, line.number);
+    if (point !== undefined) points.add(line, point.position);
+    else if (rows.layout === undefined) head.push(line);
   }
-  if (points.count === 0) throw new FileProblem("it has no lines with three numbers");
+  rows.finish();
   return {
     positions: points.numbers.slice(),
     leftOut: [],
+    columns: columnsSaid(rows.layout!),
     header: (count) => Buffer.concat(head.map((line) => headLine(file, line, count))),
     records: points.records,
   };
 }
 
-function isComment({ text }: Line): boolean {
-  return text.startsWith("#") || text.startsWith("//");
-}
-
-/** Which columns are x, y and z, where this line is the first point: those named so above it, or the first three. */
-function columnsOf({ text }: Line, head: Line[]): number[] | undefined {
-  const words = split(text);
-  for (const { text: names } of head.slice(-1)) {
-    const named = split(names.toLowerCase().replace(/^(#|\/\/)\s*/, ""));
-    const columns = ["x", "y", "z"].map((axis) => named.indexOf(axis));
-    if (!columns.includes(-1) && isPoint(words, columns)) return columns;
-  }
-  return isPoint(words, [0, 1, 2]) ? [0, 1, 2] : undefined;
-}
-
-function isPoint(words: string[], columns: number[]): boolean {
-  return columns.every((column) => coordinate(words[column]) !== undefined);
-}
-
-function split(text: string): string[] {
-  const separator = text.includes(";") ? ";" : text.includes(",") ? "," : /\s+/;
-  return text.split(separator).map((word) => word.trim().replace(/^"(.*)"$/, "$1"));
+function checkEncoding(start: Uint8Array): void {
+  const mark = 256 * (start[0] ?? 0) + (start[1] ?? 0);
+  if (mark === 0xfffe || mark === 0xfeff) throw new FormatProblem("it is text in UTF-16; save it in UTF-8");
+  if (looksBinary(start)) throw new FormatProblem("it is not a text");
 }
 
 /** A line of the head; one with nothing but the number of points gets the new one. */
 function headLine(file: Buffer, { text, start, end }: Line, count: number): Uint8Array {
-  if (!/^\d+$/.test(text)) return file.subarray(start, end);
-  return Buffer.from(file.toString("latin1", start, end).replace(text, String(count)), "latin1");
+  const number = trimmed(text);
+  if (!/^\d+$/.test(number)) return file.subarray(start, end);
+  return Buffer.from(file.toString("latin1", start, end).replace(number, String(count)), "latin1");
 }

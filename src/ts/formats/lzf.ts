@@ -1,7 +1,7 @@
-import { FileProblem } from "./point-file.js";
+import { FormatProblem } from "./problem.js";
 
-/** Unpacks LZF: literal runs, and copies from up to 8 kB back. */
-export function unpackLzf(packed: Uint8Array, length: number): Uint8Array {
+/** Unpacks LZF, with which PCD files are compressed: literal runs, and copies from up to 8 kB back. */
+export function unpackLzf(packed: Uint8Array, length: number): Uint8Array<ArrayBuffer> {
   // Three bytes stand for 264 at most.
   if (length > 88 * packed.length) throw damaged();
   const unpacked = new Uint8Array(length);
@@ -20,13 +20,13 @@ export function unpackLzf(packed: Uint8Array, length: number): Uint8Array {
     if (count === 9) count += packed[from++] ?? NaN;
     const back = ((control & 31) << 8) + (packed[from++] ?? NaN) + 1;
     if (!(back <= to && to + count <= length)) throw damaged();
-    // One by one: a copy may repeat what it has just written.
+    // One by one: a copy may repeat bytes that it has just written.
     for (let i = 0; i < count; i++, to++) unpacked[to] = unpacked[to - back]!;
   }
   if (to !== length) throw damaged();
   return unpacked;
 }
 
-function damaged(): FileProblem {
-  return new FileProblem("its compressed data is damaged");
+function damaged(): FormatProblem {
+  return new FormatProblem("its compressed data is damaged");
 }

@@ -1,0 +1,47 @@
+import { FormatProblem, quoted } from "./problem.js";
+import type { Axes } from "./rows.js";
+
+/** The columns that the user has chosen for x, y and z: names, or numbers that count from 1. */
+export type ChosenColumns = readonly [string, string, string];
+
+/** What x, y and z are called, best first. */
+const CALLED = [
+  ["x", "y", "z"],
+  ["px", "py", "pz"],
+  ["posx", "posy", "posz"],
+];
+
+/** Which of the fields of a PLY or PCD file are x, y and z. */
+export function axesOf(names: readonly string[], chosen?: ChosenColumns): Axes {
+  if (chosen) return chosenAxes(names, chosen);
+  const lower = names.map((name) => name.toLowerCase());
+  for (const axes of CALLED) {
+    if (!axes.every((axis) => lower.includes(axis))) continue;
+    return axes.map((axis) => onlyPlace(lower, axis)) as unknown as Axes;
+  }
+  throw new FormatProblem(`its header names no x, y and z, but ${quoted(names.join(" "))}`);
+}
+
+/** @param names lower case, or as they are written where nothing matches so */
+export function chosenAxes(names: readonly string[], chosen: ChosenColumns): Axes {
+  return chosen.map((choice) => {
+    if (isNumber(choice)) {
+      if (Number(choice) > names.length) throw new FormatProblem(`it has no column ${choice}, only ${names.length}`);
+      return Number(choice) - 1;
+    }
+    if (names.includes(choice)) return onlyPlace(names, choice);
+    const lower = names.map((name) => name.toLowerCase());
+    if (lower.includes(choice.toLowerCase())) return onlyPlace(lower, choice.toLowerCase());
+    throw new FormatProblem(`it has no column named ${quoted(choice)}, but ${quoted(names.join(" "))}`);
+  }) as unknown as Axes;
+}
+
+export function isNumber(choice: string): boolean {
+  return /^[1-9]\d*$/.test(choice);
+}
+
+function onlyPlace(names: readonly string[], name: string): number {
+  const place = names.indexOf(name);
+  if (names.includes(name, place + 1)) throw new FormatProblem(`its header names ${name} twice`);
+  return place;
+}

@@ -1,0 +1,62 @@
+/** The types of numbers in files. */
+export type NumberType =
+  "int8" | "uint8" | "int16" | "uint16" | "int32" | "uint32" | "int64" | "uint64" | "float32" | "float64";
+
+/** Reads one number of a row that begins at `at`. */
+export type NumberReader = (view: DataView, at: number) => number;
+
+export function bytesOf(type: NumberType): number {
+  return Number(/\d+/.exec(type)![0]) / 8;
+}
+
+export function isWhole(type: NumberType): boolean {
+  return !type.startsWith("float");
+}
+
+/** Whether single precision holds every number of these types. */
+export function fitSingle(types: readonly NumberType[]): boolean {
+  return types.every((type) => type === "float32" || bytesOf(type) <= 2);
+}
+
+/** @param offset of the number in its row */
+export function numberReader(type: NumberType, offset: number, littleEndian: boolean): NumberReader {
+  switch (type) {
+    case "int8": return (view, at) => view.getInt8(at + offset);
+    case "uint8": return (view, at) => view.getUint8(at + offset);
+    case "int16": return (view, at) => view.getInt16(at + offset, littleEndian);
+    case "uint16": return (view, at) => view.getUint16(at + offset, littleEndian);
+    case "int32": return (view, at) => view.getInt32(at + offset, littleEndian);
+    case "uint32": return (view, at) => view.getUint32(at + offset, littleEndian);
+    case "int64": return (view, at) => Number(view.getBigInt64(at + offset, littleEndian));
+    case "uint64": return (view, at) => Number(view.getBigUint64(at + offset, littleEndian));
+    case "float32": return (view, at) => view.getFloat32(at + offset, littleEndian);
+    case "float64": return (view, at) => view.getFloat64(at + offset, littleEndian);
+  } // prettier-ignore
+}
+
+const DECIMAL = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
+/** Also as some C libraries write them: nan(ind), 1.#QNAN, -1.#INF. */
+const NOT_FINITE = /^[-+]?(nan(\(\w*\))?|inf|infinity|1\.#(inf|ind|qnan|snan)0*)$/i;
+
+/** A decimal number, or NaN for a word such as "nan" or "inf"; undefined for any other word, "0x10" among them. */
+export function numberIn(word: string): number | undefined {
+  if (DECIMAL.test(word)) {
+    const value = Number(word);
+    return Number.isFinite(value) ? value : NaN;
+  }
+  return NOT_FINITE.test(word) ? NaN : undefined;
+}
+
+/** A count in a header: digits alone. */
+export function countIn(word: string | undefined): number | undefined {
+  const count = Number(word);
+  return word !== undefined && /^\d+$/.test(word) && Number.isSafeInteger(count) ? count : undefined;
+}
+
+/** Whether a text may give this number for one of this type. */
+export function fitsType(value: number, type: NumberType): boolean {
+  if (!isWhole(type)) return true;
+  const bits = 8 * bytesOf(type);
+  const [least, most] = type.startsWith("u") ? [0, 2 ** bits - 1] : [-(2 ** (bits - 1)), 2 ** (bits - 1) - 1];
+  return Number.isInteger(value) && value >= least && value <= most;
+}

@@ -1,0 +1,110 @@
+import { axesOf, type ChosenColumns } from "./axes.js";
+import { countIn, isWhole, type NumberType } from "./numbers.js";
+import { FormatProblem, lineProblem } from "./problem.js";
+import type { Axes, Field, Group } from "./rows.js";
+import { headerLines, type Line, wordsOf } from "./text.js";
+
+/** The header of a PLY file has to end within so many bytes. */
+export const LONGEST_PLY_HEADER = 1 << 20;
+
+export interface PlyHeader {
+  format: "ascii" | "binary_little_endian" | "binary_big_endian";
+  elements: readonly Group[];
+  vertices: Group;
+  axes: Axes;
+  /** Its lines; those about an element carry its name. */
+  lines: readonly (Line & { element?: string })[];
+  /** Where the header ends, in bytes. */
+  end: number;
+}
+
+const TYPES: Record<string, NumberType> = {
+  char: "int8", int8: "int8", uchar: "uint8", uint8: "uint8",
+  short: "int16", int16: "int16", ushort: "uint16", uint16: "uint16",
+  int: "int32", int32: "int32", uint: "uint32", uint32: "uint32",
+  float: "float32", float32: "float32", double: "float64", float64: "float64",
+}; // prettier-ignore
+
+interface Element extends Group {
+  fields: Field[];
+}
+
+/** @param start the file's bytes, or the first LONGEST_PLY_HEADER of them */
+export function readPlyHeader(start: Uint8Array, chosen?: ChosenColumns): PlyHeader {
+  let format: PlyHeader["format"] | undefined;
+  const elements: Element[] = [];
+  const lines: (Line & { element?: string })[] = [];
+  for (const line of headerLines(start.subarray(0, LONGEST_PLY_HEADER))) {
+    const { text, number } = line;
+    const [keyword = "", ...words] = wordsOf(text);
+    if (number === 1) {
+      if (text !== "ply") throw new FormatProblem("it does not begin as a PLY file does");
+    } else if (keyword === "format") {
+      if (format !== undefined) throw lineProblem(number, "gives the PLY format a second time", text);
+      format = formatIn(words, line);
+    } else if (keyword === "element") {
+      elements.push(elementIn(words, line, elements));
+    } else if (keyword === "property") {
+      const element = elements.at(-1);
+      if (element === undefined) throw lineProblem(number, "is a property of no element", text);
+      element.fields.push(propertyIn(words, line, element));
+    } else if (keyword !== "" && keyword !== "comment" && keyword !== "obj_info" && text !== "end_header") {
+      throw lineProblem(number, "is no line of a PLY header", text);
+    }
+    const element = keyword === "element" || keyword === "property" ? elements.at(-1)!.name : undefined;
+    lines.push({ ...line, ...(element === undefined ? {} : { element }) });
+    if (text !== "end_header") continue;
+    if (format === undefined) throw new FormatProblem("its PLY header gives no format");
+    return { format, elements, lines, end: line.end, ...pointsIn(elements, chosen) };
+  }
+  throw new FormatProblem("its PLY header has no end");
+}
+
+function formatIn([format, version, ...more]: string[], { text, number }: Line): PlyHeader["format"] {
+  if (format !== "ascii" && format !== "binary_little_endian" && format !== "binary_big_endian")
+    throw lineProblem(
+      number,
+      "gives a PLY format that is none of ascii, binary_little_endian and binary_big_endian",
+      text,
+    );
+  if (version !== "1.0" || more.length > 0) throw lineProblem(number, "gives a PLY version that is not 1.0", text);
+  return format;
+}
+
+function elementIn([name, written, ...more]: string[], { text, number }: Line, before: readonly Element[]): Element {
+  const count = countIn(written);
+  if (name === undefined || count === undefined || more.length > 0)
+    throw lineProblem(number, "does not say how many there are of an element", text);
+  if (before.some((element) => element.name === name))
+    throw lineProblem(number, "names an element a second time", text);
+  return { name, count, fields: [] };
+}
+
+function propertyIn(words: string[], { text, number }: Line, { fields }: Element): Field {
+  const isList = words[0] === "list";
+  const [lengthName, typeName, name, ...more] = isList ? words.slice(1) : [undefined, ...words];
+  const [type, length] = [typeIn(typeName), typeIn(lengthName)];
+  if (type === undefined || (isList && length === undefined))
+    throw lineProblem(number, "is a property of unknown type", text);
+  if (name === undefined || more.length > 0) throw lineProblem(number, "does not name one property", text);
+  if (length !== undefined && !isWhole(length))
+    throw lineProblem(number, "counts the values of a list in a type that is not whole", text);
+  if (fields.some((field) => field.name === name)) throw lineProblem(number, "names a property a second time", text);
+  return { name, type, count: 1, ...(length === undefined ? {} : { length }) };
+}
+
+function typeIn(name: string | undefined): NumberType | undefined {
+  return name !== undefined && Object.hasOwn(TYPES, name) ? TYPES[name] : undefined;
+}
+
+function pointsIn(elements: readonly Element[], chosen?: ChosenColumns): Pick<PlyHeader, "vertices" | "axes"> {
+  const vertices = elements.find(({ name }) => name === "vertex");
+  if (vertices === undefined) throw new FormatProblem("it is a PLY file without vertices");
+  const axes = axesOf(
+    vertices.fields.map(({ name }) => name),
+    chosen,
+  );
+  const list = axes.map((axis) => vertices.fields[axis]!).find(({ length }) => length !== undefined);
+  if (list) throw new FormatProblem(`the ${list.name} of its vertices is a list`);
+  return { vertices, axes };
+}

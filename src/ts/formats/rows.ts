@@ -1,0 +1,59 @@
+// Rows of numbers, of which a header tells: the elements of a PLY file, the points of a PCD file.
+import { bytesOf, numberReader, type NumberType } from "./numbers.js";
+import { FormatProblem } from "./problem.js";
+
+/** What stands in each row: a number, several (in PCD), or a list behind its length (in PLY). */
+export interface Field {
+  name: string;
+  type: NumberType;
+  count: number;
+  /** Of a list, the type of its length. */
+  length?: NumberType;
+}
+
+export interface Group {
+  /** What its rows are, for messages: "points", or the name of a PLY element. */
+  name: string;
+  count: number;
+  fields: readonly Field[];
+}
+
+/** Which fields are x, y and z. */
+export type Axes = readonly [number, number, number];
+
+export function hasLists(fields: readonly Field[]): boolean {
+  return fields.some(({ length }) => length !== undefined);
+}
+
+/** Bytes of these fields in a binary row; of a list, those of its length. */
+export function rowBytes(fields: readonly Field[]): number {
+  return fields.reduce((sum, { type, count, length }) => sum + (length ? bytesOf(length) : count * bytesOf(type)), 0);
+}
+
+/**
+ * Writes to `starts` where each field of a binary row begins, and gives back where the row ends; undefined where the view
+ * ends first.
+ */
+export function walkRow(
+  view: DataView,
+  fields: readonly Field[],
+  littleEndian: boolean,
+  at: number,
+  starts: number[],
+): number | undefined {
+  let place = at;
+  for (let i = 0; i < fields.length; i++) {
+    const { type, count, length } = fields[i]!;
+    starts[i] = place;
+    let values = count;
+    if (length) {
+      if (place + bytesOf(length) > view.byteLength) return undefined;
+      values = numberReader(length, 0, littleEndian)(view, place);
+      if (values < 0) throw new FormatProblem(`the length of a list is ${values}`);
+      place += bytesOf(length);
+    }
+    place += values * bytesOf(type);
+    if (place > view.byteLength) return undefined;
+  }
+  return place;
+}

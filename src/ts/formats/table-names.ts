@@ -1,0 +1,86 @@
+// What the head of a table calls its columns.
+import { chosenAxes, type ChosenColumns } from "./axes.js";
+import { FormatProblem, quoted } from "./problem.js";
+import type { Axes } from "./rows.js";
+import { type Separator, separatorOf, split } from "./table-words.js";
+
+/** What x, y and z are called, and what else they may be called. */
+const CALLED = [
+  [/^x$/, /^(px|pos_?x|x_?pos|points:0|easting|east)$/],
+  [/^y$/, /^(py|pos_?y|y_?pos|points:1|northing|north)$/],
+  [/^z$/, /^(pz|pos_?z|z_?pos|points:2|elevation|height|altitude|up)$/],
+];
+const LENGTH = /^[[(]?(m|mm|cm|dm|km|um|µm|ft|feet|foot|in|inch|inches|us-?ft|ftus|yd|met(er|re)s?)?[\])]?$/i;
+const UNIT = /[[(]([^\])]*)[\])]$|[ _.-](m|mm|cm|km|ft|met(?:er|re)s?)$/i;
+
+/** The names in a line: as they are written, and bare: in lower case and without units, "X [m]" and "x_m" are x. */
+export interface Names {
+  written: readonly string[];
+  bare: readonly string[];
+  separator: Separator;
+}
+
+/** @param separator of the points, if it is known */
+export function namesIn(line: string, separator?: Separator): Names {
+  const text = line
+    .replace(/^(#+|\/\/+)\s*/, "")
+    .replace(/^(columns|fields|format)\s*[:=]\s*/i, "")
+    .replace(/\s+(?=\[[^\]]*\]|\([^)]*\))/g, "");
+  // Names of several words stand between tabs.
+  const own = separatorOf(text);
+  const tabs = own === " " && separator !== "," && separator !== ";" && text.includes("\t");
+  const between = tabs ? "\t" : own;
+  const written = split(text, between) ?? [];
+  const bare = written.map((name) =>
+    name
+      .toLowerCase()
+      .replace(/(\[[^\]]*\]|\([^)]*\))/g, "")
+      .trim()
+      .replace(/[ _.-]?coord(inate)?$/, "")
+      .replace(/[ _.-](m|mm|cm|km|ft|met(er|re)s?)$/, ""),
+  );
+  return { written, bare, separator: between };
+}
+
+/** Which columns are x, y and z by these names; undefined if the names do not say so. */
+export function axesIn({ written, bare }: Names, chosen?: ChosenColumns): Axes | undefined {
+  if (chosen) return chosenAxes(written, chosen);
+  const placesOf = (pattern: RegExp | undefined) =>
+    bare.flatMap((name, column) => (pattern?.test(name) === true ? [column] : []));
+  const exact = CALLED.map(([pattern]) => placesOf(pattern));
+  // Other names beside x, y and z may be anything; instead of one of them, they have to be the only ones.
+  const found = exact.every(({ length }) => length > 0) ? exact : CALLED.map((patterns) => patterns.flatMap(placesOf));
+  if (found.some(({ length }) => length === 0)) return undefined;
+  const several = found.find(({ length }) => length > 1);
+  if (several)
+    throw new FormatProblem(
+      `its columns ${several.map((column) => column + 1).join(" and ")} are called alike: ${quoted(written.join(" "))}`,
+    );
+  const axes = found.flat() as unknown as Axes;
+  checkUnits(axes.map((axis) => unitOf(written[axis]!)));
+  return axes;
+}
+
+/** Whether a line below the names gives the units of x, y and z. */
+export function areUnits(words: readonly string[], axes: Axes): boolean {
+  const units = axes.map((axis) => words[axis] ?? "");
+  if (!units.every((unit) => LENGTH.test(unit)) || units.every((unit) => unit === "")) return false;
+  checkUnits(units.map((unit) => normal(unit.replace(/[[\]()]/g, ""))));
+  return true;
+}
+
+function unitOf(name: string): string {
+  const [, inBrackets, behind] = UNIT.exec(name.trim()) ?? [];
+  return normal(inBrackets ?? behind ?? "");
+}
+
+function normal(unit: string): string {
+  const lower = unit.trim().toLowerCase();
+  return lower.replace(/^met(er|re)s?$/, "m").replace(/^(foot|feet)$/, "ft");
+}
+
+/** Refuses coordinates in several units: together they are no place. */
+function checkUnits(units: readonly string[]): void {
+  const given = [...new Set(units.filter((unit) => unit !== ""))];
+  if (given.length > 1) throw new FormatProblem(`its x, y and z are in different units: ${quoted(given.join(" "))}`);
+}

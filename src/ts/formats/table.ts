@@ -1,0 +1,192 @@
+import { type ChosenColumns, isNumber } from "./axes.js";
+import { FormatProblem, lineProblem } from "./problem.js";
+import type { Axes } from "./rows.js";
+import { areUnits, axesIn, type Names, namesIn } from "./table-names.js";
+import { cell, isComment, type Separator, separatorOf, split } from "./table-words.js";
+import { trimmed } from "./text.js";
+
+/** How the lines of a table are to be read. */
+export interface Layout {
+  separator: Separator;
+  /** So many words has each line. */
+  width: number;
+  axes: Axes;
+  /** What the columns are called, where the file says so. */
+  names: Names | undefined;
+}
+
+export interface TablePoint {
+  position: readonly [number, number, number];
+  words: readonly string[];
+}
+
+/** Lines above the points that are no comments: a title or names, and units. */
+const MOST_HEAD_LINES = 2;
+
+/**
+ * Takes the lines of a table, one point each: divided by spaces, tabs, commas or semicolons, with decimal points or commas.
+ * Above the points may stand their number, a line of names, a line of units, and comments.
+ */
+export class TableRows {
+  readonly #chosen: ChosenColumns | undefined;
+  readonly #byNumber: boolean;
+  #layout: Layout | undefined;
+  #count = 0;
+  #promised: { count: number; line: number } | undefined;
+  #names: (Names & { line: number; axes: Axes }) | undefined;
+  #headLines = 0;
+  /** The names that a comment gave. */
+  #commented: Names | undefined;
+  #comments: { text: string; line: number }[] = [];
+  #decimal: { mark: "." | ","; line: number } | undefined;
+
+  constructor(chosen?: ChosenColumns) {
+    this.#chosen = chosen;
+    this.#byNumber = chosen?.every(isNumber) ?? false;
+  }
+
+  /** Undefined as long as there was no point. */
+  get layout(): Layout | undefined {
+    return this.#layout;
+  }
+
+  /** The point of this line; undefined for a line that is none. */
+  take(text: string, number: number): TablePoint | undefined {
+    const line = trimmed(text);
+    if (line === "") return undefined;
+    if (isComment(line)) {
+      if (this.#layout === undefined) this.#comments.push({ text: line, line: number });
+      return undefined;
+    }
+    this.#layout ??= this.#begin(line, untrimmed(text), number);
+    if (this.#layout === undefined) return undefined;
+    const { width, axes } = this.#layout;
+    const words = rowWords(text, this.#layout);
+    if (words === undefined) throw lineProblem(number, "has a quotation mark without its end", line);
+    if (words.length !== width)
+      throw lineProblem(number, `is not a point, it has ${words.length} columns and lines above have ${width}`, line);
+    this.#count++;
+    const coordinate = (axis: number) => this.#coordinate(words[axis]!, axis, number, line);
+    return { position: [coordinate(axes[0]), coordinate(axes[1]), coordinate(axes[2])], words };
+  }
+
+  /** To be called when there are no more lines. */
+  finish(): void {
+    if (this.#count === 0) throw new FormatProblem("it has no line of three numbers");
+    if (this.#promised !== undefined && this.#promised.count !== this.#count) {
+      const { line, count } = this.#promised;
+      throw lineProblem(line, `promises ${count} points, and there are ${this.#count}`);
+    }
+  }
+
+  #split(line: string, separator: Separator, number: number): string[] {
+    const words = split(line, separator);
+    if (words === undefined) throw lineProblem(number, "has a quotation mark without its end", line);
+    return words;
+  }
+
+  #coordinate(word: string, axis: number, number: number, line: string): number {
+    const found = cell(word);
+    if (found === undefined) throw lineProblem(number, `is not a point, its column ${axis + 1} is no number`, line);
+    if (found.decimal !== undefined) {
+      this.#decimal ??= { mark: found.decimal, line: number };
+      if (this.#decimal.mark !== found.decimal)
+        throw lineProblem(number, `has both decimal points and decimal commas with line ${this.#decimal.line}`, line);
+    }
+    return found.value;
+  }
+
+  /** The layout if this line is the first point; else the line belongs to the head. */
+  #begin(line: string, whole: string, number: number): Layout | undefined {
+    if (/^\d+$/.test(line) && this.#promised === undefined && this.#names === undefined) {
+      this.#promised = { count: Number(line), line: number };
+      return undefined;
+    }
+    const separator = this.#names?.separator === "\t" && line.includes("\t") ? "\t" : separatorOf(line);
+    const words = this.#split(separator === "\t" ? whole : line, separator, number);
+    if (words.length > 3 && words.at(-1) === "" && this.#names?.written.length === words.length - 1) words.pop();
+    const isNumberAt = (axis: number) => words[axis] !== undefined && cell(words[axis]) !== undefined;
+    const numbers = words.filter((word) => word !== "" && cell(word) !== undefined).length;
+
+    if (this.#names !== undefined) {
+      const { axes, written, line: above } = this.#names;
+      if (words.length === written.length && axes.every(isNumberAt))
+        return this.#layoutOf(line, number, separator, words, axes);
+      if (++this.#headLines < MOST_HEAD_LINES && words.length === written.length && areUnits(words, axes))
+        return undefined;
+      if (words.length !== written.length)
+        throw lineProblem(number, `has ${words.length} columns, and line ${above} names ${written.length}`, line);
+      throw lineProblem(number, "is not a point", line);
+    }
+    if (this.#byNumber) {
+      const axes = this.#chosen!.map((column) => Number(column) - 1) as unknown as Axes;
+      if (axes.every((axis) => words[axis] !== "" && isNumberAt(axis)))
+        return this.#layoutOf(line, number, separator, words, axes);
+      if (++this.#headLines > MOST_HEAD_LINES) throw lineProblem(number, "is not a point", line);
+      return undefined;
+    }
+    if (numbers >= 3)
+      return this.#layoutOf(line, number, separator, words, this.#axesInComments(words.length, separator));
+
+    const names = namesIn(line);
+    const axes = axesIn(names, this.#chosen);
+    if (axes === undefined) throw lineProblem(number, "is neither three numbers nor names of columns x, y and z", line);
+    this.#names = { ...names, line: number, axes };
+    return undefined;
+  }
+
+  #layoutOf(line: string, number: number, separator: Separator, words: readonly string[], axes: Axes): Layout {
+    if (separator === "," && !line.includes(".") && this.#names === undefined && areCommasUnclear(line))
+      throw lineProblem(number, "has commas that may divide numbers or decimals", line);
+    return { separator, width: words.length, axes, names: this.#names ?? this.#commented };
+  }
+
+  /** The columns that a comment above the points names, or the first three. */
+  #axesInComments(width: number, separator: Separator): Axes {
+    for (const { text, line } of this.#comments.reverse()) {
+      const names = namesIn(text, separator);
+      const fits = names.written.length === width;
+      const axes = this.#chosen && !fits ? undefined : axesIn(names, this.#chosen);
+      if (axes === undefined && fits && width > 3)
+        throw lineProblem(line, "may name the columns, but not which are x, y and z", text);
+      if (axes === undefined) continue;
+      if (!fits && axes.join() === "0,1,2") continue;
+      if (!fits) throw lineProblem(line, `names ${names.written.length} columns, and the points have ${width}`, text);
+      this.#commented = names;
+      return axes;
+    }
+    if (this.#chosen) throw new FormatProblem(`it names no columns ${this.#chosen.join(", ")}`);
+    return [0, 1, 2];
+  }
+}
+
+/** Commas with and without spaces, or numbers that begin with 0 as decimals do: "1,5, 2,5" and "1,05,2,07". */
+function areCommasUnclear(line: string): boolean {
+  return (/\d,\d/.test(line) && /\d,\s/.test(line)) || /,0\d/.test(line);
+}
+
+/** The words of a line below the head; undefined if a quotation mark has no end. */
+export function rowWords(text: string, { separator, width }: Layout): string[] | undefined {
+  const words = split(separator === "\t" ? untrimmed(text) : trimmed(text), separator);
+  // A separator may stand at the end of a line.
+  if (words?.length === width + 1 && words.at(-1) === "") words.pop();
+  return words;
+}
+
+/** Whether the columns need no word: they are called x, y and z, or there are no others. */
+export function isPlain({ axes, names, width }: Layout): boolean {
+  if (names === undefined) return width === 3;
+  return axes.map((axis) => names.bare[axis]).join("") === "xyz";
+}
+
+/** With the tabs at its ends, which divide empty words. */
+function untrimmed(text: string): string {
+  return text.replace(/[\r\n]+$/, "");
+}
+
+/** Which columns are read, in words. */
+export function columnsSaid({ axes, names }: Layout): string {
+  const numbers = axes.map((axis) => axis + 1).join(", ");
+  const called = names === undefined ? "" : ` (${axes.map((axis) => names.written[axis]!).join(", ")})`;
+  return `x, y and z are columns ${numbers}${called}`;
+}

@@ -1,0 +1,106 @@
+import { countIn, fitsType, numberIn } from "./numbers.js";
+import { endsEarly, lineProblem } from "./problem.js";
+import { type Axes, type Field, type Group, hasLists } from "./rows.js";
+import { trimmed, wordsOf } from "./text.js";
+
+/** A point of a text file. */
+export interface TextPoint {
+  position: readonly [number, number, number];
+  words: readonly string[];
+  /** Which word is the first one of each field. */
+  starts: readonly number[];
+}
+
+/**
+ * Takes the lines behind a header, one row each, and checks all of them. A row that is a value short is refused: its later
+ * values would stand for other fields.
+ */
+export class TextRows {
+  readonly #groups: readonly Group[];
+  readonly #points: Group;
+  readonly #axes: Axes;
+  #group = 0;
+  #row = 0;
+
+  constructor(groups: readonly Group[], points: Group, axes: Axes) {
+    [this.#groups, this.#points, this.#axes] = [groups, points, axes];
+  }
+
+  /** The point of this line; undefined for a blank line, and for a row that is no point. */
+  take(text: string, number: number): TextPoint | undefined {
+    const line = trimmed(text);
+    if (line === "") return undefined;
+    while (this.#isDone()) this.#next();
+    const group = this.#groups[this.#group];
+    if (group === undefined) throw lineProblem(number, "stands behind the last row that its header promises", line);
+    this.#row++;
+    const words = wordsOf(line);
+    const starts = startsIn(group.fields, words, number, line);
+    if (group !== this.#points) return undefined;
+    const position = this.#axes.map((axis) => this.#coordinate(words[starts[axis]!]!, axis, number, line));
+    return { position: position as [number, number, number], words, starts };
+  }
+
+  /** To be called when there are no more lines. */
+  finish(): void {
+    while (this.#group < this.#groups.length) {
+      const { name, count } = this.#groups[this.#group]!;
+      if (!this.#isDone()) throw endsEarly(this.#row, count, name);
+      this.#next();
+    }
+  }
+
+  /** An element without properties has no lines. */
+  #isDone(): boolean {
+    const group = this.#groups[this.#group];
+    return group !== undefined && (this.#row === group.count || group.fields.length === 0);
+  }
+
+  #next(): void {
+    this.#group++;
+    this.#row = 0;
+  }
+
+  #coordinate(word: string, axis: number, number: number, line: string): number {
+    const value = numberIn(word);
+    const { name, type } = this.#points.fields[axis]!;
+    if (value === undefined) throw lineProblem(number, `is not a point, its ${name} is no number`, line);
+    if (!fitsType(value, type)) throw lineProblem(number, `is not a point, its ${name} is no ${type}`, line);
+    return value;
+  }
+}
+
+const FIXED = new WeakMap<readonly Field[], { starts: number[]; total: number } | null>();
+
+/** Which word begins each field, after a check that there are as many words as the fields need. */
+export function startsIn(
+  fields: readonly Field[],
+  words: readonly string[],
+  number: number,
+  line: string,
+): readonly number[] {
+  let known = FIXED.get(fields);
+  if (known === undefined) FIXED.set(fields, (known = hasLists(fields) ? null : walk(fields, [], number, line)));
+  const { starts, total } = known ?? walk(fields, words, number, line);
+  if (words.length !== total)
+    throw lineProblem(number, `has ${words.length} values, and its header promises ${total}`, line);
+  return starts;
+}
+
+function walk(
+  fields: readonly Field[],
+  words: readonly string[],
+  number: number,
+  line: string,
+): { starts: number[]; total: number } {
+  let total = 0;
+  const starts = fields.map(({ count, length }) => {
+    const start = total;
+    const word = words[start] ?? "0";
+    if (length && countIn(word) === undefined)
+      throw lineProblem(number, `is a row whose list has a length of ${word}`, line);
+    total += length ? 1 + Number(word) : count;
+    return start;
+  });
+  return { starts, total };
+}

@@ -1,0 +1,64 @@
+import { FormatProblem, lineProblem, several } from "./problem.js";
+
+/** A line of a file: where it begins, and where the next one does. */
+export interface Line {
+  text: string;
+  /** Counted from 1. */
+  number: number;
+  start: number;
+  end: number;
+}
+
+/** No line of points is longer. Engines end a program that makes a text of some 500 MB. */
+export const LONGEST_LINE = 1 << 20;
+
+const [LINE_FEED, RETURN] = [0x0a, 0x0d];
+const BYTE_ORDER_MARK = [0xef, 0xbb, 0xbf];
+
+/** Without blanks at its ends. Only ASCII ones are blanks, so that all encodings split a line alike. */
+export function trimmed(text: string): string {
+  return text.replace(/^[ \t\v\f\r\n]+|[ \t\v\f\r\n]+$/g, "");
+}
+
+/** The words of a trimmed line. */
+export function wordsOf(text: string): string[] {
+  return text === "" ? [] : text.split(/[ \t\v\f]+/);
+}
+
+export function tooLong(line: number): FormatProblem {
+  return lineProblem(line, `is longer than ${LONGEST_LINE / (1 << 20)} MB`);
+}
+
+/** How many bytes of a mark for UTF-8 stand at the beginning. */
+export function markLength(bytes: Uint8Array): number {
+  return BYTE_ORDER_MARK.every((byte, i) => bytes[i] === byte) ? BYTE_ORDER_MARK.length : 0;
+}
+
+/** Text has no control characters but tabs and ends of lines. */
+export function looksBinary(start: Uint8Array): boolean {
+  return start.some((byte) => byte < 0x09 || (byte > 0x0d && byte < 0x20));
+}
+
+/**
+ * The trimmed lines of a header, all of which end as the first one does: a return there may be the first byte of what
+ * follows the header.
+ */
+export function* headerLines(start: Uint8Array): Generator<Line> {
+  const decoder = new TextDecoder();
+  const mark = markLength(start);
+  const back = start.indexOf(RETURN, mark);
+  const feed = start.indexOf(LINE_FEED, mark);
+  const last = back >= 0 && (feed < 0 || back + 1 < feed) ? RETURN : LINE_FEED;
+  for (let from = mark, number = 1; from < start.length; number++) {
+    const found = start.indexOf(last, from);
+    const end = found < 0 ? start.length : found + 1;
+    yield { text: trimmed(decoder.decode(start.subarray(from, end))), number, start: number === 1 ? 0 : from, end };
+    from = end;
+  }
+}
+
+/** A file may end in blanks or zeros, which some programs add, but not in anything else. */
+export function checkRest(rest: Uint8Array, name: string): void {
+  const blank = rest.every((byte) => byte === 0 || byte === 0x20 || (byte >= 0x09 && byte <= 0x0d));
+  if (!blank) throw new FormatProblem(`it goes on behind the last of the ${several(name)} that its header promises`);
+}
