@@ -243,7 +243,7 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
     edited(pcd(near, "binary_compressed"), (_, bytes) => {
       bytes.fill(0xff, 1000, 1400);
     }),
-    /its compressed points cannot be unpacked/,
+    /its compressed data is damaged/,
   ],
 ];
 

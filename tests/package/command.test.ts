@@ -206,7 +206,7 @@ describe("what is missing, wrong or not to be had", () => {
     writeFileSync(inScratch("holes.xyz"), "0 0 1\nnan nan nan\n1 0 0\n0 inf 2\n0 0 2\n");
     const { stdout, stderr, status } = run("holes.xyz", "--from", "0,0,5", "-o", "-");
     expect([stdout.toString(), status]).toEqual(["1 0 0\n0 0 2\n", 0]);
-    expect(stderr).toBe("2 of 5 points are visible; 2 without a position\n");
+    expect(stderr).toBe("2 of 5 points are visible; x, y and z are columns 1, 2, 3; 2 without a position\n");
   });
 
   it("an empty cloud stays one", () => {
@@ -238,19 +238,27 @@ describe("what is missing, wrong or not to be had", () => {
   const listed = (format: string, length: string) =>
     `ply\nformat ${format} 1.0\nelement vertex 1\nproperty list ${length} int seen_by\nproperty float x\nproperty float y\nproperty float z\nend_header\n`;
   const problems: [name: string, says: RegExp, content: Uint8Array | string][] = [
-    ["short.ply", /after 1 of the 5 × vertex/, bytes(plyHeader("binary_little_endian", 5), Buffer.alloc(30))],
-    ["short-ascii.ply", /after 1 of the 5 × vertex/, bytes(plyHeader("ascii", 5), "1 2 3 4 5\n")],
-    ["words.ply", /line 11 is not a point: "1 2 three 4 5"/, bytes(plyHeader("ascii", 1), "1 2 three 4 5\n")],
+    ["short.ply", /after 1 of the 5 vertices/, bytes(plyHeader("binary_little_endian", 5), Buffer.alloc(30))],
+    ["short-ascii.ply", /after 1 of the 5 vertices/, bytes(plyHeader("ascii", 5), "1 2 3 4 5\n")],
+    [
+      "words.ply",
+      /line 11 is not a point, its y is no number: "1 2 three 4 5"/,
+      bytes(plyHeader("ascii", 1), "1 2 three 4 5\n"),
+    ],
     ["other.ply", /begin/, "solid cube\n"],
     ["endless.ply", /no end/, "ply\nformat ascii 1.0\n"],
     ["odd.ply", /unknown type/, "ply\nformat ascii 1.0\nelement vertex 1\nproperty half x\nend_header\n1\n"],
     ["flat.ply", /no x, y and z/, "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n1\n"],
-    ["twice.ply", /vertices twice/, "ply\nformat ascii 1.0\nelement vertex 0\nelement vertex 0\nend_header\n"],
-    ["backwards.ply", /length of a list is -1/, bytes(listed("ascii", "char"), "-1 0 0 1\n")],
+    [
+      "twice.ply",
+      /line 4 names an element a second time/,
+      "ply\nformat ascii 1.0\nelement vertex 0\nelement vertex 0\nend_header\n",
+    ],
+    ["backwards.ply", /list has a length of -1/, bytes(listed("ascii", "char"), "-1 0 0 1\n")],
     ["negative.ply", /length of a list is -1/, bytes(listed("binary_little_endian", "char"), Buffer.alloc(13, 255))],
     [
       "lengthless.ply",
-      /length of a list is NaN/,
+      /counts the values of a list in a type that is not whole/,
       bytes(listed("binary_little_endian", "float"), Buffer.alloc(16, 255)),
     ],
     ["huge.ply", /after 0 of the 4000000000/, bytes(plyHeader("binary_little_endian", 4e9))],
@@ -262,7 +270,7 @@ describe("what is missing, wrong or not to be had", () => {
     ],
     ["nameless.pcd", /no x, y and z/, "FIELDS a\nSIZE 4\nTYPE F\nCOUNT 1\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1\n"],
     ["prose.txt", /three numbers/, "This is a text.\nIt has no points.\n"],
-    ["broken.xyz", /line 2 is not a point: "1 2"/, "1 2 3\n1 2\n"],
+    ["broken.xyz", /line 2 is not a point, it has 2 columns and lines above have 3: "1 2"/, "1 2 3\n1 2\n"],
     ["nothing.xyz", /three numbers/, ""],
   ];
   it.each(problems)("%s ends with 1, says %s and leaves nothing behind", (name, says, content) => {

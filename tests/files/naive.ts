@@ -1,0 +1,303 @@
+// A second reader, written from the definitions of the formats alone: slow, without a word about faults, and without any code
+// of the readers it checks. It throws on what it cannot read, and gives undefined where it has no opinion.
+
+export function naive(name: string, content: Uint8Array): number[] | undefined {
+  if (name.endsWith(".ply")) return ply(content);
+  return name.endsWith(".pcd") ? pcd(content) : table(new TextDecoder().decode(content));
+}
+
+interface Column {
+  name: string;
+  type: string;
+  size: number;
+  count: number;
+  list: { type: string; size: number } | undefined;
+}
+
+const latin = (content: Uint8Array) => Buffer.from(content).toString("latin1");
+const blank = (text: string) => /^[ \t\v\f\r\n]*$/.test(text);
+const strip = (text: string) => text.replace(/^[ \t\v\f\r\n]+/, "").replace(/[ \t\v\f\r\n]+$/, "");
+
+function fail(): never {
+  throw new Error("cannot be read");
+}
+
+function real(word: string | undefined): number {
+  if (word === undefined) fail();
+  if (/^[+-]?[0-9]+\.?[0-9]*([eE][+-]?[0-9]+)?$/.test(word)) return finite(parseFloat(word));
+  if (/^[+-]?\.[0-9]+([eE][+-]?[0-9]+)?$/.test(word)) return finite(parseFloat(word));
+  if (/^[+-]?(nan|inf|infinity|nan\(\w*\)|1\.#(inf|ind|qnan|snan)0*)$/i.test(word)) return NaN;
+  fail();
+}
+
+const finite = (value: number) => (Number.isFinite(value) ? value : NaN);
+
+function whole(word: string | undefined): number {
+  if (word === undefined || !/^[0-9]+$/.test(word)) fail();
+  return parseInt(word, 10);
+}
+
+/** The header's lines and where the data begins: headers are ended as their first line is. */
+function header(content: Uint8Array, isLast: (line: string) => boolean): { lines: string[]; start: number } {
+  const text = latin(content).replace(/^\xef\xbb\xbf/, "");
+  const mark = content.length - text.length;
+  const end = /\r(?!\n)|\n/.exec(text)?.[0] ?? "\n";
+  const lines: string[] = [];
+  for (let at = 0; at < text.length;) {
+    const next = text.indexOf(end, at) < 0 ? text.length : text.indexOf(end, at) + 1;
+    const line = strip(text.slice(at, next));
+    lines.push(line);
+    at = next;
+    if (isLast(line)) return { lines, start: at + mark };
+  }
+  fail();
+}
+
+const PLY_TYPES: Record<string, string> = {
+  char: "i1", int8: "i1", uchar: "u1", uint8: "u1", short: "i2", int16: "i2", ushort: "u2", uint16: "u2",
+  int: "i4", int32: "i4", uint: "u4", uint32: "u4", float: "f4", float32: "f4", double: "f8", float64: "f8",
+}; // prettier-ignore
+
+function ply(content: Uint8Array): number[] {
+  const { lines, start } = header(content, (line) => line === "end_header");
+  if (lines[0] !== "ply") fail();
+  let format = "";
+  const elements: { name: string; count: number; columns: Column[] }[] = [];
+  for (const line of lines) {
+    const words = line.split(/[ \t\v\f]+/);
+    if (words[0] === "format") format = words[1]!;
+    if (words[0] === "element") elements.push({ name: words[1]!, count: whole(words[2]), columns: [] });
+    if (words[0] !== "property") continue;
+    const type = (word: string | undefined) => PLY_TYPES[word ?? ""] ?? fail();
+    const isList = words[1] === "list";
+    const [kind, length] = isList ? [type(words[3]), type(words[2])] : [type(words[1]), undefined];
+    elements.at(-1)!.columns.push({
+      name: words.at(-1)!,
+      type: kind,
+      size: Number(kind[1]),
+      count: 1,
+      list: length === undefined ? undefined : { type: length, size: Number(length[1]) },
+    });
+  }
+  const found: number[] = [];
+  const texts = latin(content.subarray(start)).split(/\r\n|\r|\n/).filter((line) => !blank(line)); // prettier-ignore
+  const view = new DataView(content.buffer, content.byteOffset, content.byteLength);
+  let at = start;
+  for (const { name, count, columns } of elements) {
+    const axes = name === "vertex" ? axesIn(columns) : [];
+    for (let row = 0; row < count && columns.length > 0; row++) {
+      const values = new Map<Column, number>();
+      if (format === "ascii") {
+        const words = strip(texts.shift() ?? fail()).split(/[ \t\v\f]+/);
+        for (const column of columns) {
+          const word = words.shift();
+          if (axes.includes(column)) values.set(column, typed(real(word), column.type));
+          else if (word === undefined) fail();
+          if (column.list) words.splice(0, whole(word));
+        }
+        if (words.length > 0) fail();
+      } else {
+        const little = format === "binary_little_endian";
+        for (const column of columns) {
+          const length = column.list ? number(view, at, column.list.type, little) : 1;
+          if (column.list) at += column.list.size;
+          if (length < 0 || at + length * column.size > content.length) fail();
+          if (!column.list) values.set(column, number(view, at, column.type, little));
+          at += length * column.size;
+        }
+      }
+      for (const axis of axes) found.push(values.get(axis)!);
+    }
+  }
+  if (format === "ascii" ? texts.length > 0 : !/^[\0\t-\r ]*$/.test(latin(content.subarray(at)))) fail();
+  return found;
+}
+
+function axesIn(columns: readonly Column[]): Column[] {
+  for (const before of ["", "p", "pos"]) {
+    const axes = ["x", "y", "z"].map((axis) => columns.filter(({ name }) => name.toLowerCase() === before + axis));
+    if (axes.every(({ length }) => length === 1)) return axes.flat();
+    if (axes.every(({ length }) => length > 0)) fail();
+  }
+  fail();
+}
+
+/** A number of a text, as its type holds it. */
+function typed(value: number, type: string): number {
+  if (type === "f4") return Math.fround(value);
+  if (type !== "f8" && !Number.isInteger(value)) fail();
+  return value;
+}
+
+function number(view: DataView, at: number, type: string, little: boolean): number {
+  if (at + Number(type[1]) > view.byteLength) fail();
+  switch (type) {
+    case "i1": return view.getInt8(at);
+    case "u1": return view.getUint8(at);
+    case "i2": return view.getInt16(at, little);
+    case "u2": return view.getUint16(at, little);
+    case "i4": return view.getInt32(at, little);
+    case "u4": return view.getUint32(at, little);
+    case "i8": return Number(view.getBigInt64(at, little));
+    case "u8": return Number(view.getBigUint64(at, little));
+    case "f4": return view.getFloat32(at, little);
+    default: return view.getFloat64(at, little);
+  } // prettier-ignore
+}
+
+function pcd(content: Uint8Array): number[] {
+  const { lines, start } = header(content, (line) => /^data\b/i.test(line));
+  const said = new Map(
+    lines.map((line) => line.split(/[ \t\v\f]+/)).map(([word, ...rest]) => [word!.toUpperCase(), rest]),
+  );
+  const names = said.get("FIELDS") ?? said.get("COLUMNS") ?? fail();
+  const columns = names.map((name, i): Column => {
+    const [size, count] = [whole(said.get("SIZE")?.[i]), said.has("COUNT") ? whole(said.get("COUNT")![i]) : 1];
+    return { name, type: `${said.get("TYPE")![i]!.toLowerCase()}${size}`, size, count, list: undefined };
+  });
+  const image = said.has("WIDTH") ? whole(said.get("WIDTH")![0]) * whole(said.get("HEIGHT")?.[0] ?? "1") : undefined;
+  const count = said.has("POINTS") ? whole(said.get("POINTS")![0]) : (image ?? fail());
+  if (image !== undefined && image !== count) fail();
+  const axes = axesIn(columns);
+  const offset = (column: Column, of: (each: Column) => number) =>
+    columns.slice(0, columns.indexOf(column)).reduce((sum, each) => sum + of(each), 0);
+  const kind = said.get("DATA")![0]!.toLowerCase();
+  const found: number[] = [];
+  if (kind === "ascii") {
+    const rows = latin(content.subarray(start)).split(/\r\n|\r|\n/).filter((line) => !blank(line)); // prettier-ignore
+    const width = columns.reduce((sum, each) => sum + each.count, 0);
+    for (const row of rows) {
+      const words = strip(row).split(/[ \t\v\f]+/);
+      if (words.length !== width) fail();
+      for (const axis of axes) found.push(typed(real(words[offset(axis, (each) => each.count)]), axis.type));
+    }
+    if (rows.length !== count) fail();
+    return found;
+  }
+  const size = columns.reduce((sum, each) => sum + each.size * each.count, 0);
+  const data = kind === "binary" ? content.subarray(start) : unpacked(content.subarray(start));
+  if (data.length < size * count) fail();
+  const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
+  for (let i = 0; i < count; i++) {
+    for (const axis of axes) {
+      const before = offset(axis, (each) => each.size * each.count);
+      const place = kind === "binary" ? i * size + before : before * count + i * axis.size;
+      found.push(number(view, place, axis.type, true));
+    }
+  }
+  return found;
+}
+
+function unpacked(data: Uint8Array): Uint8Array {
+  const length = new DataView(data.buffer, data.byteOffset, data.byteLength).getUint32(0, true);
+  const packed = [...data.subarray(8, 8 + length)];
+  const out: number[] = [];
+  while (packed.length > 0) {
+    const control = packed.shift()!;
+    if (control < 32) {
+      out.push(...packed.splice(0, control + 1));
+      continue;
+    }
+    const run = (control >> 5 === 7 ? 7 + packed.shift()! : control >> 5) + 2;
+    const back = (control % 32) * 256 + packed.shift()! + 1;
+    for (let i = 0; i < run; i++) out.push(out[out.length - back] ?? fail());
+  }
+  return Uint8Array.from(out);
+}
+
+const AXES = [/^(x|easting)$/, /^(y|northing)$/, /^(z|height)$/];
+
+/** Without quotation marks. Names are those that the fuzzer writes. */
+function table(text: string): number[] | undefined {
+  if (text.includes('"')) return undefined;
+  const lines = text.split(/\r\n|\r|\n/).filter((line) => !blank(line)); // prettier-ignore
+  const isComment = (line: string) => /^(#|\/\/)/.test(strip(line));
+  const body = lines.filter((line) => !isComment(line));
+  const promised = /^[0-9]+$/.test(strip(body[0] ?? "")) ? whole(strip(body.shift()!)) : undefined;
+  let names: string[] | undefined;
+  let tabs = false;
+  let isHead = true;
+  const found: number[] = [];
+  let width: number | undefined;
+  let places = [0, 1, 2];
+  let divider: RegExp | undefined;
+  for (const line of body) {
+    const by: RegExp = divider ?? (tabs && strip(line).includes("\t") ? /\t/ : dividerOf(strip(line)));
+    const words = (by.source === "\\t" ? line : strip(line)).split(by).map(strip);
+    if (isHead && words.filter((word) => word !== "" && isCell(word)).length < 3 && !isRow(words, names, places)) {
+      if (names === undefined) {
+        tabs = !/[;,]/.test(by.source) && strip(line).includes("\t");
+        names = namesOf(strip(line), tabs ? /\t/ : by);
+        places = placesIn(names);
+        if (places.includes(-1)) fail();
+      }
+      continue;
+    }
+    if (isHead && names === undefined) {
+      const comments = lines.slice(0, lines.indexOf(line)).filter(isComment);
+      places = commentedPlaces(comments.map(strip), words.length, /[;,]/.test(by.source));
+    }
+    isHead = false;
+    divider = by;
+    // A separator may stand at the end of each line but that of the names.
+    if (names !== undefined && words.length === names.length + 1 && words.at(-1) === "") words.pop();
+    width ??= words.length;
+    if (words.length === width + 1 && words.at(-1) === "") words.pop();
+    if (words.length !== width) fail();
+    for (const place of places) found.push(cellIn(words[place]));
+  }
+  if (found.length === 0 || (promised !== undefined && promised !== found.length / 3)) fail();
+  return found;
+}
+
+function namesOf(line: string, by: RegExp): string[] {
+  return line.split(by).map((name) =>
+    name
+      .trim()
+      .toLowerCase()
+      .replace(/[ _.-]m$/, ""),
+  );
+}
+
+function placesIn(names: readonly string[]): number[] {
+  const exact = ["x", "y", "z"].map((axis) => names.indexOf(axis));
+  return exact.includes(-1) ? AXES.map((axis) => names.findIndex((name) => axis.test(name))) : exact;
+}
+
+/** Where a comment names the columns; otherwise they are the first three. */
+function commentedPlaces(comments: readonly string[], width: number, marked: boolean): number[] {
+  for (const comment of comments.toReversed()) {
+    const line = strip(comment.replace(/^(#+|\/\/+)/, ""));
+    const by = dividerOf(line);
+    const tabs = !marked && !/[;,]/.test(by.source) && line.includes("\t");
+    const names = namesOf(line, tabs ? /\t/ : by);
+    const places = placesIn(names);
+    if (!places.includes(-1) && names.length === width) return places;
+  }
+  return [0, 1, 2];
+}
+
+const isRow = (words: string[], names: string[] | undefined, places: number[]) =>
+  names !== undefined && words.length === names.length && places.every((place) => isCell(words[place]!));
+
+function dividerOf(line: string): RegExp {
+  if (line.includes(";")) return /;/;
+  const spaced = line.split(/[ \t\v\f]+/);
+  const decimal = !/,([ \t\v\f]|$)/.test(line) && spaced.filter(isCell).length >= 3;
+  return line.includes(",") && !decimal ? /,/ : /[ \t\v\f]+/;
+}
+
+function isCell(word: string): boolean {
+  try {
+    cellIn(word);
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+function cellIn(word: string | undefined): number {
+  if (word !== undefined && /^(|na|n\/a|#n\/a|null|none)$/i.test(word)) return NaN;
+  if (word !== undefined && /^[+-]?[0-9]*,[0-9]+([eE][+-]?[0-9]+)?$/.test(word)) return real(word.replace(",", "."));
+  return real(word);
+}

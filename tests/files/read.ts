@@ -1,0 +1,30 @@
+// Reads a file as the command does and as the page does, in this process.
+import { extname } from "node:path";
+import type { ChosenColumns } from "../../src/ts/formats/axes";
+import { FormatProblem } from "../../src/ts/formats/problem";
+import { FORMATS } from "../../src/ts/cli/formats/formats";
+import { LoadProblem } from "../../www/loaders/problem";
+import { readFile } from "../../www/loaders/read";
+
+export type Outcome = { points: number[] } | { refused: string };
+
+export function readAsCommand(name: string, content: Uint8Array, columns?: ChosenColumns): Outcome {
+  try {
+    const { positions } = FORMATS[extname(name)]!(Buffer.from(content), columns);
+    return { points: [...positions] };
+  } catch (error) {
+    if (!(error instanceof FormatProblem)) throw error;
+    return { refused: error.message };
+  }
+}
+
+export async function readAsPage(name: string, content: Uint8Array): Promise<Outcome> {
+  const blob = new Blob([new Uint8Array(content)]);
+  try {
+    const { positions } = await readFile({ name, blob, limit: 1e6, onProgress: () => undefined }, null);
+    return { points: [...positions] };
+  } catch (error) {
+    if (!(error instanceof LoadProblem)) throw error;
+    return { refused: error.message };
+  }
+}

@@ -1,0 +1,209 @@
+// What the command reads from and writes to: pipes, devices, links; and how it ends when it is stopped.
+import { type ChildProcess, spawn, spawnSync } from "node:child_process";
+import { once } from "node:events";
+import {
+  closeSync,
+  existsSync,
+  lstatSync,
+  mkdirSync,
+  openSync,
+  readdirSync,
+  readFileSync,
+  readlinkSync,
+  rmSync,
+  statSync,
+  symlinkSync,
+  writeFileSync,
+  writeSync,
+} from "node:fs";
+import { join } from "node:path";
+import { setTimeout as wait } from "node:timers/promises";
+import { beforeAll, describe, expect, it } from "vitest";
+
+const root = join(import.meta.dirname, "../..");
+const scratch = join(root, "target", "command-places");
+const inScratch = (name: string) => join(scratch, name);
+const COMMAND = join(root, "dist/cli/main.js");
+
+beforeAll(() => {
+  rmSync(scratch, { recursive: true, force: true });
+  mkdirSync(scratch, { recursive: true });
+  writeFileSync(inScratch("in.xyz"), "0 0 1\n0 0 2\n");
+});
+
+/** A command that waits for ever is a failure, not a hang. */
+function run(...args: string[]) {
+  const { stderr, status } = spawnSync(process.execPath, [COMMAND, ...args], { cwd: scratch, timeout: 60_000 });
+  return { stderr: stderr.toString(), status };
+}
+
+const toFile = (output: string, input = "in.xyz") => run(input, "--from", "0,0,5", "-o", output);
+const made = (command: string, ...args: string[]) => spawnSync(command, args, { cwd: scratch }).status === 0;
+const leftovers = () => readdirSync(scratch).filter((name) => name.endsWith(".part"));
+const isUnix = process.platform !== "win32";
+
+describe.runIf(isUnix)("what is no regular file", () => {
+  it("a FIFO is not read, and nobody waits for it", () => {
+    expect(made("mkfifo", "pipe-in.xyz")).toBe(true);
+    const { stderr, status } = toFile("out.xyz", "pipe-in.xyz");
+    expect([status, stderr]).toEqual([
+      1,
+      "hidden-point-removal: pipe-in.xyz cannot be read: it is not a regular file\n",
+    ]);
+  });
+
+  it("a FIFO that a program reads is written to, and stays", async () => {
+    expect(made("mkfifo", "pipe.xyz")).toBe(true);
+    const reader = spawn("cat", ["pipe.xyz"], { cwd: scratch });
+    let text = "";
+    reader.stdout.on("data", (data: Buffer) => (text += data.toString()));
+    const { stderr, status } = toFile("pipe.xyz");
+    expect(status, stderr).toBe(0);
+    await once(reader, "close");
+    expect(text).toBe("0 0 2\n");
+    expect(lstatSync(inScratch("pipe.xyz")).isFIFO()).toBe(true);
+  });
+
+  it("a FIFO that nobody reads is refused, and stays", () => {
+    expect(made("mkfifo", "lonely.xyz")).toBe(true);
+    const { stderr, status } = toFile("lonely.xyz");
+    expect([status, stderr]).toEqual([
+      1,
+      "hidden-point-removal: lonely.xyz cannot be written: it is a FIFO that no program reads\n",
+    ]);
+    expect(lstatSync(inScratch("lonely.xyz")).isFIFO()).toBe(true);
+  });
+
+  it("a device is written to, and stays", ({ skip }) => {
+    // The numbers of the null device, under a name of our own: only root may make it, and not everywhere.
+    if (!made("mknod", "null.xyz", "c", "1", "3")) skip();
+    try {
+      closeSync(openSync(inScratch("null.xyz"), "r+"));
+    } catch {
+      skip();
+    }
+    symlinkSync("null.xyz", inScratch("link-to-null.xyz"));
+    for (const name of ["null.xyz", "link-to-null.xyz"]) {
+      const { stderr, status } = toFile(name);
+      expect(status, stderr).toBe(0);
+      expect(statSync(inScratch(name)).isCharacterDevice()).toBe(true);
+    }
+    expect(lstatSync(inScratch("link-to-null.xyz")).isSymbolicLink()).toBe(true);
+    expect(toFile("out.xyz", "null.xyz").stderr).toMatch(/null\.xyz cannot be read: it is not a regular file/);
+  });
+
+  it("a link to standard output is followed", () => {
+    symlinkSync("/dev/stdout", inScratch("stdout.xyz"));
+    const line = `"${process.execPath}" "${COMMAND}" in.xyz --from 0,0,5 -o stdout.xyz | cat`;
+    expect(spawnSync("sh", ["-c", line], { cwd: scratch }).stdout.toString()).toBe("0 0 2\n");
+    expect(readlinkSync(inScratch("stdout.xyz"))).toBe("/dev/stdout");
+  });
+
+  it("a disk is not written to", ({ skip }) => {
+    // A number of no disk: to open it would fail.
+    if (!made("mknod", "disk.xyz", "b", "240", "250")) skip();
+    expect(toFile("disk.xyz").stderr).toBe("hidden-point-removal: disk.xyz cannot be written: it is a disk\n");
+    expect(lstatSync(inScratch("disk.xyz")).isBlockDevice()).toBe(true);
+  });
+
+  it("a link to a file that is not there yet makes that file", () => {
+    mkdirSync(inScratch("folder"));
+    symlinkSync("folder/new.xyz", inScratch("dangling.xyz"));
+    symlinkSync("dangling.xyz", inScratch("twice.xyz"));
+    expect(toFile("twice.xyz").status).toBe(0);
+    expect(readlinkSync(inScratch("dangling.xyz"))).toBe("folder/new.xyz");
+    expect(readlinkSync(inScratch("twice.xyz"))).toBe("dangling.xyz");
+    expect(readFileSync(inScratch("folder/new.xyz"), "utf8")).toBe("0 0 2\n");
+  });
+
+  it("links that lead nowhere are told, and stay", () => {
+    symlinkSync("round.xyz", inScratch("round.xyz"));
+    symlinkSync("missing/new.xyz", inScratch("astray.xyz"));
+    expect(toFile("round.xyz").stderr).toMatch(/round\.xyz cannot be written: its links lead to one another/);
+    expect(toFile("astray.xyz").stderr).toBe(
+      "hidden-point-removal: astray.xyz cannot be written: no such file or directory\n",
+    );
+    for (const name of ["round.xyz", "astray.xyz"])
+      expect(lstatSync(inScratch(name)).isSymbolicLink(), name).toBe(true);
+    expect(leftovers()).toEqual([]);
+  });
+
+  it("a directory is told to be one", () => {
+    mkdirSync(inScratch("directory.xyz"));
+    expect(toFile("directory.xyz").stderr).toBe(
+      "hidden-point-removal: directory.xyz cannot be written: it is a directory\n",
+    );
+  });
+});
+
+describe.runIf(isUnix)("a command that is stopped", () => {
+  /** Large enough to be written in several pieces: 40 MB, in lines of 400 kB, so that there are few points. */
+  function writeLarge(): void {
+    const file = openSync(inScratch("large.xyz"), "w");
+    for (let i = 0; i < 100; i++) writeSync(file, `0 ${i} 1 ${"word".repeat(100_000)}\n`);
+    closeSync(file);
+  }
+
+  async function partOf(child: ChildProcess): Promise<string | undefined> {
+    while (child.exitCode === null && child.signalCode === null) {
+      const [part] = leftovers();
+      if (part !== undefined) return part;
+      await wait(1);
+    }
+    return undefined;
+  }
+
+  it.each(["SIGINT", "SIGTERM", "SIGHUP"] as const)("leaves nothing behind after %s", async (signal) => {
+    writeLarge();
+    let hit = 0;
+    // The file is there for some milliseconds: some tries come too late.
+    for (let tries = 0; tries < 20 && hit === 0; tries++) {
+      rmSync(inScratch("stopped.xyz"), { force: true });
+      const child = spawn(process.execPath, [COMMAND, "large.xyz", "--from", "0,0,500", "-o", "stopped.xyz"], {
+        cwd: scratch,
+        stdio: "ignore",
+      });
+      const ended = once(child, "exit");
+      if ((await partOf(child)) !== undefined) child.kill(signal);
+      await ended;
+      expect(leftovers()).toEqual([]);
+      if (child.signalCode === null) continue;
+      expect(child.signalCode).toBe(signal);
+      if (!existsSync(inScratch("stopped.xyz"))) hit++;
+    }
+    expect(hit).toBe(1);
+  });
+});
+
+describe("--columns", () => {
+  const header = "ply\nformat ascii 1.0\nelement vertex 2\n";
+  const properties = ["a", "b", "c", "d"].map((name) => `property float ${name}\n`).join("");
+  const FILES: [name: string, content: string][] = [
+    ["columns.ply", `${header}${properties}end_header\n7 0 0 1\n7 0 0 2\n`],
+    ["columns.pcd", "FIELDS a b c d\nSIZE 4 4 4 4\nTYPE F F F F\nWIDTH 2\nHEIGHT 1\nDATA ascii\n7 0 0 1\n7 0 0 2\n"],
+    ["columns.csv", "a,b,c,d\n7,0,0,1\n7,0,0,2\n"],
+  ];
+
+  it.each(FILES)("chooses x, y and z in %s by names and by numbers, and says so", (name, content) => {
+    writeFileSync(inScratch(name), content);
+    for (const columns of ["b,c,d", "2,3,4", "B,C,4"]) {
+      const { stderr, status } = run(name, "--from", "0,0,5", "-o", `out-${name}`, "--columns", columns);
+      expect([status, stderr]).toEqual([
+        0,
+        name.endsWith(".csv")
+          ? `1 of 2 points are visible; x, y and z are columns 2, 3, 4${columns.startsWith("2") ? "" : " (b, c, d)"}\n`
+          : "1 of 2 points are visible; x, y and z are b, c, d\n",
+      ]);
+      expect(readFileSync(inScratch(`out-${name}`), "utf8")).toMatch(/7[ ,]0[ ,]0[ ,]2\n$/);
+    }
+    const { stderr, status } = run(name, "--from", "0,0,5", "-o", `out-${name}`, "--columns", "b,c,w");
+    expect(status).toBe(1);
+    expect(stderr).toContain(`${name} cannot be read: it has no column named "w", but "a b c d"`);
+    expect(run(name, "--from", "0,0,5", "-o", `out-${name}`).status).toBe(1);
+  });
+
+  it.each(["1,2", "1,2,3,4", "1,1,2", "0,1,2", "-1,2,3", "a,,b", ""])("is refused as %j", (columns) => {
+    const { stderr, status } = run("in.xyz", "--from", "0,0,5", "-o", "out.xyz", `--columns=${columns}`);
+    expect([status, /--columns needs three different columns/.test(stderr)]).toEqual([2, true]);
+  });
+});
