@@ -103,7 +103,12 @@ impl PointCloud {
         }
         let diagonal = self.bounds.diagonal();
         if statistics.count == 0 {
-            return Ok((1.0, ChosenRadius::unit(0.0)));
+            // There is nothing to measure, but what is refused elsewhere is refused here, too.
+            let chosen = match choice {
+                Radius::Auto => ChosenRadius::unit(0.0),
+                _ => radius::given(choice, 0.0)?,
+            };
+            return Ok((1.0, chosen));
         }
         let viewpoint = DVec3::from_array(statistics.centroid) - ahead * diagonal;
         let viewpoint = viewpoint.to_array();

@@ -22,6 +22,32 @@ fn exponential(scale: f64) -> Options {
 }
 
 #[test]
+fn an_empty_cloud_refuses_the_radii_that_any_cloud_refuses() {
+    let empty = PointCloud::new::<[f64; 3]>(&[]).unwrap();
+    let ask = |radius| {
+        let options = Options {
+            radius,
+            ..Options::default()
+        };
+        empty.visible_from_direction([0.0, 0.0, 1.0], &options)
+    };
+    for radius in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
+        let found = ask(Radius::Absolute(radius));
+        assert!(
+            matches!(found, Err(Error::RadiusInvalid { .. })),
+            "{found:?}"
+        );
+    }
+    let found = ask(Radius::Exponent(-1.0));
+    assert!(
+        matches!(found, Err(Error::ExponentInvalid { .. })),
+        "{found:?}"
+    );
+    assert_eq!(ask(Radius::Auto).unwrap().count(), 0);
+    assert_eq!(ask(Radius::Absolute(5.0)).unwrap().count(), 0);
+}
+
+#[test]
 fn integers_along_the_axes_are_answered_by_the_definition() {
     let mut rng = Rng::new(31);
     for case in 0..400 {
