@@ -67,6 +67,7 @@ impl PointCloud {
         direction: [f64; 3],
         options: &Options,
     ) -> Result<(Vec<bool>, ChosenRadius, Inversion), Error> {
+        options.refuse_looks("visibleFromDirection")?;
         let ahead = normalized(direction).ok_or(Error::Direction { direction })?;
         let inversion = resolved_inversion(options, self.statistics.spacing)?;
         let (bend, chosen) = self.bend(ahead, options.radius, inversion)?;
@@ -89,7 +90,9 @@ impl PointCloud {
         let scale = match inversion {
             Inversion::Spherical => None,
             Inversion::Exponential(Exponential::Scale(scale)) => Some(scale),
-            Inversion::Exponential(Exponential::Auto) | Inversion::Power(_) => {
+            Inversion::Exponential(Exponential::Auto)
+            | Inversion::Power(_)
+            | Inversion::Looks(_) => {
                 let option = "inversion power";
                 return Err(Error::NoLimit { option });
             }

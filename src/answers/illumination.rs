@@ -58,7 +58,9 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for `smoothing` or `ambient`; [`Error::IndexOutOfRange`] for
-    /// a corner that is no index of the cloud; otherwise as [`PointCloud::visible_from`].
+    /// a corner that is no index of the cloud; [`Error::LooksWith`] for
+    /// [`Inversion::Looks`](crate::Inversion::Looks); otherwise as
+    /// [`PointCloud::visible_from`].
     pub fn illuminate(
         &self,
         lights: &[[f64; 3]],
@@ -67,6 +69,7 @@ impl PointCloud {
     ) -> Result<Vec<f32>, Error> {
         let ambient = in_range("ambient", lighting.ambient, 0.0, 1.0)?;
         in_range("smoothing", lighting.smoothing as f64, 0.0, MOST_ROUNDS)?;
+        options.refuse_looks("illuminate")?;
         let mut corners = lighting.triangles.unwrap_or(&[]).iter().flatten();
         let len = self.len();
         if let Some(&index) = corners.find(|&&i| i as usize >= len) {

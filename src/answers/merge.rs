@@ -46,6 +46,7 @@ use crate::view::options::{Exponential, Inversion, Options, Radius};
 /// [`Error::MergeRadius`] unless the radius is [`Radius::Absolute`], or the inversion
 /// an [`Exponential::Scale`];
 /// [`Error::MergeNeighbors`] for [`Options::denoise`] and [`Options::vote`];
+/// [`Error::LooksWith`] for [`Inversion::Looks`];
 /// [`Error::IdsLength`]; those of [`PointCloud::new`] for all positions together (an
 /// index counts through all parts) and of [`PointCloud::visible_from`].
 pub fn merge_visible<P: Position>(
@@ -68,12 +69,14 @@ pub(crate) fn merge<'a>(
     viewpoint: [f64; 3],
     options: &Options,
 ) -> Result<Vec<u32>, Error> {
+    options.refuse_looks("merging")?;
     // Any other choice would depend on the points that are left.
     let resolved = match options.inversion {
         Inversion::Spherical | Inversion::Power(_) => {
             matches!(options.radius, Radius::Absolute(_))
         }
         Inversion::Exponential(scale) => scale != Exponential::Auto,
+        Inversion::Looks(_) => false,
     };
     if !resolved {
         return Err(Error::MergeRadius);

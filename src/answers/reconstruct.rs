@@ -50,8 +50,9 @@ impl PointCloud {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a `max_edge` that is negative or NaN; otherwise as
-    /// [`PointCloud::visible_from`].
+    /// [`Error::OutOfRange`] for a `max_edge` that is negative or NaN; [`Error::LooksWith`]
+    /// for [`Inversion::Looks`](crate::Inversion::Looks), which are several hulls; otherwise
+    /// as [`PointCloud::visible_from`].
     pub fn reconstruct(
         &self,
         viewpoint: [f64; 3],
@@ -60,6 +61,7 @@ impl PointCloud {
     ) -> Result<Reconstruction, Error> {
         let longest = max_edge.unwrap_or(SPACINGS * self.statistics.spacing);
         in_range("maxEdge", longest, 0.0, f64::INFINITY)?;
+        options.refuse_looks("reconstruct")?;
         let (visibility, mut triangles) = self.after_denoising(options, |cloud, options| {
             cloud.triangulate(viewpoint, options)
         })?;

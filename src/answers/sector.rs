@@ -13,7 +13,8 @@ use crate::flip::kernel::Kernel;
 use crate::hull::division::{Division, Sector};
 use crate::hull::{self, Memory};
 use crate::view::options::{Inversion, Options};
-use crate::view::resolved::View;
+use crate::view::radius::ChosenRadius;
+use crate::view::resolved::{View, looks};
 
 impl PointCloud {
     /// The part of [`PointCloud::visible_from`] that belongs to one sector of the view. Every
@@ -65,7 +66,8 @@ impl PointCloud {
     ) -> Result<Visibility, Error> {
         // With a vote or denoising, a point's answer needs those of its neighbors: the first
         // sector answers for all.
-        if sector.count > 1 && options.denoise.is_none() && options.vote.is_none() {
+        let is_one_hull = !options.asks_for_looks();
+        if sector.count > 1 && is_one_hull && options.denoise.is_none() && options.vote.is_none() {
             let view = self.view(viewpoint, options)?;
             if is_divisible(&view) {
                 let division = Some(self.division(viewpoint, view.chosen.radius, sector)?);
@@ -86,6 +88,9 @@ impl PointCloud {
         if options.denoise.is_some() {
             return self
                 .after_denoising(options, |cloud, options| cloud.nothing(viewpoint, options));
+        }
+        if looks(options)?.is_some() {
+            return self.answer(&[], ChosenRadius::unit(0.0), options.inversion);
         }
         let view = self.view(viewpoint, options)?;
         self.answer(&[], view.chosen, view.inversion)

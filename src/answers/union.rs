@@ -10,7 +10,7 @@ use crate::base::error::{Error, in_range};
 use crate::base::real::square_root;
 use crate::cloud::point_cloud::PointCloud;
 use crate::hull;
-use crate::view::options::Options;
+use crate::view::options::{Inversion, Options};
 use crate::view::radius::ChosenRadius;
 use crate::view::resolved::resolved_inversion;
 
@@ -73,7 +73,13 @@ impl PointCloud {
         viewpoints: &[[f64; 3]],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        let inversion = resolved_inversion(options, self.statistics.spacing)?;
+        if options.scores {
+            return Err(Error::ScoresOfSeveral);
+        }
+        let inversion = match options.inversion {
+            Inversion::Looks(_) => options.inversion,
+            _ => resolved_inversion(options, self.statistics.spacing)?,
+        };
         if viewpoints.is_empty() {
             self.check_options(options)?;
         }
@@ -81,11 +87,11 @@ impl PointCloud {
         let mut chosen = ChosenRadius::unit(0.0);
         let mut memory = hull::Memory::default();
         for &viewpoint in viewpoints {
-            let (visible, view) = self.marks(&mut memory, viewpoint, options)?;
+            let (visible, radius) = self.marks(&mut memory, viewpoint, options)?;
             for (views, visible) in views.iter_mut().zip(visible) {
                 *views += u32::from(visible);
             }
-            chosen = chosen.joined(view.chosen);
+            chosen = chosen.joined(radius);
         }
         let mut visible: Vec<bool> = with_capacity(views.len())?;
         visible.extend(views.iter().map(|&views| views as usize >= k));

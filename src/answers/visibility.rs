@@ -2,13 +2,14 @@
 
 use alloc::vec::Vec;
 
+use crate::answers::looks::{scales, scores_of_indices};
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
 use crate::hull;
 use crate::view::options::{Inversion, Options, Radius};
 use crate::view::radius::ChosenRadius;
-use crate::view::resolved::View;
+use crate::view::resolved::{View, looks};
 
 /// Which points of a cloud are visible from one viewpoint, or from several.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +18,8 @@ pub struct Visibility {
     cloud_len: usize,
     chosen: ChosenRadius,
     inversion: Inversion,
+    looks: Vec<f64>,
+    scores: Vec<f32>,
 }
 
 impl Visibility {
@@ -32,6 +35,8 @@ impl Visibility {
             cloud_len,
             chosen,
             inversion,
+            looks: Vec::new(),
+            scores: Vec::new(),
         }
     }
 
@@ -55,7 +60,7 @@ impl Visibility {
 
     /// The radius R of the flipping sphere, in the cloud's units; 0 where no
     /// point is away from the viewpoint. With [`Inversion::Power`] the unit S, with
-    /// [`Inversion::Exponential`] 0.
+    /// [`Inversion::Exponential`] and [`Inversion::Looks`] 0.
     #[must_use]
     pub fn radius(&self) -> f64 {
         self.chosen.radius
@@ -80,6 +85,28 @@ impl Visibility {
         self.inversion
     }
 
+    /// The scale c of each look, from tight to loose, in the cloud's units; empty unless
+    /// asked with [`Inversion::Looks`].
+    #[must_use]
+    pub fn looks(&self) -> &[f64] {
+        &self.looks
+    }
+
+    /// For each index of the cloud how likely it is visible, from 0 to 1; 0 for those
+    /// skipped or removed. Empty unless asked with [`Options::scores`]. A score need not
+    /// be above ½ exactly where the point is visible; with [`Options::vote`] it is that of
+    /// the answer before the vote.
+    #[must_use]
+    pub fn scores(&self) -> &[f32] {
+        &self.scores
+    }
+
+    /// The scores by value; see [`Visibility::scores`].
+    #[must_use]
+    pub fn into_scores(self) -> Vec<f32> {
+        self.scores
+    }
+
     /// One byte for each index of the cloud: 1 visible, 0 hidden.
     #[must_use]
     pub fn mask(&self) -> Vec<u8> {
@@ -99,6 +126,13 @@ impl PointCloud {
     /// A point at the viewpoint is visible and hides nothing; of several points
     /// on one ray only the nearest can be visible; equal points share one answer.
     ///
+    /// With [`Inversion::Looks`] the answer is that of several hulls, each of which decides
+    /// what it is sure of: a tight one hides what lies behind surface, a loose one shows
+    /// what a tight one cannot tell. Equal points still share one answer, and one at the
+    /// viewpoint is visible; but of several points on one ray more than the nearest can be
+    /// visible, where they are within one spacing of each other. `docs/LOOKS.md` has the
+    /// rule, and which clouds it is for.
+    ///
     /// ```
     /// use hidden_point_removal::{Options, PointCloud};
     ///
@@ -114,7 +148,9 @@ impl PointCloud {
     /// and `Exponent…` errors for a choice of R that does not fit the view, or its
     /// inversion; [`Error::PowerInvalid`], [`Error::ScaleInvalid`]; [`Error::OutOfRange`]
     /// unless 1 ≤ k < the number of present points for [`Options::denoise`] and
-    /// [`Options::vote`]; [`Error::OutOfMemory`].
+    /// [`Options::vote`], and for a number of looks that is not 2 or 3;
+    /// [`Error::LooksWith`] for looks with a choice of R; [`Error::ScoresWithoutLooks`];
+    /// [`Error::OutOfMemory`].
     pub fn visible_from(
         &self,
         viewpoint: [f64; 3],
@@ -135,6 +171,9 @@ impl PointCloud {
             return self.after_denoising(options, |cloud, options| {
                 cloud.visible_from(viewpoint, options)
             });
+        }
+        if let Some(count) = looks(options)? {
+            return self.seen_by_looks(memory, viewpoint, count, options);
         }
         let view = self.look(memory, viewpoint, options)?;
         match options.vote {
@@ -167,18 +206,38 @@ impl PointCloud {
         Ok(view)
     }
 
-    /// Whether each distinct point is visible, and the resolved view. It counts votes but does not
-    /// denoise points.
+    /// The answer of `count` looks.
+    fn seen_by_looks(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        count: usize,
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        let seen = self.look_again(memory, viewpoint, count, options.scores)?;
+        let scores = scores_of_indices(self, &seen.scores)?;
+        let visible = self.voted(seen.visible, options)?;
+        let answer = self.answer(&visible, ChosenRadius::unit(0.0), options.inversion)?;
+        Ok(Visibility { scores, ..answer })
+    }
+
+    /// Whether each distinct point is visible, and the radius that was chosen. It counts votes but
+    /// does not denoise points.
     pub(crate) fn marks(
         &self,
         memory: &mut hull::Memory,
         viewpoint: [f64; 3],
         options: &Options,
-    ) -> Result<(Vec<bool>, View), Error> {
+    ) -> Result<(Vec<bool>, ChosenRadius), Error> {
+        if let Some(count) = looks(options)? {
+            let seen = self.look_again(memory, viewpoint, count, false)?;
+            let visible = self.voted(seen.visible, options)?;
+            return Ok((visible, ChosenRadius::unit(0.0)));
+        }
         let view = self.look(memory, viewpoint, options)?;
         let mut visible = with_capacity(memory.visible().len())?;
         visible.extend_from_slice(memory.visible());
-        Ok((self.voted(visible, options)?, view))
+        Ok((self.voted(visible, options)?, view.chosen))
     }
 
     /// The marks after the vote, if `options` ask for one.
@@ -197,7 +256,13 @@ impl PointCloud {
         inversion: Inversion,
     ) -> Result<Visibility, Error> {
         let indices = marked_indices(self.len(), visible, &|k| self.sequence.indices_of(k))?;
-        Ok(Visibility::new(indices, self.len(), chosen, inversion))
+        let mut answer = Visibility::new(indices, self.len(), chosen, inversion);
+        if let Inversion::Looks(count) = inversion {
+            let scales = scales(count, self.statistics.spacing);
+            answer.looks = with_capacity(count)?;
+            answer.looks.extend_from_slice(&scales[..count]);
+        }
+        Ok(answer)
     }
 
     /// The radius that `rule` chooses for `viewpoint` in spherical flipping. Visible points are

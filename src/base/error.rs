@@ -89,6 +89,17 @@ pub enum Error {
         /// The inversion.
         inversion: &'static str,
     },
+    /// [`Inversion::Looks`](crate::Inversion::Looks) with something that needs the one hull
+    /// of a single flip.
+    LooksWith {
+        /// The option or the question, as the JavaScript package calls it.
+        other: &'static str,
+    },
+    /// [`Options::scores`](crate::Options::scores) without
+    /// [`Inversion::Looks`](crate::Inversion::Looks).
+    ScoresWithoutLooks,
+    /// [`Options::scores`](crate::Options::scores) of several viewpoints together.
+    ScoresOfSeveral,
     /// The option has no meaning for a viewpoint at infinity.
     NoLimit {
         /// The option, as the JavaScript package calls it.
@@ -155,6 +166,9 @@ impl Error {
             | Self::RadiusWithInversion { .. }
             | Self::OutOfRange { .. }
             | Self::NoLimit { .. }
+            | Self::LooksWith { .. }
+            | Self::ScoresWithoutLooks
+            | Self::ScoresOfSeveral
             | Self::Dimension { .. }
             | Self::IndexOutOfRange { .. }
             | Self::MergeRadius
@@ -196,6 +210,11 @@ impl fmt::Display for Error {
             ),
             Self::Dimension { option, dimension } => {
                 write!(f, "{option} needs a cloud of dimension 3, not {dimension}")
+            }
+            Self::LooksWith { other } => write!(f, "looks cannot be combined with {other}"),
+            Self::ScoresWithoutLooks => write!(f, "scores can be asked for only with looks"),
+            Self::ScoresOfSeveral => {
+                write!(f, "scores cannot be combined with several viewpoints")
             }
             Self::NoLimit { option } => write!(
                 f,

@@ -78,21 +78,41 @@ impl Flip {
         self.viewpoint
     }
 
-    /// The largest |q| of a flip on a sphere, in the cloud's own units; infinite for
-    /// other flips, which `hidden_from` says nothing about.
-    pub(crate) fn reach_in_cloud(&self) -> f64 {
+    /// The largest |q|, before it is rescaled; infinite for flips that `hidden_from` says
+    /// nothing about.
+    pub(crate) fn largest_length(&self) -> f64 {
         match self.kernel {
             Kernel::Spherical { radius } => 2.0 * radius,
-            _ => f64::INFINITY,
+            Kernel::Exponential { .. } => self.extent,
+            Kernel::Antipodal { .. } | Kernel::Power { .. } => f64::INFINITY,
+        }
+    }
+
+    /// How much farther a point flips than one behind it, from their distances.
+    pub(crate) fn depth_between(&self, near: f64, far: f64) -> f64 {
+        match self.kernel {
+            Kernel::Exponential { .. } => self.kernel.length(near) - self.kernel.length(far),
+            _ => far - near,
         }
     }
 
     /// A squared distance from which on every point flips to less than `length`, with
-    /// all roundings: 2R − d < length where d > 2R − length.
+    /// all roundings: 2R − d < length where d > 2R − length, and exp(c/d) < length where
+    /// d > c/ln(length).
     pub(crate) fn hidden_from(&self, length: f64) -> f64 {
         const ROUNDING: f64 = 1e-12;
-        let diameter = self.reach_in_cloud();
-        let distance = diameter * (1.0 + ROUNDING) - length / self.scale;
+        let length = length / self.scale;
+        let distance = match self.kernel {
+            Kernel::Exponential { scale } => {
+                let logarithm = libm::log(length * (1.0 - ROUNDING));
+                if logarithm > 0.0 {
+                    scale / logarithm * (1.0 + ROUNDING)
+                } else {
+                    f64::INFINITY
+                }
+            }
+            _ => self.largest_length() * (1.0 + ROUNDING) - length,
+        };
         distance.max(0.0) * distance.max(0.0) * (1.0 + ROUNDING)
     }
 
@@ -101,8 +121,10 @@ impl Flip {
     /// scale; where the scaling itself would round, it is left out.
     pub(crate) fn rescaled_for(mut self, points: &Points) -> Self {
         const MODERATE: core::ops::Range<f64> = 1e-30..1e30;
-        if self.kernel.radius().is_none() {
-            self.extent = self.largest_coordinate(points);
+        match self.kernel {
+            Kernel::Exponential { .. } => self.extent = self.length_of_nearest(points),
+            Kernel::Power { .. } => self.extent = self.largest_coordinate(points),
+            Kernel::Spherical { .. } | Kernel::Antipodal { .. } => {}
         }
         if MODERATE.contains(&self.extent) || self.extent == 0.0 {
             return self;
@@ -121,6 +143,25 @@ impl Flip {
     /// Whether all points have the viewpoint's z, like those of a cloud in the plane.
     pub(crate) fn keeps_in_plane(&self, points: &Points) -> bool {
         points.iter().all(|p| p[2] == self.viewpoint.z)
+    }
+
+    /// The length of the nearest point, which no other exceeds; but for squares that
+    /// underflow, which `reach` allows for.
+    fn length_of_nearest(&self, points: &Points) -> f64 {
+        let mut nearest = f64::INFINITY;
+        for p in points.iter() {
+            let v = DVec3::from_array(p) - self.viewpoint;
+            let squared = v.dot(v);
+            if squared > 0.0 && squared < nearest {
+                nearest = squared;
+            }
+        }
+        let distance = square_root(nearest);
+        if distance < f64::INFINITY {
+            self.kernel.length(distance)
+        } else {
+            0.0
+        }
     }
 
     fn largest_coordinate(&self, points: &Points) -> f64 {

@@ -28,7 +28,15 @@ impl Kernel {
             Self::Spherical { radius } => (2.0 * radius - d) / d,
             Self::Antipodal { radius } => (2.0 * radius + d) / d,
             Self::Power { gamma, unit } => libm::pow(d / unit, -gamma),
-            Self::Exponential { scale } => libm::exp((scale / d).min(MAX_EXPONENT)) / d,
+            Self::Exponential { scale } => exponential(scale, d) / d,
+        }
+    }
+
+    /// The length |q| of a point at distance `d`, where the kernel alone tells it.
+    pub(crate) fn length(&self, d: f64) -> f64 {
+        match *self {
+            Self::Exponential { scale } => exponential(scale, d),
+            _ => self.factor(d) * d,
         }
     }
 
@@ -40,4 +48,8 @@ impl Kernel {
             Self::Power { .. } | Self::Exponential { .. } => None,
         }
     }
+}
+
+fn exponential(scale: f64, d: f64) -> f64 {
+    libm::exp((scale / d).min(MAX_EXPONENT))
 }

@@ -235,8 +235,9 @@ fn cell_size(extents: &Extents, flipped: &Flipped, count: usize) -> Option<f64> 
         .map(|[[left, bottom], [right, top]]| (right - left) * (top - bottom))
         .sum();
     let cell = square_root(area / (count as f64 * CORNERS_PER_POINT));
-    let depth = square_root(extents.farthest) - square_root(extents.nearest);
-    // What the curvature of the flipped sphere takes: |q|·(1 − shrink), |q| near 2R.
+    let [near, far] = [extents.nearest, extents.farthest].map(square_root);
+    let depth = flipped.depth_between(near, far);
+    // What the curvature of the flipped cloud takes: |q|·(1 − shrink), |q| at its largest.
     let loss = flipped.largest_reach() * (1.0 - shrink(cell));
     ((1e-5..1.0).contains(&cell) && loss < MAX_LOSS * depth).then_some(cell)
 }

@@ -41,9 +41,13 @@ impl Flipped<'_> {
         self.flip.viewpoint()
     }
 
-    /// The largest |q| there can be, in the cloud's units.
+    /// The largest |q| there can be, before it is rescaled.
     pub(super) fn largest_reach(&self) -> f64 {
-        self.flip.reach_in_cloud()
+        self.flip.largest_length()
+    }
+
+    pub(super) fn depth_between(&self, near: f64, far: f64) -> f64 {
+        self.flip.depth_between(near, far)
     }
 
     pub(super) fn hidden_from(&self, length: f64) -> f64 {

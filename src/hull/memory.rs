@@ -8,6 +8,7 @@ use super::depth::DepthMap;
 use super::flipped::Flipped;
 use super::incremental::Hull;
 use super::locate::Location;
+use super::motion::Patience;
 use super::order;
 use super::repair::Repair;
 use super::topology::FaceId;
@@ -28,6 +29,8 @@ pub(crate) struct Memory {
     pub(super) holds_hull: bool,
     /// Whether the last view was found from the one before it.
     pub(super) moved: bool,
+    /// How much of the last view's hull may have changed for it to be mended.
+    patience: Patience,
 }
 
 impl Memory {
@@ -41,9 +44,20 @@ impl Memory {
         self.moved
     }
 
+    /// Near which face each point was last seen.
+    pub(super) fn witnesses(&self) -> &[FaceId] {
+        &self.witnesses
+    }
+
+    /// The next views, until this memory forgets, are from the same viewpoint at other scales.
+    pub(crate) fn expect_other_scales(&mut self) {
+        self.patience = Patience::GREAT;
+    }
+
     /// Forgets the last view, but keeps the room.
     pub(crate) fn forget(&mut self) {
         self.holds_hull = false;
+        self.patience = Patience::USUAL;
     }
 }
 
@@ -51,9 +65,9 @@ impl Memory {
     /// The last view's hull becomes that of the same vertices in this one, which are
     /// then marked as visible, if that is worth the while.
     pub(super) fn move_hull(&mut self, flipped: &Flipped) -> Result<bool, OutOfMemory> {
-        let moved = self
-            .hull
-            .move_to(flipped, &mut self.repair, &mut self.visible)?;
+        let moved =
+            self.hull
+                .move_to(flipped, &mut self.repair, &mut self.visible, self.patience)?;
         if !moved {
             self.visible.fill(false);
         }

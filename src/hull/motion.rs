@@ -22,12 +22,38 @@ use super::topology::{FaceId, HalfEdge, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::hull::predicates::{Sign, side_of_origin};
 
+/// How much of a hull may have changed for mending it to be worth the while.
+#[derive(Clone, Copy)]
+pub(super) struct Patience {
+    /// With more faces turned over than one in this many, starting anew is faster.
+    few_turned: usize,
+    /// Likewise for reflex ones among their edges, in hulls of few faces and in those of
+    /// very many.
+    few_reflex: usize,
+}
+
+impl Default for Patience {
+    fn default() -> Self {
+        Self::USUAL
+    }
+}
+
+impl Patience {
+    /// For a viewpoint that moves.
+    pub(super) const USUAL: Self = Self {
+        few_turned: 100,
+        few_reflex: 45,
+    };
+    /// For another scale from the same viewpoint: far more edges turn reflex, but most
+    /// points stay near their faces.
+    pub(super) const GREAT: Self = Self {
+        few_turned: 20,
+        few_reflex: 2,
+    };
+}
+
 /// How many faces of the last hull are looked at to tell whether the views are close.
 const SAMPLE: usize = 512;
-/// Starting anew is faster where more than one face in this many has turned over.
-const FEW_TURNED: usize = 100;
-/// Starting anew is faster where more than one edge in this many has become reflex.
-const FEW_REFLEX: usize = 45;
 /// A surface of more faces than this does not fit into the caches. Mending it then pays
 /// only where fewer edges have become reflex.
 const MANY: usize = 300_000;
@@ -46,8 +72,9 @@ impl Hull {
         flipped: &Flipped,
         repair: &mut Repair,
         is_vertex: &mut [bool],
+        patience: Patience,
     ) -> Result<bool, OutOfMemory> {
-        if self.surface.slots() == 0 || !self.looks_alike(flipped) {
+        if self.surface.slots() == 0 || !self.looks_alike(flipped, patience) {
             return Ok(false);
         }
         self.vertices.reach = flipped.reach();
@@ -62,7 +89,7 @@ impl Hull {
         self.vertices.inner = sum / self.vertices.positions.len() as f64;
         self.renew_planes(repair)?;
         // The sample may have missed them.
-        if repair.turned.len() * FEW_TURNED > self.surface.slots() {
+        if repair.turned.len() * patience.few_turned > self.surface.slots() {
             return Ok(false);
         }
         repair.effort = self.surface.slots() + SPARE_EFFORT;
@@ -101,7 +128,7 @@ impl Hull {
 
     /// Whether, in a sample, few faces turned over and few edges became reflex.
     /// (With roundings: this only decides which way is faster.)
-    fn looks_alike(&self, flipped: &Flipped) -> bool {
+    fn looks_alike(&self, flipped: &Flipped, patience: Patience) -> bool {
         let slots = self.surface.slots();
         let at = |vertex: Vertex| flipped.get_out_of_line(self.vertices.points[vertex as usize]);
         let [mut faces, mut turned, mut reflex] = [0; 3];
@@ -124,8 +151,8 @@ impl Hull {
                 }
             }
         }
-        let few_reflex = FEW_REFLEX * (1 + slots / MANY);
-        turned * FEW_TURNED <= faces && reflex * few_reflex <= 3 * faces
+        let few_reflex = patience.few_reflex * (1 + slots / MANY);
+        turned * patience.few_turned <= faces && reflex * few_reflex <= 3 * faces
     }
 
     /// Each face's plane in the new view; lists turned faces and reflex edges.

@@ -6,7 +6,6 @@ use glam::DVec3;
 use super::dual_plane::Plane;
 use super::flipped::Flipped;
 use super::incremental::Hull;
-use super::locate::Location;
 use super::topology::{Face, FaceId, HalfEdge};
 use crate::base::allocation::OutOfMemory;
 use crate::hull::predicates::{Sign, side_of_origin};
@@ -20,17 +19,7 @@ impl Hull {
         on_boundary: &[u32],
         flipped: &Flipped,
     ) -> Result<Vec<[u32; 3]>, OutOfMemory> {
-        let Some(mut hint) = self.outer_face() else {
-            return Ok(Vec::new());
-        };
-        for &point in on_boundary {
-            let Some(q) = flipped.get_out_of_line(point) else {
-                continue;
-            };
-            if let Location::Boundary(face) = self.locate(q, hint) {
-                hint = self.cut(point, q, face)?;
-            }
-        }
+        self.cut_by(on_boundary, flipped)?;
         let mut triangles = Vec::new();
         let outer = || {
             let faces = self.surface.alive().map(|(_, face)| face);
@@ -47,7 +36,7 @@ impl Hull {
 
     /// Cuts the outer face that `q` is exactly on, and where `q` is on an edge, the face
     /// across, too; returns an outer face near `q`.
-    fn cut(&mut self, point: u32, q: DVec3, id: FaceId) -> Result<FaceId, OutOfMemory> {
+    pub(super) fn cut(&mut self, point: u32, q: DVec3, id: FaceId) -> Result<FaceId, OutOfMemory> {
         let face = self.surface.face(id);
         let mut edges = (0..3).filter(|&edge| self.is_on_edge(face, edge, q));
         let edge = edges.next().map(|edge| HalfEdge::new(id, edge as u32));

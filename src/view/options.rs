@@ -51,6 +51,13 @@ pub enum Inversion {
     /// The smaller c is, the more points are visible. On a surface that faces the viewer it
     /// acts like R = d²/2c.
     Exponential(Exponential),
+    /// 2 or 3 looks: exact hulls of exp(c/d) with c from large to small in the cloud's
+    /// spacing, each of which decides only what it is sure of. Truer than one hull, but
+    /// no longer the operator of the paper: see [`PointCloud::visible_from`]. R has no
+    /// meaning for it, so the radius must be [`Radius::Auto`].
+    ///
+    /// [`PointCloud::visible_from`]: crate::PointCloud::visible_from
+    Looks(usize),
 }
 
 /// The scale c of [`Inversion::Exponential`].
@@ -79,16 +86,37 @@ pub struct Options {
     /// For noisy clouds. After the view, a point is visible when more than 0.4 of itself and its
     /// k nearest other points are.
     pub vote: Option<usize>,
+    /// How sure the answer is, too: [`Visibility::scores`](crate::Visibility::scores).
+    /// With [`Inversion::Looks`] and one viewpoint only.
+    pub scores: bool,
 }
 
 impl Options {
     /// Refuses options that need space, for a cloud of another dimension.
     pub(crate) fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
-        let asked = [("denoise", self.denoise), ("vote", self.vote)];
-        match asked.into_iter().find(|(_, k)| k.is_some()) {
+        let asked = [
+            ("denoise", self.denoise.is_some()),
+            ("vote", self.vote.is_some()),
+            ("looks", self.asks_for_looks()),
+            ("scores", self.scores),
+        ];
+        match asked.into_iter().find(|&(_, is_asked)| is_asked) {
             Some((option, _)) => Err(Error::Dimension { option, dimension }),
             None => Ok(()),
         }
+    }
+
+    pub(crate) fn asks_for_looks(&self) -> bool {
+        matches!(self.inversion, Inversion::Looks(_))
+    }
+
+    /// Refuses looks for what is asked of one hull: `other`, as the JavaScript package
+    /// calls it.
+    pub(crate) fn refuse_looks(&self, other: &'static str) -> Result<(), Error> {
+        if self.asks_for_looks() {
+            return Err(Error::LooksWith { other });
+        }
+        Ok(())
     }
 
     /// Options with R given in the cloud's units.

@@ -1,6 +1,6 @@
 //! One view of a cloud: the viewpoint and the options, checked and resolved to a flip.
 
-use crate::base::error::Error;
+use crate::base::error::{Error, in_range};
 use crate::cloud::point_cloud::PointCloud;
 use crate::flip::inversion::Flip;
 use crate::flip::kernel::Kernel;
@@ -29,7 +29,10 @@ impl PointCloud {
         if let Some(k) = options.vote {
             self.check_neighbors("vote", k)?;
         }
-        check_flip(options)
+        match looks(options)? {
+            Some(_) => Ok(()),
+            None => check_flip(options),
+        }
     }
 
     pub(crate) fn view(&self, viewpoint: [f64; 3], options: &Options) -> Result<View, Error> {
@@ -80,6 +83,7 @@ pub(crate) fn resolved_kernel(
             let scale = resolved_scale(scale, 0.0)?;
             (Kernel::Exponential { scale }, ChosenRadius::unit(0.0))
         }
+        Inversion::Looks(_) => return Err(Error::LooksWith { other: ONE_HULL }),
     })
 }
 
@@ -99,6 +103,9 @@ pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inve
         let option = options.radius.name();
         Err(Error::RadiusWithInversion { option, inversion })
     };
+    if options.scores {
+        return Err(Error::ScoresWithoutLooks);
+    }
     match options.inversion {
         Inversion::Spherical => Ok(Inversion::Spherical),
         Inversion::Power(power) => {
@@ -118,6 +125,26 @@ pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inve
             let scale = resolved_scale(scale, spacing)?;
             Ok(Inversion::Exponential(Exponential::Scale(scale)))
         }
+        Inversion::Looks(_) => Err(Error::LooksWith { other: ONE_HULL }),
+    }
+}
+
+/// What looks are no answer to.
+const ONE_HULL: &str = "a question about one hull";
+
+/// How many looks are asked for, if any; refused in excluded company.
+pub(crate) fn looks(options: &Options) -> Result<Option<usize>, Error> {
+    match options.inversion {
+        Inversion::Looks(count) => {
+            in_range("looks", count as f64, 2.0, 3.0)?;
+            if options.radius != Radius::Auto {
+                let other = options.radius.name();
+                return Err(Error::LooksWith { other });
+            }
+            Ok(Some(count))
+        }
+        _ if options.scores => Err(Error::ScoresWithoutLooks),
+        _ => Ok(None),
     }
 }
 

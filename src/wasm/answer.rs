@@ -1,14 +1,14 @@
 //! The answer of a query, as JavaScript receives it. All numbers are doubles, because the code
 //! that writes a field is compiled for each type.
 
-use js_sys::Uint32Array;
+use js_sys::{Float32Array, Uint32Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::failure::Failure;
 use super::objects::to_js;
 use super::options::ViewOptions;
-use super::transfer::copy_out;
+use super::transfer::{copy_out, copy_out_singles};
 use crate::{ChosenRadius, Error, Exponential, Inversion, Visibility};
 
 #[derive(Serialize)]
@@ -17,11 +17,14 @@ struct Answer {
     indices: Uint32Array,
     #[serde(with = "serde_wasm_bindgen::preserve")]
     triangles: Uint32Array,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    scores: Float32Array,
     radius: f64,
     exponent: f64,
     evaluations: f64,
-    /// c of the exponential inversion, as given or as chosen; otherwise 0.
-    scale: f64,
+    /// c of the exponential inversion or of each look, which may have been chosen;
+    /// otherwise 0.
+    scales: [f64; 3],
 }
 
 /// An answer with the triangles between its points, if it has any.
@@ -30,17 +33,19 @@ pub(super) fn answer(
     triangles: &[[u32; 3]],
     options: &ViewOptions,
 ) -> Result<JsValue, Failure> {
-    let scale = match visibility.inversion() {
-        Inversion::Exponential(Exponential::Scale(scale)) => scale,
-        _ => 0.0,
-    };
+    let mut scales = [0.0; 3];
+    match visibility.inversion() {
+        Inversion::Exponential(Exponential::Scale(scale)) => scales[0] = scale,
+        _ => (scales.iter_mut().zip(visibility.looks())).for_each(|(to, from)| *to = *from),
+    }
     Ok(to_js(&Answer {
         indices: copy_out(visibility.indices(), options)?,
         triangles: copy_out(triangles.as_flattened(), options)?,
+        scores: copy_out_singles(visibility.scores(), options)?,
         radius: visibility.radius(),
         exponent: visibility.exponent(),
         evaluations: f64::from(visibility.evaluations()),
-        scale,
+        scales,
     }))
 }
 

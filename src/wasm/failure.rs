@@ -84,6 +84,12 @@ impl From<Error> for Failure {
                 named = option;
                 ("outOfRange", [least, most, value])
             }
+            Error::LooksWith { other } => {
+                named = other;
+                ("looksWith", [0.0; 3])
+            }
+            Error::ScoresWithoutLooks => ("scoresWithoutLooks", [0.0; 3]),
+            Error::ScoresOfSeveral => ("scoresOfSeveral", [0.0; 3]),
             Error::NoLimit { option } => {
                 named = option;
                 ("noLimit", [0.0; 3])

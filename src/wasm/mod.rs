@@ -46,6 +46,7 @@ interface ViewOptions {
   parameter: number;
   denoise: number;
   vote: number;
+  scores: boolean;
   /** Makes room for so many indices of an answer. */
   memory: (length: number) => Uint32Array<ArrayBuffer>;
 }
@@ -53,6 +54,7 @@ interface ChosenRadius { radius: number; exponent: number; evaluations: number }
 interface Answer extends ChosenRadius {
   indices: Uint32Array<ArrayBuffer>;
   triangles: Uint32Array<ArrayBuffer>;
-  scale: number;
+  scores: Float32Array<ArrayBuffer>;
+  scales: [number, number, number];
 }
 "#;

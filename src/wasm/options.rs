@@ -23,6 +23,8 @@ extern "C" {
     fn denoise(this: &ViewOptions) -> f64;
     #[wasm_bindgen(method, getter)]
     fn vote(this: &ViewOptions) -> f64;
+    #[wasm_bindgen(method, getter)]
+    fn scores(this: &ViewOptions) -> bool;
     /// JavaScript makes the arrays of an answer. It can reuse memory, and a refused allocation
     /// there is an error rather than a trap.
     #[wasm_bindgen(method, catch)]
@@ -39,10 +41,12 @@ impl ViewOptions {
                 1 => Inversion::Power(self.parameter()),
                 2 => Inversion::Exponential(Exponential::Auto),
                 3 => Inversion::Exponential(Exponential::Scale(self.parameter())),
+                4 => Inversion::Looks(self.parameter() as usize),
                 _ => Inversion::Spherical,
             },
             denoise: neighbors(self.denoise()),
             vote: neighbors(self.vote()),
+            scores: self.scores(),
         }
     }
 

@@ -66,3 +66,17 @@ pub(super) fn copy_out(indices: &[u32], options: &ViewOptions) -> Result<Uint32A
     copy.copy_from(indices);
     Ok(copy)
 }
+
+/// The same for numbers in single precision.
+#[inline(never)]
+pub(super) fn copy_out_singles(
+    numbers: &[f32],
+    options: &ViewOptions,
+) -> Result<Float32Array, Error> {
+    let room = options
+        .memory(numbers.len() as u32)
+        .map_err(|_| Error::OutOfMemory)?;
+    let copy = Float32Array::new(&room.buffer());
+    copy.copy_from(numbers);
+    Ok(copy)
+}

@@ -15,6 +15,7 @@ mod hyperspace;
 mod illumination;
 mod invariance;
 mod inversions;
+mod looks;
 mod merge;
 mod motion;
 mod noise;

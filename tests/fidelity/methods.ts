@@ -14,8 +14,8 @@ export interface Subject {
 
 export interface Method {
   name: string;
-  /** How many viewpoints it asks from. */
-  viewpoints: number;
+  /** How many hulls it takes, but for those that choose R: one a viewpoint, or one a look. */
+  hulls: number;
   ask: (subject: Subject) => Visibility;
 }
 
@@ -24,6 +24,8 @@ const exponential: VisibilityOptions = { inversion: { exponential: "auto" } };
 
 export const AUTOMATIC = one("automatic", {});
 export const SEARCH = one("antipodal search", { radius: "search" });
+const LOOKS: Method = { ...one("three looks", { looks: 3 }), hulls: 3 };
+const TWO_LOOKS: Method = { ...one("two looks", { looks: 2 }), hulls: 2 };
 export const PAPERS_RULE = one("the paper's rule", { radius: "opposite" });
 
 export const METHODS: Method[] = [
@@ -31,7 +33,9 @@ export const METHODS: Method[] = [
   SEARCH,
   PAPERS_RULE,
   one("exp(c/d), automatic c", exponential),
-  { name: "power as curved as automatic", viewpoints: 1, ask: asCurved },
+  TWO_LOOKS,
+  LOOKS,
+  { name: "power as curved as automatic", hulls: 1, ask: asCurved },
   one("power 1.01", { inversion: { power: 1.01 } }),
   one("power 2", { inversion: { power: 2 } }),
   several("any of 5, exp(c/d)", ({ cloud }, ring) => cloud.visibleFromAny(ring, exponential)),
@@ -40,7 +44,7 @@ export const METHODS: Method[] = [
   ...[2, 3, 4].map((exponent) => one(`exponent ${exponent}`, { exponent })),
   {
     name: "R = 100 × box diagonal",
-    viewpoints: 1,
+    hulls: 1,
     ask: ({ cloud, viewpoint, diagonal }) => cloud.visibleFrom(viewpoint, { radius: 100 * diagonal }),
   },
 ];
@@ -52,16 +56,28 @@ export const AGAINST_NOISE: Method[] = [
   AUTOMATIC,
   SEARCH,
   one("exp(c/d), automatic c", exponential),
+  LOOKS,
   one("automatic, denoise 32, vote 16", DENOISED),
   one("antipodal search, denoise 32, vote 16", { radius: "search", ...DENOISED }),
   one("exp(c/d), denoise 32, vote 16", { ...exponential, ...DENOISED }),
+  { ...one("three looks, denoise 32, vote 16", { looks: 3, ...DENOISED }), hulls: 3 },
   several("at least 2 of 5, exp(c/d), denoise 32, vote 16", ({ cloud }, ring) =>
     cloud.visibleFromAtLeast(2, ring, { ...exponential, ...DENOISED }),
   ),
 ];
 
+/** For simulated lidar, whose views have no best R of their own. */
+export const FOR_LIDAR: Method[] = [
+  AUTOMATIC,
+  SEARCH,
+  one("exp(c/d), automatic c", exponential),
+  several("at least 2 of 5, exp(c/d)", ({ cloud }, ring) => cloud.visibleFromAtLeast(2, ring, exponential)),
+  TWO_LOOKS,
+  LOOKS,
+];
+
 export function one(name: string, options: VisibilityOptions): Method {
-  return { name, viewpoints: 1, ask: ({ cloud, viewpoint }) => cloud.visibleFrom(viewpoint, options) };
+  return { name, hulls: 1, ask: ({ cloud, viewpoint }) => cloud.visibleFrom(viewpoint, options) };
 }
 
 function several(name: string, ask: (subject: Subject, ring: number[][]) => Visibility): Method {
@@ -69,7 +85,7 @@ function several(name: string, ask: (subject: Subject, ring: number[][]) => Visi
     viewpoint,
     ...ringOfViewpoints(viewpoint, middle, { count: AROUND }),
   ];
-  return { name, viewpoints: AROUND + 1, ask: (subject) => ask(subject, ring(subject)) };
+  return { name, hulls: AROUND + 1, ask: (subject) => ask(subject, ring(subject)) };
 }
 
 /**

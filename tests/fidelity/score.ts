@@ -49,7 +49,7 @@ export function score({ positions, views }: Labelled, methods: Method[], compare
         const visibility = method.ask(subject);
         const errors = errorsOf(visibility.mask(), view.seen);
         const ratio = best === undefined ? {} : { ratio: errors.total / best };
-        return { method: method.name, ...errors, ...ratio, hulls: method.viewpoints + visibility.evaluations };
+        return { method: method.name, ...errors, ...ratio, hulls: method.hulls + visibility.evaluations };
       });
     });
   } finally {

@@ -2,6 +2,8 @@
 import { median, type Row, type Table } from "../bench/report.js";
 import { AGAINST_NOISE, AUTOMATIC, METHODS } from "./methods.js";
 import { type Score, score } from "./score.js";
+import { lidarTables } from "./lidar-tables.js";
+import { scoreTables } from "./score-tables.js";
 import { generated, type Labelled, noisy, scanned } from "./truth.js";
 
 const EXPLAINED =
@@ -17,6 +19,8 @@ export function fidelityTables(say: (message: string) => void): Table[] {
     ...compared("Scanned surfaces", scans, say),
     ...againstNoise(scans, say),
     ...compared("Generated surfaces", [...generated()], say),
+    ...lidarTables(say),
+    ...scoreTables(scans, say),
   ];
 }
 

@@ -101,6 +101,14 @@ export function coreOptions(settings: ViewSettings, spares?: Spares) {
 }
 
 function found({ length }: Target, settings: ViewSettings, answer: CoreAnswer): Found {
-  const { indices, radius, exponent, evaluations, scale } = answer;
-  return { indices, radius, exponent, evaluations, inversion: resolvedInversion(settings, scale), length };
+  const { indices, radius, exponent, evaluations, scales } = answer;
+  const found: Found = {
+    indices,
+    radius,
+    exponent,
+    evaluations,
+    inversion: resolvedInversion(settings, scales),
+    length,
+  };
+  return settings.scores ? { ...found, scores: answer.scores } : found;
 }

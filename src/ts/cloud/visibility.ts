@@ -16,9 +16,17 @@ export interface Visibility extends ChosenRadius {
   readonly count: number;
   /**
    * How the points were flipped, with numbers only: asked with it (and with the radius,
-   * if it is not exponential), any part of the cloud is flipped alike.
+   * if it is not exponential), any part of the cloud is flipped alike. With `looks` the
+   * scale c of each look, which tells how the answer was found, but is no option.
    */
   readonly inversion: ResolvedInversion;
+  /**
+   * Only where the option `scores` asked for it: for each point of the cloud how likely it
+   * is visible, from 0 to 1, and 0 for those removed and skipped. The caller's own copy. A
+   * score need not be above ½ exactly where the point is visible; with `vote` it is that of
+   * the answer before the vote.
+   */
+  readonly scores?: Float32Array;
   /** One byte for each point of the cloud: 1 visible, 0 hidden. */
   mask(): Uint8Array;
   /**
@@ -54,6 +62,7 @@ export class VisibilityAnswer implements Visibility {
   readonly exponent: number;
   readonly evaluations: number;
   readonly inversion: ResolvedInversion;
+  declare readonly scores?: Float32Array;
   readonly #cloudLength: number;
 
   /**
@@ -82,6 +91,9 @@ export class VisibilityAnswer implements Visibility {
     this.evaluations = answer.evaluations;
     this.inversion = answer.inversion;
     this.#cloudLength = answer.length;
+    if (answer.scores !== undefined) {
+      this.scores = answer.scores;
+    }
   }
 
   mask(): Uint8Array {

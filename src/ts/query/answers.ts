@@ -19,6 +19,8 @@ export interface Found extends ChosenRadius {
   indices: Uint32Array<ArrayBuffer>;
   inversion: ResolvedInversion;
   length: number;
+  /** Where they were asked for. */
+  scores?: Float32Array<ArrayBuffer>;
 }
 
 /** The answers, by kind of query. */

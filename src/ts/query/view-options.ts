@@ -13,12 +13,17 @@ export type RadiusRule = "auto" | "search" | "opposite";
  */
 export type Inversion = "spherical" | { power: number } | { exponential: number | "auto" };
 
-/** An inversion with numbers only, as an answer tells it. */
-export type ResolvedInversion = "spherical" | { readonly power: number } | { readonly exponential: number };
+/**
+ * An inversion with numbers only, as an answer tells it; or the c of each look, from tight to
+ * loose, which is no option: `looks` asks for it.
+ */
+export type ResolvedInversion =
+  "spherical" | { readonly power: number } | { readonly exponential: number } | { readonly looks: readonly number[] };
 
 /**
  * How one view is computed. At most one of `radius` and `exponent` may be given. With an
  * inversion by `power`, `radius` may be a number, with `exponential` neither is allowed.
+ * `looks` excludes all three.
  */
 export interface VisibilityOptions {
   /**
@@ -32,7 +37,7 @@ export interface VisibilityOptions {
   /** R = farthest distance · 10^exponent, the paper's own parameter; at least 0. */
   exponent?: number | undefined;
   /** How points are flipped; default `"spherical"`. */
-  inversion?: Inversion | undefined;
+  inversion?: Inversion | ResolvedInversion | undefined;
   /**
    * For noisy clouds: before everything else, each point is projected on the
    * least-squares plane of itself and so many nearest others, at least 1 and less than
@@ -44,6 +49,16 @@ export interface VisibilityOptions {
    * others are; at least 1 and less than the number of points.
    */
   vote?: number | undefined;
+  /**
+   * Two or three looks instead of one flip: exact hulls of exp(c/d), c from large to small
+   * in the cloud's spacing, each of which decides only what it is sure of. Truer where the
+   * sampling is uneven and around silhouettes, for about three times the time, but no longer
+   * the operator of the paper: of several points on one ray more than the nearest may be
+   * visible, and parts cannot be merged. Needs a cloud of dimension 3.
+   */
+  looks?: 2 | 3 | undefined;
+  /** With `looks`: how sure the answer is, too, as `scores`. For one viewpoint only. */
+  scores?: boolean | undefined;
 }
 
 /** {@link VisibilityOptions}, checked for type, as the core reads them (src/wasm/options.rs). */
@@ -54,25 +69,27 @@ export interface ViewSettings {
   size: number;
   /** A number of {@link Kernel}. */
   kernel: number;
-  /** γ or c, where one is given. */
+  /** γ or c, where one is given, or how many looks. */
   parameter: number;
   /** Neighbors; 0 for none. */
   denoise: number;
   vote: number;
+  scores: boolean;
 }
 
 export const Rule = { auto: 0, search: 1, opposite: 2, radius: 3, exponent: 4 } as const;
-export const Kernel = { spherical: 0, power: 1, automaticExponential: 2, exponential: 3 } as const;
+export const Kernel = { spherical: 0, power: 1, automaticExponential: 2, exponential: 3, looks: 4 } as const;
 
-export const VIEW_OPTIONS = ["radius", "exponent", "inversion", "denoise", "vote"] as const;
+export const VIEW_OPTIONS = ["radius", "exponent", "inversion", "denoise", "vote", "looks", "scores"] as const;
 
 /** Types only: ranges are the core's to check, which knows the distances. */
 export function viewSettings(given: Record<string, unknown>, dimension: number): ViewSettings {
   return {
     ...chosenRadius(given),
-    ...chosenInversion(given["inversion"]),
+    ...(chosenLooks(given, dimension) ?? chosenInversion(given["inversion"])),
     denoise: neighbors(given, "denoise", dimension),
     vote: neighbors(given, "vote", dimension),
+    scores: wantsScores(given),
   };
 }
 
@@ -81,17 +98,27 @@ export function ruleSettings(rule: unknown): ViewSettings {
   if (rule !== undefined && !isRule(rule)) {
     throw new HprError("option", `the rule must be "auto", "search" or "opposite", got ${describe(rule)}`);
   }
-  return { rule: Rule[rule ?? "auto"], size: 0, kernel: Kernel.spherical, parameter: 0, denoise: 0, vote: 0 };
+  return {
+    rule: Rule[rule ?? "auto"],
+    size: 0,
+    kernel: Kernel.spherical,
+    parameter: 0,
+    denoise: 0,
+    vote: 0,
+    scores: false,
+  };
 }
 
-/** What an answer to such a view says of its inversion; `scale` is the c that was used. */
-export function resolvedInversion({ kernel, parameter }: ViewSettings, scale: number): ResolvedInversion {
+/** What an answer to such a view says of its inversion; `scales` are the c that were used. */
+export function resolvedInversion({ kernel, parameter }: ViewSettings, scales: readonly number[]): ResolvedInversion {
   switch (kernel) {
     case Kernel.power:
       return { power: parameter };
     case Kernel.automaticExponential:
     case Kernel.exponential:
-      return { exponential: scale };
+      return { exponential: scales[0]! };
+    case Kernel.looks:
+      return { looks: scales.slice(0, parameter) };
     default:
       return "spherical";
   }
@@ -120,6 +147,33 @@ function chosenRadius(given: Record<string, unknown>): Pick<ViewSettings, "rule"
     throw new HprError("option", `radius must be a number, "auto", "search" or "opposite", got ${describe(radius)}`);
   }
   return { rule: Rule[radius ?? "auto"], size: 0 };
+}
+
+/** How many looks, where they are asked for. */
+function chosenLooks(
+  given: Record<string, unknown>,
+  dimension: number,
+): Pick<ViewSettings, "kernel" | "parameter"> | undefined {
+  const looks = integer(given, "looks", 2, 3);
+  if (looks === undefined) {
+    return undefined;
+  }
+  const excluded = ["radius", "exponent", "inversion"].find((name) => given[name] !== undefined);
+  if (excluded !== undefined) {
+    throw new HprError("option", `looks and ${excluded} exclude each other; give one of the two`);
+  }
+  requireSpace("looks", dimension);
+  return { kernel: Kernel.looks, parameter: looks };
+}
+
+function wantsScores({ looks, scores = false }: Record<string, unknown>): boolean {
+  if (typeof scores !== "boolean") {
+    throw new HprError("option", `scores must be a boolean, got ${describe(scores)}`);
+  }
+  if (scores && looks === undefined) {
+    throw new HprError("option", "scores can be asked for only with looks");
+  }
+  return scores;
 }
 
 function chosenInversion(inversion: unknown): Pick<ViewSettings, "kernel" | "parameter"> {

@@ -43,7 +43,9 @@ pub fn flip_as(p: [f64; 3], viewpoint: [f64; 3], answer: &Visibility) -> Option<
         Inversion::Spherical => return flip(p, viewpoint, answer.radius()),
         Inversion::Power(gamma) => libm::pow(d / answer.radius(), -gamma),
         Inversion::Exponential(Exponential::Scale(c)) => libm::exp((c / d).min(200.0)) / d,
-        Inversion::Exponential(Exponential::Auto) => panic!("an unresolved inversion"),
+        Inversion::Exponential(Exponential::Auto) | Inversion::Looks(_) => {
+            panic!("not one resolved inversion")
+        }
     };
     // Beyond the range of f64 is as good as at the viewpoint.
     Some(v.map(|x| x * s)).filter(|q| q.iter().all(|x| x.is_finite()))

@@ -1,0 +1,62 @@
+//! What no look decided follows most of its decided neighbors.
+
+use alloc::vec::Vec;
+
+use super::look::{Verdict, Verdicts};
+use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::cloud::neighbors::{Nearest, Neighbors};
+
+/// So many of the nearest others are asked.
+const VOTERS: usize = 16;
+/// At least so many of them must be decided.
+const DECIDED: usize = 2;
+/// Whoever was decided in one round is asked in the next.
+const ROUNDS: usize = 2;
+
+pub(super) fn follow(verdicts: &mut Verdicts) -> Result<(), OutOfMemory> {
+    let is_open = |&(_, verdict): &(usize, &Verdict)| *verdict == Verdict::Undecided;
+    let count = verdicts.of.iter().enumerate().filter(is_open).count();
+    if count == 0 {
+        return Ok(());
+    }
+    let mut open: Vec<u32> = with_capacity(count)?;
+    let undecided = verdicts.of.iter().enumerate().filter(is_open);
+    open.extend(undecided.map(|(point, _)| point as u32));
+    let mut shares: Vec<f64> = with_capacity(count)?;
+    let neighbors = Neighbors::new(verdicts.points)?;
+    let mut nearest = Nearest::with_capacity(VOTERS)?;
+    for _ in 0..ROUNDS {
+        shares.clear();
+        shares.extend(open.iter().map(|&point| {
+            neighbors.find(point as usize, &mut nearest);
+            share(&nearest, &verdicts.of)
+        }));
+        let mut left = 0;
+        for place in 0..open.len() {
+            let (point, share) = (open[place], shares[place]);
+            if share >= 0.0 {
+                verdicts.decide(point as usize, share > 0.5, share);
+            } else {
+                open[left] = point;
+                left += 1;
+            }
+        }
+        open.truncate(left);
+    }
+    Ok(())
+}
+
+/// The share of visible ones among the decided, or −1 where those are too few.
+fn share(nearest: &Nearest, verdicts: &[Verdict]) -> f64 {
+    let (mut decided, mut visible) = (0usize, 0usize);
+    for neighbor in nearest.found() {
+        let verdict = verdicts[neighbor.index as usize];
+        decided += usize::from(verdict != Verdict::Undecided);
+        visible += usize::from(verdict == Verdict::Visible);
+    }
+    if decided >= DECIDED {
+        visible as f64 / decided as f64
+    } else {
+        -1.0
+    }
+}

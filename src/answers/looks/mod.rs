@@ -1,0 +1,118 @@
+//! Two or three looks at one cloud: exact hulls of exp(c/d) from tight to loose, each of
+//! which decides only the points that it is sure of.
+//!
+//! INPUT    distinct points, a viewpoint, how many looks.
+//! OUTPUT   for each point whether it is visible, and a score if asked for.
+//! SUMMARY  A tight hull (a large c) closes the gaps between samples of a surface, but
+//!          reaches across to what is not surface. A loose one (a small c) follows the
+//!          samples. So a look lets a triangle of its hull hide points only where its
+//!          corners, back in their places, are as near to each other as samples are
+//!          (`look`). How near samples are, the loosest hull tells (`spacing`). What no
+//!          look decides, follows its neighbors (`followers`).
+
+mod followers;
+mod look;
+mod spacing;
+
+use alloc::vec::Vec;
+
+use crate::base::allocation::filled;
+use crate::base::error::Error;
+use crate::cloud::point_cloud::PointCloud;
+use crate::hull::{self, Memory};
+use followers::follow;
+use look::{Look, Outcome, Seen, Verdicts};
+
+/// c of each look in the cloud's spacing, from tight to loose. Two looks leave out the
+/// middle one. The error is flat around them: twice or half of any changes it little.
+const SHARES: [f64; 3] = [0.28, 0.07, 0.02];
+/// The score of a hull vertex, by look.
+const SCORES: [f64; 3] = [0.97, 0.94, 0.8];
+
+/// The c of each of `count` looks at a cloud of this spacing; 0 for those beyond.
+pub(crate) fn scales(count: usize, spacing: f64) -> [f64; 3] {
+    // Without a spacing there is one point at most, and any scale gives the same answer.
+    let spacing = if spacing > 0.0 { spacing } else { 1.0 };
+    let mut scales = [0.0; 3];
+    for (number, scale) in scales.iter_mut().take(count).enumerate() {
+        let share = SHARES[place(count, number)];
+        *scale = (share * spacing).clamp(f64::MIN_POSITIVE, f64::MAX);
+    }
+    scales
+}
+
+/// Which of the three looks is number `number` of `count`.
+fn place(count: usize, number: usize) -> usize {
+    if count == 2 { 2 * number } else { number }
+}
+
+impl PointCloud {
+    /// Looks `count` times from `viewpoint`, which is checked here, in the room of
+    /// `memory`.
+    pub(crate) fn look_again(
+        &self,
+        memory: &mut Memory,
+        viewpoint: [f64; 3],
+        count: usize,
+        with_scores: bool,
+    ) -> Result<Seen, Error> {
+        if viewpoint.iter().any(|x| !x.is_finite()) {
+            return Err(Error::Viewpoint { viewpoint });
+        }
+        let points = &self.sequence.points;
+        self.blocks.farthest_distance(points, viewpoint)?;
+        let scales = scales(count, self.statistics.spacing);
+        let looks = |number: usize| {
+            let score = SCORES[place(count, number)];
+            Look::new(viewpoint, scales[number], score)
+        };
+        // The first hull is made anew: which triangles a hull has where points are on one
+        // sphere must not depend on what was asked before.
+        memory.forget();
+        let first = looks(0);
+        hull::mark_visible(points, &first.flip, None, memory)?;
+        let tight = Outcome::of(memory, points, &first.flip, &|_| true)?;
+        // From one look to the next few points change: each hull becomes the next.
+        memory.expect_other_scales();
+
+        // The loosest hull comes second, because it tells the spacing by which the first
+        // is judged. What that decides needs no other.
+        let last = looks(count - 1);
+        hull::mark_visible(points, &last.flip, None, memory)?;
+        let spacing = {
+            let faces = memory.outer_faces(points, &last.flip)?;
+            spacing::local(points, faces.as_ref(), self.statistics.spacing)?
+        };
+        let mut verdicts = Verdicts::new(points, viewpoint, &spacing, with_scores)?;
+        verdicts.take(&first, tight);
+        let loose = Outcome::of(memory, points, &last.flip, &verdicts.open())?;
+        let is_flat = matches!(loose, Outcome::Flat(_));
+        if count == 3 {
+            let middle = looks(1);
+            hull::mark_visible(points, &middle.flip, None, memory)?;
+            let usual = Outcome::of(memory, points, &middle.flip, &verdicts.open())?;
+            verdicts.take(&middle, usual);
+        }
+        verdicts.take(&last, loose);
+        memory.forget();
+        // In one plane with the viewpoint, neighbors on a ray see different things.
+        if !is_flat {
+            follow(&mut verdicts)?;
+        }
+        Ok(verdicts.finish()?)
+    }
+}
+
+/// The scores of distinct points as those of the caller's indices; 0 where there is none.
+pub(crate) fn scores_of_indices(cloud: &PointCloud, scores: &[f32]) -> Result<Vec<f32>, Error> {
+    if scores.is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut all = filled(cloud.len(), 0.0)?;
+    for (k, &score) in scores.iter().enumerate() {
+        for &index in cloud.sequence.indices_of(k) {
+            all[index as usize] = score;
+        }
+    }
+    Ok(all)
+}

@@ -1,0 +1,466 @@
+//! Several looks: the rule's promises, each degenerate case, what must not change it.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{
+    Error, Inversion, Lighting, Options, PointCloud, PointCloud2d, PointCloudNd, Radius, Sector,
+    Visibility, merge_visible,
+};
+
+use crate::common::ask;
+use crate::common::rng::Rng;
+use crate::common::scenes::{KINDS, Scene};
+
+const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
+
+fn looks(count: usize) -> Options {
+    Options {
+        scores: true,
+        ..Options::with_inversion(Inversion::Looks(count))
+    }
+}
+
+/// Small, degenerate and larger scenes of every kind, and both numbers of looks.
+fn scenes() -> impl Iterator<Item = (String, Scene, Options, Rng)> {
+    KINDS.iter().flat_map(|kind| {
+        [(1, 9, 3), (2, 30, 2), (3, 30, 3), (4, 400, 3)]
+            .into_iter()
+            .map(|(seed, n, count)| {
+                let title = format!("{count} looks at {} with seed {seed}", kind.name);
+                (title, kind.scene(seed, n), looks(count), Rng::new(seed))
+            })
+    })
+}
+
+fn bits(answer: &Visibility) -> Vec<u32> {
+    let scores = answer.scores().iter();
+    scores.map(|score| score.to_bits()).collect()
+}
+
+#[track_caller]
+fn assert_same(title: &str, after: &Visibility, before: &Visibility) {
+    assert_eq!(after, before, "{title}");
+    assert_eq!(bits(after), bits(before), "{title}");
+}
+
+#[test]
+fn an_answer_tells_its_looks_and_no_radius() {
+    let points: Vec<[f64; 3]> = (0..50)
+        .map(|_| [0.0; 3])
+        .enumerate()
+        .map(on_a_grid)
+        .collect();
+    let cloud = PointCloud::new(&points).unwrap();
+    let three = cloud.visible_from(FRONT, &looks(3)).unwrap();
+    let scale = cloud.spacing();
+    assert_eq!(three.looks(), [0.28, 0.07, 0.02].map(|share| share * scale));
+    assert_eq!(three.inversion(), Inversion::Looks(3));
+    assert_eq!(
+        (three.radius(), three.exponent(), three.evaluations()),
+        (0.0, 0.0, 0)
+    );
+    assert_eq!(three.scores().len(), 50);
+    let two = cloud.visible_from(FRONT, &looks(2)).unwrap();
+    assert_eq!(two.looks(), [0.28, 0.02].map(|share| share * scale));
+    let one = cloud.visible_from(FRONT, &Options::default()).unwrap();
+    assert!(one.looks().is_empty() && one.scores().is_empty());
+}
+
+fn on_a_grid((i, _): (usize, [f64; 3])) -> [f64; 3] {
+    [(i % 7) as f64 * 0.1, (i / 7) as f64 * 0.1, 0.0]
+}
+
+#[test]
+fn neither_order_nor_duplicates_nor_changes_nor_earlier_views_change_a_bit() {
+    for (title, scene, options, mut rng) in scenes() {
+        let Scene {
+            points, viewpoint, ..
+        } = scene;
+        let before = ask(&points, viewpoint, &options);
+        let n = points.len();
+
+        let mut order: Vec<usize> = (0..n).collect();
+        rng.shuffle(&mut order);
+        let shuffled: Vec<_> = order.iter().map(|&i| points[i]).collect();
+        let after = ask(&shuffled, viewpoint, &options);
+        let (mask, seen) = (before.mask(), after.mask());
+        for (now, &then) in order.iter().enumerate() {
+            assert_eq!(seen[now], mask[then], "{title}, point {then}");
+            let scores = [after.scores()[now], before.scores()[then]];
+            assert_eq!(scores[0].to_bits(), scores[1].to_bits(), "{title}, {then}");
+        }
+
+        // Every point twice, the copies appended; then others that go again.
+        let mut cloud = PointCloud::new(&points).unwrap();
+        cloud.append(&points).unwrap();
+        let strangers: Vec<[f64; 3]> = (0..20).map(|_| rng.in_ball()).collect();
+        cloud.append(&strangers).unwrap();
+        let gone: Vec<u32> = (2 * n as u32..).take(20).collect();
+        cloud.remove(&gone).unwrap();
+        let doubled = cloud.visible_from(viewpoint, &options).unwrap();
+        assert_eq!(doubled.mask()[..n], mask, "{title}");
+        assert_eq!(doubled.mask()[n..2 * n], mask, "{title}");
+        assert_eq!(bits(&doubled)[..n], bits(&before), "{title}");
+        assert_eq!(bits(&doubled)[2 * n..], [0; 20], "{title}");
+
+        let cloud = PointCloud::new(&points).unwrap();
+        let mut observer = cloud.observer();
+        for (step, options) in [Options::default(), options, looks(2), options, options]
+            .iter()
+            .enumerate()
+        {
+            let near = viewpoint.map(|x| x + 1e-3 * step as f64);
+            let _ = observer.visible_from(near, &Options::default());
+            let after = observer.visible_from(viewpoint, options).unwrap();
+            let alone = cloud.visible_from(viewpoint, options).unwrap();
+            assert_same(&title, &after, &alone);
+        }
+    }
+}
+
+#[test]
+fn single_and_double_precision_are_one_answer() {
+    let mut rng = Rng::new(5);
+    let single: Vec<[f32; 3]> = (0..3000)
+        .map(|_| rng.direction().map(|x| x as f32))
+        .collect();
+    let double: Vec<[f64; 3]> = single.iter().map(|p| p.map(f64::from)).collect();
+    assert_same(
+        "",
+        &ask(&single, FRONT, &looks(3)),
+        &ask(&double, FRONT, &looks(3)),
+    );
+}
+
+#[test]
+fn a_power_of_two_changes_nothing() {
+    for (title, scene, options, _) in scenes() {
+        let before = ask(&scene.points, scene.viewpoint, &options);
+        let scaled: Vec<_> = scene.points.iter().map(|p| p.map(|x| x * 1024.0)).collect();
+        let after = ask(&scaled, scene.viewpoint.map(|x| x * 1024.0), &options);
+        assert_eq!(after.indices(), before.indices(), "{title}");
+        assert_eq!(bits(&after), bits(&before), "{title}");
+    }
+}
+
+/// A small plate before a wall, both sampled evenly, seen from the front.
+fn plate_before_wall() -> (Vec<[f64; 3]>, Vec<bool>) {
+    let mut rng = Rng::new(8);
+    let mut points = Vec::new();
+    let mut truth = Vec::new();
+    let mut jitter = || rng.between(-0.2, 0.2);
+    for i in -40..=40_i32 {
+        for j in -40..=40_i32 {
+            let at = [
+                0.05 * (f64::from(i) + jitter()),
+                0.05 * (f64::from(j) + jitter()),
+            ];
+            // The plate is half of the way: its shadow is twice as large.
+            points.push([at[0], at[1], -5.0]);
+            truth.push(at[0].abs().max(at[1].abs()) > 1.0);
+            if i.abs() <= 10 && j.abs() <= 10 {
+                points.push([0.05 * f64::from(i), 0.05 * f64::from(j), 0.0]);
+                truth.push(true);
+            }
+        }
+    }
+    (points, truth)
+}
+
+#[test]
+fn looks_take_the_halo_away_and_keep_hidden_what_is_behind() {
+    let (points, truth) = plate_before_wall();
+    let wrong = |answer: &Visibility| {
+        let mask = answer.mask();
+        let mistakes = |is: u8| {
+            (0..points.len())
+                .filter(|&i| truth[i] != (is == 1) && mask[i] == is)
+                .count()
+        };
+        (mistakes(1), mistakes(0))
+    };
+    let (one_more, one_fewer) = wrong(&ask(&points, FRONT, &Options::default()));
+    let (more, fewer) = wrong(&ask(&points, FRONT, &looks(3)));
+    // The operator misses a band of the wall around the plate.
+    assert!(one_fewer > 300, "{one_fewer}");
+    assert!(3 * fewer < one_fewer, "{fewer} of {one_fewer}");
+    assert!(more <= one_more + 40, "{more}, {one_more}");
+}
+
+#[test]
+fn scores_rise_with_the_answer() {
+    let (points, truth) = plate_before_wall();
+    let answer = ask(&points, FRONT, &looks(3));
+    assert!(
+        answer
+            .scores()
+            .iter()
+            .all(|score| (0.0..=1.0).contains(score))
+    );
+    let mean = |visible: bool| {
+        let scores = answer.scores().iter().zip(&truth);
+        let of: Vec<f64> = scores
+            .filter(|(_, truth)| **truth == visible)
+            .map(|(s, _)| f64::from(*s))
+            .collect();
+        of.iter().sum::<f64>() / of.len() as f64
+    };
+    assert!(
+        mean(true) > 0.85 && mean(false) < 0.1,
+        "{} {}",
+        mean(true),
+        mean(false)
+    );
+    // They are asked for, not always there, and change no label.
+    let without = Options::with_inversion(Inversion::Looks(3));
+    let plain = ask(&points, FRONT, &without);
+    assert!(plain.scores().is_empty());
+    assert_eq!(plain.indices(), answer.indices());
+}
+
+#[test]
+fn degenerate_clouds_answer_as_documented() {
+    let seen = |points: &[[f64; 3]], viewpoint| {
+        let answer = ask(points, viewpoint, &looks(3));
+        (answer.indices().to_vec(), answer.scores().to_vec())
+    };
+    let origin = [0.0; 3];
+    assert_eq!(seen(&[], FRONT), (vec![], vec![]));
+    assert_eq!(seen(&[origin], FRONT), (vec![0], vec![0.97]));
+    // At the viewpoint: visible, certainly, and no part of the hull.
+    assert_eq!(seen(&[FRONT], FRONT), (vec![0], vec![1.0]));
+    assert_eq!(seen(&[FRONT, origin], FRONT), (vec![0, 1], vec![1.0, 0.97]));
+    // On one ray: in a line with the viewpoint the nearest alone.
+    let ray = [[0.0, 0.0, 1.0], [0.0, 0.0, 2.0], origin];
+    assert_eq!(seen(&ray, FRONT), (vec![1], vec![0.2, 0.97, 0.2]));
+    // On both sides of it, both.
+    assert_eq!(seen(&[[0.0, 0.0, 6.0], origin], FRONT).0, [0, 1]);
+    // Two and three points apart.
+    let triangle = [origin, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    assert_eq!(seen(&triangle[..2], FRONT), (vec![0, 1], vec![0.97; 2]));
+    assert_eq!(seen(&triangle, FRONT), (vec![0, 1, 2], vec![0.97; 3]));
+    // Equal points: together.
+    let equal = [
+        triangle[0],
+        triangle[1],
+        triangle[0],
+        triangle[2],
+        triangle[1],
+    ];
+    assert_eq!(seen(&equal, FRONT), (vec![0, 1, 2, 3, 4], vec![0.97; 5]));
+    assert_eq!(seen(&[origin; 4], FRONT), (vec![0, 1, 2, 3], vec![0.97; 4]));
+    // Behind a triangle: hidden if it lies deeper than a spacing, whatever its ray.
+    let with = |p| [triangle[0], triangle[1], triangle[2], p];
+    assert_eq!(seen(&with([0.2, 0.2, -3.0]), FRONT).0, [0, 1, 2]);
+    // Within one: visible, though the operator hides it.
+    let near = with([0.3, 0.3, -0.01]);
+    assert_eq!(seen(&near, FRONT).0, [0, 1, 2, 3]);
+}
+
+#[test]
+fn in_one_plane_with_the_viewpoint_each_look_sees_what_its_flat_hull_does() {
+    let mut rng = Rng::new(3);
+    let points: Vec<[f64; 3]> = (0..200)
+        .map(|_| [rng.between(-1.0, 1.0), rng.between(-1.0, 1.0), 0.0])
+        .collect();
+    let viewpoint = [3.0, 0.5, 0.0];
+    let answer = ask(&points, viewpoint, &looks(3));
+    let mut expected = vec![0; points.len()];
+    for &scale in answer.looks() {
+        let inversion = Inversion::Exponential(hidden_point_removal::Exponential::Scale(scale));
+        let seen = ask(&points, viewpoint, &Options::with_inversion(inversion)).mask();
+        for (expected, seen) in expected.iter_mut().zip(seen) {
+            *expected |= seen;
+        }
+    }
+    assert_eq!(answer.mask(), expected);
+    for (i, &score) in answer.scores().iter().enumerate() {
+        assert_eq!(score > 0.5, expected[i] == 1, "point {i}");
+    }
+}
+
+#[test]
+fn skipped_and_removed_points_have_no_score() {
+    let mut points: Vec<[f64; 3]> = (0..49).map(|i| on_a_grid((i, [0.0; 3]))).collect();
+    points.push([f64::NAN, 0.0, 0.0]);
+    let skip = hidden_point_removal::NonFinite::Skip;
+    let mut cloud = PointCloud::with_non_finite(&points, skip).unwrap();
+    cloud.remove(&[24]).unwrap();
+    let answer = cloud.visible_from(FRONT, &looks(3)).unwrap();
+    assert_eq!((answer.scores()[24], answer.scores()[49]), (0.0, 0.0));
+    let rest: Vec<_> = (0..49).filter(|&i| i != 24).map(|i| points[i]).collect();
+    let alone = ask(&rest, FRONT, &looks(3));
+    assert_eq!(answer.count(), alone.count());
+}
+
+#[test]
+fn noise_options_go_with_looks_and_scores_are_those_before_the_vote() {
+    let (mut points, _) = plate_before_wall();
+    let mut rng = Rng::new(9);
+    points
+        .iter_mut()
+        .for_each(|p| p[2] += rng.between(-0.02, 0.02));
+    let cloud = PointCloud::new(&points).unwrap();
+    let denoised = cloud.denoised(12).unwrap();
+    let options = |denoise, vote| Options {
+        denoise,
+        vote,
+        ..looks(3)
+    };
+    let both = cloud
+        .visible_from(FRONT, &options(Some(12), Some(8)))
+        .unwrap();
+    let vote = denoised
+        .visible_from(FRONT, &options(None, Some(8)))
+        .unwrap();
+    assert_same("", &both, &vote);
+    let plain = denoised.visible_from(FRONT, &looks(3)).unwrap();
+    assert_eq!(bits(&vote), bits(&plain));
+    assert_ne!(vote.indices(), plain.indices());
+}
+
+#[test]
+fn unions_count_the_answers_of_their_views() {
+    let (points, _) = plate_before_wall();
+    let cloud = PointCloud::new(&points).unwrap();
+    let options = Options::with_inversion(Inversion::Looks(3));
+    let viewpoints = [FRONT, [1.0, 0.0, 5.0], [0.0, 1.0, 4.0]];
+    let mut views = vec![0; points.len()];
+    for viewpoint in viewpoints {
+        let seen = cloud.visible_from(viewpoint, &options).unwrap().mask();
+        views
+            .iter_mut()
+            .zip(seen)
+            .for_each(|(sum, seen)| *sum += seen);
+    }
+    for k in 1..=3 {
+        let answer = cloud
+            .visible_from_at_least(k, &viewpoints, &options)
+            .unwrap();
+        let expected: Vec<u32> = (0..)
+            .zip(&views)
+            .filter(|(_, v)| **v >= k as u8)
+            .map(|(i, _)| i)
+            .collect();
+        assert_eq!(answer.indices(), expected);
+        assert_eq!(answer.looks().len(), 3);
+    }
+    let any = cloud.visible_from_any(&viewpoints, &options).unwrap();
+    let one = cloud
+        .visible_from_at_least(1, &viewpoints, &options)
+        .unwrap();
+    assert_eq!(any, one);
+    assert_eq!(cloud.visible_from_any(&[], &options).unwrap().count(), 0);
+}
+
+#[test]
+fn of_several_sectors_the_first_answers_for_all() {
+    let (points, _) = plate_before_wall();
+    let cloud = PointCloud::new(&points).unwrap();
+    let sector = |number| {
+        cloud
+            .visible_in_sector(FRONT, &looks(3), Sector::new(number, 2).unwrap())
+            .unwrap()
+    };
+    assert_eq!(sector(0), cloud.visible_from(FRONT, &looks(3)).unwrap());
+    assert_eq!(sector(1).count(), 0);
+}
+
+#[test]
+fn what_needs_one_hull_refuses_looks() {
+    let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let cloud = PointCloud::new(&points).unwrap();
+    let options = Options::with_inversion(Inversion::Looks(3));
+    let refused = |other| Error::LooksWith { other };
+    let view = |options: Options| cloud.visible_from(FRONT, &options).unwrap_err();
+
+    assert_eq!(
+        cloud.reconstruct(FRONT, &options, None).unwrap_err(),
+        refused("reconstruct")
+    );
+    let lighting = Lighting::default();
+    for lights in [&[FRONT][..], &[]] {
+        let light = cloud.illuminate(lights, &options, &lighting).unwrap_err();
+        assert_eq!(light, refused("illuminate"));
+    }
+    let ids = [0, 1, 2];
+    let merged = merge_visible(&[(&points[..], &ids[..])], FRONT, &options);
+    assert_eq!(merged.unwrap_err(), refused("merging"));
+    let ahead = cloud.visible_from_direction([0.0, 0.0, -1.0], &options);
+    assert_eq!(ahead.unwrap_err(), refused("visibleFromDirection"));
+    for (radius, name) in [
+        (Radius::Search, "radius \"search\""),
+        (Radius::Absolute(9.0), "radius"),
+        (Radius::Exponent(2.0), "exponent"),
+    ] {
+        assert_eq!(view(Options { radius, ..options }), refused(name));
+        let radius = Options { radius, ..options };
+        assert_eq!(
+            cloud.visible_from_any(&[], &radius).unwrap_err(),
+            refused(name)
+        );
+    }
+    for count in [0, 1, 4] {
+        let error = view(looks(count));
+        assert!(
+            matches!(
+                error,
+                Error::OutOfRange {
+                    option: "looks",
+                    ..
+                }
+            ),
+            "{error}"
+        );
+        assert_eq!(error.code(), "option");
+    }
+    let scores = Options {
+        scores: true,
+        ..Options::default()
+    };
+    assert_eq!(view(scores), Error::ScoresWithoutLooks);
+    let several = cloud.visible_from_any(&[FRONT], &looks(3)).unwrap_err();
+    assert_eq!(several, Error::ScoresOfSeveral);
+    let nowhere = cloud
+        .visible_from([f64::NAN, 0.0, 0.0], &options)
+        .unwrap_err();
+    assert_eq!(nowhere.code(), "viewpoint");
+    let beyond = cloud.visible_from([1e300, 0.0, 0.0], &options).unwrap_err();
+    assert_eq!(beyond.code(), "radius");
+
+    let plane = PointCloud2d::new(&[[0.0, 0.0], [1.0, 0.0]]).unwrap();
+    let needs_space = |dimension| Error::Dimension {
+        option: "looks",
+        dimension,
+    };
+    assert_eq!(
+        plane.visible_from([5.0, 5.0], &options).unwrap_err(),
+        needs_space(2)
+    );
+    let hyper = PointCloudNd::new(4, &[0.0; 8]).unwrap();
+    assert_eq!(
+        hyper.visible_from(&[5.0; 4], &options).unwrap_err(),
+        needs_space(4)
+    );
+}
+
+/// FNV-1a over the indices and scores of every kind of scene: natively and in WebAssembly.
+const EXPECTED: u64 = 0x9be8_4465_0041_08ad;
+
+#[test]
+fn answers_and_scores_are_the_same_bits_everywhere() {
+    let mut digest = 0xcbf2_9ce4_8422_2325_u64;
+    let mut add = |word: u32| {
+        digest = (digest ^ u64::from(word)).wrapping_mul(0x0000_0100_0000_01b3);
+    };
+    for kind in KINDS {
+        for (seed, n, count) in [(100, 12, 3), (101, 150, 3), (102, 2000, 3), (103, 2500, 2)] {
+            let scene = kind.scene(seed, n);
+            let answer = ask(&scene.points, scene.viewpoint, &looks(count));
+            answer.indices().iter().for_each(|&i| add(i));
+            bits(&answer).into_iter().for_each(&mut add);
+        }
+    }
+    assert_eq!(digest, EXPECTED, "got {digest:#x}");
+}

@@ -1,0 +1,141 @@
+// The options looks and scores: in the page's thread and in a worker, and against the
+// readable reference, tests/fidelity/three_looks.py.
+import { readFileSync } from "node:fs";
+import { fileURLToPath } from "node:url";
+import { afterAll, describe, expect, it } from "vitest";
+
+import type { VisibilityOptions } from "hidden-point-removal";
+import { bumpySphere, bunny, problemOf, readyPackage } from "./support";
+
+const { hiddenPointRemoval, mergeVisible, PointCloud, WorkerPointCloud } = await readyPackage();
+
+const sphere = bumpySphere(1, 3000);
+const farAway = [0, 0, 5];
+const cloud = new PointCloud(sphere);
+
+/** What the reference answered, in Python, for the bunny of 1,839 points. */
+interface Reference {
+  viewpoint: number[];
+  /** One bit a point, the first in the highest. */
+  visible: string;
+  /** One byte a point: the score times 255. */
+  scores: string;
+}
+const references = JSON.parse(
+  readFileSync(fileURLToPath(new URL("../fidelity/three-looks-of-bunny.json", import.meta.url)), "utf8"),
+) as Reference[];
+
+describe("three looks", () => {
+  it.each(references)("agree with the readable reference from $viewpoint", ({ viewpoint, visible, scores }) => {
+    const answer = new PointCloud(bunny()).visibleFrom(viewpoint, { looks: 3, scores: true });
+    const bits = Buffer.from(visible, "base64");
+    const mask = answer.mask();
+    const differing = mask.filter((is, i) => is !== ((bits[i >> 3]! >> (7 - (i & 7))) & 1));
+    expect(differing.length).toBeLessThan(0.005 * mask.length);
+    const expected = Buffer.from(scores, "base64");
+    const apart = answer.scores!.filter((score, i) => Math.abs(score - expected[i]! / 255) > 0.02);
+    expect(apart.length).toBeLessThan(0.01 * mask.length);
+  });
+
+  it("tell the scale of each look, and no radius", () => {
+    const answer = cloud.visibleFrom(farAway, { looks: 3 });
+    expect(answer).toMatchObject({ radius: 0, exponent: 0, evaluations: 0 });
+    const { spacing } = cloud;
+    expect(answer.inversion).toEqual({ looks: [0.28 * spacing, 0.07 * spacing, 0.02 * spacing] });
+    expect(cloud.visibleFrom(farAway, { looks: 2 }).inversion).toEqual({ looks: [0.28 * spacing, 0.02 * spacing] });
+    expect(hiddenPointRemoval(sphere, farAway, { looks: 3 })).toEqual(answer);
+  });
+
+  it("have scores only where they are asked for, one for each index", () => {
+    expect("scores" in cloud.visibleFrom(farAway, { looks: 3, scores: false })).toBe(false);
+    const some = new PointCloud([...sphere.subarray(0, 3000), NaN, 0, 0], { nonFinite: "skip" });
+    some.remove([7, 8]);
+    const { scores, indices } = some.visibleFrom(farAway, { looks: 3, scores: true });
+    expect(scores).toBeInstanceOf(Float32Array);
+    expect(scores).toHaveLength(1001);
+    expect([scores![7], scores![8], scores![1000]]).toEqual([0, 0, 0]);
+    expect(Math.min(...scores!)).toBe(0);
+    expect(Math.max(...scores!)).toBeLessThanOrEqual(1);
+    const mean = [...indices].reduce((sum, i) => sum + scores![i]!, 0) / indices.length;
+    expect(mean).toBeGreaterThan(0.8);
+  });
+
+  it("go with noise handling and with several viewpoints", () => {
+    const options = { looks: 3, denoise: 8, vote: 6 } as const;
+    const voted = cloud.visibleFrom(farAway, { ...options, scores: true });
+    const { scores } = cloud.visibleFrom(farAway, { looks: 3, denoise: 8, scores: true });
+    expect(voted.scores).toEqual(scores);
+    const viewpoints = [farAway, [5, 0, 0], [0, 5, 0]];
+    const masks = viewpoints.map((viewpoint) => cloud.visibleFrom(viewpoint, { looks: 2 }).mask());
+    const twice = cloud.visibleFromAtLeast(2, viewpoints, { looks: 2 });
+    expect(twice.mask()).toEqual(masks[0]!.map((_, i) => Number(masks.filter((mask) => mask[i] === 1).length >= 2)));
+    expect(twice.inversion).toEqual(cloud.visibleFrom(farAway, { looks: 2 }).inversion);
+    const any = cloud.visibleFromAny(viewpoints, { looks: 2 });
+    expect(any).toEqual(cloud.visibleFromAtLeast(1, viewpoints, { looks: 2 }));
+  });
+
+  it("do not depend on views before them", () => {
+    const before = cloud.visibleFrom(farAway, { looks: 3, scores: true });
+    for (const options of [{}, { exponent: 3 }, { looks: 2 as const }, { inversion: { exponential: 0.1 } }]) {
+      cloud.visibleFrom([0, 0.01, 5], options);
+      expect(cloud.visibleFrom(farAway, { looks: 3, scores: true })).toEqual(before);
+    }
+    const plain = cloud.visibleFrom(farAway);
+    cloud.visibleFrom(farAway, { looks: 3 });
+    expect(cloud.visibleFrom(farAway)).toEqual(plain);
+  });
+});
+
+describe("in a worker", () => {
+  const opened: { dispose(): void }[] = [];
+  afterAll(() => {
+    opened.forEach((cloud) => {
+      cloud.dispose();
+    });
+  });
+
+  it.each([1, 2])("of %i threads, the answer is the same", async (workers) => {
+    const inWorker = await WorkerPointCloud.create(sphere, { workers });
+    opened.push(inWorker);
+    for (const options of [{ looks: 3, scores: true }, { looks: 2 }, { looks: 3, vote: 4 }] as VisibilityOptions[]) {
+      const answer = await inWorker.visibleFrom(farAway, options);
+      expect(answer).toEqual(cloud.visibleFrom(farAway, options));
+      expect(answer.scores).toEqual(cloud.visibleFrom(farAway, options).scores);
+    }
+    const viewpoints = [farAway, [5, 0, 0]];
+    const any = await inWorker.visibleFromAny(viewpoints, { looks: 3 });
+    expect(any).toEqual(cloud.visibleFromAny(viewpoints, { looks: 3 }));
+    const refused = await problemOf(() => inWorker.reconstruct(farAway, { looks: 3 }));
+    expect(refused).toMatchObject({ code: "option", message: expect.stringMatching(/looks.*reconstruct/) as string });
+  });
+});
+
+describe("an error names the option", () => {
+  const view = (options: object) => () => cloud.visibleFrom(farAway, options);
+  const plane = new PointCloud([0, 0, 1, 1], { dimension: 2 });
+  const parts = [{ positions: [1, 2, 3], ids: Uint32Array.of(7) }];
+  it.each<[RegExp, () => unknown]>([
+    [/looks.*from 2 to 3.*\b1$/, view({ looks: 1 })],
+    [/looks.*from 2 to 3.*\b4$/, view({ looks: 4 })],
+    [/looks.*2\.5/, view({ looks: 2.5 })],
+    [/looks.*"3"/, view({ looks: "3" })],
+    [/looks.*true/, view({ looks: true })],
+    [/looks and radius/, view({ looks: 3, radius: 100 })],
+    [/looks and radius/, view({ looks: 3, radius: "auto" })],
+    [/looks and exponent/, view({ looks: 3, exponent: 2 })],
+    [/looks and inversion/, view({ looks: 3, inversion: "spherical" })],
+    [/inversion.*"looks"/, view({ inversion: { looks: [1, 2] } })],
+    [/scores.*only with looks/, view({ scores: true })],
+    [/scores.*boolean.*1/, view({ looks: 3, scores: 1 })],
+    [/scores.*several viewpoints/, () => cloud.visibleFromAny([farAway], { looks: 3, scores: true })],
+    [/scores.*several viewpoints/, () => cloud.visibleFromAtLeast(1, [farAway], { looks: 3, scores: true })],
+    [/looks.*reconstruct/, () => cloud.reconstruct(farAway, { looks: 3 })],
+    [/looks.*illuminate/, () => cloud.illuminate([farAway], { looks: 3 })],
+    [/looks.*illuminate/, () => cloud.illuminate([], { looks: 2 })],
+    [/looks.*visibleFromDirection/, () => cloud.visibleFromDirection([0, 0, -1], { looks: 3 })],
+    [/"looks"/, () => mergeVisible(parts, farAway, { radius: 10, looks: 3 } as { radius: number })],
+    [/looks.*dimension 3/, () => plane.visibleFrom([5, 5], { looks: 3 })],
+  ])("%s", async (message, call) => {
+    expect(await problemOf(call)).toMatchObject({ code: "option", message: expect.stringMatching(message) as string });
+  });
+});
