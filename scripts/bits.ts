@@ -1,0 +1,94 @@
+// npm run bits: one corpus of questions, built for and run on every platform that this machine has or can
+// have. All must answer with the same bits. Writes tests/bits/RESULTS.md; ends with status 1 on a difference.
+import { writeFileSync } from "node:fs";
+
+import { answersIn, answersOn, firstDifference } from "./bits/corpus.js";
+import type { Answers } from "./bits/corpus.js";
+import { PLATFORMS } from "./bits/platforms.js";
+import type { Platform } from "./bits/platforms.js";
+import { command } from "./lib/command.js";
+import { findOnPath, inRoot } from "./lib/paths.js";
+import { Problem, run, say } from "./lib/run.js";
+import { setUpLinker } from "./setup/linker.js";
+import { setUpRust } from "./setup/rust.js";
+
+const RESULT = "tests/bits/RESULTS.md";
+
+interface Row {
+  platform: string;
+  cells: string[];
+}
+
+await command(async () => {
+  await setUpRust();
+  await setUpLinker();
+  const rows: Row[] = [];
+  const skipped: string[] = [];
+  let expected: Answers | undefined;
+  for (const [name, prepare] of PLATFORMS) {
+    say(`\n${name}…`);
+    const platform = await orReason(prepare(name));
+    if (typeof platform === "string") {
+      skipped.push(`- ${name}: ${platform}`);
+      continue;
+    }
+    const ran = await answersOn(platform);
+    const answers = ran && answersIn(ran.output);
+    expected ??= answers;
+    const verdict = judge(expected, answers);
+    if (verdict !== "equal") process.exitCode = 1;
+    const seconds = ran === undefined ? "" : ran.seconds.toFixed(1);
+    const cells = [runBy(platform), seconds, String(answers?.cases.size ?? ""), `\`${answers?.all ?? ""}\``, verdict];
+    rows.push({ platform: `${name} (\`${[platform.target, ...platform.build.slice(2)].join(" ")}\`)`, cells });
+    say(`${name}: ${verdict}`);
+  }
+  const report = await written(rows, skipped, expected?.cases.size ?? 0);
+  writeFileSync(inRoot(RESULT), report);
+  console.log(`\n${report}\n${RESULT}`);
+});
+
+/** The platform, or why it cannot be had here. */
+async function orReason(platform: Promise<Platform>): Promise<Platform | string> {
+  try {
+    return await platform;
+  } catch (error) {
+    if (error instanceof Problem) return error.message;
+    throw error;
+  }
+}
+
+function judge(expected: Answers | undefined, got: Answers | undefined): string {
+  if (expected === undefined || got === undefined) return "FAILED: no answers";
+  const different = firstDifference(expected, got);
+  return different === undefined ? "equal" : `DIFFERENT, first in ${different}`;
+}
+
+function runBy({ runner: [program] }: Platform): string {
+  if (program === undefined) return "this machine";
+  return program === process.execPath ? "Node" : program;
+}
+
+async function written(rows: Row[], skipped: string[], cases: number): Promise<string> {
+  const table = rows.map(({ platform, cells }) => `| ${[platform, ...cells].join(" | ")} |`);
+  const version = async (program: string, ...args: string[]): Promise<string> => {
+    const { output } = await run(program, args, { show: "nothing" });
+    return output.split("\n")[0]!.trim();
+  };
+  const qemu = findOnPath("qemu-aarch64") === undefined ? [] : [await version("qemu-aarch64", "--version")];
+  const tools = [await version("rustc", "--version"), ...qemu, `Node ${process.version}`];
+  return `# The same bits everywhere
+
+Written by \`npm run bits\` on ${new Date().toISOString().slice(0, 10)}, with ${tools.join("; ")}.
+
+One corpus of ${cases} cases (\`corpus.rs\`): all kinds of scenes of the core's tests, thin clouds, tiny and huge
+units, map coordinates, 12 to 20,000 points; every inversion, rule of the radius and kind of question. The digest
+is one of all visible sets, meshes, brightness and radii. Dimensions 4 and higher are not promised to the bit and
+are left out. "Optimized" is the profile \`quick\`: that of a release, without optimization across crates.
+
+| platform | run by | seconds | cases | digest of all | |
+|---|---|---:|---:|---|---|
+${table.join("\n")}
+
+Skipped: ${skipped.length === 0 ? "nothing." : `\n\n${skipped.join("\n")}`}
+`;
+}

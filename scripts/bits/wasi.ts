@@ -1,0 +1,14 @@
+// Runs a WebAssembly program under Node: `node wasi.js FILE`.
+import { readFileSync } from "node:fs";
+import { WASI } from "node:wasi";
+
+/** Node's types leave WebAssembly to those of the browser, which scripts are compiled without. */
+interface Engine {
+  Module: new (bytes: Uint8Array) => object;
+  Instance: new (module: object, imports: object) => object;
+}
+
+const { Module, Instance } = (globalThis as unknown as { WebAssembly: Engine }).WebAssembly;
+const [, , file = ""] = process.argv;
+const wasi = new WASI({ version: "preview1", returnOnExit: true });
+process.exitCode = wasi.start(new Instance(new Module(readFileSync(file)), wasi.getImportObject()));

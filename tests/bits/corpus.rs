@@ -1,0 +1,88 @@
+//! The same questions on every platform: `cargo run --profile quick --example bits_corpus`.
+//!
+//! Prints one line a case, `name digest count radius`: a digest of the whole answer, how many
+//! points are visible (or lit), and the bits of the radius (`-` where the answer has none). The
+//! last line is a digest of all. `npm run bits` compares the lines of many platforms.
+//!
+//! Every point and viewpoint comes from exactly rounded arithmetic, so that all platforms ask
+//! the same. Dimensions 4 and higher are left out: their answers are only promised to within
+//! 10⁻¹⁰.
+
+mod answer;
+mod clouds;
+#[path = "../core/common/flip.rs"]
+#[allow(dead_code)]
+mod flip;
+mod questions;
+#[path = "../core/common/rng.rs"]
+mod rng;
+#[path = "../core/common/scenes.rs"]
+mod scenes;
+#[path = "../core/common/shapes.rs"]
+mod shapes;
+
+use answer::{Answer, Digest};
+use clouds::Subject;
+use questions::{LARGE, QUESTIONS, formulas, own_options};
+use scenes::{EXTREME, KINDS};
+
+fn main() {
+    let mut record = Record::new();
+    for kind in KINDS {
+        for (seed, n) in [(1, 12), (2, 150), (3, 3000)] {
+            let scene = kind.scene(seed, n);
+            let name = format!("{}/{n}", kind.name);
+            record.add(&name, own_options(&scene));
+        }
+        let subject = Subject::of(kind.scene(4, 200));
+        record.ask_all(kind.name, &subject, QUESTIONS);
+    }
+    for kind in EXTREME {
+        for (seed, n) in [(1, 12), (2, 150)] {
+            let name = format!("{}/{n}", kind.name.replace(' ', "_"));
+            record.add(&name, own_options(&kind.scene(seed, n)));
+        }
+    }
+    for (name, subject) in clouds::thin() {
+        record.ask_all(&name, &subject, QUESTIONS);
+    }
+    for (name, subject) in clouds::magnitudes() {
+        record.ask_all(&name, &subject, QUESTIONS);
+    }
+    for (name, subject) in clouds::large() {
+        record.ask_all(name, &subject, LARGE);
+    }
+    record.add("formulas", formulas());
+    record.finish();
+}
+
+/// Prints the cases as they come, and a digest of them all.
+struct Record {
+    all: Digest,
+    cases: u64,
+}
+
+impl Record {
+    fn new() -> Self {
+        Self {
+            all: Digest::new(),
+            cases: 0,
+        }
+    }
+
+    fn add(&mut self, name: &str, answer: Answer) {
+        println!("{name} {answer}");
+        self.all.add(answer.digest);
+        self.cases += 1;
+    }
+
+    fn ask_all(&mut self, name: &str, subject: &Subject, questions: &[questions::Question]) {
+        for (question, ask) in questions {
+            self.add(&format!("{name}/{question}"), ask(subject));
+        }
+    }
+
+    fn finish(self) {
+        println!("all {:016x} {} -", self.all.value(), self.cases);
+    }
+}
