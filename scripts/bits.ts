@@ -1,6 +1,6 @@
 // npm run bits: one corpus of questions, built for and run on every platform that this machine has or can
 // have. All must answer with the same bits. Writes tests/bits/RESULTS.md; ends with status 1 on a difference.
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 
 import { answersIn, answersOn, firstDifference } from "./bits/corpus.js";
 import type { Answers } from "./bits/corpus.js";
@@ -22,29 +22,31 @@ interface Row {
 await command(async () => {
   await setUpRust();
   await setUpLinker();
+  const versions = await versionsOfTools();
   const rows: Row[] = [];
-  const skipped: string[] = [];
+  const skipped = new Map(PLATFORMS.map(([name]) => [name, "not run, because the command was ended before"]));
   let expected: Answers | undefined;
   for (const [name, prepare] of PLATFORMS) {
     say(`\n${name}…`);
     const platform = await orReason(prepare(name));
     if (typeof platform === "string") {
-      skipped.push(`- ${name}: ${platform}`);
-      continue;
+      skipped.set(name, platform);
+    } else {
+      skipped.delete(name);
+      const ran = await answersOn(platform);
+      const answers = ran && answersIn(ran.output);
+      expected ??= answers;
+      const verdict = judge(expected, answers);
+      if (verdict !== "equal") process.exitCode = 1;
+      const seconds = ran === undefined ? "" : ran.seconds.toFixed(1);
+      const cells = [runBy(platform), seconds, String(answers?.cases.size ?? ""), `\`${answers?.all ?? ""}\``, verdict];
+      rows.push({ platform: `${name} (\`${[platform.target, ...platform.build.slice(2)].join(" ")}\`)`, cells });
+      say(`${name}: ${verdict}`);
     }
-    const ran = await answersOn(platform);
-    const answers = ran && answersIn(ran.output);
-    expected ??= answers;
-    const verdict = judge(expected, answers);
-    if (verdict !== "equal") process.exitCode = 1;
-    const seconds = ran === undefined ? "" : ran.seconds.toFixed(1);
-    const cells = [runBy(platform), seconds, String(answers?.cases.size ?? ""), `\`${answers?.all ?? ""}\``, verdict];
-    rows.push({ platform: `${name} (\`${[platform.target, ...platform.build.slice(2)].join(" ")}\`)`, cells });
-    say(`${name}: ${verdict}`);
+    // After each platform, so that a run that is ended early leaves the rows that it has.
+    writeFileSync(inRoot(RESULT), report(versions, rows, skipped, expected?.cases.size ?? 0));
   }
-  const report = await written(rows, skipped, expected?.cases.size ?? 0);
-  writeFileSync(inRoot(RESULT), report);
-  console.log(`\n${report}\n${RESULT}`);
+  console.log(`\n${readFileSync(inRoot(RESULT), "utf8")}\n${RESULT}`);
 });
 
 /** The platform, or why it cannot be had here. */
@@ -68,27 +70,31 @@ function runBy({ runner: [program] }: Platform): string {
   return program === process.execPath ? "Node" : program;
 }
 
-async function written(rows: Row[], skipped: string[], cases: number): Promise<string> {
-  const table = rows.map(({ platform, cells }) => `| ${[platform, ...cells].join(" | ")} |`);
+async function versionsOfTools(): Promise<string> {
   const version = async (program: string, ...args: string[]): Promise<string> => {
     const { output } = await run(program, args, { show: "nothing" });
     return output.split("\n")[0]!.trim();
   };
   const qemu = findOnPath("qemu-aarch64") === undefined ? [] : [await version("qemu-aarch64", "--version")];
-  const tools = [await version("rustc", "--version"), ...qemu, `Node ${process.version}`];
+  return [await version("rustc", "--version"), ...qemu, `Node ${process.version}`].join("; ");
+}
+
+function report(versions: string, rows: Row[], skipped: Map<string, string>, cases: number): string {
+  const table = rows.map(({ platform, cells }) => `| ${[platform, ...cells].join(" | ")} |`);
+  const reasons = [...skipped].map(([name, reason]) => `- ${name}: ${reason}`);
   return `# The same bits everywhere
 
-Written by \`npm run bits\` on ${new Date().toISOString().slice(0, 10)}, with ${tools.join("; ")}.
+Written by \`npm run bits\` on ${new Date().toISOString().slice(0, 10)}, with ${versions}.
 
 One corpus of ${cases} cases (\`corpus.rs\`): all kinds of scenes of the core's tests, thin clouds, tiny and huge
 units, map coordinates, 12 to 20,000 points; every inversion, rule of the radius and kind of question. The digest
-is one of all visible sets, meshes, brightness and radii. Dimensions 4 and higher are not promised to the bit and
+is one of all visible sets, meshes, brightness, scores and radii. Dimensions 4 and higher are not promised to the bit and
 are left out. "Optimized" is the profile \`quick\`: that of a release, without optimization across crates.
 
 | platform | run by | seconds | cases | digest of all | |
 |---|---|---:|---:|---|---|
 ${table.join("\n")}
 
-Skipped: ${skipped.length === 0 ? "nothing." : `\n\n${skipped.join("\n")}`}
+Skipped: ${reasons.length === 0 ? "nothing." : `\n\n${reasons.join("\n")}`}
 `;
 }

@@ -61,12 +61,14 @@ impl Collector {
         self.number(view.exponent());
         self.digest.add(u64::from(view.evaluations()));
         match view.inversion() {
-            Inversion::Spherical => {}
+            Inversion::Spherical | Inversion::Looks(_) => {}
             Inversion::Power(gamma) => self.number(gamma),
             Inversion::Exponential(Exponential::Scale(scale)) => self.number(scale),
             Inversion::Exponential(Exponential::Auto) => panic!("a scale without a number"),
         }
+        self.numbers(view.looks().iter());
         self.indices(view.indices());
+        self.floats(view.scores());
         self.radius.get_or_insert(view.radius());
     }
 
@@ -83,7 +85,11 @@ impl Collector {
     /// The brightness of every point; those that are lit at all add to the count.
     pub fn brightness(&mut self, brightness: &[f32]) {
         self.count += brightness.iter().filter(|&&x| x > 0.0).count();
-        self.list(brightness.iter().map(|x| u64::from(x.to_bits())));
+        self.floats(brightness);
+    }
+
+    fn floats(&mut self, floats: &[f32]) {
+        self.list(floats.iter().map(|x| u64::from(x.to_bits())));
     }
 
     pub fn number(&mut self, x: f64) {

@@ -23,6 +23,11 @@ impl Subject {
         }
     }
 
+    /// Some point of the cloud.
+    pub fn target(&self) -> [f64; 3] {
+        self.points[self.points.len() / 2]
+    }
+
     /// A scene without its options.
     pub fn of(scene: Scene) -> Self {
         Self::new(scene.points, scene.viewpoint)

@@ -13,10 +13,12 @@ mod clouds;
 #[path = "../core/common/flip.rs"]
 #[allow(dead_code)]
 mod flip;
+mod options;
 mod questions;
 #[path = "../core/common/rng.rs"]
 mod rng;
 #[path = "../core/common/scenes.rs"]
+#[allow(dead_code)]
 mod scenes;
 #[path = "../core/common/shapes.rs"]
 mod shapes;

@@ -1,12 +1,13 @@
 //! All that a cloud can be asked.
 
 use hidden_point_removal::{
-    Exponential, Inversion, Lighting, NonFinite, Options, PointCloud, PointCloud2d, Radius, Sector,
-    Visibility, merge_visible, permissible_curvature, radius_bound, ring_of_viewpoints,
+    Inversion, Lighting, NonFinite, Options, PointCloud, PointCloud2d, Radius, Sector, Visibility,
+    merge_visible, permissible_curvature, radius_bound, ring_of_viewpoints,
 };
 
 use crate::answer::{Answer, Collector};
 use crate::clouds::Subject;
+use crate::options::{denoise, exponential, exponential_of, looks, vote, with_kernel, with_rule};
 use crate::rng::Rng;
 use crate::scenes::Scene;
 
@@ -29,6 +30,8 @@ pub const QUESTIONS: &[Question] = &[
     }),
     ("exponential", |s| view(s, &exponential())),
     ("exponential_given", |s| view(s, &exponential_of(s))),
+    ("looks_2", |s| view(s, &looks(2))),
+    ("looks_3", |s| view(s, &looks(3))),
     ("denoise", |s| view(s, &denoise())),
     ("vote", |s| view(s, &vote())),
     ("direction", |s| along(s, &Options::default())),
@@ -53,6 +56,7 @@ pub const LARGE: &[Question] = &[
         view(s, &with_kernel(Inversion::Power(1.3)))
     }),
     ("exponential", |s| view(s, &exponential())),
+    ("looks_3", |s| view(s, &looks(3))),
     ("direction", |s| along(s, &Options::default())),
     ("single_precision", single_precision),
     ("sectors", |s| sectors(s, &[2, 5])),
@@ -146,7 +150,7 @@ fn merge(subject: &Subject) -> Answer {
 fn walk(subject: &Subject) -> Answer {
     let mut answer = Collector::new();
     let mut observer = subject.cloud.observer();
-    let target = target(subject);
+    let target = subject.target();
     for step in 0..12 {
         let part = f64::from(step) * if step < 6 { 1e-5 } else { 0.11 };
         let at = subject.viewpoint;
@@ -250,51 +254,10 @@ pub fn formulas() -> Answer {
 fn ring(subject: &Subject, count: usize) -> Vec<[f64; 3]> {
     expected(ring_of_viewpoints(
         subject.viewpoint,
-        target(subject),
+        subject.target(),
         count,
         0.05,
     ))
-}
-
-/// Some point of the cloud.
-fn target(subject: &Subject) -> [f64; 3] {
-    subject.points[subject.points.len() / 2]
-}
-
-fn with_rule(radius: Radius) -> Options {
-    Options {
-        radius,
-        ..Options::default()
-    }
-}
-
-fn with_kernel(inversion: Inversion) -> Options {
-    Options::with_inversion(inversion)
-}
-
-fn exponential() -> Options {
-    with_kernel(Inversion::Exponential(Exponential::Auto))
-}
-
-/// A scale of its own: a third of the distance to some point.
-fn exponential_of(subject: &Subject) -> Options {
-    let distance = crate::flip::distance(target(subject), subject.viewpoint);
-    let scale = if distance > 0.0 { distance / 3.0 } else { 0.3 };
-    with_kernel(Inversion::Exponential(Exponential::Scale(scale)))
-}
-
-fn denoise() -> Options {
-    Options {
-        denoise: Some(9),
-        ..Options::default()
-    }
-}
-
-fn vote() -> Options {
-    Options {
-        vote: Some(7),
-        ..Options::default()
-    }
 }
 
 fn one(view: &Visibility) -> Answer {

@@ -1,0 +1,50 @@
+//! The options that questions are asked with.
+
+use hidden_point_removal::{Exponential, Inversion, Options, Radius};
+
+use crate::clouds::Subject;
+use crate::flip::distance;
+
+pub fn with_rule(radius: Radius) -> Options {
+    Options {
+        radius,
+        ..Options::default()
+    }
+}
+
+pub fn with_kernel(inversion: Inversion) -> Options {
+    Options::with_inversion(inversion)
+}
+
+pub fn exponential() -> Options {
+    with_kernel(Inversion::Exponential(Exponential::Auto))
+}
+
+/// A scale of its own: a third of the distance to some point.
+pub fn exponential_of(subject: &Subject) -> Options {
+    let distance = distance(subject.target(), subject.viewpoint);
+    let scale = if distance > 0.0 { distance / 3.0 } else { 0.3 };
+    with_kernel(Inversion::Exponential(Exponential::Scale(scale)))
+}
+
+/// With scores.
+pub fn looks(count: usize) -> Options {
+    Options {
+        scores: true,
+        ..with_kernel(Inversion::Looks(count))
+    }
+}
+
+pub fn denoise() -> Options {
+    Options {
+        denoise: Some(9),
+        ..Options::default()
+    }
+}
+
+pub fn vote() -> Options {
+    Options {
+        vote: Some(7),
+        ..Options::default()
+    }
+}
