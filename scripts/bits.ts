@@ -22,7 +22,6 @@ interface Row {
 await command(async () => {
   await setUpRust();
   await setUpLinker();
-  const versions = await versionsOfTools();
   const rows: Row[] = [];
   const skipped = new Map(PLATFORMS.map(([name]) => [name, "not run, because the command was ended before"]));
   let expected: Answers | undefined;
@@ -44,6 +43,7 @@ await command(async () => {
       say(`${name}: ${verdict}`);
     }
     // After each platform, so that a run that is ended early leaves the rows that it has.
+    const versions = await versionsOfTools();
     writeFileSync(inRoot(RESULT), report(versions, rows, skipped, expected?.cases.size ?? 0));
   }
   console.log(`\n${readFileSync(inRoot(RESULT), "utf8")}\n${RESULT}`);
@@ -70,6 +70,7 @@ function runBy({ runner: [program] }: Platform): string {
   return program === process.execPath ? "Node" : program;
 }
 
+/** Asked when all that was missing is installed. */
 async function versionsOfTools(): Promise<string> {
   const version = async (program: string, ...args: string[]): Promise<string> => {
     const { output } = await run(program, args, { show: "nothing" });
@@ -95,6 +96,6 @@ are left out. "Optimized" is the profile \`quick\`: that of a release, without o
 |---|---|---:|---:|---|---|
 ${table.join("\n")}
 
-Skipped: ${reasons.length === 0 ? "nothing." : `\n\n${reasons.join("\n")}`}
+Skipped:${reasons.length === 0 ? " nothing." : `\n\n${reasons.join("\n")}`}
 `;
 }
