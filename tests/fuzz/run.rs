@@ -120,6 +120,7 @@ pub fn options_literal(options: &Options) -> String {
         Inversion::Exponential(Exponential::Scale(scale)) => {
             format!("Inversion::Exponential(Exponential::Scale({scale:?}))")
         }
+        Inversion::Looks(looks) => format!("Inversion::Looks({looks})"),
     };
     format!(
         "Options {{ radius: {radius}, inversion: {inversion}, vote: {:?}, ..Options::default() }}",
