@@ -1,5 +1,5 @@
-// What the adapter for three.js takes of the page's own thread: of every frame in which
-// nothing changes, of one that asks, and to draw an answer.
+// The time that the adapter for three.js takes of the page's own thread: in a frame in which
+// nothing changes, in a frame that asks, and when an answer is drawn.
 import { setFlagsFromString } from "node:v8";
 import { runInNewContext } from "node:vm";
 
@@ -13,7 +13,7 @@ import { median, type Row, type Table } from "./report.js";
 import { orbit } from "./views.js";
 
 const FRAMES = 10_000;
-/** So few that the young generation need not be collected between them. */
+/** Few enough that no collection of the young generation comes between them. */
 const FRAMES_BETWEEN = 500;
 const ANSWERS = 21;
 
@@ -24,8 +24,8 @@ export async function timeAdapter(): Promise<Table> {
     for (const mode of ["hide", "dim"] as const) rows.push(await row(cloud, mode));
   }
   const note =
-    `Of the page's own thread, in Node. Microseconds and bytes of garbage of an update() in which nothing changes (means of ${FRAMES}, ` +
-    "points and camera in groups of their own); microseconds of one that asks the worker; milliseconds from an answer's " +
+    `The time of the page's own thread, in Node. Microseconds and bytes of garbage of an update() in which nothing changes (means of ${FRAMES}, ` +
+    "points and camera in groups of their own). Microseconds of an update() that asks the worker. Milliseconds from an answer's " +
     "arrival until index and draw range are set, without the upload to the graphics card.";
   return { title: "three.js adapter", note, rows };
 }
@@ -99,7 +99,7 @@ export function garbageOf(work: () => void): number {
   return Math.round(bytes / FRAMES);
 }
 
-/** Dimmed points are listed by the worker, in the answer's own memory. */
+/** The worker lists the dimmed points in the answer's own memory. */
 function applyingMs(points: Points, visible: Uint32Array<ArrayBuffer>, dim: boolean): number {
   const drawn = new DrawnPoints(points, dim);
   drawn.take();

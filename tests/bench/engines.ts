@@ -1,5 +1,5 @@
-// The builds that are timed. Each gets a process or a page of its own, one after
-// another, and the same tasks.
+// The builds that are timed. Each runs the same tasks in a process or page of its own,
+// one after another.
 import { readdirSync } from "node:fs";
 import { join } from "node:path";
 
@@ -13,7 +13,7 @@ export interface Engine {
   measure(cloud: Cloud, tasks: Task[]): Promise<Outcome[]>;
 }
 
-/** The wasm binaries of the package by what they are called in the tables. */
+/** The wasm binaries of the package, by their names in the tables. */
 export function wasmBuilds(): [name: string, file: string][] {
   const directory = join(root, "dist", "wasm");
   const simd = readdirSync(directory).find((file) => file.includes("simd") && file.endsWith(".wasm"));

@@ -1,5 +1,5 @@
-// The flipped points every hull of a peer is made of, by the fixed sequence of
-// operations that the answers are exact for (paper, eq. 1).
+// The flipped points (paper, eq. 1). Every peer builds its hull of them. They follow the
+// fixed sequence of operations for which the library's answers are exact.
 import type { Point } from "./measure.js";
 
 /** x, y, z of each flipped point. No point may be at the viewpoint. */

@@ -11,7 +11,7 @@ import type { Row, Table } from "./report.js";
 import { orbit } from "./views.js";
 
 const VIEWS = 60;
-/** Until memory for the largest answer so far goes back and forth. */
+/** Views that are asked first, until the recycled memory has room for the largest answer. */
 const BEFORE = 3;
 
 export async function measureGarbage(): Promise<Table> {
@@ -34,7 +34,7 @@ async function row(cloud: Cloud, recycled: boolean): Promise<Row> {
   let [page, worker, visible] = [0, 0, 0];
   try {
     for (let i = -BEFORE; i < VIEWS; i++) {
-      // What this side lets go is counted where it was allocated.
+      // Memory that this side releases is counted on the side that allocated it.
       collected();
       const there = await inWorker.ask({ collect: true });
       const before = collected();
@@ -62,7 +62,7 @@ async function row(cloud: Cloud, recycled: boolean): Promise<Row> {
   };
 }
 
-/** The worker that is started next tells what it has, too. */
+/** Makes the next worker report its memory, too. */
 function probeWorkers() {
   const { Worker } = threads;
   const replace = (replacement: typeof Worker) => {

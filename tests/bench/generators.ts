@@ -1,4 +1,4 @@
-// Clouds made here: the same on every machine but for the last bits of its sines.
+// Generated clouds. They are the same on every machine, except for the last bits of sines.
 
 /** Seeded numbers in 0 … 1 (mulberry32). */
 export function seeded(seed: number): () => number {
@@ -24,7 +24,7 @@ const SHAPE_SEED = 2007;
 
 /**
  * The distance from the center to a closed surface with bumps and dents: 1, and up
- * to a third more or less. One shape, whichever points are taken on it.
+ * to a third more or less. All clouds on it have the same shape.
  */
 export function bumpyRadius(): (u: Direction) => number {
   const random = seeded(SHAPE_SEED);
@@ -46,7 +46,7 @@ export function bumpySurface(count: number, seed: number): Float32Array {
   return surface(count, bumpyRadius(), () => direction(2 * random() - 1, random()));
 }
 
-/** The same surface, ever denser towards its upper pole: by more than a thousand times. */
+/** The same surface. Towards its upper pole it is more than a thousand times denser. */
 export function unevenSurface(count: number, seed: number): Float32Array {
   const random = seeded(seed);
   return surface(count, bumpyRadius(), () => direction(1 - 2 * random() ** 4, random()));

@@ -1,8 +1,8 @@
 // A JavaScript hull in a process of its own, so that it can be stopped:
 // hull-peer.js three|quickhull3d CLOUD X,Y,Z RADIUS OUT. OUT receives the numbers of
-// the hull's vertices as little-endian u32, the last number being the viewpoint.
-// Prints the milliseconds of the hull alone, of several runs where they are short (so
-// that its code gets compiled); its input is made ready before.
+// the hull's vertices as little-endian u32. The last number is the viewpoint.
+// Prints the milliseconds of the hull alone, without the preparation of its input.
+// Short runs are repeated, so that the code gets compiled.
 import { writeFileSync } from "node:fs";
 
 import type * as Quickhull3d from "quickhull3d";

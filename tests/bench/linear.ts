@@ -1,5 +1,5 @@
-// Whether time grows with the number of points alone: one shape seen from one place,
-// ever denser, at the exponent that shows the same share of it.
+// Tests whether time grows linearly with the number of points. One shape is seen from one
+// place at growing density. The exponent is chosen to show the same share of the points.
 import { PointCloud } from "hidden-point-removal";
 
 import { bumpy, BUMPY_SIZES, type Cloud } from "./clouds.js";
@@ -9,7 +9,7 @@ import { measureAll } from "./speed.js";
 import { median, type Row, type Table } from "./report.js";
 import { tasksFor } from "./views.js";
 
-/** Of all points, in %: what the dragon shows at exponent 3. */
+/** The visible points, in % of all: the share of the dragon at exponent 3. */
 const SHARE = 33;
 const SHARE_TOLERANCE = 0.05;
 
@@ -35,7 +35,7 @@ export async function timeSizes(engines: Engine[]): Promise<Table> {
   }
   const note =
     `Cold queries, as above, of one shape from one viewpoint, at the exponent that shows ${SHARE} % of the points; ` +
-    "the last column of each engine compares the time a point takes with that in the smallest cloud.";
+    "the last column of each engine divides the time of a point by the time of a point in the smallest cloud.";
   return { title: "Time a point", note, rows };
 }
 

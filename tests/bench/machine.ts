@@ -1,4 +1,4 @@
-// What the numbers were measured on, and with which versions.
+// The machine and the versions behind the numbers.
 import { spawnSync } from "node:child_process";
 import { cpus, loadavg, platform, release, totalmem } from "node:os";
 
@@ -17,7 +17,7 @@ export function describeMachine(chromium: string | undefined, peers: Peer[]): Re
     ...peers.map(({ name, version }) => `${name} ${version}`),
   ];
   return {
-    // Taken before anything is timed; of other work than the build just before, there should be none.
+    // Read before anything is timed. Only the build just before should show in it.
     "load before (one minute)": loadBefore.toFixed(2),
     date: new Date().toISOString().slice(0, 10),
     machine: `${cores[0]?.model.trim() ?? "unknown CPU"}, ${cores.length} cores, ${memory}, ${platform()} ${release()}`,

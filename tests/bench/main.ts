@@ -1,4 +1,4 @@
-// npm run bench: options.ts says what it takes.
+// npm run bench. Its arguments are in options.ts.
 //
 // Milliseconds are medians of one run on one machine; compare ratios.
 import { writeFileSync } from "node:fs";
@@ -71,7 +71,7 @@ function optionsOrExit(): BenchOptions {
   }
 }
 
-/** Made one at a time: the large ones need not be there together. */
+/** Makes one cloud at a time, so that the large ones are never in memory together. */
 function* chosenClouds(): Generator<Cloud> {
   for (const name of options.clouds) {
     const cloud = CLOUDS[name]!();

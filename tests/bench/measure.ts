@@ -1,29 +1,29 @@
-// What one engine is asked, and the asking, in Node and in a page alike. The native
-// build does the same in native.rs.
+// The queries of one engine, and how they are timed, in Node and in a page. native.rs does
+// the same for the native build.
 import { init, PointCloud } from "hidden-point-removal";
 
 export type Point = [number, number, number];
 
-/** What is measured at one exponent. */
+/** The measurements at one exponent. */
 export interface Task {
   exponent: number;
-  /** Where the cold queries are asked from. */
+  /** The viewpoint of the cold queries. */
   viewpoint: Point;
-  /** A viewpoint from which nothing is known that helps at the others. */
+  /** A viewpoint whose answer does not help at the others. */
   away: Point;
   /** How many cold queries are timed. */
   runs: number;
-  /** Each a viewpoint that is left and the viewpoints moved through, one step after another. */
+  /** Each starts with a viewpoint that is not timed. The viewpoints of the motion follow, step by step. */
   paths: Point[][];
 }
 
-/** Milliseconds and answers; what checks them is check.ts. */
+/** Milliseconds and answers. check.ts checks the answers. */
 export interface Outcome {
   build: number[];
   cold: number[];
   visible: number;
   radius: number;
-  /** Of the visible set, see `digestOf`. */
+  /** The digest of the visible set, see `digestOf`. */
   digest: string;
   paths: { moving: Answer[]; cold: Answer[] }[];
 }
@@ -33,13 +33,13 @@ export interface Answer {
   digest: string;
 }
 
-/** Queries until the engine has compiled what is hot: at least two, and this long. */
+/** Queries until the engine has compiled the hot code: at least two, and for this time. */
 const WARM_UP_MS = 600;
 const BUILDS = 3;
 
 /**
- * Cold means that nothing of an earlier view can help: before each cold query the
- * cloud is looked at from the other side, outside of the timed part.
+ * Cold means that no earlier view can help. Before each cold query the cloud is looked at
+ * from the other side. This is not timed.
  */
 export async function measure(
   wasm: string | URL,
@@ -71,7 +71,7 @@ function outcomeOf(cloud: PointCloud, task: Task): Omit<Outcome, "build"> {
   if (digests.size !== 1) throw new Error(`${runs} cold queries at exponent ${exponent} gave ${digests.size} answers`);
   const { visible, radius, digest } = queries[0]!;
 
-  // Paths share viewpoints: each is asked cold once.
+  // Paths share viewpoints. Each viewpoint is asked cold once.
   const known = new Map<string, Answer>();
   const coldAt = (point: Point): Answer => {
     const key = point.join();

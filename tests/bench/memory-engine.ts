@@ -1,5 +1,5 @@
 // The memory of the wasm in a process of its own: memory-engine.js CLOUD < WORK, where
-// WORK is JSON. It never shrinks, so that what it has at the end is the peak.
+// WORK is JSON. The memory never shrinks, so its size at the end is the peak.
 import { readFileSync } from "node:fs";
 
 import { init, PointCloud } from "hidden-point-removal";
@@ -39,7 +39,7 @@ const query = (performance.now() - start) / views.length;
 const after = [memory()];
 while (after.length < rounds) {
   views.forEach((view, i) => {
-    if (ask(view).digest !== first[i]!.digest) throw new Error(`view ${i + 1} was answered otherwise than before`);
+    if (ask(view).digest !== first[i]!.digest) throw new Error(`view ${i + 1} has another answer than before`);
   });
   after.push(memory());
 }
@@ -51,7 +51,7 @@ function ask(view: Point): { count: number; digest: string } {
   return { count, digest: digestOf(indices) };
 }
 
-/** The package keeps its instance to itself: the memory is seen when it is made. */
+/** The package does not export its instance, so the memory is caught when it is made. */
 function watchMemory(): () => number {
   const { instantiate } = WebAssembly;
   let exports: WebAssembly.Exports | undefined;

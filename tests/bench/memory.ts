@@ -1,4 +1,4 @@
-// What the wasm takes of memory: at its peak, over many viewpoints, and at ten million points.
+// The memory of the wasm: its peak, its growth over many viewpoints, and at ten million points.
 import { WrongAnswer } from "./check.js";
 import { type Cloud, dragon, huge } from "./clouds.js";
 import type { MemoryUse, MemoryWork } from "./memory-engine.js";
@@ -8,7 +8,7 @@ import type { Row, Table } from "./report.js";
 import { EXPONENTS, orbit } from "./views.js";
 
 const MB = 1e6;
-/** Small steps and leaps in turn, so that what is kept of the last view comes and goes. */
+/** Small steps and leaps in turn: after a leap, the results kept from the last view are of no use. */
 const VIEWS = 50;
 const ROUNDS = 20;
 
@@ -21,7 +21,7 @@ export function measureMemory(): Table {
   const large = huge();
   rows.push(row(large, { views: [orbit(large)(0)], rounds: 1, exponent: 3 }));
   const note =
-    "The WebAssembly memory, which never shrinks: after building, and at its peak. Over many viewpoints it must stop " +
+    "The WebAssembly memory, which never shrinks: its size after building, and its peak. Over many viewpoints it must stop " +
     `growing: each of ${VIEWS} is asked ${ROUNDS} times, and what is needed after the first time is compared with the last.`;
   return { title: "Memory", note, rows };
 }

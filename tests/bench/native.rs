@@ -1,9 +1,9 @@
 //! Times the native build: `bench_native FILE f32|f64 < TASKS`
 //!
 //! FILE holds raw little-endian x y z. Each line of TASKS asks at one exponent,
-//! `EXPONENT RUNS x y z`, and goes on with paths, `/ x y z x y z …`, each a viewpoint
-//! that is left and the viewpoints moved through. Each line is answered by one of JSON,
-//! the `Outcome` of measure.ts, which says what is measured.
+//! `EXPONENT RUNS x y z`. Paths follow, `/ x y z x y z …`: a viewpoint that is not timed,
+//! and then the viewpoints of the motion. Each line is answered by one line of JSON, the
+//! `Outcome` of measure.ts, which explains the measurements.
 
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -41,7 +41,7 @@ fn answer_all<P: Position>(positions: &[P]) {
     }
 }
 
-/// An answer with what it took to get it.
+/// An answer with its time.
 #[derive(Clone)]
 struct Answer {
     milliseconds: f64,
@@ -60,7 +60,7 @@ fn outcome<P: Position>(positions: &[P], line: &str) -> Result<String, std::fmt:
         panic!("a task starts with EXPONENT RUNS x y z");
     };
     let options = Options::with_exponent(exponent);
-    // As in measure.ts, the memory a query needs is there already: it is the observer's.
+    // As in measure.ts, the observer already holds the memory that a query needs.
     let (cloud, build) = timed(|| PointCloud::new(positions).expect("a valid cloud"));
     let mut observer = cloud.observer();
     let mut cold = |viewpoint| {

@@ -1,4 +1,4 @@
-// A cloud split into nodes, against the same cloud in one piece: the same answers, and what they take.
+// A cloud split into nodes, compared with the same cloud in one piece: equal answers, and their times.
 import { PointCloud } from "hidden-point-removal";
 import { HiddenPointNodesFilter, type HiddenPointNodesFilterEvents } from "hidden-point-removal/nodes";
 import { BufferAttribute, BufferGeometry, Group, PerspectiveCamera, Points } from "three";
@@ -23,7 +23,7 @@ export async function timeNodes(): Promise<Table> {
   }
   const note =
     "The answer of all nodes, compared with that of the cloud in one piece. Milliseconds from asking to the answer, in Node, " +
-    "on one worker: of a view 30° further, and of the same one when a node has gone or come back. Microseconds and bytes of " +
+    "on one worker: for a view 30° further, and for the same view after a node has gone or come back. Microseconds and bytes of " +
     "garbage of an update() in which nothing changes.";
   return { title: "Nodes of one cloud", note, rows };
 }
@@ -48,7 +48,7 @@ async function row(cloud: Cloud, along: number): Promise<Row> {
     const { indices } = unsplit.visibleFrom(viewpoint!);
     together!.push(performance.now() - start);
     if (digestOf(indices) !== digestOf(drawnOf(nodes)))
-      throw new WrongAnswer(`${nodes.length} nodes answer otherwise than the cloud in one piece`);
+      throw new WrongAnswer(`${nodes.length} nodes have another answer than the cloud in one piece`);
     split_!.push(milliseconds);
     visible = indices.length;
   }
@@ -108,7 +108,7 @@ function split(positions: Cloud["positions"], along: number): { nodes: Points[];
   return { nodes, whole: Float64Array.from(numbers) };
 }
 
-/** What the nodes draw, as indices of the whole. */
+/** The points that the nodes draw, as indices of the whole cloud. */
 function drawnOf(nodes: Points[]): Uint32Array {
   let first = 0;
   const ids = nodes.flatMap(({ geometry }) => {

@@ -1,4 +1,4 @@
-// What `npm run bench -- …` takes.
+// The arguments of `npm run bench -- …`.
 import { parseArgs } from "node:util";
 
 import { CLOUDS } from "./clouds.js";
@@ -26,7 +26,7 @@ WHAT, by default --speed and --workers:
 
 const SECTIONS = ["speed", "workers", "linear", "adapter", "memory", "page", "soak", "fidelity"] as const;
 type Section = (typeof SECTIONS)[number];
-/** Those that "all" leaves out. */
+/** The sections that "all" leaves out. */
 const ALONE = new Set<Section>(["page", "soak"]);
 
 export interface BenchOptions {

@@ -1,4 +1,4 @@
-// Where things are, and how other programs are asked.
+// The paths of files, and how other programs are run.
 import { spawnSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -21,7 +21,7 @@ export function scratch(name: string): string {
 
 export type Precision = "f32" | "f64";
 
-/** What a file for other programs needs of a cloud. */
+/** The part of a cloud that a file for other programs needs. */
 interface Named {
   name: string;
   positions: Float32Array | Float64Array;
@@ -36,7 +36,7 @@ export function writeCloud(cloud: Named): [file: string, precision: Precision] {
   return [file, precision];
 }
 
-/** What `writeCloud` wrote. */
+/** Reads a file that `writeCloud` wrote. */
 export function readCloud(file: string): Float32Array | Float64Array {
   const { buffer } = new Uint8Array(readFileSync(file));
   return file.endsWith(".f32") ? new Float32Array(buffer) : new Float64Array(buffer);
@@ -44,7 +44,7 @@ export function readCloud(file: string): Float32Array | Float64Array {
 
 const LARGEST_OUTPUT = 2 ** 28;
 
-/** What a program prints, or undefined where it was stopped after `timeout` milliseconds. */
+/** The output of a program, or undefined if it was stopped after `timeout` milliseconds. */
 export function ask(
   command: string,
   args: string[],

@@ -11,7 +11,7 @@ import type { Point } from "./measure.js";
 import { ask, program, root, scratch, writeCloud } from "./paths.js";
 import { withPython } from "./python.js";
 
-/** One answer of the library, for peers to be compared with. */
+/** One answer of the library, to compare the peers with. */
 export interface View {
   cloud: Cloud;
   exponent: number;
@@ -22,9 +22,9 @@ export interface View {
 
 export interface PeerResult {
   peer: string;
-  /** Of each run; undefined where the first was stopped. */
+  /** Milliseconds of each run; undefined if the first run was stopped. */
   milliseconds: number[] | undefined;
-  /** How many labels it has otherwise than the library. */
+  /** How many points have another label than in the library's answer. */
   differing: number;
 }
 
@@ -32,20 +32,20 @@ export interface Peer {
   name: string;
   version: string;
   takes: (cloud: Cloud) => boolean;
-  /** Prints milliseconds as JSON and writes the hull's vertices; undefined where it was stopped. */
+  /** Prints milliseconds as JSON and writes the hull's vertices; undefined if it was stopped. */
   run(view: View, out: string): string | undefined;
-  /** Whether it flips exactly as the library does, so that the definition decides. */
+  /** Whether it flips exactly as the library does. If so, the definition decides differences. */
   sameFlip: boolean;
 }
 
 /** A peer that has not finished by then is stopped. */
 export const PEER_LIMIT_MS = 120_000;
-/** Differing labels that are looked at one by one; the others are taken to be like them. */
+/** How many differing labels are checked one by one. The others are assumed to be like them. */
 const JUDGED = 100;
-/** What may differ where a peer flips with other roundings, as a share of all points. */
+/** The share of all points that may differ if a peer rounds its flips differently. */
 const OTHER_ROUNDING = 1e-3;
 
-/** The hulls of JavaScript, and with `python` those of SciPy and Open3D. */
+/** The hulls of JavaScript libraries, and with `python` also SciPy and Open3D. */
 export function peers(python: boolean): Peer[] {
   return [
     javascriptPeer("three", "three.js"),
@@ -81,7 +81,7 @@ function judge(peer: Peer, view: View, vertices: Uint32Array): number {
   throw new WrongAnswer(`${where} is right about the points ${mistakes.join(", ")}, and the library is wrong`);
 }
 
-/** Points with another label here than there, where equal points share one. */
+/** Points with another label in one answer than in the other. Equal points share a label. */
 function differences(q: Float64Array, visible: Uint32Array, vertices: Uint32Array): number[] {
   const count = q.length / 3;
   const key = (i: number): string => `${q[3 * i]!},${q[3 * i + 1]!},${q[3 * i + 2]!}`;
@@ -98,7 +98,7 @@ function differences(q: Float64Array, visible: Uint32Array, vertices: Uint32Arra
   return Array.from(ours.keys()).filter((i) => ours[i] !== theirs[i]);
 }
 
-/** The JavaScript hulls take seconds where the library takes milliseconds: the dragon is enough. */
+/** The JavaScript hulls take seconds, the library takes milliseconds. So the dragon is the largest cloud for them. */
 function javascriptPeer(library: string, name: string): Peer {
   const file = join(root, "node_modules", library, "package.json");
   return {

@@ -1,11 +1,12 @@
-// What is in array buffers, here or, imported by a worker before its own script, there.
+// Counts the bytes in array buffers of this thread. A worker that imports this file before its
+// own script counts the bytes of its own thread.
 import { setFlagsFromString } from "node:v8";
 import { runInNewContext } from "node:vm";
 import { BroadcastChannel, isMainThread } from "node:worker_threads";
 
 export const PROBE = new URL(import.meta.url);
 
-/** What is said on the channel named as this file. */
+/** The messages on the channel that has this file's name. */
 export interface Probed {
   question: { collect: boolean };
   answer: number;
@@ -14,16 +15,16 @@ export interface Probed {
 setFlagsFromString("--expose-gc");
 const collect = runInNewContext("gc") as () => void;
 
-/** Bytes. Those that another thread has allocated are external here. */
+/** Bytes. Memory that another thread has allocated counts as external here. */
 export function buffers(): number {
   const { external, arrayBuffers } = process.memoryUsage();
   return isMainThread ? external : arrayBuffers;
 }
 
-/** The same when nothing is left that nobody needs. */
+/** The same after garbage collection. */
 export function collected(): number {
   collect();
-  // What the first has found may still be being given back.
+  // The memory that the first collection found may not be free yet.
   collect();
   return buffers();
 }

@@ -1,4 +1,4 @@
-// Python packages for the peers, installed into target/ where the system has none.
+// Python packages for the peers. They are installed into target/ if the system does not have them.
 import { existsSync, rmSync } from "node:fs";
 import { spawnSync } from "node:child_process";
 import { join } from "node:path";
@@ -11,8 +11,8 @@ export interface Python {
 }
 
 /**
- * A Python that can import a module, and the module's version. Where it cannot, the
- * first of `packages` that pip can install goes into a directory of its own.
+ * A Python that can import a module, and the module's version. If it cannot import it, pip
+ * installs the first of `packages` that it can into a directory of its own.
  */
 export function withPython(module: string, packages: string[]): Python | undefined {
   const local = join(root, "target", `bench-${module}`);

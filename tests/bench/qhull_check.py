@@ -7,10 +7,10 @@
 Reads the dragon from node_modules (`npm ci --ignore-scripts`) and the bunny (36k)
 from $HPR_SHARED/clouds (default ../shared); asks the core through
 `cargo run --release --example visible`. At exponents 2, 3 and 4, from 3 viewpoints
-outside and 1 inside, the visible sets must be equal; points that flip together
-share one answer. Qhull decides within a tolerance, so every point the two disagree
-on is decided by the definition in rational arithmetic. Ends with status 1 if the
-core is wrong anywhere.
+outside and 1 inside, the visible sets must be equal. Points that flip to one place
+share one answer. Qhull decides within a tolerance. Where Qhull and the core differ, the
+definition decides in rational arithmetic. Ends with status 1 if the core is wrong
+anywhere.
 """
 
 import gzip
@@ -47,7 +47,7 @@ def bunny():
 
 
 def flip(points, viewpoint, exponent):
-    """The fixed sequence of operations; numpy rounds each and fuses none."""
+    """The fixed sequence of operations. numpy rounds each one and fuses none."""
     v = points.astype(np.float64) - viewpoint
     x, y, z = v.T
     d = np.sqrt((x * x + y * y) + z * z)
@@ -56,7 +56,7 @@ def flip(points, viewpoint, exponent):
 
 
 def qhull(q):
-    """Hull vertices of q and the origin; Qt triangulates, nothing is joggled."""
+    """Hull vertices of q and the origin. Qt triangulates; no point is joggled."""
     distinct, inverse = np.unique(q, axis=0, return_inverse=True)
     hull = ConvexHull(np.vstack([distinct, np.zeros(3)]), qhull_options="Qt Q12")
     visible = np.zeros(len(distinct) + 1, bool)
@@ -102,7 +102,7 @@ def defined(q, p):
     start = face
     while height(face, p) >= 0:
         m = np.linalg.solve(q[list(face)], np.ones(3))
-        # Far outside the error of f64 for any face this walk meets; nearer ones exactly.
+        # This is far outside the error of f64 for any face of this walk. Nearer points are decided exactly.
         above = q @ m - 1
         near = np.flatnonzero(above > -1e-6)
         beyond = (int(i) for i in near[np.argsort(-above[near])] if i not in face)

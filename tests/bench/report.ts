@@ -1,14 +1,14 @@
-// Tables as Markdown: on the screen, or in RESULTS.md.
+// Tables as Markdown, for the screen or for RESULTS.md.
 export type Row = Record<string, string | number>;
 
 export interface Table {
   title: string;
-  /** What its columns mean; empty where a table before it has said so. */
+  /** Explains the columns. Empty if an earlier table has explained them. */
   note: string;
   rows: Row[];
 }
 
-/** Nothing for a table without rows; a cell that a row has not is empty. */
+/** Nothing for a table without rows. A missing cell stays empty. */
 export function markdown({ title, note, rows }: Table): string {
   if (rows.length === 0) return "";
   const columns = [...new Set(rows.flatMap((row) => Object.keys(row)))];
@@ -35,7 +35,7 @@ export function median(values: number[]): number {
   return quantile(values, 0.5);
 }
 
-/** The value that this share of them are below. */
+/** The value below which this share of the numbers lies. */
 export function quantile(values: number[], share: number): number {
   const sorted = values.toSorted((a, b) => a - b);
   return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] ?? NaN;

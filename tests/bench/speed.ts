@@ -1,4 +1,4 @@
-// How long a query takes: cold, moving, and beside the hulls of other libraries.
+// The time of a query: cold, moving, and compared with the hulls of other libraries.
 import { PointCloud } from "hidden-point-removal";
 
 import { checkAnswers, WrongAnswer } from "./check.js";
@@ -36,8 +36,8 @@ export async function timeQueries(clouds: Iterable<Cloud>, engines: Engine[], pe
 }
 
 const COLD =
-  "Median milliseconds of one query on one core, after the cloud was looked at from the other side, so that nothing of " +
-  "the last view helps; building (in Node) is not part of it. Seen from 2.5 bounding radii, the room from inside. All engines gave the same visible set and radius, " +
+  "Median milliseconds of one query on one core, after a view from the other side, so that nothing of " +
+  "the last view helps. Building (in Node) is not counted. The viewpoint is 2.5 bounding radii away; for the room it is inside. All engines gave the same visible set and radius, " +
   "to the bit.";
 const MOVING =
   "Median milliseconds of a query one step (so many degrees, seen from the cloud's center) after the last one, " +
@@ -45,7 +45,7 @@ const MOVING =
 const PEERS =
   "Milliseconds of the hull alone (Open3D flips by itself and returns a mesh), and how many times longer that takes than " +
   "the whole cold query, flip included. The last column counts labels that differ: exact arithmetic decided for this " +
-  "library each time, except for Open3D, which rounds its flips otherwise and so may answer otherwise. " +
+  "library each time. Open3D is the exception: it rounds its flips differently, so its answers may differ. " +
   `A peer is stopped after ${PEER_LIMIT_MS / 1000} s.`;
 
 /** The outcomes of all engines that take the cloud, checked against each other. */
@@ -89,12 +89,12 @@ function movingRow(cloud: Cloud, { exponent }: Task, engine: string, { paths }: 
   return row;
 }
 
-/** The answer itself, made sure to be the one that was timed. */
+/** The answer itself. It must be equal to the timed answer. */
 function viewOf(cloud: Cloud, { exponent, viewpoint }: Task, timed: Outcome): View {
   const points = new PointCloud(cloud.positions);
   const { indices, radius } = points.visibleFrom(viewpoint, { exponent });
   points.dispose();
-  if (digestOf(indices) !== timed.digest) throw new WrongAnswer(`${cloud.name}: asked again, the answer is another`);
+  if (digestOf(indices) !== timed.digest) throw new WrongAnswer(`${cloud.name}: the same question got another answer`);
   return { cloud, exponent, viewpoint, radius, indices };
 }
 

@@ -1,7 +1,7 @@
-// The viewpoints, by one rule for all clouds: on a sphere around the center of the
-// cloud's box, the first in the direction (0.36, 0.48, 0.8); from there a motion
-// follows a great circle, so that a step of so many degrees is just that, seen from
-// the center. How large the sphere is says the cloud.
+// The viewpoints, by one rule for all clouds. They lie on a sphere around the center of the
+// cloud's box. The first lies in the direction (0.36, 0.48, 0.8). From there a motion follows
+// a great circle, so that its steps are angles seen from the center. Each cloud has its own
+// radius of the sphere.
 import type { Cloud } from "./clouds.js";
 import type { Point, Task } from "./measure.js";
 
@@ -10,12 +10,12 @@ export const EXPONENTS = [2, 3, 4];
 export const STEPS = [0.2, 1, 3, 10];
 
 const FROM: Point = [0.36, 0.48, 0.8];
-/** At a right angle to it, level. */
+/** The horizontal direction at a right angle to it. */
 const TOWARDS: Point = [0.8 / Math.hypot(0.8, 0.36), 0, -0.36 / Math.hypot(0.8, 0.36)];
 
 const LARGE = 1_000_000;
 
-/** What every engine is asked about a cloud; less of a large one, to end some day. */
+/** The queries of every engine about a cloud. A large cloud gets fewer, to limit the time. */
 export function tasksFor(cloud: Cloud): Task[] {
   const large = cloud.positions.length / 3 >= LARGE;
   const at = orbit(cloud);
@@ -32,7 +32,7 @@ export function tasksFor(cloud: Cloud): Task[] {
   });
 }
 
-/** The viewpoint so many degrees along the motion. */
+/** The viewpoint after this many degrees of the motion. */
 export function orbit(cloud: Cloud): (degrees: number) => Point {
   const { center, radius } = bounds(cloud);
   return (degrees) => {

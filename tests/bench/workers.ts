@@ -13,7 +13,7 @@ const RUNS = 5;
 const WORKERS = [1, 2];
 const STEP = 1;
 
-/** Undefined, with a message, where the package has one worker for each cloud. */
+/** Undefined, with a message, if the package has only one worker for each cloud. */
 export async function timeWorkers(): Promise<Table | undefined> {
   if (!(await hasWorkers())) {
     console.error("Left out: several workers, which the package does not have.");
@@ -35,7 +35,8 @@ export async function timeWorkers(): Promise<Table | undefined> {
       cold.push(answers[0]!.milliseconds);
       moving.push(...answers.slice(1).map(({ milliseconds }) => milliseconds));
       const same = answers.every(({ digest }, view) => digest === expected[view]);
-      if (!same) throw new WrongAnswer(`${name}: ${workers} worker(s) answer otherwise than the package without`);
+      if (!same)
+        throw new WrongAnswer(`${name}: ${workers} worker(s) give another answer than the package without workers`);
       await cloud.dispose();
     }
     const [one] = rows;
@@ -80,7 +81,7 @@ async function query(cloud: WorkerPointCloud, view: Point): Promise<{ millisecon
   return { milliseconds: performance.now() - start, digest: digestOf(indices) };
 }
 
-/** One after another, as a moving camera asks. */
+/** Asks one view after another, as a moving camera does. */
 async function inTurn<T, R>(items: T[], ask: (item: T) => Promise<R>): Promise<R[]> {
   const results: R[] = [];
   for (const item of items) results.push(await ask(item));

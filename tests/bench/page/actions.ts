@@ -1,4 +1,4 @@
-// What else one does on the page, and how long that holds its thread.
+// Other actions on the page, and how long each blocks the page's thread.
 import { writeFileSync } from "node:fs";
 
 import type { Browser, Page } from "playwright-core";
@@ -132,11 +132,11 @@ export async function timeActions(browser: Browser, address: string): Promise<Ta
   }
   await context.close();
   const note =
-    "The dragon (437,645 points) unless it says otherwise, one after another in one page. Milliseconds of CPU time of the page's main thread; of the longest task also what was JavaScript and how long it lasted by the clock, waiting for the graphics process (software, here) and for a core included.";
-  return { title: "What holds the page's thread", note, rows };
+    "The dragon (437,645 points), unless the action names another cloud. The actions follow one another in one page. Milliseconds of CPU time of the page's main thread. For the longest task also: the JavaScript in it, and its wall-clock time, which includes waiting for the graphics process (software, here) and for a core.";
+  return { title: "What blocks the page's thread", note, rows };
 }
 
-/** The dragon with what a scan has besides: colors, two numbers and a class for each point. */
+/** The dragon with the other data of a scan: colors, two numbers and a class for each point. */
 function scan(): Buffer {
   const { positions } = dragon("dragon");
   const count = positions.length / 3;
@@ -154,7 +154,7 @@ function scan(): Buffer {
   );
 }
 
-/** Until nothing has happened for a while: address, sentence and what rests have their timers. */
+/** Waits until nothing has happened for a while. The address, the sentence and the resting camera have timers. */
 async function calm(page: Page): Promise<void> {
   await upToDate(page);
   await page.waitForTimeout(1000);
@@ -171,7 +171,7 @@ async function opened(page: Page, action: () => Promise<unknown>): Promise<void>
   await calm(page);
 }
 
-/** Also where it is folded away. */
+/** Presses a control, even in a folded section. */
 async function press(page: Page, selector: string): Promise<void> {
   await page
     .locator(selector)

@@ -1,4 +1,4 @@
-// How long it takes from the navigation to the first picture.
+// The time from the navigation to the first picture.
 import type { Browser, BrowserContext } from "playwright-core";
 
 import { median, type Row, type Table } from "../report.js";
@@ -18,7 +18,7 @@ export async function timeOpening(browser: Browser, address: string): Promise<Ta
     console.error(`${cloud}: opening…`);
     const [cold, warm]: Visit[][] = [[], []];
     for (let i = 0; i < VISITS; i++) {
-      // A context of its own has nothing cached; in the same one the second visit has all.
+      // A new context has an empty cache. The second visit in the same context finds everything in it.
       const context = await newContext(browser);
       cold!.push(await visit(context, address + query));
       warm!.push(await visit(context, address + query));

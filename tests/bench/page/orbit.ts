@@ -24,14 +24,14 @@ export async function timeOrbit(browser: Browser, address: string): Promise<Tabl
   const answers: Row[] = [];
   for (const drawing of [false, true]) {
     for (const [picture, query] of Object.entries(PICTURES)) {
-      // By software once is enough to see what that does.
+      // One picture drawn by software is enough to see the difference.
       if (drawing && picture !== FIRST) continue;
       console.error(`dragon, ${picture}: orbiting…`);
       const context = await newContext(browser);
       const page = await watchedPage(context, drawing);
       await page.goto(address + query);
       await ready(page);
-      // Once around for what is compiled and made at the first move.
+      // The first turn is not measured: it compiles code and makes objects.
       await orbit(page, 1);
       const from = await page.evaluate(() => performance.now());
       const { tasks, frames } = await traced(browser, page, () => orbit(page, SECONDS));
@@ -61,8 +61,8 @@ export async function timeOrbit(browser: Browser, address: string): Promise<Tabl
     {
       title: "The page's thread in an orbit",
       note:
-        `The dragon (437,645 points) turned by the mouse for ${SECONDS} seconds; every frame asks for its viewpoint. Milliseconds of CPU time of the page's main thread, by the browser's trace: of JavaScript (garbage collection with it) ` +
-        "from one frame to the next, of JavaScript in one task, and of the longest task whatever it did. The draw calls are left out, as if a graphics card took them at once; the last row has them, drawn by software.",
+        `The mouse turns the dragon (437,645 points) for ${SECONDS} seconds. Every frame asks for its viewpoint. Milliseconds of CPU time of the page's main thread, by the browser's trace: of JavaScript (with garbage collection) ` +
+        "from one frame to the next, of JavaScript in one task, and of the longest task of any kind. The draw calls are left out, as if a graphics card took them at once. Only the last row includes them, drawn by software.",
       rows: threads,
     },
     {
@@ -88,7 +88,7 @@ async function orbit(page: Page, seconds: number): Promise<void> {
   await upToDate(page);
 }
 
-/** What ran from the beginning of each frame to that of the next. */
+/** The tasks between the beginning of each frame and the beginning of the next. */
 function perFrame(tasks: { start: number; script: number }[], frames: number[]): number[] {
   const sums = frames.map(() => 0);
   let frame = -1;

@@ -1,4 +1,4 @@
-// The built page as its user has it: how soon there is a picture, what holds its thread, what it holds.
+// The built page as a user sees it: the time to the first picture, the tasks that block its thread, and its memory.
 import { servePage, launchBrowser } from "../../browser/site.js";
 import type { Table } from "../report.js";
 import { timeActions } from "./actions.js";
@@ -7,14 +7,14 @@ import { timeOrbit } from "./orbit.js";
 import { soak } from "./soak.js";
 
 export interface PageMeasured {
-  /** Of the browser, and what it draws with. */
+  /** The version of the browser, and its renderer. */
   chromium: string;
   page: Table[];
   soak: Table[];
 }
 
 export async function measurePage(wanted: { page: boolean; soak: boolean }): Promise<PageMeasured> {
-  // As a host does that keeps files a while: the second visit asks for nothing.
+  // Served like a host with long caching: the second visit requests nothing.
   const site = await servePage(new Map(), { "cache-control": "max-age=3600" });
   const browser = await launchBrowser();
   try {

@@ -1,4 +1,4 @@
-// What the page holds after many answers and many clouds.
+// The memory and objects of the page after many answers and many clouds.
 import type { Browser, CDPSession, Page } from "playwright-core";
 
 import { type Holdings, holdingsOf, memoryOf } from "../../browser/holdings.js";
@@ -7,14 +7,14 @@ import { answered, newContext, ready, upToDate, watchedPage } from "./visit.js";
 
 const FIRST = 36;
 const ANSWERS = 200;
-/** To the room and back. */
+/** Opens the room and then the dragon again. */
 const CHANGES = 20;
 const EVERY = { answers: 50, changes: 5 };
 const MB = 1e6;
 
 export async function soak(browser: Browser, address: string): Promise<Table> {
   const context = await newContext(browser);
-  // Drawing by software would take most of the time and holds nothing.
+  // Drawing by software would take most of the time and keeps no memory.
   const page = await watchedPage(context, false);
   await page.goto(`${address}?sample=dragon`);
   await ready(page);
@@ -24,7 +24,7 @@ export async function soak(browser: Browser, address: string): Promise<Table> {
     rows.push({ after, ...(await holds(page)) });
   };
 
-  // Once around before anything counts: what is made at first use is there then.
+  // One round before anything counts, so that objects made at first use exist.
   for (let i = 0; i < FIRST; i++) await step(page);
   await change(page, "room");
   await change(page, "dragon");
@@ -79,7 +79,7 @@ async function holds(page: Page): Promise<Row> {
   };
 }
 
-/** The WebAssembly memory of all workers of the page, asked of each by the debugger. */
+/** The WebAssembly memory of all workers of the page. The debugger asks each worker. */
 async function wasmOf(page: Page): Promise<number> {
   const session = await page.context().newCDPSession(page);
   const found: string[] = [];
@@ -107,7 +107,7 @@ interface Reply {
   objects: { objectId: string };
 }
 
-/** A command for a worker that is attached to through its page. */
+/** Sends a command to a worker through its page's session. */
 function send(session: CDPSession, worker: string, method: string, params: object): Promise<Reply> {
   const id = Math.floor(Math.random() * 1e9);
   return new Promise((resolve, reject) => {

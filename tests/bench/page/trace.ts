@@ -1,15 +1,15 @@
-// What the page's own thread does, by Chromium's trace of it.
+// The tasks of the page's own thread, from Chromium's trace.
 import type { Browser, Page } from "playwright-core";
 
-/** One turn of the thread: nothing else, no input and no frame, gets between its parts. In milliseconds. */
+/** One task of the thread, in milliseconds. No input and no frame comes between its parts. */
 export interface Task {
   start: number;
   wall: number;
-  /** What the thread itself computed; waiting for other threads, for the graphics process or for its core is not in it. */
+  /** CPU time of the thread itself, without waiting for other threads, the graphics process or a core. */
   cpu: number;
-  /** What of that ran in JavaScript. */
+  /** The part of it in JavaScript. */
   script: number;
-  /** What it was for, in the words of the trace. */
+  /** The purpose, in the words of the trace. */
   what: string;
 }
 
@@ -38,7 +38,7 @@ const CATEGORIES = [
   "v8.execute",
   "blink.user_timing",
 ];
-/** JavaScript that the thread begins to run, whatever for. */
+/** Events at which the thread begins to run JavaScript. */
 const SCRIPT = new Set([
   "FunctionCall",
   "EvaluateScript",
@@ -86,7 +86,7 @@ function read(events: Event[]): Trace {
   };
 }
 
-/** The browser has other pages' threads, too; none of them draws frames. */
+/** The thread that draws frames. The browser has threads of other pages, too, but they draw none. */
 function ofThePage(events: Event[]): Event[] {
   const threads = events.filter(({ name, args }) => name === "thread_name" && args.name === "CrRendererMain");
   const all = threads.map((thread) => events.filter(({ pid, tid }) => pid === thread.pid && tid === thread.tid));
@@ -99,7 +99,7 @@ function taskOf(task: Event, inside: Event[]): Task {
   let script = 0;
   let until = -Infinity;
   for (const part of inside) {
-    // Only the outermost: what runs within is part of it.
+    // Only the outermost event counts. It includes the events inside it.
     if (!SCRIPT.has(part.name) || part.ts < until) continue;
     until = part.ts + (part.dur ?? 0);
     script += part.tdur ?? part.dur ?? 0;

@@ -7,16 +7,16 @@ export const SIZE = { width: 1280, height: 800 };
 const LONGEST_WAIT = 120_000;
 
 export interface Watched {
-  /** When the first frame that shows an answer had been handed over, in milliseconds since the navigation. */
+  /** When the first frame with an answer was handed over, in milliseconds since the navigation. */
   firstPicture?: number;
-  /** By viewpoint: when it was asked, and when its answer was told; to the answer's frame it is the page's own time. */
+  /** For each viewpoint: when it was asked, and when the page got its answer. The frame of the answer follows later. */
   asked: Record<string, number>;
   answered: { viewpoint: string; at: number }[];
 }
 
 type Watching = typeof globalThis & { watched: Watched };
 
-/** A page that will watch itself from its first moment on. Its draw calls can be left out, where software draws. */
+/** A page that records its own times from the beginning. Its draw calls can be left out, if software would draw. */
 export async function watchedPage(context: BrowserContext, drawing = true): Promise<Page> {
   const page = await context.newPage();
   await countHoldings(page);
@@ -60,12 +60,12 @@ export async function ready(page: Page): Promise<void> {
   await upToDate(page);
 }
 
-/** Until the picture is that of the present settings and camera. */
+/** Waits until the picture shows the present settings and camera. */
 export async function upToDate(page: Page): Promise<void> {
   await page.locator('#status[data-busy="0"]').waitFor({ state: "attached", timeout: LONGEST_WAIT });
 }
 
-/** Until something has been answered that was asked after this is called, and all else with it. */
+/** Waits for the answer to a question that is asked after this call, and for all other questions. */
 export async function answered(page: Page, action: () => Promise<unknown>): Promise<void> {
   const before = await page.locator("#status").getAttribute("data-refilters");
   await action();
