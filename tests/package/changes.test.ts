@@ -11,7 +11,7 @@ const viewpoints = [
   [0.1, 0.2, -0.1],
 ];
 
-/** Every answer is that of a cloud of those of the points that are `present`. */
+/** Every answer equals the answer of a new cloud of the `present` points. */
 function expectAsFresh(cloud: InstanceType<typeof PointCloud>, points: Float32Array, present: number[]) {
   const fresh = new PointCloud(pointsAt(points, present));
   for (const viewpoint of viewpoints) {
@@ -24,11 +24,11 @@ function expectAsFresh(cloud: InstanceType<typeof PointCloud>, points: Float32Ar
   fresh.dispose();
 }
 
-describe("a cloud that is appended to and removed from", () => {
+describe("a cloud after append() and remove()", () => {
   it.each([
     ["a bumpy sphere", sphere],
     ["the bunny", bunny()],
-  ])("answers as one that was built so: %s", (_, points) => {
+  ])("answers as a new cloud of the same points: %s", (_, points) => {
     const random = randomNumbers(7);
     const total = points.length / 3;
     let length = Math.floor(total / 3);
@@ -50,7 +50,7 @@ describe("a cloud that is appended to and removed from", () => {
     }
   });
 
-  it("reads what is appended as the constructor does", () => {
+  it("reads appended points as the constructor does", () => {
     const points = sphere.subarray(0, 300);
     const padded = Float32Array.from({ length: 400 }, (_, i) =>
       i % 4 === 3 ? NaN : points[Math.floor(i / 4) * 3 + (i % 4)]!,
@@ -69,7 +69,7 @@ describe("a cloud that is appended to and removed from", () => {
     expect([...skipping.visibleFrom([0, 0, 5]).mask()]).toEqual([0, 0, 1, 0]);
   });
 
-  it("takes indices in any list of integers, and those of removed points again", () => {
+  it("takes indices in any list of integers, and accepts the indices of removed points again", () => {
     const cloud = new PointCloud([0, 0, 1, 0, 0, 2, 0, 0, 3, 0, 0, 4, 1, 1, 1]);
     const seen = () => [...cloud.visibleFrom([0, 0, 5]).indices];
     const removals: [ArrayLike<number>, number[]][] = [

@@ -1,4 +1,4 @@
-// What the command reads from and writes to: pipes, devices, links; and how it ends when it is stopped.
+// The command with pipes, devices and links as input and output, and its end when it is stopped.
 import { type ChildProcess, spawn, spawnSync } from "node:child_process";
 import { once } from "node:events";
 import {
@@ -31,7 +31,7 @@ beforeAll(() => {
   writeFileSync(inScratch("in.xyz"), "0 0 1\n0 0 2\n");
 });
 
-/** A command that waits for ever is a failure, not a hang. */
+/** A command that waits for ever fails by the time limit; the test does not hang. */
 function run(...args: string[]) {
   const { stderr, status } = spawnSync(process.execPath, [COMMAND, ...args], { cwd: scratch, timeout: 60_000 });
   return { stderr: stderr.toString(), status };
@@ -42,8 +42,8 @@ const made = (command: string, ...args: string[]) => spawnSync(command, args, { 
 const leftovers = () => readdirSync(scratch).filter((name) => name.endsWith(".part"));
 const isUnix = process.platform !== "win32";
 
-describe.runIf(isUnix)("what is no regular file", () => {
-  it("a FIFO is not read, and nobody waits for it", () => {
+describe.runIf(isUnix)("a path that is not a regular file", () => {
+  it("a FIFO is not read, and the command does not wait for it", () => {
     expect(made("mkfifo", "pipe-in.xyz")).toBe(true);
     const { stderr, status } = toFile("out.xyz", "pipe-in.xyz");
     expect([status, stderr]).toEqual([
@@ -75,7 +75,7 @@ describe.runIf(isUnix)("what is no regular file", () => {
   });
 
   it("a device is written to, and stays", ({ skip }) => {
-    // The numbers of the null device, under a name of our own: only root may make it, and not everywhere.
+    // A second null device. Only root may make it, and not on every system.
     if (!made("mknod", "null.xyz", "c", "1", "3")) skip();
     try {
       closeSync(openSync(inScratch("null.xyz"), "r+"));
@@ -100,13 +100,13 @@ describe.runIf(isUnix)("what is no regular file", () => {
   });
 
   it("a disk is not written to", ({ skip }) => {
-    // A number of no disk: to open it would fail.
+    // No disk has this number, so opening it would fail.
     if (!made("mknod", "disk.xyz", "b", "240", "250")) skip();
     expect(toFile("disk.xyz").stderr).toBe("hidden-point-removal: disk.xyz cannot be written: it is a disk\n");
     expect(lstatSync(inScratch("disk.xyz")).isBlockDevice()).toBe(true);
   });
 
-  it("a link to a file that is not there yet makes that file", () => {
+  it("a link to a missing file makes that file", () => {
     mkdirSync(inScratch("folder"));
     symlinkSync("folder/new.xyz", inScratch("dangling.xyz"));
     symlinkSync("dangling.xyz", inScratch("twice.xyz"));
@@ -116,7 +116,7 @@ describe.runIf(isUnix)("what is no regular file", () => {
     expect(readFileSync(inScratch("folder/new.xyz"), "utf8")).toBe("0 0 2\n");
   });
 
-  it("links that lead nowhere are told, and stay", () => {
+  it("links that lead nowhere are refused, and stay", () => {
     symlinkSync("round.xyz", inScratch("round.xyz"));
     symlinkSync("missing/new.xyz", inScratch("astray.xyz"));
     expect(toFile("round.xyz").stderr).toMatch(/round\.xyz cannot be written: its links lead to one another/);
@@ -128,7 +128,7 @@ describe.runIf(isUnix)("what is no regular file", () => {
     expect(leftovers()).toEqual([]);
   });
 
-  it("a directory is told to be one", () => {
+  it("a directory is refused with a message that says so", () => {
     mkdirSync(inScratch("directory.xyz"));
     expect(toFile("directory.xyz").stderr).toBe(
       "hidden-point-removal: directory.xyz cannot be written: it is a directory\n",
@@ -156,7 +156,7 @@ describe.runIf(isUnix)("a command that is stopped", () => {
   it.each(["SIGINT", "SIGTERM", "SIGHUP"] as const)("leaves nothing behind after %s", async (signal) => {
     writeLarge();
     let hit = 0;
-    // The file is there for some milliseconds: some tries come too late.
+    // The file exists for some milliseconds only. Some tries come too late.
     for (let tries = 0; tries < 20 && hit === 0; tries++) {
       rmSync(inScratch("stopped.xyz"), { force: true });
       const child = spawn(process.execPath, [COMMAND, "large.xyz", "--from", "0,0,500", "-o", "stopped.xyz"], {

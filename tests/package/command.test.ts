@@ -76,7 +76,7 @@ const plyHeader = (format: string, count: number, faces = "") =>
   `ply\r\nformat ${format} 1.0\r\ncomment made by hand, caf\xe9\r\nelement vertex ${count}\r\n${PROPERTIES}${faces}end_header\r\n`;
 const FACES = "element face 1\r\nproperty list uchar int vertex_indices\r\n";
 
-describe("PLY files keep every byte of what is visible", () => {
+describe("PLY files keep every byte of the visible points", () => {
   it.each([
     ["binary_little_endian", true],
     ["binary_big_endian", false],
@@ -133,11 +133,11 @@ describe("PLY files keep every byte of what is visible", () => {
 const pcdHeader = (data: string, count: number, width = `WIDTH ${count}\nHEIGHT 1\n`) =>
   `# .PCD v0.7\nVERSION 0.7\nFIELDS quality x y z time\nSIZE 1 4 4 4 8\nTYPE U F F F F\nCOUNT 1 1 1 1 1\n${width}VIEWPOINT 1 2 3 1 0 0 0\nPOINTS ${count}\nDATA ${data}\n`;
 
-describe("PCD files keep every byte of what is visible", () => {
+describe("PCD files keep every byte of the visible points", () => {
   const records = every((i) => binaryRecord(i, true));
   const expected = (data: string) => bytes(pcdHeader(data, visible.length), ...visible.map((i) => records[i]!));
 
-  it("binary, also where it was an image", () => {
+  it("binary, also if the file was an image", () => {
     const written = filtered(
       "binary.pcd",
       bytes(pcdHeader("binary", COUNT, `WIDTH ${COUNT / 40}\nHEIGHT 40\n`), ...records),
@@ -155,7 +155,7 @@ describe("PCD files keep every byte of what is visible", () => {
     sizes.writeUInt32LE(packed.length, 0);
     sizes.writeUInt32LE(columns.length, 4);
     const file = bytes(pcdHeader("binary_compressed", COUNT), sizes, packed);
-    // What is given is what others take for such a file.
+    // The file is one that other programs accept.
     const geometry = new PCDLoader().parse(new Uint8Array(file).buffer).geometry;
     expect([...geometry.getAttribute("position").array]).toEqual([...sphere]);
     expect(packed.length).toBeLessThan(columns.length);
@@ -194,14 +194,14 @@ describe("tables keep their lines", () => {
     );
   });
 
-  it("and the number of points above them is the new one", () => {
+  it("and the number of points above them is the new number", () => {
     const lines = every((i) => `${at(i).join(" ")} 17\n`);
     const written = filtered("counted.pts", `${COUNT}\n${lines.join("")}`);
     expect(written.toString()).toBe(`${visible.length}\n${visible.map((i) => lines[i]!).join("")}`);
   });
 });
 
-describe("what is missing, wrong or not to be had", () => {
+describe("missing points, wrong files and wrong usage", () => {
   it("points without a position are never visible, and are counted", () => {
     writeFileSync(inScratch("holes.xyz"), "0 0 1\nnan nan nan\n1 0 0\n0 inf 2\n0 0 2\n");
     const { stdout, stderr, status } = run("holes.xyz", "--from", "0,0,5", "-o", "-");
@@ -283,7 +283,7 @@ describe("what is missing, wrong or not to be had", () => {
     expect(existsSync(inScratch(`out-${name}`))).toBe(false);
   });
 
-  it("a file or directory that is not there ends with 1", () => {
+  it("a missing file or directory ends with 1", () => {
     writeFileSync(inScratch("one.xyz"), "0 0 1\n");
     mkdirSync(inScratch("missing.d.xyz"));
     for (const [input, output] of [
@@ -308,13 +308,13 @@ describe("the rest", () => {
     expect(stdout.toString()).toMatch(/^Usage: hidden-point-removal IN --from/);
   });
 
-  it("a file may be replaced by what is visible of it", () => {
+  it("a file may be replaced by its visible points", () => {
     writeFileSync(inScratch("same.xyz"), "0 0 1\n0 0 2\n");
     expect(run("same.xyz", "--from=0,0,5", "--output", "same.xyz").status).toBe(0);
     expect(readFileSync(inScratch("same.xyz"), "utf8")).toBe("0 0 2\n");
   });
 
-  it("what a link leads to is replaced, and stays as private as it was", () => {
+  it("the target of a link is replaced, and stays as private as it was", () => {
     writeFileSync(inScratch("private.xyz"), "0 0 1\n0 0 2\n", { mode: 0o600 });
     symlinkSync("private.xyz", inScratch("link.xyz"));
     expect(run("link.xyz", "--from", "0,0,5", "-o", "link.xyz").status).toBe(0);
@@ -342,7 +342,7 @@ describe("the rest", () => {
   });
 });
 
-/** Packs by looking for what stood exactly 4 or 8 bytes before, which is enough for runs to repeat. */
+/** Packs runs that repeat the bytes 4 or 8 places earlier. */
 function lzf(data: Buffer): Buffer {
   const out: number[] = [];
   let literals: number[] = [];

@@ -1,4 +1,4 @@
-// Clouds in the plane, exact, and in four and more dimensions, to within a tolerance.
+// Clouds in the plane (exact), and in four and more dimensions (within a tolerance).
 import { describe, expect, it } from "vitest";
 
 import { problemOf, randomNumbers, readyPackage } from "./support";
@@ -6,7 +6,7 @@ import { problemOf, randomNumbers, readyPackage } from "./support";
 const { hiddenPointRemoval, PointCloud, HprError } = await readyPackage();
 const loose = (value: unknown) => value as never;
 
-/** The sign of a×b by the definition alone; far from 0 in these tests, or exactly 0. */
+/** The sign of a×b. In these tests a×b is far from 0, or exactly 0. */
 const cross = ([a, b]: number[], [c, d]: number[]) => a! * d! - b! * c!;
 
 /**
@@ -21,7 +21,7 @@ function visibleInPlane(points: number[][], viewpoint: number[], radius: number)
   });
   return points.flatMap((_, i) => {
     const q = flipped[i]!;
-    // How far an edge between two points, or to the viewpoint, is pierced along q.
+    // How far along q its ray crosses an edge between two points, or to the viewpoint.
     const hides = flipped.some((a, j) =>
       flipped.some((b, k) => {
         if (j === i || k === i || k < j) return false;
@@ -112,7 +112,7 @@ describe("a cloud of more dimensions", () => {
         expect(cloud).toHaveLength(300);
         const { indices, radius } = cloud.visibleFrom(viewpoint);
         expect(radius).toBeGreaterThan(50);
-        // What faces the viewer is convex, and so all visible; the far pole is not.
+        // The side that faces the viewer is convex, so all of it is visible. The far pole is not.
         const near = rows.flatMap((row, i) => (row.at(-1)! > 0.05 ? [i] : []));
         expect(near.every((i) => indices.includes(i))).toBe(true);
         expect(indices.length).toBeLessThan(300);
@@ -147,7 +147,7 @@ describe("a cloud of more dimensions", () => {
   });
 });
 
-describe("what is refused", () => {
+describe("refusals", () => {
   const plane = new PointCloud([0, 1, 2, 3], { dimension: 2 });
   const hyper = new PointCloud([0, 1, 2, 3], { dimension: 4 });
   const refusals: [code: string, names: RegExp, call: () => unknown][] = [

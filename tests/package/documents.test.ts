@@ -1,6 +1,6 @@
-// Every snippet of the README and of docs/ is run: those in JavaScript here (recipes.test.ts
-// has its own), those in Rust as documentation tests of the crate. Every command that a
-// document names is one of the project's, and every link leads to a file.
+// Every snippet of the README and of docs/ is run: JavaScript here and in recipes.test.ts,
+// Rust as documentation tests of the crate. Every command that a document names belongs to
+// the project, and every link leads to a file.
 import { spawnSync } from "node:child_process";
 import { existsSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
@@ -72,7 +72,7 @@ describe("commands", () => {
         "run",
         "--quiet",
         "--locked",
-        // As the native tests are compiled, which is quicker than for a release.
+        // Compiled like the native tests, because that is quicker than a release build.
         "--profile",
         "fuzz",
         "--manifest-path",

@@ -1,4 +1,4 @@
-// A page that runs all day: clouds come and go, memory runs out, and neither leaves a trace.
+// A page that runs all day: clouds come and go, and memory runs out. Neither leaves a trace.
 import { setFlagsFromString } from "node:v8";
 import { runInNewContext } from "node:vm";
 import { afterEach, describe, expect, it, vi } from "vitest";
@@ -12,7 +12,7 @@ afterEach(() => {
   vi.restoreAllMocks();
 });
 
-/** The package, and how many bytes its one instance has. */
+/** The package, and the bytes of its one instance. */
 async function measured() {
   const instantiate = vi.spyOn(WebAssembly, "instantiate");
   const hpr = await freshPackage();
@@ -50,7 +50,7 @@ describe("memory stays flat", () => {
 
   it("over 1,000 clouds in the worker they share", async () => {
     const hpr = await freshPackage();
-    // Room for the one that stays and a few more: what leaks is refused before long.
+    // Memory for the cloud that stays and a few more. A leak soon leads to a refusal.
     hpr.initSync(cappedWasm(120));
     const stays = await hpr.WorkerPointCloud.create(points, { shared: true });
     const { indices } = await stays.visibleFrom(farAway);
@@ -63,7 +63,7 @@ describe("memory stays flat", () => {
     await stays.dispose();
   });
 
-  it("in the shared worker also where clouds were only forgotten", async () => {
+  it("in the shared worker, also if clouds are forgotten and not disposed of", async () => {
     setFlagsFromString("--expose-gc");
     const collectGarbage = runInNewContext("gc") as () => void;
     const hpr = await freshPackage();

@@ -1,5 +1,5 @@
-// The download of each entry: bundled and minified, without the wasm, which
-// tests/package/size.test.ts weighs.
+// The download size of each entry: bundled and minified, without the wasm.
+// tests/package/size.test.ts limits the wasm.
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
 import { build } from "esbuild";
@@ -7,7 +7,7 @@ import { expect, it } from "vitest";
 
 import { wasmBytes } from "./support";
 
-/** A page that uses an adapter has these modules already. */
+/** A page that uses an adapter already has these modules. */
 const PEERS = ["three", "react", "react/*", "@react-three/fiber", "@deck.gl/*"];
 
 const gzipped = (bytes: Uint8Array) => gzipSync(bytes, { level: 9 }).length;
@@ -25,7 +25,7 @@ async function sizeOf(file: string): Promise<number> {
   return gzipped(outputFiles[0]!.contents);
 }
 
-// Following a camera in one room for all adapters costs each 500 bytes, and saves their worker 2,200.
+// The shared code that follows a camera costs each adapter 500 bytes, and saves their worker 2,200.
 // Looks and scores cost 500 bytes: two options, their refusals, and the scores of an answer.
 it.each([
   ["index.js", 10_400],
@@ -44,6 +44,6 @@ it.each([
 it("inline.js costs little more than the main entry and the wasm do", async () => {
   const [inline, index] = [await sizeOf("inline.js"), await sizeOf("index.js")];
   console.log(`inline.js: ${inline} bytes gzipped`);
-  // Base64 gives up a little of what gzip gains.
+  // Base64 loses a little of gzip's gain.
   expect(inline).toBeLessThan(1.05 * (index + gzipped(wasmBytes())));
 });

@@ -1,4 +1,4 @@
-// What the fidelity tables and the figures are measured with, on surfaces whose truth is plain geometry.
+// The tools behind the fidelity tables and the figures, tested on surfaces whose truth is plain geometry.
 import { init, PointCloud } from "hidden-point-removal";
 import { beforeAll, describe, expect, test } from "vitest";
 
@@ -30,20 +30,20 @@ function point(positions: ArrayLike<number>, i: number): Point {
 describe("rays", () => {
   const VIEWPOINT: Point = [1.5, -0.4, 2];
 
-  test("see of a ball what faces the viewpoint", () => {
+  test("see the side of a ball that faces the viewpoint", () => {
     const mesh = ball(120, 60);
     const seen = new RayTracer(mesh).visibleFrom(VIEWPOINT);
     const facing = Array.from(seen, (_, i) =>
       point(mesh.positions, i).reduce((sum, x, axis) => sum + x * VIEWPOINT[axis]!, -1),
     );
-    // A ball of flat faces has its silhouette a little elsewhere. At its poles many vertices are one place, each with faces of its own.
+    // The silhouette of a ball of flat faces is a little off. At its poles many vertices share a place, each with its own faces.
     const isPole = (i: number) => Math.abs(mesh.positions[3 * i + 2]!) > 0.999999;
     const sure = facing.flatMap((height, i) => (Math.abs(height) > 0.1 && !isPole(i) ? [i] : []));
     expect(sure.length).toBeGreaterThan(0.9 * seen.length);
     expect(sure.filter((i) => seen[i] !== (facing[i]! > 0 ? 1 : 0))).toEqual([]);
   });
 
-  test("see of a floor what the ball does not shade", () => {
+  test("see the part of a floor that the ball does not shade", () => {
     const mesh = joined([ball(120, 60), floor]);
     const onFloor = scatter(floor, 4000, 1);
     const seen = new RayTracer(mesh).visibleFrom(VIEWPOINT, {
@@ -125,7 +125,7 @@ describe("a ball seen from two places", () => {
     expect(scores.length).toBe(2 * METHODS.length);
     const automatic = scores.filter(({ method }) => method === AUTOMATIC.name);
     expect(automatic.every(({ total, ratio, hulls }) => total < 5 && ratio! < 2 && hulls === 1)).toBe(true);
-    // The best of so many exponents is at least as good as a few of them.
+    // The best of all exponents is at least as good as any of these three.
     for (const { method, ratio } of scores)
       if (/^exponent [234]$/.test(method)) expect(ratio).toBeGreaterThanOrEqual(1);
   });
@@ -145,7 +145,7 @@ test("light is softened as the library softens it", () => {
   });
 });
 
-test("a figure's section takes the place of the one before, and the others stay", () => {
+test("a figure's new section replaces the old one, and the others stay", () => {
   const figure = (name: string, caption: string) => ({ name, title: name, caption, png: Buffer.of() });
   const first = withFigures("", [figure("shadows", "dark"), figure("bunny", "white")]);
   const second = withFigures(first, [figure("shadows", "darker")]);

@@ -1,4 +1,4 @@
-// Broken files, and valid ones that look broken: read alike by the command and by the page.
+// Broken files, and valid files that look broken. The command and the page read them alike.
 import { describe, expect, it } from "vitest";
 import type { Case } from "../files/corpus";
 import { pcdCases } from "../files/corpus-pcd";
@@ -20,8 +20,8 @@ function check({ name, expected }: Case, outcome: Outcome): void {
   expect(refused).not.toMatch(/[\u0000-\u001f]/);
 }
 
-describe("each broken file is refused in a sentence that names the fault, and no other is", () => {
-  it("there are at least 300 of them, with names of their own", () => {
+describe("each broken file is refused in a sentence that names the fault, and no valid file is refused", () => {
+  it("there are at least 300 files, and no two have the same name", () => {
     expect(new Set(CASES.map(({ name }) => name)).size).toBe(CASES.length);
     expect(CASES.length).toBeGreaterThanOrEqual(300);
   });

@@ -1,5 +1,5 @@
-// How answers keep up with a camera: the one room that all adapters and the demo page share. The
-// time, the questions and the answers are the tests' own.
+// How answers keep up with a camera. All adapters and the demo page share this code. The tests
+// control the time, the questions and the answers.
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { HprError } from "../../src/ts/base/errors.js";
@@ -20,7 +20,7 @@ afterEach(() => {
   vi.useRealTimers();
 });
 
-/** Lets all that is settled be noticed. */
+/** Lets the handlers of settled promises run. */
 const settled = () => new Promise((resolve) => setImmediate(resolve));
 
 /** A question that was asked: the test answers it. */
@@ -37,9 +37,9 @@ class Scene {
   readonly log: string[] = [];
   readonly newest = new Overtaken<string>((a, b) => a === b);
   readonly follower: Follower;
-  /** What is thrown or returned at once, by question, instead of a promise. */
+  /** For a question: the value that is returned at once, or the error that is thrown, instead of a promise. */
   readonly atOnce = new Map<string, string | Error>();
-  /** What a listener throws. */
+  /** The error that a listener throws. */
   thrownByListener: Error | undefined;
 
   constructor(times?: RecoveryTimes) {
@@ -137,7 +137,7 @@ describe("a follower", () => {
     expect(scene.questions).toEqual(["a"]);
   });
 
-  it("tells of an answer when the next question is on its way, whatever listeners throw", async () => {
+  it("reports an answer when the next question is on its way, even if listeners throw", async () => {
     const unhandled: unknown[] = [];
     const listener = (error: unknown) => unhandled.push(error);
     process.on("unhandledRejection", listener);
@@ -153,7 +153,7 @@ describe("a follower", () => {
     expect(unhandled).toEqual([scene.thrownByListener]);
   });
 
-  it("answers at once where that is possible, and leaves what listeners throw to the caller", () => {
+  it("answers at once where that is possible, and passes the errors of listeners to the caller", () => {
     scene.atOnce.set("a", "1").set("b", "2");
     scene.see("a");
     expect(scene.log).toEqual(["a: 1", "told a"]);
@@ -181,8 +181,8 @@ describe("a follower", () => {
 
   it.each([
     ["the newer one", ["b"], ["a", "b"]],
-    ["itself, where the view has come back", ["b", "a"], ["a", "a"]],
-  ])("goes on from a question that was given up to %s, without a word", async (_, views, questions) => {
+    ["the same question, if the view has come back", ["b", "a"], ["a", "a"]],
+  ])("goes on from a question that was given up to %s, without a report", async (_, views, questions) => {
     scene.see("a");
     const [first] = scene.asked;
     for (const view of views) scene.see(view);
@@ -217,7 +217,7 @@ describe("a follower", () => {
     expect(scene.questions).toEqual(["a", "b"]);
   });
 
-  it("asks a view that came while another was refused by itself, also where a listener throws", async () => {
+  it("asks by itself for a view that came while another was refused, even if a listener throws", async () => {
     const unhandled: unknown[] = [];
     const listener = (error: unknown) => unhandled.push(error);
     process.on("unhandledRejection", listener);
@@ -233,7 +233,7 @@ describe("a follower", () => {
     expect(unhandled).toEqual([scene.thrownByListener]);
   });
 
-  it("takes what is thrown while asking or while drawing for a refusal", async () => {
+  it("treats an error thrown while asking or drawing as a refusal", async () => {
     scene.atOnce.set("a", new Error("wrong at once"));
     scene.see("a");
     scene.see("b");
@@ -246,7 +246,7 @@ describe("a follower", () => {
     expect(scene.log.at(-1)).toBe("no error again");
   });
 
-  it("throws the first refusal instead where it is told to", () => {
+  it("throws the first refusal if it is told to", () => {
     scene.atOnce.set("a", new Error("wrong at once"));
     scene.newest.want("a");
     expect(() => {
@@ -284,7 +284,7 @@ describe("a follower", () => {
     expect(scene.log).toEqual(log);
   });
 
-  it("may give one view several rounds, each a better answer, for as long as no other view is wanted", async () => {
+  it("may answer one view in several rounds, each better than the last, until another view is wanted", async () => {
     const stages = ["draft", "exact"];
     let [stage, view] = [0, "a"];
     const asked: string[] = [];
@@ -318,7 +318,7 @@ describe("a follower whose worker is lost", () => {
     await settled();
   }
 
-  it("asks again by itself, without a word", async () => {
+  it("asks again by itself, without a report", async () => {
     scene.see("a");
     await lose();
     expect(scene.follower).toMatchObject({ isLost: true, isBusy: false, isWaiting: true });
@@ -330,7 +330,7 @@ describe("a follower whose worker is lost", () => {
     expect(scene.log).toEqual(["lost"]);
   });
 
-  it("says so when it is lost for good, once, and asks again when that is wished for, after a pause", async () => {
+  it("reports once that it is lost for good, and asks again on request, after a pause", async () => {
     scene.see("a");
     for (const delay of TIMES.delays) {
       await lose();
@@ -367,7 +367,7 @@ describe("a follower whose worker is lost", () => {
     expect(vi.getTimerCount()).toBe(0);
   });
 
-  it("takes the loss for any other refusal where there is nothing to make again", async () => {
+  it("treats the loss as any other refusal if there is nothing to make again", async () => {
     scene = new Scene();
     scene.see("a");
     await lose();
@@ -376,7 +376,7 @@ describe("a follower whose worker is lost", () => {
   });
 });
 
-describe("what was lost is made again", () => {
+describe("a lost worker is made again", () => {
   let made = 0;
   let recovery: Recovery;
 
@@ -385,7 +385,7 @@ describe("what was lost is made again", () => {
     recovery = new Recovery(() => made++);
   });
 
-  /** Loses it again and again as soon as it is made, for so many milliseconds. */
+  /** For this many milliseconds, loses it again each time as soon as it is made. */
   function lose(milliseconds: number, wish?: boolean): number[] {
     const times: number[] = [];
     let before = made;
@@ -401,7 +401,7 @@ describe("what was lost is made again", () => {
     return times;
   }
 
-  it("at once, then after growing delays, then not of itself", () => {
+  it("at once, then after growing delays, then no longer by itself", () => {
     expect(recovery.notices(LOST)).toBe(true);
     expect(recovery).toMatchObject({ isLost: true, isUnderWay: true });
     expect(lose(60_000)).toEqual([10, 210, 1210]);
@@ -438,7 +438,7 @@ describe("what was lost is made again", () => {
 });
 
 describe("the newest question", () => {
-  it("is another only beyond what counts as the same, and stays until then", () => {
+  it("stays the same within a tolerance, and is new beyond it", () => {
     const newest = new Newest<{ at: number }>((a, b) => Math.abs(a.at - b.at) < 1);
     expect(newest.isNew).toBe(false);
     const first = { at: 0 };
@@ -466,7 +466,7 @@ describe("the newest question", () => {
   });
 });
 
-it("rest is reached so many milliseconds after the last move", () => {
+it("rest is reached a given number of milliseconds after the last move", () => {
   const rest = new Rest(250);
   expect(rest.isReached).toBe(true);
   rest.moved();
@@ -486,7 +486,7 @@ describe("readiness", () => {
     await expect(readiness.promise).resolves.toBeUndefined();
   });
 
-  it("rejects where nobody is told, and reports what comes after that", async () => {
+  it("rejects if nobody listens, and reports later errors", async () => {
     const reject = vi.spyOn(Promise, "reject").mockReturnValue(Promise.resolve());
     const readiness = new Readiness();
     const rejected = expect(readiness.promise).rejects.toBe(LOST);

@@ -6,7 +6,7 @@ const { permissibleCurvature, radiusBound, simdEnabled, HprError } = await ready
 const loose = (value: unknown) => value as never;
 
 describe("the paper's bounds", () => {
-  it("on curvature are those of Lemma 4.3", () => {
+  it("on curvature follow Lemma 4.3", () => {
     for (const [R, r, beta] of [
       [100, 5, Math.PI / 2],
       [100, 5, 1],
@@ -45,7 +45,7 @@ describe("the paper's bounds", () => {
 });
 
 describe("simdEnabled", () => {
-  it("is what the binary says of itself", () => {
+  it("is the value that the binary reports", () => {
     const features = Buffer.from(wasmBytes()).includes("simd128");
     expect(simdEnabled()).toBe(features);
   });

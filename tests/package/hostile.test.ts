@@ -1,5 +1,5 @@
-// Arguments that are not what they seem: each is answered, or refused as an
-// HprError, and the instance lives on.
+// Arguments that only look valid. Each is answered, or refused with an HprError, and the
+// instance lives on.
 import { runInNewContext } from "node:vm";
 import { afterEach, describe, expect, it } from "vitest";
 
@@ -49,7 +49,7 @@ describe("positions whose memory is gone", () => {
   it.each<[string, () => Float32Array | Float64Array]>([
     ["a transferred Float32Array", () => transferredAway(new Float32Array(9))],
     ["a transferred Float64Array", () => transferredAway(new Float64Array(9))],
-    ["a view of what a buffer has lost", cutOff],
+    ["a view of a part that its buffer has lost", cutOff],
   ])("are refused: %s", async (_, positions) => {
     await expectRefusal("positions-type", /gone/, () => new PointCloud(positions()));
     await expectRefusal("positions-type", /gone/, () => new PointCloud(positions(), { stride: 9 }));
@@ -88,7 +88,7 @@ describe("typed arrays of a class of their own", () => {
     ["a negative length", () => withOwn(plain(), "length", { get: () => -3 })],
     ["a buffer of its own", () => withOwn(plain(), "buffer", { value: new ArrayBuffer(0) })],
   ];
-  it.each(arrays)("are read for what they are: %s", async (_, make) => {
+  it.each(arrays)("are read by their real contents: %s", async (_, make) => {
     expect(hiddenPointRemoval(make(), farAway)).toEqual(expected);
     expect(hiddenPointRemoval(make(), farAway, { stride: 6 }).mask()).toHaveLength(250);
     for (const transfer of [false, true]) {
@@ -123,14 +123,14 @@ describe("typed arrays of numbers", () => {
     },
   );
 
-  it("larger than single precision can tell stay apart", () => {
-    // 2²⁴ + 1 is 2²⁴ as a Float32Array has it.
+  it("stay apart if they are too large for single precision", () => {
+    // A Float32Array rounds 2²⁴ + 1 to 2²⁴.
     const near = Int32Array.of(0, 0, 2 ** 24 + 1, 0, 0, 2 ** 24);
     expect([...new PointCloud(near).visibleFrom([0, 0, 2 ** 25]).indices]).toEqual([0]);
   });
 
-  it("but those of 16-bit floats are refused", async () => {
-    // What platforms that have them say they are.
+  it("are refused if they hold 16-bit floats", async () => {
+    // The tag of these arrays on platforms that have them.
     const halves = withOwn(new DataView(new ArrayBuffer(6)), Symbol.toStringTag, { value: "Float16Array" });
     await expectRefusal("positions-type", /Float16Array/, () => new PointCloud(loose(halves)));
   });
@@ -196,7 +196,7 @@ describe("arguments that act while they are read", () => {
         }),
     ],
   ];
-  it.each(reading)("cannot make a cloud answer that was disposed of: %s", async (_, ask) => {
+  it.each(reading)("cannot make a disposed cloud answer: %s", async (_, ask) => {
     const cloud = new PointCloud(sphere);
     await expectRefusal("disposed", /disposed/, () =>
       ask(cloud, () => {
@@ -204,7 +204,7 @@ describe("arguments that act while they are read", () => {
       }),
     );
 
-    // Another cloud that takes its place does not answer for it.
+    // Another cloud in its place does not answer for it.
     const other = new PointCloud(sphere);
     const replace = () => {
       other.dispose();
@@ -244,7 +244,7 @@ describe("arguments that act while they are read", () => {
           },
         }),
     ],
-  ])("have what they throw passed on: %s", async (_, call) => {
+  ])("have their errors passed on: %s", async (_, call) => {
     const thrown = new RangeError("mine");
     expect(await problemOf(() => call(thrown))).toBe(thrown);
   });
@@ -290,7 +290,7 @@ describe("options", () => {
     ["nonFinite", "skip"],
     ["latest", 7],
     ["foo", 7],
-  ])("are not those of Object.prototype: %s", async (name, value) => {
+  ])("are not read from Object.prototype: %s", async (name, value) => {
     withOwn(polluted, name, { value, enumerable: true, writable: true });
     try {
       expect(new PointCloud(sphere).visibleFrom(farAway)).toEqual(expected);
@@ -319,7 +319,7 @@ describe("options", () => {
     ["of another context", runInNewContext("({ exponent: 2 })") as object],
     ["behind a proxy", new Proxy({ exponent: 2 }, {})],
     ["hidden from enumeration", withOwn({}, "exponent", { value: 2 })],
-  ])("count wherever they are found: %s", (_, options) => {
+  ])("count, wherever they are defined: %s", (_, options) => {
     expect(witness.visibleFrom(farAway, options).exponent).toBe(2);
     expect(hiddenPointRemoval(sphere, farAway, options).exponent).toBe(2);
   });
@@ -331,7 +331,7 @@ describe("options", () => {
     ["a symbol as a name", /Symbol\(exponent\)/, { [Symbol("exponent")]: 2 }],
     ["an unknown name that is inherited", /"foo"/, Object.create({ foo: 1 })],
     ["a prototype by name", /"__proto__"/, JSON.parse('{"__proto__":{"exponent":2}}')],
-  ])("that would be ignored are refused: %s", async (_, names, options) => {
+  ])("are refused if they would be ignored: %s", async (_, names, options) => {
     await expectRefusal("option", names, () => witness.visibleFrom(farAway, loose(options)));
     await expectRefusal("option", names, () => new PointCloud(sphere, loose(options)));
   });
@@ -351,7 +351,7 @@ describe("an answer", () => {
     expect(answer.count).toBe(expected.count);
   });
 
-  it("is written into arrays of any context, and only into what is one", async () => {
+  it("is written into arrays of any context, and only into arrays", async () => {
     const mask = runInNewContext("new Uint8Array(500)") as Uint8Array;
     expected.maskInto(mask);
     expect([...mask]).toEqual([...expected.mask()]);
@@ -376,7 +376,7 @@ describe("an answer", () => {
   });
 });
 
-describe("what a cloud says about itself", () => {
+describe("a cloud's properties", () => {
   it("cannot be overwritten", async () => {
     const remote = await WorkerPointCloud.create(sphere);
     for (const cloud of [new PointCloud(sphere), remote]) {
@@ -385,7 +385,7 @@ describe("what a cloud says about itself", () => {
       expect([cloud.length, cloud.skipped]).toEqual([500, 0]);
       expect((await cloud.visibleFrom(farAway)).mask()).toHaveLength(500);
       await cloud.dispose();
-      // The first thing that is wrong, in both.
+      // Both name the first wrong argument.
       for (const ask of [() => cloud.visibleFrom([0]), () => cloud.autoRadius([0])]) {
         await expectRefusal("disposed", /disposed/, ask);
       }
@@ -396,7 +396,7 @@ describe("what a cloud says about itself", () => {
 describe("signals", () => {
   const later = () => new Promise((next) => setTimeout(next, 20));
 
-  it("that are none are refused, and nothing is left unhandled", async () => {
+  it("are refused if they are no signals, and no rejection stays unhandled", async () => {
     const unhandled: unknown[] = [];
     const note = (reason: unknown) => unhandled.push(reason);
     process.on("unhandledRejection", note);
@@ -426,7 +426,7 @@ describe("signals", () => {
     expect(unhandled).toEqual([]);
   });
 
-  it("that have aborted already leave a waiting request alone", async () => {
+  it("leave a waiting request alone if they aborted before", async () => {
     const remote = await WorkerPointCloud.create(sphere);
     const running = remote.visibleFrom([0, 0, 4]);
     const live = remote.visibleFrom(farAway, { latest: true });
@@ -438,8 +438,8 @@ describe("signals", () => {
   });
 });
 
-describe("init, called with something else while it is starting,", () => {
-  it("tries that once the first has failed", async () => {
+describe("init, called with another input while it is starting,", () => {
+  it("tries the new input after the first has failed", async () => {
     const fresh = await freshPackage();
     const bytes = new Uint8Array(3);
     const outcomes = await Promise.allSettled([
@@ -465,14 +465,14 @@ describe("messages", () => {
     [/got 0, -infinity, 5$/, () => witness.visibleFrom([0, -Infinity, 5])],
     [/radius 5 is/, () => witness.visibleFrom(farAway, { radius: 5 })],
     [/radius 1e308 /, () => witness.visibleFrom(farAway, { radius: 1e308 })],
-  ])("spell numbers plainly: %s", async (names, call) => {
+  ])("write numbers plainly: %s", async (names, call) => {
     expect((await problemOf(call)).message).toMatch(names);
   });
 
   it.each<[RegExp, () => unknown]>([
     [/from the given Response:/, () => new Response(new Uint8Array(3))],
     [/from an empty address:/, () => ""],
-  ])("name what was to be loaded: %s", async (names, input) => {
+  ])("name the file that was to be loaded: %s", async (names, input) => {
     const fresh = await freshPackage();
     expect((await problemOf(() => fresh.init(input() as never))).message).toMatch(names);
   });

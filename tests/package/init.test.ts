@@ -88,16 +88,16 @@ describe("init", () => {
 
   const failures: [name: string, names: RegExp, input: () => unknown][] = [
     ["a URL nobody serves", /127\.0\.0\.1:\d+\/missing\.wasm.*404/, () => `${address}/missing.wasm`],
-    ["a server that is not there", /127\.0\.0\.1:1\/hpr\.wasm/, () => new URL("http://127.0.0.1:1/hpr.wasm")],
+    ["a missing server", /127\.0\.0\.1:1\/hpr\.wasm/, () => new URL("http://127.0.0.1:1/hpr.wasm")],
     ["a page instead of wasm", /page\.wasm.*magic/, () => `${address}/page.wasm`],
     ["a Response that failed", /missing\.wasm.*404/, () => fetch(`${address}/missing.wasm`)],
-    ["a file that is not there", /nothing\.wasm/, () => pathToFileURL("/nothing.wasm")],
+    ["a missing file", /nothing\.wasm/, () => pathToFileURL("/nothing.wasm")],
     ["bytes that are no wasm", /magic/, () => new Uint8Array(100)],
     ["another wasm", /start/, () => new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0])],
     ["a number", /got 7/, () => 7],
     ["null", /got null/, () => null],
   ];
-  it.each(failures)("answers load to %s, and may be tried again", async (_, names, input) => {
+  it.each(failures)("rejects %s with the code load, and may be called again", async (_, names, input) => {
     const fresh = await freshPackage();
     const given = (await input()) as never;
     const problem = await problemOf(() => fresh.init(given));
@@ -123,16 +123,19 @@ describe("initSync", () => {
     expectToWork(fresh);
   });
 
-  it.each([undefined, "hpr.wasm", new Uint8Array(3)])("answers load to %s, and may be tried again", async (input) => {
-    const fresh = await freshPackage();
-    expect(
-      (
-        await problemOf(() => {
-          fresh.initSync(input as never);
-        })
-      ).code,
-    ).toBe("load");
-    fresh.initSync(wasmBytes());
-    expectToWork(fresh);
-  });
+  it.each([undefined, "hpr.wasm", new Uint8Array(3)])(
+    "rejects %s with the code load, and may be called again",
+    async (input) => {
+      const fresh = await freshPackage();
+      expect(
+        (
+          await problemOf(() => {
+            fresh.initSync(input as never);
+          })
+        ).code,
+      ).toBe("load");
+      fresh.initSync(wasmBytes());
+      expectToWork(fresh);
+    },
+  );
 });

@@ -12,14 +12,14 @@ afterEach(() => {
   vi.unstubAllGlobals();
 });
 
-/** The entry with the wasm in it, and the others on the same fresh page. */
+/** The entry with the wasm in it, and the other entries, on the same fresh page. */
 async function freshInline() {
   const others = await freshPackage();
   return { others, inline: await import("hidden-point-removal/inline") };
 }
 
 describe("the entry with the wasm embedded", () => {
-  it("exports what the main entry does, and both run the same instance", async () => {
+  it("has the exports of the main entry, and both run the same instance", async () => {
     const { others, inline } = await freshInline();
     const main = await import("hidden-point-removal");
     expect(Object.keys(inline).sort()).toEqual(Object.keys(main).sort());
@@ -36,7 +36,7 @@ describe("the entry with the wasm embedded", () => {
     expect(gunzipSync(Buffer.from(base64, "base64")).equals(wasmBytes())).toBe(true);
   });
 
-  it("reads and fetches nothing, for itself or for a worker that comes after it", async () => {
+  it("reads and fetches nothing, for itself or for a later worker", async () => {
     const { others, inline } = await freshInline();
     const fetched = vi.fn(() => Promise.reject(new Error("offline")));
     vi.stubGlobal("fetch", fetched);
@@ -49,7 +49,7 @@ describe("the entry with the wasm embedded", () => {
     expect(fetched).not.toHaveBeenCalled();
   });
 
-  it("takes what the main entry's init takes, and starts again after a trap", async () => {
+  it("takes the same inputs as the main entry's init, and starts again after a trap", async () => {
     const { inline } = await freshInline();
     await inline.init(trappingWasm("visibleFrom"));
     const cloud = new inline.PointCloud(sphere);
@@ -58,7 +58,7 @@ describe("the entry with the wasm embedded", () => {
     expect(new inline.PointCloud(sphere).visibleFrom(farAway).count).toBeGreaterThan(10);
   });
 
-  it("answers load where the platform cannot unpack it, and may be tried again", async () => {
+  it("rejects with the code load if the platform cannot unpack it, and may be called again", async () => {
     const { inline } = await freshInline();
     vi.stubGlobal("DecompressionStream", undefined);
     const problem = await problemOf(() => inline.init());

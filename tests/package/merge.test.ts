@@ -10,7 +10,7 @@ const sphere = bumpySphere(1, 3000);
 const farAway = [0, 0, 5];
 const loose = (value: unknown) => value as never;
 
-/** Divides a cloud at random and keeps what is visible in each part. */
+/** Divides a cloud at random and keeps the visible points of each part. */
 function visibleParts(points: Float32Array, count: number, viewpoint: number[], radius: number): Part[] {
   const random = randomNumbers(count);
   const ids = Array.from({ length: count }, (): number[] => []);
@@ -45,7 +45,7 @@ describe("parts that were seen with one radius", () => {
     ["a power of a given unit", { radius: 50, inversion: { power: 1.2 } }],
     ["an exponential", { inversion: { exponential: 0.004 } }],
     ["an exponential of its own scale", { inversion: { exponential: "auto" } }],
-  ])("merge with the inversion that the answer tells: %s", (_, options) => {
+  ])("merge with the inversion of the answer: %s", (_, options) => {
     const whole = new PointCloud(sphere).visibleFrom(farAway, options);
     const together =
       whole.radius > 0 ? { radius: whole.radius, inversion: whole.inversion } : { inversion: whole.inversion };
@@ -57,7 +57,7 @@ describe("parts that were seen with one radius", () => {
     expect(mergeVisible(parts, farAway, together)).toEqual(whole.indices);
   });
 
-  it("are read in double precision where one of them is, whichever comes first", () => {
+  it("are read in double precision if one of them is double, in any order", () => {
     // In single precision 1 + 2⁻⁴⁰ is 1, and both points would be visible.
     const single = { positions: Float32Array.of(0, 0, 1, 5, 5, 5), ids: Uint32Array.of(1, 3) };
     const double = { positions: Float64Array.of(0, 0, 1 + 2 ** -40), ids: Uint32Array.of(2) };
@@ -78,7 +78,7 @@ describe("parts that were seen with one radius", () => {
   });
 });
 
-describe("what is refused", () => {
+describe("refusals", () => {
   const ids = Uint32Array.of(7);
   const part = { positions: [0, 0, 1], ids };
   const radius = { radius: 100 };
@@ -125,7 +125,7 @@ describe("what is refused", () => {
   it.each<["positions" | "ids", string, RegExp]>([
     ["positions", "positions-type", /^parts\[0\]: the memory of the positions is gone/],
     ["ids", "option", /^parts\[0\]\.ids has been transferred away/],
-  ])("%s whose memory a later part's getter takes away: %s", async (what, code, message) => {
+  ])("refuses %s if the getter of a later part takes their memory away: %s", async (what, code, message) => {
     for (const Type of [Float32Array, Float64Array]) {
       const first = { positions: Type.of(0, 0, 1), ids: Uint32Array.of(1) };
       const second = {

@@ -2,14 +2,14 @@ import { describe, expect, it } from "vitest";
 
 import { bumpySphere, bunny, randomNumbers, readyPackage } from "./support";
 
-// Two instances of the wasm: one whose views start from the last, one that only ever
-// sees new clouds.
+// Two instances of the wasm. In one of them each view starts from the last view. The other
+// sees only new clouds.
 const moving = await readyPackage();
 const cold = await readyPackage();
 
 type Cloud = InstanceType<typeof moving.PointCloud>;
 
-/** The views of `cloud` are those of a cloud built from `points` for the one view. */
+/** Each view of `cloud` equals the view of a new cloud built from `points`. */
 function expectAsCold(cloud: Cloud, points: Float32Array, removed: number[], viewpoint: number[], options = {}) {
   const fresh = new cold.PointCloud(points);
   fresh.remove(removed);
@@ -36,7 +36,7 @@ describe("views that start from the last one", () => {
     expect(cold.PointCloud).not.toBe(moving.PointCloud);
   });
 
-  it("answer as cold ones between changes of the cloud", () => {
+  it("equal cold views between changes of the cloud", () => {
     const points = bumpySphere(1, 5000);
     const cloud = new moving.PointCloud(points.subarray(0, 9000));
     const next = walk(1);
@@ -56,7 +56,7 @@ describe("views that start from the last one", () => {
     cloud.dispose();
   });
 
-  it("answer as cold ones where two clouds take turns and are disposed of", () => {
+  it("equal cold views if two clouds take turns and are disposed of", () => {
     const all = [bumpySphere(2, 3000), bunny()];
     const next = walk(2);
     let clouds = all.map((points) => new moving.PointCloud(points));
@@ -64,7 +64,7 @@ describe("views that start from the last one", () => {
       const one = step % 3 === 0 ? 0 : 1;
       expectAsCold(clouds[one]!, all[one]!, [], next());
       if (step % 20 === 19) {
-        // The other one takes over the freed number.
+        // The new cloud takes over the freed number.
         for (const cloud of clouds) cloud.dispose();
         all.reverse();
         clouds = all.map((points) => new moving.PointCloud(points));
@@ -72,7 +72,7 @@ describe("views that start from the last one", () => {
     }
   });
 
-  it("answer as cold ones after refusals", () => {
+  it("equal cold views after refusals", () => {
     const points = bumpySphere(3, 3000);
     const cloud = new moving.PointCloud(points);
     const next = walk(3);
@@ -86,7 +86,7 @@ describe("views that start from the last one", () => {
     cloud.dispose();
   });
 
-  it.each([1, 2, 3])("answer as cold ones by %d workers", async (workers) => {
+  it.each([1, 2, 3])("equal cold views with %d workers", async (workers) => {
     const points = bumpySphere(4, 4000);
     const cloud = await moving.WorkerPointCloud.create(points, { workers });
     const still = new cold.PointCloud(points);

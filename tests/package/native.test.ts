@@ -14,14 +14,14 @@ const folder = mkdtempSync(join(tmpdir(), "hpr-native-"));
 const cargo = (...args: string[]) => execFileSync("cargo", args, { cwd: root, encoding: "utf8", stdio: "pipe" });
 
 beforeAll(() => {
-  // In the profile of the native tests, so that the crate is compiled once.
+  // Uses the profile of the native tests, so that the crate is compiled once.
   cargo("build", "--locked", "--profile", "fuzz", "--example", "filter_xyz");
 }, 300_000);
 afterAll(() => {
   rmSync(folder, { recursive: true });
 });
 
-/** What the crate's example keeps, run natively; every line ends with its index. */
+/** The points that the crate's example keeps, run natively. Every line ends with its index. */
 function visibleNatively(positions: Float64Array, viewpoint: number[]): number[] {
   const file = join(folder, "cloud.xyz");
   const lines = Array.from({ length: positions.length / 3 }, (_, i) =>
@@ -36,10 +36,10 @@ function visibleNatively(positions: Float64Array, viewpoint: number[]): number[]
     .map((line) => Number(line.split(" ")[3]));
 }
 
-/** The same cloud, far from the origin, as maps have it. */
+/** The same cloud far from the origin, as in map coordinates. */
 const georeferenced = Float64Array.from(bumpySphere(4, 3000), (x, i) => x + [4.2e6, 5.5e6, 300][i % 3]!);
 
-describe("the wasm answers what native code answers", () => {
+describe("the wasm gives the answers of native code", () => {
   it.each([
     ["the bunny, from outside", Float64Array.from(bunny()), [0, 5, 20]],
     ["the bunny, from inside", Float64Array.from(bunny()), [-1.5, 5, 0]],

@@ -1,4 +1,4 @@
-// Node's workers as a test sees and replaces them.
+// Node's workers, wrapped so that a test can watch and replace them.
 import { syncBuiltinESMExports } from "node:module";
 import threads from "node:worker_threads";
 

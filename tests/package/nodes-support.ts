@@ -24,7 +24,7 @@ export function nodeOf(points: number[][], corner: number[]): THREE.Points {
   return node;
 }
 
-/** A cloud cut into cells of a grid with so many along the longest side of its box. */
+/** A cloud cut into the cells of a grid. The number of cells counts along the longest side of its box. */
 export function split(positions: ArrayLike<number>, along: number): THREE.Points[] {
   const points = Array.from({ length: positions.length / 3 }, (_, i) =>
     [0, 1, 2].map((axis) => positions[3 * i + axis]!),
@@ -45,7 +45,7 @@ export function split(positions: ArrayLike<number>, along: number): THREE.Points
   );
 }
 
-/** All of the nodes' points as one cloud: what a viewer that did not split it would have. */
+/** The points of all nodes as one cloud, as in a viewer that does not split it. */
 export function whole(nodes: THREE.Points[]): Float64Array {
   return Float64Array.from(
     nodes.flatMap(({ geometry, position }) =>
@@ -54,7 +54,7 @@ export function whole(nodes: THREE.Points[]): Float64Array {
   );
 }
 
-/** What the nodes draw, as indices of the whole. */
+/** The points that the nodes draw, as indices of the whole cloud. */
 export function drawnOf(nodes: THREE.Points[]): number[] {
   let first = 0;
   return nodes.flatMap(({ geometry }) => {

@@ -1,4 +1,4 @@
-// Many nodes that are one cloud: exactly what the cloud would be if it had not been split.
+// Many nodes that form one cloud. They must answer exactly like the cloud in one piece.
 import { syncBuiltinESMExports } from "node:module";
 import threads from "node:worker_threads";
 import * as THREE from "three";
@@ -39,13 +39,13 @@ function sceneOf(nodes: THREE.Points[], options?: HiddenPointNodesFilterOptions)
 
 type Scene = ReturnType<typeof sceneOf>;
 
-/** Updates as an animation does until everything is there. */
+/** Updates like an animation until everything is ready. */
 async function settle({ filter, camera }: { filter: HiddenPointNodesFilter; camera: THREE.Camera }): Promise<void> {
   filter.update(camera);
   await expect.poll(() => filter.settled, { timeout: 60_000, interval: 5 }).toBe(true);
 }
 
-/** What the unsplit cloud answers from where, or along which direction, the nodes were asked. */
+/** The answer of the unsplit cloud, for the viewpoint or direction of the nodes. */
 function answerOf(
   nodes: THREE.Points[],
   { root, camera, changes }: Omit<Scene, "camera"> & { camera: THREE.Camera },
@@ -69,7 +69,7 @@ function answerOf(
 }
 
 describe("a cloud split into nodes", () => {
-  it.each([true, false])("is seen exactly as if it were one, with worker: %s", async (worker) => {
+  it.each([true, false])("is seen exactly like the cloud in one piece, with worker: %s", async (worker) => {
     const nodes = split(dragon(), 10);
     expect(nodes.length).toBeGreaterThan(50);
     const scene = sceneOf(nodes, { worker });
@@ -88,7 +88,7 @@ describe("a cloud split into nodes", () => {
     }
   });
 
-  it("is that also when nodes have gone and come", async () => {
+  it("is seen so also after nodes have gone and come", async () => {
     const nodes = split(dragon(), 10);
     const [early, late] = [nodes.slice(0, 40), nodes.slice(40)];
     const scene = sceneOf(early);
@@ -114,7 +114,7 @@ describe("a cloud split into nodes", () => {
     await expectWhole(nodes);
   });
 
-  it("may consist of levels of detail that lie in one another", async () => {
+  it("may consist of nested levels of detail", async () => {
     const positions = bumpySphere(3, 9000);
     const levels = [0, 1, 2].flatMap((level) => {
       const part = Float32Array.from(
@@ -122,7 +122,7 @@ describe("a cloud split into nodes", () => {
       );
       return split(part, [1, 3, 6][level]!);
     });
-    // As octrees nest them: each node below another one.
+    // Like an octree: each node is a child of another.
     const [first, ...others] = levels;
     const scene = sceneOf([first!]);
     for (const node of others) {
@@ -154,7 +154,7 @@ describe("a cloud split into nodes", () => {
     ["a power", { inversion: { power: 2 } }],
     ["a search", { radius: "search" }],
     ["the opposite viewpoint", { radius: "opposite" }],
-  ] satisfies typeof views)("is seen with %s as one cloud is", async (_, options) => {
+  ] satisfies typeof views)("is seen with %s like one cloud", async (_, options) => {
     const nodes = split(bumpySphere(5, 4000), 5);
     const scene = sceneOf(nodes, options);
     scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(2, 3, 4)).toArray());
@@ -163,7 +163,7 @@ describe("a cloud split into nodes", () => {
   });
 
   it.each([["nothing else", {}], ...views] satisfies typeof views)(
-    "is seen by an orthographic camera with %s as one cloud is",
+    "is seen by an orthographic camera with %s like one cloud",
     async (_, options) => {
       const nodes = split(bumpySphere(5, 4000), 5);
       const scene = sceneOf(nodes, options);
@@ -176,7 +176,7 @@ describe("a cloud split into nodes", () => {
         expect(drawnOf(nodes)).toEqual(answerOf(nodes, { ...scene, camera }, options));
       }
       expect(changes.map(({ viewpoint }) => viewpoint)).toEqual([null, null]);
-      // Panning asks nothing, a viewpoint does.
+      // Panning asks nothing. A new viewpoint asks.
       camera.position.set(3, 4, 5);
       await settle({ filter, camera });
       expect(changes).toHaveLength(2);
@@ -187,7 +187,7 @@ describe("a cloud split into nodes", () => {
     },
   );
 
-  it("is asked again only for what is new", async () => {
+  it("is asked again only if something is new", async () => {
     const nodes = split(dragon(), 10);
     const scene = sceneOf(nodes);
     const { root, camera, changes, filter } = scene;
@@ -227,7 +227,7 @@ describe("a cloud split into nodes", () => {
     expect(drawnOf(nodes)).toHaveLength(3000);
   });
 
-  it("is that however much of it was removed before", async () => {
+  it("is seen so after any number of removals", async () => {
     const nodes = split(dragon(), 10);
     const scene = sceneOf(nodes);
     scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0.3, 0.4, 0.5)).toArray());
@@ -268,7 +268,7 @@ describe("a cloud split into nodes", () => {
   });
 });
 
-describe("gets over the death of the worker", () => {
+describe("recovers from the death of the worker", () => {
   const started: threads.Worker[] = [];
   const Original = threads.Worker;
   const replace = (replacement: typeof threads.Worker) => {
@@ -317,7 +317,7 @@ describe("gets over the death of the worker", () => {
     scene.filter.update(scene.camera);
     await expect.poll(() => started.length, { timeout: 60_000 }).toBe(1);
     const [worker] = started;
-    // Once it runs, and before any node is ready.
+    // After it has started, and before any node is ready.
     await new Promise<void>((resolve) => {
       worker!.once("message", () => {
         worker!.removeAllListeners("message");
@@ -332,7 +332,7 @@ describe("gets over the death of the worker", () => {
   });
 });
 
-it("takes a node that is listed twice for one, and comes to rest", async () => {
+it("treats a node that is listed twice as one, and comes to rest", async () => {
   const nodes = split(bumpySphere(1, 3000), 2);
   const scene = sceneOf(nodes, { nodes: () => [...nodes, ...nodes] });
   scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, 5)).toArray());
@@ -363,7 +363,7 @@ describe("refuses", () => {
     expect(problem).toMatchObject({ code: "option", message: expect.stringContaining(words) as string });
   });
 
-  it("what is no root, or stretched", () => {
+  it("a value that is no root, and a stretched root", () => {
     for (const root of [{}, null, undefined]) {
       expect(() => new HiddenPointNodesFilter(root as never)).toThrow(
         expect.objectContaining({ code: "option", message: expect.stringMatching(/root/) as string }),
@@ -374,14 +374,14 @@ describe("refuses", () => {
     expect(() => new HiddenPointNodesFilter(root)).toThrow(/scale/);
   });
 
-  it("what is listed as a node and is none, once", () => {
+  it("once, a list entry that is not a node", () => {
     const scene = sceneOf([new THREE.Points()], { nodes: () => [new THREE.Mesh(), undefined] as never });
     const told = codes(scene.filter);
     for (let i = 0; i < 3; i++) scene.filter.update(scene.camera);
     expect(told).toEqual(["option view"]);
   });
 
-  it("a node whose geometry has a filter, until it has another", async () => {
+  it("a node whose geometry has a filter, until it gets another geometry", async () => {
     const nodes = split(bumpySphere(1, 3000), 2);
     const shared = new THREE.Points(nodes[0]!.geometry);
     shared.name = "shared";
@@ -428,7 +428,7 @@ describe("refuses", () => {
     other.dispose();
   });
 
-  it("a radius that is too small and a direction that has no limit, once each", async () => {
+  it("once each, a radius that is too small and a direction that has no limit", async () => {
     const nodes = split(bumpySphere(1, 3000), 3);
     const scene = sceneOf(nodes, { radius: 3, inversion: { power: 2 } });
     const told = codes(scene.filter);

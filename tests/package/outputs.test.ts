@@ -1,4 +1,4 @@
-// What is made of views: meshes and light.
+// Meshes and light, which are computed from views.
 import { describe, expect, it } from "vitest";
 
 import { bumpySphere, bunny, problemOf, readyPackage } from "./support";
@@ -25,7 +25,7 @@ describe("a reconstruction", () => {
   const whole = cloud.reconstruct(viewpoint, { maxEdge: Infinity });
   const triangles = listed(whole.triangles);
 
-  it("answers what is visible, too", () => {
+  it("also gives the visible points", () => {
     const visible = cloud.visibleFrom(viewpoint);
     expect(whole.indices).toEqual(visible.indices);
     expect(whole.mask()).toEqual(visible.mask());
@@ -40,7 +40,7 @@ describe("a reconstruction", () => {
     expect(whole.triangles.buffer.byteLength).toBe(whole.triangles.byteLength);
   });
 
-  it("is a mesh of what is visible, counter-clockwise seen from the viewpoint", () => {
+  it("is a mesh of the visible points, counter-clockwise seen from the viewpoint", () => {
     expect(triangles.length).toBeGreaterThan(500);
     const corners = [...new Set(whole.triangles)].sort((a, b) => a - b);
     expect(corners).toEqual([...whole.indices]);
@@ -92,7 +92,7 @@ describe("a reconstruction", () => {
     expect([...twice.reconstruct([0.2, 0.2, -5], { maxEdge: Infinity }).triangles]).toEqual([0, 2, 1]);
   });
 
-  it("is empty where there is nothing to see", () => {
+  it("is empty if nothing is visible", () => {
     expect(new PointCloud([]).reconstruct(viewpoint)).toMatchObject({ count: 0, triangles: new Uint32Array(0) });
     expect(new PointCloud([1, 2, 3]).reconstruct(viewpoint).triangles).toHaveLength(0);
   });
@@ -128,7 +128,7 @@ describe("light", () => {
   });
 
   it("is softened by means over a mesh", () => {
-    // A strip 0-1-2-3, of which 3 is alone after two triangles; 4 is in no triangle.
+    // A strip 0-1-2-3 of two triangles, 3 in the last one only. 4 is in no triangle.
     const strip = new PointCloud([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, -1]);
     const triangles = Uint32Array.of(0, 1, 2, 1, 3, 2);
     const light = [[0, 0, 5]];
@@ -151,7 +151,7 @@ describe("light", () => {
     expect(triangles).toEqual(Uint32Array.of(0, 1, 2, 1, 3, 2));
   });
 
-  it("is softened over the 6 nearest without a mesh, once unless told otherwise", () => {
+  it("is softened over the 6 nearest points if there is no mesh, by default once", () => {
     const hard = cloud.illuminate(lights, { smoothing: 0 });
     const soft = cloud.illuminate(lights);
     for (const i of [0, 100, 777, 1838]) {
@@ -165,7 +165,7 @@ describe("light", () => {
     expect(cloud.illuminate(lights, { smoothing: 1 })).toEqual(soft);
   });
 
-  it("is soft under an area light, which is a ring of lights", () => {
+  it("has soft shadows under an area light, which is a ring of lights", () => {
     // A plate 8 wide at a third of the light's height: its shadow is 12 wide, and a ring of
     // radius 3 blurs its edge by 1.5 to either side.
     const floor = Array.from({ length: 41 * 41 }, (_, i) => [(i % 41) - 20, Math.floor(i / 41) - 20, 0]);
@@ -198,7 +198,7 @@ describe("light", () => {
   });
 });
 
-describe("what is refused", () => {
+describe("refusals", () => {
   const small = new PointCloud(bumpySphere(1, 100));
   const lights = [[0, 0, 5]];
   const light = (options: unknown) => () => small.illuminate(lights, loose(options));
@@ -233,7 +233,7 @@ describe("what is refused", () => {
     expect(problem.message).toMatch(names);
   });
 
-  it("everything, by a cloud that was disposed of", async () => {
+  it("everything, after the cloud was disposed of", async () => {
     const gone = new PointCloud([1, 2, 3]);
     gone.dispose();
     const calls = [

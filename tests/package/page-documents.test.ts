@@ -1,4 +1,4 @@
-// The tables of settings and keys in the documents are those of the page. After a change of the page,
+// The tables of settings and keys in the documents must match the page. After a change of the page,
 // `HPR_WRITE=1 npx vitest run tests/package/page-documents.test.ts` writes them anew.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -75,7 +75,7 @@ const BLOCKS: Record<string, { document: string; text: () => string }> = {
   },
 };
 
-test.for(Object.keys(BLOCKS))("the %s in the document are those of the page", (name) => {
+test.for(Object.keys(BLOCKS))("the %s in the document match the page", (name) => {
   const { document, text } = BLOCKS[name]!;
   const [begin, end] = [`<!-- ${name} -->\n\n`, `\n\n<!-- end -->`];
   const file = join(root, document);
@@ -91,7 +91,7 @@ test("every setting has a parameter of its own, and its usual value can be writt
   const rows = settings.map(([, row]) => row);
   const names = [...rows.map((row) => row.parameter), ...parameters.map(([name]) => name)];
   expect(new Set(names).size).toBe(names.length);
-  // No light, no frozen viewpoint and no divider are not written.
+  // If there is no light, no frozen viewpoint or no divider, the address does not mention it.
   const unwritten = ["lights", "freeze", "compare"];
   for (const [name, { usual, write, parse }] of settings)
     if (!unwritten.includes(name)) expect((parse as (text: string) => unknown)(write(usual)), name).toEqual(usual);

@@ -1,4 +1,4 @@
-// What a worker answers is what the synchronous cloud answers, whatever is asked.
+// A worker gives the same answers as the synchronous cloud, to every question.
 import { describe, expect, it } from "vitest";
 
 import { bumpySphere, problemOf, readyPackage } from "./support";
@@ -18,7 +18,7 @@ type Method =
   | "autoRadius"
   | "reconstruct"
   | "illuminate";
-/** What both clouds have; each call gives a value, or a promise of it. */
+/** The methods of both clouds. Each call gives a value, or a promise of it. */
 type Cloud = { [M in Method]: (...args: never[]) => unknown };
 type Call = [method: Method, ...args: unknown[]];
 const ask = (cloud: Cloud, [method, ...args]: Call): unknown =>
@@ -48,7 +48,7 @@ const calls: Call[] = [
 ];
 
 describe.each([1, 3])("with %d workers", (workers) => {
-  it("answers are those of the synchronous cloud, also when it has changed", async () => {
+  it("answers equal the synchronous cloud's, also after it has changed", async () => {
     const direct = new PointCloud(sphere);
     const cloud = await WorkerPointCloud.create(sphere, { workers });
     for (const round of ["as built", "changed"]) {
@@ -61,12 +61,12 @@ describe.each([1, 3])("with %d workers", (workers) => {
       direct.remove(gone);
       await Promise.all([cloud.append(more), cloud.remove(gone)]);
     }
-    // What was given stays the caller's.
+    // The arguments still belong to the caller.
     expect(triangles).toHaveLength(6);
     await cloud.dispose();
   });
 
-  it.each([2, 4])("clouds of %d dimensions are, too", async (dimension) => {
+  it.each([2, 4])("answers of clouds of %d dimensions do, too", async (dimension) => {
     const positions = sphere.slice(0, 480);
     const direct = new PointCloud(positions, { dimension });
     const cloud = await WorkerPointCloud.create(positions, { dimension, workers });
@@ -85,7 +85,7 @@ describe.each([1, 3])("with %d workers", (workers) => {
   });
 });
 
-describe("refusals are those of the synchronous cloud", () => {
+describe("refusals equal the synchronous cloud's", () => {
   const refused: Call[] = [
     ["visibleFrom", viewpoint, { inversion: { power: 2 }, exponent: 1 }],
     ["visibleFrom", viewpoint, { radius: "best" }],

@@ -1,4 +1,4 @@
-// The public API under arguments of any kind; `fuzzBorder` runs the same for as long as one likes.
+// The public API under arguments of any kind. `fuzzBorder` runs the same test for any time.
 import { init } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
@@ -17,7 +17,7 @@ afterAll(async () => {
   await resident.dispose();
 });
 
-describe(`every call is answered rightly or refused as documented, with seed ${SEED}`, () => {
+describe(`every call is answered correctly or refused as documented, with seed ${SEED}`, () => {
   it.each(PROPERTIES)("$name", async ({ check, pace }) => {
     expect((await check(SEED, pace)).wrong).toBeUndefined();
   });

@@ -1,4 +1,4 @@
-// Every recipe is run: the scripts print what they say, the commands write what they are asked for.
+// Every recipe is run. The scripts print the lines in their comments, and the commands write their files.
 import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -25,12 +25,15 @@ beforeAll(() => {
   );
 });
 
-it.each(blocks(RECIPES, "js").map((code, i) => [i, code] as const))("snippet %i prints what it says", (i, code) => {
-  expect(promised(code).length).toBeGreaterThan(0);
-  expect(printed(scratch, i, code)).toEqual(promised(code));
-});
+it.each(blocks(RECIPES, "js").map((code, i) => [i, code] as const))(
+  "snippet %i prints the lines in its comments",
+  (i, code) => {
+    expect(promised(code).length).toBeGreaterThan(0);
+    expect(printed(scratch, i, code)).toEqual(promised(code));
+  },
+);
 
-/** The points of a written file: those its header counts, or the lines of a table. */
+/** The number of points of a written file: the count in its header, or the lines of a table. */
 function pointsIn(written: string): number {
   const lines = written.trim().split("\n").length;
   const count = /element vertex (\d+)/.exec(written)?.[1];

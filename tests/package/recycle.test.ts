@@ -1,4 +1,4 @@
-// Memory of answers that is given back for answers to come: nothing else may ever change.
+// Memory of answers that is given back for later answers. Nothing else may ever change.
 import type threads from "node:worker_threads";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 
@@ -24,7 +24,7 @@ const [near, farAway] = [
 const loose = (value: unknown) => value as never;
 
 const started: threads.Worker[] = [];
-/** Bytes that came along with each request for a view. */
+/** The bytes that were sent with each request for a view. */
 const given: number[] = [];
 
 beforeEach(() => {
@@ -55,7 +55,7 @@ describe.each<[string, () => Promise<Cloud | WorkerCloud>]>([
   ["a cloud in a worker", () => WorkerPointCloud.create(sphere)],
   ["a cloud in three workers", () => WorkerPointCloud.create(sphere, { workers: 3 })],
 ])("an answer of %s that is recycled", (_, create) => {
-  it("is empty, and its memory the next one's", async () => {
+  it("is empty, and the next answer gets its memory", async () => {
     const cloud = await create();
     const answer = await cloud.visibleFrom(farAway);
     const { byteLength } = answer.indices;
@@ -70,13 +70,13 @@ describe.each<[string, () => Promise<Cloud | WorkerCloud>]>([
     expect(next.mask()).toEqual(direct.visibleFrom(near).mask());
     expect(next.indices.byteLength).toBeLessThan(byteLength);
     expect(next.indices.buffer.byteLength).toBe(byteLength);
-    // What was not given back is nobody else's.
+    // Memory that was not given back is not used by any other answer.
     const last = await cloud.visibleFrom(farAway);
     expect(last.indices.buffer.byteLength).toBe(byteLength);
     expect(next).toEqual(direct.visibleFrom(near));
   });
 
-  it("makes room for a longer one, with some to spare", async () => {
+  it("gives enough memory for a longer answer, with some to spare", async () => {
     const cloud = await create();
     cloud.recycle(await cloud.visibleFrom(near));
     const longer = await cloud.visibleFrom(farAway);
@@ -114,7 +114,7 @@ describe.each<[string, () => Promise<Cloud | WorkerCloud>]>([
     for (const { triangles } of meshes) expect(triangles).toEqual(expected.triangles);
   });
 
-  it("is refused if it is none", async () => {
+  it("is refused if it is no answer", async () => {
     const cloud = await create();
     for (const value of [undefined, null, 1, {}, sphere, { indices: new Uint32Array(3) }]) {
       const problem = await problemOf(() => {
@@ -127,7 +127,7 @@ describe.each<[string, () => Promise<Cloud | WorkerCloud>]>([
   });
 });
 
-it("an answer whose memory was transferred away has none to give", () => {
+it("an answer whose memory was transferred away has no memory to give", () => {
   const cloud = new PointCloud(sphere);
   const answer = cloud.visibleFrom(farAway);
   const mine = structuredClone(answer.indices, { transfer: [answer.indices.buffer as ArrayBuffer] });
@@ -136,19 +136,19 @@ it("an answer whose memory was transferred away has none to give", () => {
   expect(mine).toEqual(direct.visibleFrom(farAway).indices);
 });
 
-it("an empty answer has none, either", () => {
+it("an empty answer has no memory to give, either", () => {
   const empty = new PointCloud([]);
   empty.recycle(empty.visibleFrom(farAway));
   expect(empty.visibleFrom(farAway).count).toBe(0);
 });
 
-/** Everything that may come between an answer's memory and its next use, in any order. */
+/** All actions that may come between an answer and the next use of its memory, in any order. */
 it.each([
   [1, 1],
   [2, 1],
   [3, 3],
   [4, 3],
-])("answers that are kept never change, whatever becomes of others (order %d, %d workers)", async (seed, workers) => {
+])("kept answers never change, whatever happens to others (order %d, %d workers)", async (seed, workers) => {
   const random = randomNumbers(seed);
   const pick = (count: number) => Math.floor(random() * count);
   const clouds = [
@@ -194,7 +194,7 @@ it.each([
   expect(Math.min(answered, aborted)).toBeGreaterThan(30);
 });
 
-it("memory that a worker takes along when it dies is missed by nobody", async () => {
+it("no later answer needs the memory that is lost with a dead worker", async () => {
   const cloud = await WorkerPointCloud.create(sphere);
   const kept = await cloud.visibleFrom(near);
   cloud.recycle(await cloud.visibleFrom(farAway));
@@ -232,7 +232,7 @@ describe("an answer that is drawn goes back with the next request", () => {
     expect([given[0], given.slice(1).every((bytes) => bytes > 0), given.length]).toEqual([0, true, 4]);
   });
 
-  // Hidden points are listed by the worker, in the same memory.
+  // The worker lists the hidden points in the same memory.
   it.each([false, true])("of a filter that dims, with an index of the user's own: %s", async (indexed) => {
     const adapter = await adapterFor(VERSIONS[0]![1]);
     const { points, camera, geometry } = sceneOf(adapter, sphere);
@@ -270,7 +270,7 @@ describe("an answer that is drawn goes back with the next request", () => {
       expect(drawnOf(nodes)).toEqual([...direct.visibleFrom(place, { radius: 5000 }).indices]);
     }
     filter.dispose();
-    // One cloud of all nodes, asked once for each place.
+    // All nodes are one cloud. It is asked once for each place.
     expect(given.length).toBe(places.length);
     expect([given[0], given.slice(2).every((bytes) => bytes > 0)]).toEqual([0, true]);
   });

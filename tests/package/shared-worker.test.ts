@@ -51,7 +51,7 @@ it("each cloud answers as if it were alone, and the worker ends with the last", 
 
 it("gives a cloud's memory back when it leaves", async () => {
   const fresh = await freshPackage();
-  // 20 MB: enough for one cloud of 200,000 points at a time, not for the 3.4 MB of each of them.
+  // 20 MB hold one cloud of 200,000 points (3.4 MB) at a time, but not all of them.
   await fresh.init(cappedWasm(300));
   const create = (positions: Float32Array) => fresh.WorkerPointCloud.create(positions, { shared: true });
   const stays = await create(bumpySphere(1, 100));
@@ -65,7 +65,7 @@ it("gives a cloud's memory back when it leaves", async () => {
   await stays.dispose();
 });
 
-it("a worker that dies takes all of its clouds along, and the next gets a new one", async () => {
+it("all clouds of a dead worker are lost, and the next cloud gets a new worker", async () => {
   const [first, second] = await Promise.all(
     [1, 2].map((seed) => WorkerPointCloud.create(bumpySphere(seed, 900), { shared: true })),
   );
@@ -91,7 +91,7 @@ it("after a trap the worker goes on with new clouds", async () => {
   await next.dispose();
 });
 
-it("a cloud that is refused or given up leaves the others alone", async () => {
+it("a cloud that is refused or given up does not affect the others", async () => {
   const stays = await WorkerPointCloud.create(bumpySphere(1, 900), { shared: true });
   expect((await problemOf(() => WorkerPointCloud.create([1, 2, NaN], { shared: true }))).code).toBe("non-finite");
   const control = new AbortController();
@@ -104,7 +104,7 @@ it("a cloud that is refused or given up leaves the others alone", async () => {
   expect(running.size).toBe(0);
 });
 
-it("excludes a number of workers", async () => {
+it("cannot be combined with a number of workers", async () => {
   const problem = await problemOf(() => WorkerPointCloud.create([0, 0, 1], { shared: true, workers: 1 }));
   expect(problem).toMatchObject({ code: "option", message: expect.stringContaining("shared and workers") as string });
 });

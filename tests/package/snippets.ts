@@ -1,4 +1,4 @@
-// Documents whose snippets are run: what they print is what they say they do.
+// Runs the snippets of documents. They must print the lines in their comments.
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -13,14 +13,14 @@ export function blocks(document: string, language: string): string[] {
   );
 }
 
-/** A place for a document's scripts, inside the repository, so that the package finds itself by its name. */
+/** A folder for a document's scripts. It is inside the repository, so that imports by the package's name work. */
 export function scratchFor(name: string): string {
   const scratch = join(root, "target", name);
   mkdirSync(scratch, { recursive: true });
   return scratch;
 }
 
-/** What a snippet says it prints: its comments `// → …`. */
+/** The lines that a snippet must print: its comments `// → …`. */
 export function promised(code: string): string[] {
   return [...code.matchAll(/\/\/ → (.*)/g)].map(([, text]) => (text ?? "").trim());
 }

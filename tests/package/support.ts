@@ -8,7 +8,7 @@ const require = createRequire(import.meta.url);
 export const wasmPath = require.resolve("hidden-point-removal/hpr.wasm");
 export const wasmBytes = (): Uint8Array<ArrayBuffer> => new Uint8Array(readFileSync(wasmPath));
 
-/** The package as on a fresh page: nothing is initialized. */
+/** The package as on a fresh page, not initialized. */
 export async function freshPackage() {
   vi.resetModules();
   return { ...(await import("hidden-point-removal")), ...(await import("hidden-point-removal/worker")) };
@@ -21,7 +21,7 @@ export async function readyPackage() {
   return hpr;
 }
 
-/** The package's wasm, except that one of the functions it exports traps when called. */
+/** The package's wasm, but one of its exported functions traps. */
 export function trappingWasm(name: string): Uint8Array<ArrayBuffer> {
   const module = binaryen.readBinary(wasmBytes());
   const { value } = binaryen.getExportInfo(module.getExport(name));
@@ -31,7 +31,7 @@ export function trappingWasm(name: string): Uint8Array<ArrayBuffer> {
   return new Uint8Array(module.emitBinary());
 }
 
-/** The package's wasm, except that its memory is refused growth beyond so many 64 KiB pages. */
+/** The package's wasm, but its memory cannot grow beyond this many pages of 64 KiB. */
 export function cappedWasm(pages: number): Uint8Array<ArrayBuffer> {
   const module = binaryen.readBinary(wasmBytes());
   const capped = binaryen.parseText(module.emitText().replace(/\(memory (\S+) (\d+)\)/, `(memory $1 $2 ${pages})`));
@@ -82,7 +82,7 @@ export interface Problem {
   cause?: unknown;
 }
 
-/** What a call throws, or what a promise is rejected with. */
+/** The error that a call throws, or that rejects a promise. */
 export async function problemOf(call: () => unknown): Promise<Problem> {
   try {
     await call();

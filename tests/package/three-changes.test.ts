@@ -1,4 +1,4 @@
-// The adapter for three.js: what is refused, what is changed under it, and many filters on one page.
+// The adapter for three.js: refusals, changes of its points, and many filters on one page.
 import { afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 
 import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
@@ -137,7 +137,7 @@ describe.each(VERSIONS)("with %s", (_, load) => {
       expect(points.children).toHaveLength(1);
     });
 
-    it("a second filter of one geometry, as long as there is the first", () => {
+    it("a second filter of one geometry, as long as the first exists", () => {
       const { points } = sceneOf(adapter, sphere);
       const filter = filterFor(points, { worker: false });
       expect(() => filterFor(points)).toThrow(/already/);
@@ -168,7 +168,7 @@ describe.each(VERSIONS)("with %s", (_, load) => {
     expect(drawn(other.geometry)).toEqual(before);
   });
 
-  it("leaves what a listener throws to its caller, and goes on", () => {
+  it("passes the errors of listeners to the caller, and goes on", () => {
     const { points, camera, geometry } = sceneOf(adapter, sphere);
     const filter = filterFor(points, { worker: false });
     const errors: unknown[] = [];
@@ -195,7 +195,7 @@ describe.each(VERSIONS)("with %s", (_, load) => {
     }
 
     it.each([true, false])(
-      "that a radius is too small, and goes on where it is not, with worker: %s",
+      "that a radius is too small, and goes on at places where it is not, with worker: %s",
       async (worker) => {
         const { points, camera, geometry } = sceneOf(adapter, sphere);
         const filter = filterFor(points, { radius: 5, worker });
@@ -244,7 +244,7 @@ describe.each(VERSIONS)("with %s", (_, load) => {
       expect(codes).toEqual(["option"]);
     });
 
-    it("what the core refuses", async () => {
+    it("a refusal of the core", async () => {
       const broken = sphere.slice().fill(NaN, 30, 31);
       const scene = sceneOf(adapter, broken);
       const filter = filterFor(scene.points);
@@ -273,7 +273,7 @@ describe.each(VERSIONS)("with %s", (_, load) => {
     });
   });
 
-  it("is disposed of before it is ready without a fuss", async () => {
+  it("can be disposed of before it is ready", async () => {
     const { points, camera, geometry } = sceneOf(adapter, sphere);
     const filter = filterFor(points);
     filter.update(camera);
@@ -282,7 +282,7 @@ describe.each(VERSIONS)("with %s", (_, load) => {
     expect(geometry.index).toBeNull();
   });
 
-  describe("takes up what is changed:", () => {
+  describe("takes up changes of", () => {
     it.each([true, false])("positions, with worker: %s", async (worker) => {
       const { points, camera, geometry } = sceneOf(adapter, sphere.slice());
       const filter = filterFor(points, { worker });
@@ -326,7 +326,7 @@ describe.each(VERSIONS)("with %s", (_, load) => {
       ["an index", ({ geometry }) => void geometry.setIndex(Array.from({ length: 1500 }, (_, i) => 2 * i))],
     ];
 
-    it.each(changes)("%s, as a filter that is new", async (_, change) => {
+    it.each(changes)("%s, like a new filter", async (_, change) => {
       const [scene, fresh] = [sceneOf(adapter, sphere), sceneOf(adapter, sphere)];
       const filter = filterFor(scene.points);
       filter.update(scene.camera);
@@ -365,7 +365,7 @@ describe.each(VERSIONS)("with %s", (_, load) => {
         .toEqual(drawn(fresh.points.geometry));
     });
 
-    it("moving positions, every frame, without starving", async () => {
+    it("positions that move in every frame, without starving", async () => {
       const { points, camera, geometry } = sceneOf(adapter, sphere.slice());
       const filter = filterFor(points);
       let answers = 0;
@@ -387,7 +387,7 @@ describe.each(VERSIONS)("with %s", (_, load) => {
   });
 
   describe("with mode dim", () => {
-    it("draws hidden points as a child that rays do not meet", async () => {
+    it("draws hidden points as a child that rays do not hit", async () => {
       const { THREE } = adapter;
       const { points, camera, geometry } = sceneOf(adapter, sphere);
       const filter = filterFor(points, { mode: "dim" });
@@ -456,7 +456,7 @@ describe.each(VERSIONS)("with %s", (_, load) => {
       expect(running.size).toBe(1);
     });
 
-    it("get over the death of their worker", async () => {
+    it("recover from the death of their worker", async () => {
       const scenes = [sceneOf(adapter, sphere), sceneOf(adapter, other)];
       const all = scenes.map(({ points }) => filterFor(points));
       const errors: unknown[] = [];
@@ -471,7 +471,7 @@ describe.each(VERSIONS)("with %s", (_, load) => {
         all.forEach((filter, j) => {
           filter.update(scenes[j]!.camera);
         });
-        // Both, since one that has not answered since the last death takes another one for its own doing.
+        // Waits for both: a filter that has not answered since the last death would blame itself for the next.
         await expect.poll(() => drawn(scenes[0]!.geometry)).toEqual(visibleFrom([x, 0, 5], sphere));
         await expect.poll(() => drawn(scenes[1]!.geometry)).toEqual(visibleFrom([x, 0, 5], other));
       }

@@ -1,4 +1,4 @@
-/** The oldest three.js that the adapter supports; its types are close enough to the newest's. */
+/** The oldest three.js that the adapter supports. The types of the newest version are close enough. */
 declare module "three-oldest" {
   export * from "three";
 }

@@ -1,4 +1,4 @@
-// What both filters for three.js do when their worker dies, and when they are told rude things.
+// Both filters for three.js when their worker dies, and when their objects get wrong values.
 import type threads from "node:worker_threads";
 import { init, PointCloud } from "hidden-point-removal";
 import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
@@ -14,7 +14,7 @@ const sphere = bumpySphere(1, 3000);
 
 beforeAll(() => init());
 
-/** One cloud, in one piece or as a node, and what is told of its filter. */
+/** One cloud, in one piece or as a node, and the reports of its filter. */
 function pointsOf(positions = sphere) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
@@ -74,7 +74,7 @@ describe.each([
       replaceWorker(OriginalWorker);
     });
 
-    it("gets over several in a row without a word", async () => {
+    it("recovers from several deaths in a row without a report", async () => {
       dying = 3;
       const { points, camera, geometry } = pointsOf();
       const { filter, errors } = filterFor(points);
@@ -84,7 +84,7 @@ describe.each([
       expect(errors).toEqual([]);
     });
 
-    it("says once that there is no end to it, and tries again from another viewpoint", async () => {
+    it("reports once that the deaths do not end, and tries again from another viewpoint", async () => {
       dying = 4;
       const { points, camera, geometry } = pointsOf();
       const { filter, errors } = filterFor(points);
@@ -109,7 +109,7 @@ describe.each([
     });
   });
 
-  it("reports an error that nobody listens to any more as an unhandled rejection", async () => {
+  it("reports an error without a listener as an unhandled rejection", async () => {
     const { points, camera } = pointsOf();
     const { filter, errors, listener } = filterFor(points, { radius: 1 });
     if ("ready" in filter) await filter.ready;

@@ -45,7 +45,7 @@ export function nextChange(filter: Filter): Promise<{ count: number; millisecond
   });
 }
 
-/** What it draws: numbers of points, in their order. */
+/** The indices of the points that it draws, in order. */
 export function drawn({ index, drawRange, attributes }: Three.BufferGeometry): number[] {
   const start = Math.max(0, drawRange.start);
   const end = Math.min(index?.count ?? attributes["position"]!.count, drawRange.start + drawRange.count);

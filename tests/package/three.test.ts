@@ -1,4 +1,4 @@
-// The adapter for three.js: what is drawn, from where, and what is put back.
+// The adapter for three.js: the points that it draws, its viewpoint, and what it restores.
 import { afterEach, beforeAll, describe, expect, it } from "vitest";
 
 import { bumpySphere, randomNumbers } from "./support";
@@ -41,7 +41,7 @@ describe.each(VERSIONS)("with %s", (name, load) => {
     ...new adapter.PointCloud(positions).visibleFrom(viewpoint, options).indices,
   ];
 
-  it("is the three.js that it says", () => {
+  it("runs with the expected version of three.js", () => {
     const { points, camera } = sceneOf(adapter, sphere);
     expect(adapter.THREE.REVISION).toMatch(name === "three" ? /^1[89]\d/ : /^159$/);
     filterFor(points, { worker: false }).update(camera);
@@ -89,7 +89,7 @@ describe.each(VERSIONS)("with %s", (name, load) => {
     expect(drawn(geometry)).toHaveLength(3000);
   });
 
-  it("answers the newest view, and few of those in between", async () => {
+  it("answers the newest view, and few of the views in between", async () => {
     const { points, camera, geometry } = sceneOf(adapter, sphere);
     const filter = filterFor(points);
     const answers: number[][] = [];
@@ -100,11 +100,11 @@ describe.each(VERSIONS)("with %s", (name, load) => {
       return camera.position.toArray();
     };
     await filter.ready;
-    // The first is being answered while the others come.
+    // The first view is being answered while the others come.
     const [first, ...others] = Array.from({ length: 200 }, (_, i) => moveTo(i));
     await nextChange(filter);
     await nextChange(filter);
-    // One in between would be answered before this.
+    // A view in between would be answered before this.
     const next = moveTo(200);
     await nextChange(filter);
     expect(answers).toEqual([first!, others.at(-1)!, next].map((viewpoint) => visibleFrom(viewpoint)));
@@ -113,7 +113,7 @@ describe.each(VERSIONS)("with %s", (name, load) => {
   describe("asks again", () => {
     /** How many answers the last change made. */
     function answersAfter({ points }: Scene, camera: Scene["points"]["parent"], change: () => void): number {
-      // Without a worker, which answers at once.
+      // Without a worker, because then it answers at once.
       const filter = filterFor(points, { worker: false });
       let answers = 0;
       filter.addEventListener("change", () => answers++);
@@ -195,7 +195,7 @@ describe.each(VERSIONS)("with %s", (name, load) => {
     const outer = new THREE.Group();
     const inner = new THREE.Group();
     scene.add(outer.add(inner.add(points)));
-    // A quarter turn, a power of two and whole numbers: nothing is rounded much.
+    // A quarter turn, a power of two and whole numbers, so that rounding errors are small.
     outer.position.set(10, 20, -30);
     inner.rotation.z = Math.PI / 2;
     inner.scale.setScalar(4);
@@ -229,7 +229,7 @@ describe.each(VERSIONS)("with %s", (name, load) => {
     expect(filter.visibleCount).toBeLessThan(cloud.visibleFromDirection([0, -1, 0]).count);
   });
 
-  it("reads the positions of every kind of attribute as three does", () => {
+  it("reads the positions of every kind of attribute like three.js", () => {
     const { THREE } = adapter;
     const random = randomNumbers(7);
     const integers = (range: number, signed = true) =>
@@ -282,7 +282,7 @@ describe.each(VERSIONS)("with %s", (name, load) => {
   describe("with an index and a draw range", () => {
     const some = Uint16Array.from({ length: 3000 }, (_, i) => (i * 7919) % 3000).subarray(0, 2000);
 
-    it("filters only what they draw, in its order, and puts both back", async () => {
+    it("filters only the points that they draw, in that order, and restores both", async () => {
       for (const [index, start, count] of [
         [some, 0, Infinity],
         [some, 300, 900],
@@ -307,7 +307,7 @@ describe.each(VERSIONS)("with %s", (name, load) => {
       }
     });
 
-    it("takes points that are listed twice for one", () => {
+    it("treats points that are listed twice as one", () => {
       const { points, camera, geometry } = sceneOf(adapter, sphere);
       geometry.setIndex([...some, ...some]);
       filterFor(points, { worker: false }).update(camera);

@@ -19,14 +19,14 @@ async function trapped() {
 }
 
 describe("a trap", () => {
-  it("is answered as internal, with what trapped as its cause", async () => {
+  it("is reported as internal, with the trap as its cause", async () => {
     const { problem } = await trapped();
     expect(problem.code).toBe("internal");
     expect(problem.cause).toBeInstanceOf(WebAssembly.RuntimeError);
     expect(problem.message).toMatch(/init\(\)/);
   });
 
-  it("takes all clouds of the instance along, also the one it did not happen to", async () => {
+  it("ends all clouds of the instance, not only the cloud that trapped", async () => {
     const { cloud, other, hpr } = await trapped();
     for (const lost of [cloud, other]) {
       expect((await problemOf(() => lost.visibleFrom(farAway))).code).toBe("internal");
@@ -46,7 +46,7 @@ describe("a trap", () => {
       },
     ],
   ];
-  it.each(restarts)("is over after %s: new clouds work, old ones do not touch them", async (_, restart) => {
+  it.each(restarts)("is over after %s: new clouds work, and old clouds do not affect them", async (_, restart) => {
     const { hpr, cloud, other } = await trapped();
     await restart(hpr);
     const fresh = [1, 2, 3].map((seed) => new hpr.PointCloud(bumpySphere(seed, 500)));
@@ -75,14 +75,14 @@ describe("a trap", () => {
     }
   });
 
-  it("compiles the package's own file only once, however often it has to start", async () => {
+  it("compiles the package's own file only once, for any number of starts", async () => {
     const hpr = await freshPackage();
     const compile = vi.spyOn(WebAssembly, "compile");
     const instantiate = vi.spyOn(WebAssembly, "instantiate");
     await hpr.init();
     const cloud = new hpr.PointCloud(sphere);
-    // Nothing that a caller can do makes the package's own wasm trap, so its
-    // next call out of the wasm does.
+    // No caller can make the package's own wasm trap. So the test makes the next call out
+    // of the wasm trap.
     const set = vi.spyOn(Uint32Array.prototype, "set").mockImplementationOnce(() => {
       throw new WebAssembly.RuntimeError("unreachable");
     });

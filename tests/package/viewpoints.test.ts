@@ -37,7 +37,7 @@ describe("several viewpoints", () => {
     expect(atLeast(4).length).toBeLessThan(atLeast(2).length);
   });
 
-  it("of which there are none see nothing", () => {
+  it("see nothing if the list is empty", () => {
     const none = cloud.visibleFromAny([]);
     expect(none).toMatchObject({ count: 0, radius: 0, exponent: 0, evaluations: 0, inversion: "spherical" });
     expect(none.mask()).toEqual(new Uint8Array(cloud.length));
@@ -83,7 +83,7 @@ describe("several viewpoints", () => {
 });
 
 describe("a ring of viewpoints", () => {
-  it("is around the viewpoint, across its line to the target", () => {
+  it("lies around the viewpoint, at a right angle to the line to the target", () => {
     const target = [0.5, 1, -1];
     const toTarget = target.map((x, axis) => x - viewpoint[axis]!);
     const distance = Math.hypot(...toTarget);
@@ -120,7 +120,7 @@ describe("a direction", () => {
     for (const options of [{}, { inversion: { exponential: "auto" } }] as const) {
       const limit = cloud.visibleFromDirection(direction, options);
       expect(limit.count).toBeGreaterThan(200);
-      // So many differ from those seen from so far away.
+      // At this distance, this many points still differ.
       const differing = [3, 300, 30_000].map((distance) => {
         const [near, far] = [cloud.visibleFrom(from(distance), options).mask(), limit.mask()];
         return near.filter((visible, i) => visible !== far[i]).length;
@@ -130,14 +130,14 @@ describe("a direction", () => {
     }
   });
 
-  it("is the lower boundary of a lifted cloud, with one bend for all ways to say it", () => {
+  it("is the lower boundary of a lifted cloud, with the same bend however it is given", () => {
     const limit = cloud.visibleFromDirection([0, 0, -1]);
     expect(limit).toMatchObject({ evaluations: 0, inversion: "spherical" });
     expect(cloud.visibleFromDirection([0, 0, -7]).indices).toEqual(limit.indices);
     expect(cloud.visibleFromDirection([0, 0, -1], { radius: limit.radius }).indices).toEqual(limit.indices);
     const { exponent } = limit;
     expect(cloud.visibleFromDirection([0, 0, -1], { exponent }).radius).toBeCloseTo(limit.radius, 6);
-    // Under x² + y² lie a point on the axis and its neighbors, but not what is behind.
+    // A point on the axis and its neighbors lie on the lower boundary of the lift x² + y². Points behind do not.
     const few = new PointCloud([0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, -1]);
     expect([...few.visibleFromDirection([0, 0, -1]).indices]).toEqual([0, 1, 2, 3, 4]);
     expect([...few.visibleFromDirection([0, 0, 1]).indices]).toContain(5);

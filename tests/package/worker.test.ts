@@ -15,7 +15,7 @@ const sphere = bumpySphere(1, 3000);
 const farAway = [0, 0, 5];
 const loose = (value: unknown) => value as never;
 
-/** Every thread that was started, so that a test can end one. */
+/** All threads that were started, so that a test can end one. */
 const started: threads.Worker[] = [];
 
 beforeEach(() => {
@@ -35,7 +35,7 @@ afterEach(async () => {
 });
 
 describe("a cloud in a worker", () => {
-  it("answers what the synchronous cloud answers, several clouds at once", async () => {
+  it("gives the answers of the synchronous cloud, with several clouds at once", async () => {
     const inputs: [ArrayLike<number>, object?][] = [
       [sphere],
       [Float64Array.from(bumpySphere(2, 1000))],
@@ -64,7 +64,7 @@ describe("a cloud in a worker", () => {
     );
   });
 
-  it("is appended to and removed from between what was asked before and after", async () => {
+  it("is changed between the questions before the change and the questions after it", async () => {
     const direct = new PointCloud(sphere.subarray(0, 3000), { stride: 4, nonFinite: "skip" });
     const cloud = await WorkerPointCloud.create(sphere.subarray(0, 3000), { stride: 4, nonFinite: "skip" });
     const more = sphere.slice(3000, 6000).fill(NaN, 0, 1);
@@ -136,7 +136,7 @@ describe("a cloud in a worker", () => {
     expect(own).toHaveLength(sphere.length);
   });
 
-  it("takes the buffer itself where it is given away", async () => {
+  it("takes the buffer itself if the caller gives it away", async () => {
     const own = sphere.slice();
     const creating = WorkerPointCloud.create(own, { transfer: true });
     expect(own).toHaveLength(0);
@@ -144,7 +144,7 @@ describe("a cloud in a worker", () => {
     expect((await cloud.visibleFrom(farAway)).indices).toEqual(new PointCloud(sphere).visibleFrom(farAway).indices);
   });
 
-  it.each([1, 3])("says how far %d workers have come", async (workers) => {
+  it.each([1, 3])("reports the progress of %d workers", async (workers) => {
     for (const positions of [sphere, [], [0, 0, 1]]) {
       const told: number[] = [];
       const onProgress = (fraction: number) => told.push(fraction);
@@ -183,7 +183,7 @@ describe("a thread", () => {
     collectGarbage();
     await pause();
     expect((await answer).count).toBeGreaterThan(10);
-    // A thread that has ended has no number any more.
+    // A thread that has ended no longer has a number.
     while (started[0]!.threadId !== -1) {
       collectGarbage();
       await pause();
@@ -191,7 +191,7 @@ describe("a thread", () => {
   });
 });
 
-describe("what is refused", () => {
+describe("refusals", () => {
   const refusals: [code: string, names: RegExp, positions: unknown, options?: unknown][] = [
     ["positions-type", /"abc"/, "abc"],
     ["positions-length", /got 4\b/, [1, 2, 3, 4]],
@@ -251,7 +251,7 @@ describe("requests given up", () => {
       one.status === "fulfilled" ? "answered" : isAbort(one.reason) ? "aborted" : String(one.reason),
     );
 
-  it("are those that a newer one with `latest` has overtaken", async () => {
+  it("are overtaken by a newer request with `latest`", async () => {
     const cloud = await WorkerPointCloud.create(sphere);
     const asked = [1, 2, 3, 4, 5].map((z) => cloud.visibleFrom([0, 0, z + 2], { latest: true }));
     expect(await settled(asked)).toEqual(["answered", "aborted", "aborted", "aborted", "answered"]);
@@ -259,14 +259,14 @@ describe("requests given up", () => {
     expect(await settled([cloud.visibleFrom(farAway, { latest: true })])).toEqual(["answered"]);
   });
 
-  it("are never those without `latest`", async () => {
+  it("never include requests without `latest`", async () => {
     const cloud = await WorkerPointCloud.create(sphere);
     const flags = [true, false, true, false, true];
     const asked = flags.map((latest) => cloud.visibleFrom(farAway, { latest }));
     expect(await settled(asked)).toEqual(["answered", "answered", "aborted", "answered", "answered"]);
   });
 
-  it("are overtaken only by what asks the same", async () => {
+  it("are overtaken only by requests of the same kind", async () => {
     const cloud = await WorkerPointCloud.create(sphere);
     const [late, options] = [AbortSignal.abort(), { latest: true }];
     const frame = () => [
@@ -285,7 +285,7 @@ describe("requests given up", () => {
     ];
     const none = new Array<string>(7).fill("aborted");
     const all = new Array<string>(7).fill("answered");
-    // The very first had begun.
+    // The first one had already begun.
     expect(await first).toEqual(["answered", ...none.slice(1)]);
     expect(await second).toEqual(none);
     expect(await third).toEqual(all);
@@ -305,11 +305,11 @@ describe("requests given up", () => {
     const creating = settled([WorkerPointCloud.create(sphere, { signal: controller.signal })]);
     controller.abort();
     expect(await creating).toEqual(["aborted"]);
-    // A thread that has ended has no number any more.
+    // A thread that has ended no longer has a number.
     await expect.poll(() => started.map(({ threadId }) => threadId)).toEqual([-1]);
   });
 
-  it("are those whose signal aborts: waiting, running, or not yet asked", async () => {
+  it("include requests whose signal aborts: waiting, running, or not yet asked", async () => {
     const cloud = await WorkerPointCloud.create(sphere);
     const [running, waiting] = [new AbortController(), new AbortController()];
     const asked = [
@@ -323,7 +323,7 @@ describe("requests given up", () => {
     expect(await settled(asked)).toEqual(["aborted", "aborted", "aborted", "answered"]);
   });
 
-  it("listen once to a signal, however many there are, and no longer than they are pending", async () => {
+  it("listen to a signal only once together, and only while they are pending", async () => {
     const warnings: string[] = [];
     const warn = ({ name }: Error) => warnings.push(name);
     process.on("warning", warn);
@@ -345,7 +345,7 @@ describe("requests given up", () => {
     expect(warnings).toEqual([]);
   });
 
-  it("may be the cloud itself", async () => {
+  it("may include the request for the cloud itself", async () => {
     const controller = new AbortController();
     const creating = [
       WorkerPointCloud.create(sphere, { signal: controller.signal }),
@@ -379,9 +379,9 @@ describe("a worker that is gone", () => {
     expect(started.at(-1)!.threadId).toBe(-1);
   });
 
-  it("rejects everything with internal where it died, and a new cloud works", async () => {
+  it("rejects everything with internal if it died, and a new cloud works", async () => {
     const [cloud, other] = [await WorkerPointCloud.create(sphere), await WorkerPointCloud.create(sphere)];
-    // It dies before it has said anything, however fast it is.
+    // It dies before its first message, however fast it is.
     started[0]!.removeAllListeners("message");
     const pending = codesOf(pendingIn(cloud));
     void started[0]!.terminate();
@@ -392,9 +392,9 @@ describe("a worker that is gone", () => {
     await cloud.dispose();
   });
 
-  it("rejects everything with internal where the wasm trapped", async () => {
+  it("rejects everything with internal if the wasm trapped", async () => {
     const hpr = await freshPackage();
-    // The worker runs what the page runs.
+    // The worker runs the same wasm as the page.
     hpr.initSync(trappingWasm("visibleFrom"));
     const cloud = await hpr.WorkerPointCloud.create(sphere);
     expect((await cloud.autoRadius(farAway)).radius).toBeGreaterThan(0);
@@ -407,7 +407,7 @@ describe("a worker that is gone", () => {
     expect((await next.visibleFrom(farAway)).count).toBeGreaterThan(10);
   });
 
-  it("is answered as load where it could not be started at all", async () => {
+  it("rejects with load if it could not be started", async () => {
     replaceWorker(
       class extends OriginalWorker {
         constructor() {

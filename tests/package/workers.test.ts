@@ -39,7 +39,7 @@ function dragon(): Float32Array {
   return Float32Array.from(lines.flatMap((line) => line.split(" ").slice(0, 3).map(Number)));
 }
 
-/** Places given in the bounding box, in which 0 and 1 are the walls. */
+/** Places in units of the bounding box: 0 and 1 are the walls. */
 function placesAround(positions: Float32Array): number[][] {
   const coordinates = (axis: number) => positions.filter((_, i) => i % 3 === axis);
   const box = [0, 1, 2].map((axis) => {
@@ -61,7 +61,7 @@ describe("several workers", () => {
     ["the bunny", bunny()],
     ["the dragon", dragon()],
   ];
-  it.each(clouds)("answer for %s what one does", async (_, positions) => {
+  it.each(clouds)("give the answer of one worker for %s", async (_, positions) => {
     const direct = new PointCloud(positions);
     for (const workers of [1, 2, 3]) {
       const cloud = await WorkerPointCloud.create(positions, { workers });
@@ -78,7 +78,7 @@ describe("several workers", () => {
     }
   });
 
-  it("answer from a place in the plane of a wall what one does", async () => {
+  it("give the answer of one worker from a place in the plane of a wall", async () => {
     let state = 1;
     const random = () => {
       state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
@@ -127,7 +127,7 @@ describe("several workers", () => {
     }
   });
 
-  it("are all appended to and removed from", async () => {
+  it("all take appended and removed points", async () => {
     const direct = new PointCloud(sphere);
     const cloud = await WorkerPointCloud.create(sphere, { workers: 2 });
     const more = bumpySphere(2, 2000);
@@ -153,7 +153,7 @@ describe("several workers", () => {
     expect(await cloud.visibleFrom(farAway)).toEqual(expected[1]);
   });
 
-  it("drop a view that a newer one has overtaken, and one whose signal aborts", async () => {
+  it("drop a view that a newer view has overtaken, and a view whose signal aborts", async () => {
     const cloud = await WorkerPointCloud.create(sphere, { workers: 2 });
     const running = new AbortController();
     const asked = [
@@ -181,7 +181,7 @@ describe("several workers", () => {
     expect((await next.visibleFrom(farAway)).indices).toEqual(new PointCloud(sphere).visibleFrom(farAway).indices);
   });
 
-  it("go on without the one that was refused the memory for a change", async () => {
+  it("go on without the worker that got no memory for a change", async () => {
     replaceWorker(
       class extends ListedWorker {
         override postMessage(message: { cloud: number; content: { kind: string } }, ...rest: never[]) {

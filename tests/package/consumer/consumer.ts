@@ -1,4 +1,4 @@
-// What a user writes against the published types; compiled, never run.
+// A user's code against the published types. It is compiled, never run.
 import {
   hiddenPointRemoval,
   HprError,
