@@ -1,4 +1,4 @@
-// npm run bench: builds, then prints the benchmark tables; arguments are handed on.
+// npm run bench: builds, then prints the benchmark tables. Arguments go to the benchmarks.
 import { spawnSync } from "node:child_process";
 
 import { build } from "./build/build.js";

@@ -1,5 +1,5 @@
-// npm run consumers: the packed package in every bundler, page and runtime that is installed here;
-// `npm test` runs those that most users have.
+// npm run consumers: tests the packed package in every bundler, page and runtime that is installed here.
+// `npm test` runs only the most common ones.
 import { build } from "./build/build.js";
 import { vitest } from "./checks/vitest.js";
 import { command } from "./lib/command.js";

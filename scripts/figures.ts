@@ -1,5 +1,5 @@
-// npm run figures: builds, then draws the paper's figures, measures fidelity into
-// tests/figures and accessibility into docs; arguments are handed on.
+// npm run figures: builds, then draws the paper's figures. It also writes the fidelity tables
+// to tests/figures and the accessibility report to docs. Arguments choose some of them.
 import { spawnSync } from "node:child_process";
 
 import { build } from "./build/build.js";

@@ -1,5 +1,5 @@
-// npm run fuzz -- --minutes M --seed N [--only NAME]: every fuzzer of tests/fuzz, with its share of
-// the minutes; says what was tried and what was wrong. Ends with status 1 if anything was wrong.
+// npm run fuzz -- --minutes M --seed N [--only NAME]: runs every fuzzer of tests/fuzz for its share of
+// the minutes. Prints how many cases were tried and how many were wrong. Ends with status 1 if any was wrong.
 import { availableParallelism } from "node:os";
 
 import { buildPackage } from "./build/package.js";

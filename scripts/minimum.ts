@@ -1,4 +1,4 @@
-// npm run minimum: compiles and tests the crate with the oldest Rust that Cargo.toml promises
+// npm run minimum: compiles and tests the crate with the oldest Rust that Cargo.toml allows
 // (rust-version). Writes tests/release/MINIMUM.md.
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 

@@ -48,13 +48,13 @@ await command(async () => {
   }
   writeFileSync(CHANGELOG, dated(readFileSync(CHANGELOG, "utf8"), version, today));
   for (const [name, program, args] of steps) {
-    // A changelog that has its day already leaves nothing to commit.
+    // If the changelog already has its date, there is nothing to commit.
     if (name === "commit" && (await run("git", ["diff", "--quiet"], { show: "nothing" })).ok) continue;
     await mustRun(program, args, `The release stopped at this step: ${name}`, { show: "results" });
   }
 });
 
-/** Both publications up to the point where something would be sent. */
+/** Rehearses both publications, without sending anything. */
 async function rehearse(): Promise<void> {
   await mustRun("cargo", ["publish", "--dry-run", "--locked"], "The crate could not be published");
   const npm = ["publish", "--dry-run", "--provenance", "--access", "public"];

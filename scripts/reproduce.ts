@@ -1,5 +1,5 @@
-// npm run reproduce: builds the last commit twice, each time from nothing, in another folder and with another
-// home of cargo, and compares every byte of the npm package. Writes tests/release/REPRODUCED.md.
+// npm run reproduce: builds the last commit twice from nothing, in different folders and with different
+// homes of cargo, and compares every byte of the npm package. Writes tests/release/REPRODUCED.md.
 import { mkdirSync, mkdtempSync, rmSync, symlinkSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -31,16 +31,16 @@ await command(async () => {
   }
 });
 
-/** Builds the last commit in a folder of its own; returns the digests of the npm package's files. */
+/** Builds the last commit in a folder of its own. Returns the digests of the npm package's files. */
 async function built(folder: string, env: Record<string, string>): Promise<Map<string, string>> {
   say(`Building in ${folder}…`);
   await mustRun("git", ["clone", "--quiet", inRoot("."), folder], "The repository could not be copied");
   mkdirSync(join(folder, "target"));
-  // Neither is built from the sources of this repository.
+  // Neither of these is built from the sources of this repository.
   symlinkSync(inRoot("node_modules"), join(folder, "node_modules"), "dir");
   symlinkSync(inRoot("target", "tools"), join(folder, "target", "tools"), "dir");
   const args = [join(folder, "scripts", "bootstrap.mjs"), "build", "package"];
-  // The path of commands is for this folder; the build makes its own.
+  // The PATH of this process is for this folder. The build makes its own.
   const { PATH = "" } = environment();
   await mustRun(process.execPath, args, "The build failed", { env: { ...env, PATH } });
   return digestsIn(join(folder, "dist"));

@@ -1,5 +1,5 @@
-// npm start: builds, then serves the demo page until it is stopped. PORT is honored.
-// Changes to the page show at once; changes to the package, after a restart.
+// npm start: builds, then serves the demo page until it is stopped. PORT sets the port.
+// Changes to the page show at once. Changes to the package show after a restart.
 import { createServer } from "vite";
 
 import { buildPackage } from "./build/package.js";
@@ -14,8 +14,8 @@ await command(async () => {
   await setUpForBuild();
   await buildWasm();
   await buildPackage();
-  // A port that was asked for is used or refused; the usual one may give way to the next.
-  // Named by number: with `localhost` some systems would listen on IPv6 only.
+  // A port from PORT is used or refused. The usual port may give way to the next one.
+  // The host is a number, because with `localhost` some systems would listen on IPv6 only.
   const settings = { host: "127.0.0.1", port, strictPort: asked };
   const server = await createServer({ root: inRoot("www"), configLoader: "runner", server: settings });
   try {
@@ -28,7 +28,7 @@ await command(async () => {
   console.log(`\nThe demo page: http://localhost:${server.config.server.port}/ (Ctrl+C stops it)`);
 });
 
-/** Ending npm ends the shell it runs scripts in, but not what runs in that shell. */
+/** Ending npm ends the shell that runs its scripts, but not the programs in that shell. */
 function stopWithNpm(): void {
   if (process.env["npm_lifecycle_event"] === undefined) return;
   const parent = process.ppid;

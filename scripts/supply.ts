@@ -1,12 +1,12 @@
-// npm run supply: installs cargo-deny where it is missing, then checks licenses, duplicates, sources and
-// known weaknesses of every crate and every npm package. Needs the network for the weaknesses.
+// npm run supply: installs cargo-deny if it is missing, then checks licenses, duplicates, sources and
+// known weaknesses of every crate and every npm package. The check for weaknesses needs the network.
 import { command } from "./lib/command.js";
 import { run } from "./lib/run.js";
 import { setUpLinker } from "./setup/linker.js";
 import { setUpRust } from "./setup/rust.js";
 import { setUpCargoDeny } from "./supply/deny.js";
 
-/** Each with the words by which it says that the list of weaknesses could not be had. */
+/** Each check has a pattern for its message that the list of weaknesses cannot be reached. */
 const CHECKS: { name: string; command: string[]; unreachable?: RegExp }[] = [
   { name: "crates: licenses, duplicates, sources", command: ["cargo-deny", "check", "licenses", "bans", "sources"] },
   {

@@ -1,6 +1,6 @@
-// npm test [-- part …]: sets up whatever is missing, then runs every check, or those of the parts
-// named. A check that fails does not keep the others from running; the last lines name what failed
-// and add everything up.
+// npm test [-- part …]: sets up missing tools, then runs every check, or the checks of the given
+// parts. If a check fails, the others still run. The last lines name the failures and add up all
+// counts.
 import { checks } from "./checks/all.js";
 import type { Check, Outcome } from "./checks/check.js";
 import { FAIL, sum } from "./checks/check.js";
@@ -10,7 +10,7 @@ import { command } from "./lib/command.js";
 import { collected, print } from "./lib/output.js";
 import { Problem } from "./lib/run.js";
 
-/** Most checks use one core, and those that use two wait for a browser half of the time. */
+/** Most checks use one core. The others use two, but half of the time they wait for a browser. */
 const AT_ONCE = 2;
 
 const rows: string[] = [];
@@ -30,7 +30,7 @@ await command(async () => {
   if (total.failed > 0) process.exitCode = 1;
 });
 
-/** Shows what a check prints when it has ended, so that nothing else comes in between. */
+/** Shows the output of a check after it has ended, so that no other output comes in between. */
 async function shown(check: Check): Promise<void> {
   print(`\n… ${check.title}\n`);
   print((await collected(() => recorded(check))).output);

@@ -4,7 +4,7 @@ import { inRoot } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
 
-/** The demo page and, beside it, the element for other pages: in www/dist, to be hosted under any path. */
+/** The demo page, and the element for other pages. Both lie in www/dist and can be hosted under any path. */
 export async function buildDemo(): Promise<void> {
   const work = {
     name: "demo",
@@ -22,7 +22,7 @@ export async function buildDemo(): Promise<void> {
       const options = ["--config", config, "--configLoader", "runner", "--logLevel", "warn"];
       await mustRun("vite", ["build", "www", ...options], `The ${what} could not be built`);
     }
-    // The licenses of the code inside ask for it.
+    // The licenses of the bundled code require it.
     copyFileSync(inRoot("THIRD_PARTY.md"), inRoot("www/dist/THIRD_PARTY.md"));
   });
   say(`Demo page and element: ${result}`);

@@ -3,10 +3,10 @@ import { gzipSync } from "node:zlib";
 
 import { inRoot } from "../lib/paths.js";
 
-/** The wasm as a module of text, for the entry that carries it along. */
+/** The wasm as a text module, for the entry that contains it. */
 export const EMBEDDED = ["embedded.js", "embedded.d.ts"];
 
-/** Writes those files beside the wasm they are made of. */
+/** Writes these files beside the wasm. */
 export function embedWasm(): void {
   const gzipped = gzipSync(readFileSync(inRoot("src/ts/wasm/hpr_bg.wasm")), { level: 9 });
   const texts = [

@@ -21,11 +21,11 @@ export async function buildWasm(): Promise<void> {
   };
   const result = await unlessUnchanged(work, async () => {
     say("Building the WebAssembly module…");
-    // bundler: only this glue leaves starting the wasm to its user, who can then
-    // start another copy after a trap. hpr.js, which would start it, is left out,
-    // and its types are those of hpr_bg.js.
-    // no-install: wasm-pack would download tools; ours are on the PATH, and
-    // wasm-opt comes from the npm package binaryen.
+    // bundler: only with this glue can the package start the wasm itself, and start
+    // another copy after a trap. hpr.js would start the wasm, so it is left out. Its
+    // types serve for hpr_bg.js.
+    // no-install: wasm-pack would download tools. The project's tools are on the PATH,
+    // and wasm-opt comes from the npm package binaryen.
     const args = [
       "--log-level",
       "error",
@@ -48,7 +48,7 @@ export async function buildWasm(): Promise<void> {
   say(`WebAssembly module: ${result}`);
 }
 
-/** The paths of crates are written into the wasm: the same on every machine, so that its bytes are, too. */
+/** The wasm contains the paths of crates. They are made equal on every machine, so that the bytes are equal. */
 async function flags(): Promise<string> {
   await mustRun("cargo", ["fetch", "--locked", "--target", WASM_TARGET], FAILED);
   const sources = join(process.env["CARGO_HOME"] ?? join(homedir(), ".cargo"), "registry", "src");

@@ -6,10 +6,10 @@ import { rustChecks } from "./rust.js";
 import { supplyChecks } from "./supply.js";
 import { pageCheck, typescriptChecks } from "./typescript.js";
 
-/** Every check of `npm test`; earlier ones are begun first, and a check stands behind what it needs. */
+/** Every check of `npm test`. They start in this order, and a check comes after the checks that it needs. */
 export const checks: Check[] = [
   ...groundwork,
-  // The longest first, so that short ones fill the gaps.
+  // The longest checks come first, so that short ones fill the gaps.
   pageCheck,
   ...rustChecks,
   ...typescriptChecks,

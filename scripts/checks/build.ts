@@ -7,7 +7,7 @@ export const SETUP = "Set-up: Rust";
 export const TOOLS = "Set-up: wasm-bindgen";
 export const BUILD = "Build: WebAssembly, npm package, demo page";
 
-/** Checks of no part: what others need. */
+/** Checks that belong to no part. Other checks need them. */
 export const groundwork: Check[] = [
   {
     title: SETUP,

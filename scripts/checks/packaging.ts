@@ -6,7 +6,7 @@ import type { Check, Outcome } from "./check.js";
 import { FAIL, PASS, checkCommand, sum } from "./check.js";
 import { vitest } from "./vitest.js";
 
-/** Everything a user of the npm package gets. */
+/** All files that a user of the npm package gets. */
 const WANTED = /^(dist\/.+\.(js|d\.ts|wasm)|README\.md|THIRD_PARTY\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
 const INDISPENSABLE = [
   "dist/index.js",
@@ -57,7 +57,7 @@ async function npmPackage(): Promise<Outcome> {
   return sum([unwanted.length === 0 ? PASS : FAIL, missing.length === 0 ? PASS : FAIL, await rehearsal()]);
 }
 
-/** Publishing, up to the point where something would be sent; npm says there what it would have to put right. */
+/** Publishing, without sending anything. npm reports what it would have to correct. */
 async function rehearsal(): Promise<Outcome> {
   const { ok, output } = await run("npm", ["publish", "--dry-run", "--offline"], { show: "nothing" });
   const corrected = output

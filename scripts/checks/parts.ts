@@ -1,6 +1,6 @@
 import { Problem } from "../lib/run.js";
 
-/** The parts of `npm test`: each can be run alone, `npm test -- core page` runs two. */
+/** The parts of `npm test`. Each can be run alone; `npm test -- core page` runs two. */
 export const PARTS = {
   core: "the Rust crate: native tests, tests in WebAssembly, no_std",
   package: "the npm package under Node",
@@ -17,7 +17,7 @@ export const PARTS = {
 
 export type Part = keyof typeof PARTS;
 
-/** The parts that the arguments name; all of them where there is none. */
+/** The parts that the arguments name, or all parts if there are no arguments. */
 export function chosenParts(names: string[]): Set<Part> {
   const all = Object.keys(PARTS) as Part[];
   const unknown = names.find((name) => !Object.hasOwn(PARTS, name));

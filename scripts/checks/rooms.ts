@@ -1,5 +1,5 @@
-// The rooms of the Rust core: a file imports only from its own room or from one
-// upstream, and no imports go round in a circle. rustc accepts both.
+// The rooms of the Rust core. A file may import only from its own room or from a room
+// upstream, and imports may not form a circle. rustc would accept both.
 import { readFileSync, readdirSync } from "node:fs";
 import { join, relative } from "node:path";
 
@@ -8,7 +8,7 @@ import { root } from "../lib/paths.js";
 import type { Check } from "./check.js";
 import { FAIL, PASS } from "./check.js";
 
-/** From upstream to downstream; `lib` lists the public names, and `wasm` uses only those and its own. */
+/** From upstream to downstream. `lib` lists the public names; `wasm` uses only them and its own names. */
 const ROOMS = ["base", "cloud", "flip", "hull", "view", "answers", "dimensions", "lib", "wasm"];
 
 const source = join(root, "src");
@@ -71,14 +71,14 @@ function branches(tree: string): string[][] {
     .map((branch) => [...stem, ...branch]);
 }
 
-/** The file that a path leads to; none for what is not this crate's. */
+/** The file that a path leads to, or undefined if it is not in this crate. */
 function fileOf(path: string[], here: string[], files: Set<string>): string | undefined {
   const isRoot = here.length === 1 && here[0] === "lib";
   let at: string[];
   if (path[0] === "crate") at = [];
   else if (path[0] === "self") at = isRoot ? [] : here;
   else if (path[0] === "super") at = here.slice(0, -1);
-  // A file that lists names what lies in its own folder.
+  // A mod.rs or lib.rs names the files in its own folder.
   else {
     at = isRoot ? [] : here;
     path = ["self", ...path];
@@ -121,13 +121,13 @@ function circles(imports: Imports): string[] {
   return found;
 }
 
-/** How many imports lie one after another, at most. */
+/** The length of the longest chain of imports. */
 function longestClimb(imports: Imports): number {
   const known = new Map<string, number>();
   const climb = (file: string): number => {
     const before = known.get(file);
     if (before !== undefined) return before;
-    // Until it is known, so that a circle ends.
+    // A provisional value, so that a circle ends.
     known.set(file, 0);
     const longest = Math.max(0, ...[...(imports.get(file) ?? [])].map((target) => 1 + climb(target)));
     known.set(file, longest);

@@ -13,7 +13,7 @@ export const rustChecks: Check[] = [
     part: "core",
     needs: [SETUP],
     locks: "fuzz",
-    // Without the examples, each of which would be linked by itself; clippy has compiled them.
+    // Without the examples: each would be linked by itself, and clippy has compiled them.
     run: async () => sum([await cargoTest("fuzz", ["--lib", "--tests"]), await cargoTest("fuzz", ["--doc"])]),
   },
   roomsCheck,
@@ -22,7 +22,7 @@ export const rustChecks: Check[] = [
     part: "core",
     needs: [TOOLS],
     locks: "wasm",
-    // `core`: the tests that are written for both.
+    // `core`: the tests that are written for native code and WebAssembly.
     run: () =>
       cargoTest("quick", ["--test", "core", "--target", WASM_TARGET], {
         CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUNNER: "wasm-bindgen-test-runner",
@@ -35,7 +35,7 @@ export const rustChecks: Check[] = [
     needs: [SETUP],
     locks: "debug",
     run: () => {
-      // Without std there is no allocator to link a cdylib with: the rlib alone.
+      // Without std there is no allocator to link a cdylib with, so only the rlib is built.
       const rlib = ["rustc", "--locked", "--lib", "--crate-type", "rlib", "--no-default-features"];
       return checkCommand("cargo", [...rlib, "--target", BARE_TARGET]);
     },
@@ -76,7 +76,7 @@ export const rustChecks: Check[] = [
     part: "packaging",
     needs: [SETUP],
     locks: "debug",
-    // Builds the crate from what would be uploaded.
+    // Builds the crate from the files that would be uploaded.
     run: () => checkCommand("cargo", ["package", "--locked", "--allow-dirty"]),
   },
 ];

@@ -29,7 +29,7 @@ export const supplyChecks: Check[] = [
     title: "Supply: cargo-deny, every crate of the lock file",
     part: "supply",
     needs: [SETUP],
-    // Building it takes two minutes, which a machine that runs the tests once should not spend.
+    // Building it takes two minutes. That is too long for a machine that runs the tests once.
     run: async () =>
       hasCargoDeny()
         ? checkCommand("cargo-deny", ["--offline", "check", "licenses", "bans", "sources"])

@@ -25,7 +25,7 @@ export const typescriptChecks: Check[] = [
   },
   {
     title: "TypeScript: imports go downward",
-    // The generated glue is a room, too, and tests import the built package.
+    // The generated glue is also a room, and tests import the built package.
     part: "lint",
     needs: [BUILD],
     run: () => checkCommand("depcruise", ["--config", ".dependency-cruiser.mjs", "src/ts", "www", "scripts", "tests"]),
@@ -39,7 +39,7 @@ export const typescriptChecks: Check[] = [
     title: "TypeScript: documentation",
     part: "docs",
     needs: [BUILD],
-    // Every name a user can write has to be explained, and every link to lead somewhere.
+    // Every public name must be explained, and every link must have a target.
     run: () => checkCommand("typedoc", ["--logLevel", "Warn"]),
   },
   {
@@ -61,6 +61,6 @@ export const pageCheck: Check = {
   title: "Demo page, in Chromium",
   part: "page",
   needs: [BUILD],
-  // Each file waits for its browser half of the time.
+  // Each test file spends half of its time waiting for its browser.
   run: async () => vitest("tests/browser", { env: { HPR_CHROMIUM: await setUpBrowser() }, atOnce: 2 }),
 };

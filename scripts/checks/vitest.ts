@@ -9,11 +9,11 @@ import { counted } from "./check.js";
 
 interface Options {
   env?: Record<string, string>;
-  /** How many files are run at once; vitest leaves one core to itself, as a rule. */
+  /** How many files run at once. By default vitest keeps one core for itself. */
   atOnce?: number;
 }
 
-/** Runs the tests of one directory and takes the counts from vitest's own report. */
+/** Runs the tests of one directory and reads the counts from vitest's report. */
 export async function vitest(directory: string, { env = {}, atOnce }: Options = {}): Promise<Outcome> {
   const report = inRoot("target", "reports", `${directory.replace("/", "-")}.json`);
   mkdirSync(inRoot("target", "reports"), { recursive: true });
@@ -41,7 +41,7 @@ function countsIn(file: string): Outcome {
     const report = JSON.parse(readFileSync(file, "utf8")) as Report;
     return { passed: report.numPassedTests, failed: report.numFailedTests, failures: failuresIn(report) };
   } catch {
-    // vitest did not get as far as a report.
+    // vitest ended without a report.
     return { passed: 0, failed: 0 };
   }
 }

@@ -11,7 +11,7 @@ interface Asked {
 
 const USAGE = "npm run fuzz -- --minutes 60 --seed 1 [--only NAME]";
 
-/** Reads the arguments; the seed is the time where none is given. */
+/** Reads the arguments. Without `--seed`, the seed is the time. */
 export function askedFor(args: string[], names: string[]): Asked {
   const { minutes = "1", seed = String(Math.floor(Date.now() / 1000)), only } = parsed(args);
   if (!(Number(minutes) > 0 && Number.isFinite(Number(minutes)))) {

@@ -1,5 +1,5 @@
 // node function.js FILE NAME --minutes M --seed N: calls the function NAME of a TypeScript file and
-// prints its count as fuzzers do. Vite loads the file: the page's modules are written for it.
+// prints its count like the other fuzzers. Vite loads the file, because the page's modules need Vite.
 import { parseArgs } from "node:util";
 import { runnerImport } from "vite";
 
@@ -10,12 +10,12 @@ const text = { type: "string" } as const;
 const { positionals, values } = parseArgs({ options: { minutes: text, seed: text }, allowPositionals: true });
 const [file = "", name = ""] = positionals;
 
-/** Either the whole count, or how many were wrong after lines that end in `N cases, M wrong`. */
+/** The whole count. Or only the number of wrong cases, after lines that end in `N cases, M wrong`. */
 type Result = Tally | number;
 type Module = Record<string, (minutes: number, seed: number) => Promise<Result>>;
 const { module } = await runnerImport<Module>(inRoot(file), { root, configFile: false, logLevel: "warn" });
 const result = await module[name]!(Number(values.minutes), Number(values.seed));
 const wrong = typeof result === "number" ? result : result.wrong;
 if (typeof result !== "number") console.log(`${result.tried} tried, ${wrong} wrong`);
-// Workers that the function left behind must not keep the process alive.
+// Workers that the function started must not keep the process alive.
 process.exit(wrong > 0 ? 1 : 0);

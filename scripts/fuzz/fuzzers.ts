@@ -3,12 +3,12 @@ import { existsSync, readFileSync } from "node:fs";
 import { inRoot } from "../lib/paths.js";
 
 /**
- * A program that takes `--minutes M --seed N` and prints a last line `N tried, M wrong`; before it, the
- * facts that repeat each wrong answer.
+ * A program that takes `--minutes M --seed N`. It prints the facts that repeat each wrong answer, and
+ * then a last line `N tried, M wrong`.
  */
 export interface Fuzzer {
   title: string;
-  /** The Rust example, where the fuzzer is one. */
+  /** The Rust example, if the fuzzer is a Rust example. */
   example?: string;
   command: string[];
 }
@@ -20,7 +20,7 @@ const FUNCTIONS: Record<string, { file: string; name: string }> = {
   workers: { file: "tests/fuzz/workers.ts", name: "fuzzWorkers" },
 };
 
-/** Every Rust example `fuzz_…` of Cargo.toml, and the functions whose file is there. */
+/** Every Rust example `fuzz_…` of Cargo.toml, and the functions whose file exists. */
 export function allFuzzers(): Fuzzer[] {
   const examples = [...readFileSync(inRoot("Cargo.toml"), "utf8").matchAll(/^name = "fuzz_(\w+)"$/gm)];
   const inRust = examples.map(([, title]) => rust(title!));

@@ -2,7 +2,7 @@ import { existsSync } from "node:fs";
 import { homedir } from "node:os";
 import { delimiter, join } from "node:path";
 
-/** The repository: this file runs as target/scripts/lib/paths.js. */
+/** The root of the repository. This file runs as target/scripts/lib/paths.js. */
 export const root = join(import.meta.dirname, "..", "..", "..");
 
 /** Where wasm-pack and the wasm-bindgen commands are installed. */
@@ -15,9 +15,9 @@ export function inRoot(...parts: string[]): string {
 }
 
 /**
- * The environment every command runs in. Our own tools come first, so that a
- * wasm-bindgen of another version elsewhere on the PATH does no harm; rustup's
- * directory comes last, for shells that were opened before rustup was installed.
+ * The environment of every command. The project's tools come first on the PATH, so that
+ * another version of wasm-bindgen does no harm. rustup's directory comes last, for shells
+ * that were opened before rustup was installed.
  */
 export function environment(extra: Record<string, string> = {}): NodeJS.ProcessEnv {
   const cargoBin = join(process.env["CARGO_HOME"] ?? join(homedir(), ".cargo"), "bin");
@@ -25,7 +25,7 @@ export function environment(extra: Record<string, string> = {}): NodeJS.ProcessE
   return { ...process.env, ...extra, PATH: path.join(delimiter) };
 }
 
-/** The full path of a command, or undefined where it is not on the PATH. */
+/** The full path of a command, or undefined if it is not on the PATH. */
 export function findOnPath(command: string): string | undefined {
   const suffixes = process.platform === "win32" ? [".exe", ".cmd"] : [""];
   return (environment()["PATH"] ?? "")

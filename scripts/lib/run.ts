@@ -13,8 +13,8 @@ export interface RunResult {
 interface RunOptions {
   env?: Record<string, string>;
   /**
-   * Where the output is shown while it comes. Progress (the default) goes to
-   * standard error, so that standard output holds results only.
+   * Where the output is shown during the run. Progress (the default) goes to
+   * standard error, so that standard output holds only results.
    */
   show?: "progress" | "results" | "nothing";
 }
@@ -49,12 +49,12 @@ export function run(command: string, args: string[], options: RunOptions = {}): 
   });
 }
 
-/** Runs a command without showing its output; true where it succeeded. */
+/** Runs a command without showing its output. True if it succeeded. */
 export async function succeeds(command: string, ...args: string[]): Promise<boolean> {
   return (await run(command, args, { show: "nothing" })).ok;
 }
 
-/** Runs a command, and stops everything with a plain message where it fails. */
+/** Runs a command. If it fails, stops everything with a plain message. */
 export async function mustRun(
   command: string,
   args: string[],
@@ -65,10 +65,10 @@ export async function mustRun(
   if (!result.ok) throw new Problem(`${whatFailed} (the messages above say why).`);
 }
 
-/** Says what is being done, beside the commands' own progress. */
+/** Prints what is being done, among the progress of the commands. */
 export function say(message: string): void {
   print(`${message}\n`, "stderr");
 }
 
-/** Something the person at the keyboard can act on: shown without a stack. */
+/** A problem that the user can solve. It is shown without a stack. */
 export class Problem extends Error {}

@@ -1,9 +1,9 @@
-/** One of several pieces of work that can be done beside each other. */
+/** One of several pieces of work that can run at the same time. */
 export interface Job {
   title: string;
   /** Titles of the jobs that must have ended before this one begins. */
   needs?: string[];
-  /** What no two jobs may use at once. */
+  /** The name of a thing that no two jobs may use at once. */
   locks?: string;
 }
 
@@ -50,7 +50,7 @@ export async function inOrder<T extends Job>(
   await Promise.all(Array.from({ length: workers }, work));
 }
 
-/** The chosen jobs and every job that they need, at any remove. A job stands behind its needs in the list. */
+/** The chosen jobs and every job that they need, directly or not. In the list a job comes after its needs. */
 export function withNeeds<T extends Job>(jobs: T[], isChosen: (job: T) => boolean): T[] {
   const wanted = new Set<string>();
   for (const job of [...jobs].reverse()) {

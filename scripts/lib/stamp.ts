@@ -5,26 +5,26 @@ import { join, relative } from "node:path";
 import { inRoot, root } from "./paths.js";
 
 interface Work {
-  /** What the stamp is filed under. */
+  /** The name of the stamp. */
   name: string;
-  /** Files and directories, inside the repository, the work depends on. */
+  /** The files and directories of the repository on which the work depends. */
   inputs: string[];
-  /** What the work produces; where one is missing the work is done again. */
+  /** The products of the work. If one is missing, the work is done again. */
   outputs: string[];
   /** Directories inside the inputs that hold products. */
   ignore?: string[];
 }
 
 /**
- * Does the work unless the same inputs went into it before and its outputs are
- * still there. Contents are compared, not times: a checkout touches every file.
+ * Does the work, unless its inputs have not changed and its outputs still exist.
+ * Contents are compared, not times, because a checkout touches every file.
  */
 export async function unlessUnchanged(work: Work, action: () => Promise<void>): Promise<"done" | "unchanged"> {
   const stamp = inRoot("target", "stamps", work.name);
   const digest = digestOf(work);
   const made = work.outputs.every((path) => existsSync(inRoot(path)));
   if (made && existsSync(stamp) && readFileSync(stamp, "utf8") === digest) return "unchanged";
-  // A failure half-way must not leave the old stamp beside new outputs.
+  // If the work fails half-way, the old stamp must not stay beside new outputs.
   rmSync(stamp, { force: true });
   await action();
   mkdirSync(inRoot("target", "stamps"), { recursive: true });

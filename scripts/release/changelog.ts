@@ -1,6 +1,6 @@
-/** One version's part of the changelog. */
+/** The section of one version in the changelog. */
 export interface Section {
-  /** The day it was released; undefined while the heading says "not yet released". */
+  /** The day of the release. Undefined while the heading says "not yet released". */
   date?: string;
   body: string;
 }

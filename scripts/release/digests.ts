@@ -12,7 +12,7 @@ export function digestsIn(folder: string): Map<string, string> {
   );
 }
 
-/** One digest of them all. */
+/** One digest of all these digests. */
 export function digestOfAll(digests: ReadonlyMap<string, string>): string {
   return sha256([...digests].map(([file, digest]) => `${digest}  ${file}\n`).join(""));
 }

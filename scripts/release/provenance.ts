@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
-/** What npm lacks here to sign where the package was built: it can do so only where a build service vouches for it. */
+/** The reasons why npm cannot sign the place of the build here. Only a build service can vouch for that place. */
 export function provenanceRefusals(root: string): string[] {
   const { repository } = JSON.parse(readFileSync(join(root, "package.json"), "utf8")) as { repository?: unknown };
   const reasons: string[] = [];

@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { sectionOf } from "./changelog.js";
 import { statedVersions } from "./version.js";
 
-/** Every reason why the repository in this folder cannot be released as it is; none where it can. */
+/** Every reason why the repository in this folder cannot be released. The list is empty if it can. */
 export function refusals(root: string): string[] {
   return [...dirtyTree(root), ...disagreement(root), ...changelog(root), ...tag(root)];
 }

@@ -6,7 +6,7 @@ interface Packages {
   packages: Record<string, { version?: string }>;
 }
 
-/** The version that each file of a repository states, by file. */
+/** The version that each file of a repository states. */
 export function statedVersions(root: string): Record<string, string | undefined> {
   const text = (file: string) => readFileSync(join(root, file), "utf8");
   const json = (file: string) => JSON.parse(text(file)) as Packages;

@@ -6,17 +6,16 @@ import { findOnPath } from "../lib/paths.js";
 import { Problem, run, say } from "../lib/run.js";
 import { aptInstall, canInstallOnDebian } from "./debian.js";
 
-/** Chromium without its desktop half: pages open in half the time, the tests take a third less. */
+/** Chromium without its desktop part. Pages open in half the time, and the tests take a third less. */
 const SHELL = "chromium-headless-shell";
 const COMMANDS = [SHELL, "chromium", "chromium-browser", "google-chrome", "google-chrome-stable"];
 
 let browser: Promise<string> | undefined;
 
 /**
- * The Chromium the page is tested in: the one HPR_CHROMIUM names, one on the
- * PATH, or Playwright's own; where there is none, one is installed. Two checks
- * that run beside each other ask for it: a second apt-get would find the first
- * one's lock, and fail.
+ * The Chromium that tests the page: from HPR_CHROMIUM, from the PATH, or Playwright's
+ * own. If there is none, one is installed. Two checks may ask for it at the same time,
+ * and a second apt-get would fail at the lock of the first.
  */
 export function setUpBrowser(): Promise<string> {
   return (browser ??= findOrInstall());
@@ -55,11 +54,11 @@ export function findBrowser(): string | undefined {
 }
 
 async function installBrowser(): Promise<void> {
-  // Debian's own package comes first where it can be had: it brings every
-  // library it needs along, and is reachable where downloads are not.
+  // Debian's package comes first if it is available: it includes all libraries that it
+  // needs, and it may be reachable when downloads are not.
   if (canInstallOnDebian() && (await aptInstall("chromium"))) return;
-  // Playwright may ask for a password to install libraries with, so it only
-  // gets to do that where it need not ask.
+  // Playwright may ask for a password to install libraries. So it installs them only
+  // if it need not ask.
   const libraries = process.getuid?.() === 0 ? ["--with-deps"] : [];
   await run("playwright-core", ["install", ...libraries, "--no-shell", "chromium"]);
 }

@@ -3,12 +3,12 @@ import { readFileSync } from "node:fs";
 import { findOnPath } from "../lib/paths.js";
 import { run } from "../lib/run.js";
 
-/** True on Debian itself (not its relatives), run by someone who may install packages. */
+/** True on Debian itself (not on its relatives), if this user may install packages. */
 export function canInstallOnDebian(): boolean {
   return process.getuid?.() === 0 && findOnPath("apt-get") !== undefined && distribution() === "debian";
 }
 
-/** Installs a Debian package; true where that succeeded. */
+/** Installs a Debian package. True if that succeeded. */
 export async function aptInstall(name: string): Promise<boolean> {
   const env = { DEBIAN_FRONTEND: "noninteractive" };
   await run("apt-get", ["update", "-qq"], { env });

@@ -3,15 +3,15 @@ import { existsSync } from "node:fs";
 import { findOnPath } from "../lib/paths.js";
 import { Problem, mustRun, run, say, succeeds } from "../lib/run.js";
 
-/** What rustc has to be at least: the oldest the build tools compile with. */
+/** The oldest rustc that can compile the build tools. */
 const OLDEST = { major: 1, minor: 88 };
 
-/** For the browser and Node: what wasm-bindgen works on. */
+/** The target of wasm-bindgen, for the browser and Node. */
 export const WASM_TARGET = "wasm32-unknown-unknown";
-/** A target without an operating system: building for it proves `no_std`. */
+/** A target without an operating system. Building for it proves `no_std`. */
 export const BARE_TARGET = "thumbv7em-none-eabihf";
 
-/** Makes sure of a Rust toolchain that is new enough. */
+/** Makes sure that there is a Rust toolchain that is new enough. */
 export async function setUpRust(): Promise<void> {
   const rustup = findOnPath("rustup") !== undefined;
   if (!(await succeeds("rustc", "--version"))) {
@@ -32,7 +32,7 @@ export async function setUpTarget(target: string): Promise<void> {
   await mustRun("rustup", ["target", "add", target], `The Rust target ${target} could not be installed`);
 }
 
-/** Installs rustfmt and clippy where they are missing. */
+/** Installs rustfmt and clippy if they are missing. */
 export async function setUpComponents(): Promise<void> {
   for (const component of ["rustfmt", "clippy"]) {
     if (await succeeds(component === "rustfmt" ? "rustfmt" : "clippy-driver", "--version")) continue;

@@ -2,7 +2,7 @@ import { setUpLinker } from "./linker.js";
 import { BARE_TARGET, WASM_TARGET, setUpComponents, setUpRust, setUpTarget } from "./rust.js";
 import { setUpWasmTools } from "./tools.js";
 
-/** Everything a build needs; what is there already is left alone. */
+/** Installs everything that a build needs and that is missing. */
 export async function setUpForBuild(): Promise<void> {
   await setUpRust();
   await setUpLinker();
@@ -10,7 +10,7 @@ export async function setUpForBuild(): Promise<void> {
   await setUpWasmTools();
 }
 
-/** Everything the Rust checks need besides the tools of a build (the browser is set up by the tests that open it). */
+/** Installs what the Rust checks need besides the tools of a build. (The page's tests set up the browser.) */
 export async function setUpForChecks(): Promise<void> {
   await setUpRust();
   await setUpLinker();

@@ -6,11 +6,11 @@ import { Problem, mustRun, run, say } from "../lib/run.js";
 
 const WASM_PACK = "0.15.1";
 
-// The tools run for seconds but take minutes to optimize.
+// The tools run for seconds, but optimizing them would take minutes.
 const QUICK_BUILD = ["--debug", "--locked", "--root", toolsRoot, "--target-dir", join(toolsRoot, "build")];
 const NO_DEBUG_INFO = { CARGO_PROFILE_DEV_DEBUG: "0" };
 
-/** wasm-pack, and the wasm-bindgen commands of the version the crate is locked to. */
+/** Installs wasm-pack, and the wasm-bindgen commands of the version in Cargo.lock. */
 export async function setUpWasmTools(): Promise<void> {
   const version = lockedVersion("Cargo.lock");
   if ((await hasWasmPack()) && (await hasWasmBindgen(version))) return;
@@ -23,17 +23,17 @@ export async function setUpWasmTools(): Promise<void> {
   say(`Building wasm-bindgen ${version} and wasm-pack (about two minutes)…`);
   const args = ["install", "--path", inRoot("tools", "wasm"), "--force", ...QUICK_BUILD];
   await mustRun("cargo", args, "wasm-bindgen and wasm-pack could not be built", { env: NO_DEBUG_INFO });
-  // 800 MB that only a new version would look at again.
+  // 800 MB that only a new version would use again.
   rmSync(join(toolsRoot, "build"), { recursive: true, force: true });
 }
 
-/** Both commands have to be of exactly the version the crate is locked to. */
+/** Both commands must have exactly the version in Cargo.lock. */
 async function hasWasmBindgen(version: string): Promise<boolean> {
   const found = [await versionOf("wasm-bindgen"), await versionOf("wasm-bindgen-test-runner")];
   return found.every((one) => one === version);
 }
 
-/** Any wasm-pack will do that is not older than the one the build was made with. */
+/** Any wasm-pack will do that is not older than the version the build was made with. */
 async function hasWasmPack(): Promise<boolean> {
   const found = await versionOf("wasm-pack");
   return found !== undefined && found.localeCompare(WASM_PACK, "en", { numeric: true }) >= 0;

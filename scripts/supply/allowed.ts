@@ -3,7 +3,7 @@ import { readFileSync } from "node:fs";
 import { inRoot } from "../lib/paths.js";
 import type { Component } from "./component.js";
 
-/** The components whose license does not follow from the list in deny.toml. */
+/** The components whose license is not allowed by the list in deny.toml. */
 export function notAllowed(components: Component[]): string[] {
   const allowed = allowedLicenses();
   return components
@@ -16,7 +16,7 @@ function allowedLicenses(): Set<string> {
   return new Set([...list.matchAll(/"([^"]+)"/g)].map(([, name]) => name!));
 }
 
-/** Reads `A OR B`, `(A OR B) AND C` and the like: `AND` binds more tightly than `OR`, parentheses more than both. */
+/** Reads expressions such as `A OR B` and `(A OR B) AND C`. `AND` binds more tightly than `OR`. */
 export function isAllowed(expression: string, allowed: ReadonlySet<string>): boolean {
   const tokens = expression.match(/[()]|[^\s()]+(?: WITH [^\s()]+)?/g) ?? [];
   let at = 0;
@@ -24,7 +24,7 @@ export function isAllowed(expression: string, allowed: ReadonlySet<string>): boo
     let value = both();
     while (tokens[at] === "OR") {
       at++;
-      // Both sides have to be read, whatever the first one was.
+      // Both sides must be read, whatever the value of the first one.
       value = both() || value;
     }
     return value;

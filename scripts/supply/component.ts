@@ -1,17 +1,17 @@
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 
-/** Something of others that is part of what we ship. */
+/** Work of others that is part of the published packages or the page. */
 export interface Component {
   name: string;
   version: string;
-  /** As its package declares it, an SPDX expression; undefined where it declares none. */
+  /** The SPDX expression that its package declares, or undefined. */
   license: string | undefined;
-  /** The text of the license, where the package carries one. */
+  /** The text of the license, if the package contains it. */
   text: string | undefined;
 }
 
-/** The license text in a package's folder; of several the MIT one, which is the shortest to keep to. */
+/** The license text in a package's folder. If there are several, the MIT license, whose terms are the shortest. */
 export function licenseText(folder: string): string | undefined {
   const files = existsSync(folder) ? readdirSync(folder).filter((name) => /^licen[cs]e/i.test(name)) : [];
   const file = files.find((name) => /mit/i.test(name)) ?? files.sort()[0];

@@ -19,7 +19,7 @@ interface CratePackage {
   targets: { kind: string[] }[];
 }
 
-/** The crates that the wasm is compiled from. Programs that run while it is compiled are no part of it. */
+/** The crates from which the wasm is compiled. Programs that only run during the compilation do not count. */
 export async function cratesOfWasm(): Promise<Component[]> {
   const { packages, resolve } = await metadata();
   const byId = new Map(packages.map((one) => [one.id, one]));

@@ -5,7 +5,7 @@ import { inRoot } from "../lib/paths.js";
 const CRATES_IO = "registry+https://github.com/rust-lang/crates.io-index";
 const NPM = "https://registry.npmjs.org/";
 
-/** Everything in the lock files that has no checksum or comes from elsewhere than the two registries. */
+/** The entries of the lock files that have no checksum or do not come from the two registries. */
 export function notLocked(): string[] {
   return [...crates("Cargo.lock"), ...crates("tools/wasm/Cargo.lock"), ...packages()];
 }
@@ -31,7 +31,7 @@ function packages(): string[] {
   };
   return Object.entries(lock.packages)
     .filter(([path, { resolved = NPM, integrity, inBundle }]) => {
-      // A package inside another one's archive shares that one's checksum.
+      // A package inside the archive of another package shares its checksum.
       return path !== "" && inBundle !== true && !(resolved.startsWith(NPM) && integrity !== undefined);
     })
     .map(([path, { resolved = "no checksum" }]) => `package-lock.json: ${path} (${resolved})`);

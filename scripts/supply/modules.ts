@@ -12,12 +12,12 @@ interface Manifest {
   dependencies?: Record<string, string>;
 }
 
-/** These run while the page is built, or are no sources of it. */
+/** These files run while the page is built, or are not sources of the page. */
 const NOT_OF_THE_PAGE = /^(build|dist|public)\/|vite\.config\.ts$/;
 
 /**
- * The npm packages that the demo page may hold: those that its sources import, and all that these
- * depend on. (A bundler leaves out some: the list rather names one too many.)
+ * The npm packages that the demo page may contain: the packages that its sources import, and all
+ * their dependencies. (The list may be too long, because a bundler leaves some out.)
  */
 export function modulesOfPage(): Component[] {
   const found = new Map<string, Component>();

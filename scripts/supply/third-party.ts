@@ -5,7 +5,7 @@ import type { Component } from "./component.js";
 import { cratesOfWasm } from "./crates.js";
 import { modulesOfPage } from "./modules.js";
 
-/** The list of what ships, with the licenses that ask to be kept beside it. */
+/** The list of the works of others that are shipped, with the license texts that must come with them. */
 export const THIRD_PARTY = inRoot("THIRD_PARTY.md");
 
 export async function shipped(): Promise<{ crates: Component[]; modules: Component[] }> {
@@ -55,7 +55,7 @@ function table(components: Component[]): string {
   return `| name | version | license | |\n|---|---|---|---|\n${rows.join("\n")}\n`;
 }
 
-/** Each text once, under the names of all that come with it. */
+/** Each text once, under the names of all components that use it. */
 function texts(components: Component[]): string {
   const users = new Map<string, string[]>();
   for (const { name, text } of components) {
