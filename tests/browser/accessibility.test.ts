@@ -3,7 +3,7 @@ import { audit, JUDGED, VISITS } from "./accessibility.js";
 import { openReady } from "./support.js";
 
 test.for(VISITS)(
-  "axe-core finds nothing wrong in either theme, and every text stands out ($name)",
+  "axe-core finds nothing wrong in either theme, and every text has enough contrast ($name)",
   async ({ query, options, steps }) => {
     const page = await openReady(query, options);
     for (const { name, act } of steps) {

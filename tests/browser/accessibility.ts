@@ -1,6 +1,6 @@
 /*
- * The states of the page that are checked for everybody's access, and axe-core's word on each. Used by
- * accessibility.test.ts, which wants no violation, and by tests/figures, which writes docs/ACCESSIBILITY.md.
+ * The states of the page that are checked for accessibility, and axe-core's result for each. Used by
+ * accessibility.test.ts, which requires no violation, and by tests/figures, which writes docs/ACCESSIBILITY.md.
  */
 import axe, { type AxeResults, type RunOnly } from "axe-core";
 import type { BrowserContextOptions, Page } from "playwright-core";
@@ -11,7 +11,7 @@ const COLOR_RULES = ["color-contrast", "link-in-text-block"];
 
 interface Step {
   name: string;
-  /** From the step before to this state. */
+  /** Leads from the previous state to this one. */
   act: (page: Page) => Promise<void>;
 }
 
@@ -24,7 +24,7 @@ export interface Visit {
 }
 
 const nothing = () => Promise.resolve();
-/** Small, and dense enough for a point to be in the middle of the picture. */
+/** A small cloud, but dense enough for a point in the middle of the picture. */
 const SMALL = "sample=dragon_res3";
 const PHONE: BrowserContextOptions = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 const WIDE: BrowserContextOptions = { viewport: { width: 1280, height: 800 } };
@@ -39,7 +39,7 @@ const unfolded: Step = {
   },
 };
 
-/** Pressed as Enter picks it, in the middle of the picture, so that the cards have something to say. */
+/** Opens a tool and presses Enter, which picks the point in the middle of the picture, so that the cards are filled. */
 const tools: Step[] = ["Pick", "Measure", "Select", "Label", "Compare", "Export"].map((name) => ({
   name: `the tool ${name}`,
   act: async (page) => {
@@ -103,15 +103,15 @@ export const VISITS: Visit[] = [
   { name: "in another page", query: `?${SMALL}&embed=1`, options: WIDE, steps: [first] },
 ];
 
-/** What was found in one theme. */
+/** The results in one theme. */
 export interface Audit {
   theme: "dark" | "light";
   result: AxeResults;
-  /** Texts that stand out too little, also where axe-core sees no background: over the cloud. */
+  /** Texts with too little contrast, also over the cloud, where axe-core sees no background. */
   poor: string[];
 }
 
-/** What axe-core finds on the page as it is: all rules in one theme, those about colors in the other, which differs in nothing else. */
+/** Runs axe-core on the page: all rules in one theme. The other theme differs only in colors, so there only the rules about colors. */
 export async function audit(page: Page): Promise<Audit[]> {
   if (!(await page.evaluate("'axe' in window"))) await page.evaluate(axe.source);
   const auditIn = async (theme: "dark" | "light", runOnly: RunOnly): Promise<Audit> => {
@@ -130,10 +130,10 @@ export async function audit(page: Page): Promise<Audit[]> {
 }
 
 /**
- * What axe-core leaves open here, rule by rule, and why it is well. Anything else it leaves open has to be looked at.
+ * The rules that axe-core leaves open here, and why each is met. Any other open rule must be judged by hand.
  */
 export const JUDGED: Readonly<Record<string, string>> = {
   "color-contrast":
-    "It does not tell the background of what lies over the cloud, or under the bar that stays while a phone’s sheet scrolls. " +
+    "It cannot tell the background of texts over the cloud, or under the bar that stays while a phone’s sheet scrolls. " +
     "`tests/browser/contrast.ts` computes the contrast of every text itself, over the cloud with black and with white behind it: none is below 4.5.",
 };

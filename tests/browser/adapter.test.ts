@@ -1,4 +1,4 @@
-// The adapter for three.js in a browser: what is really on the screen, and what a ray meets.
+// The adapter for three.js in a browser: the points on the screen, and the points that a ray meets.
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
 import { serveModules } from "./modules.js";
@@ -19,7 +19,7 @@ afterAll(async () => {
 type Three = typeof import("three");
 type Renderer = new (options: object) => InstanceType<Three["WebGLRenderer"]> & { init?: () => Promise<void> };
 
-/** What the page has imported. */
+/** The modules that the page has imported. */
 interface Modules {
   three: Three & Record<string, Renderer>;
   "hidden-point-removal": typeof import("hidden-point-removal");
@@ -59,8 +59,8 @@ describe.each([
     expect(errors).toEqual([]);
   });
 
-  // A red disc of points before a green one: as large on the screen as the red one, and between its points.
-  it("draws and picks visible points only, and then everything again", async () => {
+  // A red disc of points in front of a green disc. Both are equally large on the screen; green points lie between red ones.
+  it("draws and picks only visible points, and then all points again", async () => {
     const seen = await page.evaluate(async (rendererName) => {
       const { modules } = globalThis as unknown as { modules: Modules };
       const { three: THREE, "hidden-point-removal": hpr, "hidden-point-removal/three": adapter } = modules;
@@ -94,7 +94,7 @@ describe.each([
       camera.position.set(0, 0, 5);
       camera.updateMatrixWorld();
 
-      /** Pixels with some red, and with some green. */
+      /** Counts pixels with some red, and pixels with some green. */
       const count = () => {
         renderer.render(scene, camera);
         const canvas = document.createElement("canvas");
@@ -109,7 +109,7 @@ describe.each([
         }
         return { red, green };
       };
-      /** What rays through the middle of the picture meet, red and green. */
+      /** Counts the red and green points that rays through the middle of the picture meet. */
       const pick = () => {
         const raycaster = new THREE.Raycaster();
         raycaster.params.Points.threshold = 0.05;
@@ -151,14 +151,14 @@ describe.each([
     expect(before!.drawn.red).toBeGreaterThan(2000);
     expect(before!.drawn.green).toBeGreaterThan(1000);
     expect(before!.picked.green).toBeGreaterThan(0);
-    // Green that is left is at the border, where nothing stands before it.
+    // The green points that are left lie at the border, where no red point is in front.
     expect(hide!.drawn.red).toBe(before!.drawn.red);
     expect(hide!.drawn.green).toBeLessThan(before!.drawn.green / 4);
     expect(hide!.picked).toEqual({ red: before!.picked.red, green: 0 });
     expect(hideBehind!.drawn.red).toBe(0);
     expect(hideBehind!.picked.red).toBe(0);
     expect(hideBehind!.picked.green).toBeGreaterThan(0);
-    // Dimmed points are there, but not to be picked.
+    // Dimmed points are drawn, but cannot be picked.
     expect(dim!.drawn.green).toBeGreaterThan(hide!.drawn.green * 2);
     expect(dim!.picked).toEqual(hide!.picked);
     expect(dimBehind!.picked).toEqual(hideBehind!.picked);

@@ -63,7 +63,7 @@ test("?src opens a file from the web", async () => {
   expect(await page.locator("#sample option:checked").textContent()).toBe("ball.ply");
 });
 
-test("what the address asks for and cannot have is said in a plain sentence", async () => {
+test("a plain sentence names each parameter of the address that cannot be met", async () => {
   const page = await openReady("?sample=unicorn&exponent=-1&view=1,2");
   expect((await status(page)).total).toBe(437_645);
   const message = await page.locator("#message").textContent();
@@ -92,7 +92,7 @@ test.for([
   expect(await page.locator("#message").textContent()).toMatch(note);
 });
 
-test("a target out of reach is refused with a note, and the address keeps no numbers that are none", async () => {
+test("a target out of reach is refused with a note, and the address keeps no invalid numbers", async () => {
   const page = await openReady("?sample=bunny&view=0,5,30&target=1e300,0,0");
   expect((await settled(page)).viewpoint).toEqual([0, 5, 30]);
   expect(await page.locator("#message").textContent()).toMatch(/target in the address is too far away/);
@@ -108,7 +108,7 @@ test("a sample that is picked is in the address", async () => {
   expect(new URL(page.url()).search).toBe("?sample=dragon_res4&exponent=2");
 });
 
-test("?src of what is no address of a file is refused in a plain sentence", async () => {
+test("?src is refused in a plain sentence if it is no address of a file", async () => {
   for (const [src, sentence] of [
     ["//", "“//” is no address of a file."],
     ["data:text/plain,1", "“data:text/plain,1” is no address of a file."],

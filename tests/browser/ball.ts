@@ -3,8 +3,8 @@ import { binaryPly, georeferencedBall } from "./clouds.js";
 import { inNode, openReady, served, status, upToDate } from "./support.js";
 
 /*
- * The ball of 600 points stands in UTM coordinates: f32 would be half a meter off. It is looked at from straight ahead,
- * so that tests can tell for themselves where its points are in the picture.
+ * The ball of 600 points has UTM coordinates, for which f32 would be half a meter off. The camera looks at it from
+ * straight ahead, so that tests can compute where its points are in the picture.
  */
 const COUNT = 600;
 export const positions = georeferencedBall(COUNT);
@@ -13,7 +13,7 @@ const [X, Y, Z] = MIDDLE;
 export const DISTANCE = 9;
 const FRONT = [X, Y, Z + DISTANCE];
 
-/** The page with the ball, or with a file of it made by the test. */
+/** Opens the page with the ball, or with a file of the ball that the test made. */
 export async function openBall(
   options: BrowserContextOptions = {},
   view: readonly number[] = FRONT,
@@ -45,13 +45,13 @@ export async function clickPoint(page: Page, index: number): Promise<void> {
   await page.mouse.click(x, y);
 }
 
-/** What is visible from the camera of the page, ascending. */
+/** The indices of the points that are visible from the page's camera, ascending. */
 export async function visible(page: Page): Promise<number[]> {
   const { viewpoint } = await status(page);
   return inNode(positions, (cloud) => [...cloud.visibleFrom(viewpoint).indices]);
 }
 
-/** Points well apart from every other in the picture, of those in `among`. */
+/** The points of `among` that are far from every other point in the picture. */
 export async function lonely(page: Page, among: number[], rivals: number[]): Promise<number[]> {
   const places = new Map(await Promise.all(rivals.map(async (i) => [i, await place(page, i)] as const)));
   return among.filter((i) => {

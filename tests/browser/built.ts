@@ -3,12 +3,12 @@ import { build } from "vite";
 
 const ROOT = join(import.meta.dirname, "../..");
 
-/** Bundles the page in a folder beside this file, as users do; returns its path in the repository. */
+/** Bundles the page in a folder beside this file, like users do. Returns its path in the repository. */
 export function builtPage(name: string): Promise<string> {
   return builtFrom(join(ROOT, "tests/browser", name), name);
 }
 
-/** The same of the page in any folder of the repository. */
+/** The same for a page in any folder of the repository. */
 export async function builtFrom(source: string, name: string): Promise<string> {
   const out = `target/tests/${name}`;
   await build({

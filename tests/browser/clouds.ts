@@ -1,5 +1,5 @@
 /*
- * Small clouds, and the file formats the page opens, written by hand. Coordinates are written in full, so that reading
+ * Small clouds, and writers for the file formats that the page opens. Coordinates are written in full, so that reading
  * them gives the same bits.
  */
 
@@ -35,7 +35,7 @@ export function text(content: string): Uint8Array {
   return new TextEncoder().encode(content);
 }
 
-/** As some spreadsheets write it, behind its mark. */
+/** UTF-16 after a byte order mark, like some spreadsheets write it. */
 export function utf16(content: string): Uint8Array {
   return new Uint8Array(Buffer.from(`\ufeff${content}`, "utf16le"));
 }
@@ -76,7 +76,7 @@ export function asciiPly(positions: ArrayLike<number>, claimed = positions.lengt
   );
 }
 
-/** A mesh whose faces have colors of their own, behind Windows line ends. */
+/** A mesh whose faces have their own colors, in a file with Windows line ends. */
 export function meshPly(positions: ArrayLike<number>): Uint8Array {
   const faces =
     "element face 2\r\nproperty list uchar int vertex_indices\r\nproperty uchar red\r\nproperty uchar green\r\nproperty uchar blue";
@@ -107,7 +107,7 @@ export function pcd(positions: ArrayLike<number>, kind: "ascii" | "binary" | "bi
       ),
     );
   if (kind === "binary") return joined(header, numbers(positions, 4));
-  // Compressed files go field by field: all x, all y, all z.
+  // Compressed files are sorted by field: all x, all y, all z.
   const fields = [0, 1, 2].map((axis) =>
     numbers(
       rows(positions).map((row) => row[axis]!),
@@ -119,7 +119,7 @@ export function pcd(positions: ArrayLike<number>, kind: "ascii" | "binary" | "bi
   return joined(header, new Uint8Array(Uint32Array.of(packed.length, plain.length).buffer), packed);
 }
 
-/** LZF without any compression: runs of up to 32 bytes, each behind its length less one. */
+/** LZF without compression: runs of up to 32 bytes. The length minus one comes before each run. */
 function literalLzf(plain: Uint8Array): Uint8Array {
   const parts: Uint8Array[] = [];
   for (let i = 0; i < plain.length; i += 32) {
@@ -129,7 +129,7 @@ function literalLzf(plain: Uint8Array): Uint8Array {
   return joined(...parts);
 }
 
-/** A mesh with normals, a name and faces that leave most vertices out. */
+/** A mesh with normals and a name. Its faces leave out most vertices. */
 export function meshObj(positions: ArrayLike<number>): Uint8Array {
   const vertices = rows(positions).map((row) => `v ${row.join(" ")}`);
   return text(["# a ball", "o ball", ...vertices, "vn 0 0 1", "f 1//1 2//1 3//1", "f 3//1 2//1 4//1", ""].join("\n"));

@@ -35,17 +35,17 @@ const { positions: corners, cells } = createRequire(import.meta.url)("bunny") as
 };
 const bunny: Mesh = { positions: Float32Array.from(corners.flat()), triangles: Uint32Array.from(cells.flat()) };
 const TOLERANCE = 1.75;
-/** Drawn by software, a picture takes its time. */
+/** Software rendering is slow. */
 const SMALL = { viewport: { width: 800, height: 440 } };
 
 interface Screen {
   width: number;
   height: number;
-  /** Pixels of a unit at distance 1. */
+  /** The size in pixels of a unit length at distance 1. */
   pixels: number;
 }
 
-/** The definition, point by point and pixel by pixel: 2 out of the picture, 1 where no splat over a point's own pixel is much nearer, else 0. */
+/** The definition, point by point and pixel by pixel: 2 for out of the picture, 1 if no splat over the point's pixel is much nearer, else 0. */
 function slowly(
   seen: { x: number; y: number; depth: number }[],
   { width, height, pixels }: Screen,
@@ -66,7 +66,7 @@ function slowly(
   });
 }
 
-/** The figures of the card, once there are others than `before`. */
+/** The numbers on the card, after they differ from `before`. */
 async function figures(
   page: Page,
   before = "",
@@ -85,8 +85,8 @@ async function figures(
   });
 }
 
-test.for([1, 2, 3, 4, 9, 24])("the z-buffer says what its definition says (splats of %i pixels)", (splat) => {
-  // A bumpy ball before a wall, in part out of the picture and behind the camera at the origin, which looks along −z.
+test.for([1, 2, 3, 4, 9, 24])("the z-buffer agrees with its definition (splats of %i pixels)", (splat) => {
+  // A bumpy ball in front of a wall. A part is out of the picture or behind the camera, which looks from the origin along −z.
   const wall = grid(12, 12, (u, v) => [20 * u - 10, 16 * v - 8, -14]).positions;
   const local = Float32Array.from([
     ...ball(400).map((value, i) => value - (i % 3 === 2 ? 5 : 0)),
@@ -107,7 +107,7 @@ test.for([1, 2, 3, 4, 9, 24])("the z-buffer says what its definition says (splat
     expect(said.filter((one) => one === kind).length, `points said to be ${kind}`).toBeGreaterThan(3);
 });
 
-test("points are parted by what either says of them", () => {
+test("points are grouped by the two answers about them", () => {
   const { order, ends } = partsOf(Uint8Array.of(1, 0, 2, 1, 0, 2, 1), Uint32Array.of(0, 1, 2, 6));
   expect([...order]).toEqual([0, 6, 1, 3, 2, 4, 5]);
   expect(ends).toEqual([2, 3, 4, 5]);
@@ -124,7 +124,7 @@ test("the airplane's skin is closed: each edge has two triangles", () => {
   expect(new Set(triangles).size).toBe(makeRings().positions.length / 3);
 });
 
-test("faces of one's own files are read and cut into triangles", async () => {
+test("faces of the user's files are read and cut into triangles", async () => {
   const read = (content: string | Uint8Array, vertices = 5) => {
     const blob = new Blob([typeof content === "string" ? content : new Uint8Array(content)]);
     return readFaces({ name: "mesh", blob, limit: Infinity, onProgress: () => undefined }, vertices).then(
@@ -163,20 +163,20 @@ test("faces of one's own files are read and cut into triangles", async () => {
   ).rejects.toThrow();
 });
 
-test("of the street a scanner saw all that its own beams met", async () => {
+test("the scanner of the street sees all points that its own beams met", async () => {
   const street = await oracleFor({ sample: "street" }, new Float32Array());
   const sees = street.from([-21, 1.1, 1.75]);
   // The first of three stations; its 60,000 points come first.
   const tried = Array.from({ length: 6000 }, (_, i) => 7 * i);
   expect(tried.filter((i) => !sees(i))).toEqual([]);
-  // From the other end of the street, much of it is hidden.
+  // From the other end of the street, many points are hidden.
   const other = street.from([22, 0.9, 1.75]);
   const share = tried.filter(other).length / tried.length;
   expect(share).toBeGreaterThan(0.1);
   expect(share).toBeLessThan(0.8);
 });
 
-test("in the room the ceiling is seen and the floor under the rug is not, also where noise has put it", async () => {
+test("in the room the ceiling is seen and the floor under the rug is hidden, also with noise", async () => {
   const room = await oracleFor({ sample: "room" }, new Float32Array());
   const { positions } = makeRoom();
   expect(room.count).toBe(positions.length / 3);
@@ -188,12 +188,12 @@ test("in the room the ceiling is seen and the floor under the rug is not, also w
     expect(chosen.length).toBeGreaterThan(1000);
     return chosen.filter(sees).length / chosen.length;
   };
-  // Some of it is over the bookcase, the lamp or the plant.
+  // Parts of it lie over the bookcase, the lamp or the plant.
   expect(share((_x, y) => y > 2.69)).toBeGreaterThan(0.97);
   expect(share((x, y, z) => y < 0.004 && x > -1.99 && x < 0.59 && z > -1.09 && z < 0.79)).toBe(0);
 });
 
-test("ours beside the z-buffer: the counts are those of its definition, live, and in the address", async () => {
+test("compared with the z-buffer: the counts follow its definition, live, and the choice is in the address", async () => {
   const page = await openBall({ ...SMALL, ...EVERY_PIXEL });
   const before = await status(page);
   await page.locator("#view").press("c");
@@ -227,11 +227,11 @@ test("ours beside the z-buffer: the counts are those of its definition, live, an
   expect(await page.locator("#compare-note span").first().textContent()).toBe(
     `Z-buffer: ${(await figures(page)).counts[0]}`,
   );
-  // Comparing asks nothing of the picture's own questions.
+  // Comparing does not ask the picture's own questions again.
   expect(await status(page)).toEqual(before);
   await expect.poll(() => page.url()).toMatch(/compare=0\.42&against=zbuffer&splat=24/);
 
-  // Nearer, a part of the ball leaves the picture: of that a z-buffer knows nothing.
+  // Nearer, a part of the ball leaves the picture. A z-buffer knows nothing of this part.
   await page.locator("#view").focus();
   for (let i = 0; i < 12; i++) await page.keyboard.press("+");
   const near = await upToDate(page);
@@ -248,7 +248,7 @@ test("ours beside the z-buffer: the counts are those of its definition, live, an
   await expect.poll(() => page.url()).not.toContain("splat");
 });
 
-/** What the page must count from there with that radius, by the tracer of the fidelity tables. */
+/** The counts that the page must show for this viewpoint and radius, by the tracer of the fidelity tables. */
 async function bunnyTruth({ viewpoint, radius, total }: Status) {
   const seen = new RayTracer(bunny).visibleFrom(viewpoint);
   const mask = await inNode(bunny.positions, (cloud) => cloud.visibleFrom(viewpoint, { radius }).mask());
@@ -265,7 +265,7 @@ async function bunnyTruth({ viewpoint, radius, total }: Status) {
   };
 }
 
-test("ours beside the true surface: false positives and negatives, in color, for each view and setting", async () => {
+test("compared with the true surface: false positives and negatives, in color, for each view and setting", async () => {
   const page = await openReady("?sample=bunny&compare=0.2&against=surface", SMALL);
   const first = await upToDate(page);
   const truth = await bunnyTruth(first);
@@ -281,13 +281,13 @@ test("ours beside the true surface: false positives and negatives, in color, for
   );
   const colored = await picture(page);
 
-  // Another radius: the same truth, not traced again.
+  // Another radius has the same truth. It is not traced again.
   await page.getByLabel("Exponent", { exact: true }).fill("1.5");
   const tight = await refiltered(page, first);
   const other = await figures(page, shown.text);
   expect(other).toMatchObject({ counts: (await bunnyTruth(tight)).counts, milliseconds: shown.milliseconds });
 
-  // Another view: traced again when it rests.
+  // Another view is traced again when the camera rests.
   await drag(page, 120, 30);
   const turned = await upToDate(page);
   const there = await bunnyTruth(turned);
@@ -319,7 +319,7 @@ test("tracing can be stopped and taken up again", async () => {
   expect((await figures(page)).of).toBe(5205);
 });
 
-test("where no surface is known, the choice is not offered and says why", async () => {
+test("if no surface is known, the choice is disabled and says why", async () => {
   served.set("clouds/ball.ply", binaryPly(ball(300), "float", true));
   const page = await openReady("?src=clouds/ball.ply&compare=0.5&against=surface", SMALL);
   expect(await page.locator("#message p").textContent()).toBe(
@@ -332,14 +332,14 @@ test("where no surface is known, the choice is not offered and says why", async 
   );
   await expect.poll(() => page.url()).not.toContain("against");
 
-  // The choice goes from cloud to cloud where it can.
+  // The choice stays for the next cloud if that has a surface.
   await page.locator("#sample").selectOption("bunny");
   await expect.poll(async () => (await status(page)).total).toBe(1839);
   await page.getByLabel("True surface").check();
   await figures(page);
   const samples = await figures(page);
 
-  // The same mesh as a file: traced alike.
+  // The same mesh as a file gives the same result.
   const obj = [
     ...corners.map((corner) => `v ${Array.from(Float32Array.from(corner)).join(" ")}`),
     ...cells.map((cell) => `f ${cell.map((corner) => corner + 1).join(" ")}`),
@@ -354,7 +354,7 @@ test("where no surface is known, the choice is not offered and says why", async 
   expect(await page.getByRole("radio", { name: "All points" }).isChecked()).toBe(true);
 });
 
-test("what the address asks for and cannot be is named in a sentence", () => {
+test("a sentence names each comparison in the address that is not possible", () => {
   for (const query of ["against=mesh", "splat=0", "splat=2.5", "splat=65"])
     expect(readAddress(query, ["bunny"]).notes, query).toEqual([expect.stringMatching(/in the address is not/)]);
   expect(readAddress("against=surface&splat=7", ["bunny"])).toMatchObject({
@@ -384,13 +384,13 @@ test("by keys alone: choose, move the divider, leave; and the card fits its plac
   }
   await page.locator("#divider").focus();
   await page.keyboard.press("ArrowRight");
-  // In a window of another shape the camera stands elsewhere, and rays are traced anew.
+  // In a window of another shape the camera has another place, so rays are traced anew.
   await expect.poll(() => page.locator("#divider").getAttribute("aria-valuetext")).toMatch(/on the left 44 %, Ours/);
   await tool(page, "Compare").click();
   expect(await page.locator("#compare-card").isVisible()).toBe(false);
 });
 
-/** What of the card is not where it can be read and pressed. */
+/** Parts of the card that cannot be read or pressed. */
 function flaws(page: Page): Promise<string[]> {
   return page.evaluate(() => {
     const boxOf = (element: Element) => element.getBoundingClientRect();

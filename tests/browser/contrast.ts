@@ -1,14 +1,14 @@
 import type { Page } from "playwright-core";
 
 /**
- * Texts in sight that stand out too little from what is behind them (WCAG 1.4.3: 4.5, large ones 3). Over the cloud that
- * can be black or white, whichever is worse: words there need a backing, or in an SVG an edge of their own.
+ * Visible texts with too little contrast to their background (WCAG 1.4.3: 4.5, large texts 3). Over the cloud the
+ * background counts as black or white, whichever is worse. So a text there needs a backing, or in an SVG an outline.
  */
 export async function poorContrast(page: Page): Promise<string[]> {
   return page.evaluate(() => {
     type Color = [number, number, number, number];
     const context = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true })!;
-    // Any color of CSS as the canvas understands it: red, green and blue from 0 to 255, opacity from 0 to 1.
+    // Reads any CSS color through a canvas: red, green and blue from 0 to 255, opacity from 0 to 1.
     const parse = (css: string): Color => {
       context.clearRect(0, 0, 1, 1);
       context.fillStyle = css;
@@ -28,7 +28,7 @@ export async function poorContrast(page: Page): Promise<string[]> {
       const [low, high] = [luminance(a), luminance(b)].sort((x, y) => x - y);
       return (high! + 0.05) / (low! + 0.05);
     };
-    /** What may be behind an element. */
+    /** The possible backgrounds of an element. */
     const behind = (element: Element): Color[] => {
       const layers: Color[] = [];
       for (let at: Element | null = element; at && at.id !== "stage"; at = at.parentElement) {
@@ -48,14 +48,14 @@ export async function poorContrast(page: Page): Promise<string[]> {
     for (let node = walk.nextNode(); node; node = walk.nextNode()) {
       const element = node.parentElement!;
       const text = node.textContent!.trim();
-      // A disabled control is exempt, as is what only screen readers are told.
+      // Disabled controls and texts for screen readers only are exempt.
       if (
         text === "" ||
         element.closest("script, style, noscript, option, .unseen, :disabled, .idle") ||
         !element.checkVisibility()
       )
         continue;
-      // The empty canvas, before there is a cloud.
+      // The canvas is empty until there is a cloud.
       if (element.id === "first-load") continue;
       const style = getComputedStyle(element);
       const svg = element instanceof SVGElement;

@@ -15,7 +15,7 @@ import {
 
 const SAMPLE = "?sample=dragon_res3";
 
-test("changing the field of view re-filters nothing, by slider, wheel or key", async () => {
+test("changing the field of view by slider, wheel or key asks nothing", async () => {
   const page = await openReady(SAMPLE);
   const before = await settled(page);
   const pictures = [await picture(page)];
@@ -74,7 +74,7 @@ test("keys in the panel's fields do not move the camera", async () => {
 });
 
 test.for(["dragon_res3", "bunny"])(
-  "hidden points of %s are off, dimmed or shown, and that re-filters nothing",
+  "hidden points of %s are off, dimmed or shown, and the change asks nothing",
   async (sample) => {
     const page = await openReady(`?sample=${sample}`);
     const before = await settled(page);
@@ -93,14 +93,14 @@ test.for(["dragon_res3", "bunny"])(
     await page.locator("#view").focus();
     await page.keyboard.press("h");
     await expect.poll(() => page.getByRole("radio", { name: "Off" }).isChecked()).toBe(true);
-    // Without the ring of the keyboard focus.
+    // Removes the ring of the keyboard focus.
     await page.locator("#view").blur();
     expect(await differentPixels(page, off, await picture(page))).toBe(0);
     expect(await settled(page)).toEqual(before);
   },
 );
 
-test("a frozen viewpoint stays while the camera flies around, and is let go again", async () => {
+test("a frozen viewpoint stays while the camera flies around, until it is released", async () => {
   const page = await openReady(SAMPLE);
   const before = await settled(page);
   const freeze = page.getByRole("button", { name: "Freeze viewpoint" });
@@ -108,7 +108,7 @@ test("a frozen viewpoint stays while the camera flies around, and is let go agai
   await freeze.click();
   expect(await freeze.getAttribute("aria-pressed")).toBe("true");
   expect(await freeze.textContent()).toBe("Unfreeze viewpoint");
-  // The mark at the viewpoint is seen from elsewhere only.
+  // The mark at the viewpoint is visible only from another place.
   expect(await differentPixels(page, unfrozen, await picture(page))).toBe(0);
   await expect.poll(async () => (await status(page)).sentence).toMatch(/were visible from the frozen viewpoint/);
   const there = await picture(page);
@@ -152,7 +152,7 @@ test("a larger point size covers more of the picture", async () => {
   expect(await settled(page)).toEqual(before);
 });
 
-test("back to the side that was up at first is back to the first view", async () => {
+test("choosing the original up side gives the first view again", async () => {
   const page = await openReady("?sample=room");
   const inside = await settled(page);
   await page.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).check();
@@ -162,7 +162,7 @@ test("back to the side that was up at first is back to the first view", async ()
   expect((await refiltered(page, turned)).viewpoint).toEqual(inside.viewpoint);
 });
 
-test("the sentence tells one point from several", () => {
+test("the sentence has a singular and a plural", () => {
   const said = (count: number, total: number, frozen = false) =>
     sentenceOf({ visibility: { count }, quick: false, milliseconds: 3 } as TimedView, total, frozen);
   expect(said(1, 1)).toMatch(/^1 of 1 point \(100\s%\) is visible from here, /);

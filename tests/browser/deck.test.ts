@@ -1,4 +1,4 @@
-// The layer for deck.gl: what it is filtered by, and what is drawn and picked.
+// The layer for deck.gl: its filter values, and the points that are drawn and picked.
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, beforeEach, expect, it, vi } from "vitest";
 import { builtPage } from "./built.js";
@@ -38,7 +38,7 @@ function inPage<T>(look: (page: DeckPage) => T | Promise<T>): Promise<T> {
   return page.evaluate(`(${look.toString()})(globalThis.page)`);
 }
 
-/** Once the values are those of the newest answer, what they say and what the package says. */
+/** Waits for the values of the newest answer. Returns the points that they show, and the package's answer. */
 async function compared() {
   await reached(({ answers, values }) => values().reduce((sum, value) => sum + value, 0) === answers.at(-1)!.count);
   return inPage(async ({ values, camera, visibleFrom }) => ({
@@ -47,7 +47,7 @@ async function compared() {
   }));
 }
 
-it("is filtered by the mask of what the camera sees, wherever it goes", async () => {
+it("is filtered by the mask of the points that the camera sees, wherever it goes", async () => {
   const before = await compared();
   expect(before.visible).toEqual(before.expected);
   expect(before.visible.length).toBeLessThan(2400);
@@ -70,7 +70,7 @@ it("is filtered by the mask of what the camera sees, wherever it goes", async ()
   expect(await inPage(({ errors }) => errors)).toEqual([]);
 });
 
-it("lets visible points be picked alone", async () => {
+it("lets only visible points be picked", async () => {
   const picks = () =>
     inPage(async ({ pick }) => {
       const picked: number[] = [];
@@ -112,7 +112,7 @@ it("takes any data, a viewpoint and other options", async () => {
   expect(await inPage(({ errors }) => errors.at(-1))).toBe("non-finite");
 });
 
-it("gets over the death of its worker, whether it is asked or not", async () => {
+it("recovers from the death of its worker, during a question or not", async () => {
   const before = await compared();
   await inPage(({ killWorker, set }) => {
     killWorker();
@@ -132,7 +132,7 @@ it("gets over the death of its worker, whether it is asked or not", async () => 
   expect(await inPage(({ errors, workers }) => [errors, workers()])).toEqual([[], 3]);
 });
 
-it("says when the next worker is lost, too, and asks no more", async () => {
+it("reports when the next worker is lost, too, and stops asking", async () => {
   await inPage(({ killWorkerWhenAsked, set }) => {
     killWorkerWhenAsked(2);
     set({}, { rotationX: -60, rotationOrbit: 20 });
@@ -147,7 +147,7 @@ it("says when the next worker is lost, too, and asks no more", async () => {
     2,
     1,
   ]);
-  // Other data is asked about in a worker of its own.
+  // New data gets a new worker.
   await inPage(({ set }) => {
     set({ data: { length: 1, attributes: { getPosition: { value: new Float32Array(3), size: 3 } } } as never });
   });

@@ -20,7 +20,7 @@ test("the page opens on the dragon, and every answer while orbiting is the packa
   expect(first.visible).toBeLessThan(first.total);
   expect(first.sentence).toMatch(/^[\d,]+ of 437,645 points \(\d+\s%\) are visible from here, found in [\d.,]+\sms\.$/);
   expect(first).toMatchObject(await answerInNode(positions, first));
-  // Whoever has done nothing yet is shown the divided picture again the next time.
+  // A visitor who has done nothing yet gets the divided picture again at the next visit.
   await page.locator("#divider").waitFor();
   await new Promise((resolve) => setTimeout(resolve, 500));
   expect(new URL(page.url()).search).toBe("");
@@ -38,7 +38,7 @@ test("the page opens on the dragon, and every answer while orbiting is the packa
   expect(third).toMatchObject(await answerInNode(positions, third));
 });
 
-test("while the worker is busy the page goes on drawing, and the newest viewpoint is the one answered", async () => {
+test("while the worker is busy the page goes on drawing, and then the newest viewpoint is answered", async () => {
   const page = await openReady();
   const before = await settled(page);
   const frames = page.evaluate(
@@ -63,11 +63,11 @@ test("while the worker is busy the page goes on drawing, and the newest viewpoin
   expect(after).toMatchObject(await answerInNode(dragonPositions(), after));
 });
 
-test("a slow question that the camera leaves behind does not hold up the next answer", async () => {
+test("a slow question from an old viewpoint does not delay the next answer", async () => {
   const page = await openReady("?sample=dragon_res2&radius=opposite");
   const first = await upToDate(page);
   expect(first.evaluations).toBeGreaterThan(10);
-  // The camera rests for long enough that the rule, of some 40 hulls, is asked, and goes on before it can be answered.
+  // The camera rests until the slow rule (some 40 hulls) is asked, and moves on before the answer.
   await page.locator("#view").press("ArrowLeft");
   const quick = await answered(page, first);
   expect(quick.evaluations).toBe(0);
@@ -77,7 +77,7 @@ test("a slow question that the camera leaves behind does not hold up the next an
   const next = await answered(page, before);
   expect(next.evaluations).toBe(0);
   expect(next.viewpoint).not.toEqual(quick.viewpoint);
-  // The rule is then asked where the camera has come to rest.
+  // Then the rule is asked at the place where the camera rests.
   const last = await upToDate(page);
   expect(last).toMatchObject({
     viewpoint: next.viewpoint,

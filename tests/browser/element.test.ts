@@ -14,7 +14,7 @@ import { inNode, provoke, served } from "./support.js";
 
 const DIST = join(root, "www/dist");
 const positions = ball(900);
-/** Larger, and elsewhere. */
+/** A larger cloud at another place. */
 const other = ball(1300).map((value, i) => 3 * value + [10, 20, 30][i % 3]!);
 const TWO =
   '<hidden-point-cloud id="a" src="clouds/a.ply" exponent="2" viewpoint="1,2,9"></hidden-point-cloud><hidden-point-cloud id="b" src="clouds/b.ply"></hidden-point-cloud>';
@@ -46,7 +46,7 @@ function seenBy(page: Page, id: string) {
   }));
 }
 
-/** Workers and pictures that there are. */
+/** The numbers of workers and of WebGL contexts. */
 async function kept(page: Page): Promise<{ workers: number; pictures: number }> {
   return {
     workers: page.workers().length,
@@ -80,7 +80,7 @@ test("two elements from another origin, under a strict policy, answer as the pac
   expect(colors).toBeGreaterThan(20);
 });
 
-test("what is removed is given up, what comes back starts again, what is moved stays", async () => {
+test("an element that is removed stops, one that returns starts again, one that is moved goes on", async () => {
   const page = await openTwo();
   await page.evaluate(() => {
     const a = document.getElementById("a")!;
@@ -119,7 +119,7 @@ test("what is removed is given up, what comes back starts again, what is moved s
   }
 });
 
-test("attributes and properties are followed, and what they cannot be is told", async () => {
+test("attributes and properties are followed, and invalid values are reported", async () => {
   const page = await openTwo();
   const change = (act: () => Promise<unknown>) => hears(page, "a", "change", act);
   const options = async (ask: object) => inNode(positions, (cloud) => cloud.visibleFrom([1, 2, 9], ask).count);
@@ -181,7 +181,7 @@ test("attributes and properties are followed, and what they cannot be is told", 
   ).toEqual([9, 0, 3]);
   expect(await element(page, "a", ({ target }) => target)).toEqual([0, 1, 0]);
 
-  // A frozen viewpoint stays when the camera goes.
+  // A frozen viewpoint stays when the camera moves.
   await element(page, "a", async (cloud) => {
     cloud.frozen = true;
     await Promise.resolve();
@@ -199,7 +199,7 @@ test("attributes and properties are followed, and what they cannot be is told", 
     ).viewpoint,
   ).toEqual([-9, 1, 0]);
 
-  // The keys of the page, and attributes that follow them.
+  // The keys of the page work, and the attributes follow them.
   await element(page, "a", (cloud) => {
     cloud.focus();
   });
@@ -256,7 +256,7 @@ test("attributes and properties are followed, and what they cannot be is told", 
     attribute: "viewpoint",
     message: expect.stringMatching(/^The view that is asked for is too far away/) as string,
   });
-  // A radius that is a number, but none for this cloud.
+  // The radius is a number, but too small for this cloud.
   const small = await hears(page, "a", "error", () =>
     element(page, "a", (cloud) => {
       cloud.radius = 0.001;
@@ -266,7 +266,7 @@ test("attributes and properties are followed, and what they cannot be is told", 
   expect(small.message).toMatch(/do not suit/);
 });
 
-test("a file that is not there, one that is none, and one that comes too late", async () => {
+test("a missing file, a file that is no cloud, and a file that comes too late", async () => {
   provoke(/404/);
   served.set("clouds/page.ply", Buffer.from("<!doctype html>"));
   const page = await openStranger(
@@ -293,7 +293,7 @@ test("a file that is not there, one that is none, and one that comes too late", 
     message: expect.stringContaining("page.ply is not a point cloud") as string,
   });
 
-  // Not the page around.
+  // The page around does not scroll.
   const none = await hears(page, "a", "error", () =>
     element(page, "a", (cloud) => {
       cloud.src = "";
@@ -302,7 +302,7 @@ test("a file that is not there, one that is none, and one that comes too late", 
   expect(none).toEqual({ code: "attribute", attribute: "src", message: "The attribute src names no file." });
   expect(await element(page, "a", ({ state }) => state)).toBe("empty");
 
-  // The first of these is given up, and never heard of.
+  // The first of these is given up, and reports nothing.
   await element(page, "a", async (cloud) => {
     cloud.src = "clouds/b.ply";
     await Promise.resolve();
@@ -313,7 +313,7 @@ test("a file that is not there, one that is none, and one that comes too late", 
   const complaint = page.locator("#a").locator('[part="error"]');
   expect(await complaint.isVisible()).toBe(false);
 
-  // The browser takes the picture away, and gives it back.
+  // The browser takes the WebGL context away, and gives it back.
   const context = await page
     .locator("#a canvas")
     .evaluateHandle((canvas: HTMLCanvasElement) => canvas.getContext("webgl2")!.getExtension("WEBGL_lose_context")!);
@@ -399,7 +399,7 @@ test("visible points are picked and hidden ones are not, and the page around scr
   );
 });
 
-test("one who does not see it is told what it is, and with announce what is visible", async () => {
+test("screen readers get a description of the element, and with announce the visible points", async () => {
   const page = await openStranger(
     elsewhere.address,
     '<hidden-point-cloud id="a" sample="bunny" label="A rabbit" announce></hidden-point-cloud>',
@@ -409,7 +409,7 @@ test("one who does not see it is told what it is, and with announce what is visi
   const label = (await canvas.getAttribute("aria-label"))!;
   expect(label).toMatch(/^A rabbit\. Arrow keys orbit/);
   await page.keyboard.press("Tab");
-  // The key that the label names freezes the viewpoint; F, which it once named, does not.
+  // The key that the label names freezes the viewpoint. F does not; the label once named it by mistake.
   const [, named] = /(\w+) freezes the viewpoint/.exec(label)!;
   const frozen = () => element(page, "a", (cloud) => cloud.frozen);
   await page.keyboard.press("f");
@@ -428,7 +428,7 @@ test("one who does not see it is told what it is, and with announce what is visi
   expect(await page.locator("#a").getByRole("status").textContent()).toBe("");
 });
 
-test("until its first cloud it asks for 289 kB, three.js and the WebAssembly included", async () => {
+test("until its first cloud it downloads at most 289 kB, with three.js and the WebAssembly", async () => {
   const page = await openStranger(elsewhere.address, "");
   const asked = new Set<string>();
   page.context().on("request", (request) => {
@@ -443,7 +443,7 @@ test("until its first cloud it asks for 289 kB, three.js and the WebAssembly inc
     [...asked].map((name) => [name, gzipSync(readFileSync(join(DIST, name)), { level: 9 }).length]),
   );
   const sum = Object.values(sizes).reduce((total, size) => total + size, 0);
-  // The module, the package's worker and wasm; workers ask for their own scripts, and the loader for the format.
+  // The module, the package's worker and the wasm. Workers also request their scripts, and the loader of the format.
   expect(Object.keys(sizes)).toEqual(
     expect.arrayContaining(["hidden-point-cloud.js", expect.stringMatching(/hpr_bg.*\.wasm/) as string]),
   );

@@ -1,4 +1,4 @@
-// docs/EMBED.md at work: its elements and its frame in somebody else's page.
+// The examples of docs/EMBED.md: its elements and its frame in a foreign page.
 import { afterAll, beforeAll, expect, test } from "vitest";
 import { blocks, promised } from "../package/snippets.js";
 import { asciiPly, ball } from "./clouds.js";
@@ -23,7 +23,7 @@ afterAll(() => {
   elsewhere.close();
 });
 
-/** What stands in the document, as a page would have it, but for the module, which `openStranger` brings. */
+/** The HTML of the document, without the module, which `openStranger` adds. */
 function body(html: string): string {
   return html
     .replace(/<script.*<\/script>/, "")
@@ -31,7 +31,7 @@ function body(html: string): string {
     .replaceAll(SCAN, elsewhere.address);
 }
 
-test("the first element and its script do what they say", async () => {
+test("the first element and its script print the lines in their comments", async () => {
   const page = await openStranger(elsewhere.address, body(simple!));
   expect(await settledState(page, "scan")).toBe("ready");
   const lines: string[] = [];
@@ -50,7 +50,7 @@ test("the first element and its script do what they say", async () => {
   expect(await settledState(page, "scan")).toBe("ready");
   const from = await element(page, "scan", ({ viewpoint }) => viewpoint!);
   const count = await inNode(positions, (cloud) => cloud.visibleFrom(from, { exponent: 3 }).count);
-  // Frozen before it went elsewhere.
+  // The viewpoint was frozen before the camera moved.
   expect(answer).toEqual([3, "dimmed", count]);
 });
 
@@ -59,7 +59,7 @@ test("its style and its slots are the page's", async () => {
   expect(await settledState(page, "scan")).toBe("ready");
   expect(await page.locator("#scan").evaluate((cloud) => cloud.getBoundingClientRect().height)).toBeCloseTo(420, 0);
   expect(await page.getByText("A scan of the hall").isVisible()).toBe(false);
-  // The picture's own color is the page's, too.
+  // The background of the picture is the page's color, too.
   const corner = await element(page, "scan", async (cloud) => {
     const bitmap = await createImageBitmap(await cloud.toBlob());
     const context = new OffscreenCanvas(1, 1).getContext("2d")!;
@@ -74,7 +74,7 @@ test("its style and its slots are the page's", async () => {
   expect(await page.getByText("One moment").isVisible()).toBe(false);
 });
 
-test("the frame has its keys and leaves the page its scroll", async () => {
+test("the keys work in the frame, and the page around still scrolls", async () => {
   served.set(
     "framed.html",
     Buffer.from(

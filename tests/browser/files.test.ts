@@ -61,7 +61,7 @@ test("every format opens, chosen or dropped in turn, with the file's own coordin
   await openInTurn(await openReady("?sample=bunny"), FILES);
 });
 
-test("up can be chosen, and the cloud is looked at anew", async () => {
+test("up can be chosen, and the camera returns to the first view", async () => {
   const page = await openReady("?sample=bunny");
   const before = await status(page);
   await choose(page, "plain.xyz", text(lines(near, " ")));
@@ -90,7 +90,7 @@ test("a depth camera's cloud is seen upright from where it was taken", async () 
   expect(await page.locator("#up-axis input:checked").inputValue()).toBe("-y");
 });
 
-test("of several dropped files the first is opened, and what is no file is named", async () => {
+test("of several dropped files the first is opened, and a dropped item that is no file is named", async () => {
   const page = await openReady("?sample=bunny");
   const dropped = async (make: (data: DataTransfer) => void) => {
     const transfer = await page.evaluateHandle(
@@ -185,7 +185,7 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
   ["beyond.xyz", text("0 0 0\n1 1 1e300\n"), /too far out/],
 ];
 
-test("what is no cloud is refused in a plain sentence, and the cloud that was there stays", async () => {
+test("a file that is no cloud is refused in a plain sentence, and the previous cloud stays", async () => {
   const page = await openReady("?sample=bunny");
   const message = page.locator("#message");
   for (const [number, [name, content, sentence]] of REFUSED.entries()) {

@@ -2,12 +2,12 @@ import type { Page } from "playwright-core";
 import { expect } from "vitest";
 import { answered, answerInNode, status } from "./support.js";
 
-/** As by the button. */
+/** Opens a file as the button does. */
 export async function choose(page: Page, name: string, content: Uint8Array): Promise<void> {
   await page.locator("#file").setInputFiles({ name, mimeType: "", buffer: Buffer.from(content) });
 }
 
-/** Dropped on to the cloud. */
+/** Drops a file on to the cloud. */
 export async function drop(page: Page, name: string, content: Uint8Array): Promise<void> {
   const transfer = await page.evaluateHandle(
     ([fileName, bytes]) => {
@@ -23,7 +23,7 @@ export async function drop(page: Page, name: string, content: Uint8Array): Promi
   expect(await page.locator("#drop").isVisible()).toBe(false);
 }
 
-/** Opens files by one way and the other: each is shown without a word, and seen as the package sees it. */
+/** Opens files by button and drop in turn. Each opens without a message, and its answer equals the package's. */
 export async function openInTurn(
   page: Page,
   files: readonly [name: string, content: Uint8Array, positions: Float32Array | Float64Array][],

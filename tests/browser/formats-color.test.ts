@@ -20,7 +20,7 @@ async function open(page: Page, name: string, content: Uint8Array): Promise<void
 
 const choices = (page: Page) => page.locator("#color option").allTextContents();
 
-test("intensity, classes and what else a file has can be colored by, in every format", async () => {
+test("a cloud can be colored by intensity, class and other attributes, in every format", async () => {
   const page = await openReady("?sample=bunny");
   expect(await choices(page)).toEqual(["Two tones", "One color", "Height"]);
   for (const [name, content, extra] of [
@@ -53,7 +53,7 @@ test("intensity, classes and what else a file has can be colored by, in every fo
     const ends = (await page.locator("#legend").innerText())
       .split(/\s*\n\s*/)
       .map((number) => Number(number.replace(",", "")));
-    // From the least but one in a hundred to the largest but one in a hundred of 0 … 4095.
+    // From the 1st to the 99th percentile of 0 … 4095.
     expect(ends[0], name).toBeGreaterThanOrEqual(0);
     expect(ends[0], name).toBeLessThan(100);
     expect(ends[1], name).toBeGreaterThan(4000);
@@ -61,7 +61,7 @@ test("intensity, classes and what else a file has can be colored by, in every fo
   }
 });
 
-/** How much red, green and blue there is in a picture, above its background. */
+/** The amounts of red, green and blue in a picture, above its background. */
 async function mean(page: Page): Promise<[number, number, number]> {
   const image = (await picture(page)).toString("base64");
   return page.evaluate(async (data) => {
@@ -78,9 +78,9 @@ async function mean(page: Page): Promise<[number, number, number]> {
   }, image);
 }
 
-test("a file's own colors are drawn as they are, also 8-bit ones in 16 bits, and other choices are others", async () => {
+test("a file's own colors are drawn as they are, also 8-bit colors in 16 bits, and other choices look different", async () => {
   const page = await openReady("?sample=bunny", { colorScheme: "dark" });
-  // All points are red: whatever is drawn is red.
+  // All points are red, so the picture is red.
   const red = text([...near].map((value, i) => `${value}${i % 3 === 2 ? " 250 20 30\n" : " "}`).join(""));
   await open(page, "red.xyz", red);
   const [r, g, b] = await mean(page);
@@ -103,7 +103,7 @@ test("a file's own colors are drawn as they are, also 8-bit ones in 16 bits, and
   expect(colorOf(1)).toEqual([1, 2, 254]);
 });
 
-test("the address says what a cloud is colored by, and is told when it cannot be", async () => {
+test("the address holds the choice of colors, and a message names a choice that is not possible", async () => {
   served.set("usual.las", las(far));
   const page = await openReady("?src=usual.las&color=intensity");
   expect(await page.locator("#color").inputValue()).toBe("intensity");
@@ -114,7 +114,7 @@ test("the address says what a cloud is colored by, and is told when it cannot be
   expect(await page.locator("#color").inputValue()).toBe("classification");
   expect(await page.locator("#legend li").count()).toBe(3);
 
-  // The next cloud has no classes: it comes in its own colors, without a word.
+  // The next cloud has no classes. It comes in its own colors, without a message.
   await open(page, "plain.xyz", text("0 0 0\n1 0 0\n0 1 0\n0 0 1\n"));
   expect(await page.locator("#color").inputValue()).toBe("own");
   expect(await page.locator("#legend").isVisible()).toBe(false);
@@ -126,7 +126,7 @@ test("the address says what a cloud is colored by, and is told when it cannot be
   );
 });
 
-test("heights are those of the file's own coordinates, with the side up that is up", async () => {
+test("heights are in the file's own coordinates, along the chosen up side", async () => {
   const page = await openReady("?sample=tile&color=height");
   const ends = async () =>
     (await page.locator("#legend").innerText()).split(/\s*\n\s*/).map((number) => Number(number.replaceAll(",", "")));
@@ -138,7 +138,7 @@ test("heights are those of the file's own coordinates, with the side up that is 
   await page.waitForFunction(() => document.querySelector("#legend .low")!.textContent.startsWith("5,403,0"));
 });
 
-test("the samples street and tile have classes and intensity, and tile's coordinates are those of a map", async () => {
+test("the samples street and tile have classes and intensity, and tile has map coordinates", async () => {
   for (const [sample, least, label] of [
     ["street", 150_000, "behind glass"],
     ["tile", 200_000, "high vegetation"],
@@ -172,10 +172,10 @@ test("the samples street and tile have classes and intensity, and tile's coordin
   }
 });
 
-test("loading can be stopped, and the cloud that was there stays", async () => {
+test("loading can be stopped, and the previous cloud stays", async () => {
   const page = await openReady("?sample=bunny");
   const before = await status(page);
-  // So many points take long enough to be stopped.
+  // This many points take long enough to be stopped.
   const content = las(far, { format: 0, claimed: 30_000_000 });
   await page.evaluate(
     (bytes) => {

@@ -36,20 +36,20 @@ test("LAS, LAZ, glTF and GLB files open, chosen or dropped in turn, with the fil
   await openInTurn(await openReady("?sample=bunny"), FILES);
 });
 
-test("a glTF file's numbers may lie beside it on the web", async () => {
+test("a glTF file's numbers may lie in a second file on the web", async () => {
   served.set("cloud.gltf", gltf(near, "cloud.bin"));
   served.set("cloud.bin", gltfBinary(near));
   const now = await status(await openReady("?src=cloud.gltf"));
   expect(now).toMatchObject({ total: COUNT, ...(await answerInNode(moved(near), now)) });
 });
 
-test("an octree (COPC) is read from a file, by its ranges from a server that has them, and whole from one that has none", async () => {
+test("an octree (COPC) is read from a file, in ranges from a server that supports them, and whole from other servers", async () => {
   const content = fixture("octree.copc.laz");
   served.set("whole/octree.copc.laz", content);
   served.set("ranged/octree.copc.laz", content);
   for (const place of ["whole", "ranged"]) {
     const now = await status(await openReady(`?src=${place}/octree.copc.laz`));
-    // The octree has another order of points, which changes no answer.
+    // The octree has another order of points. This changes no answer.
     expect(now, place).toMatchObject({ state: "ready", total: 3000, ...(await answerInNode(octree, now)) });
   }
   const page = await openReady("?sample=bunny");
@@ -59,7 +59,7 @@ test("an octree (COPC) is read from a file, by its ranges from a server that has
   expect(now).toMatchObject({ total: 3000, ...(await answerInNode(octree, now)) });
 });
 
-test("of more points than allowed, an octree shows its coarser levels", async () => {
+test("an octree with more points than allowed shows its coarser levels", async () => {
   served.set("ranged/octree.copc.laz", fixture("octree.copc.laz"));
   const page = await openReady("?src=ranged/octree.copc.laz&points=1100");
   const now = await status(page);
@@ -76,7 +76,7 @@ test("of more points than allowed, an octree shows its coarser levels", async ()
 const every = (step: number, positions: Float32Array | Float64Array) =>
   positions.filter((_, i) => Math.floor(i / 3) % step === 0);
 
-test("of more points than allowed, every so manyth is shown, and the page says so", async () => {
+test("a file with more points than allowed shows every n-th point, and the page says so", async () => {
   const lines = [...near].map((value, i) => `${value}${i % 3 === 2 ? "\n" : " "}`).join("");
   const limited: [string, Uint8Array, Float32Array | Float64Array, string][] = [
     ["cloud.las", las(far), every(3, far), "Every 3rd of its 600 points is shown."],
@@ -86,7 +86,7 @@ test("of more points than allowed, every so manyth is shown, and the page says s
     ["cloud.pcd", pcd(near, "binary"), every(3, near), "Every 3rd of its 600 points is shown."],
     ["packed.pcd", pcd(near, "binary_compressed"), every(3, near), "Every 3rd of its 600 points is shown."],
     ["cloud.glb", glb(near), every(3, moved(near)), "Every 3rd of its 600 points is shown."],
-    // A text does not say beforehand how many there are: every second one is dropped as often as needed.
+    // A text does not give the number of points first. So every second point is dropped, as often as needed.
     ["cloud.xyz", text(lines), every(4, near), "Every 4th of its 600 points is shown."],
     ["cloud.obj", text(lines.replace(/^(?=.)/gm, "v ")), every(4, near), "Every 4th of its 600 points is shown."],
   ];
@@ -100,11 +100,11 @@ test("of more points than allowed, every so manyth is shown, and the page says s
   }
 });
 
-test("24 million points are thinned without having all of them in memory", async () => {
+test("24 million points are thinned, and are never all in memory", async () => {
   const page = await openReady("?sample=bunny&points=1000000");
   const before = await status(page);
   const start = las(far, { format: 0, claimed: 24_000_000 });
-  // The header once, and then the same 600 points over and over.
+  // The header once, and then the same 600 points again and again.
   await page.evaluate(
     ([bytes, count]) => {
       const header = Uint8Array.from(bytes.slice(0, 227));
@@ -247,7 +247,7 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
   ],
 ];
 
-test("what is broken is refused in a plain sentence, and the page stays usable", async () => {
+test("a broken file is refused in a plain sentence, and the page stays usable", async () => {
   const page = await openReady("?sample=bunny");
   for (const [name, content, sentence] of REFUSED) {
     const before = await status(page);
@@ -263,7 +263,7 @@ test("what is broken is refused in a plain sentence, and the page stays usable",
   }
 });
 
-test("damaged points are refused, or said to be outside the bounds that the file gives", async () => {
+test("damaged points are refused, or a message says that they lie outside the bounds in the file", async () => {
   const page = await openReady("?sample=bunny");
   const damaged = (content: Uint8Array, from: number) =>
     edited(content, (_, bytes) => {
@@ -272,7 +272,7 @@ test("damaged points are refused, or said to be outside the bounds that the file
   for (const [name, content] of [
     ["damaged.laz", damaged(laz, 2000)],
     ["damaged-layers.laz", damaged(layers, 1500)],
-    // Behind the first point and the sizes of the layers: where it is, and not what color it has.
+    // This place lies after the first point and the sizes of the layers. It changes positions, not colors.
     ["damaged.copc.laz", damaged(tree, new DataView(tree.buffer).getUint32(96, true) + 200)],
   ] as const) {
     await choose(page, name, content);

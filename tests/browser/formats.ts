@@ -10,18 +10,18 @@ const OFFSET = [512_000, 5_403_000, 400];
 export interface LasOptions {
   minor?: number;
   format?: 0 | 1 | 2 | 3 | 6 | 7 | 8;
-  /** Instead of the number of points there are. */
+  /** A number of points for the header, instead of the true one. */
   claimed?: number;
-  /** One float more for each point, described as the format describes it. */
+  /** The name of one more float for each point, described as in the format. */
   extra?: string;
-  /** Colors are bytes in 16 bits, as many programs write them. */
+  /** Colors are bytes in 16 bits, like many programs write them. */
   smallColors?: boolean;
 }
 
 const RECORD = { 0: 20, 1: 28, 2: 26, 3: 34, 6: 30, 7: 36, 8: 38 };
 const COLOR: Partial<Record<number, number>> = { 2: 20, 3: 28, 7: 30, 8: 30 };
 
-/** Positions as a LAS file gives them back: whole millimeters, to the last bit. */
+/** Positions after reading them from a LAS file: whole millimeters, equal to the last bit. */
 export function inMillimeters(positions: ArrayLike<number>): Float64Array {
   return Float64Array.from(
     positions,
@@ -29,7 +29,7 @@ export function inMillimeters(positions: ArrayLike<number>): Float64Array {
   );
 }
 
-/** What the n-th point has besides its place. */
+/** The attributes of the n-th point. */
 export const intensityOf = (i: number) => (i * 37) % 4096;
 export const classOf = (i: number) => [2, 5, 6][i % 3]!;
 export const colorOf = (i: number): [number, number, number] => [i % 256, (2 * i) % 256, 255 - (i % 256)];
@@ -92,11 +92,11 @@ export interface GlbOptions {
   mode?: 0 | 4;
   colors?: boolean;
   required?: string[];
-  /** Half as many points, which two nodes put to two places. */
+  /** Half of the points, placed twice by two nodes. */
   twice?: boolean;
 }
 
-/** A scene whose node moves its points by OFFSET: their own coordinates are small, as f32 wants them. */
+/** A scene whose node moves its points by OFFSET. Their own coordinates are small, so that they fit f32. */
 export function glb(positions: ArrayLike<number>, options: GlbOptions = {}): Uint8Array {
   const { json, binary } = gltfParts(positions, options);
   const text = padded(
@@ -114,7 +114,7 @@ export function glb(positions: ArrayLike<number>, options: GlbOptions = {}): Uin
   );
 }
 
-/** The same as text, with its numbers in it or, with `uri`, elsewhere. */
+/** The same as text. Its numbers are inside, or at `uri`. */
 export function gltf(positions: ArrayLike<number>, uri?: string): Uint8Array {
   const { json, binary } = gltfParts(positions, {});
   const buffer = {
@@ -124,7 +124,7 @@ export function gltf(positions: ArrayLike<number>, uri?: string): Uint8Array {
   return new TextEncoder().encode(JSON.stringify({ ...json, buffers: [buffer] }));
 }
 
-/** The binary part, for a server that has it beside the text. */
+/** The binary part, as a file of its own. */
 export function gltfBinary(positions: ArrayLike<number>): Uint8Array {
   return gltfParts(positions, {}).binary;
 }
@@ -132,7 +132,7 @@ export function gltfBinary(positions: ArrayLike<number>): Uint8Array {
 /** Where the node of `glb` puts the points. */
 export const NODE_AT = [512_345, 5_403_210, 431] as const;
 
-/** Positions as a glTF scene gives them back: f32 in the file, moved in f64. */
+/** Positions after reading them from a glTF scene: f32 in the file, moved in f64. */
 export function moved(positions: ArrayLike<number>): Float64Array {
   return Float64Array.from(positions, (value, i) => Math.fround(value) + NODE_AT[i % 3]!);
 }
@@ -158,7 +158,7 @@ function gltfParts(
       { mesh: 0, translation: NODE_AT, scale: [2, 2, 2] },
     ].slice(0, twice ? 2 : 1),
     meshes: [{ primitives: [{ attributes: { POSITION: 0, ...(colors ? { COLOR_0: 1 } : {}) }, mode, material: 0 }] }],
-    // A picture that is nowhere: it must not be asked for.
+    // An image that does not exist. The page must not request it.
     materials: [{ pbrMetallicRoughness: { baseColorTexture: { index: 0 } } }],
     textures: [{ source: 0 }],
     images: [{ uri: "nowhere.png" }],
@@ -220,7 +220,7 @@ export function attributedPly(positions: ArrayLike<number>): Uint8Array {
   return new Uint8Array(Buffer.concat([new TextEncoder().encode(header), new Uint8Array(view.buffer)]));
 }
 
-/** The same as a PCD file, whose colors are four bytes that call themselves a float. */
+/** The same as a PCD file. Its colors are four bytes that are declared as a float. */
 export function attributedPcd(positions: ArrayLike<number>): Uint8Array {
   const count = positions.length / 3;
   const header = [
@@ -241,7 +241,7 @@ export function attributedPcd(positions: ArrayLike<number>): Uint8Array {
       view.setFloat32(24 * i + 4 * axis, value, true);
     });
     const [red, green, blue] = colorOf(i);
-    // 255 above the colors makes a float of them that is not a number.
+    // With 255 in the highest byte the float is not a number.
     view.setUint32(24 * i + 12, ((255 << 24) | (red << 16) | (green << 8) | blue) >>> 0, true);
     view.setFloat32(24 * i + 16, intensityOf(i), true);
     view.setUint32(24 * i + 20, classOf(i), true);

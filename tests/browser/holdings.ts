@@ -1,8 +1,8 @@
 import type { Page } from "playwright-core";
 
-/** What the page holds at the moment that no garbage collector takes back by itself. */
+/** The objects of the page that no garbage collector frees by itself. */
 export interface Holdings {
-  /** Of WebGL, by kind: made and not deleted. */
+  /** WebGL objects by kind: made and not deleted. */
   webgl: Record<string, number>;
   workers: number;
   objectUrls: number;
@@ -10,7 +10,7 @@ export interface Holdings {
 
 type Counted = typeof globalThis & { holdings: Holdings };
 
-/** Counts what the page makes and gives back; to be called before it is opened. */
+/** Counts the objects that the page makes and frees. Call it before the page is opened. */
 export async function countHoldings(page: Page): Promise<void> {
   await page.addInitScript(() => {
     const holdings: Holdings = { webgl: {}, workers: 0, objectUrls: 0 };
@@ -56,7 +56,7 @@ export function holdingsOf(page: Page): Promise<Holdings> {
 }
 
 export interface MemoryUse {
-  /** Bytes of JavaScript objects, of the browser's own for them, and of array buffers. */
+  /** Bytes of JavaScript objects, of the browser's objects for them, and of array buffers. */
   heap: number;
   embedder: number;
   buffers: number;
@@ -64,11 +64,11 @@ export interface MemoryUse {
   listeners: number;
 }
 
-/** What is left of memory and document once all garbage is gone. */
+/** The memory and the size of the document after garbage collection. */
 export async function memoryOf(page: Page): Promise<MemoryUse> {
   const session = await page.context().newCDPSession(page);
   try {
-    // What only a finalizer lets go of is gone with the second.
+    // The second collection frees objects that only a finalizer released.
     await session.send("HeapProfiler.collectGarbage");
     await session.send("HeapProfiler.collectGarbage");
     const heap = (await session.send("Runtime.getHeapUsage")) as {

@@ -4,17 +4,17 @@ import { answered, openReady, PHONE, reached, status } from "./support.js";
 
 interface Stop {
   name: string;
-  /** What is wrong with how the focus shows there, or `null`. */
+  /** The fault of the visible focus there, or `null`. */
   flaw: string | null;
 }
 
-/** Where the focus is, and whether one sees it: a ring that stands out (WCAG 1.4.11: 3) around something in sight. */
+/** The element with the focus, and whether the focus is visible: a ring with enough contrast (WCAG 1.4.11: 3) around a visible element. */
 async function stop(page: Page): Promise<Stop | null> {
   return page.evaluate(() => {
     const element = document.activeElement as HTMLElement | null;
     if (!element || element === document.body) return null;
     const name = nameOf(element);
-    // A radio button fills its label, whose ring is seen; the divider shows its ring on its handle.
+    // A radio button shows its ring on its label, the divider on its handle.
     const ringed = element.closest<HTMLElement>(".segmented label") ?? element;
     const style = element.id === "divider" ? getComputedStyle(element, "::after") : getComputedStyle(ringed);
     const { left, right, top, bottom, width, height } = ringed.getBoundingClientRect();
@@ -22,13 +22,13 @@ async function stop(page: Page): Promise<Stop | null> {
     if (style.outlineStyle === "none" || Number.parseFloat(style.outlineWidth) < 2) flaws.push("has no ring");
     if (left < -1 || top < -1 || right > innerWidth + 1 || bottom > innerHeight + 1)
       flaws.push(`is out of sight (${Math.round(top)} to ${Math.round(bottom)})`);
-    // What lies over the cloud may cover a part of it, but nothing may cover all (WCAG 2.4.11).
+    // Other elements may cover a part of the element, but never all of it (WCAG 2.4.11).
     const shares = [0.1, 0.3, 0.5, 0.7, 0.9];
     const seen = shares.some((x) =>
       shares.some((y) => ringed.contains(document.elementFromPoint(left + x * width, top + y * height))),
     );
     if (!seen) flaws.push("is covered");
-    // Inside where the ring is drawn inwards, else the next background around.
+    // The background inside if the ring is drawn inwards, else the background around.
     const inwards = Number.parseFloat(style.outlineOffset) < 0;
     const ground = groundOf(inwards ? ringed : ringed.parentElement!);
     const ratio = contrast(style.outlineColor, ground);
@@ -65,7 +65,7 @@ async function stop(page: Page): Promise<Stop | null> {
   });
 }
 
-/** Everything in sight that a mouse can use, by the names above. */
+/** All visible elements that a mouse can use, by the names above. */
 async function usable(page: Page): Promise<string[]> {
   return page.evaluate(() => {
     const all = [...document.querySelectorAll<HTMLElement>("a[href], button, input, select, summary, [tabindex]")];
@@ -88,7 +88,7 @@ test.for([
   { ...WIDE, colorScheme: "dark" },
   { ...PHONE, colorScheme: "light" },
 ] as const)(
-  "Tab reaches everything, the focus is always seen, and the page lets go of it ($viewport.width px, $colorScheme)",
+  "Tab reaches everything, the focus is always visible, and it can leave the page ($viewport.width px, $colorScheme)",
   async (options) => {
     const page = await openReady(SETTINGS, options);
     if (options.viewport.width < 760) await page.getByRole("button", { name: "More controls" }).click();
@@ -140,7 +140,7 @@ test("F takes the whole screen for the cloud and its tools, and gives it back", 
   expect(await page.locator("#panel").isVisible()).toBe(false);
   expect((await view.boundingBox())!.width).toBe(await page.evaluate(() => innerWidth));
   expect(await page.locator("#tool-bar").isVisible()).toBe(true);
-  // Keys and what screen readers are told go on.
+  // The keys and the announcements for screen readers still work.
   const before = await status(page);
   await view.press("ArrowLeft");
   await answered(page, before);
@@ -151,7 +151,7 @@ test("F takes the whole screen for the cloud and its tools, and gives it back", 
   expect(await page.locator("#panel").isVisible()).toBe(true);
 });
 
-test("where the browser has no full screen there is no button for it", async () => {
+test("there is no full-screen button if the browser has no full screen", async () => {
   const page = await openReady("?sample=dragon_res4");
   await page.addInitScript(() => {
     Object.defineProperty(document, "fullscreenEnabled", { value: false });
@@ -163,7 +163,7 @@ test("where the browser has no full screen there is no button for it", async () 
   expect(await page.evaluate(() => document.fullscreenElement)).toBe(null);
 });
 
-test("while a cloud is loading things move only for those who like it", async () => {
+test("while a cloud is loading nothing moves for users who prefer reduced motion", async () => {
   const page = await openReady("?sample=dragon_res4", { reducedMotion: "reduce" });
   await page.route("**/samples/bunny.bin", () => undefined);
   await page.getByRole("button", { name: "Bunny" }).click();

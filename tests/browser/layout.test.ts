@@ -2,7 +2,7 @@ import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { openPage, openReady, PHONE, reached, refiltered, settled, status } from "./support.js";
 
-/** Controls and texts in sight that lie over one another, are cut off at the side, or have no name. */
+/** Visible controls and texts that overlap, are cut off at the side, or have no name. */
 async function flaws(page: Page): Promise<string[]> {
   return page.evaluate(() => {
     const shown = [
@@ -32,7 +32,7 @@ async function flaws(page: Page): Promise<string[]> {
           (a.element.id === "view" && b.element.id === "message")
         )
           continue;
-        // A sheet that scrolls lies under the bar that stays.
+        // A scrolling sheet may lie under the fixed bar.
         const over =
           Math.min(a.box.right, b.box.right) - Math.max(a.box.left, b.box.left) > 1.5 &&
           Math.min(a.box.bottom, b.box.bottom) - Math.max(a.box.top, b.box.top) > 1.5;
@@ -111,7 +111,7 @@ test("a message fits a phone", async () => {
   expect(await flaws(page)).toEqual([]);
 });
 
-test("keyboard focus is seen", async () => {
+test("keyboard focus is visible", async () => {
   const page = await openReady("?sample=dragon_res4");
   await page.keyboard.press("Tab");
   expect(await page.evaluate(() => document.activeElement?.id)).toBe("view");
@@ -150,7 +150,7 @@ test.for([
     }, open);
     expect(await flaws(page)).toEqual([]);
   }
-  // The cloud keeps room for itself, and its tools stay within it.
+  // The cloud keeps enough space, and its tools stay within it.
   await page.evaluate(() => {
     document.getElementById("panel")!.classList.remove("open");
   });
@@ -164,7 +164,7 @@ test.for([
   ).toBeLessThanOrEqual(0);
 });
 
-test("fingers have 44 pixels for everything they can press", async () => {
+test("every control is at least 44 pixels large for fingers", async () => {
   const page = await openReady("?sample=bunny&light=0,0.3,0.2", PHONE);
   const small = await page.evaluate(() => {
     document.getElementById("panel")!.classList.add("open");
@@ -176,7 +176,7 @@ test("fingers have 44 pixels for everything they can press", async () => {
     ].filter((element) => element.checkVisibility());
     return all.flatMap((element) => {
       const { width, height } = element.getBoundingClientRect();
-      // A light's handle takes more than what is seen of it.
+      // A light's handle reacts beyond its visible part.
       const more =
         element.parentElement!.id === "lights" ? -2 * Number.parseFloat(getComputedStyle(element, "::after").top) : 0;
       return Math.min(width, height) + more < 43.9 ? `${element.id || element.textContent}: ${width} × ${height}` : [];
@@ -194,7 +194,7 @@ test("without WebGL a plain sentence says so", async () => {
   expect((await reached(page, "error")).sentence).toMatch(/WebGL 2, which this browser does not offer/);
 });
 
-test("with the system's own colors one sees what is chosen", async () => {
+test("with the system's own colors the chosen options are visible", async () => {
   const page = await openReady("?sample=dragon_res4", { forcedColors: "active" });
   const background = (text: string) =>
     page
@@ -206,7 +206,7 @@ test("with the system's own colors one sees what is chosen", async () => {
   const before = await color();
   await freeze.click();
   expect(await color()).not.toBe(before);
-  // Whatever is pressed has the same color.
+  // All pressed buttons have the same color.
   await page.locator("#tool-pick").click();
   const pressed = await page
     .locator('button[aria-pressed="true"]:not(#thumbnails *)')

@@ -8,16 +8,16 @@ import { browser, openPage, PHONE, reached, site, upToDate } from "./support.js"
 /** A sample that is downloaded, and small. */
 const SMALL = "?sample=bunny";
 
-/** What has arrived is compressed already, or is compressed on its way. */
+/** The bytes of a response: files that are already compressed as they are, others compressed for the download. */
 function onTheWire(name: string): number {
   const bytes = readFileSync(join(root, "www", "dist", name || "index.html"));
   return /\.webp$/.test(name) ? bytes.length : gzipSync(bytes, { level: 9 }).length;
 }
 
-test("all that is loaded for the first cloud, three.js, wasm and workers included, is at most 300 kB", async () => {
+test("the download for the first cloud, with three.js, wasm and workers, is at most 300 kB", async () => {
   const context = await browser.newContext({ serviceWorkers: "block" });
   const page = await context.newPage();
-  // When the first answer is there; whatever the page asks for from then on, the first cloud has not waited for.
+  // The time of the first answer. The first cloud does not wait for later requests.
   await page.addInitScript(() => {
     addEventListener("DOMContentLoaded", () => {
       const element = document.getElementById("status")!;
@@ -54,10 +54,10 @@ test("all that is loaded for the first cloud, three.js, wasm and workers include
 });
 
 test.for([{ viewport: { width: 1280, height: 800 } }, PHONE])(
-  "nothing moves about while the page loads ($viewport.width px)",
+  "nothing shifts while the page loads ($viewport.width px)",
   async (options) => {
     const page = await openPage("", options);
-    // As a visitor comes: the observer has to be there before anything is drawn.
+    // The observer must run before anything is drawn, so this test opens the page itself.
     await page.addInitScript(() => {
       const shifts: { value: number; what: string[] }[] = [];
       Object.assign(window, { shifts });

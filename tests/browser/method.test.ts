@@ -26,7 +26,7 @@ async function expected({ viewpoint }: Status, options: VisibilityOptions) {
   return { visible: count, radius, evaluations };
 }
 
-test("the radius is found by any of the rules, and kept by hand", async () => {
+test("the radius follows any of the rules, and by hand it stays fixed", async () => {
   const page = await openReady(SAMPLE);
   for (const rule of ["search", "opposite", "auto"] as const) {
     const name = { search: "Search", opposite: "Opposite", auto: "Automatic" }[rule];
@@ -42,7 +42,7 @@ test("the radius is found by any of the rules, and kept by hand", async () => {
   await page.getByLabel("Exponent", { exact: true }).fill("1.5");
   const byHand = await upToDate(page);
   expect(byHand).toMatchObject(await answerInNode(positions, byHand, { exponent: 1.5 }));
-  // The mark on the track stays where the automatic radius is, from 0 to 6.
+  // The mark on the track stays at the automatic radius, from 0 to 6.
   const mark = () =>
     page
       .locator(".slider:has(#exponent)")
@@ -50,7 +50,7 @@ test("the radius is found by any of the rules, and kept by hand", async () => {
   await expect.poll(mark).toBeCloseTo(automatic.exponent / 6, 6);
 });
 
-test("while the camera moves the automatic radius stands in for a slow rule", async () => {
+test("while the camera moves the automatic radius replaces a slow rule", async () => {
   const page = await openReady(`${SAMPLE}&radius=search`);
   const before = await upToDate(page);
   expect(before.evaluations).toBe(6);
@@ -71,10 +71,10 @@ test("while the camera moves the automatic radius stands in for a slow rule", as
   expect(seen).toContain("0");
 });
 
-test("a radius in the cloud's units is used as it is; one that is too small is said, and the automatic one used", async () => {
+test("a radius in the cloud's units is used as it is; if it is too small, a message says so and the automatic radius is used", async () => {
   const page = await openReady(`${SAMPLE}&view=0.1,0.2,0.3&radius=25`);
   expect(await upToDate(page)).toMatchObject(await expected(await status(page), { radius: 25 }));
-  // Also where the first answer is by hand, the mark is at the automatic exponent.
+  // The mark is at the automatic exponent, even if the first answer uses a radius by hand.
   const { exponent } = await inNode(positions, (cloud) => cloud.autoRadius([0.1, 0.2, 0.3]));
   const mark = () =>
     page
@@ -98,11 +98,11 @@ test("exponential flipping has its own parameter and no radius", async () => {
   expect(now.visible).toBe(automatic.count);
   const { exponential } = automatic.inversion as { exponential: number };
   expect(now.inversion).toBe(`exponential:${exponential}`);
-  // Nothing that would be refused can be chosen.
+  // Rules that would be refused cannot be chosen.
   for (const name of ["Search", "By hand"]) expect(await page.getByRole("button", { name }).isDisabled()).toBe(true);
   expect(await page.getByLabel("Exponent", { exact: true }).isDisabled()).toBe(true);
 
-  // log₁₀ of c in spacings, of which 0.07 are the automatic c.
+  // log₁₀ of c in spacings. The automatic c is 0.07 spacings.
   await page.getByLabel("c in exp(c/d)").fill("-0.5");
   const larger = await upToDate(page);
   const c = Number(larger.inversion.split(":")[1]);
@@ -114,7 +114,7 @@ test("exponential flipping has its own parameter and no radius", async () => {
   expect((await upToDate(page)).visible).toBe(now.visible);
 });
 
-test("flipping by a power starts where pits are seen as deep as with the automatic radius", async () => {
+test("flipping by a power starts at a value that sees pits as deep as the automatic radius does", async () => {
   const page = await openReady(SAMPLE);
   const { exponent } = await status(page);
   await unfold(page, "Flip and viewpoints");
@@ -132,7 +132,7 @@ test("flipping by a power starts where pits are seen as deep as with the automat
   expect(two.visible).toBe(await count(two, 2));
 });
 
-test("several viewpoints give the union, or what two of them see", async () => {
+test("several viewpoints give the union, or the points that two of them see", async () => {
   const page = await openReady(SAMPLE);
   await unfold(page, "Flip and viewpoints");
   const one = await status(page);
@@ -165,14 +165,14 @@ test("noise is smoothed and voted on", async () => {
   expect(voted).toMatchObject(await expected(voted, { denoise: 16, vote: 6 }));
 });
 
-test("more neighbors than there are points are said, and nothing breaks", async () => {
+test("a number of neighbors above the number of points gives a message, and nothing breaks", async () => {
   served.set("clouds/few.ply", asciiPly(ball(20)));
   const page = await openReady("?src=clouds/few.ply&denoise=32");
   expect((await reached(page, "ready")).total).toBe(20);
   expect(await page.locator("#message p").textContent()).toMatch(
     /do not suit this cloud .*: noise is told by the 32 nearest of each point, and there are too few points for that\.$/,
   );
-  // What the address has set is unfolded.
+  // The section with the settings of the address is unfolded.
   await page.locator("#denoise").getByRole("radio", { name: "6", exact: true }).check();
   await upToDate(page);
   expect(await page.locator("#message").isVisible()).toBe(false);

@@ -7,8 +7,8 @@ const ROOT = join(import.meta.dirname, "../..");
 const TYPES: Record<string, string> = { ".js": "text/javascript", ".wasm": "application/wasm", ".html": "text/html" };
 
 /**
- * A page with modules from the repository's own files, found by an import map: nothing is
- * bundled. Once they are loaded, `modules` holds them by their names.
+ * A page with modules from the repository's files, found by an import map. Nothing is bundled.
+ * After loading, `modules` holds them by their names.
  */
 export async function serveModules(imports: Record<string, string>): Promise<{ address: string; close: () => void }> {
   // A name with a slash at its end stands for a folder.

@@ -31,13 +31,13 @@ async function visit(query = "?sample=bunny"): Promise<Page> {
   return page;
 }
 
-/** Waits until the page is kept, and its sample. */
+/** Waits until the page and its sample are stored for offline use. */
 async function kept(page: Page): Promise<void> {
   await page.evaluate(() => navigator.serviceWorker.ready);
   await page.waitForFunction(() => caches.match("samples/bunny.bin").then((found) => found !== undefined));
 }
 
-/** Whatever is stored for this site, by its name in the page's folder. */
+/** All files that are stored for this site, by their names in the page's folder. */
 async function stored(page: Page): Promise<Record<string, string[]>> {
   const stores = await page.evaluate(async () => {
     const names = await caches.keys();
@@ -57,7 +57,7 @@ function dist(name: string): string {
   return readFileSync(join(DIST, name), "utf8");
 }
 
-test("after the first load the page works without a network; what is not kept is said plainly", async () => {
+test("after the first load the page works without a network; a message names files that are not stored", async () => {
   const page = await visit();
   await kept(page);
   const { visible, total } = await status(page);
@@ -75,7 +75,7 @@ test("after the first load the page works without a network; what is not kept is
   );
   expect((await status(page)).total).toBe(total);
 
-  // Samples that are made here, and files of this device in a format whose reader had not been needed yet.
+  // Generated samples work. So do local files in a format whose reader was not needed before.
   await page.locator("#sample").selectOption("rings");
   await page.locator('#status[data-state="ready"]').waitFor({ state: "attached" });
   const rings = (await status(page)).total;
@@ -85,7 +85,7 @@ test("after the first load the page works without a network; what is not kept is
   expect((await status(page)).state).toBe("ready");
 });
 
-test("kept are the page's own files and samples that were opened, and no file of the user's", async () => {
+test("the page's own files and opened samples are stored, and no file of the user", async () => {
   extra.set("clouds/own.ply", Buffer.from(asciiPly(ball(50))));
   const page = await visit();
   await kept(page);
@@ -103,15 +103,15 @@ test("kept are the page's own files and samples that were opened, and no file of
   expect(own).toContain("");
   for (const name of own)
     expect(name === "" || /^(assets|thumbnails)\/[\w.-]+$|^icon\.svg$|^page\.webmanifest$/.test(name), name).toBe(true);
-  // Nothing of it was asked for before the cloud was there.
+  // Nothing was requested for storing before the cloud was shown.
   const first = site.asked.indexOf("service-worker.js");
   expect(first).toBeGreaterThan(site.asked.indexOf("samples/bunny.bin"));
 });
 
-test("a newer build wins at the next load, and is never mixed with the one before", async () => {
+test("a newer build is used at the next load, and is never mixed with the old build", async () => {
   const old = await visit();
   await kept(old);
-  // Another build of the page: all its scripts have other names, and name one another by these.
+  // Another build of the page: all its scripts have new names, and import one another by these names.
   const scripts = readdirSync(join(DIST, "assets")).filter((name) => name.endsWith(".js"));
   const names = new RegExp(scripts.map((name) => name.replaceAll(".", "\\.")).join("|"), "g");
   const renamed = (name: string) => dist(name).replaceAll(names, (script) => `newer-${script}`);
@@ -127,7 +127,7 @@ test("a newer build wins at the next load, and is never mixed with the one befor
   await old.reload();
   await reached(old, "ready");
   expect(await build(old)).toBe("newer");
-  // The new one waits, complete, until no page of the old one is open.
+  // The new build is complete, and waits until no page of the old build is open.
   await old.evaluate(() => navigator.serviceWorker.getRegistration().then((registration) => registration!.update()));
   await old.waitForFunction(() =>
     navigator.serviceWorker.getRegistration().then((registration) => registration!.waiting !== null),
@@ -135,7 +135,7 @@ test("a newer build wins at the next load, and is never mixed with the one befor
   expect(Object.keys(await stored(old)).sort()).toEqual([version, "newer", "samples"].sort());
   await old.close();
 
-  // A tab is gone a moment after it was closed; one that is opened before that belongs to the old worker, and keeps it.
+  // A closed tab ends a moment later. A tab that opens before that belongs to the old worker, and keeps it alive.
   let next = await visit();
   const takenOver = async () =>
     Object.keys(await stored(next))

@@ -46,11 +46,11 @@ function inPage<T>(look: (app: App) => T): Promise<T> {
 
 const shown = () => inPage(({ points }) => points!.geometry.drawRange.count);
 
-it("draws what is visible, in a frame that it asked for", async () => {
+it("draws the visible points in a frame that it asked for", async () => {
   expect(await shown()).toBe(await inPage(({ changes }) => changes.at(-1)!));
   expect(await shown()).toBeGreaterThanOrEqual(2000);
   expect(await shown()).toBeLessThan(2300);
-  // Once there is nothing new, no more frames are drawn.
+  // If nothing is new, no more frames are drawn.
   await reached((app) => {
     const known = app as App & { last?: number; since?: number };
     if (known.last !== app.frames) Object.assign(known, { last: app.frames, since: performance.now() });
@@ -76,14 +76,14 @@ it("draws what is visible, in a frame that it asked for", async () => {
   expect(failures).toEqual([]);
 });
 
-it("is frozen, turned off and made anew as its options say", async () => {
+it("is frozen, turned off and made anew by its options", async () => {
   const first = await inPage(({ changes }) => changes.length);
-  // Written anew, but the same.
+  // A new object with the same values.
   const frames = await inPage((app) => app.frames);
   await inPage(({ set }) => {
     set({ exponent: 3, frozen: true });
   });
-  // The option is there with the frame that it asks for.
+  // The option takes effect in the frame that it asks for.
   await page.waitForFunction((before) => (globalThis as unknown as { app: App }).app.frames > before, frames);
   await inPage(({ state }) => {
     state.camera.position.set(0, 0, -6);
@@ -125,7 +125,7 @@ it("takes up other geometries, and leaves with its points", async () => {
   expect(failures).toEqual([]);
 });
 
-it("tells refusals: those that take an answer to onError, others to the error boundary", async () => {
+it("reports refusals of answers to onError, and other refusals to the error boundary", async () => {
   await inPage(({ set }) => {
     set({ radius: 0.1 });
   });

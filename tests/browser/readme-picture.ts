@@ -21,14 +21,14 @@ interface Half {
 const site = await servePage();
 const browser = await launchBrowser();
 const page = await browser.newPage({ viewport: { width: WIDTH + PANEL, height: HEIGHT } });
-// Few and small enough points for the back to shine through the front, as it does in any viewer.
+// Few and small points, so that the back shines through the front, as in any viewer.
 await page.goto(`${site.address}?sample=dragon_res3`);
 await page.locator('#status[data-state="ready"]').waitFor();
 await addStyle(page, "#tools { display: none }");
-// A little closer than the page begins.
+// A little closer than the page's first view.
 for (let step = 0; step < 2; step++) await page.locator("#view").press("+");
 await page.locator("#view").blur();
-// The answer for the last step.
+// Waits for the answer to the last step.
 await page.waitForTimeout(2000);
 
 const halves: Half[] = [];

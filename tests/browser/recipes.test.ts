@@ -1,4 +1,4 @@
-// The recipes that need a page: each is bundled as users do, and prints what it says.
+// The recipes that need a page. Each is bundled like users do, and prints the lines in its comments.
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Browser } from "playwright-core";
@@ -25,7 +25,7 @@ afterAll(async () => {
 });
 
 it.each(blocks("docs/RECIPES.md", "jsx").map((code, i) => [i, code] as const))(
-  "page %i prints what it says",
+  "page %i prints the lines in its comments",
   async (i, code) => {
     const source = join(root, "target/recipes", `page-${i}`);
     mkdirSync(source, { recursive: true });

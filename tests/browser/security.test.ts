@@ -16,17 +16,17 @@ const POINTS = text(
     .join("\n"),
 );
 const MARKUP = `<img src=x onerror="window.hacked=1"><script>window.hacked=1</script>`;
-/** Right-to-left override: what follows would be shown backwards. */
+/** Right-to-left override: the text after it would be shown backwards. */
 const BIDI = "ply.\u202Eexe.txt";
 const LONG = "long".repeat(60);
 
-/** The policy that the built page carries. */
+/** The policy of the built page. */
 function policy(): string {
   const page = readFileSync(join(root, "www", "dist", "index.html"), "utf8");
   return /http-equiv="Content-Security-Policy" content="([^"]+)"/.exec(page)![1]!;
 }
 
-/** How many elements there are that markup in a name would add. */
+/** The number of elements that markup in a name would add. */
 const added = (page: Page) =>
   page.locator("img:not([src^='./']):not([src^='thumbnails']), script:not([src]), iframe").count();
 /** How many pixels wider than the window the page is. */
@@ -34,7 +34,7 @@ const overflow = (page: Page) =>
   page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
 const hacked = (page: Page) => page.evaluate(() => "hacked" in window);
 
-test("the policy lets in the page's own scripts only, and no inline ones but its own", async () => {
+test("the policy allows only the page's own scripts and its own inline script", async () => {
   const rules = new Map(
     policy()
       .split("; ")
@@ -61,9 +61,9 @@ test("the policy lets in the page's own scripts only, and no inline ones but its
       const frame = document.createElement("iframe");
       frame.src = "./";
       document.body.append(script, holder, frame);
-      // A test that waits in vain ends by its time limit.
+      // If the event never comes, the test ends by its time limit.
       while (directives.size < 3) await new Promise((next) => setTimeout(next, 50));
-      // From here on without the liberty that a test's own calls have.
+      // The policy does not apply to the test's own calls, but to code after a timer.
       try {
         (0, eval)("window.hacked = 1");
       } catch (error) {
@@ -108,7 +108,7 @@ test.for([
   await choose(page, `${name!}.xyz`, POINTS);
   await expect.poll(async () => (await status(page)).total).toBe(60);
   expect(await page.locator("#sample option:checked").textContent()).toBe(`${name!}.xyz`);
-  // One that cannot be read is named by the message.
+  // The message names a file that cannot be read.
   await choose(page, `${name!}.pdf`, Buffer.from("%PDF-1.7\n\u0000"));
   await page.locator("#message").waitFor({ state: "visible" });
   expect(await page.locator("#message p").textContent()).toContain(name!.slice(0, 20));
@@ -139,7 +139,7 @@ test("attributes' names stay text", async () => {
   expect(await overflow(page)).toBeLessThanOrEqual(0);
 });
 
-test("a whole session asks this site alone, except for what the address names", async () => {
+test("a whole session sends requests only to this site, and to the address of ?src", async () => {
   const requests: string[] = [];
   const note = (page: Page) => {
     page.context().on("request", (request) => requests.push(request.url()));

@@ -14,7 +14,7 @@ import {
 } from "./support.js";
 import { addStyle } from "./site.js";
 
-/** A wall of two by two, and a small plate before its middle. */
+/** A wall of two by two, and a small plate in front of its middle. */
 function wall(): number[] {
   const positions: number[] = [];
   for (let i = 0; i <= 60; i++) for (let j = 0; j <= 60; j++) positions.push(-1 + i / 30, -1 + j / 30, 0);
@@ -22,7 +22,7 @@ function wall(): number[] {
   return positions;
 }
 
-/** Looked at from straight ahead; the light falls on the plate from the left, so that its shadow lies 0.45 to 0.75 to the right. */
+/** Seen from straight ahead. The light comes from the left, so that the plate's shadow lies 0.45 to 0.75 to the right. */
 const FROM = "?src=clouds/wall.ply&view=0,0,4&smoothing=0";
 const LEFT_LIGHT = "&light=-1.2,0,1.5";
 
@@ -33,14 +33,14 @@ async function openWall(query: string): Promise<Page> {
   return page;
 }
 
-/** How bright the wall is so far to the right of its middle. */
+/** The brightness of the wall at this distance to the right of its middle. */
 async function brightnessAt(page: Page, right: number): Promise<number> {
   const { width, height } = (await page.locator("#view").boundingBox())!;
   const pixels = height / 2 / (4 * Math.tan(Math.PI / 8));
   return brightness(page, await picture(page), width / 2 + right * pixels, height / 2, 9);
 }
 
-/** The lights in the address, once it has been written. */
+/** The lights in the address, after it was written. */
 async function lightsInAddress(page: Page, count: number): Promise<number[][]> {
   const lights = () => new URL(page.url()).searchParams.getAll("light").map((light) => light.split(",").map(Number));
   await expect.poll(() => lights().length).toBe(count);
@@ -48,12 +48,12 @@ async function lightsInAddress(page: Page, count: number): Promise<number[][]> {
   return lights();
 }
 
-test.for(["points", "surface"])("on the %s what a light does not reach is dark", async (show) => {
+test.for(["points", "surface"])("on the %s, places that a light does not reach are dark", async (show) => {
   const page = await openWall(`&show=${show}${LEFT_LIGHT}`);
   expect((await status(page)).lights).toBe(1);
   const lit = await brightnessAt(page, -0.6);
   const shadowed = await brightnessAt(page, 0.6);
-  // The ambient light alone.
+  // Only the ambient light.
   expect(shadowed / lit).toBeCloseTo(0.3, 1);
   await page.getByLabel("Ambient light").fill("0.6");
   await upToDate(page);
@@ -74,14 +74,14 @@ test("a soft light has shadows with a soft edge", async () => {
   await page.getByLabel("Soft edges").fill("0.3");
   await upToDate(page);
   expect(await differentPixels(page, sharp, await picture(page))).toBeGreaterThan(1000);
-  // Between light and dark, where it was light.
+  // A place that was light is now between light and dark.
   const edge = (await brightnessAt(page, 0.8)) / lit;
   expect(edge).toBeGreaterThan(0.1);
   expect(edge).toBeLessThan(0.95);
 });
 
-test.for(["points", "surface"])("on the %s nothing but the lights shades", async (show) => {
-  // What the light sees from the camera's place is what the camera sees: all of it as bright as can be.
+test.for(["points", "surface"])("on the %s, only the lights cause shades", async (show) => {
+  // A light at the camera's place sees all that the camera sees, so everything has full brightness.
   const headlight = await openWall(`&show=${show}&light=0,0,4&ambient=0`);
   const bright = await openWall(`&show=${show}&light=9,9,9&ambient=1`);
   const handle = "#lights { display: none }";
@@ -121,7 +121,7 @@ test("lights are added, dragged, moved by keys, brought to the camera and remove
   expect(turned).not.toEqual(moved);
   await page.getByRole("button", { name: "To camera: light 1" }).click();
   await page.keyboard.press("ArrowLeft");
-  // The address follows when it may.
+  // The address follows a moment later.
   await expect.poll(async () => (await lightsInAddress(page, 1))[0]).not.toEqual(turned);
   await expect.poll(async () => (await lightsInAddress(page, 1))[0]).not.toEqual(viewpoint);
   const [beside] = await lightsInAddress(page, 1);
@@ -132,7 +132,7 @@ test("lights are added, dragged, moved by keys, brought to the camera and remove
 
   await page.getByRole("button", { name: "Add a light" }).click();
   expect((await upToDate(page)).lights).toBe(2);
-  // The next one takes the place that is free.
+  // The next light takes the free place.
   await page.getByRole("button", { name: "Remove light 1" }).click();
   await page.getByRole("button", { name: "Add a light" }).click();
   expect((await upToDate(page)).lights).toBe(2);
@@ -142,7 +142,7 @@ test("lights are added, dragged, moved by keys, brought to the camera and remove
   expect((await upToDate(page)).lights).toBe(1);
   await page.getByRole("button", { name: "Remove light 1" }).click();
   expect((await upToDate(page)).lights).toBeUndefined();
-  // Without the ring of the keyboard focus, the picture is what it was.
+  // Without the ring of the keyboard focus, the picture equals the first one.
   expect(await differentPixels(page, unlit, await picture(page))).toBe(0);
 });
 

@@ -6,9 +6,9 @@ import { type Browser, chromium, type Page } from "playwright-core";
 import { root } from "../root.js";
 
 const DIST = join(root, "www", "dist");
-/** The page is served from a folder, as on a project's site, so that any absolute address in it would fail. */
+/** The page is served from a folder, like a project's site, so that an absolute address in it would fail. */
 const FOLDER = "/some/folder/";
-/** Extra files in this folder can be had in parts. */
+/** Extra files in this folder can be requested in ranges. */
 const RANGED = "ranged/";
 const TYPES: Record<string, string> = {
   ".html": "text/html",
@@ -21,16 +21,16 @@ const TYPES: Record<string, string> = {
 };
 
 export interface Site {
-  /** Of the page, with a slash at its end. */
+  /** The page's address, with a slash at its end. */
   address: string;
-  /** Every file that was asked for, in this order. */
+  /** Every requested file, in order. */
   asked: string[];
   close(): void;
-  /** As if it had never been there: no connection stays, either. */
+  /** Stops the server and closes all its connections. */
   vanish(): void;
 }
 
-/** Serves the built page, and `extra` files beside it or in the place of its own; with `headers` such as those that let other sites have them. */
+/** Serves the built page, and `extra` files beside it or instead of its own files. `headers` may allow other sites to read them. */
 export async function servePage(
   extra: ReadonlyMap<string, Uint8Array> = new Map(),
   headers: Record<string, string> = {},
@@ -73,7 +73,7 @@ export function launchBrowser(): Promise<Browser> {
   return chromium.launch({ executablePath: process.env["HPR_CHROMIUM"] ?? "/usr/bin/chromium" });
 }
 
-/** Adds a style in the way that the page's security policy allows. */
+/** Adds a style in a way that the page's security policy allows. */
 export async function addStyle(page: Page, css: string): Promise<void> {
   await page.evaluate((text) => {
     const sheet = new CSSStyleSheet();

@@ -3,10 +3,10 @@ import { expect, test } from "vitest";
 import { countHoldings, type Holdings, holdingsOf, type MemoryUse, memoryOf } from "./holdings.js";
 import { openReady, status, upToDate } from "./support.js";
 
-/** What may come and go with compiled code and the like; one answer's arrays are larger than what is left of it over many. */
+/** Allowed growth, for compiled code and the like. The arrays of one answer are larger than this limit allows over many answers. */
 const NOISE = { heap: 600_000, buffers: 60_000 };
 
-/** What the page holds once its timers have run. */
+/** The page's memory and objects after its timers have run. */
 async function held(page: Page): Promise<MemoryUse & Holdings> {
   await upToDate(page);
   await page.waitForTimeout(1200);
@@ -38,7 +38,7 @@ async function change(page: Page, sample: string, total: number): Promise<void> 
   await page.locator("#progress").waitFor({ state: "hidden" });
 }
 
-/** Wherever it is folded away. */
+/** Presses a control, even in a folded section. */
 async function press(page: Page, selector: string): Promise<void> {
   await page
     .locator(selector)
@@ -49,7 +49,7 @@ async function press(page: Page, selector: string): Promise<void> {
   await upToDate(page);
 }
 
-/** Through what can be switched on, and off again. */
+/** Switches modes on and off again. */
 async function around(page: Page): Promise<void> {
   for (const mode of ["dimmed", "shown", "off"]) await press(page, `[name="hidden"][value="${mode}"]`);
   for (const color of ["height", "own"]) await page.selectOption("#color", color);
@@ -70,8 +70,8 @@ async function around(page: Page): Promise<void> {
   await press(page, "#tool-measure");
 }
 
-test("what the page holds does not grow with answers, clouds or modes", async () => {
-  // Small, because it is drawn in software.
+test("the page's memory does not grow with answers, clouds or modes", async () => {
+  // A small window, because software draws it.
   const page = await openReady("?sample=dragon_res4", { viewport: { width: 770, height: 420 } }, countHoldings);
   await around(page);
   for (let i = 0; i < 10; i++) await step(page, "ArrowLeft");

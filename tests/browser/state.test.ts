@@ -51,7 +51,7 @@ test("the address, copied, shows the same cloud, camera and settings again", asy
   expect(await written(again)).toBe(query);
 });
 
-test("points, a rule, a ring, noise, a frozen viewpoint and a side that is up come back too", async () => {
+test("points, a rule, a ring, noise, a frozen viewpoint and an up side come back, too", async () => {
   const page = await openReady("?sample=bunny");
   await page.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).check();
   await page.getByRole("button", { name: "Search" }).click();
@@ -70,7 +70,7 @@ test("points, a rule, a ring, noise, a frozen viewpoint and a side that is up co
   expect(await again.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).isChecked()).toBe(true);
 });
 
-test("a camera that was panned comes back looking at the same place", async () => {
+test("a panned camera comes back with the same target", async () => {
   const page = await openReady("?sample=dragon_res4");
   await drag(page, 80, -50, "right");
   const query = await written(page);
@@ -79,7 +79,7 @@ test("a camera that was panned comes back looking at the same place", async () =
   expect(await written(again)).toBe(query);
 });
 
-test("back at the first view and the usual settings nothing is left in the address", async () => {
+test("at the first view and with the usual settings the address is empty", async () => {
   const page = await openReady("?sample=dragon_res4");
   await page.getByLabel("Exponent", { exact: true }).fill("2");
   await drag(page, 50, 0);
@@ -89,7 +89,7 @@ test("back at the first view and the usual settings nothing is left in the addre
   expect(await written(page)).toBe("?sample=dragon_res4");
 });
 
-test("everything the address cannot have is named", async () => {
+test("a message names everything in the address that is not possible", async () => {
   const page = await openReady(
     "?sample=bunny&radius=-1&inversion=power:17&viewpoints=six&denoise=1.5&vote=x&show=mesh&edge=0&light=1,2&soft=2&ambient=-1&smoothing=z&freeze=1&hidden=maybe&size=0&fov=400&up=x&target=1,2&embed=yes",
   );
@@ -125,7 +125,7 @@ test("a radius and an exponent exclude each other", async () => {
   expect(await page.locator("#message p").textContent()).toMatch(/exclude each other/);
 });
 
-test("what belongs to one cloud does not go to the next", async () => {
+test("the settings of one cloud do not go to the next", async () => {
   const page = await openReady("?sample=bunny&view=1,8,-12&light=0,20,0&freeze=1,8,-12&size=2&radius=40&denoise=6");
   const before = await upToDate(page);
   await page.locator("#sample").selectOption("dragon_res4");
@@ -137,7 +137,7 @@ test("what belongs to one cloud does not go to the next", async () => {
   expect((await status(page)).lights).toBeUndefined();
 });
 
-test("?embed=1 is the picture alone", async () => {
+test("?embed=1 shows only the picture", async () => {
   const page = await openReady("?sample=dragon_res4&embed=1&light=0,0.3,0.2");
   await upToDate(page);
   const box = (await page.locator("#view").boundingBox())!;
@@ -146,7 +146,7 @@ test("?embed=1 is the picture alone", async () => {
     expect(await page.locator(chrome).isVisible()).toBe(false);
   expect((await status(page)).total).toBe(5205);
 
-  // Screen readers hear of it; tools that nobody sees do not take the drags; the link shows all of it as it is.
+  // Screen readers hear of it, hidden tools do not take the drags, and the link opens the whole page in the same state.
   await expect.poll(() => page.getByRole("status").textContent()).toMatch(/of 5,205 points/);
   await page.locator("#view").focus();
   await page.keyboard.press("s");

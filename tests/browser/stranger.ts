@@ -1,4 +1,4 @@
-// Somebody else's page with elements that come from another origin, under as strict a security policy as they run with.
+// A foreign page with elements from another origin, under the strictest security policy that they allow.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
@@ -6,7 +6,7 @@ import type { HiddenPointCloudElement } from "../../www/element/api.js";
 import { root } from "../root.js";
 import { openPage, served } from "./support.js";
 
-/** What an element has told, as far as it can be sent here. */
+/** The parts of an element's events that can be sent to the test. */
 export interface Heard {
   id: string;
   type: string;
@@ -34,7 +34,7 @@ const SCRIPT = `
   globalThis.heard = [];
   globalThis.forbidden = [];
   document.addEventListener("securitypolicyviolation", (event) => forbidden.push(event.violatedDirective + " " + event.blockedURI));
-  // What does not bubble is still captured on its way down.
+  // Events that do not bubble can still be captured.
   for (const type of ["load", "change", "progress", "error", "pick"]) {
     document.addEventListener(type, ({ target, detail }) => {
       if (target.localName !== "hidden-point-cloud") return;
@@ -44,13 +44,13 @@ const SCRIPT = `
   }
 `;
 
-/** The policy that docs/EMBED.md gives, and what this page itself has besides. */
+/** The policy of docs/EMBED.md, and the additions that this page needs. */
 export function policyFor(origin: string): string {
   const [, given] = /^```\n(default-src .*)\n```$/m.exec(readFileSync(join(root, "docs/EMBED.md"), "utf8"))!;
   return `${given!.replaceAll("https://example.org", origin).replace("script-src", "script-src 'self'")}; style-src 'unsafe-inline'; img-src data:`;
 }
 
-/** Opens a page with that body; the element comes from `address`. */
+/** Opens a page with this body. The element comes from `address`. */
 export async function openStranger(address: string, body: string, more = ""): Promise<Page> {
   const head = `<meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="${policyFor(new URL(address).origin)}"><link rel="icon" href="data:,">`;
   const scripts = `<script src="stranger.js"></script><script type="module" src="${address}hidden-point-cloud.js"></script>`;
@@ -62,7 +62,7 @@ export async function openStranger(address: string, body: string, more = ""): Pr
   return openPage("stranger.html");
 }
 
-/** Waits until the element's cloud is there, or has failed. */
+/** Waits until the element's cloud is ready or has failed. */
 export async function settledState(page: Page, id: string): Promise<string> {
   return element(page, id, async (cloud) => {
     await cloud.ready.catch(() => undefined);
@@ -70,7 +70,7 @@ export async function settledState(page: Page, id: string): Promise<string> {
   });
 }
 
-/** Something asked of an element in the page. */
+/** Runs a function on an element in the page. */
 export function element<T, Given = undefined>(
   page: Page,
   id: string,
@@ -90,7 +90,7 @@ export function heardBy(page: Page, id: string, type: string): Promise<Heard["de
   );
 }
 
-/** Waits until the element tells something of that kind once more, while `act` is done. */
+/** Runs `act` and waits for the next event of this kind. */
 export async function hears(
   page: Page,
   id: string,

@@ -6,7 +6,7 @@ import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, vi } from "vitest";
 import { launchBrowser, servePage, type Site } from "./site.js";
 
-// Software rendering on a busy machine is slow: these limits only end what hangs.
+// Software rendering on a busy machine is slow. These limits only end tests that hang.
 vi.setConfig({ testTimeout: 180_000, hookTimeout: 120_000 });
 
 export const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
@@ -17,7 +17,7 @@ export let browser: Browser;
 let errors: string[] = [];
 let provoked: RegExp[] = [];
 const pages: Page[] = [];
-/** Files the site has besides the page, by name. */
+/** Files of the site besides the page, by name. */
 export const served = new Map<string, Uint8Array>();
 
 beforeAll(async () => {
@@ -37,22 +37,22 @@ afterEach(async () => {
   expect(seen, "errors in the browser's console").toEqual([]);
 });
 
-/** For tests that look at single pixels of a screenshot. */
+/** For tests that compare single pixels of a screenshot. */
 export const EVERY_PIXEL: BrowserContextOptions = { deviceScaleFactor: 1 };
 
-/** What the browser itself will say about something that the test has wanted to go wrong. */
+/** The browser's own message about an error that the test causes on purpose. */
 export function provoke(pattern: RegExp): void {
   provoked.push(pattern);
 }
 
-/** `prepare`: done with the page before it is opened. */
+/** `prepare` runs on the page before it is opened. */
 export async function openPage(
   query = "",
   options: BrowserContextOptions = {},
   prepare?: (page: Page) => Promise<void>,
 ): Promise<Page> {
-  // Each page is the first visit: what stays between visits has tests of its own (offline.test.ts).
-  // Nearly all time goes into drawing in software: a quarter of the pixels, in a layout that is the same, takes half of it.
+  // Each page is a first visit. offline.test.ts tests what stays between visits.
+  // Software drawing takes nearly all the time. A quarter of the pixels, in the same layout, takes half of it.
   const context = await browser.newContext({
     viewport: { width: 1000, height: 700 },
     deviceScaleFactor: 0.5,
@@ -71,7 +71,7 @@ export async function openPage(
   return page;
 }
 
-/** Runs in the page: what its security policy refuses is an error of the test. */
+/** Runs in the page. Anything that its security policy refuses is an error of the test. */
 function reportViolations(): void {
   addEventListener("securitypolicyviolation", ({ effectiveDirective, blockedURI, sourceFile, lineNumber }) => {
     console.error(`security policy: ${effectiveDirective} refuses ${blockedURI} in ${sourceFile}:${lineNumber}`);
@@ -144,7 +144,7 @@ export async function refiltered(page: Page, before: Status): Promise<Status> {
   return settled(page);
 }
 
-/** The status once no more answers come: ten frames, in which the camera would have moved on, without a question or an answer. */
+/** The status after ten frames without a question or an answer. A moving camera would have asked. */
 export async function settled(page: Page): Promise<Status> {
   await page.evaluate(async () => {
     const { dataset } = document.getElementById("status")!;
@@ -159,7 +159,7 @@ export async function settled(page: Page): Promise<Status> {
   return status(page);
 }
 
-/** The status once the picture is that of the present settings and camera. */
+/** The status after the picture shows the present settings and camera. */
 export async function upToDate(page: Page): Promise<Status> {
   await page.locator('#status[data-busy="0"]').waitFor({ state: "attached", timeout: 120_000 });
   return status(page);
@@ -180,7 +180,7 @@ export async function drag(page: Page, dx: number, dy: number, button: "left" | 
   await page.mouse.up({ button });
 }
 
-/** Asks the package itself, in Node, for what the page must have found. */
+/** Asks the package in Node for the answer that the page must have. */
 export async function inNode<T>(positions: Float32Array | Float64Array, ask: (cloud: PointCloud) => T): Promise<T> {
   await init();
   const cloud = new PointCloud(positions);
@@ -189,7 +189,7 @@ export async function inNode<T>(positions: Float32Array | Float64Array, ask: (cl
   return answer;
 }
 
-/** What the package answers in Node for the viewpoint the page says it used. */
+/** The package's answer in Node for the viewpoint that the page reports. */
 export async function answerInNode(
   positions: Float32Array | Float64Array,
   { viewpoint }: Status,
@@ -256,7 +256,7 @@ export async function differentPixels(page: Page, before: Buffer, after: Buffer)
   );
 }
 
-/** A picture of the cloud once it has been drawn. */
+/** A picture of the cloud after it was drawn. */
 export async function picture(page: Page): Promise<Buffer> {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
   return page.locator("#view").screenshot();

@@ -20,7 +20,7 @@ async function expected({ viewpoint }: Status, maxEdge?: number) {
   return { visible: count, triangles: triangles.length / 3 };
 }
 
-test("the surface is that of the library, also while orbiting, and its edges can be longer", async () => {
+test("the surface equals the library's, also while orbiting, and its edges can be longer", async () => {
   const page = await openReady(SAMPLE);
   const points = await picture(page);
   await unfold(page, "Surface");
@@ -73,7 +73,7 @@ test("a surface may have no triangle at all", async () => {
   expect(await page.locator("#tools").isVisible()).toBe(true);
 });
 
-test("a surface is that of one viewpoint: others cannot be chosen", async () => {
+test("a surface has one viewpoint: several viewpoints cannot be chosen", async () => {
   const page = await openReady(`${SAMPLE}&show=surface&viewpoints=any`);
   const now = await upToDate(page);
   expect(now).toMatchObject(await expected(now));
@@ -81,7 +81,7 @@ test("a surface is that of one viewpoint: others cannot be chosen", async () => 
   expect(await page.locator("#viewpoints-note").textContent()).toMatch(/one viewpoint/);
 });
 
-test("a frozen surface is flown around, with the viewpoint marked", async () => {
+test("the camera can fly around a frozen surface, with the viewpoint marked", async () => {
   const page = await openReady(`${SAMPLE}&show=surface&theme=dark`);
   const before = await upToDate(page);
   await page.getByRole("button", { name: "Freeze viewpoint" }).click();
@@ -92,7 +92,7 @@ test("a frozen surface is flown around, with the viewpoint marked", async () => 
     triangles: before.triangles,
     refilters: before.refilters,
   });
-  // Backwards, until the marker is in the picture: its accent color is nowhere else.
+  // The camera moves back until the marker is in the picture. Only the marker has the accent color.
   const accent = async () => {
     const image = (await picture(page)).toString("base64");
     return page.evaluate(async (data) => {
@@ -110,7 +110,7 @@ test("a frozen surface is flown around, with the viewpoint marked", async () => 
   expect(await accent()).toBeGreaterThan(20);
 });
 
-test("?freeze keeps the viewpoint there while the camera stands at ?view", async () => {
+test("?freeze sets the frozen viewpoint, and ?view sets the camera", async () => {
   const page = await openReady(`${SAMPLE}&show=surface&freeze=0.1,0.2,0.3&view=-0.3,0.2,0.1`);
   const now = await upToDate(page);
   expect(now.viewpoint).toEqual([0.1, 0.2, 0.3]);

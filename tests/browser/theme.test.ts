@@ -4,12 +4,12 @@ import { type ThemeName, THEMES } from "../../www/view/theme.ts";
 import { at, clickPoint, everything, openBall, tool } from "./ball.js";
 import { EVERY_PIXEL, openPage, openReady, picture, reached, settled, status } from "./support.js";
 
-/** Seen for sure: those that bulge most towards the viewer. */
+/** Points that are surely visible: they bulge most towards the viewer. */
 const NEAREST = everything.toSorted((i, j) => at(j)[2] - at(i)[2]).slice(0, 2);
 
 const OTHER: Record<ThemeName, ThemeName> = { dark: "light", light: "dark" };
 
-/** What the page is drawn in: the background of the canvas' corner, and of the page's own parts. */
+/** The colors of the page: the background in the canvas' corner, and of the page's parts. */
 async function colors(page: Page): Promise<Record<string, string>> {
   const corner = await pixel(page, await picture(page), 4, 4);
   const own = await page.evaluate(() => {
@@ -46,13 +46,13 @@ function expectTheme(seen: Record<string, string>, name: ThemeName): void {
   expect(seen).toMatchObject({ corner: background, body: background, scheme: name, browser: seen["panel"] });
 }
 
-test("the page and its canvas have the system's theme, and go with it; one that is chosen stays", async () => {
+test("the page and its canvas follow the system's theme; a chosen theme stays", async () => {
   const name = "dark";
   const page = await openReady("?sample=bunny", { colorScheme: name });
   expectTheme(await colors(page), name);
   await page.emulateMedia({ colorScheme: OTHER[name] });
   expectTheme(await colors(page), OTHER[name]);
-  // One that is chosen stays, is in the address, and asks nothing anew.
+  // A chosen theme stays, is in the address, and asks no new question.
   await settled(page);
   const { refilters } = await status(page);
   await page.getByRole("group", { name: "Theme" }).getByRole("radio", { name: "Dark" }).check();
@@ -64,7 +64,7 @@ test("the page and its canvas have the system's theme, and go with it; one that 
   await page.waitForFunction(() => !location.search.includes("theme="));
 });
 
-test("the address's theme is there before anything is drawn, also while the script is on its way", async () => {
+test("the address's theme is set before anything is drawn, even before the script has loaded", async () => {
   const page = await openPage("?sample=bunny", { colorScheme: "dark" });
   await page.route("**/assets/index-*.js", () => undefined);
   await page.goto(`${page.url().split("?")[0]!}?sample=bunny&theme=light`, { waitUntil: "commit" });
@@ -74,7 +74,7 @@ test("the address's theme is there before anything is drawn, also while the scri
   expect(background).toBe(`rgb(${r}, ${g}, ${b})`);
 });
 
-test("a theme that there is not is named", async () => {
+test("a message names a theme that does not exist", async () => {
   const page = await openPage("?sample=bunny&theme=sepia");
   await reached(page, "ready");
   expect(await page.locator("#message").textContent()).toMatch(/theme in the address is not system, dark or light/);
@@ -102,7 +102,7 @@ test("points, hidden points and the saved picture's marks have the theme's color
   }
 });
 
-/** All colors that more than three pixels have. */
+/** All colors of more than three pixels. */
 async function commonColors(page: Page, png: Buffer): Promise<string[]> {
   return page.evaluate(async (data) => {
     const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());

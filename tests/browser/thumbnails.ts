@@ -8,10 +8,10 @@ import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { launchBrowser, servePage } from "./site.js";
 
-/** Twice the size on the page, for screens of two device pixels. */
+/** Twice the size on the page, for screens with two device pixels for each CSS pixel. */
 const WIDTH = 168;
 const HEIGHT = 112;
-/** Drawn larger, and made smaller smoothly. */
+/** Drawn larger, and then scaled down smoothly. */
 const SCALE = 4;
 const SAMPLES = ["dragon", "bunny", "room", "rings", "street", "tile"];
 const FOLDER = join(import.meta.dirname, "../../www/public/thumbnails");

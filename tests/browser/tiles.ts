@@ -1,16 +1,16 @@
-// One cloud as viewers of tiles load it: a Potree octree of version 2, and 3D Tiles of .pnts.
+// One cloud in two tiled formats: a Potree octree of version 2, and 3D Tiles of .pnts.
 import { bumpySphere } from "../package/support.js";
 
-/** Coordinates are multiples of this: sums of offsets are exact then. */
+/** Coordinates are multiples of this, so that sums of offsets are exact. */
 const UNIT = 1 / 1024;
-/** The corner and the side of the cube around all. */
+/** The corner and the side length of the cube around all points. */
 const CORNER = -2;
 const SIDE = 4;
 const LEVELS = 2;
 /** Bits of x, y, z in the number of an eighth. */
 const BITS = [4, 2, 1];
 
-/** By their names; Potree's are read in parts. */
+/** The files by their names. Potree's files are read in parts. */
 export type Files = ReadonlyMap<string, Buffer>;
 type Point = number[];
 
@@ -27,7 +27,7 @@ export function cloud(): Point[] {
   return Array.from({ length: numbers.length / 3 }, (_, i) => numbers.slice(3 * i, 3 * i + 3));
 }
 
-/** Some of the points stay in the cell itself, as a coarser level, the others go to its eighths. */
+/** Some of the points stay in the cell itself, as a coarser level. The others go to its eighths. */
 function cellOf(name: string, corner: Point, side: number, points: Point[], levels: number): Cell {
   if (levels === 0) {
     return { name, corner, side, points, children: [] };
@@ -49,7 +49,7 @@ function cellOf(name: string, corner: Point, side: number, points: Point[], leve
 
 const rootCell = () => cellOf("r", [CORNER, CORNER, CORNER], SIDE, cloud(), LEVELS);
 
-/** In the order in which a hierarchy lists them. */
+/** The cells in the order of a Potree hierarchy. */
 function cellsBelow(root: Cell): Cell[] {
   const cells = [root];
   for (const { children } of cells) cells.push(...children);
@@ -111,7 +111,7 @@ export function tilesFiles(): Files {
       children: children.map(tileOf),
     };
   };
-  // The whole is elsewhere, a whole number away.
+  // The root's transform moves everything by whole numbers.
   const transform = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 100, -20, 3, 1];
   const tileset = { asset: { version: "1.0" }, geometricError: 2 * SIDE, root: { ...tileOf(root), transform } };
   const files = cellsBelow(root).map((cell): [string, Buffer] => [`${cell.name}.pnts`, pntsOf(cell)]);

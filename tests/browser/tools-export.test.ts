@@ -7,7 +7,7 @@ import { addStyle } from "./site.js";
 
 const COLOR = (index: number) => [index % 256, (7 * index) % 256, 255 - (index % 256)];
 
-/** The ball with a color and an intensity for each point, as some scanner might write it. */
+/** The ball with a color and an intensity for each point, like a scanner's file. */
 function coloredPly(): Uint8Array {
   const head = ["ply", "format binary_little_endian 1.0", `element vertex ${everything.length}`];
   const properties = ["x", "y", "z"]
@@ -25,7 +25,7 @@ function coloredPly(): Uint8Array {
   return Buffer.concat([Buffer.from([...head, ...properties, "end_header", ""].join("\n")), body]);
 }
 
-/** What a click on that button of the export card saves. */
+/** The file that a click on this button of the export card saves. */
 async function saved(page: Page, button: string): Promise<{ name: string; content: Buffer }> {
   const coming = page.waitForEvent("download");
   await page.locator("#export-card").getByRole("button", { name: button }).click();
@@ -62,7 +62,7 @@ function readPly(file: Buffer): Ply {
   return { properties, comments: lines.filter((line) => line.startsWith("comment ")), rows };
 }
 
-test("the visible points, saved as PLY, JSON and CSV, are the package's own, with colors and attributes, in full precision", async () => {
+test("the visible points saved as PLY, JSON and CSV equal the package's, with colors and attributes, in full precision", async () => {
   const page = await openBall({}, undefined, coloredPly());
   const seen = await visible(page);
   await tool(page, "Export").click();
@@ -103,14 +103,14 @@ test("the visible points, saved as PLY, JSON and CSV, are the package's own, wit
     ["index,x,y,z", ...seen.map((index) => [index, ...at(index)].join()), ""].join("\n"),
   );
 
-  // Opened again, the file is a cloud of as many points.
+  // The saved file opens as a cloud with the same number of points.
   const before = await status(page);
   await page.locator("#file").setInputFiles({ name: ply.name, mimeType: "", buffer: ply.content });
   await page.locator(`#status[data-total="${seen.length}"]`).waitFor();
   expect((await upToDate(page)).refilters).toBeGreaterThan(before.refilters);
 });
 
-test("a selection is saved in the place of the visible points, and only while there is one", async () => {
+test("a selection is saved instead of the visible points, and only while there is a selection", async () => {
   const page = await openBall();
   const canvas = (await page.locator("#view").boundingBox())!;
   const [x, y] = [canvas.x + canvas.width / 2, canvas.y + canvas.height / 2];
@@ -136,7 +136,7 @@ test("a selection is saved in the place of the visible points, and only while th
   expect((await saved(page, "CSV")).name).toBe("utm-visible.csv");
 });
 
-test("single precision stays single: a sample's points are saved bit by bit", async () => {
+test("single precision stays single: a sample's points are saved with the same bits", async () => {
   const page = await openReady("?sample=bunny");
   await tool(page, "Export").click();
   const { properties, rows } = readPly((await saved(page, "PLY")).content);
@@ -150,7 +150,7 @@ test("single precision stays single: a sample's points are saved bit by bit", as
   expect(rows).toEqual(indices.map((index) => sample.slice(3 * index, 3 * index + 3)));
 });
 
-test("the picture is saved as one sees it, marks included", async () => {
+test("the picture is saved as it is on the screen, with its marks", async () => {
   const page = await openBall(EVERY_PIXEL);
   await tool(page, "Measure").click();
   const seen = await visible(page);
@@ -178,7 +178,7 @@ test("the picture is saved as one sees it, marks included", async () => {
   expect(await differentPixels(page, await picture(page), png.content)).toBeGreaterThan(200);
 });
 
-test("while the browser has taken the picture away, that is said, and none is saved", async () => {
+test("while the WebGL context is lost, no picture is saved and a message says so", async () => {
   const page = await openBall();
   const context = await page.evaluateHandle(() =>
     document.querySelector<HTMLCanvasElement>("#view")!.getContext("webgl2")!.getExtension("WEBGL_lose_context")!,
@@ -221,7 +221,7 @@ test("the copied link shows the same cloud, camera and settings", async () => {
     await page.locator("#divider").getAttribute("aria-valuenow"),
   );
 
-  // No link opens a file on somebody's device.
+  // A link cannot open a file on the user's device.
   await page
     .locator("#file")
     .setInputFiles({ name: "own.xyz", mimeType: "", buffer: Buffer.from("0 0 0\n1 0 0\n0 1 0\n0 0 1\n") });

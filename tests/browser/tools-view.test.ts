@@ -22,7 +22,7 @@ async function dividerAt(page: Page): Promise<number> {
   return x + width / 2;
 }
 
-/** What is to the left and to the right of a place in the picture, a little apart from it. */
+/** The pixels a little to the left and to the right of a place in the picture. */
 async function halves(page: Page, at: number): Promise<[Buffer, Buffer]> {
   await picture(page);
   const { width } = (await page.locator("#view").boundingBox())!;
@@ -63,7 +63,7 @@ test("the divider shows all points to its left and visible ones to its right, by
   expect(await value()).toBe(100);
   await page.keyboard.press("Home");
   expect(await value()).toBe(0);
-  // All that is left are visible points.
+  // Only visible points are left.
   expect(await differentPixels(page, plain[1], (await halves(page, x))[1])).toBe(0);
   expect(await status(page)).toEqual(before);
 
@@ -72,7 +72,7 @@ test("the divider shows all points to its left and visible ones to its right, by
   expect(await divider.isVisible()).toBe(false);
 });
 
-test("the bare page opens divided until the camera is first moved, and stays so where it was asked for", async () => {
+test("the bare page opens divided until the camera is first moved, and stays divided if the address asks for it", async () => {
   const page = await openReady();
   const divider = page.locator("#divider");
   expect(await divider.isVisible()).toBe(true);
@@ -90,7 +90,7 @@ test("the bare page opens divided until the camera is first moved, and stays so 
   await expect.poll(() => asked.url()).toContain("compare=0.3");
 });
 
-test("a divider that cannot be is named", async () => {
+test("a message names an invalid divider", async () => {
   const page = await openReady("?sample=dragon_res4&compare=2");
   expect(await page.locator("#message p").textContent()).toBe(
     "The place of the divider in the address is not a number from 0 to 1, so the picture is not divided.",
@@ -114,7 +114,7 @@ test("the plot is the visible share of this view at each exponent, and a click c
     });
   await complete();
   expect(await shares()).toEqual(await expected(before));
-  // Asking for it is no answer of the picture's.
+  // The plot's questions do not count as answers of the picture.
   expect(await status(page)).toEqual(before);
 
   await page.locator("#view").press("ArrowLeft");
@@ -131,7 +131,7 @@ test("the plot is the visible share of this view at each exponent, and a click c
   expect(await page.getByLabel("Exponent", { exact: true }).inputValue()).toBe(
     String(Number(chosen.exponent.toFixed(2))),
   );
-  // The automatic one stays where it was.
+  // The automatic exponent stays in its place.
   expect(await plot.locator(".automatic").evaluate((line) => Number(line.getAttribute("x1")))).toBeCloseTo(mark, 6);
 });
 
@@ -155,7 +155,7 @@ test("the question mark opens the sheet with all keys; it keeps the focus and gi
   await page.keyboard.press("Escape");
   expect(await sheet.isVisible()).toBe(false);
   expect(await page.evaluate(() => document.activeElement?.id)).toBe("view");
-  // Where it does not fit, it begins at its beginning.
+  // If the sheet does not fit, it opens scrolled to its top.
   await page.setViewportSize({ width: 320, height: 640 });
   await page.getByRole("button", { name: "Keys" }).click();
   expect(
@@ -210,10 +210,10 @@ test.for([
   }
 });
 
-test("a finger picks and labels; a long label stays in the picture, and beside it one can press Remove", async () => {
+test("a finger picks and labels; a long label stays in the picture, and its Remove button can be pressed", async () => {
   const page = await openBall(PHONE);
   await tool(page, "Pick").tap();
-  // The point that bulges most towards the viewer is seen for sure.
+  // The point that bulges most towards the viewer is surely visible.
   const nearest = Array.from({ length: 600 }, (_, i) => i).reduce((best, i) => (at(i)[2] > at(best)[2] ? i : best), 0);
   const { x, y } = await place(page, nearest);
   await page.touchscreen.tap(x, y);
@@ -235,7 +235,7 @@ test("a finger picks and labels; a long label stays in the picture, and beside i
   expect(remove.height).toBe(44);
 });
 
-test("?embed=1 has no tools, but says what is on either side of the divider", async () => {
+test("?embed=1 has no tools, but both sides of the divider have captions", async () => {
   const page = await openReady("?sample=dragon_res4&embed=1&compare=0.4&against=zbuffer");
   expect(await page.locator("#tools").isVisible()).toBe(false);
   const note = page.locator("#compare-note span");

@@ -34,7 +34,7 @@ test("a click tells a visible point's index and its place in full precision", as
   expect(await page.locator("#marks .ring").count()).toBe(0);
 });
 
-test("where points are drawn large, all of their disc counts", async () => {
+test("if points are drawn large, a click on any part of a disc counts", async () => {
   const page = await openReady("?sample=bunny");
   await tool(page, "Pick").click();
   const canvas = (await page.locator("#view").boundingBox())!;
@@ -48,7 +48,7 @@ test("where points are drawn large, all of their disc counts", async () => {
 
 test("hidden points are picked only through the surface", async () => {
   const page = await openBall();
-  // So that none of the visible points is drawn over them.
+  // No visible point is drawn over these points.
   await page.getByLabel("Point size").fill("0.3");
   const seen = new Set(await visible(page));
   const hidden = everything.filter((i) => !seen.has(i));
@@ -63,10 +63,10 @@ test("hidden points are picked only through the surface", async () => {
   expect(await page.locator("#marks .ring.hidden").count()).toBe(1);
 });
 
-test("by keyboard: P, Enter for the middle, Escape once for the point and once for the tool", async () => {
+test("by keyboard: P opens the tool, Enter picks the middle, Escape ends first the point and then the tool", async () => {
   const target = 300;
   const [x, y, z] = at(target);
-  // From straight outside that point, which is therefore seen.
+  // Seen from straight outside of this point, so it is visible.
   const from = [x + 3 * (x - X), y + 3 * (y - Y), z + 3 * (z - Z)];
   const page = await openBall({}, from);
   await page.locator("#view").focus();
@@ -82,7 +82,7 @@ test("by keyboard: P, Enter for the middle, Escape once for the point and once f
   expect(await page.locator("#tool-card").isVisible()).toBe(false);
 });
 
-test("two clicks measure a distance in the file's units, as often as one likes", async () => {
+test("two clicks measure a distance in the file's units, any number of times", async () => {
   const page = await openBall();
   const seen = await visible(page);
   const [a, b, c] = await lonely(page, seen, seen);
@@ -102,7 +102,7 @@ test("two clicks measure a distance in the file's units, as often as one likes",
   const [from, to] = [await place(page, a!), await place(page, c!)];
   for (const [i, value] of [from.x, from.y, to.x, to.y].entries()) expect(ends[i]).toBeCloseTo(value, 0);
 
-  // Escape gives up the third.
+  // Escape gives up the third distance.
   await clickPoint(page, b!);
   expect(await page.locator("#marks .ring").count()).toBe(1);
   await page.keyboard.press("Escape");
@@ -181,13 +181,13 @@ test("box and lasso select visible points, or all through the surface; the camer
   expect((await settled(page)).viewpoint).not.toEqual(before.viewpoint);
 });
 
-test("a label is there as long as its point is seen", async () => {
+test("a label is shown as long as its point is visible", async () => {
   const page = await openBall();
   const seen = await visible(page);
   const [index] = await lonely(page, seen, seen);
   await tool(page, "Label").click();
   await clickPoint(page, index!);
-  // The field has the focus; letters in it are no keys.
+  // The field has the focus, so its letters do not act as keys.
   await page.keyboard.type("Chimney <b> crest?");
   await page.keyboard.press("Enter");
   const label = page.locator("#marks .note");

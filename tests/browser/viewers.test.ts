@@ -1,4 +1,4 @@
-// Tiled viewers as they are published: what they draw through the filter is what one cloud would.
+// Published viewers of tiles. Through the filter they must draw the same points as one cloud.
 import type { Browser, Page } from "playwright-core";
 import type { BufferAttribute, Object3D, Points } from "three";
 import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
@@ -57,7 +57,7 @@ describe.each([
   ["potree-core", potreeFiles],
   ["3d-tiles-renderer", tilesFiles],
 ] as const)("%s", (viewer, files) => {
-  it("draws what one cloud would, and everything again after that", async () => {
+  it("draws the same points as one cloud, and then all points again", async () => {
     const page = await pageWith(files());
     const errors: string[] = [];
     page.on("pageerror", (error) => errors.push(String(error)));
@@ -71,7 +71,7 @@ describe.each([
       scene.rotation.set(0.2, 0.3, 0.1);
       const camera = new THREE.PerspectiveCamera(60, 1, 0.1, 1000);
 
-      /** The object in whose space the cloud is, and what chooses its nodes. */
+      /** The object whose space the cloud is in, and the viewer that chooses its nodes. */
       async function open(): Promise<{ root: Object3D; choose: () => void }> {
         if (name === "potree-core") {
           const potree = new modules["potree-core"].Potree();
@@ -128,7 +128,7 @@ describe.each([
       };
       const total = () => shown().reduce((sum, { geometry }) => sum + geometry.attributes["position"]!.count, 0);
 
-      /** Points in the root's space, from where the renderer draws them, and which of them are drawn. */
+      /** The points in the root's space, at the places where the renderer draws them, and which of them are drawn. */
       const drawn = () => {
         const inverse = root.matrixWorld.clone().invert();
         const [positions, ids]: number[][] = [[], []];
@@ -187,10 +187,10 @@ describe.each([
       expect(count).toBeGreaterThan(500);
       expect(count).toBeLessThan(4000);
       expect(isSame).toBe(true);
-      // Hidden points are drawn where the node is.
+      // Hidden points are drawn at the node's place.
       expect(children).toEqual(Array(nodes).fill(true));
     }
-    // They are where the file says: a viewer's own offset apart.
+    // They are at the places in the file, except for the viewer's own offset.
     const offset = viewer === "potree-core" ? [-2, -2, -2] : [100, -20, 3];
     const sorted = (points: number[][]) => points.map(String).sort();
     const positions = Array.from({ length: 6000 }, (_, i) => found.all.slice(3 * i, 3 * i + 3));

@@ -8,18 +8,18 @@ type Props = Partial<VisiblePointCloudLayerProps>;
 export interface DeckPage {
   answers: { count: number }[];
   errors: string[];
-  /** Where the camera is, as the view itself says. */
+  /** The camera's place, from the view itself. */
   camera: () => number[];
   layer: () => Layer;
-  /** The values that the layer with the points is filtered by. */
+  /** The filter values of the layer with the points. */
   values: () => number[];
   set: (props: Props, viewState?: Partial<OrbitViewState>) => void;
   visibleFrom: (viewpoint: number[], positions?: number[]) => Promise<number[]>;
-  /** How many were started. */
+  /** How many workers were started. */
   workers: () => number;
-  /** As if it had died by itself. */
+  /** Ends the worker as if it had died by itself. */
   killWorker: () => void;
-  /** So many, one after another, as soon as each is asked about a view. */
+  /** Ends this many workers, each as soon as it is asked about a view. */
   killWorkerWhenAsked: (times?: number) => void;
   pick: (x: number, y: number) => Promise<number | undefined>;
 }

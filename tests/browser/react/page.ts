@@ -14,7 +14,7 @@ type Filter = UseHiddenPointFilterOptions;
 export interface App {
   state: RootState;
   points: Points | null;
-  /** Frames that were drawn, answers and refusals that were told. */
+  /** The numbers of drawn frames, and of reported answers and refusals. */
   frames: number;
   changes: number[];
   errors: string[];
@@ -37,7 +37,7 @@ function geometryOf(positions: number[]): BufferGeometry {
   return new BufferGeometry().setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
 }
 
-/** Shows nothing where something was thrown. */
+/** Shows nothing after an error. */
 class Boundary extends Component<{ children: ReactNode }, { failed: boolean }> {
   override state = { failed: false };
   static getDerivedStateFromError() {
