@@ -9,7 +9,7 @@ export interface Agreement {
   same: number;
 }
 
-/** The ray tracer against labels that were traced elsewhere; undefined where these are missing. */
+/** Compares the ray tracer with labels from another ray tracer. Undefined if these are missing. */
 export function traceAgain(say: (message: string) => void): Agreement | undefined {
   const labelled = [...scanned()].find(({ name }) => name === NAME);
   if (labelled === undefined) return undefined;

@@ -1,8 +1,8 @@
-// How good scores from 0 to 1 are as probabilities.
+// How well scores from 0 to 1 serve as probabilities.
 
 const BINS = 20;
 
-/** The mean over all points of how far the share of visible ones in their bin is from its mean score. */
+/** For each point: the difference between the share of visible points in its bin and the bin's mean score. The mean over all points. */
 export function calibrationError(scores: Float64Array, labels: Uint8Array): number {
   const bins = Array.from({ length: BINS }, () => ({ score: 0, visible: 0 }));
   scores.forEach((score, i) => {
@@ -13,7 +13,7 @@ export function calibrationError(scores: Float64Array, labels: Uint8Array): numb
   return bins.reduce((sum, { score, visible }) => sum + Math.abs(score - visible), 0) / scores.length;
 }
 
-/** How often a visible point has a higher score than a hidden one, equal ones counting half: the area under the ROC curve. */
+/** How often a visible point has a higher score than a hidden point: the area under the ROC curve. Equal scores count half. */
 export function rankedRight(scores: Float64Array, labels: Uint8Array): number {
   const order = Uint32Array.from(scores.keys()).sort((a, b) => scores[a]! - scores[b]!);
   let [pairs, hiddenBefore] = [0, 0];

@@ -1,4 +1,4 @@
-// Figure 7 of the paper in numbers: errors against R, and where the rules that choose R end up.
+// Figure 7 of the paper in numbers: errors against R, and the R that each rule chooses.
 import { PointCloud } from "hidden-point-removal";
 
 import { bounds } from "../bench/views.js";
@@ -15,9 +15,9 @@ export interface Curve {
   name: string;
   points: number;
   views: number;
-  /** By rising R. */
+  /** The errors by rising R. */
   errors: AtRadius[];
-  /** What each rule chose, and its errors. */
+  /** The R that each rule chose, and its errors. */
   rules: (AtRadius & { rule: string })[];
 }
 
@@ -50,7 +50,7 @@ export function curves({ name, positions, views }: Labelled, exponents = EXPONEN
   }
 }
 
-/** The mean over views: of the errors at each exponent, and of what each rule chose and got. */
+/** The means over the views: the errors at each exponent, and each rule's R and errors. */
 export function meanCurve(all: Curve[]): Curve {
   const [first] = all;
   if (first === undefined) throw new Error("There is no view to take the mean of.");

@@ -12,7 +12,7 @@ const EXPLAINED =
   "other than those that only surfaces hide of which the cloud has no point; balanced: the mean of the shares of visible and of " +
   "hidden points that are found.";
 
-/** All scenes together and each alone; none without HPR_SHARED. */
+/** The tables of all scenes together and of each alone. There are none without HPR_SHARED. */
 export function lidarTables(say: (message: string) => void): Table[] {
   const scored = [...lidarScenes()].map((scene) => {
     say(`Scoring ${described(scene)}…`);

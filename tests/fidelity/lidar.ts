@@ -1,4 +1,4 @@
-// Simulated lidar with truth that was ray-cast elsewhere: HPR_SHARED/lidar.
+// Simulated lidar from HPR_SHARED/lidar, with ray-cast truth.
 import { readdirSync, readFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { gunzipSync } from "node:zlib";
@@ -14,13 +14,13 @@ export interface LidarScene {
 
 export interface LidarView {
   viewpoint: Point;
-  /** One byte a point: 1 where it can be seen from there. */
+  /** One byte for each point: 1 if it can be seen from the viewpoint. */
   seen: Uint8Array;
-  /** 1 for points that only surfaces hide of which the cloud has no point: nobody can know of those. */
+  /** 1 for points that are hidden only by surfaces without a point in the cloud. No method can know that these are hidden. */
   unknowable: Uint8Array;
 }
 
-/** The scenes that are there, by name. */
+/** The available scenes, by name. */
 export function* lidarScenes(): Generator<LidarScene> {
   const reference = sharedFile("lidar", "reference.json");
   if (reference === undefined) return;
@@ -44,7 +44,7 @@ export function* lidarScenes(): Generator<LidarScene> {
   }
 }
 
-/** One byte a point from one bit, the first in the highest; every view starts with a byte of its own. */
+/** One byte for each point, from one bit. The first point is in the highest bit. Every view starts at a new byte. */
 function unpacked(packed: Uint8Array, view: number, count: number): Uint8Array {
   const start = view * Math.ceil(count / 8);
   return Uint8Array.from({ length: count }, (_, i) => (packed[start + (i >> 3)]! >> (7 - (i & 7))) & 1);

@@ -1,4 +1,4 @@
-// The ways of asking that are compared: of choosing R, other inversions, several viewpoints.
+// The methods that are compared: rules for R, other inversions, several viewpoints.
 import { type PointCloud, ringOfViewpoints, type Visibility, type VisibilityOptions } from "hidden-point-removal";
 
 import type { Point } from "../bench/measure.js";
@@ -6,15 +6,15 @@ import type { Point } from "../bench/measure.js";
 export interface Subject {
   cloud: PointCloud;
   viewpoint: Point;
-  /** What a ring of viewpoints looks at: the middle of the cloud. */
+  /** The target of a ring of viewpoints: the middle of the cloud. */
   middle: Point;
-  /** Of the cloud's box. */
+  /** The diagonal of the cloud's box. */
   diagonal: number;
 }
 
 export interface Method {
   name: string;
-  /** How many hulls it takes, but for those that choose R: one a viewpoint, or one a look. */
+  /** How many hulls it takes: one for each viewpoint or look. Hulls that choose R are not counted. */
   hulls: number;
   ask: (subject: Subject) => Visibility;
 }
@@ -51,7 +51,7 @@ export const METHODS: Method[] = [
 
 const DENOISED: VisibilityOptions = { denoise: 32, vote: 16 };
 
-/** For a noisy cloud: the best rules as they are, and with what is there against noise. */
+/** For a noisy cloud: the best rules without and with the options against noise. */
 export const AGAINST_NOISE: Method[] = [
   AUTOMATIC,
   SEARCH,
@@ -66,7 +66,7 @@ export const AGAINST_NOISE: Method[] = [
   ),
 ];
 
-/** For simulated lidar, whose views have no best R of their own. */
+/** For simulated lidar, where the best R of a view is not known. */
 export const FOR_LIDAR: Method[] = [
   AUTOMATIC,
   SEARCH,
@@ -89,7 +89,7 @@ function several(name: string, ask: (subject: Subject, ring: number[][]) => Visi
 }
 
 /**
- * The paper's other kernel, its power such that a surface facing the viewer at distance r may be as curved as with
+ * The paper's other kernel. Its power allows a surface that faces the viewer at distance r the same curvature as
  * the automatic R: γ/((γ − 1)·r) = 2R/r².
  */
 function asCurved({ cloud, viewpoint, middle }: Subject): Visibility {

@@ -1,5 +1,5 @@
-// What a viewpoint really sees of a mesh: a segment from each point to it meets no
-// other face. A point's own faces are left out, as they only touch the segment's end.
+// The true visibility of a mesh. A point is visible if the segment from it to the viewpoint
+// meets no other face. A point's own faces are left out, because they touch only the segment's end.
 import { BufferAttribute, BufferGeometry, DoubleSide, Ray, Vector3 } from "three";
 import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
 import { MeshBVH } from "three-mesh-bvh";
@@ -8,7 +8,7 @@ import type { Mesh } from "../../www/samples/mesh.js";
 import { dragonPly } from "../bench/clouds.js";
 import type { Point } from "../bench/measure.js";
 
-/** Points of a mesh, and of which face each is; without faces they are its vertices. */
+/** Points of a mesh, and the face of each point. Without faces, the points are the mesh's vertices. */
 export interface MeshPoints {
   positions: Float32Array | Float64Array;
   faces?: Uint32Array;
@@ -27,7 +27,7 @@ export class RayTracer {
     this.#tree = new MeshBVH(geometry, { indirect: true });
   }
 
-  /** One byte a point: 1 where it sees `target`. */
+  /** One byte for each point: 1 if it sees `target`. */
   visibleFrom(target: Point, points: MeshPoints = this.#mesh): Uint8Array {
     const [end, ray] = [new Vector3(...target), new Ray()];
     return Uint8Array.from({ length: points.positions.length / 3 }, (_, i) => {

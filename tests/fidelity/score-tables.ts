@@ -1,4 +1,4 @@
-// Whether the scores of three looks are the probabilities that they say they are.
+// Tests whether the scores of three looks are good probabilities.
 import { PointCloud } from "hidden-point-removal";
 
 import type { Row, Table } from "../bench/report.js";
@@ -17,7 +17,7 @@ interface Known {
   unknowable?: Uint8Array;
 }
 
-/** One row for the scanned surfaces and one for simulated lidar, where they are there. */
+/** One row for the scanned surfaces and one for simulated lidar, if they are available. */
 export function scoreTables(scans: Labelled[], say: (message: string) => void): Table[] {
   say("Scoring the scores…");
   const rows = [...row("scanned surfaces", scans), ...row("simulated lidar", lidarScenes())];

@@ -1,28 +1,28 @@
-// Answers against the truth.
+// Compares answers with the truth.
 import { PointCloud } from "hidden-point-removal";
 
 import { bounds } from "../bench/views.js";
 import type { Method, Subject } from "./methods.js";
 import type { Labelled, View } from "./truth.js";
 
-/** In % of all points. */
+/** Errors in % of all points. */
 export interface Errors {
-  /** Said to be visible, and are not. */
+  /** Hidden points that are called visible. */
   falsePositives: number;
-  /** Visible, and said not to be. */
+  /** Visible points that are called hidden. */
   falseNegatives: number;
   total: number;
 }
 
-/** What one method made of one view. */
+/** The result of one method for one view. */
 export interface Score extends Errors {
   method: string;
-  /** How many times the error of the best R that is. */
+  /** The total error divided by the error of the best R. */
   ratio?: number;
   hulls: number;
 }
 
-/** `mask` and `seen` have one byte a point: 1 visible, 0 hidden. */
+/** `mask` and `seen` have one byte for each point: 1 visible, 0 hidden. */
 export function errorsOf(mask: Uint8Array, seen: Uint8Array): Errors {
   let [falsePositives, falseNegatives] = [0, 0];
   for (let i = 0; i < mask.length; i++) {
@@ -37,7 +37,7 @@ export function errorsOf(mask: Uint8Array, seen: Uint8Array): Errors {
   };
 }
 
-/** Every view by every method. `compared` with the best R: known with the view, or else found by scanning. */
+/** Scores every view by every method. `compared`: with the best R, which comes with the view or is found by scanning. */
 export function score({ positions, views }: Labelled, methods: Method[], compared = true): Score[] {
   const { center, radius } = bounds({ positions });
   const cloud = new PointCloud(positions);

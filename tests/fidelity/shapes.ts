@@ -1,4 +1,4 @@
-// Surfaces made here, as meshes, and points scattered over their faces.
+// Generated surfaces, as meshes, and points scattered over their faces.
 import { grid, joined, type Mesh } from "../../www/samples/mesh.js";
 import { roomSurfaces } from "../../www/samples/living-room.js";
 import { bumpyRadius, direction, seeded } from "../bench/generators.js";
@@ -24,12 +24,12 @@ export function bumpySphere(): Mesh {
   });
 }
 
-/** The page's living room: open surfaces and thin things, to be looked at from inside. */
+/** The page's living room, seen from inside: open surfaces and thin objects. */
 export function room(): Mesh {
   return joined(roomSurfaces(seeded(20070802)).map((surface) => grid(12, 8, (u, v) => surface.at(u, v).point)));
 }
 
-/** `count` random points on the faces, as many a unit of area as `density` says, all the same by default. */
+/** `count` random points on the faces. `density` weighs the faces by their place; by default all weigh the same. */
 export function scatter(
   mesh: Mesh,
   count: number,
@@ -47,7 +47,7 @@ export function scatter(
   const faces = new Uint32Array(count);
   let [face, passed] = [0, weights[0]!];
   for (let i = 0; i < count; i++) {
-    // One point in each share of the whole, so that no place is left empty by chance.
+    // One point in each equal share of the total, so that no place stays empty by chance.
     const at = (i + random()) * step;
     while (at > passed && face + 1 < weights.length) passed += weights[++face]!;
     faces[i] = face;
@@ -66,7 +66,7 @@ function area(a: Point, b: Point, c: Point): number {
   return Math.hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
 }
 
-/** A point of a triangle, evenly for two numbers in 0 … 1. */
+/** A point of a triangle. Two uniform numbers in 0 … 1 give a uniform point. */
 function within(corners: Point[], u: number, v: number): Point {
   const [a, b] = u + v > 1 ? [1 - u, 1 - v] : [u, v];
   return [0, 1, 2].map((axis) => {

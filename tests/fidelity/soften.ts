@@ -1,4 +1,4 @@
-/** Each value becomes the mean of itself and its neighbors along the edges, so many times: what `illuminate` does to its shadows. */
+/** Each value becomes the mean of itself and its neighbors along the edges, `rounds` times. `illuminate` does the same to its shadows. */
 export function soften(values: Float32Array, triangles: Uint32Array, rounds: number): Float32Array {
   const neighbors = Array.from(values, (_, i) => new Set([i]));
   triangles.forEach((corner, i) => {

@@ -12,7 +12,7 @@ const EXPLAINED =
 const NOISE = 0.005;
 const NOISE_SEED = 5;
 
-/** The scanned clouds together and each alone, noise, then the generated ones; without HPR_SHARED only those. */
+/** The scanned clouds together and each alone, noise, then the generated clouds. Without HPR_SHARED, only the generated clouds. */
 export function fidelityTables(say: (message: string) => void): Table[] {
   const scans = [...scanned()];
   return [
@@ -56,7 +56,7 @@ function described({ name, positions, views }: Labelled): string {
   return `${name}, ${(positions.length / 3).toLocaleString("en-US")} points, ${views.length} views`;
 }
 
-/** One for each method, in the order they come in. */
+/** One row for each method, in their order. */
 function rows(scores: Score[]): Row[] {
   const methods = new Set(scores.map(({ method }) => method));
   return [...methods].map((method) => {

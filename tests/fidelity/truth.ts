@@ -1,5 +1,5 @@
-// Clouds of which it is known what a viewpoint really sees: scanned ones, with labels that
-// were ray-traced elsewhere (HPR_SHARED), and generated ones, which are ray-traced here.
+// Clouds with known visibility: scanned clouds, whose ray-traced labels come from HPR_SHARED,
+// and generated clouds, which are ray-traced here.
 import { readFileSync } from "node:fs";
 import { gunzipSync } from "node:zlib";
 
@@ -19,9 +19,9 @@ export interface Labelled {
 
 export interface View {
   viewpoint: Point;
-  /** One byte a point: 1 where it can be seen from there. */
+  /** One byte for each point: 1 if it can be seen from the viewpoint. */
   seen: Uint8Array;
-  /** The error of the best R, in % of all points, where it is known. */
+  /** The error of the best R, in % of all points, if it is known. */
   best?: number;
 }
 
@@ -33,7 +33,7 @@ const SCANNED: [string, Loader][] = [
   ["stanford-bunny", bunny36k],
 ];
 
-/** The scanned clouds that are there, with the views whose best error is known. */
+/** The available scanned clouds, with the views whose best error is known. */
 export function* scanned(): Generator<Labelled> {
   const reference = sharedFile("truth", "reference.json");
   if (reference === undefined) return;
@@ -59,11 +59,11 @@ export function* scanned(): Generator<Labelled> {
   }
 }
 
-/** The same with Gaussian noise on every coordinate, as large as that share of the box's diagonal. */
+/** The same cloud with Gaussian noise on every coordinate. Its standard deviation is this share of the box's diagonal. */
 export function noisy({ name, positions, views }: Labelled, share: number, seed: number): Labelled {
   const deviation = share * 2 * bounds({ positions }).radius;
   const random = seeded(seed);
-  // Box and Muller's way from even numbers to normal ones.
+  // The Box–Muller transform from uniform to normal numbers.
   const normal = () => Math.sqrt(-2 * Math.log(1 - random())) * Math.cos(2 * Math.PI * random());
   return {
     name: `${name}, ${100 * share} % noise`,
@@ -72,11 +72,11 @@ export function noisy({ name, positions, views }: Labelled, share: number, seed:
   };
 }
 
-/** Random points on surfaces made here, at several densities, even and uneven. */
+/** Random points on generated surfaces, at several densities, even and uneven. */
 export function* generated(): Generator<Labelled> {
   const ring = torus();
   for (const count of [5_000, 20_000, 80_000]) yield fromOutside("torus", ring, scatter(ring, count, 11));
-  // Twenty times as dense at one end as at the other.
+  // One end is twenty times as dense as the other.
   yield fromOutside(
     "torus, uneven 20:1",
     ring,
@@ -94,13 +94,13 @@ export function* generated(): Generator<Labelled> {
     yield traced("room, from inside", furnished, scatter(furnished, count, 15), INSIDE);
 }
 
-/** Standing between the furniture, in meters. */
+/** A viewpoint between the furniture, in meters. */
 const INSIDE = [-2.2, -0.5, 0.6, 1.9].flatMap((x) => [-1.6, 1.6].map((z): Point => [x, 1.6, z]));
 
 const DISTANCES = [2.5, 1.3];
 const DIRECTIONS = 4;
 
-/** Seen from around, from 2.5 and from 1.3 radii of its box's corner sphere. */
+/** Viewpoints around the cloud, at 2.5 and 1.3 radii of its box's corner sphere. */
 function fromOutside(name: string, mesh: Mesh, points: MeshPoints): Labelled {
   const { center, radius } = bounds(points);
   const viewpoints = DISTANCES.flatMap((distance) =>

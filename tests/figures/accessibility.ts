@@ -1,4 +1,4 @@
-// docs/ACCESSIBILITY.md: what axe-core says of every state of the page that its tests visit.
+// Writes docs/ACCESSIBILITY.md: axe-core's results for every state of the page that its tests visit.
 import axe, { type AxeResults } from "axe-core";
 
 import { audit, JUDGED, TAGS, VISITS } from "../browser/accessibility.js";
@@ -10,7 +10,7 @@ interface Finding {
   poor: string[];
 }
 
-/** Each visit on a page of its own, each step of it audited. */
+/** Makes each visit on a page of its own, and audits each step. */
 export async function accessibilityText(studio: Studio): Promise<string> {
   const found: Finding[] = [];
   for (const { name, query, options, steps } of VISITS) {
@@ -46,14 +46,14 @@ function text(found: Finding[]): string {
     "# Accessibility of the demo page",
     "",
     `axe-core ${axe.version}, rules ${TAGS.join(", ")}, in ${found.length / 2} states of the page: wide, on a phone and in another page.`,
-    "Each state in the dark theme, and the rules about colors in the light one again, which differs in nothing else.",
-    "Written by `npm run figures -- accessibility`; `tests/browser/accessibility.test.ts` wants the same result with every landing.",
+    "Each state is checked in the dark theme. The light theme differs only in colors, so there only the rules about colors are checked again.",
+    "Written by `npm run figures -- accessibility`; `tests/browser/accessibility.test.ts` requires the same result in every `npm test`.",
     "",
     `**Violations: ${violations.length}.** ${list(violations.map(([id, { violated }]) => `\`${id}\` (${violated.join("; ")})`))}`,
     "",
     `**Texts below 4.5 to 1 (large ones 3 to 1): ${poor.length}.** ${list(poor)}`,
     "",
-    "## Left open by axe-core, and judged",
+    "## Left open by axe-core, judged by hand",
     "",
     ...(open.length === 0
       ? ["Nothing."]
@@ -63,7 +63,7 @@ function text(found: Finding[]): string {
     "",
     "## What other tests check",
     "",
-    "- `keyboard.test.ts`: Tab reaches everything, wide in the dark theme and on a phone in the light one, each focus has a ring of at least 3 to 1 in sight, the page lets go of it; full screen; reduced motion.",
+    "- `keyboard.test.ts`: Tab reaches everything, wide in the dark theme and on a phone in the light one, each focus has a visible ring with a contrast of at least 3 to 1, and the focus can leave the page; full screen; reduced motion.",
     "- `layout.test.ts`: nothing overlaps, also with text of twice the size, on a phone held sideways and with the system's own colors.",
     "- `loading.test.ts`: nothing moves about while the page loads.",
     "- `controls.test.ts`: a new sentence is announced once, after the movement that changes it.",
@@ -77,7 +77,7 @@ function text(found: Finding[]): string {
     "",
     "## Rules that passed",
     "",
-    "| rule | what it asks | states |",
+    "| rule | requirement | states |",
     "|---|---|---|",
     ...all
       .filter(([, { passed }]) => passed > 0)

@@ -1,4 +1,4 @@
-// Figures 2, 9, 10 and 11 of the paper: all points, and those that can be seen.
+// Figures 2, 9, 10 and 11 of the paper: all points, and the visible points.
 import { bunny36k } from "../bench/clouds.js";
 import { count, type Figure, from, type Maker, PANEL, radiusOf, sheet, small } from "./figure.js";
 import { pointPly } from "./ply.js";
@@ -9,7 +9,7 @@ interface Pair {
   title: string;
   look: string;
   query: Query;
-  /** Point sizes before and after: thin enough for the far side to show through, and wide enough to close the surface. */
+  /** Point sizes: small enough before that the far side shows through, and large enough after to close the surface. */
   sizes: [number, number];
 }
 
@@ -18,21 +18,21 @@ export const beforeAfter: Maker = async (studio) => [
   await pair(studio, {
     name: "dragon",
     title: "Dense: the dragon (paper: Figs. 1 and 9)",
-    look: "Before, the coils behind shine through those in front; afterwards each stands before the next.",
+    look: "Before, the coils at the back shine through the coils in front. Afterwards each coil hides the next.",
     query: { sample: "dragon_res2", view: "0.07,0.194,0.21" },
     sizes: [0.3, 2],
   }),
   await pair(studio, {
     name: "rings",
     title: "Sparse and uneven: an airplane of rings (paper: Fig. 11)",
-    look: "Of every ring the arc towards the viewer stays, although between two rings there is nothing that could hide anything.",
+    look: "The arc of every ring that faces the viewer stays, although there are no points between the rings to hide the others.",
     query: { sample: "rings", view: "9,6.2,12" },
     sizes: [0.55, 0.55],
   }),
   await pair(studio, {
     name: "room",
     title: "From inside: a furnished room (paper: Fig. 10, several objects)",
-    look: "Before, one sees through walls and furniture; afterwards what is behind the table, the sofa and the chairs is gone.",
+    look: "Before, one sees through walls and furniture. Afterwards the points behind the table, the sofa and the chairs are gone.",
     query: { sample: "room" },
     sizes: [0.6, 2.5],
   }),
@@ -45,7 +45,7 @@ async function bunny(studio: Studio): Promise<Figure[]> {
     await pair(studio, {
       name: "bunny",
       title: "A closed surface: the bunny (paper: Fig. 2)",
-      look: "Before, it cannot be told whether it looks at the viewer or away; afterwards it can.",
+      look: "Before, one cannot tell whether the bunny looks at the viewer or away. Afterwards one can.",
       query: cloud === undefined ? { sample: "bunny" } : { src: "bunny-36k.ply", view: "0.1,0.195,0.215" },
       sizes: [0.4, 1.4],
     }),

@@ -54,9 +54,9 @@ export const errorPlot: Maker = async (studio) => {
       name: "error-against-radius",
       title: "Errors against R (paper: Fig. 7)",
       caption:
-        "False positives, false negatives and their sum in % of all points, against ray-traced visibility. Small spheres hide what is " +
-        "visible, large ones let through what is hidden, and the sum has a narrow valley between. A dot is what a rule chose and got; " +
-        "in the means it may lie below the curve, since a rule chooses anew for each view. The paper's rule ends far to the right of " +
+        "False positives, false negatives and their sum in % of all points, against ray-traced visibility. Small spheres hide visible points, " +
+        "large ones let hidden points through, and the sum has a narrow valley between. A dot is a rule's choice and its error. " +
+        "In the means it may lie below the curve, because a rule chooses anew for each view. The paper's rule ends far to the right of " +
         `the valley. Exponents, and totals:\n\n${totals.join("\n")}`,
       png: await small(png),
     },
@@ -90,7 +90,7 @@ function draw(panels: Panel[]): void {
     const lines = kinds.flatMap(([kind, key]) =>
       curve.errors.map((at) => ({ kind, exponent: at.exponent, percent: at[key] })),
     );
-    // Close ones are to be read, too: the first stands to the left of its line, the others to the right and lower.
+    // Labels of close lines must be readable: the first is left of its line, the others are right of it and lower.
     const rules = curve.rules.toSorted((a, b) => a.exponent - b.exponent);
     const plot = Plot.plot({
       width: 460,

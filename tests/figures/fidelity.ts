@@ -1,4 +1,4 @@
-// tests/figures/FIDELITY.md: the fidelity tables, and how they came about.
+// Writes tests/figures/FIDELITY.md: the fidelity tables, and how they were made.
 import { markdown } from "../bench/report.js";
 import { traceAgain } from "../fidelity/agreement.js";
 import { fidelityTables } from "../fidelity/tables.js";
@@ -19,7 +19,7 @@ How often the library is wrong about what a viewpoint sees, by every way of aski
 - power as curved as automatic: 1/d^γ with γ such that a surface facing the viewer may be as curved as with the automatic R
 `;
 
-/** Undefined where the labels are missing, which are most of it. */
+/** Undefined if the labels are missing, because most tables need them. */
 export function fidelityText(say: (message: string) => void): string | undefined {
   const agreement = traceAgain(say);
   if (agreement === undefined) return undefined;

@@ -1,18 +1,18 @@
-// What a figure is, and how its panels come together on one sheet.
+// A figure, and the layout of its panels on one sheet.
 import sharp from "sharp";
 
 import type { Shot, Size, Studio } from "./studio.js";
 
 export interface Figure {
-  /** Its file without the ending. */
+  /** The name of its file, without the extension. */
   name: string;
   title: string;
-  /** What to look at, from where, with which R, how many points: Markdown. */
+  /** The caption in Markdown: what to see, the viewpoint, R and the number of points. */
   caption: string;
   png: Buffer;
 }
 
-/** Makes figures; none, after a message, where what they need is missing. */
+/** Makes figures. If their data is missing: none, and a message. */
 export type Maker = (studio: Studio) => Promise<Figure[]>;
 
 export interface Panel {
@@ -22,7 +22,7 @@ export interface Panel {
 
 /** A panel of a sheet with two columns, in CSS pixels. */
 export const PANEL: Size = { width: 480, height: 360 };
-/** Of three. */
+/** A panel of a sheet with three columns. */
 export const NARROW: Size = { width: 320, height: 300 };
 
 const STYLE = `
@@ -49,7 +49,7 @@ export async function sheet(
   });
 }
 
-/** With a palette, which is what keeps a picture of many thousand points small. */
+/** Uses a palette, which keeps a picture of many thousand points small. */
 export function small(png: Buffer): Promise<Buffer> {
   return sharp(png).png({ palette: true, colours: 96, dither: 0.5, effort: 10 }).toBuffer();
 }

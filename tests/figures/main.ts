@@ -24,7 +24,7 @@ const MAKERS: Record<string, Maker> = {
   reconstruction,
   shadows,
 };
-/** What is written, not drawn. */
+/** Documents that are written, not drawn. */
 const FIDELITY = "fidelity";
 const ACCESSIBILITY = "accessibility";
 const FOLDER = join(root, "tests", "figures");

@@ -1,4 +1,4 @@
-/** Points as a file that the page opens; `brightness` from 0 to 1 as shades of gray. */
+/** Points as a file that the page opens. `brightness` from 0 to 1 becomes shades of gray. */
 export function pointPly(positions: Float32Array | Float64Array, brightness?: Float32Array): Uint8Array {
   const count = positions.length / 3;
   const colors = brightness === undefined ? [] : ["red", "green", "blue"].map((name) => `property uchar ${name}`);

@@ -27,8 +27,8 @@ export const radius: Maker = async (studio) => {
       name: "radius",
       title: "Too small, automatic, too large (paper: Fig. 8)",
       caption:
-        "With too small a sphere whatever lies deep is missing: the neck behind the jaw, the far side of the coils. With too large a one all of " +
-        "that is there, but from behind one sees that points of the back are taken for visible, too, through the gaps between those in front. " +
+        "If the sphere is too small, deep parts are missing: the neck behind the jaw, the far side of the coils. If it is too large, " +
+        "they are there, but the view from behind shows that points of the back count as visible, too, through gaps between the points in front. " +
         `${count(100_250)} points of the dragon from (${VIEWPOINT.replaceAll(",", ", ")}), marked in the lower row: ${words.join("; ")}.`,
       png: await small(await sheet(studio, [...front, ...behind], CHOICES.length, NARROW)),
     },

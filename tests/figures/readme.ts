@@ -30,7 +30,7 @@ Matlab on a computer of 2007. Figures 3 and 5 illustrate the flip in two dimensi
 The Stanford dragon and bunny: Stanford Computer Graphics Laboratory, The Stanford 3D Scanning Repository.
 `;
 
-/** The text with these figures' sections in the place of what there was of them; others stay. */
+/** The text with new sections for these figures. The other sections stay. */
 export function withFigures(existing: string, made: Figure[]): string {
   const sections = new Map<string, string>();
   for (const part of existing.split(/^## /m).slice(1)) {

@@ -9,7 +9,7 @@ interface Subject {
   title: string;
   cloud: Query;
   viewpoint: string;
-  /** Where the surface is looked at from besides, and what is looked at then: the cloud and the viewpoint are in the picture. */
+  /** A second view of the surface, from the side: its camera and target. The cloud and the viewpoint are in the picture. */
   aside: Query;
 }
 
@@ -48,8 +48,8 @@ async function surface(studio: Studio, { name, title, cloud, viewpoint, aside }:
     { label: "without long edges, from the side", png: (await shoot("5", { freeze: viewpoint, ...aside })).png },
   ];
   const caption =
-    "The hull's own triangles between the points where they are. Long edges span silhouettes like webs; without them what the viewpoint " +
-    "cannot see is open, as the view from the side shows (the viewpoint is marked). " +
+    "The hull's triangles, drawn between the points at their original places. Long edges span silhouettes like webs. Without them the parts that the viewpoint " +
+    "cannot see stay open, as the view from the side shows (the viewpoint is marked). " +
     `${count(kept.status["visible"])} of ${count(kept.status["total"])} points are visible from ${from(kept)}, automatic ${radiusOf(kept)}; ` +
     `${allTriangles} triangles, ${keptTriangles} without an edge longer than 5 spacings.`;
   return { name, title, caption, png: await small(await sheet(studio, panels, 2, PANEL)) };

@@ -1,5 +1,5 @@
 // Figures 15 and 16 of the paper: shadows by hidden-point removal from the lights, beside
-// exact ones, and softer and more lights.
+// exact shadows. Also soft lights and several lights.
 import { PointCloud, ringOfViewpoints } from "hidden-point-removal";
 
 import type { Point } from "../bench/measure.js";
@@ -17,9 +17,9 @@ const LEFT: Point = [-0.17, 0.36, 0.14];
 const RIGHT: Point = [0.24, 0.3, 0.12];
 const AMBIENT = 0.3;
 const SMOOTHING = 2;
-/** The page's: so many points on the rim of a soft light. */
+/** The number of points on the rim of a soft light, as on the page. */
 const RIM = 8;
-/** The shade of gray of what is fully lit. */
+/** The shade of gray of fully lit points. */
 const LIT = 0.92;
 
 interface Lighting {
@@ -35,7 +35,7 @@ const LIGHTINGS: Lighting[] = [
     name: "shadows",
     title: "Shadows of one light (paper: Figs. 15 and 16)",
     look:
-      "The head's shadow on the neck and those between the coils are where they should be; the operator's are a little larger and more ragged. " +
+      "The shadow of the head on the neck and the shadows between the coils are in the right places. The operator's shadows are a little larger and more ragged. " +
       "The specks on the right are rays that start in a dent of the mesh.",
     lights: [LEFT],
     soft: 0,
@@ -50,7 +50,7 @@ const LIGHTINGS: Lighting[] = [
   {
     name: "shadows-two",
     title: "Two lights",
-    look: "Half-shadows where one of the lights does not reach, dark ones where neither does.",
+    look: "Shadows are half dark where one of the lights does not reach, and dark where neither does.",
     lights: [LEFT, RIGHT],
     soft: 0,
   },
@@ -76,7 +76,7 @@ async function compare(studio: Studio, scene: Scene, { name, title, look, lights
     ),
   );
   const query = { show: "surface", view: VIEWPOINT.join(","), light: lights.map((light) => light.join(",")) };
-  // With nothing but ambient light the page shows the file's own shades.
+  // With only ambient light the page shows the file's own shades.
   const panels = [
     {
       label: "by hidden-point removal",
@@ -100,7 +100,7 @@ class Scene {
   readonly cloud: PointCloud;
   readonly positions: Float32Array;
   readonly #tracer: RayTracer;
-  /** What the page shows, and spreads the light over. */
+  /** The mesh that the page shows and spreads the light over. */
   readonly #surface: Uint32Array;
 
   constructor() {
@@ -111,13 +111,13 @@ class Scene {
     this.#surface = this.cloud.reconstruct(VIEWPOINT).triangles;
   }
 
-  /** The rim of a light whose radius is that share of its distance from the middle, as on the page. */
+  /** The rim of a light. Its radius is this share of its distance from the middle, as on the page. */
   rim(light: Point, soft: number): Point[] {
     const { center } = bounds({ positions: this.positions });
     return ringOfViewpoints(light, center, { count: RIM, fraction: soft }) as Point[];
   }
 
-  /** The brightness that rays find, softened as the library softens, and how the library's light differs before. */
+  /** The brightness by rays, softened like the library's, and how the library's light differs before softening. */
   exact(lights: Point[]) {
     const reached = new Float32Array(this.cloud.length);
     const errors = lights.map((light) => {

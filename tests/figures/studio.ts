@@ -1,9 +1,9 @@
-// The demo page as a camera: opened by its address, photographed when its picture is up to date.
+// The demo page as a camera: it is opened by its address, and photographed when its picture is up to date.
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 
 import { launchBrowser, servePage, type Site } from "../browser/site.js";
 
-/** What the page is asked to show, as its address says it; several values are given one after another. */
+/** The parameters of the page's address. Several values of one parameter follow one another. */
 export type Query = Record<string, string | number | readonly string[]>;
 
 export interface Shot {
@@ -17,7 +17,7 @@ export interface Size {
   height: number;
 }
 
-/** Software rendering of large clouds on a busy machine is slow; this only ends what hangs. */
+/** Software rendering of large clouds on a busy machine is slow. This limit only ends pages that hang. */
 const PATIENCE = 240_000;
 
 export class Studio {
@@ -46,7 +46,7 @@ export class Studio {
     this.#files.set(name, bytes);
   }
 
-  /** The page's canvas. Anything that the page has to complain about is an error. */
+  /** A picture of the page's canvas. A message of the page is an error. */
   async shoot(query: Query, size: Size): Promise<Shot> {
     const entries = Object.entries(query).flatMap(([name, value]) => [value].flat().map((one) => [name, String(one)]));
     const address = `?${new URLSearchParams([...entries, ["embed", "1"]]).toString()}`;
@@ -65,7 +65,7 @@ export class Studio {
     });
   }
 
-  /** A page of its own that holds `html`, once `prepare` has finished it: a picture of its body. */
+  /** A picture of the body of a new page with `html`, after `prepare` has finished it. */
   async print(
     html: string,
     width: number,
@@ -78,7 +78,7 @@ export class Studio {
     });
   }
 
-  /** The whole page, as visitors have it. */
+  /** A picture of the whole page, as visitors see it. */
   async visit(query: string, options: BrowserContextOptions, use: (page: Page) => Promise<void>): Promise<void> {
     const context = await this.#browser.newContext({ ...options, serviceWorkers: "block" });
     try {
@@ -107,7 +107,7 @@ export class Studio {
   }
 }
 
-/** The first one may still be that of before. */
+/** The first frame may still show the previous picture. */
 async function twoFrames(page: Page): Promise<void> {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
 }
