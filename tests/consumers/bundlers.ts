@@ -9,7 +9,7 @@ import type { Consumer, Visit } from "./consumer";
 import { installed, project } from "./install";
 import { html, serve, STRICT } from "./serve";
 
-/** No configuration file of this repository counts. */
+/** The configuration files of this repository are ignored. */
 const BARE: vite.InlineConfig = { configFile: false, logLevel: "warn" };
 const CORS = { "access-control-allow-origin": "*" };
 
@@ -120,7 +120,7 @@ export const bundlers = (visit: Visit): Consumer[] => [
   },
 ];
 
-/** esbuild leaves `new URL("…", import.meta.url)` alone: the worker's script is an entry of its own. */
+/** esbuild does not follow `new URL("…", import.meta.url)`, so the worker's script is an entry of its own. */
 const WORKER = join(installed, "dist/worker/worker-thread.js");
 
 async function buildWithVite(outDir: string, base: string, root = "vite"): Promise<void> {

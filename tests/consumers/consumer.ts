@@ -10,9 +10,9 @@ export interface Consumer {
   name: string;
   /** The version of the program that builds or runs it. */
   version: string;
-  /** Run by `npm run consumers` only: slow, or close to another one. */
+  /** Only `npm run consumers` runs it: it is slow, or similar to another consumer. */
   further?: true;
-  /** Why it cannot be run here, if so. */
+  /** Why it cannot run here, if it cannot. */
   lacking?: string;
   run: () => Promise<Answered>;
 }

@@ -1,5 +1,5 @@
-// The package as it would be published, installed and used as a user does. Its answers must equal those
-// of the repository's own package. `npm run consumers` sets HPR_CONSUMERS=all and runs the further ones, too.
+// The package as it would be published, installed and used like a user does. Its answers must equal the
+// answers of the repository's build. `npm run consumers` sets HPR_CONSUMERS=all and runs more consumers.
 import { init, PointCloud } from "hidden-point-removal";
 import { afterAll, beforeAll, expect, it } from "vitest";
 
@@ -48,6 +48,6 @@ it.for(asked)("$name ($version)", async ({ name, version, lacking, run }, { skip
   const right = error === undefined && String(here) === String(expected) && String(there) === String(expected);
   row(right ? "same answer" : "FAILED");
   expect(error).toBeUndefined();
-  // Not the lists themselves, whose difference would fill the screen.
+  // The lists themselves are not compared by `expect`: their difference would fill the screen.
   expect(right, `answered ${here?.length} and ${there?.length} points, not ${expected.length}`).toBe(true);
 });

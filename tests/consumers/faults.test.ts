@@ -1,4 +1,4 @@
-// Where a page cannot get what it needs: the error says what could not be loaded, and the way out.
+// Pages that cannot load a file of the package. The error names the file and the ways out.
 import { type Browser, type Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
@@ -26,15 +26,15 @@ const WASM = "**/*.wasm";
 
 describe("the wasm", () => {
   const faults: [name: string, says: RegExp, prepare: (page: Page) => Promise<unknown>][] = [
-    ["is not there", /404/, (page) => page.route(WASM, (route) => route.fulfill({ status: 404, body: "nothing" }))],
-    // As servers do that answer everything with the page of an application.
+    ["is missing", /404/, (page) => page.route(WASM, (route) => route.fulfill({ status: 404, body: "nothing" }))],
+    // Some servers answer every request with the page of an application.
     [
       "is a page",
       /magic/,
       (page) => page.route(WASM, (route) => route.fulfill({ contentType: "text/html", body: PAGE })),
     ],
     [
-      "is a page that says it were wasm",
+      "is a page served with the type of wasm",
       /magic/,
       (page) => page.route(WASM, (route) => route.fulfill({ contentType: "application/wasm", body: PAGE })),
     ],
@@ -55,7 +55,7 @@ describe("the wasm", () => {
     expect(error).toMatch(/^load: .*Content Security Policy/);
   });
 
-  it("is served with no useful type: works all the same", async () => {
+  it("is served with a wrong type: works all the same", async () => {
     const { error, here } = await visit({}, (page) =>
       page.route(WASM, async (route) => route.fulfill({ response: await route.fetch(), contentType: "text/plain" })),
     );

@@ -4,14 +4,14 @@ import { join } from "node:path";
 
 const root = join(import.meta.dirname, "../..");
 
-/** Where the projects are, with the package installed beside them; other test files may run at the same time. */
+/** The folder of the projects, with the package installed in it. Each test process has its own. */
 export const consumers = join(root, "target", "consumers", process.env["VITEST_POOL_ID"] ?? "0");
 export const project = (...parts: string[]): string => join(consumers, "projects", ...parts);
 export const installed = join(consumers, "node_modules", "hidden-point-removal");
 
 /**
- * Packs what would be published and installs that, as a user does: what is missing in
- * the tarball is missing here, and nothing resolves to the repository's own files.
+ * Packs the package and installs the tarball, like a user does. A file that is missing in
+ * the tarball is missing here, and no import resolves to the repository's own files.
  */
 export function installPacked(): void {
   rmSync(consumers, { recursive: true, force: true });

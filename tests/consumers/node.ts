@@ -20,7 +20,7 @@ export const nodeScripts: Consumer[] = [
     name: "npx hidden-point-removal",
     version: process.version,
     run: () => {
-      // One number a line beside the position: which line it is.
+      // Each line holds a position and the number of the line.
       const lines = Array.from({ length: points.length / 3 }, (_, i) =>
         [...points.subarray(3 * i, 3 * i + 3), i].join(" "),
       );
@@ -59,7 +59,7 @@ function script(
   };
 }
 
-/** The same script where another runtime is installed. */
+/** The same script in another runtime, if it is installed. */
 function elsewhere(name: string, command: string[]): Consumer {
   const { stdout, status } = spawnSync(command[0]!, ["--version"], {
     encoding: "utf8",

@@ -9,17 +9,17 @@ import { consumers } from "./install";
 import { importMap, module } from "./pages";
 import { html, serve } from "./serve";
 
-/** A browser that is started with an address and driven no further: pages send their answer. */
+/** A browser that is only started with an address. Its pages send their answer to the server. */
 interface Browser {
   name: string;
   command: (profile: string) => string[];
-  /** Its version; undefined where it is not installed. */
+  /** Its version, or undefined if it is not installed. */
   version: string | undefined;
 }
 
 const CORS = { "access-control-allow-origin": "*" };
 
-/** The other two engines, where they are installed. */
+/** The other two engines, if they are installed. */
 export const otherBrowsers: Consumer[] = [firefox(), webkit()].flatMap((browser) => [
   consumer(browser, "", async (sendTo, onSent) => serve(consumers, { pages: pagesFor("/", sendTo), onSent })),
   consumer(browser, ", a CDN", async (sendTo, onSent, cdn) =>
@@ -44,7 +44,7 @@ function consumer({ name, command, version }: Browser, how: string, open: Serve)
         const answered = new Promise<string>((resolve) => (sent = resolve));
         await using site = await open("answer", sent, cdn.address);
         const [program = "", ...args] = command(profile);
-        // A group of its own: what is started to show the page ends with it.
+        // A process group of its own, so that all its child processes end with it.
         child = spawn(program, [...args, `${site.address}index.html`], { stdio: "ignore", detached: true });
         return JSON.parse(await within(60_000, answered)) as Answered;
       } finally {
@@ -55,7 +55,7 @@ function consumer({ name, command, version }: Browser, how: string, open: Serve)
   };
 }
 
-/** Asks nicely first: a killed screen leaves its lock behind. */
+/** Ends the browser, first with SIGTERM: a killed screen leaves its lock behind. */
 async function end(child: ChildProcess): Promise<void> {
   const ended = once(child, "exit");
   process.kill(-child.pid!, "SIGTERM");
@@ -84,7 +84,7 @@ function firefox(): Browser {
   return { name: "Firefox", command, version: versionOf(name) };
 }
 
-/** WebKit for GTK has a small browser among its own files; it needs a screen, if not a real one. */
+/** WebKit for GTK includes a small browser. It needs a screen, but a virtual one is enough. */
 function webkit(): Browser {
   const libraries = "/usr/lib/x86_64-linux-gnu";
   const folder = existsSync(libraries) ? readdirSync(libraries).find((one) => /^webkit2gtk-4/.test(one)) : undefined;

@@ -4,7 +4,7 @@ import { html, serve, STRICT } from "./serve";
 
 const DIST = "node_modules/hidden-point-removal/dist";
 
-/** Pages that nothing was built for: modules as they are in the package. */
+/** Pages without a bundler: they import the package's modules as they are. */
 export const pages = (visit: Visit, browser: string): Consumer[] => {
   const page = (name: string, script: string, options: Parameters<typeof serve>[1] = {}): Consumer => ({
     name,
@@ -35,7 +35,7 @@ export const pages = (visit: Visit, browser: string): Consumer[] => {
 
 export const module = (file: string) => `<script type="module" src="projects/${file}"></script>`;
 
-/** So that the package's names mean something without a bundler. */
+/** Resolves the package's names without a bundler. */
 export function importMap(origin: string): string {
   const imports = {
     "hidden-point-removal": `${origin}${DIST}/index.js`,

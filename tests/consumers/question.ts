@@ -3,6 +3,6 @@ import * as untyped from "./projects/app/answer.js";
 
 const question = untyped as { positions: () => Float32Array; viewpoint: number[] };
 
-/** What every project asks. */
+/** The question of every project. */
 export const points = question.positions();
 export const viewpoint = question.viewpoint;

@@ -10,7 +10,7 @@ const TYPES: Record<string, string> = {
   ".wasm": "application/wasm",
 };
 
-/** Headers of a page that runs nothing but its own files, and WebAssembly. */
+/** Headers of a page that may run only its own files, and WebAssembly. */
 export const STRICT = {
   "content-security-policy":
     "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; object-src 'none'; base-uri 'none'",
@@ -24,15 +24,15 @@ export const html = (script: string, sendTo?: string): string => {
 
 interface ServeOptions {
   headers?: Record<string, string>;
-  /** Addresses that are answered 404, whatever is there. */
+  /** Addresses that are answered with 404, even if the file exists. */
   refused?: RegExp;
-  /** Pages that are no files, by name. */
+  /** Pages that are not files, by name. */
   pages?: Record<string, string>;
-  /** Told what pages send. */
+  /** Called with the answer that a page sends. */
   onSent?: (text: string) => void;
 }
 
-/** Serves a directory on a port of its own, which makes it an origin of its own. */
+/** Serves a directory on a port of its own, so it has an origin of its own. */
 export async function serve(
   directory: string,
   { headers = {}, refused, pages = {}, onSent }: ServeOptions = {},

@@ -2,7 +2,7 @@ import type { Browser, Page } from "playwright-core";
 
 import type { Answered } from "./consumer";
 
-/** Opens a page and waits for what it writes into its `<output>`. */
+/** Opens a page and waits for the text of its `<output>`. */
 export async function visitWith(
   browser: Browser,
   address: string,

@@ -1,4 +1,4 @@
-// What every consumer asks, in the page and in a worker: the same question, so the same answer.
+// Every consumer asks this question, in the page and in a worker. All answers must be equal.
 
 /** Points on a sphere, every third one on a smaller sphere inside. */
 export function positions() {

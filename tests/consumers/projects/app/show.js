@@ -1,5 +1,5 @@
-// Writes what was answered, or what went wrong, where the test reads it: into the page, or,
-// from a browser that nothing drives, to the server.
+// Writes the answer, or the error, where the test reads it: into the page. A browser that the
+// test cannot drive sends it to the server.
 export async function show(asking) {
   const output = document.querySelector("output");
   try {

@@ -1,2 +1,2 @@
-// Everything in one script that is no module: without a worker, whose script would be another file.
+// Everything in one classic script. There is no worker, because its script would be another file.
 import "../vite-inline/main.js";

@@ -1,5 +1,5 @@
 import * as hpr from "hidden-point-removal";
-// With the loader "file", the address of a copy beside the bundle.
+// The loader "file" gives the address of a copy beside the bundle.
 import wasm from "hidden-point-removal/hpr.wasm";
 import * as worker from "hidden-point-removal/worker";
 import { answer } from "../app/answer.js";

@@ -1,4 +1,4 @@
-// A server that renders pages imports what they import: nothing may be touched by that.
+// A server that renders pages imports the package, too. The import alone may not touch any global.
 const touched = [];
 const own = [
   "window",

@@ -1,4 +1,4 @@
-// The whole package inside a worker of the page's own, which starts workers in turn.
+// The whole package inside the page's own worker, which starts further workers.
 import * as hpr from "../../node_modules/hidden-point-removal/dist/index.js";
 import * as worker from "../../node_modules/hidden-point-removal/dist/worker.js";
 import { answer } from "../app/answer.js";
