@@ -25,7 +25,7 @@ fn distinct(points: &[[f64; 3]]) -> Vec<[f64; 3]> {
     points
 }
 
-/// Mean distance to the 6 nearest others, by looking at all of them.
+/// The mean distance to the 6 nearest other points, by comparing all pairs.
 fn spacing(points: &[[f64; 3]]) -> f64 {
     let mut sum = 0.0;
     for (i, &p) in points.iter().enumerate() {

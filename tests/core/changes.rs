@@ -1,5 +1,5 @@
-//! Appending and removing: whatever was done to a cloud, it answers, to the bit,
-//! what a cloud built from its present points answers.
+//! Appending and removing. After any changes a cloud gives, to the bit, the answers of a
+//! cloud built from its present points.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -13,7 +13,7 @@ use crate::common::shapes;
 const NAN: f64 = f64::NAN;
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
 
-/// A cloud, and what every index that was ever given stands for.
+/// A cloud, and the point of every index that was ever given.
 struct Changed {
     cloud: PointCloud,
     present: Vec<Option<[f64; 3]>>,
@@ -65,7 +65,7 @@ impl Changed {
         }
     }
 
-    /// Some of the indices ever given, now and then one of them twice.
+    /// Some of the indices ever given, sometimes with one of them twice.
     fn some_indices(&self, rng: &mut Rng) -> Vec<u32> {
         let count = rng.below(self.present.len() / 2 + 1);
         (0..count)
@@ -95,7 +95,7 @@ fn any_history_is_as_if_it_had_never_been() {
                         changed.remove(&indices);
                     }
                     _ => {
-                        // What is there already, and what is gone.
+                        // Points that are in the cloud already, and points that were removed.
                         let again: Vec<_> = (0..n / 3).map(|_| rng.pick(&scene.points)).collect();
                         changed.append(&again);
                     }

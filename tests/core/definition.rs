@@ -1,4 +1,4 @@
-//! What "visible" means, case by case.
+//! The meaning of "visible", case by case.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -43,7 +43,7 @@ fn one_two_and_three_points_follow_the_same_definition() {
         seen(&[[0.0; 3], [0.0, 0.0, 1.0], [0.0, 0.0, 7.0]], FRONT, o),
         [1, 2]
     );
-    // In one plane with the viewpoint: the middle one behind the other two's line.
+    // In one plane with the viewpoint. The middle point lies behind the line of the others.
     let bent = [[-1.0, 0.0, 0.0], [0.0, 0.0, -9.0], [1.0, 0.0, 0.0]];
     assert_eq!(seen(&bent, FRONT, &Options::with_exponent(0.0)), [0, 2]);
 }

@@ -27,8 +27,8 @@ impl Digest {
     }
 }
 
-/// What every build answers; the certificates say that the answers are right. It
-/// changes only with the scenes, the canonical order of points, or the rule of the
+/// Every build must give these answers; the certificates prove that they are right. The
+/// digest changes only with the scenes, the canonical order of points, or the rule of the
 /// automatic radius.
 const EXPECTED: u64 = 0x862a_a627_2c16_943f;
 
@@ -45,7 +45,7 @@ fn answers_and_radii_are_the_same_bits_everywhere() {
     assert_eq!(digest.0, EXPECTED, "got {:#x}", digest.0);
 }
 
-/// The same for whatever takes more than a square root, or a choice of its own.
+/// The same for operations that need more than a square root, or that make a choice.
 const EXPECTED_OF_THE_REST: u64 = 0xfde9_4d0a_eae9_f485;
 
 #[test]

@@ -1,5 +1,5 @@
-//! Scenes that were once answered wrong, most of them cut down to the fewest points and
-//! seen from the origin. The expected answers come from the oracle and were confirmed by
+//! Scenes that once had wrong answers. Most are reduced to the fewest points and seen from
+//! the origin. The expected answers come from the oracle and were confirmed by
 //! exact enumeration of supporting planes in another language.
 
 #[cfg(target_arch = "wasm32")]
@@ -19,8 +19,8 @@ fn check(points: &[[f64; 3]], radius: f64, expected: &[u32]) {
     );
 }
 
-/// The last three are on one ray but for rounding, beside a side of K that the
-/// viewpoint lies on.
+/// The last three points lie on one ray, except for rounding. They are next to a side of K
+/// that contains the viewpoint.
 #[test]
 fn a_point_one_rounding_error_inside_a_side_through_the_viewpoint() {
     let points = [
@@ -36,7 +36,7 @@ fn a_point_one_rounding_error_inside_a_side_through_the_viewpoint() {
     check(&points, 18.708286933869708, &[1, 2, 3, 5]);
 }
 
-/// Half of space, several points in its border plane with the viewpoint.
+/// Half of space, with several points and the viewpoint in its border plane.
 #[test]
 fn a_point_in_the_border_plane_of_half_a_space() {
     let points = [
@@ -62,7 +62,7 @@ fn a_point_in_the_border_plane_of_half_a_space() {
     check(&points, 3.0, &[1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 13]);
 }
 
-/// The middle one's coordinates are 450 decades apart after the flip.
+/// After the flip the coordinates of the middle point are 450 decades apart.
 #[test]
 fn three_directions_over_the_whole_range_of_f64() {
     let points = [
@@ -103,8 +103,8 @@ fn walls(n: usize) -> Points {
         .collect()
 }
 
-/// A face seen edge-on marked its corners, and walks started at it: each sector kept
-/// numbers of faces while points entered its hull. The viewpoint is in a wall.
+/// The fault: a face seen edge-on marked its corners, and walks started at it, because each
+/// sector kept numbers of faces while points entered its hull. The viewpoint is in a wall.
 #[test]
 fn divided_views_of_a_room_from_a_place_in_a_wall() {
     let cloud = PointCloud::new(&walls(3000)).unwrap();

@@ -1,4 +1,4 @@
-//! The paper's lemmas and theorems, with its slips mended, as properties of answers.
+//! The paper's lemmas and theorems, with small errors corrected, as properties of answers.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -22,7 +22,7 @@ fn norm([x, y]: [f64; 2]) -> f64 {
     libm::hypot(x, y)
 }
 
-/// Rays whose points stay on them when they are flipped, several points on each.
+/// Rays with several points each. Flipped points stay on their ray.
 fn on_rays(rng: &mut Rng) -> (Vec<[f64; 3]>, Vec<bool>) {
     let mut points = Vec::new();
     let mut nearest = Vec::new();
@@ -126,7 +126,7 @@ fn lemma_4_3_pits_are_seen_up_to_the_permissible_curvature() {
 
 #[test]
 fn the_permissible_curvature_has_no_limits_of_size() {
-    // Far from the viewer's own direction it is tan β ÷ R for R that is much larger than r.
+    // Far from the viewer's direction, and for R much larger than r, it is tan β ÷ R.
     for beta in [0.5, 1.0, 2.5] {
         for (radius, r) in [
             (1e200, 1.0),
@@ -298,7 +298,7 @@ fn theorem_4_5_a_radius_for_a_wanted_epsilon() {
                 (r - k * cos) / (2.0 * (1.0 - cos))
             };
             let radius = 0.999 * circles.sample.iter().map(bound).fold(f64::MAX, f64::min);
-            // Otherwise the theorem speaks of no radius at all.
+            // Otherwise the theorem makes no statement about any radius.
             if radius < farthest {
                 continue;
             }
@@ -321,7 +321,7 @@ fn theorem_4_5_a_radius_for_a_wanted_epsilon() {
 #[test]
 fn the_formulas_have_their_special_cases_and_limits() {
     let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
-    // The paper's own form, where its differences keep their digits.
+    // The paper's form, at values where its differences keep their digits.
     for (radius, r, beta) in [(30.0, 10.0, 0.7), (5.0, 4.9, 1.4), (12.0, 1.0, 2.5)] {
         let (sin, cos) = libm::sincos(beta);
         let cot2 = cos * cos / (sin * sin);

@@ -1,4 +1,4 @@
-//! Four and more dimensions: against the exact answers of three, and by shape.
+//! Four and more dimensions, compared with the exact answers in three, and on known shapes.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -62,7 +62,7 @@ fn clouds_in_a_subspace_are_answered_as_in_three_dimensions() {
                     (0..dimension).map(along).collect()
                 };
                 let rows: Vec<_> = scene.points.iter().map(|&p| place(p)).collect();
-                // A radius that leaves distances more digits than rounding took.
+                // With this radius the distances keep more digits than rounding loses.
                 let options = Options::with_exponent(1.5);
                 let flat = ask(&scene.points, scene.viewpoint, &options);
                 let answer = asked(dimension, &rows, &place(scene.viewpoint), &options);
@@ -82,7 +82,7 @@ fn a_hypersphere_shows_its_near_cap() {
         let mut viewpoint = vec![0.0; dimension];
         viewpoint[0] = 3.0;
         let answer = asked(dimension, &rows, &viewpoint, &Options::with_exponent(0.75));
-        // Truly visible is what has x > 1/3; no silhouette is sharper than the spacing.
+        // Points with x > 1/3 are truly visible; no silhouette is sharper than the spacing.
         let mask = answer.mask();
         let seen = |low: f64, high: f64| {
             let band: Vec<_> = (0..1500)
@@ -113,7 +113,7 @@ fn an_inner_shell_is_hidden() {
         assert!(answer.count() > 200);
         assert!(answer.indices().iter().all(|&i| i < 1200));
     }
-    // From the middle it is the other way round.
+    // Seen from the middle, the outer shell is hidden.
     let answer = asked(4, &rows, &[0.0; 4], &Options::with_exponent(0.5));
     assert!(answer.indices().iter().filter(|&&i| i >= 1200).count() == 400);
     assert!(answer.count() < 450, "{}", answer.count());
@@ -139,7 +139,7 @@ fn the_definition_holds_for_rays_equal_points_and_the_viewpoint() {
         e(2, 0.0),
     ];
     assert_eq!(asked(4, &rows, &viewpoint, o).indices(), [1, 2, 3, 4, 5]);
-    // All around the viewpoint, and one behind an edge of their flips.
+    // Points all around the viewpoint, and one point behind an edge of their flips.
     let mut rows: Vec<_> = (0..8)
         .map(|i| e(i % 4, if i < 4 { 1.0 } else { -1.0 }))
         .collect();

@@ -28,7 +28,7 @@ fn hard(ambient: f64) -> Lighting<'static> {
     }
 }
 
-/// What no smoothing should give.
+/// The expected brightness without smoothing.
 fn expected(points: &[[f64; 3]], ambient: f64) -> Vec<f64> {
     let masks = LIGHTS.map(|light| ask(points, light, &Options::default()).mask());
     let share = |i: usize| masks.iter().map(|mask| f64::from(mask[i])).sum::<f64>() / 3.0;

@@ -1,5 +1,5 @@
-//! What must not change an answer: order, duplicates, power-of-two scale, what was
-//! asked before, the precision that positions are handed over in, partitions.
+//! These must not change an answer: order, duplicates, power-of-two scale, earlier
+//! questions, the precision of the given positions, partitions.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

@@ -69,7 +69,7 @@ fn larger_scenes_are_certified() {
             let sizes: Vec<f64> = sizes.filter(|&x| x > 0.0).collect();
             let range = sizes.iter().copied().fold(0.0, f64::max)
                 / sizes.iter().copied().fold(f64::MAX, f64::min);
-            // Beyond, the certificates' own arithmetic would not be exact.
+            // Beyond this, the arithmetic of the certificates would not be exact.
             if range < 1e40 {
                 let expected = indices_of(&proved_flipped(&flipped));
                 assert_eq!(answer, expected, "{}, {options:?}", kind.name);
@@ -116,7 +116,7 @@ fn the_automatic_scale_belongs_to_the_cloud() {
     points.extend(copies);
     rng.shuffle(&mut points);
     assert_eq!(ask(&points, FRONT, &options).inversion(), near.inversion());
-    // A cloud without a spacing has every one of its points seen.
+    // In a cloud without a spacing every point is visible.
     for few in [&[][..], &[FRONT], &[[0.0; 3]], &[[0.0; 3], [0.0; 3]]] {
         let answer = ask(few, FRONT, &options);
         assert_eq!(answer.count(), few.len());

@@ -1,4 +1,4 @@
-//! Merging what is visible in parts, however a cloud was divided.
+//! Merging the visible points of parts, for any division of a cloud.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -78,7 +78,7 @@ fn any_division_gives_the_answer_of_the_whole() {
                 let title = format!("{} with seed {seed} in {count} parts", kind.name);
                 let merged = merge(&parts, viewpoint, &options).unwrap();
                 assert_eq!(merged, whole.indices(), "{title}");
-                // What was not filtered before is a superset, too.
+                // A part that was not filtered is a superset, too.
                 let merged = merge(&divided, viewpoint, &options).unwrap();
                 assert_eq!(merged, whole.indices(), "{title}, unfiltered");
             }

@@ -1,5 +1,5 @@
-//! Views that start from the last one: whatever was seen before, the answer is that
-//! of a view that starts anew, to the bit.
+//! Views that start from the last view. After any earlier views, the answer equals the
+//! answer of a view that starts anew, to the bit.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -11,8 +11,8 @@ use crate::common::scenes::{EXTREME, KINDS};
 use crate::common::shapes::{self, Points};
 use crate::common::walk::{Walk, difference};
 
-/// Walks around in a cloud and compares every view; returns how many were found from
-/// the one before.
+/// Walks around in a cloud and compares every view. Returns how many views started from
+/// the view before.
 fn walk(
     points: &Points,
     viewpoint: [f64; 3],
@@ -139,7 +139,7 @@ fn small_steps_start_from_the_last_view() {
             warm += usize::from(observer.moved());
             walk.viewpoint = walk.near(&mut rng, 1e-4);
         }
-        // What is in one plane or on one line turns over by rounding alone.
+        // Points in one plane or on one line turn over by rounding alone.
         let ordinary = !title.contains("lattice") && !title.contains("edge-on");
         assert!(!ordinary || warm >= 18, "{title}: {warm} of 20");
     }

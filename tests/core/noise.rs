@@ -77,8 +77,8 @@ fn votes_are_counted_among_the_nearest_distinct_points() {
     }
 }
 
-/// A sphere whose points are moved along their normals; truly visible is what faces
-/// the viewer.
+/// A sphere whose points are moved along their normals. The points that face the viewer
+/// are truly visible.
 fn noisy_sphere(n: usize, noise: f64) -> (Vec<[f64; 3]>, Vec<u8>) {
     let mut rng = Rng::new(77);
     let sphere = shapes::sphere(&mut rng, n);
@@ -173,7 +173,7 @@ fn a_prepared_cloud_answers_like_one_made_anew() {
             match round {
                 0 => cloud.append(&points[600..]).unwrap(),
                 1 => cloud.remove(&[3, 77, 650]).unwrap(),
-                // One of two equal points: every position stays, not so the indices.
+                // One of two equal points: every position stays, but the indices change.
                 _ => {
                     cloud.append(&points[5..6]).unwrap();
                     cloud.prepare_for(&denoising(9)).unwrap();
@@ -182,7 +182,7 @@ fn a_prepared_cloud_answers_like_one_made_anew() {
             }
         }
     }
-    // What is refused changes no answer.
+    // A refusal changes no answer.
     assert!(keeping.prepare_for(&denoising(10_000)).is_err());
     let kept = keeping.visible_from(FRONT, &denoising(9)).unwrap();
     assert_eq!(kept, plain.visible_from(FRONT, &denoising(9)).unwrap());

@@ -1,5 +1,5 @@
-//! The crate against the naive oracle, on thousands of small and mostly
-//! degenerate scenes; and the oracle against what can be seen by eye.
+//! The crate compared with the naive oracle, on thousands of small and mostly degenerate
+//! scenes. And the oracle compared with answers that are obvious by eye.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

@@ -1,4 +1,4 @@
-//! Two dimensions: exact, against an enumeration in integers and against the paper.
+//! Two dimensions, exact: compared with an enumeration in integers and with the paper.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

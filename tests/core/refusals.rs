@@ -1,4 +1,4 @@
-//! Bad input: every error, and that nothing else is refused.
+//! Bad input: every error occurs, and valid input is not refused.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -44,7 +44,7 @@ fn skipped_points_keep_their_indices_and_are_never_visible() {
     let answer = cloud.visible_from(ORIGIN, &Options::default()).unwrap();
     assert_eq!(answer.indices(), [1, 4]);
     assert_eq!(answer.mask(), [0, 1, 0, 0, 1]);
-    // The others are answered as if the skipped ones had not been given.
+    // The other points are answered as if the skipped points had not been given.
     let finite = PointCloud::new(&[points[1], points[3], points[4]]).unwrap();
     assert_eq!(
         finite.auto_radius(ORIGIN, Radius::Auto),

@@ -1,4 +1,4 @@
-//! R by search: the antipodal one and the paper's own rule.
+//! R by search: the antipodal search and the paper's rule.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -87,7 +87,7 @@ fn the_papers_rule_makes_points_seen_by_one_side_most() {
     for step in 0..=24 {
         let radius = least * (1.0 + 1e-12) * 10f64.powf(0.25 * f64::from(step));
         let other = seen_by_one(&points, mirror, radius);
-        // A step function has other maxima than those a bracket looks at.
+        // A step function may have maxima that a bracketing search does not visit.
         assert!(
             other <= most + points.len() / 100,
             "{other} at {radius}, {most} found"

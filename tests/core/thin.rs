@@ -1,5 +1,5 @@
-//! Clouds that lie in one plane or line with the viewpoint but for rounding, so that every
-//! sign is in doubt and the hull is a sliver.
+//! Clouds that lie in one plane or line with the viewpoint, except for rounding. Every sign
+//! is in doubt, and the hull is a sliver.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;

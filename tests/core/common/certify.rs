@@ -1,20 +1,20 @@
 //! Proofs for clouds of any size: a supporting plane for a visible point, an
 //! enclosing triangle for a hidden one.
 //!
-//! For one q, look for the face of K that its ray leaves through. Hold three
-//! points A, B, C whose cone contains q. While some point x lies beyond their
-//! plane, exchange one of the three for x so that the cone still contains q: the
-//! plane moves outward along the ray. At the end either
+//! For one q, look for the face through which its ray leaves K. Hold three points
+//! A, B, C whose cone contains q. While some point x lies beyond their plane,
+//! exchange one of the three for x so that the cone still contains q: the plane
+//! moves outward along the ray. At the end either
 //!   q lies strictly inside the plane: λq is in the triangle ABC for some λ > 1,
 //!   so q is hidden, or
 //!   q lies on the plane and no point beyond: no λq with λ > 1 is in K, visible.
 //! (The exchange is the simplex method for: least Σ cⱼ with Σ cⱼqⱼ = q, cⱼ ≥ 0.)
 //! Every sign that counts is exact, so each verdict is a proof.
 //!
-//! q may lie on the border of a cone. It is moved by ε·a + ε²·b with an
-//! infinitesimal ε, where q, a, b is the first triple: its cone contains the moved
-//! point's interior, every later step strictly gains, and nothing can cycle. What
-//! holds for all small ε holds for q in the closed cone.
+//! q may lie on the border of a cone. So it is moved by ε·a + ε²·b with an
+//! infinitesimal ε, where q, a, b is the first triple. The moved point is inside
+//! the cone of this triple, every later step strictly gains, and nothing can cycle.
+//! A statement for all small ε also holds for q in the closed cone.
 
 use robust::{Coord3D, orient3d};
 
@@ -35,9 +35,9 @@ impl Certifier {
     /// Takes flipped points, scales them by a power of two into the range where
     /// `robust` is exact, and fills up the dimensions that they do not span.
     ///
-    /// Where all lie in one plane or line with the origin, no triangle of theirs
-    /// proves anything. Independent vectors off that plane or line are added: they
-    /// change no verdict, because K with them meets it in K without them.
+    /// If all points lie in one plane or line with the origin, no triangle of them
+    /// proves anything. So independent vectors off that plane or line are added. They
+    /// change no verdict: within the plane or line, K with them equals K without them.
     pub fn new(q: &[[f64; 3]]) -> Self {
         let largest = q.iter().flatten().fold(0.0f64, |max, x| max.max(x.abs()));
         assert!(largest > 0.0 && largest.is_finite(), "nothing to certify");
@@ -64,7 +64,7 @@ impl Certifier {
             .first_triple(p)
             .expect("points that were made to span space");
         let mut face = start;
-        // Strict gain makes every face new; real clouds need some ten steps.
+        // Each step gains strictly, so every face is new. Real clouds need some ten steps.
         for _ in 0..10_000 {
             if self.side(face, p) > 0.0 {
                 return Verdict {
@@ -83,8 +83,8 @@ impl Certifier {
         panic!("no end in sight for point {p}");
     }
 
-    /// Points within rounding of the plane of `face`: the ones an inexact hull
-    /// would get wrong.
+    /// Points within rounding of the plane of `face`. An inexact hull would get these
+    /// points wrong.
     pub fn near_ties(&self, face: [usize; 3]) -> Vec<usize> {
         let m = self.dual(face);
         (0..self.q.len())
@@ -104,9 +104,9 @@ impl Certifier {
         orient3d(a, b, c, coord([0.0; 3]))
     }
 
-    /// p and two others, counterclockwise seen from outside; `None` if and only if
-    /// all points lie in one plane with the origin. The best choice as `f64` sees
-    /// it comes first, exact signs decide.
+    /// p and two other points, counterclockwise seen from outside. `None` if and only
+    /// if all points lie in one plane with the origin. The best choice by `f64` comes
+    /// first; exact signs decide.
     fn first_triple(&self, p: usize) -> Option<[usize; 3]> {
         let q = &self.q;
         let origin = coord([0.0; 3]);
@@ -138,8 +138,8 @@ impl Certifier {
             .expect("points")
     }
 
-    /// Some point beyond the plane of the face: the farthest as `f64` sees it, or
-    /// any that the exact sign finds.
+    /// A point beyond the plane of the face: the farthest by `f64`, or any point that
+    /// the exact sign finds.
     fn beyond(&self, face: [usize; 3]) -> Option<usize> {
         let m = self.dual(face);
         let mut best = (f64::NEG_INFINITY, 0);
@@ -168,7 +168,7 @@ impl Certifier {
             .expect("the cone of four points that contains q has a part that does")
     }
 
-    /// m with m·x = 1 on the face, as far as `f64` goes.
+    /// m with m·x = 1 on the face, within the precision of `f64`.
     fn dual(&self, [a, b, c]: [usize; 3]) -> [f64; 3] {
         let [a, b, c] = [a, b, c].map(|i| self.q[i]);
         let n = cross(sub(b, a), sub(c, a));

@@ -2,14 +2,14 @@
 
 use super::{oracle, proved_flipped};
 
-/// So few points are compared with the enumeration, which takes any range.
+/// Up to this number of points, answers are compared with the enumeration. It takes any range.
 const FEW: usize = 9;
 /// Ratios of coordinates beyond which expansion arithmetic is not exact.
 const WIDE: f64 = 1e50;
 
-/// Visible or not, for each flipped point; `None` for those at the viewpoint.
+/// Visible or not, for each flipped point; `None` stands for a point at the viewpoint.
 ///
-/// By certificates where those can tell, else by enumeration, which takes n⁴ steps.
+/// By certificates if they can decide, else by enumeration, which takes n⁴ steps.
 pub fn visible(flipped: &[Option<[f64; 3]>]) -> Vec<bool> {
     if has_certificates(flipped) {
         proved_flipped(flipped)
@@ -18,12 +18,12 @@ pub fn visible(flipped: &[Option<[f64; 3]>]) -> Vec<bool> {
     }
 }
 
-/// The same by the other way, where there is one: the two know nothing of each other.
+/// The same by the other method, if it applies. The two methods are independent.
 pub fn visible_otherwise(flipped: &[Option<[f64; 3]>]) -> Option<Vec<bool>> {
     (flipped.len() <= FEW && has_certificates(flipped)).then(|| oracle::visible_flipped(flipped))
 }
 
-/// Certificates need a nonzero q each, and ratios that expansion arithmetic can take.
+/// Certificates need a nonzero q for each point, and ratios that expansion arithmetic can take.
 pub fn has_certificates(flipped: &[Option<[f64; 3]>]) -> bool {
     let sizes = || flipped.iter().flatten().flatten().map(|x| x.abs());
     let largest = sizes().fold(0.0, f64::max);

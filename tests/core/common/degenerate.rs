@@ -1,5 +1,5 @@
-//! Small scenes whose flipped points are exactly in planes, on lines, on rays and equal,
-//! under every inversion: distances and radii are chosen so that no flip rounds.
+//! Small scenes whose flipped points lie exactly in planes, on lines and on rays, or are
+//! equal, under every inversion. Distances and radii are chosen so that no flip rounds.
 
 use hidden_point_removal::{Exponential, Inversion, Options, Radius};
 
@@ -34,7 +34,7 @@ pub const DEGENERATE: &[Kind] = &[
         seen_from_origin(points, options)
     }),
     Kind::new("all flipped to one sphere", |rng, n| {
-        // exp(c/d) is 1: all points of a ray flip alike, but for rounding.
+        // exp(c/d) is 1: all points of a ray flip alike, except for rounding.
         let points = vectors(rng, n, &THREE, &[1.0, 2.0, 3.0, 4.0]);
         let scale = Exponential::Scale(1e-30);
         seen_from_origin(
@@ -95,7 +95,7 @@ pub const DEGENERATE: &[Kind] = &[
         with_any_options(rng, points, [0.0; 3])
     }),
     Kind::new("flipped to few places", |rng, n| {
-        // 2R − d keeps few digits of d, or none.
+        // 2R − d keeps few or no digits of d.
         let points = shapes::grid(rng, n);
         let radius = rng.pick(&[1e14, 1e15, 1e16, 1e17, 1e30]);
         seen_from_origin(points, Options::with_radius(radius))
@@ -148,7 +148,7 @@ fn vectors(rng: &mut Rng, n: usize, of: &[[f64; 3]], times: &[f64]) -> Points {
         rng.shuffle(&mut p);
         let times = rng.pick(times);
         let mut p = p.map(|x| if rng.chance(2) { -x * times } else { x * times });
-        // All around, half of space, an octant: the viewpoint within, on the border.
+        // All around, half of space, an octant: the viewpoint is inside or on the border.
         match part {
             0 => {}
             1 => p[2] = p[2].abs(),

@@ -1,5 +1,5 @@
-//! The flips, operation by operation: the one fixed sequence of `f64` operations
-//! that the answers are exact for.
+//! The flips, operation by operation. Answers are exact for this fixed sequence of `f64`
+//! operations.
 
 use hidden_point_removal::{Exponential, Inversion, Visibility};
 
@@ -36,7 +36,7 @@ pub fn flip(p: [f64; 3], viewpoint: [f64; 3], radius: f64) -> Option<[f64; 3]> {
     s.is_finite().then(|| v.map(|x| x * s))
 }
 
-/// The flip that an answer says it used.
+/// The flip that an answer reports.
 pub fn flip_as(p: [f64; 3], viewpoint: [f64; 3], answer: &Visibility) -> Option<[f64; 3]> {
     let (v, d) = relative(p, viewpoint);
     let s = match answer.inversion() {
@@ -47,6 +47,6 @@ pub fn flip_as(p: [f64; 3], viewpoint: [f64; 3], answer: &Visibility) -> Option<
             panic!("not one resolved inversion")
         }
     };
-    // Beyond the range of f64 is as good as at the viewpoint.
+    // A point beyond the range of f64 counts like a point at the viewpoint.
     Some(v.map(|x| x * s)).filter(|q| q.iter().all(|x| x.is_finite()))
 }

@@ -1,10 +1,10 @@
-//! What the tests of the core share. Nothing here knows how the crate finds its
-//! answers: everything is derived from the definition of visibility,
+//! Shared by the tests of the core. Nothing here knows how the crate finds its
+//! answers. Everything is derived from the definition of visibility,
 //!
 //! > q is visible exactly when λq ∉ K for every λ > 1, K = conv(Q ∪ {0}),
 //!
 //! where Q are the flipped points as rounded to `f64`.
-// Each test program uses its own part of this.
+// Each test program uses only a part of this.
 #![allow(dead_code)]
 
 pub mod certify;
@@ -25,7 +25,7 @@ use hidden_point_removal::{Options, PointCloud, Position, Visibility};
 use certify::Certifier;
 use flip::flip;
 
-/// Asks the crate, for inputs that must be accepted.
+/// Asks the crate. The inputs must be accepted.
 pub fn ask<P: Position>(points: &[P], viewpoint: [f64; 3], options: &Options) -> Visibility {
     PointCloud::new(points)
         .expect("an acceptable cloud")
@@ -46,7 +46,7 @@ pub fn proved(points: &[[f64; 3]], viewpoint: [f64; 3], radius: f64) -> Vec<bool
     proved_flipped(&flipped)
 }
 
-/// The same for points that are flipped already; `None` for those at the viewpoint.
+/// The same for flipped points; `None` stands for a point at the viewpoint.
 pub fn proved_flipped(flipped: &[Option<[f64; 3]>]) -> Vec<bool> {
     let q: Vec<_> = flipped.iter().flatten().copied().collect();
     if q.is_empty() {

@@ -5,10 +5,10 @@
 //! cⱼ ≥ 0 and Σ cⱼ < 1 (divide the convex combination, whose share of the origin
 //! is left out, by λ; backwards, λ = 1/Σ cⱼ, or q = 0 and any λ). Among all such
 //! sums the least Σ cⱼ is a linear program with a bounded optimum, so a basic
-//! solution attains it: the qⱼ with cⱼ ≠ 0 are linearly independent, hence at most
-//! three. So q is hidden exactly when q = 0 or
+//! solution attains it: the qⱼ with cⱼ ≠ 0 are linearly independent, so there are at
+//! most three. So q is hidden exactly when q = 0 or
 //!   one qⱼ, or two or three linearly independent ones, give q with Σ cⱼ < 1.
-//! No rank is assumed anywhere: planes, lines and single points need no other case.
+//! This assumes no rank: planes, lines and single points need no other case.
 
 use num_bigint::{BigInt, Sign};
 
@@ -22,7 +22,7 @@ pub fn visible(points: &[[f64; 3]], viewpoint: [f64; 3], radius: f64) -> Vec<boo
     visible_flipped(&flipped)
 }
 
-/// The same for points that are flipped already; `None` for those at the viewpoint.
+/// The same for flipped points; `None` stands for a point at the viewpoint.
 pub fn visible_flipped(flipped: &[Option<[f64; 3]>]) -> Vec<bool> {
     let mut distinct: Vec<[f64; 3]> = flipped.iter().flatten().copied().collect();
     distinct.sort_by(|a, b| a.partial_cmp(b).expect("finite flipped points"));
@@ -35,7 +35,7 @@ pub fn visible_flipped(flipped: &[Option<[f64; 3]>]) -> Vec<bool> {
         .collect()
 }
 
-/// The definition for the given q, already flipped.
+/// The definition for the given flipped points.
 pub fn hidden(q: &[Vector]) -> Vec<bool> {
     let n = q.len();
     let crosses: Vec<Vector> = (0..n * n).map(|ij| cross(&q[ij / n], &q[ij % n])).collect();

@@ -1,5 +1,5 @@
-//! Seeded random numbers, the same on every platform: splitmix64 and nothing but
-//! exactly rounded arithmetic on top.
+//! Seeded random numbers, the same on every platform: splitmix64, and only exactly
+//! rounded arithmetic after it.
 
 pub struct Rng(u64);
 
@@ -16,7 +16,7 @@ impl Rng {
         z ^ (z >> 31)
     }
 
-    /// Below `n`; the bias is of no matter here.
+    /// Below `n`. The bias does not matter here.
     pub fn below(&mut self, n: usize) -> usize {
         (self.bits() % n as u64) as usize
     }
@@ -43,7 +43,7 @@ impl Rng {
         low + (high - low) * self.unit()
     }
 
-    /// Even in the unit ball, never too near its center to be normalized.
+    /// Uniform in the unit ball, but not so near its center that it cannot be normalized.
     pub fn in_ball(&mut self) -> [f64; 3] {
         loop {
             let p = core::array::from_fn(|_| self.between(-1.0, 1.0));
@@ -54,7 +54,7 @@ impl Rng {
         }
     }
 
-    /// Even on the unit sphere, up to rounding.
+    /// Uniform on the unit sphere, up to rounding.
     pub fn direction(&mut self) -> [f64; 3] {
         let p = self.in_ball();
         let length = (p[0] * p[0] + p[1] * p[1] + p[2] * p[2]).sqrt();

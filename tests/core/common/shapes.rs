@@ -1,5 +1,5 @@
-//! Points to look at, in exactly rounded arithmetic only, so that every platform
-//! sees the same bits. Each shape gives `n` points around the origin.
+//! Test clouds, made with exactly rounded arithmetic only, so that every platform gets
+//! the same bits. Each shape gives `n` points around the origin.
 
 use super::flip::{distance, flip};
 use super::rng::Rng;
@@ -18,7 +18,7 @@ pub fn ball(rng: &mut Rng, n: usize) -> Points {
     many(n, || rng.in_ball())
 }
 
-/// A closed surface with bumps and pits, seen by noise-free samples.
+/// A closed surface with bumps and pits, sampled without noise.
 pub fn bumpy(rng: &mut Rng, n: usize) -> Points {
     many(n, || {
         let [x, y, z] = rng.direction();
@@ -52,7 +52,7 @@ pub fn grid(rng: &mut Rng, n: usize) -> Points {
     })
 }
 
-/// A few directions, many multiples of each.
+/// A few directions, and many multiples of each.
 pub fn rays(rng: &mut Rng, n: usize) -> Points {
     let directions = grid(rng, 4);
     many(n, || {
@@ -81,8 +81,8 @@ pub fn cube(rng: &mut Rng, n: usize) -> Points {
     many(n, || core::array::from_fn(|_| rng.pick(&signs)))
 }
 
-/// Points at equal distances: signs and orders of Pythagorean quadruples, whose
-/// flipped points share planes exactly.
+/// Points at equal distances: signs and orders of Pythagorean quadruples. Their flipped
+/// points share planes exactly.
 pub fn pythagorean(rng: &mut Rng, n: usize) -> Points {
     let quadruples = [
         [0.0, 0.0, 9.0],
@@ -102,10 +102,9 @@ pub fn pythagorean(rng: &mut Rng, n: usize) -> Points {
 /// A radius for [`aimed`].
 pub const AIMED_RADIUS: f64 = 3.0;
 
-/// Points whose flipped points are small integers exactly, on the surface of a
-/// cube, in it, on rays, planes and edges, as seen from the origin with
-/// `AIMED_RADIUS`. `part` restricts the integers; `slack` of them are left one
-/// rounding error off.
+/// Points whose flipped points are exactly small integers, seen from the origin with
+/// `AIMED_RADIUS`: on the surface of a cube, in it, on rays, planes and edges. `part`
+/// restricts the integers. `slack` of the points stay one rounding error off.
 pub fn aimed(rng: &mut Rng, n: usize, slack: usize, part: fn([i32; 3]) -> bool) -> Points {
     many(n, || {
         let q = loop {
@@ -125,13 +124,13 @@ pub fn aimed(rng: &mut Rng, n: usize, slack: usize, part: fn([i32; 3]) -> bool) 
     })
 }
 
-/// The inverse flip, which is the flip itself, rounded.
+/// The inverse flip, rounded. The flip is its own inverse.
 fn approach(q: [f64; 3]) -> [f64; 3] {
     flip(q, [0.0; 3], AIMED_RADIUS).expect("not the viewpoint")
 }
 
-/// A p whose flip with `AIMED_RADIUS` from the origin is q to the bit, if there is
-/// one beside the rounded inverse.
+/// A p whose flip with `AIMED_RADIUS` from the origin is q to the bit, if there is one
+/// next to the rounded inverse.
 pub fn aim(q: [f64; 3]) -> [f64; 3] {
     let near = approach(q);
     let steps = [0, 1, -1, 2, -2, 3, -3];
@@ -149,7 +148,7 @@ pub fn aim(q: [f64; 3]) -> [f64; 3] {
     near
 }
 
-/// Whether rounding has left p within the sphere.
+/// Whether p is within the sphere after rounding.
 fn reachable(p: [f64; 3]) -> bool {
     distance(p, [0.0; 3]) <= AIMED_RADIUS
 }

@@ -1,5 +1,5 @@
-//! Clouds of planes, lines and lattices, and viewpoints that lie in them: where people
-//! stand in scanned rooms, and what the branches of an answer ask about.
+//! Clouds of planes, lines and lattices, and viewpoints that lie in them. Such viewpoints
+//! occur in scanned rooms, and they reach the rare branches of the code.
 
 use hidden_point_removal::{Exponential, Inversion, Options, Radius};
 
@@ -83,7 +83,7 @@ fn furnished(rng: &mut Rng, n: usize) -> Points {
     })
 }
 
-/// Planes that meet in one point: of the axes, and diagonal ones, which are exact, too.
+/// Planes that meet in one point: planes of the axes and diagonal planes. All are exact.
 fn planes_through_a_point(rng: &mut Rng, n: usize) -> Points {
     let center = rounded(in_box(rng), 1.0);
     let scattered = rng.chance(2);
@@ -170,7 +170,7 @@ fn lines(rng: &mut Rng, n: usize) -> Points {
     })
 }
 
-/// Points of the walls, each several times, and corners.
+/// Corners, and points of the walls, each several times.
 fn repeated(rng: &mut Rng, n: usize) -> Points {
     let few = walls_on_a_lattice(rng, n / 4 + 1);
     many(n, || match rng.chance(6) {
@@ -179,8 +179,8 @@ fn repeated(rng: &mut Rng, n: usize) -> Points {
     })
 }
 
-/// Points that flip, as `shapes::aimed` do, exactly on to the sides of a cube, some of
-/// which have bumps: points exactly on a side are hidden from its other end.
+/// Points that flip exactly on to the sides of a cube, like `shapes::aimed`. Some sides have
+/// bumps, which hide points that lie exactly on the side.
 fn flipped_cube(rng: &mut Rng, n: usize) -> Points {
     const SIDE: f64 = 3.0;
     let unit = rng.pick(&[0.125, 0.25]);
@@ -207,8 +207,8 @@ fn flipped_cube(rng: &mut Rng, n: usize) -> Points {
     })
 }
 
-/// Clusters of points that flip exactly on to the sides of a cube, a few of them above a
-/// side, and the cube's corners.
+/// Clusters of points that flip exactly on to the sides of a cube, and the cube's corners. A
+/// few points lie above a side.
 fn flipped_clusters(rng: &mut Rng, n: usize) -> Points {
     const SIDE: f64 = 3.0;
     const UNIT: f64 = 1.0 / 64.0;
@@ -236,18 +236,18 @@ fn flipped_clusters(rng: &mut Rng, n: usize) -> Points {
     flipped.into_iter().map(shapes::aim).collect()
 }
 
-/// A viewpoint that has to do with the planes, lines and points of a cloud.
+/// A viewpoint in a special place relative to the planes, lines and points of a cloud.
 pub fn viewpoint(rng: &mut Rng, points: &[[f64; 3]]) -> [f64; 3] {
     if points.is_empty() {
         return rounded(in_box(rng), 1.0);
     }
     let [a, b, c] = [0; 3].map(|_| rng.pick(points));
     match rng.below(14) {
-        // On a point, on the line through two points and beyond, between.
+        // On a point, between two points, or beyond them on their line.
         0 | 1 => a,
         2 => core::array::from_fn(|i| 2.0 * b[i] - a[i]),
         3 => core::array::from_fn(|i| 0.5 * (a[i] + b[i])),
-        // In the planes of the axes through points: one, two and three of them.
+        // In one, two or three axis planes through points.
         4 => [a[0], b[1], c[2]],
         5 | 6 => {
             let mut p = in_box(rng);
@@ -289,7 +289,7 @@ pub fn viewpoint(rng: &mut Rng, points: &[[f64; 3]]) -> [f64; 3] {
     }
 }
 
-/// Anything that a view divides, and sometimes what it does not.
+/// Options that a divided view takes, and sometimes options that it refuses.
 pub fn options(rng: &mut Rng, points: &[[f64; 3]], viewpoint: [f64; 3]) -> Options {
     let farthest = farthest(points, viewpoint);
     let radius = match rng.below(12) {
@@ -338,7 +338,7 @@ pub fn scene(rng: &mut Rng, (name, shape): (&str, Shape), n: usize) -> Scene {
     }
 }
 
-/// To another view of the same points, unless they are aimed for this one.
+/// Moves to another view of the same points, unless the points are aimed for this view.
 pub fn move_on(rng: &mut Rng, name: &str, scene: &mut Scene) {
     if !is_aimed(name) {
         scene.viewpoint = viewpoint(rng, &scene.points);

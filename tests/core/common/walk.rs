@@ -1,4 +1,4 @@
-//! Viewpoints that move by steps of all sizes, each answer compared with a cold one.
+//! Viewpoints that move by steps of all sizes. Each answer is compared with a cold answer.
 
 use hidden_point_removal::{Observer, Options, PointCloud, Radius};
 
@@ -9,7 +9,7 @@ use super::rng::Rng;
 pub struct Walk<'a> {
     points: &'a [[f64; 3]],
     center: [f64; 3],
-    /// From the center to the farthest point.
+    /// The distance from the center to the farthest point.
     size: f64,
     pub viewpoint: [f64; 3],
     pub options: Options,
@@ -72,15 +72,15 @@ impl<'a> Walk<'a> {
         };
     }
 
-    /// Moves by `part` of the distance from the center, at least of the cloud's size,
-    /// in any direction.
+    /// Moves in any direction by `part` of the distance from the center, or of the cloud's
+    /// size if that is larger.
     pub fn near(&self, rng: &mut Rng, part: f64) -> [f64; 3] {
         let distance = distance(self.viewpoint, self.center).max(0.1 * self.size);
         let direction = rng.direction();
         core::array::from_fn(|i| self.viewpoint[i] + direction[i] * distance * part)
     }
 
-    /// Anywhere within so many times the cloud's size.
+    /// Any place within this many times the cloud's size.
     pub fn place(&self, rng: &mut Rng, sizes: f64) -> [f64; 3] {
         let p = rng.in_ball();
         core::array::from_fn(|i| self.center[i] + p[i] * sizes * self.size)
@@ -91,7 +91,7 @@ impl<'a> Walk<'a> {
         let exponents = [0.0, 0.1, 0.5, 1.0, 2.0, 2.5, 3.0, 4.0, 7.0, 14.0];
         match rng.below(8) {
             0..4 => Radius::Auto,
-            // Soon too small, from where it is farther.
+            // Soon too small, when the viewpoint is farther away.
             4 => Radius::Absolute(self.farthest() * rng.between(1.0, 30.0)),
             _ => Radius::Exponent(rng.pick(&exponents)),
         }
@@ -114,13 +114,13 @@ impl<'a> Walk<'a> {
     }
 }
 
-/// From 1e-9 to 0.5, the small ones as often as the large ones.
+/// From 1e-9 to 0.5. Small and large values are equally frequent.
 fn part(rng: &mut Rng) -> f64 {
     let digits = rng.below(10) as i32;
     (0..digits).fold(rng.between(0.1, 0.5), |part, _| part * 0.1)
 }
 
-/// What an observer and a cold view disagree about, if they do.
+/// The difference between an observer and a cold view, if there is one.
 pub fn difference(
     cloud: &PointCloud,
     observer: &mut Observer,
