@@ -1,5 +1,5 @@
-//! What follows from the definition's answer for a cloud: other ways to ask the same,
-//! and answers made of several.
+//! Consequences of the definition's answer for a cloud: other ways to ask the same question,
+//! and answers that combine several views.
 
 use hidden_point_removal::{
     Exponential, Inversion, Options, PointCloud, PointCloud2d, Radius, Visibility, merge_visible,
@@ -12,11 +12,11 @@ use super::common::{definition, indices_of, lower, sectors};
 
 #[derive(Clone, Copy, Debug)]
 pub enum Aspect {
-    /// The visible points of parts, and some others, merged.
+    /// The visible points of parts, and some other points, merged.
     Merged,
     /// Points appended in parts, others removed in between.
     Changed,
-    /// A cloud of two dimensions, where the view is one.
+    /// A cloud of two dimensions, if the view is flat.
     Planar,
     /// Several viewpoints at once.
     Union,
@@ -42,8 +42,8 @@ impl Aspect {
         Self::Direction,
     ];
 
-    /// Whether all is right, in view of the right `answer` to the scene, which is `visible`;
-    /// `None` where the scene cannot be asked for this.
+    /// Whether this aspect is right, given the right `answer` to the scene and its `visible`
+    /// points. `None` if the scene does not allow this aspect.
     pub fn check(
         self,
         scene: &Scene,
@@ -72,7 +72,7 @@ impl Aspect {
     }
 }
 
-/// Options with the numbers that an answer was found with.
+/// Options with the numbers that an answer used.
 pub fn given(answer: &Visibility) -> Options {
     let inversion = answer.inversion();
     let mut options = Options::with_inversion(inversion);
@@ -103,7 +103,7 @@ fn merged(scene: &Scene, answer: &Visibility, rng: &mut Rng) -> Option<Vec<u32>>
             }
         }
     }
-    // Each part leaves out what it hides, all of it or some.
+    // Each part leaves out all or some of its hidden points.
     let keeps_some = rng.chance(2);
     for (positions, ids) in &mut parts {
         let cloud = PointCloud::new(positions).expect("an acceptable part");
@@ -124,7 +124,7 @@ fn changed(scene: &Scene, rng: &mut Rng) -> Option<Vec<u32>> {
     let n = scene.points.len();
     let first = rng.below(n + 1);
     let mut cloud = PointCloud::new(&scene.points[..first]).ok()?;
-    // Other points come and go; they take numbers, which are taken off again below.
+    // Other points come and go. They take indices, which are subtracted again below.
     let others: Vec<[f64; 3]> = (0..rng.below(4)).map(|_| rng.in_ball()).collect();
     cloud.append(&others).ok()?;
     let taken: Vec<u32> = (first as u32..(first + others.len()) as u32).collect();
@@ -151,7 +151,7 @@ fn planar(scene: &Scene) -> Option<(Vec<u32>, Vec<u32>)> {
     }
     let points: Vec<[f64; 2]> = scene.points.iter().map(|p| [p[0], p[1]]).collect();
     let cloud = PointCloud2d::new(&points).ok()?;
-    // What is chosen automatically depends on the dimension: so there is another answer.
+    // Automatic choices depend on the dimension. So this answer may differ from the scene's.
     let answer = cloud.visible_from([x, y], &scene.options).ok()?;
     let flat: Vec<_> = points.iter().map(|&[x, y]| [x, y, 0.0]).collect();
     let flip = |&p: &[f64; 3]| flip_as(p, [x, y, 0.0], &answer);
@@ -171,7 +171,7 @@ fn single(scene: &Scene) -> Option<Vec<u32>> {
     Some(answer.into_indices())
 }
 
-/// Points that at least so many of a few viewpoints see.
+/// Points that at least a given number of viewpoints see.
 fn union(scene: &Scene, visible: &[bool], rng: &mut Rng) -> Option<(Vec<u32>, Vec<u32>)> {
     let cloud = PointCloud::new(&scene.points).ok()?;
     let mut viewpoints = vec![scene.viewpoint];
@@ -200,10 +200,10 @@ fn union(scene: &Scene, visible: &[bool], rng: &mut Rng) -> Option<(Vec<u32>, Ve
     Some((found.ok()?.into_indices(), indices_of(&expected)))
 }
 
-/// Visible when more than two fifths of a point and its nearest distinct others are.
+/// A point is visible if more than two fifths of the point and its nearest distinct neighbors are.
 fn voted(scene: &Scene, visible: &[bool], rng: &mut Rng) -> Option<(Vec<u32>, Vec<u32>)> {
     let points = &scene.points;
-    // Squares of distances have to tell them apart.
+    // Squared distances must tell them apart.
     let squared = |p: [f64; 3], q: [f64; 3]| {
         let v: [f64; 3] = core::array::from_fn(|i| p[i] - q[i]);
         v[0] * v[0] + v[1] * v[1] + v[2] * v[2]

@@ -1,11 +1,11 @@
-//! Moving viewpoints, each answer compared with that of a view that starts anew:
+//! Moving viewpoints. Each answer is compared with the answer of a view that starts anew:
 //! `cargo run --profile fuzz --example fuzz_motion -- --minutes 5 [--seed N]`
 //!
 //! Walks around, in and through small clouds of every kind under every inversion. One
 //! cold answer in eight is compared with the definition, too. Then walks through scanned
 //! and generated clouds of up to 437,645 points. Steps are of all sizes, along axes and
-//! between places in the planes of points. See `run` for what is printed; "warm" views
-//! were found from the one before.
+//! between places in the planes of points. `run` explains the output. "Warm" views started
+//! from the view before.
 
 use hidden_point_removal::{Observer, PointCloud};
 
@@ -23,13 +23,13 @@ use common::walk::{Walk, difference};
 use common::{definition, flip, indices_of, structured};
 use run::{Run, checked, literal, options_literal};
 
-/// Views before the walk starts again somewhere else.
+/// The number of views before the walk starts again at another place.
 const WALK: usize = 40;
-/// Walks through small clouds for each through a large one.
+/// The number of walks through small clouds for each walk through a large cloud.
 const SMALL_WALKS: usize = 400;
-/// One in so many cold answers of small clouds is compared with the definition.
+/// Of this many cold answers of small clouds, one is compared with the definition.
 const PROOFS: usize = 8;
-/// Up to so many points.
+/// The largest number of points of a small cloud.
 const FEW: usize = 60;
 
 fn main() {
@@ -83,7 +83,7 @@ fn walk_small(run: &mut Run, kind: &str, cloud: &PointCloud, scene: &mut Scene) 
     warm
 }
 
-/// Mostly a small step; sometimes one along an axis, back to where the walk began, to a
+/// Mostly a small step. Sometimes a step along an axis, back to the start of the walk, to a
 /// place in the planes of the points, or to other options.
 fn step(rng: &mut Rng, walk: &mut Walk, first: [f64; 3]) {
     match rng.below(16) {

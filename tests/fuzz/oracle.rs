@@ -1,9 +1,9 @@
 //! Small clouds against the definition:
 //! `cargo run --profile fuzz --example fuzz_oracle -- --minutes 5 [--seed N] [--kind TEXT]`
 //!
-//! Mostly degenerate clouds of every kind under every inversion. Each is asked for what
-//! is visible, and one cloud in two for something that follows from it as well
-//! (`Aspect`). See `run` for what is printed.
+//! Mostly degenerate clouds of every kind under every inversion. Each cloud is asked for its
+//! visible points, and every second cloud also for a consequence of them (`Aspect`). `run`
+//! explains the output.
 
 use hidden_point_removal::{Exponential, Inversion, Options, PointCloud, Visibility};
 
@@ -23,9 +23,9 @@ use common::scenes::{EXTREME, KINDS, Kind, Scene};
 use run::{Run, argument, checked, literal};
 use shrink::shrink;
 
-/// Clouds that only the enumeration can tell about have at most so many points.
+/// The most points of a cloud that only the enumeration can decide.
 const FEW: usize = 9;
-/// One in so many clouds that certificates tell about is told by the enumeration, too.
+/// Of this many clouds that certificates decide, the enumeration decides one, too.
 const CROSS_CHECKS: u64 = 50;
 
 fn main() {
@@ -111,19 +111,19 @@ fn has_certificates(scene: &Scene) -> bool {
     answer.is_some_and(|answer| definition::has_certificates(&flipped(scene, &answer)))
 }
 
-/// Options with the numbers that the whole cloud is asked with, so that fewer points are
-/// asked with them, too.
+/// Options with the numbers of the whole cloud's answer, so that a part of the cloud is asked
+/// with the same numbers.
 fn resolved(scene: &Scene) -> Options {
     let answer = std::panic::catch_unwind(|| asked(scene)).ok().flatten();
     answer.map_or(scene.options, |answer| aspects::given(&answer))
 }
 
-/// What a scene was asked for.
+/// The question that a scene was asked.
 enum Asked {
-    /// It was refused, as it should be.
+    /// It was refused, rightly.
     Nothing,
     Visible,
-    /// For an aspect, too.
+    /// It was also asked for an aspect.
     More,
 }
 
@@ -132,7 +132,7 @@ fn check(scene: &Scene, aspect: Option<Aspect>, seed: u64) -> Result<Asked, Stri
         .and_then(|cloud| cloud.visible_from(scene.viewpoint, &scene.options))
     {
         Ok(answer) => answer,
-        // Radii of extreme distances, and given ones that are too small for them.
+        // Radii for extreme distances, and given radii that are too small for them.
         Err(error) if error.code() == "radius" => return Ok(Asked::Nothing),
         Err(error) => return Err(format!("refused: {error}")),
     };

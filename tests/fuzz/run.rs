@@ -1,4 +1,4 @@
-//! What every fuzzer shares: its arguments, its tallies, what repeats a wrong answer.
+//! Shared by all fuzzers: the arguments, the tallies, and the code that repeats a wrong answer.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -9,20 +9,20 @@ use hidden_point_removal::{Exponential, Inversion, Options, Radius};
 use super::common::rng::Rng;
 use super::common::scenes::Scene;
 
-/// Wrong cases printed in full; more are only counted.
+/// This many wrong cases are printed in full. More are only counted.
 const MOST_PRINTED: usize = 20;
 
 pub struct Run {
     pub rng: Rng,
     start: Instant,
     end: Instant,
-    /// How many were tried and how many of them wrong, of each kind.
+    /// For each kind: how many cases were tried, and how many of them were wrong.
     kinds: BTreeMap<String, [u64; 2]>,
     printed: usize,
 }
 
 impl Run {
-    /// Reads `--minutes M --seed N`; the seed is the time where none is given.
+    /// Reads `--minutes M --seed N`. Without `--seed`, the seed is the time.
     pub fn start() -> Self {
         let minutes: f64 = argument("--minutes").map_or(1.0, |x| x.parse().expect("a number"));
         let now = SystemTime::now()
@@ -30,7 +30,7 @@ impl Run {
             .expect("a clock");
         let seed: u64 = argument("--seed").map_or(now.as_secs(), |x| x.parse().expect("a number"));
         println!("seed {seed}, {minutes} minutes");
-        // What panics is a wrong answer, which is reported with its scene.
+        // A panic counts as a wrong answer, and is reported with its scene.
         std::panic::set_hook(Box::new(|_| {}));
         let start = Instant::now();
         Self {
@@ -60,8 +60,8 @@ impl Run {
         self.printed <= MOST_PRINTED
     }
 
-    /// Prints the tallies, and the whole as the last line; ends with status 1 if anything
-    /// was wrong.
+    /// Prints the tallies, and the totals as the last line. Ends with status 1 if anything was
+    /// wrong.
     pub fn finish(self) {
         let [mut tried, mut wrong] = [0; 2];
         for (kind, [of_kind, wrong_of_kind]) in &self.kinds {
@@ -81,7 +81,7 @@ pub fn argument(name: &str) -> Option<String> {
     std::env::args().skip_while(|arg| arg != name).nth(1)
 }
 
-/// What a check says; a panic is an error, too.
+/// The result of a check. A panic is an error, too.
 pub fn checked<T>(check: impl FnOnce() -> Result<T, String>) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(check)).unwrap_or_else(|panic| {
         let text = panic.downcast_ref::<String>().cloned();

@@ -1,9 +1,9 @@
-//! Divided views against whole ones:
+//! Divided views compared with whole views:
 //! `cargo run --profile fuzz --example fuzz_sectors -- --minutes 5 [--seed N]`
 //!
 //! Rooms, lattices, planes and lines, from viewpoints that lie in them, in 2 to 64
-//! sectors, single and double precision. Of small clouds the whole view is compared
-//! with the definition as well. See `run` for what is printed.
+//! sectors, single and double precision. For small clouds the whole view is also compared
+//! with the definition. `run` explains the output.
 
 use hidden_point_removal::PointCloud;
 
@@ -17,9 +17,9 @@ use common::{definition, flip, indices_of, sectors, structured};
 use run::{Run, checked, literal};
 use shrink::shrink;
 
-/// Viewpoints that one cloud is asked from.
+/// The number of viewpoints for each cloud.
 const VIEWS: usize = 12;
-/// Up to so many points the whole view is compared with the definition.
+/// Up to this number of points, the whole view is compared with the definition.
 const FEW: usize = 150;
 
 fn main() {
@@ -63,7 +63,7 @@ fn main() {
     run.finish();
 }
 
-/// In single precision, if that is asked for and holds every coordinate.
+/// In single precision, if that is requested and can hold every coordinate.
 fn cloud_of(scene: &Scene, in_single: bool) -> PointCloud {
     let is_single = |x: &f64| f64::from(*x as f32) == *x;
     let cloud = if in_single && scene.points.iter().flatten().all(is_single) {
@@ -75,7 +75,7 @@ fn cloud_of(scene: &Scene, in_single: bool) -> PointCloud {
     cloud.expect("an acceptable cloud")
 }
 
-/// Whether the view is answered at all, or what is wrong.
+/// Whether the view is answered or refused; the error is the difference.
 fn check(cloud: &PointCloud, scene: &Scene, count: u32) -> Result<bool, String> {
     let Scene {
         points,

@@ -1,8 +1,8 @@
-//! A wrong scene cut down to few points.
+//! Reduces a wrong scene to few points.
 
 use super::common::scenes::Scene;
 
-/// Leaves out points, in ever smaller runs, while the scene stays wrong.
+/// Removes runs of points, shorter and shorter, while the scene stays wrong.
 pub fn shrink(mut scene: Scene, is_wrong: impl Fn(&Scene) -> bool) -> Scene {
     let mut run = scene.points.len() / 2;
     while run > 0 {

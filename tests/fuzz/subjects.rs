@@ -1,5 +1,5 @@
-//! Clouds of some size to walk through: scanned ones of npm packages (run
-//! `npm ci --ignore-scripts` first) and generated ones.
+//! Large clouds to walk through: scanned clouds of npm packages (run
+//! `npm ci --ignore-scripts` first) and generated clouds.
 
 use hidden_point_removal::PointCloud;
 
@@ -13,7 +13,7 @@ pub struct Subject {
     pub cloud: PointCloud,
 }
 
-/// One of twelve, made anew: only one is in memory.
+/// One of twelve clouds. It is made anew, so that only one is in memory.
 pub fn any(rng: &mut Rng) -> Subject {
     let makers: [fn() -> Subject; 12] = [
         || scan("dragon", &scans::dragon("dragon_vrip")),
@@ -29,7 +29,7 @@ pub fn any(rng: &mut Rng) -> Subject {
         || generated("terrain with holes", terrain),
         || generated("duplicates", |rng| shapes::duplicates(rng, 9_000)),
     ];
-    // The smaller ones more often: their views cost less.
+    // Smaller clouds come more often, because their views cost less.
     let mut number = rng.below(makers.len());
     if number < 2 && !rng.chance(3) {
         number += 2;
@@ -63,7 +63,7 @@ fn georeferenced(rng: &mut Rng) -> Points {
         .collect()
 }
 
-/// A block of a lattice: planes, lines and spheres of points everywhere.
+/// A block of a lattice. It has planes, lines and spheres of points everywhere.
 fn lattice(_: &mut Rng) -> Points {
     (0..17 * 17 * 17)
         .map(|i| [i % 17, i / 17 % 17, i / 289].map(f64::from))
