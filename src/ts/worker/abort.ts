@@ -2,17 +2,17 @@ import { describe, HprError } from "../base/errors.js";
 
 export const BY_SIGNAL = "aborted by its signal";
 
-/** What a promise is rejected with when its request was given up. */
+/** The error that rejects a promise when its request was given up. */
 export function abortError(why: string): DOMException {
   return new DOMException(why, "AbortError");
 }
 
-/** The promise's own outcome, unless the signal aborts before it is there. */
+/** The outcome of the promise. If the signal aborts earlier, an `AbortError` rejects it. */
 export async function untilAborted<T>(signal: AbortSignal | undefined, promise: Promise<T>): Promise<T> {
   if (signal === undefined) {
     return promise;
   }
-  // Once aborted, nobody waits for it any more: its failure is no one's concern.
+  // After the abort, nobody waits for the promise any more, so nobody needs to hear of its failure.
   promise.catch(() => undefined);
   let forget = () => {};
   const aborted = new Promise<never>((_, reject) => {
@@ -32,10 +32,16 @@ interface Waiting {
   listener: () => void;
 }
 
-/** Node takes a signal with more than ten listeners for a leak: whatever waits for one shares a listener. */
+/**
+ * Node warns of a leak when a signal has more than ten listeners. So all that wait for one signal
+ * share one listener.
+ */
 const waiting = new WeakMap<AbortSignal, Waiting>();
 
-/** Acts when the signal aborts, or now if it has, until what is returned is called. */
+/**
+ * Acts when the signal aborts, or now if it has aborted already. The returned function stops the
+ * waiting.
+ */
 function whenAborted(signal: AbortSignal, act: () => void): () => void {
   let entry = waiting.get(signal);
   if (entry === undefined) {
@@ -61,7 +67,7 @@ function whenAborted(signal: AbortSignal, act: () => void): () => void {
   };
 }
 
-/** The option `signal`: of this frame or another, or one that works alike. */
+/** The option `signal`. It may come from another frame, or be an object that works like one. */
 export function readSignal(signal: unknown): AbortSignal | undefined {
   if (signal === undefined) {
     return undefined;

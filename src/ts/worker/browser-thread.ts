@@ -1,6 +1,6 @@
 import type { Thread, ThreadEvents } from "./thread.js";
 
-/** A thread that the browser's own workers run. */
+/** A thread that is a worker of the browser. */
 export function startBrowserWorker(events: ThreadEvents): Thread {
   const { worker, script, started } = newWorker();
   worker.onmessage = (event) => {
@@ -9,7 +9,7 @@ export function startBrowserWorker(events: ThreadEvents): Thread {
   };
   worker.onerror = (event) => {
     started();
-    // Reported here, so that the page does not report it again.
+    // The error is reported here, so that the page does not report it again.
     event.preventDefault();
     events.died(event.message || `its script${script === undefined ? "" : ` ${script.href}`} could not be loaded`);
   };
@@ -29,7 +29,7 @@ export function startBrowserWorker(events: ThreadEvents): Thread {
   };
 }
 
-/** A worker, and the function to call once its script has been read. */
+/** A worker, and the function to call after its script has been read. */
 interface NewWorker {
   worker: Worker;
   script: URL | undefined;
@@ -37,8 +37,8 @@ interface NewWorker {
 }
 
 /**
- * Browsers run no worker whose script comes from another origin, as it does where the
- * page takes this package from a CDN. A script of the page's own origin may import it, though.
+ * Browsers do not run a worker whose script comes from another origin, for instance from a CDN. But
+ * a script of the page's own origin may import that script.
  */
 function newWorker(): NewWorker {
   const script = scriptAddress();
@@ -57,7 +57,7 @@ function newWorker(): NewWorker {
 }
 
 function create(): Worker {
-  // One literal expression: bundlers look for exactly this form.
+  // This must be one literal expression: bundlers look for exactly this form.
   return new Worker(new URL("./worker-thread.js", import.meta.url), { type: "module" });
 }
 

@@ -35,66 +35,65 @@ import { type Progress, readProgress } from "./progress.js";
 import { RequestQueue } from "./request-queue.js";
 import { defaultWorkers, readWorkers } from "./workers.js";
 
-/** How a cloud is brought to its worker. */
+/** How a cloud is sent to its worker. */
 export interface WorkerPointCloudOptions extends PointCloudOptions {
   /**
-   * Gives the positions' whole ArrayBuffer away instead of copying them: the
-   * caller's array, and every other view of that buffer, is empty afterwards.
-   * Only for a Float32Array or Float64Array that is not in shared memory.
-   * Default false.
+   * Moves the whole ArrayBuffer of the positions to the worker instead of copying them. After that,
+   * the caller's array and every other view of that buffer are empty. Works only for a Float32Array
+   * or Float64Array that is not in shared memory. Default false.
    */
   transfer?: boolean | undefined;
   /**
-   * How many workers share every view, from 1 to 64; answers are the same, to the
-   * bit. Each keeps the whole cloud in a memory of its own. By default 1 for a cloud
-   * of another dimension than 3, or of fewer than 200,000 points when it is created; otherwise as many as there
-   * are cores, but at most 4, and no more than hold 16 million points together.
+   * How many workers share every view, from 1 to 64. The answers are the same, to the bit. Each
+   * worker keeps the whole cloud in its own memory. The default is 1 if the dimension is not 3, or
+   * if the cloud has fewer than 200,000 points when it is created. Otherwise it is the number of
+   * cores, but at most 4, and at most as many as hold 16 million points together.
    */
   workers?: number | undefined;
   /**
-   * Puts the cloud into one worker that it shares with all others created with `shared`,
-   * for pages with many clouds: their requests are answered in turn. Excludes `workers`.
-   * The worker ends with the last of its clouds; one that dies takes all of them along.
+   * Puts the cloud into one worker that it shares with all other clouds created with `shared`. This
+   * is for pages with many clouds. The worker answers the requests of its clouds in turn. Excludes
+   * `workers`. The worker ends with the last of its clouds. If it dies, all of its clouds are lost.
    * Default false.
    */
   shared?: boolean | undefined;
-  /** Gives up, with an `AbortError`, when it aborts before the cloud is ready. */
+  /**
+   * Gives the creation up, with an `AbortError`, if the signal aborts before the cloud is ready.
+   */
   signal?: AbortSignal | undefined;
   /**
-   * Told which share of the building is done: once 0 when it is asked for, then
-   * numbers that grow, and 1 before the promise resolves. What it throws is reported as
-   * an uncaught error; the cloud is built all the same.
+   * Is told the share of the building that is done: 0 at first, then growing numbers, and 1 before
+   * the promise resolves. If it throws, the error is reported as uncaught, and the cloud is built
+   * all the same.
    */
   onProgress?: ((fraction: number) => void) | undefined;
 }
 
-/** When what was asked need not be answered. Every query takes these beside its own options. */
+/** When a request need not be answered. Every query takes these options beside its own. */
 export interface RequestOptions {
   /**
-   * For a viewpoint that moves: while the request still waits for its turn, a
-   * newer one of the same method with `latest` takes its place, and it is rejected with an
-   * `AbortError`. One that is being computed is finished. Default false.
+   * For a viewpoint that moves. While the request waits for its turn, a newer request of the same
+   * method with `latest` takes its place, and an `AbortError` rejects the older one. A request that
+   * is being computed is finished. Default false.
    */
   latest?: boolean | undefined;
-  /** Rejects with an `AbortError` when it aborts before the answer is there. */
+  /** Rejects with an `AbortError` if the signal aborts before the answer arrives. */
   signal?: AbortSignal | undefined;
 }
 
-/** How one view is computed, and when it need not be. */
+/** How one view is computed, and when it need not be computed. */
 export interface WorkerVisibilityOptions extends VisibilityOptions, RequestOptions {}
 
 const CREATE_OPTIONS = ["transfer", "workers", "shared", "signal", "onProgress"] as const;
 const REQUEST_OPTIONS = ["latest", "signal"] as const;
 
 /**
- * A point cloud in workers of its own, with the methods and the answers of
- * `PointCloud`; each returns a promise. Nothing needs to be initialized, except
- * that a wasm file in an unusual place is named by calling `init()` first: what
- * runs in the page is shared with the worker.
+ * A point cloud in its own workers, with the methods and the answers of `PointCloud`. Each method
+ * returns a promise. Nothing needs to be initialized. Only if the wasm file is in an unusual place,
+ * call `init()` with its address first: the worker uses the same wasm as the page.
  *
- * If a worker dies, whatever is pending and all later calls are rejected with
- * `internal`. No copy of the positions is kept, so the cloud is lost; a new one
- * gets new workers.
+ * If a worker dies, all pending and later calls are rejected with `internal`. No copy of the
+ * positions is kept, so the cloud is lost. A new cloud gets new workers.
  */
 export class WorkerPointCloud {
   /** The same as {@link WorkerPointCloud.dispose}, on platforms that have `Symbol.dispose`. */
@@ -116,30 +115,30 @@ export class WorkerPointCloud {
   }
 
   /**
-   * How many points were ever given, skipped and removed ones included: the next
-   * index. It grows when the promise of {@link WorkerPointCloud.append} resolves.
+   * The number of all points ever given, with the skipped and the removed ones. This is also the
+   * next index. It grows when the promise of {@link WorkerPointCloud.append} resolves.
    */
   get length(): number {
     return this.#size.length;
   }
 
-  /** How many of the points given are left out because a coordinate is not finite. */
+  /** How many of the given points are left out because a coordinate is not finite. */
   get skipped(): number {
     return this.#size.skipped;
   }
 
   /**
-   * The mean distance of a point to its 6 nearest others, in the cloud's units: what the
-   * automatic rules go by. Measured at 2048 distinct points (512 beyond three dimensions)
-   * where there are more; 0 where there are fewer than two.
-   * It is that of the changes whose promises have resolved.
+   * The mean distance of a point to its 6 nearest neighbors, in the cloud's units. The automatic
+   * rules use it. It is measured at 2048 distinct points (512 above three dimensions), or at all
+   * points if there are fewer. It is 0 for fewer than two points. It includes the changes whose
+   * promises have resolved.
    */
   get spacing(): number {
     return this.#size.spacing;
   }
 
   /**
-   * Starts the workers and prepares positions, in any units, in each.
+   * Starts the workers and prepares the positions, in any units, in each of them.
    *
    * @param positions x, y, z of one point after another, copied before this returns.
    * @throws HprError (as a rejection) `option`, `positions-type`,
@@ -184,8 +183,8 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Which points can be seen from a viewpoint; see `PointCloud.visibleFrom`.
-   * Requests are answered in order.
+   * Finds the points that can be seen from a viewpoint; see `PointCloud.visibleFrom`. Requests are
+   * answered in order.
    *
    * @param viewpoint x, y, z in the cloud's units.
    * @throws HprError (as a rejection) `viewpoint`, `option`, `radius`,
@@ -199,9 +198,9 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Which points can be seen along a direction; see `PointCloud.visibleFromDirection`.
+   * Finds the points that can be seen along a direction; see `PointCloud.visibleFromDirection`.
    *
-   * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
+   * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.
    */
   async visibleFromDirection(direction: ArrayLike<number>, options?: WorkerVisibilityOptions): Promise<Visibility> {
     const answer = await this.#ask("visibleFromDirection", options, VIEW_OPTIONS, (dimension, given) =>
@@ -211,9 +210,10 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Which points can be seen from one of several viewpoints; see `PointCloud.visibleFromAny`.
+   * Finds the points that can be seen from at least one of several viewpoints; see
+   * `PointCloud.visibleFromAny`.
    *
-   * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
+   * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.
    */
   async visibleFromAny(
     viewpoints: readonly ArrayLike<number>[],
@@ -226,10 +226,10 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Which points can be seen from at least `k` of several viewpoints; see
+   * Finds the points that can be seen from at least `k` of several viewpoints; see
    * `PointCloud.visibleFromAtLeast`.
    *
-   * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
+   * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.
    */
   async visibleFromAtLeast(
     k: number,
@@ -245,7 +245,7 @@ export class WorkerPointCloud {
   /**
    * The radius that a rule chooses for a viewpoint; see `PointCloud.autoRadius`.
    *
-   * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
+   * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.
    */
   async autoRadius(viewpoint: ArrayLike<number>, rule?: RadiusRule, options?: RequestOptions): Promise<ChosenRadius> {
     return this.#ask("autoRadius", options, [], (dimension) => radiusQuery(dimension, viewpoint, rule));
@@ -254,7 +254,7 @@ export class WorkerPointCloud {
   /**
    * The surface that a viewpoint sees; see `PointCloud.reconstruct`.
    *
-   * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
+   * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.
    */
   async reconstruct(
     viewpoint: ArrayLike<number>,
@@ -269,7 +269,7 @@ export class WorkerPointCloud {
   /**
    * Light and shadow; see `PointCloud.illuminate`.
    *
-   * @throws HprError (as a rejection) as {@link WorkerPointCloud.visibleFrom}.
+   * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.
    */
   async illuminate(
     lights: readonly ArrayLike<number>[],
@@ -282,12 +282,12 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Adds points, which take the next indices; see `PointCloud.append`. What was
-   * asked before is answered without them, what is asked after with them.
+   * Adds points, which take the next indices; see `PointCloud.append`. Requests made before this
+   * are answered without the new points. Later requests are answered with them.
    *
    * @param positions x, y, z of one point after another, copied before this returns.
-   * @throws HprError (as a rejection) `positions-type`, `positions-length`,
-   *   `non-finite`, `too-large`, `disposed`, `internal`; the cloud is unchanged then.
+   * @throws HprError (as a rejection) `positions-type`, `positions-length`, `non-finite`,
+   *   `too-large`, `disposed`, `internal`. Then the cloud is unchanged.
    */
   async append(positions: Positions): Promise<void> {
     this.#queue.requireOpen();
@@ -297,12 +297,12 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Removes points; see `PointCloud.remove`. What was asked before is answered
-   * with them, what is asked after without them.
+   * Removes points; see `PointCloud.remove`. Requests made before this are answered with these
+   * points. Later requests are answered without them.
    *
-   * @param indices of points, in any order, copied before this returns.
-   * @throws HprError (as a rejection) `option` for what is not the index of a
-   *   point, `too-large`, `disposed`, `internal`; the cloud is unchanged then.
+   * @param indices indices of points, in any order, copied before this returns.
+   * @throws HprError (as a rejection) `option` for a value that is not the index of a point,
+   *   `too-large`, `disposed`, `internal`. Then the cloud is unchanged.
    */
   async remove(indices: ArrayLike<number>): Promise<void> {
     this.#queue.requireOpen();
@@ -312,27 +312,30 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Gives the memory of an answer's `indices`, which are gone then, to answers to come: for
-   * a viewpoint that moves, so that no memory is left to the garbage collector. `indices`
-   * may then be the start of a longer buffer. Does nothing with an answer whose indices
-   * are gone already.
+   * Reuses the memory of an answer's `indices` for later answers. The indices of this answer are
+   * gone then. This is for a viewpoint that moves: no memory is left to the garbage collector.
+   * After this, `indices` of an answer may be the start of a longer buffer. Does nothing if the
+   * indices are gone already.
    *
-   * @throws HprError `option` for what is no answer of a cloud.
+   * @throws HprError `option` for a value that is not an answer of a cloud.
    */
   recycle(answer: Visibility): void {
     this.#queue.recycle(VisibilityAnswer.takeMemory(answer));
   }
 
   /**
-   * Ends the workers, which gives all of their memory back; resolves when they have
-   * ended. Whatever is pending is rejected with `disposed`. May be called twice.
+   * Ends the workers, which frees all of their memory. Resolves when they have ended. Pending
+   * requests are rejected with `disposed`. May be called twice.
    */
   async dispose(): Promise<void> {
     unreachable.unregister(this);
     await this.#queue.close(new HprError("disposed", "this cloud has been disposed of"));
   }
 
-  /** Asks what `read` makes of the options of that query, and heeds those of the request. */
+  /**
+   * Asks with the options that `read` accepts for that query, and follows the options of the
+   * request.
+   */
   async #ask<K extends QueryKind>(
     method: string,
     options: unknown,
@@ -348,12 +351,14 @@ export class WorkerPointCloud {
   }
 }
 
-/** Clouds that were never disposed of: a worker would outlive them. */
+/** For clouds that nobody disposes of: otherwise, a worker would outlive its cloud. */
 const unreachable = new FinalizationRegistry<RequestQueue>((queue) => {
   void queue.close(new HprError("disposed", "this cloud has been disposed of"));
 });
 
-/** Positions that may be moved to a worker: the caller's buffer itself only if it is given away. */
+/**
+ * Positions that may be moved to a worker. The caller's own buffer is moved only with `transfer`.
+ */
 function toOwn(
   positions: Positions,
   stride: number,
@@ -363,13 +368,13 @@ function toOwn(
   if (transfer) {
     return giveAway(positions, numbers);
   }
-  // What was read from an array of numbers is new, and ours already.
+  // An array of numbers was read into a new buffer, which need not be copied.
   return isFloatArray(positions)
     ? allocating(`a copy of ${numbers.length} coordinates`, () => numbers.slice())
     : (numbers as Float64Array<ArrayBuffer>);
 }
 
-/** Moved at once, so that nothing written afterwards is part of the cloud. */
+/** Moves the buffer at once, so that later writes do not change the cloud. */
 function giveAway(
   positions: Positions,
   numbers: Float32Array | Float64Array,
@@ -387,7 +392,7 @@ function giveAway(
   }
 }
 
-/** How many workers of its own, or the shared one. */
+/** Starts this cloud's own workers, or joins the shared one. */
 function readPlacement(given: Record<string, unknown>): number | "shared" | undefined {
   const workers = readWorkers(given["workers"]);
   if (!readFlag(given, "shared")) {

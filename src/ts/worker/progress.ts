@@ -1,6 +1,6 @@
 import { describe, HprError } from "../base/errors.js";
 
-/** Tells a listener of the caller how far something has come, in numbers that only grow. */
+/** Tells a listener the progress of a task. The numbers only grow. */
 export class Progress {
   readonly #listener: (fraction: number) => void;
   #last = -1;
@@ -12,7 +12,7 @@ export class Progress {
   at(fraction: number): void {
     if (fraction > this.#last) {
       this.#last = fraction;
-      // By itself: what it throws is the caller's error and must not disturb this.
+      // This runs in a task of its own: an error of the listener must not disturb the caller.
       queueMicrotask(() => {
         this.#listener(fraction);
       });

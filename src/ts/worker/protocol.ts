@@ -4,9 +4,10 @@ import type { CloudSettings, CloudSize } from "../query/options.js";
 import type { Query } from "../query/queries.js";
 
 /**
- * What the page and its worker say to each other. The worker says `"ready"` once. After
- * that, every request about a cloud gets one reply before the next about it is sent; the
- * first is `create`, and `forget` the last, whose reply nobody awaits.
+ * The messages between the page and its worker. First, the worker says `"ready"` once. After that,
+ * each request about a cloud gets one reply, and the next request about that cloud is sent only
+ * after the reply. The first request is `create`. The last one is `forget`, and nobody waits for
+ * its reply.
  */
 export type Request =
   | {
@@ -14,13 +15,16 @@ export type Request =
       module: WebAssembly.Module;
       positions: Float32Array | Float64Array;
       settings: CloudSettings;
-      /** Whether `Progress` is wanted before the reply. */
+      /** Whether to send `Progress` before the reply. */
       reporting: boolean;
     }
   | { kind: "append"; positions: Float32Array | Float64Array }
   | { kind: "remove"; indices: Uint32Array }
   | { kind: "forget" }
-  /** With memory for the answer's indices, where there is some; `listing`: hidden points' after them (see `hidden.ts`). */
+  /**
+   * `spare` is memory for the answer's indices, if there is some. With `listing`, the indices of
+   * hidden points follow those of the visible ones (see `hidden.ts`).
+   */
   | (Query & { spare?: ArrayBuffer | undefined; listing?: boolean });
 
 /** The value of a reply, by the kind of its request. */
@@ -33,7 +37,7 @@ export interface Replies extends Answers {
 
 type KindWithIndices = { [Kind in keyof Replies]: Replies[Kind] extends Found ? Kind : never }[keyof Replies];
 
-/** The kinds of requests whose replies have indices, which may be written into spare memory: all of them, and no other. */
+/** All kinds of requests whose replies have indices. These may be written into spare memory. */
 export const WITH_INDICES: Readonly<Record<KindWithIndices, true>> = {
   visibleFrom: true,
   visibleFromDirection: true,
@@ -43,7 +47,7 @@ export const WITH_INDICES: Readonly<Record<KindWithIndices, true>> = {
 
 export type Reply<Value = unknown> = { value: Value } | { error: { code: HprErrorCode; message: string } };
 
-/** A request or a reply, with the cloud that it is about: several may share a worker. */
+/** A request or a reply, with the cloud that it is about: several clouds may share a worker. */
 export interface Letter<Content = unknown> {
   cloud: number;
   content: Content;
@@ -51,7 +55,7 @@ export interface Letter<Content = unknown> {
 
 export const READY = "ready";
 
-/** Which share of a request is done, from 0 to 1. */
+/** The share of a request that is done, from 0 to 1. */
 export interface Progress {
   progress: number;
 }
@@ -60,7 +64,7 @@ export function isProgress(message: unknown): message is Progress {
   return typeof message === "object" && message !== null && "progress" in message;
 }
 
-/** An error as it crosses the border, where its class would be lost. */
+/** An error in a form that can be sent to the page: sending would lose its class. */
 export function failedReply(thrown: unknown): Reply<never> {
   const code = thrown instanceof HprError ? thrown.code : "internal";
   return { error: { code, message: thrown instanceof Error ? thrown.message : String(thrown) } };

@@ -11,12 +11,12 @@ import type { ThreadEvents } from "./thread.js";
 type Kind = Request["kind"];
 
 interface AskOptions {
-  /** May be dropped when a newer request with the same name here comes before it has started. */
+  /** The request may be dropped before it starts, if a newer request with the same name arrives. */
   latest?: string | undefined;
   signal?: AbortSignal | undefined;
-  /** Told which share of the request is done. */
+  /** Is told the share of the request that is done. */
   onProgress?: ((share: number) => void) | undefined;
-  /** Kept from being collected while the request is pending. */
+  /** Is not garbage-collected while the request is pending. */
   owner?: object;
 }
 
@@ -27,8 +27,8 @@ interface Pending extends AskOptions {
 }
 
 /**
- * The requests to one team of workers, which sees one at a time: what still waits here
- * can be dropped without having cost anything.
+ * The requests to one team of workers. The team gets one request at a time. So a request that still
+ * waits here can be dropped at no cost.
  */
 export class RequestQueue implements ThreadEvents {
   #team: Team | undefined;
@@ -38,7 +38,7 @@ export class RequestQueue implements ThreadEvents {
   #closed: Error | undefined;
   readonly #spares = new Spares();
 
-  /** Starts so many workers, which act as one, or takes part in the shared one. */
+  /** Starts this number of workers, which act as one, or joins the shared worker. */
   async start(workers: number | "shared"): Promise<void> {
     const team = await Team.start(workers, this);
     if (this.#closed !== undefined) {
@@ -63,7 +63,7 @@ export class RequestQueue implements ThreadEvents {
         reject(this.#closed);
         return;
       }
-      // It never waits, and so overtakes nothing.
+      // This request never waits, so it overtakes no other.
       if (options.signal?.aborted === true) {
         reject(abortError(BY_SIGNAL));
         return;
@@ -76,21 +76,21 @@ export class RequestQueue implements ThreadEvents {
     });
   }
 
-  /** Keeps memory for the indices of answers to come. */
+  /** Keeps memory for the indices of later answers. */
   recycle(buffer: ArrayBuffer | undefined): void {
     if (this.#closed === undefined) {
       this.#spares.keep(buffer);
     }
   }
 
-  /** Throws what `close` was given, if it was called. */
+  /** After `close`, throws its reason. */
   requireOpen(): void {
     if (this.#closed !== undefined) {
       throw this.#closed;
     }
   }
 
-  /** Ends the workers; what is pending, and what still comes, is rejected with `reason`. */
+  /** Ends the workers. Pending and later requests are rejected with `reason`. */
   async close(reason: Error): Promise<void> {
     this.#closed = reason;
     this.#spares.clear();
@@ -142,7 +142,7 @@ export class RequestQueue implements ThreadEvents {
     const error = new HprError(reply.error.code, reply.error.message);
     request?.reject(error);
     if (error.code === "internal") {
-      // Its instance is lost, and with it the cloud.
+      // The worker's wasm instance is lost, and the cloud with it.
       void this.close(error);
     }
   }

@@ -5,23 +5,26 @@ import type { Replies } from "./protocol.js";
 type Answer = Replies["visibleFrom"];
 
 /**
- * One answer from those for all sectors of a view. Nobody else sees the parts, so their
- * memory goes back to the members for the next view.
+ * Joins the answers for all sectors of a view into one. Nobody else sees the parts, so the members
+ * reuse their memory for the next view.
  */
 export class Sectors {
-  /** By sector. */
+  /** The parts by sector. */
   #spares: (ArrayBuffer | undefined)[] = [];
-  /** One for each index, all 0 between views. */
+  /** One mark for each index. All marks are 0 between views. */
   #bits = new Int32Array(0);
 
-  /** Memory for a part, given away. */
+  /** Memory for a part. It is given away. */
   spareFor(sector: number): ArrayBuffer | undefined {
     const spare = this.#spares[sector];
     this.#spares[sector] = undefined;
     return spare;
   }
 
-  /** Of all parts, in the order of their sectors; in `spare` memory where that is enough. */
+  /**
+   * The indices of all parts, in the order of their sectors. They are written into `spare` if that
+   * is large enough.
+   */
   joined(parts: Answer[], spare: ArrayBuffer | undefined): Answer {
     const [first] = parts as [Answer];
     const count = parts.reduce((sum, { indices }) => sum + indices.length, 0);
@@ -41,7 +44,10 @@ export class Sectors {
   }
 }
 
-/** In the page's own thread, for the first view too: a loop that needs no warming up. */
+/**
+ * This loop runs in the page's own thread, also for the first view, so it must be fast without
+ * warming up.
+ */
 function mark(bits: Int32Array, indices: Uint32Array): void {
   for (let i = 0; i < indices.length; i++) {
     const index = indices[i]!;
@@ -49,7 +55,7 @@ function mark(bits: Int32Array, indices: Uint32Array): void {
   }
 }
 
-/** All that are marked, ascending, no longer marked then. */
+/** All marked indices, ascending. Their marks are cleared. */
 function takeMarked(bits: Int32Array, indices: Uint32Array): void {
   let next = 0;
   for (let word = 0; word < bits.length; word++) {

@@ -3,8 +3,8 @@ import { startThread } from "./start-thread.js";
 import type { Thread, ThreadEvents } from "./thread.js";
 
 /**
- * A thread in which several clouds live, each seen from outside as if it had the thread to
- * itself. It ends when the last of them has left: only that gives the memory back.
+ * A thread in which several clouds live. Each cloud uses it like a thread of its own. The thread
+ * ends when the last cloud has left, because only its end frees the memory.
  */
 class SharedThread implements ThreadEvents {
   readonly #guests = new Map<number, Guest>();
@@ -54,7 +54,7 @@ class SharedThread implements ThreadEvents {
       return;
     }
     const { cloud, content } = message as Letter;
-    // Nobody waits for the last reply to one that has left.
+    // Nobody waits for the last reply to a cloud that has left.
     this.#guests.get(cloud)?.events.message(content);
   }
 
@@ -69,7 +69,7 @@ class SharedThread implements ThreadEvents {
     }
   }
 
-  /** As they are now: each may leave when it hears something. */
+  /** A copy of the present list: a cloud may leave while it is told something. */
   #present(): Guest[] {
     return [...this.#guests.values()];
   }
@@ -106,14 +106,14 @@ interface Guest {
 
 let common: Promise<SharedThread> | undefined;
 
-/** A place in a thread: one of its own, or in the one that all share that want to. */
+/** A place in a thread: in a thread of its own, or in the shared thread. */
 export async function joinThread(shared: boolean, events: ThreadEvents): Promise<Thread> {
   if (!shared) {
     return (await SharedThread.start(() => undefined)).join(events);
   }
   const starting = (common ??= startCommon());
   const thread = await starting;
-  // It may have ended while this one waited.
+  // The thread may have ended while this cloud waited.
   return thread.over ? joinThread(shared, events) : thread.join(events);
 }
 

@@ -3,21 +3,21 @@ import { importNodeModule } from "../base/node.js";
 import { startBrowserWorker } from "./browser-thread.js";
 import type { Thread, ThreadEvents } from "./thread.js";
 
-/** Starts the thread that `worker-thread.ts` runs in. */
+/** Starts the thread that runs `worker-thread.ts`. */
 export async function startThread(events: ThreadEvents): Promise<Thread> {
   try {
     return typeof Worker === "function" ? startBrowserWorker(events) : await startNodeWorker(events);
   } catch (cause) {
-    // For instance a security policy of the page.
+    // One possible cause is a security policy of the page.
     throw new HprError("load", `the worker could not be started: ${String(cause)}`, { cause });
   }
 }
 
 async function startNodeWorker(events: ThreadEvents): Promise<Thread> {
   const threads = await importNodeModule<typeof import("node:worker_threads")>("node:worker_threads");
-  // Not in the literal form, or bundlers would take this for a second worker.
+  // This is not the literal form, or bundlers would take it for a second worker.
   const here = import.meta.url;
-  // Without the flags of this process, some of which (--input-type) a worker refuses.
+  // The flags of this process are left out: a worker refuses some of them (--input-type).
   const worker = new threads.Worker(new URL("./worker-thread.js", here), { execArgv: [] });
   let over = false;
   worker.on("message", (message) => {
@@ -31,7 +31,7 @@ async function startNodeWorker(events: ThreadEvents): Promise<Thread> {
     }
   };
   worker.on("messageerror", died);
-  // Stays to the end: Node raises an error that nobody listens to.
+  // This listener stays to the end: Node throws an error that has no listener.
   worker.on("error", died);
   worker.on("exit", (code) => {
     died(`it ended with exit code ${code}`);

@@ -5,10 +5,10 @@ import { joinThread } from "./shared-thread.js";
 import type { Thread, ThreadEvents } from "./thread.js";
 
 /**
- * Threads that hold the same cloud, each in a wasm instance of its own, and act as
- * one: what is asked of the team is asked of all, and answered when all have answered.
- * A view is divided among them by direction, so that none needs to wait for another;
- * every visible point is in the answer of exactly one.
+ * Threads that hold the same cloud, each in its own wasm instance, and act as one. A request to the
+ * team is a request to all members, and is answered when all have answered. A view is divided among
+ * the members by direction, so that no member waits for another. Every visible point is in the
+ * answer of exactly one member.
  */
 export class Team {
   readonly #events: ThreadEvents;
@@ -16,10 +16,10 @@ export class Team {
   #starting = 0;
   readonly #sectors = new Sectors();
   #asked: Request | undefined;
-  /** By member; those not asked, or not answered yet, have none. */
+  /** The answers by member. A member that was not asked, or has not answered yet, has none. */
   #replies: (Reply | undefined)[] = [];
   #missing = 0;
-  /** Which share of what was asked is done, by member. */
+  /** The share of the request that is done, by member. */
   #progress: number[] = [];
   #over = false;
 
@@ -27,7 +27,7 @@ export class Team {
     this.#events = events;
   }
 
-  /** In threads of its own, or else one thread that is shared with other teams. */
+  /** Uses its own threads, or else one thread that other teams share. */
   static async start(size: number | "shared", events: ThreadEvents): Promise<Team> {
     const team = new Team(events);
     await team.#start(size === "shared" ? 1 : size, size === "shared");
@@ -57,14 +57,17 @@ export class Team {
     }
   }
 
-  /** Answered by one message, whoever is asked. The arrays in it are given away. */
+  /**
+   * One reply answers the request, however many members are asked. The arrays in the request are
+   * given away.
+   */
   post(request: Request): void {
     let copies: { request: Request; transfer: ArrayBuffer[] }[];
     const asked = isForAll(request) ? this.#members : this.#members.slice(0, 1);
     try {
       copies = asked.map((_, number) => copyFor(request, number, asked.length, this.#sectors));
     } catch (thrown) {
-      // None of them has been asked, so none has changed.
+      // No member has been asked, so no member has changed.
       queueMicrotask(() => {
         this.#events.message(failedReply(thrown));
       });
@@ -80,14 +83,14 @@ export class Team {
     });
   }
 
-  /** While busy, Node's process does not end. */
+  /** While the team is busy, Node's process does not end. */
   setBusy(busy: boolean): void {
     for (const thread of this.#members) {
       thread.setBusy(busy);
     }
   }
 
-  /** Ends all threads, which gives their memory back. Nothing is reported any more. */
+  /** Ends all threads, which frees their memory. After that, nothing is reported. */
   async end(): Promise<void> {
     this.#over = true;
     await Promise.all(this.#members.map((thread) => thread.end()));
@@ -118,7 +121,7 @@ export class Team {
     }
   }
 
-  /** None can do without another: what each holds is only its part of every view. */
+  /** The team needs all of its members: each holds only its part of every view. */
   #died(cause: unknown): void {
     if (!this.#over) {
       this.#over = true;
@@ -138,7 +141,8 @@ export class Team {
       if (!isChange || lost.error.code === "internal" || values.length === 0) {
         return lost;
       }
-      // Memory was refused to some and the others have changed: they go on without.
+      // Some members had no memory for the change, and the others have changed. The team goes on
+      // without the first ones.
       this.#dismiss((_, number) => "error" in replies[number]!);
     }
     try {
@@ -158,7 +162,10 @@ export class Team {
   }
 }
 
-/** Changes are, and views that can be divided; anything else one can tell as well as all. */
+/**
+ * Changes concern all members, and so do views that can be divided. Any other request can be
+ * answered by one member.
+ */
 function isForAll(request: Request): boolean {
   switch (request.kind) {
     case "create":
@@ -172,7 +179,7 @@ function isForAll(request: Request): boolean {
   }
 }
 
-/** What one member is asked: with arrays of its own, and with its sector of a view. */
+/** The request to one member: with its own arrays, and with its sector of a view. */
 function copyFor(
   request: Request,
   number: number,

@@ -4,11 +4,11 @@ export interface ThreadEvents {
   died(cause: unknown): void;
 }
 
-/** A worker of the browser or of Node, seen alike. */
+/** A worker of the browser or of Node, behind one interface. */
 export interface Thread {
   post(message: unknown, transfer: ArrayBuffer[]): void;
-  /** While busy, Node's process does not end. */
+  /** While the thread is busy, Node's process does not end. */
   setBusy(busy: boolean): void;
-  /** Ends the thread, which gives its memory back. Nothing is reported any more. */
+  /** Ends the thread, which frees its memory. After that, nothing is reported. */
   end(): Promise<void>;
 }

@@ -7,7 +7,7 @@ import { failedReply, type Letter, type Progress, READY, type Replies, type Repl
 
 type Post = (message: unknown, transfer: ArrayBuffer[]) => void;
 
-/** By the numbers they are given outside. */
+/** The clouds by the numbers that they have outside. */
 const clouds = new Map<number, CoreCloud>();
 
 function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
@@ -50,7 +50,7 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
   }
 }
 
-/** Every request gets a reply, whatever is thrown. */
+/** Replies to every request, also after an error. */
 function serve(letter: Letter<Request>, post: Post): void {
   let reply: Reply<Replies[Request["kind"]]>;
   try {
@@ -62,7 +62,7 @@ function serve(letter: Letter<Request>, post: Post): void {
   post(content, "value" in reply ? buffersIn(reply.value) : []);
 }
 
-/** What is moved rather than copied. */
+/** The buffers that are moved instead of copied. */
 function buffersIn(value: Replies[Request["kind"]]): ArrayBuffer[] {
   return Object.values(value).flatMap((field: unknown) =>
     ArrayBuffer.isView(field) ? [field.buffer as ArrayBuffer] : [],

@@ -1,16 +1,18 @@
 import { describe, HprError } from "../base/errors.js";
 import { hasNodeModules, importNodeModule } from "../base/node.js";
 
-/** More would each wait for memory, and every one holds the whole cloud. */
+/** More workers would only wait for memory, and each of them holds the whole cloud. */
 const MAX_WORKERS = 64;
 /**
- * Points below which a second worker gains too little. From here on it makes views from
- * outside 1.4 to 1.7 times as fast; from inside some gain nothing, less so the larger.
+ * For fewer points, a second worker gains too little. For more points, it makes views from outside
+ * 1.4 to 1.7 times as fast. Some views from inside gain nothing, and large clouds gain less.
  */
 const CROSSOVER = 200_000;
-/** At most as many by default: the page has other uses for cores and memory. */
+/**
+ * The largest number of workers by default: the page needs cores and memory for other work, too.
+ */
 const MAX_DEFAULT = 4;
-/** Points of all workers' copies together that are not exceeded by default. */
+/** The largest number of points by default, summed over the copies of all workers. */
 const MAX_DEFAULT_POINTS = 16_000_000;
 
 /** The option `workers`; `undefined` leaves the choice to {@link defaultWorkers}. */
@@ -25,7 +27,7 @@ export function readWorkers(workers: unknown): number | undefined {
   return workers as number;
 }
 
-/** How many workers a cloud of so many points gets by itself. */
+/** The default number of workers for a cloud with this number of points. */
 export async function defaultWorkers(points: number): Promise<number> {
   if (points < CROSSOVER) {
     return 1;
