@@ -7,17 +7,17 @@ import { typedArrayType } from "../base/typed-arrays.js";
 
 export type PositionAttribute = BufferAttribute | InterleavedBufferAttribute;
 
-/** Positions of a geometry's points, x, y, z one after another. */
+/** The positions of a geometry's points: x, y, z of one point after another. */
 export interface ReadPositions {
   numbers: Float32Array | Float64Array;
-  /** Not the attribute's own memory: it may be given away. */
+  /** Whether the memory is not the attribute's own: then it may be given away. */
   own: boolean;
 }
 
-/** Whole numbers of 32 bits and quotients of them are not, in single precision. */
+/** Types whose values are exact in single precision. Whole numbers of 32 bits and their quotients are not. */
 const EXACT_IN_SINGLE = ["Float32Array", "Int8Array", "Uint8Array", "Uint8ClampedArray", "Int16Array", "Uint16Array"];
 
-/** Refuses what has no positions that can be read here. */
+/** Refuses a geometry whose positions cannot be read here. */
 export function requirePositions(
   attribute: PositionAttribute | GLBufferAttribute | undefined | null,
 ): PositionAttribute {
@@ -40,15 +40,15 @@ export function requirePositions(
   return attribute;
 }
 
-/** Grows with every `needsUpdate = true`. */
+/** A number that grows with every `needsUpdate = true`. */
 export function versionOf(attribute: PositionAttribute): number {
   return "data" in attribute ? attribute.data.version : attribute.version;
 }
 
 /**
- * The positions of the points with these numbers, or of all: as three itself reads them,
- * that is with integers that are `normalized` divided, in double precision then. With a
- * `place`, the elements of a matrix, they are taken there, in double precision, too.
+ * The positions of the points with these numbers, or of all points. They are read as three itself
+ * reads them: `normalized` integers are divided, and the result is in double precision. With
+ * `place`, the elements of a matrix, the positions are transformed by it, also in double precision.
  */
 export function readPositions(
   attribute: PositionAttribute,
@@ -75,7 +75,7 @@ export function readPositions(
   return { numbers, own: true };
 }
 
-/** A translation alone is one addition a coordinate, exactly. */
+/** A translation alone is one exact addition for each coordinate. */
 function movePoints(numbers: Float32Array | Float64Array, m: readonly number[]): void {
   for (let i = 0; i < numbers.length; i += 3) {
     const x = numbers[i]!;

@@ -1,13 +1,13 @@
-/** Where points are, and how many of them are nowhere. */
+/** The box around the points, and how many points have no position. */
 export interface Box {
   low: [number, number, number];
   high: [number, number, number];
-  /** Points with a coordinate that is NaN or infinite, and the first of them. */
+  /** The number of points with a coordinate that is NaN or infinite, and the first of them. */
   strays: number;
   firstStray: number;
 }
 
-/** Of x, y, z of one point after another. */
+/** The box around these points: x, y, z of one point after another. */
 export function boxOf(numbers: Float32Array | Float64Array): Box {
   const box: Box = {
     low: [Infinity, Infinity, Infinity],
@@ -32,7 +32,7 @@ export function boxOf(numbers: Float32Array | Float64Array): Box {
   return box;
 }
 
-/** The longest side of the box around all. */
+/** The longest side of the box around all points. */
 export function extentOf(boxes: Iterable<Box>): number {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];

@@ -5,12 +5,12 @@ import { WorkerPointCloud } from "../worker/client.js";
 import { listHiddenToo } from "../worker/listing.js";
 import type { ReadPositions } from "./attribute.js";
 
-/** Both answer alike, one of them with promises. */
+/** Both classes answer alike; one of them answers with promises. */
 export type Cloud = PointCloud | WorkerPointCloud;
 
 /**
- * A cloud in the worker that all filters share, or else here: at once where the wasm is
- * running. To dim hidden points, the worker lists them.
+ * Makes a cloud in the worker that all filters share, or in this thread. In this thread it is made
+ * at once if the wasm is running. If hidden points are dimmed, the worker lists them.
  */
 export function prepareCloud(
   { numbers, own }: ReadPositions,

@@ -3,19 +3,19 @@ import { BufferGeometry, type Material, Points, type PointsMaterial } from "thre
 import { describe, HprError } from "../base/errors.js";
 import type { DrawnPoints } from "./drawn-points.js";
 
-/** What is left of the opacity of hidden points. */
+/** The share of its opacity that a hidden point keeps. */
 const OPACITY = 0.15;
 
 const dimmed = new WeakSet<Points>();
 
-/** Whether points are only the hidden ones of others. */
+/** Whether this object only draws the hidden points of another one. */
 export function isDimmed(points: Points): boolean {
   return dimmed.has(points);
 }
 
 /**
- * The hidden points, drawn as well: a child of the points with the same attributes and the
- * rest of the index. Rays pass through it.
+ * Draws the hidden points, too. It is a child of the points with the same attributes and the rest
+ * of the index. Rays pass through it.
  */
 export class DimmedPoints {
   readonly #points: Points;
@@ -25,7 +25,7 @@ export class DimmedPoints {
   #refused: { material: unknown } | undefined;
   #isShown = false;
 
-  /** @throws HprError `option` for a material that cannot be dimmed. */
+  /** @throws HprError `option` if the material cannot be dimmed. */
   constructor(points: Points, material: Material | undefined) {
     this.#points = points;
     this.#given = material;
@@ -37,9 +37,9 @@ export class DimmedPoints {
   }
 
   /**
-   * Draws what the order lists after the visible points.
+   * Draws the points that the order lists after the visible ones.
    *
-   * @throws HprError `option` as `follow`.
+   * @throws HprError `option` in the same case as `follow`.
    */
   show(drawn: DrawnPoints): void {
     if (this.#refused !== undefined && this.#refused.material === this.#points.material) {
@@ -62,10 +62,10 @@ export class DimmedPoints {
   }
 
   /**
-   * Does after the points whatever was done to them since the last frame.
+   * Copies all changes of the points since the last frame.
    *
-   * @throws HprError `option` for a material that cannot be dimmed, once: hidden points are not
-   *   drawn then, until there is an answer with another one.
+   * @throws HprError `option` if the material cannot be dimmed, once. Then hidden points are not
+   *   drawn until there is an answer with another material.
    */
   follow(): void {
     const [points, child] = [this.#points, this.#child];
@@ -73,7 +73,8 @@ export class DimmedPoints {
     if (!this.#isShown || attributes === undefined) {
       return;
     }
-    // Viewers of tiles hide everything before they show something, and place no others' children.
+    // Tile viewers hide everything before they show something, and they do not set the place of
+    // children of others.
     child.visible = true;
     child.matrixWorld.copy(points.matrixWorld);
     child.layers.mask = points.layers.mask;
@@ -98,7 +99,7 @@ export class DimmedPoints {
   dispose(): void {
     this.#child.removeFromParent();
     const { geometry, material } = this.#child;
-    // What is shared must stay on the graphics card.
+    // Shared resources must stay on the graphics card.
     for (const name of Object.keys(geometry.attributes)) {
       geometry.deleteAttribute(name);
     }
@@ -131,7 +132,7 @@ export class DimmedPoints {
     }
   }
 
-  /** Hidden points cover nothing, and shine through each other. */
+  /** Hidden points cover nothing, and other hidden points are seen through them. */
   #copy(): Material {
     const material = requireDimmable(this.#points.material);
     this.#copied = { from: material, version: material.version };
@@ -143,7 +144,7 @@ export class DimmedPoints {
   }
 }
 
-/** Only three's own materials for points are known to draw what `opacity` and `size` say. */
+/** Only for three's own materials for points is it known that `opacity` and `size` have an effect. */
 function requireDimmable(material: unknown): PointsMaterial {
   const {
     type = describe(material),

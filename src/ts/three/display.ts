@@ -3,14 +3,14 @@ import type { Material, Points } from "three";
 import { DimmedPoints } from "./dimmed.js";
 import { DrawnPoints } from "./drawn-points.js";
 
-/** What of some points is drawn: all of them, or what is visible, and maybe the hidden ones dimmed. */
+/** Draws some points: all of them, or the visible ones, and maybe the hidden ones dimmed. */
 export class Display {
   readonly drawn: DrawnPoints;
   readonly #dimmed: DimmedPoints | undefined;
   #isAnswered = false;
   #enabled = true;
 
-  /** @throws HprError `option` for a material that cannot be dimmed. */
+  /** @throws HprError `option` if the material cannot be dimmed. */
   constructor(points: Points, { dim, dimMaterial }: { dim: boolean; dimMaterial: Material | undefined }) {
     this.#dimmed = dim ? new DimmedPoints(points, dimMaterial) : undefined;
     this.drawn = new DrawnPoints(points, dim);
@@ -30,14 +30,14 @@ export class Display {
     }
   }
 
-  /** How many points are drawn, dimmed ones not counted. */
+  /** How many points are drawn, without the dimmed ones. */
   get count(): number {
     return this.#isAnswered && this.#enabled ? this.drawn.visible : this.drawn.total;
   }
 
   /**
-   * Draws what is visible: indices into what `drawn` took up, ascending. `isListed`: where
-   * hidden points are dimmed, their indices follow in memory already.
+   * Draws the visible points. `indices`: their ascending indices among the points that `drawn`
+   * read. `isListed`: the indices of hidden points, to be dimmed, follow in memory already.
    *
    * @throws HprError `too-large`, `option`.
    */
@@ -47,7 +47,7 @@ export class Display {
     this.#show();
   }
 
-  /** Does after the points what was done to them since the last frame, every frame. */
+  /** Copies the changes of the points since the last frame. Called in every frame. */
   follow(): void {
     this.#dimmed?.follow();
   }
@@ -58,14 +58,14 @@ export class Display {
     this.#dimmed?.hide();
   }
 
-  /** Leaves points that are no longer the ones that were taken up. */
+  /** Releases the points if they are no longer the ones that were read. */
   leaveOthers(): void {
     if (!this.drawn.isSame) {
       this.leave();
     }
   }
 
-  /** Leaves the points that were taken up. */
+  /** Releases the points that were read. */
   leave(): void {
     this.showAll();
     this.drawn.release();

@@ -16,22 +16,22 @@ interface Taken {
   count: number;
 }
 
-/** Geometries that have a filter: a second one would take the first one's index for the user's. */
+/** The geometries that have a filter. A second filter would take the first one's index for the user's own. */
 const taken = new WeakSet<BufferGeometry>();
 
 /**
- * The points that a geometry draws, and the index and draw range that make it draw fewer.
+ * The points that a geometry draws, and the index and draw range with which it draws fewer.
  *
  *      order   [ visible …… | hidden …… ]     numbers of points, in the user's own order
  *                draw range ──
  *
- * Hidden ones are listed only where they are drawn, too (see `dimmed.ts`).
+ * Hidden points are listed only if they are drawn, too (see `dimmed.ts`).
  */
 export class DrawnPoints {
   readonly #points: Points;
   readonly #withHidden: boolean;
   #taken: Taken | undefined;
-  /** The numbers of the points that were drawn; undefined for all, in their order. */
+  /** The numbers of the points that were drawn without a filter. Undefined if all were drawn, in their order. */
   #ids: Uint32Array | undefined;
   #order: BufferAttribute | undefined;
   #total = 0;
@@ -56,7 +56,7 @@ export class DrawnPoints {
     return this.#order;
   }
 
-  /** Whether the points are still the ones that were taken up last, wherever they are now. */
+  /** Whether the points are still the ones that were read last, wherever they are now. */
   get isSame(): boolean {
     const last = this.#taken;
     if (last === undefined || this.#points.geometry !== last.geometry) {
@@ -73,17 +73,17 @@ export class DrawnPoints {
     );
   }
 
-  /** Whether nothing has been said to have changed since they were taken up. */
+  /** Whether no change has been announced since the points were read. */
   get isUnchanged(): boolean {
     return this.isSame && versionOf(this.#taken!.position) === this.#taken!.positionVersion;
   }
 
   /**
-   * Takes the points up as they are now, and tells where they are: in their own space, or
-   * where the elements of a matrix take them. What is visible of them stays drawn where
-   * they are the same.
+   * Reads the points as they are now, and returns their positions: in their own space, or, with the
+   * elements of a matrix, transformed by it. If the points are the same, the visible ones stay
+   * drawn.
    *
-   * @throws HprError `positions-type`, `option`, `too-large`; nothing is taken up then.
+   * @throws HprError `positions-type`, `option`, `too-large`; then nothing has been read.
    */
   take(place?: readonly number[]): ReadPositions {
     const same = this.isSame;
@@ -108,13 +108,16 @@ export class DrawnPoints {
     return readPositions(position, this.#ids, place);
   }
 
-  /** Where some of them are: indices into what `take` told. */
+  /** The positions of some points. `indices` count the points that `take` returned. */
   positionsOf(indices: Uint32Array, place?: readonly number[]): Float32Array | Float64Array {
     const ids = this.#ids === undefined ? indices : indices.map((i) => this.#ids![i]!);
     return readPositions(this.#taken!.position, ids, place).numbers;
   }
 
-  /** Notes what is visible: indices into what `take` told, ascending; with `isListed` the hidden ones' follow in memory. */
+  /**
+   * Notes the visible points: ascending indices of the points that `take` returned. With
+   * `isListed`, the indices of the hidden points follow in memory.
+   */
   setVisible(indices: Uint32Array, isListed = false): void {
     this.#order ??= allocating(`${this.#total} indices`, () => {
       return new BufferAttribute(new Uint32Array(this.#total), 1).setUsage(DynamicDrawUsage);
@@ -139,7 +142,7 @@ export class DrawnPoints {
     }
   }
 
-  /** Draws what is visible. */
+  /** Draws the visible points. */
   show(): void {
     if (!this.#shown && this.#taken !== undefined && this.#order !== undefined) {
       this.#shown = true;
@@ -148,7 +151,7 @@ export class DrawnPoints {
     }
   }
 
-  /** Draws what was drawn without a filter, except where that was changed by others. */
+  /** Restores the index and the draw range from before the filter, except where others have changed them. */
   showAll(): void {
     if (!this.#shown) {
       return;
@@ -179,7 +182,7 @@ export function isFiltered(geometry: unknown): boolean {
   return taken.has(geometry as BufferGeometry);
 }
 
-/** Refuses what is no geometry, and geometries that have a filter. */
+/** Refuses a value that is not a geometry, and a geometry that has a filter. */
 export function requireUnfiltered(geometry: unknown): asserts geometry is BufferGeometry {
   if (typeof geometry !== "object" || geometry === null || !("isBufferGeometry" in geometry)) {
     throw new HprError("option", `points: geometry must be a THREE.BufferGeometry, got ${describe(geometry)}`);
@@ -189,7 +192,7 @@ export function requireUnfiltered(geometry: unknown): asserts geometry is Buffer
   }
 }
 
-/** Refuses geometries whose points are not where their positions say. */
+/** Refuses geometries whose points are drawn elsewhere than at their positions. */
 function requireFilterable(geometry: BufferGeometry): PositionAttribute {
   const { attributes = {}, morphAttributes = {} } = geometry as Partial<BufferGeometry>;
   if (Object.values(morphAttributes).some((list) => (list as unknown[] | undefined)?.length)) {
@@ -210,7 +213,7 @@ function requireFilterable(geometry: BufferGeometry): PositionAttribute {
   return position;
 }
 
-/** What an index and a draw range have drawn, in their order; undefined for everything. */
+/** The point numbers that an index and a draw range have drawn, in their order. Undefined if they draw all. */
 function drawnIds(
   length: number,
   index: BufferAttribute | null,
@@ -234,7 +237,7 @@ function drawnIds(
   return ids;
 }
 
-/** Refuses what three itself would only fail to draw. */
+/** Refuses values that three itself would fail to draw without an error. */
 function requireDrawable(index: unknown, range: unknown): void {
   if (index !== null && typeof (index as Partial<BufferAttribute> | undefined)?.getX !== "function") {
     throw new HprError("option", `points: index must be a THREE.BufferAttribute or null, got ${describe(index)}`);

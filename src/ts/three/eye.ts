@@ -2,16 +2,16 @@ import type { Camera, Object3D } from "three";
 
 import { describe, HprError } from "../base/errors.js";
 
-/** How far from a similarity a matrix may be: those written in single precision are, by rounding. */
+/** How far a matrix may differ from a similarity: rounding to single precision makes such differences. */
 const DISTORTION = 1e-5;
-/** A view is the same as another within so much of the cloud's extent, or of a unit direction. */
+/** Two views are the same within this share of the cloud's extent, or of a unit direction. */
 const SAME = 1e-9;
-/** How far world coordinates are off after some matrices, of their size. */
+/** The relative error of world coordinates after some matrices. */
 const ROUNDING = 1e-14;
 
 /**
- * Where a camera looks from, or along which direction, in the space of the points: what an
- * answer depends on. Asked every frame, so that nothing is allocated.
+ * The place that a camera looks from, or the direction that it looks along, in the space of the
+ * points. An answer depends on this. It is read in every frame, so nothing is allocated.
  */
 export class Eye {
   /** The longest side of the cloud's box. */
@@ -19,7 +19,7 @@ export class Eye {
   readonly #now = { known: false, direction: false, x: 0, y: 0, z: 0, blur: 0 };
   readonly #asked = { known: false, direction: false, x: 0, y: 0, z: 0 };
 
-  /** @throws HprError `option` for what is no camera, or a scale that is not uniform. */
+  /** @throws HprError `option` for a value that is not a camera, or a scale that is not uniform. */
   look(points: Object3D, camera: Camera): void {
     requireCamera(camera);
     points.updateWorldMatrix(true, false);
@@ -32,7 +32,7 @@ export class Eye {
     const y = direction ? -c[9] : c[13] - m[13];
     const z = direction ? -c[10] : c[14] - m[14];
 
-    // Cramer's rule: with the translation taken off first, far-away places lose nothing.
+    // Cramer's rule. The translation is subtracted first, so far-away places lose no precision.
     const [ax, ay, az] = [m[5] * m[10] - m[6] * m[9], m[6] * m[8] - m[4] * m[10], m[4] * m[9] - m[5] * m[8]];
     const [bx, by, bz] = [m[9] * m[2] - m[10] * m[1], m[10] * m[0] - m[8] * m[2], m[8] * m[1] - m[9] * m[0]];
     const [cx, cy, cz] = [m[1] * m[6] - m[2] * m[5], m[2] * m[4] - m[0] * m[6], m[0] * m[5] - m[1] * m[4]];
@@ -56,7 +56,7 @@ export class Eye {
     }
   }
 
-  /** Whether what is seen now was not asked for yet. */
+  /** Whether nobody has asked about the present view yet. */
   get isNew(): boolean {
     const [now, asked] = [this.#now, this.#asked];
     if (!now.known) {
@@ -75,25 +75,25 @@ export class Eye {
     return this.#now.direction;
   }
 
-  /** The viewpoint or the direction, noted as asked for. */
+  /** Returns the viewpoint or the direction, and notes that it was asked about. */
   ask(): [x: number, y: number, z: number] {
     const { direction, x, y, z } = this.#now;
     Object.assign(this.#asked, { known: true, direction, x, y, z });
     return [x, y, z];
   }
 
-  /** Whatever was asked for was asked of another cloud. */
+  /** Forgets the last question: it was about another cloud. */
   forget(): void {
     this.#asked.known = false;
   }
 }
 
-/** NaN is as good as itself: it is refused once. */
+/** NaN is equal to NaN here, so that it is refused only once. */
 function isNear(a: number, b: number, blur: number): boolean {
   return Math.abs(a - b) <= blur || Object.is(a, b);
 }
 
-/** @throws HprError `option` where distances in the world depend on their direction. */
+/** @throws HprError `option` if distances in the world depend on their direction. */
 export function requireUniformScale(points: Object3D): void {
   points.updateWorldMatrix(true, false);
   uniformScale(points.matrixWorld.elements);
@@ -105,12 +105,12 @@ function requireCamera(camera: unknown): void {
   }
 }
 
-/** Cameras of other classes are told by what they do to distances. */
+/** Cameras of other classes are recognized by their projection. */
 function isOrthographic(camera: Camera): boolean {
   return camera.projectionMatrix.elements[15] !== 0 && !("isPerspectiveCamera" in camera);
 }
 
-/** How much longer things are in the world. Mirrored things see the same. */
+/** The scale from the points' space to the world. Mirrored points are seen alike. */
 function uniformScale(m: readonly number[]): number {
   const a = Math.hypot(m[0]!, m[1]!, m[2]!);
   const b = Math.hypot(m[4]!, m[5]!, m[6]!);

@@ -12,22 +12,22 @@ import { Eye, requireUniformScale } from "./eye.js";
 import { type FilterSettings, type HiddenPointFilterOptions, readFilterOptions, requirePoints } from "./options.js";
 import { Reporter } from "./reporter.js";
 
-/** What a filter tells its listeners. */
+/** The events of a filter. */
 export interface HiddenPointFilterEvents {
-  /** Another answer is drawn: how many points are visible, and how long it took to get. */
+  /** A new answer is drawn: how many points are visible, and how many milliseconds the answer took. */
   change: { count: number; milliseconds: number };
   /**
-   * What a view or the points were refused for: told once until there is an answer again.
-   * Without a listener, it is an unhandled rejection.
+   * A view or the points were refused. This is told once, until there is an answer again. Without a
+   * listener, the error is an unhandled rejection.
    */
   error: { error: Error };
 }
 
 /**
- * Draws only those of a `THREE.Points`' points that can be seen from the camera, and lets
- * rays pick no others: it replaces the geometry's index and draw range, until it is
- * disposed of. Points that neither of them drew before take no part. Attributes, materials
- * and the user's own index stay untouched.
+ * Draws only those points of a `THREE.Points` that the camera sees, and lets rays pick only these.
+ * To do so, it replaces the geometry's index and draw range until it is disposed of. Points that
+ * the geometry's own index and draw range leave out take no part. Attributes, materials and the
+ * user's own index stay untouched.
  *
  * ```js
  * const filter = new HiddenPointFilter(points);
@@ -37,23 +37,23 @@ export interface HiddenPointFilterEvents {
  * });
  * ```
  *
- * The camera is taken into the points' own space, in whose units a radius is given. So
- * moving either of them is a new view; turning a perspective camera or changing its
- * field of view is not. An orthographic camera sees along a direction
- * (`visibleFromDirection`): only turning it is a new view.
+ * The camera's place is converted to the points' own space, and a radius is in the units of this
+ * space. So moving the points or the camera makes a new view. Turning a perspective camera or
+ * changing its field of view does not. An orthographic camera sees along a direction
+ * (`visibleFromDirection`): only turning it makes a new view.
  *
- * Positions whose attribute's version has grown (`needsUpdate = true`), other attributes,
- * indices, draw ranges and geometries are noticed by `update` and taken up as they are.
+ * `update` notices changes and uses the new state: positions with a new version (`needsUpdate =
+ * true`), other attributes, indices, draw ranges and geometries.
  *
- * Morph targets, instances and a scale that is not uniform are refused (`option`).
+ * Morph targets, instances and a non-uniform scale are refused (`option`).
  */
 export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
-  /** While true, nothing new is asked, wherever the camera goes; an answer on its way is still drawn. */
+  /** While true, no new view is asked about, wherever the camera goes. An answer that is on its way is still drawn. */
   frozen = false;
   readonly #readiness = new Readiness();
   /**
-   * Resolves when the points are prepared and, if `update` was called by then, the first
-   * answer is drawn. Rejects with what the points or that view are refused for.
+   * Resolves when the points are prepared and, if `update` was called before that, the first answer
+   * is drawn. Rejects with the error if the points or that view are refused.
    */
   readonly ready: Promise<void> = this.#readiness.promise;
 
@@ -71,13 +71,13 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
     },
   });
   #cloud: Cloud | undefined;
-  /** Whether the points are to be taken up before anything else. */
+  /** Whether the points must be read before anything else. */
   #isStale = true;
   #disposed = false;
 
   /**
-   * @param points whose index and draw range are the filter's from now on.
-   * @throws HprError `option`, `positions-type`, `too-large`. What takes the core to tell
+   * @param points the points. From now on, the filter owns their index and draw range.
+   * @throws HprError `option`, `positions-type`, `too-large`. Errors that only the core can find
    *   (`non-finite`, the range of an option) may reject `ready` instead.
    */
   constructor(points: Points, options?: HiddenPointFilterOptions) {
@@ -105,15 +105,15 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
     this.#display.enabled = enabled;
   }
 
-  /** How many points are drawn, dimmed ones not counted: all of them until there is an answer. */
+  /** How many points are drawn, without the dimmed ones. Before the first answer, this is all points. */
   get visibleCount(): number {
     return this.#display.count;
   }
 
   /**
-   * To be called each frame, before rendering: asks for an answer if the view is a new one,
-   * and draws it when it comes (at once with `worker: false`). Views that come while one is
-   * being answered are left out but for the last.
+   * Call this in each frame, before rendering. It asks for an answer if the view is new, and draws
+   * the answer when it arrives (with `worker: false`, at once). While one view is being answered,
+   * of all later views only the last one is kept.
    */
   update(camera: Camera): void {
     if (this.#disposed) {
@@ -140,8 +140,8 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
   }
 
   /**
-   * Draws everything again: index, draw range and children are as they were. Also gives the
-   * cloud's memory back. May be called twice.
+   * Draws everything again: index, draw range and children are as they were. Also frees the cloud's
+   * memory. May be called twice.
    */
   dispose(): void {
     if (this.#disposed) {
@@ -151,7 +151,7 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
     this.#follower.stop();
     this.#display.dispose();
     this.#dropCloud();
-    // The caller of dispose() knows.
+    // The caller of dispose() knows of the end already.
     this.#readiness.reject(new HprError("disposed", "this filter has been disposed of"), true);
   }
 
@@ -166,7 +166,7 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
     return this.enabled && !this.frozen && this.#eye.isNew;
   }
 
-  /** Takes the points up as they are. */
+  /** Reads the points as they are now. */
   #preparing(): Round<Cloud> {
     return {
       ask: () => {
@@ -180,7 +180,7 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
       },
       use: (cloud) => {
         this.#cloud = cloud;
-        // A view that comes in the same breath counts.
+        // A view that is set in the same task counts.
         queueMicrotask(() => {
           if (!this.#follower.isBusy) {
             this.#readiness.resolve();
@@ -221,7 +221,7 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
     this.#dropCloud();
     this.#isStale = true;
     if (!isComingBack && this.#eye.isNew) {
-      // Another view may do better.
+      // Another view may succeed.
       this.#eye.ask();
     }
   }

@@ -4,29 +4,29 @@ import { describe, HprError } from "../base/errors.js";
 import { givenOptions, pick } from "../query/options.js";
 import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "../query/view-options.js";
 
-/** How points are filtered: how each view is computed, and the following. */
+/** How points are filtered: how each view is computed, and these options. */
 export interface HiddenPointFilterOptions extends VisibilityOptions {
   /**
-   * Whether answers are computed in a worker, which all filters of a page share; what is
-   * drawn stays as it was until they are there. Otherwise `update` computes them at once,
-   * and blocks. Default true.
+   * Whether answers are computed in a worker, which all filters of a page share. Until an answer
+   * arrives, the picture stays as it was. With `false`, `update` computes the answer at once and
+   * blocks. Default true.
    */
   worker?: boolean | undefined;
-  /** Hidden points are not drawn at all (`"hide"`, the default), or faintly (`"dim"`). */
+  /** Hidden points are not drawn (`"hide"`, the default), or are drawn faintly (`"dim"`). */
   mode?: "hide" | "dim" | undefined;
   /**
-   * What hidden points are drawn with in mode `"dim"`. Default: a transparent copy of the
-   * points' own material, which must be a `PointsMaterial` (or `PointsNodeMaterial`) then.
+   * The material of hidden points in mode `"dim"`. Default: a transparent copy of the points' own
+   * material, which must then be a `PointsMaterial` (or `PointsNodeMaterial`).
    */
   dimMaterial?: Material | undefined;
   /**
-   * What becomes of points with a NaN or infinite coordinate: `"error"` refuses them all,
-   * `"skip"` takes them for hidden. Default `"error"`.
+   * How points with a NaN or infinite coordinate are handled: `"error"` refuses the whole cloud,
+   * `"skip"` treats these points as hidden. Default `"error"`.
    */
   nonFinite?: "error" | "skip" | undefined;
 }
 
-/** {@link HiddenPointFilterOptions}, complete; the ranges of `view` are the core's to check. */
+/** {@link HiddenPointFilterOptions} with all defaults. The core checks the ranges in `view`. */
 export interface FilterSettings {
   view: VisibilityOptions;
   inWorker: boolean;
@@ -55,7 +55,7 @@ export function requirePoints(points: unknown): asserts points is Points {
   }
 }
 
-/** One of several values, the first by default. */
+/** One of several values. The first one is the default. */
 function oneOf<T extends string | boolean>(given: Record<string, unknown>, name: string, values: readonly [T, T]): T {
   const value = given[name] ?? values[0];
   if (!values.includes(value as T)) {

@@ -3,8 +3,8 @@ import { EventDispatcher, type EventListener } from "three";
 type Name<Events> = Extract<keyof Events, string>;
 
 /**
- * Tells its listeners what happens. An error that nobody listens to is reported as any other
- * promise that nobody awaits: as an unhandled rejection.
+ * Calls the listeners of events. An error without a listener becomes an unhandled rejection, like
+ * the error of any promise that nobody awaits.
  */
 export abstract class Reporter<Events extends { error: { error: Error } }> extends EventDispatcher<Events> {
   readonly #heard = new Set<unknown>();
@@ -17,7 +17,7 @@ export abstract class Reporter<Events extends { error: { error: Error } }> exten
     super.addEventListener(type, listener);
   }
 
-  /** Calls it no more. */
+  /** Stops calling the listener. */
   override removeEventListener<T extends Name<Events>>(type: T, listener: EventListener<Events[T], T, this>): void {
     if (type === "error") {
       this.#heard.delete(listener);
