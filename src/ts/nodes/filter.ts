@@ -11,12 +11,12 @@ import type { Refused } from "./node.js";
 import { NodeSet } from "./node-set.js";
 import { type HiddenPointNodesFilterOptions, type NodesSettings, readNodesOptions } from "./options.js";
 
-/** What a filter of nodes tells its listeners. */
+/** The events of a filter of nodes. */
 export interface HiddenPointNodesFilterEvents {
   /**
-   * Another answer is drawn: how many points of how many nodes are visible, how long it took
-   * to get, from which viewpoint or along which direction (the other one is null) and with
-   * which radius (0 where the inversion has none), in the root's space.
+   * A new answer is drawn: how many points of how many nodes are visible, how many milliseconds the
+   * answer took, the viewpoint or the direction (the other one is null), and the radius (0 if the
+   * inversion has none). All of this is in the root's space.
    */
   change: {
     count: number;
@@ -27,14 +27,14 @@ export interface HiddenPointNodesFilterEvents {
     radius: number;
   };
   /**
-   * What a node (`points`) or a view (null) is refused for: told once for each node until it
-   * changes, and once for views until there is an answer again. Without a listener, it is an
-   * unhandled rejection.
+   * A node (`points`) or a view (`points` is null) is refused. This is told once for each node
+   * until it changes, and once for views until there is an answer again. Without a listener, the
+   * error is an unhandled rejection.
    */
   error: { error: Error; points: Points | null };
 }
 
-/** An answer, and the viewpoint or the direction that it was asked for. */
+/** An answer, and the viewpoint or the direction that it belongs to. */
 interface Asked {
   answer: Visibility;
   viewpoint: number[] | null;
@@ -42,30 +42,30 @@ interface Asked {
 }
 
 /**
- * Draws, of many `THREE.Points` that are one cloud together, only what can be seen from the
- * camera, as tiled viewers need it: potree-core's octrees, point tiles of 3d-tiles-renderer.
- * Nodes may come and go, lie in one another, and have offsets of their own.
+ * Takes many `THREE.Points` as one cloud, and draws only the points that the camera sees. Tiled
+ * viewers need this: potree-core's octrees, the point tiles of 3d-tiles-renderer. Nodes may come
+ * and go, lie in one another, and have their own offsets.
  *
- * What is drawn is, to the bit, what would be drawn of one cloud that had never been split:
- * nodes that come are appended to it, nodes that go are removed.
+ * The picture is, to the bit, the picture of one cloud that had never been split. New nodes are
+ * appended to the cloud, and nodes that are gone are removed.
  *
  * ```js
  * const filter = new HiddenPointNodesFilter(octree); // or tiles.group
  * renderer.setAnimationLoop(() => {
- *   viewer.update(camera); // whatever chooses the nodes
+ *   viewer.update(camera); // chooses the nodes
  *   filter.update(camera);
  *   renderer.render(scene, camera);
  * });
  * ```
  *
- * Nodes may move with the root as much as they like; moved within it, they are read anew.
- * The options are those of a `HiddenPointFilter`, and mean the cloud of all nodes; so does an
- * orthographic camera.
+ * Nodes may move with the root freely. If they move within the root, they are read again. The
+ * options and an orthographic camera mean the same as in a `HiddenPointFilter`, for the cloud of
+ * all nodes.
  */
 export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvents> {
   /**
-   * While true, nothing new is asked, wherever the camera goes; an answer on its way is still
-   * drawn. New nodes are drawn whole.
+   * While true, no new view is asked about, wherever the camera goes. An answer that is on its way
+   * is still drawn. New nodes are drawn whole.
    */
   frozen = false;
 
@@ -84,21 +84,24 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
       this.#lost(isComingBack);
     },
   });
-  /** The set of nodes that was asked last; undefined when it is to be asked again. */
+  /**
+   * The version of the set of nodes that the last question was about. Undefined if the question
+   * must be asked again.
+   */
   #askedVersion: number | undefined;
-  /** Whether the cloud was lost with its worker and is to be made again. */
+  /** Whether the cloud was lost with its worker and must be made again. */
   #isDropped = false;
   #visible = 0;
   #disposed = false;
-  /** What listeners are told when everything else is done: they may throw. */
+  /** Calls of listeners, made after everything else: listeners may throw. */
   #untold: { error: Error; points: Points | null }[] = [];
   readonly #refuseNode: Refused = (error, points) => {
     this.#untold.push({ error, points });
   };
 
   /**
-   * @param root in whose space the nodes are one cloud, and radii are given: an object
-   *   that they are all below.
+   * @param root an object above all nodes. In its space the nodes are one cloud, and a radius has
+   *   its units.
    * @throws HprError `option`.
    */
   constructor(root: Object3D, options?: HiddenPointNodesFilterOptions) {
@@ -122,22 +125,22 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     this.#nodes.enabled = enabled;
   }
 
-  /** How many points are visible, of all nodes together, in the answer that came last. */
+  /** How many points of all nodes together are visible in the last answer. */
   get visibleCount(): number {
     return this.#visible;
   }
 
   /**
-   * Whether nothing is on its way: what is drawn is the answer for the nodes and the camera of
-   * the last `update`, unless that was refused.
+   * Whether nothing is on its way: the picture is the answer for the nodes and the camera of the
+   * last `update`, unless that was refused.
    */
   get settled(): boolean {
     return !this.#follower.isWaiting && (this.#follower.isLost || !this.#wantsAnswer());
   }
 
   /**
-   * To be called each frame, when the nodes have been chosen and before rendering: asks for
-   * an answer if the view or the nodes are new. Never waits.
+   * Call this in each frame, after the nodes have been chosen and before rendering. It asks for an
+   * answer if the view or the nodes are new. It never waits.
    */
   update(camera: Camera): void {
     if (this.#disposed) {
@@ -158,7 +161,7 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     this.#tell();
   }
 
-  /** Draws all nodes as they were, and gives the memory of their cloud back. May be called twice. */
+  /** Draws all nodes as they were, and frees the memory of their cloud. May be called twice. */
   dispose(): void {
     if (this.#disposed) {
       return;
@@ -182,7 +185,7 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     return this.#wantsAnswer() ? this.#viewing() : undefined;
   }
 
-  /** Brings the cloud up to date, asks it for the newest view, and draws that. */
+  /** Updates the cloud, asks it about the newest view, and draws the answer. */
   #viewing(): Round<Asked | undefined> {
     const begun = performance.now();
     const gathered = this.#gathered;
@@ -234,7 +237,7 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     this.#gathered.drop();
     this.#isDropped = true;
     if (!isComingBack && this.#eye.isNew) {
-      // Another view may do better.
+      // Another view may succeed.
       this.#eye.ask();
     }
     this.#tell();

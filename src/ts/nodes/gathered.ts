@@ -5,19 +5,19 @@ import type { Visibility } from "../cloud/visibility.js";
 import type { CloudNode, Refused } from "./node.js";
 import type { NodesSettings } from "./options.js";
 
-/** Which indices of the cloud are a node's, and in which of its revisions. */
+/** The indices of a node's points in the cloud, and the revision of the node that they belong to. */
 interface Span {
   first: number;
   count: number;
   revision: number;
 }
 
-/** Removed points are kept in mind by the cloud: so many of them may outnumber the others. */
+/** The cloud keeps removed points in memory. Up to this number, they may outnumber the others. */
 const FEW = 10_000;
 
 /**
- * The points of all nodes, in the root's space, as one cloud that they are appended to and
- * removed from: what it answers is, to the bit, what a cloud would that had never been split.
+ * The points of all nodes, in the root's space, as one cloud. Nodes are appended to it and removed
+ * from it. Its answers are, to the bit, the answers of a cloud that had never been split.
  *
  *      indices   [ node 3 …… | removed …… | node 1 …… | node 7 …… ]
  */
@@ -44,9 +44,9 @@ export class Gathered {
   }
 
   /**
-   * Makes the cloud that of these nodes. Those that are refused take no part.
+   * Changes the cloud to that of these nodes. Refused nodes take no part.
    *
-   * @throws HprError (as a rejection) as the clouds; nothing is left of this one then.
+   * @throws HprError (as a rejection) the errors of the clouds. Then this cloud is dropped.
    */
   async follow(nodes: readonly CloudNode[], refused: Refused): Promise<void> {
     const gone = this.#leave(nodes);
@@ -76,7 +76,7 @@ export class Gathered {
     return isDirection ? this.#cloud!.visibleFromDirection(from, view) : this.#cloud!.visibleFrom(from, view);
   }
 
-  /** What of these ascending indices is whose, as indices into the node's own points. */
+  /** Splits ascending indices of the cloud by node, as indices of the node's own points. */
   *split(indices: Uint32Array): Generator<[node: CloudNode, own: Uint32Array]> {
     let from = 0;
     for (const [node, { first, count, revision }] of this.#spans) {
@@ -90,12 +90,12 @@ export class Gathered {
     }
   }
 
-  /** Takes an answer's memory back, once it is split. */
+  /** Reuses the memory of an answer after it has been split. */
   recycle(answer: Visibility): void {
     this.#cloud?.recycle(answer);
   }
 
-  /** Gives the cloud back; the next one starts from nothing. */
+  /** Disposes of the cloud. The next one begins empty. */
   drop(): void {
     void this.#cloud?.dispose();
     this.#cloud = undefined;
@@ -121,7 +121,7 @@ export class Gathered {
     this.#cloud = cloud;
   }
 
-  /** Forgets nodes that are not there any more, or are others now: their indices. */
+  /** Forgets nodes that are gone or have changed, and returns the indices of their points. */
   #leave(nodes: readonly CloudNode[]): Uint32Array {
     const present = new Set(nodes);
     const left = [...this.#spans].filter(([node, { revision }]) => !present.has(node) || node.revision !== revision);
@@ -136,7 +136,7 @@ export class Gathered {
     return indices;
   }
 
-  /** The points of those that are new, which take the next indices. */
+  /** The points of new nodes, which take the next indices. */
   #read(nodes: readonly CloudNode[], refused: Refused): Float64Array {
     const parts: (Float32Array | Float64Array)[] = [];
     const begun = this.#length;

@@ -6,21 +6,21 @@ import { CloudNode, type Refused } from "./node.js";
 import type { NodesSettings } from "./options.js";
 import { Places } from "./place.js";
 
-/** The nodes that are there. Looked at every frame: where nothing changes, nothing is allocated. */
+/** The present nodes. The set is checked in every frame; without a change, nothing is allocated. */
 export class NodeSet {
   readonly #root: Object3D;
   readonly #settings: NodesSettings;
   readonly #refused: Refused;
   readonly #places: Places;
   readonly #nodes = new Map<Points, CloudNode>();
-  /** What had a filter already or could not be dimmed: the geometry and the material that it had. */
+  /** Points that had a filter already or could not be dimmed, with the geometry and the material that they had. */
   readonly #refusedPoints = new WeakMap<Points, { geometry: unknown; material: unknown }>();
   #enabled = true;
   #frame = 0;
   #seen = 0;
   #version = 0;
 
-  /** @param refused told of points that cannot be a node, or whose material cannot be dimmed any more. */
+  /** @param refused is told of points that cannot be a node, or whose material can no longer be dimmed. */
   constructor(root: Object3D, settings: NodesSettings, refused: Refused) {
     this.#root = root;
     this.#settings = settings;
@@ -33,7 +33,7 @@ export class NodeSet {
     return this.#version;
   }
 
-  /** Whether only what is visible of them is drawn. */
+  /** Whether only the visible points of the nodes are drawn. */
   get enabled(): boolean {
     return this.#enabled;
   }
@@ -43,7 +43,7 @@ export class NodeSet {
     for (const { display } of this.#nodes.values()) display.enabled = enabled;
   }
 
-  /** Those that can be asked, or that nobody knows of yet whether they can. */
+  /** The nodes that can be part of the cloud, and those that have not been checked yet. */
   present(): CloudNode[] {
     return [...this.#nodes.values()].filter(({ isRefused }) => !isRefused);
   }
@@ -52,7 +52,7 @@ export class NodeSet {
     return this.#nodes.get(node.points) === node;
   }
 
-  /** Does after the points what was done to them since the last frame. */
+  /** Copies the changes of the points since the last frame to their dimmed points. */
   follow(): void {
     if (!this.#settings.dim) {
       return;
@@ -66,10 +66,10 @@ export class NodeSet {
     }
   }
 
-  /** Notes which nodes are there now, and what has become of them. */
+  /** Notes which nodes are present now, and how they have changed. */
   takeUp(): void {
     const { nodes } = this.#settings;
-    // What it throws changes nothing.
+    // If this throws, nothing is changed.
     const given = nodes === undefined ? undefined : listed(nodes());
     this.#frame += 1;
     this.#places.next();
@@ -141,12 +141,12 @@ export class NodeSet {
   }
 }
 
-/** Asked of every object every frame: `in` would look through its prototypes. */
+/** This is called for every object in every frame, and `in` would search the prototypes. */
 function isPoints(object: Object3D): object is Points {
   return (object as Partial<Points>).isPoints === true;
 }
 
-/** Each once, however often it is listed. */
+/** Each node once, however often it is listed. */
 function listed(nodes: Iterable<Points>): Set<Points> {
   const points = new Set(nodes);
   for (const one of points) requirePoints(one);

@@ -10,28 +10,28 @@ import type { Place, Places } from "./place.js";
 
 const IDENTITY = new Matrix4();
 
-/** Told of points that cannot be a node. */
+/** Is told of points that cannot be a node. */
 export type Refused = (error: Error, points: Points) => void;
 
-/** One node: its points, where they are in the root's space, and what of them is drawn. */
+/** One node: its points, their place in the root's space, and the part of them that is drawn. */
 export class CloudNode {
   readonly points: Points;
   readonly display: Display;
-  /** In which frame it was there last. */
+  /** The last frame in which the node was present. */
   seen = -1;
-  /** Grows with every change of what it consists of. */
+  /** Grows with every change of the node's points. */
   revision = 1;
   box: Box | undefined;
   readonly #settings: NodesSettings;
   readonly #places: Places;
   readonly #place: Place;
   #placeVersion = -1;
-  /** What it was like when it was refused; it is not asked for until it changes. */
+  /** The state in which it was refused. It is not read again until this changes. */
   #refused: readonly unknown[] | undefined;
-  /** Whether its points were read, in its present revision. */
+  /** Whether its points were read in its present revision. */
   #isRead = false;
 
-  /** @throws HprError `option` if its geometry has a filter already, or its material cannot be dimmed. */
+  /** @throws HprError `option` if its geometry has a filter already, or if its material cannot be dimmed. */
   constructor(points: Points, places: Places, settings: NodesSettings) {
     requireUnfiltered(points.geometry);
     this.points = points;
@@ -45,7 +45,7 @@ export class CloudNode {
     return this.#refused !== undefined;
   }
 
-  /** Whether it has changed since it was read or refused; told once. */
+  /** Whether it has changed since it was read or refused. A change is told once. */
   noticeChange(): boolean {
     if (!this.#isRead || this.#isUnchanged()) {
       return false;
@@ -60,7 +60,7 @@ export class CloudNode {
   /**
    * The positions of its points in the root's space.
    *
-   * @throws HprError as `DrawnPoints.take`, and `non-finite`; it is refused then.
+   * @throws HprError the errors of `DrawnPoints.take`, and `non-finite`. Then the node is refused.
    */
   read(): Float32Array | Float64Array {
     this.#isRead = true;
@@ -93,12 +93,12 @@ export class CloudNode {
     return matrix.equals(IDENTITY) ? undefined : matrix.elements;
   }
 
-  /** What it may be refused for. */
+  /** The state that a refusal can depend on. */
   #state(): unknown[] {
     const geometry = this.points.geometry as Partial<Points["geometry"]> | undefined;
     const position = geometry?.attributes?.["position"];
     const version = typeof position === "object" && (position as unknown) !== null ? versionOf(position) : 0;
-    // Of another filter's geometry, index and draw range are no concern of this one.
+    // If the geometry has another filter, its index and draw range do not matter here.
     const isFree = !isFiltered(geometry);
     const { index, drawRange } = (isFree ? geometry : undefined) ?? {};
     return [geometry, position, version, isFree, index, index?.version, drawRange?.start, drawRange?.count];

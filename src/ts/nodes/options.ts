@@ -3,9 +3,9 @@ import type { Points } from "three";
 import { describe, HprError } from "../base/errors.js";
 import { type FilterSettings, type HiddenPointFilterOptions, readFilterOptions } from "../three/options.js";
 
-/** Those of a `HiddenPointFilter`, for all nodes as one cloud, and which nodes there are. */
+/** The options of a `HiddenPointFilter`, for all nodes as one cloud, and the choice of the nodes. */
 export interface HiddenPointNodesFilterOptions extends HiddenPointFilterOptions {
-  /** Which nodes there are now. Default: every `Points` below the root that is visible. */
+  /** Returns the present nodes. Default: every visible `Points` below the root. */
   nodes?: (() => Iterable<Points>) | undefined;
 }
 
@@ -16,7 +16,7 @@ export interface NodesSettings extends FilterSettings {
 export function readNodesOptions(options: HiddenPointNodesFilterOptions | undefined): NodesSettings {
   const { nodes, ...others } = options ?? {};
   if (nodes !== undefined && typeof nodes !== "function") {
-    throw new HprError("option", `nodes must be a function that tells the nodes, got ${describe(nodes)}`);
+    throw new HprError("option", `nodes must be a function that returns the nodes, got ${describe(nodes)}`);
   }
   const settings = readFilterOptions(options === undefined || typeof options === "object" ? others : options);
   return { ...settings, nodes };

@@ -1,27 +1,27 @@
 import { Matrix4, type Object3D } from "three";
 
 /**
- * Where an object is in the space of another one above it. Not by way of the world, whose
- * rounding would move points apart that are equal in two nodes.
+ * The place of an object in the space of another object above it. It is not computed through world
+ * coordinates: their rounding would separate points that are equal in two nodes.
  */
 export class Place {
   readonly object: Object3D;
   readonly matrix = new Matrix4();
-  /** Grows when the object moves, or whatever it is in. */
+  /** Grows when the object or one of its parents moves. */
   version = 0;
   frame = -1;
   parent: Object3D | null = null;
   above: Place | undefined;
   aboveVersion = 0;
   readonly #local = new Matrix4();
-  /** What the object's matrix was made of: position, quaternion, scale. */
+  /** The parts that the object's matrix was made of: position, quaternion, scale. */
   readonly #made = new Float64Array(10).fill(NaN);
 
   constructor(object: Object3D) {
     this.object = object;
   }
 
-  /** Whether the object is elsewhere in its parent than when it was asked last. */
+  /** Whether the object has moved in its parent since the last call. */
   isMoved(): boolean {
     const { object } = this;
     if (object.matrixAutoUpdate) {
@@ -44,10 +44,10 @@ export class Place {
     if (this.above !== undefined) this.matrix.premultiply(this.above.matrix);
   }
 
-  /** Composing a matrix takes longer than all the rest of a frame. */
+  /** Composing a matrix takes longer than all other work of a frame. */
   #isMadeOfTheSame(): boolean {
     const { position, quaternion, scale } = this.object;
-    // Older versions of three have none.
+    // Older versions of three have no pivot.
     const { pivot = null } = this.object as { pivot?: unknown };
     const made = this.#made;
     const isSame =
@@ -70,7 +70,7 @@ export class Place {
   }
 }
 
-/** The places of objects, each looked at once a frame, however many are in it. */
+/** The places of objects. Each object is checked once a frame, however many nodes are in it. */
 export class Places {
   readonly #root: Object3D;
   readonly #known = new WeakMap<Object3D, Place>();
@@ -80,7 +80,7 @@ export class Places {
     this.#root = root;
   }
 
-  /** Another frame: things may have moved. */
+  /** Begins another frame: objects may have moved. */
   next(): void {
     this.#frame += 1;
   }
@@ -94,7 +94,7 @@ export class Places {
     return place;
   }
 
-  /** What its version is now. */
+  /** The present version of a place. */
   versionOf(place: Place): number {
     const { object } = place;
     if (place.frame === this.#frame || object === this.#root) {
@@ -118,8 +118,8 @@ export class Places {
   }
 
   /**
-   * What an object's own matrix is relative to, unless that is the root. Octrees of potree-core
-   * (and what it is made of) nest their nodes, but draw each where it is in the octree.
+   * The object that another object's own matrix is relative to, unless it is the root. Octrees of
+   * potree-core (and their parts) nest their nodes, but draw each node relative to the octree.
    */
   #holderOf(object: Object3D): Object3D | undefined {
     for (let at = object.parent; at !== null; at = at.parent) {
