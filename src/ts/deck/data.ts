@@ -4,7 +4,7 @@ import { HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { isFloatArray } from "../query/positions.js";
 
-/** What deck.gl calls binary data: attributes instead of objects. */
+/** Data that deck.gl calls binary: attributes instead of objects. */
 export interface BinaryData {
   length: number;
   attributes: Record<string, unknown>;
@@ -24,7 +24,7 @@ export function isBinary(data: unknown): data is BinaryData {
   return typeof data === "object" && data !== null && "attributes" in data && "length" in data;
 }
 
-/** The positions of a layer's data, x, y, z one after another, however the data tells them. */
+/** The positions of a layer's data, x, y, z of one point after another, for both kinds of data. */
 export function positionsOf(data: unknown, getPosition: unknown): Float32Array | Float64Array {
   if (isBinary(data) && "getPosition" in data.attributes) {
     return fromAttribute(data.attributes["getPosition"] as BinaryAttribute | ArrayLike<number>, data.length);

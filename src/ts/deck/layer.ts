@@ -8,17 +8,17 @@ import type { Visibility } from "../cloud/visibility.js";
 import { isBinary, positionsOf } from "./data.js";
 import { Sight } from "./sight.js";
 
-/** Those of a `PointCloudLayer`, and from where its points are seen. */
+/** The properties of a `PointCloudLayer`, and the viewpoint. */
 export type VisiblePointCloudLayerProps<DataT = unknown> = PointCloudLayerProps<DataT> & {
   /**
-   * Where the points are seen from, x, y, z in the data's own coordinates. Default: where the
-   * view's camera is, or along its direction where that is orthographic, which needs
-   * Cartesian coordinates, and neither `modelMatrix` nor `coordinateOrigin`.
+   * The viewpoint: x, y, z in the data's own coordinates. Default: the place of the view's camera,
+   * or its direction if it is orthographic. The default needs Cartesian coordinates, and neither
+   * `modelMatrix` nor `coordinateOrigin`.
    */
   viewpoint?: readonly [number, number, number] | null;
   /** How each view is computed. */
   visibility?: VisibilityOptions;
-  /** Another answer is drawn. */
+  /** A new answer is drawn. */
   onVisible?: ((answer: { count: number; milliseconds: number }) => void) | null;
 };
 
@@ -29,14 +29,17 @@ interface Own {
   getPosition: unknown;
 }
 
-// Not an interface, which has no index signature.
+// This is not an interface, since an interface has no index signature.
 type State = {
   sight: Sight;
-  /** One number a point: 1 visible, 0 hidden. Undefined until there is an answer, then written anew by each. */
+  /**
+   * One number for each point: 1 visible, 0 hidden. Undefined before the first answer; each answer
+   * writes a new array.
+   */
   mask: Float32Array | undefined;
-  /** Counts the answers. */
+  /** The number of answers so far. */
   version: number;
-  /** The data with the mask as an attribute, where it is binary. */
+  /** The data with the mask as an attribute, if the data is binary. */
   data: unknown;
 };
 
@@ -47,10 +50,9 @@ const filter = new DataFilterExtension({ filterSize: 1 });
 const VISIBLE: [number, number] = [0.5, 1.5];
 
 /**
- * A deck.gl `PointCloudLayer` of which only the points are drawn, and picked, that can be seen
- * from the camera. The answer comes from a worker that all layers share; it reaches the
- * graphics card as the value that a `DataFilterExtension` filters by. Until there is one,
- * all points are drawn.
+ * A deck.gl `PointCloudLayer` that draws, and lets one pick, only the points that the camera sees.
+ * The answer comes from a worker that all layers share. A `DataFilterExtension` filters by it on
+ * the graphics card. Before the first answer, all points are drawn.
  *
  * ```js
  * new VisiblePointCloudLayer({
@@ -61,7 +63,7 @@ const VISIBLE: [number, number] = [0.5, 1.5];
  * });
  * ```
  *
- * What is refused is raised as any error of a layer (`onError`), as an `HprError`.
+ * Refusals are raised like any error of a layer (`onError`), as an `HprError`.
  */
 export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<VisiblePointCloudLayerProps<DataT>> {
   static override layerName = "VisiblePointCloudLayer";
@@ -88,7 +90,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     this.setState({ sight, mask: undefined, version: 0, data: undefined });
   }
 
-  /** Also when only the camera has moved. @internal */
+  /** Also called if only the camera has moved. @internal */
   override shouldUpdateState({ changeFlags }: Update): boolean {
     return changeFlags.somethingChanged;
   }
@@ -155,7 +157,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
   }
 }
 
-/** Of a camera whose space is the data's. */
+/** The viewpoint of a camera whose space is the data's. */
 function eyeOf(viewport: Viewport, props: object): { from: number[]; isDirection: boolean } {
   const { modelMatrix, coordinateOrigin } = props as { modelMatrix?: unknown; coordinateOrigin?: readonly number[] };
   const isElsewhere = coordinateOrigin?.some((x) => x !== 0) ?? false;

@@ -5,7 +5,7 @@ import type { VisibilityOptions } from "../query/view-options.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { WorkerPointCloud } from "../worker/client.js";
 
-/** Where a layer is seen from, or along which direction. */
+/** The viewpoint of a layer, or the direction that it is seen along. */
 export interface View {
   from: readonly number[];
   isDirection: boolean;
@@ -13,14 +13,14 @@ export interface View {
 }
 
 interface Listener {
-  /** The answer is recycled afterwards. */
+  /** After this call, the answer's memory is reused. */
   answer: (answer: Visibility, milliseconds: number) => void;
   error: (error: Error) => void;
 }
 
 type ReadPositions = () => Float32Array | Float64Array;
 
-/** The layer makes a lost cloud again at once. If that is lost, too, it waits for other data. */
+/** The layer makes a lost cloud again at once. If that cloud is lost, too, the layer waits for other data. */
 const ONCE: RecoveryTimes = { delays: [0], pause: Infinity, longPause: Infinity };
 
 /** A layer's cloud, in the worker that all layers share. */
@@ -29,19 +29,19 @@ export class Sight {
   readonly #views = new Newest<View>((a, b) => JSON.stringify(a) === JSON.stringify(b));
   #follower: Follower | undefined;
   #cloud: WorkerPointCloud | undefined;
-  /** What reads the positions, until it is called. */
+  /** Reads the positions. Undefined after it was called. */
   #unread: ReadPositions | undefined;
 
   constructor(tell: Listener) {
     this.#tell = tell;
   }
 
-  /** How many points there are. */
+  /** The number of points. */
   get length(): number {
     return this.#cloud?.length ?? 0;
   }
 
-  /** Throws what reading the positions throws. They are read again when the worker is lost. */
+  /** @throws the error of reading the positions. They are read again if the worker is lost. */
   setPositions(read: ReadPositions): void {
     this.dispose();
     const positions = read();
