@@ -5,22 +5,22 @@ import type { Points } from "three";
 import { HiddenPointFilter } from "../three/filter.js";
 import type { HiddenPointFilterOptions } from "../three/options.js";
 
-/** The options of a `HiddenPointFilter`, and what else it can be told and tells. */
+/** The options of a `HiddenPointFilter`, its state and its callbacks. */
 export interface UseHiddenPointFilterOptions extends HiddenPointFilterOptions {
-  /** While true, what is drawn stays, wherever the camera goes. Default false. */
+  /** While true, the picture of the points stays, wherever the camera goes. Default false. */
   frozen?: boolean | undefined;
   /** While false, all points are drawn. Default true. */
   enabled?: boolean | undefined;
-  /** Another answer is drawn: how many points are visible, and how long it took to get. */
+  /** A new answer is drawn: how many points are visible, and how many milliseconds the answer took. */
   onChange?: ((change: { count: number; milliseconds: number }) => void) | undefined;
-  /** What the points or a view are refused for. Without it, that is an unhandled rejection. */
+  /** The points or a view are refused. Without this callback, the error is an unhandled rejection. */
   onError?: ((error: Error) => void) | undefined;
 }
 
 /**
- * Draws only those points of a `<points>` that the canvas' camera sees, and lets pointer
- * events hit no others; see `HiddenPointFilter`. Asks before each frame whether the view
- * is a new one. With `frameloop="demand"`, a frame is requested for every answer.
+ * Draws only those points of a `<points>` that the canvas' camera sees, and lets pointer events hit
+ * only these; see `HiddenPointFilter`. Before each frame, it checks whether the view is new. With
+ * `frameloop="demand"`, each answer requests a frame.
  *
  * ```tsx
  * function Scan({ geometry }) {
@@ -30,11 +30,11 @@ export interface UseHiddenPointFilterOptions extends HiddenPointFilterOptions {
  * }
  * ```
  *
- * The filter is made anew when one of the options changes (`frozen`, `enabled` and the
- * callbacks are not among them) or the object that `ref` holds after a render.
+ * The filter is made again when one of the options changes, except `frozen`, `enabled` and the
+ * callbacks. It is also made again when `ref` holds another object after a render.
  *
- * @returns the filter; null as long as there are no points.
- * @throws HprError as the constructor of `HiddenPointFilter`, to the nearest error boundary.
+ * @returns the filter, or null while there are no points.
+ * @throws HprError the errors of `HiddenPointFilter`'s constructor, to the nearest error boundary.
  */
 export function useHiddenPointFilter(
   ref: RefObject<Points | null>,
@@ -48,7 +48,7 @@ export function useHiddenPointFilter(
   const callbacks = useRef({ onChange, onError });
   const isHeard = onError !== undefined;
 
-  // The ref has no way to say that it holds something else.
+  // A ref does not tell when it gets another object.
   useLayoutEffect(() => {
     setPoints(ref.current);
     callbacks.current = { onChange, onError };
@@ -72,14 +72,14 @@ export function useHiddenPointFilter(
       setFilter(null);
       invalidate();
     };
-    // Options that are written anew in every render are the same ones if they say the same.
+    // Options that each render writes as a new object are the same if they have the same content.
   }, [points, dimMaterial, JSON.stringify(inversion), JSON.stringify(plain), isHeard, invalidate]);
 
   useEffect(() => {
     if (filter !== null) {
       filter.frozen = frozen;
       filter.enabled = enabled;
-      // What is wanted now is asked for in the next frame.
+      // The next frame asks with the new options.
       invalidate();
     }
   }, [filter, frozen, enabled, invalidate]);

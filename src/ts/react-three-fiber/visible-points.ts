@@ -4,14 +4,15 @@ import type { Points } from "three";
 
 import { useHiddenPointFilter, type UseHiddenPointFilterOptions } from "./use-hidden-point-filter.js";
 
-/** Those of `<points>`, and how they are filtered. */
+/** The properties of `<points>`, and how they are filtered. */
 export type VisiblePointsProps = ThreeElements["points"] & {
   /** See {@link UseHiddenPointFilterOptions}. */
   filter?: UseHiddenPointFilterOptions | undefined;
 };
 
 /**
- * A `<points>` of which only what the canvas' camera sees is drawn, and hit by pointer events.
+ * A `<points>` that draws only the points that the canvas' camera sees, and whose other points
+ * pointer events do not hit.
  *
  * ```tsx
  * <VisiblePoints geometry={geometry} filter={{ exponent: 3, mode: "dim" }}>
@@ -22,7 +23,7 @@ export type VisiblePointsProps = ThreeElements["points"] & {
 export function VisiblePoints({ filter, ref, ...props }: VisiblePointsProps): ReactElement {
   const own = useRef<Points>(null);
   useHiddenPointFilter(own, filter);
-  // Theirs is a type of its own for what is the same object.
+  // React Three Fiber has its own type for the same object.
   useImperativeHandle(ref as Ref<unknown>, () => own.current);
   return createElement("points", { ...props, ref: own });
 }
