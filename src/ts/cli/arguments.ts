@@ -12,18 +12,19 @@ Writes those points of a file that can be seen from a viewpoint.
   --from X,Y,Z       the viewpoint, in the coordinates of the file
   -o, --output OUT   the file to write, in the format of IN; - is standard output
   --exponent E       R is the farthest distance times 10^E (0 or more); the larger, the
-                     more points; auto, the default, chooses it by the points' spacing
+                     more points; auto, the default, derives it from the points' spacing
   --columns X,Y,Z    which columns of IN are x, y and z: their names or numbers from 1
   -h, --help         shows this
   --version          shows the version
 
-Without --columns, x, y and z are the columns that IN calls so (or easting, northing and
-height), or the first three of a file without names; the columns are said in the end.
-A file that breaks the rules of its format is refused, with the number of the line.
+Without --columns, the columns named x, y and z (or easting, northing and height) are
+read. In a file without names, the first three columns are read. At the end, the command
+says which columns it has read. A file that breaks the rules of its format is refused,
+with the number of the line.
 
-Everything a file says about a point (color, normal, any property) is copied as it
-is. Of a PLY file only the vertices are kept; compressed PCD data is written
-uncompressed. Points without a position (NaN) are never visible.
+All values of a point (color, normal, any property) are copied unchanged. Of a PLY file,
+only the vertices are kept. Compressed PCD data is written uncompressed. Points without a
+position (NaN) are never visible.
 
 Exit codes: 0 done, 1 a file could not be read, written or understood, 2 wrong usage
 `;
@@ -33,9 +34,9 @@ export interface Settings {
   /** "-" for standard output. */
   output: string;
   viewpoint: number[];
-  /** Undefined for the automatic one. */
+  /** Undefined for the automatic exponent. */
   exponent: number | undefined;
-  /** Undefined for those that the file names. */
+  /** Undefined for the columns that the file itself names. */
   columns: ChosenColumns | undefined;
 }
 
@@ -54,7 +55,7 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
   const [is, wanted] = [input, values.output].map((name) => extname(name).toLowerCase());
   if (!Object.hasOwn(FORMATS, is!)) throw new UsageProblem(`${input} is none of ${Object.keys(FORMATS).join(", ")}`);
   if (values.output !== "-" && FORMATS[wanted!] !== FORMATS[is!]) {
-    throw new UsageProblem(`${values.output} has to be a ${is!} file, as ${input} is: formats are not converted`);
+    throw new UsageProblem(`${values.output} must be a ${is!} file like ${input}: formats are not converted`);
   }
   return {
     input,
@@ -80,12 +81,12 @@ function parsed(args: string[]) {
       },
     });
   } catch (error) {
-    // The lines below the first one are about how such words are written in general.
+    // The lines after the first one explain how such arguments are written in general.
     throw new UsageProblem((error as Error).message.split("\n", 1)[0]);
   }
 }
 
-/** `--from -1,2,3` is meant as `--from=-1,2,3`, which parseArgs insists on. */
+/** parseArgs insists on `--from=-1,2,3`, so `--from -1,2,3` is changed to that. */
 function joinedToNegative(args: string[]) {
   const isValue = (i: number) => /^--(from|exponent)$/.test(args[i - 1] ?? "") && /^-[\d.]/.test(args[i] ?? "");
   return (word: string, i: number): string[] => {

@@ -9,9 +9,9 @@ const CHUNK = 1 << 24;
 /** A file that cannot be written. */
 export class OutputProblem extends Error {}
 
-/** A whole file; `onProgress` hears what share of it has been read. */
+/** Reads a whole file. `onProgress` gets the share that has been read. */
 export async function readWhole(name: string, onProgress: (share: number) => void): Promise<Buffer> {
-  // To open a FIFO would otherwise wait until another program writes to it.
+  // Otherwise, opening a FIFO would wait until another program writes to it.
   const handle = await open(name, constants.O_RDONLY | nonBlocking());
   try {
     const stats = await handle.stat();
@@ -45,12 +45,13 @@ function room(size: number): Buffer {
 }
 
 /**
- * Writes a file; "-" is standard output. A FIFO or a device is written to. A regular file is written beside its place first,
- * so that a failure leaves no half of it. A link is followed, and who may read a file stays.
+ * Writes a file; "-" is standard output. A FIFO or a device is written to directly. A regular file
+ * is first written beside its place, so that a failure leaves no half of it. A link is followed,
+ * and the permissions of the file stay.
  */
 export async function writeWhole(name: string, parts: Iterable<Uint8Array>): Promise<void> {
   if (name === "-") {
-    // An error comes a second time as an event, which ends the process if nobody listens.
+    // An error also comes as an event, which ends the process if nobody listens to it.
     process.stdout.on("error", () => undefined);
     for (const chunk of gathered(parts)) await print(chunk);
     return;
@@ -62,7 +63,7 @@ export async function writeWhole(name: string, parts: Iterable<Uint8Array>): Pro
   }
 }
 
-/** Without the name of the unfinished file, which the user has never seen. */
+/** The message of an error without the name of the unfinished file, which the user has never seen. */
 function reason(error: unknown): string {
   const { message } = error as Error;
   return /^\w+: ([^,]*),/.exec(message)?.[1] ?? message;
@@ -82,7 +83,7 @@ async function writeNamed(name: string, parts: Iterable<Uint8Array>): Promise<vo
   }
 }
 
-/** Where a file is, or will be: behind all links, also those to a file that is not there yet. */
+/** The place of a file that exists, or that will be made: behind all links, also behind a link to a missing file. */
 async function linkedFrom(name: string): Promise<string> {
   let place = name;
   for (let links = 0; links < 40; links++) {
@@ -96,7 +97,7 @@ async function linkedFrom(name: string): Promise<string> {
 }
 
 async function writeInto(place: string, parts: Iterable<Uint8Array>, isFifo: boolean): Promise<void> {
-  // To open a FIFO without a reader would wait for one, perhaps for ever.
+  // Otherwise, opening a FIFO without a reader would wait for a reader, perhaps for ever.
   const probe = isFifo ? await open(place, constants.O_WRONLY | nonBlocking()).catch(noReader) : undefined;
   try {
     const handle = await open(place, constants.O_WRONLY);
@@ -129,7 +130,10 @@ async function replace(place: string, parts: Iterable<Uint8Array>, mode: number 
   }
 }
 
-/** Cleans up when a signal ends the process, which then ends as without this. Gives back how to stop listening. */
+/**
+ * Cleans up when a signal ends the process, and then lets the signal end it as usual. Returns a
+ * function that stops the listening.
+ */
 function onSignals(cleanUp: () => void): () => void {
   const signals = ["SIGINT", "SIGTERM", "SIGHUP"] as const;
   const end = (signal: NodeJS.Signals) => {
@@ -157,7 +161,7 @@ async function writeAll(handle: FileHandle, parts: Iterable<Uint8Array>): Promis
   for (const chunk of gathered(parts)) await handle.writeFile(chunk);
 }
 
-/** Few large pieces instead of many small ones. */
+/** Joins small pieces into few large ones. */
 function* gathered(parts: Iterable<Uint8Array>): Generator<Buffer> {
   let waiting: Uint8Array[] = [];
   let bytes = 0;

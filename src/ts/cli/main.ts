@@ -58,7 +58,7 @@ async function filter(settings: Settings, progress: Progress): Promise<string> {
   return [`${visible.length} of ${length} points are visible`, ...notes].join("; ");
 }
 
-/** In workers: this thread is free to draw, and large clouds take several cores. */
+/** The cloud is in workers, so this thread can draw the progress, and large clouds use several cores. */
 async function ask({ positions }: PointFile, viewpoint: number[], exponent: number | undefined, progress: Progress) {
   const onProgress = (share: number) => {
     progress.show(0.4 + 0.3 * share, "preparing");
@@ -77,7 +77,7 @@ function reason(input: string, error: unknown): string {
   if (error instanceof FormatProblem) return `${input} cannot be read: ${error.message}`;
   if (error instanceof HprError) return `${error.message} (${error.code})`;
   if (error instanceof OutputProblem) return error.message;
-  // A message of the system names the file itself.
+  // A message of the system contains the file's name already.
   return error instanceof Error ? error.message : String(error);
 }
 

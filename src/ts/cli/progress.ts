@@ -1,4 +1,4 @@
-/** Where the bar is drawn: a terminal, or nothing at all. */
+/** The place where the bar is drawn. If it is not a terminal, nothing is drawn. */
 export interface Screen {
   isTTY?: boolean;
   columns?: number;
@@ -7,7 +7,7 @@ export interface Screen {
 
 const WIDTH = 24;
 
-/** A bar on a terminal, gone when it is done; on anything else there is none. */
+/** A progress bar on a terminal. It disappears when the work is done. Without a terminal, there is no bar. */
 export class Progress {
   readonly #screen: Screen | undefined;
   readonly #started = Date.now();
@@ -19,14 +19,14 @@ export class Progress {
     this.#screen = screen.isTTY === true ? screen : undefined;
   }
 
-  /** @param share of the whole that is done, from 0 to 1 */
+  /** @param share the share of the work that is done, from 0 to 1 */
   show(share: number, doing: string): void {
     if (this.#screen === undefined) return;
     const percent = Math.floor(100 * share);
     if (percent === Math.floor(100 * this.#share) && doing === this.#doing) return;
     [this.#share, this.#doing] = [share, doing];
     this.#draw();
-    // The seconds go on where the share stands still.
+    // The seconds go on counting while the share does not change.
     this.#timer ??= setInterval(() => {
       this.#draw();
     }, 500).unref();
@@ -44,7 +44,7 @@ export class Progress {
     const percent = `${Math.floor(100 * this.#share)} %`.padStart(5);
     const seconds = ((Date.now() - this.#started) / 1000).toFixed(0);
     const line = `${bar} ${percent}  ${this.#doing}, ${seconds} s`;
-    // Some terminals do not know how wide they are and say 0.
+    // Some terminals do not know their width and report 0.
     const columns = this.#screen?.columns ?? 0;
     this.#screen?.write(`\r${line.slice(0, (columns > 0 ? columns : 80) - 1)}\x1b[K`);
   }

@@ -4,7 +4,7 @@ import { readPly } from "./ply.js";
 import type { PointFile } from "./point-file.js";
 import { readTable } from "./table.js";
 
-/** What is read, by the end of a file's name. */
+/** The formats that can be read, by the ending of a file's name. */
 export const FORMATS: Record<string, (file: Buffer, chosen?: ChosenColumns) => PointFile> = {
   ".ply": readPly,
   ".pcd": readPcd,

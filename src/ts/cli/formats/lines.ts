@@ -4,7 +4,7 @@ import type { Records } from "./point-file.js";
 
 const [LINE_FEED, RETURN] = [0x0a, 0x0d];
 
-/** The lines from a place on, whatever they end with. */
+/** The lines from a place on, with any kind of line end. */
 export function* linesOf(file: Buffer, from = 0, firstNumber = 1): Generator<Line> {
   let start = from;
   let [feed, back] = [-1, -1];
@@ -25,7 +25,7 @@ function place(file: Buffer, byte: number, from: number): number {
   return found < 0 ? Infinity : found;
 }
 
-/** Collects points that are one line each. */
+/** Collects points that take one line each. */
 export class LinePoints {
   readonly #file: Buffer;
   readonly #numbers = new Numbers();

@@ -1,6 +1,6 @@
 import { FormatProblem } from "../../formats/problem.js";
 
-/** Numbers one after another, as many as memory holds: an array ends the process at some 110 million. */
+/** A growing list of numbers. A plain array ends the process at some 110 million numbers. */
 export class Numbers {
   #room = new Float64Array(1024);
   #length = 0;
@@ -18,7 +18,7 @@ export class Numbers {
     this.#room[this.#length++] = value;
   }
 
-  /** All of them, in the memory that `push` writes to. */
+  /** All numbers, without a copy. */
   all(): Float64Array<ArrayBuffer> {
     return this.#room.subarray(0, this.#length);
   }

@@ -6,7 +6,7 @@ import { checkRest } from "../../formats/text.js";
 import { fieldsSaid, type PointFile } from "./point-file.js";
 import { endOfRows, type Points, readBinaryRows, readTextRows } from "./rows.js";
 
-/** PCD, in text, binary and compressed; what was compressed is written as plain binary. */
+/** PCD: text, binary and compressed. A compressed file is written as plain binary. */
 export function readPcd(file: Buffer, chosen?: ChosenColumns): PointFile {
   const header = readPcdHeader(file, chosen);
   const { data, points, axes, lines, end } = header;
@@ -46,7 +46,7 @@ function readBinary(file: Buffer, { points, axes, end }: PcdHeader): Points {
   return read;
 }
 
-/** Row by row, of data that holds all values of one field before those of the next. */
+/** Puts data in rows that holds all values of one field before the values of the next. */
 function interleaved(columns: Uint8Array, { fields, count }: Group): Uint8Array {
   const size = rowBytes(fields);
   const rows = new Uint8Array(columns.length);

@@ -1,4 +1,4 @@
-// Rows of which a header tells, from a file that is in memory as a whole.
+// Reads rows that a header describes, from a file that is completely in memory.
 import { checkByteOrder } from "../../formats/byte-order.js";
 import { fitSingle, numberReader } from "../../formats/numbers.js";
 import { endsEarly } from "../../formats/problem.js";
@@ -9,7 +9,7 @@ import { equalRecords, type PointFile } from "./point-file.js";
 
 export type Points = Pick<PointFile, "positions" | "records">;
 
-/** Reads rows in text: the lines from `start` on, which is the line of this number. */
+/** Reads rows in text. `start` is the place of the first line, `firstNumber` its number. */
 export function readTextRows(
   file: Buffer,
   { start, firstNumber }: { start: number; firstNumber: number },
@@ -40,7 +40,7 @@ export function readBinaryRows(
   const { name, count, fields } = points;
   const view = viewOf(bytes);
   const size = rowBytes(fields);
-  // Before there is any room made for so many: a header may promise anything.
+  // This check comes before memory is allocated, because a header may promise any number of rows.
   const found = Math.floor((bytes.length - start) / size);
   if (found < count) throw endsEarly(found, count, name);
   const positions = roomFor(points, axes);
@@ -66,7 +66,7 @@ export function readBinaryRows(
   return { positions, records: equalRecords(bytes, start, size) };
 }
 
-/** Where the rows of a group end. */
+/** The place where the rows of a group end. */
 export function endOfRows(
   bytes: Uint8Array,
   start: number,

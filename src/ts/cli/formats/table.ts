@@ -5,7 +5,7 @@ import { type Line, looksBinary, trimmed } from "../../formats/text.js";
 import { LinePoints, linesOf } from "./lines.js";
 import type { PointFile } from "./point-file.js";
 
-/** XYZ, TXT, CSV and PTS: one point a line. The lines above the first point are kept. */
+/** XYZ, TXT, CSV and PTS: one point per line. The lines above the first point are kept. */
 export function readTable(file: Buffer, chosen?: ChosenColumns): PointFile {
   checkEncoding(file.subarray(0, 4096));
   const head: Line[] = [];
@@ -29,10 +29,10 @@ export function readTable(file: Buffer, chosen?: ChosenColumns): PointFile {
 function checkEncoding(start: Uint8Array): void {
   const mark = 256 * (start[0] ?? 0) + (start[1] ?? 0);
   if (mark === 0xfffe || mark === 0xfeff) throw new FormatProblem("it is text in UTF-16; save it in UTF-8");
-  if (looksBinary(start)) throw new FormatProblem("it is not a text");
+  if (looksBinary(start)) throw new FormatProblem("it is not text");
 }
 
-/** A line of the head; one with nothing but the number of points gets the new one. */
+/** A line of the head. A line that holds only the number of points gets the new number. */
 function headLine(file: Buffer, { text, start, end }: Line, count: number): Uint8Array {
   const number = trimmed(text);
   if (!/^\d+$/.test(number)) return file.subarray(start, end);
