@@ -172,11 +172,11 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
   [
     "comma.ply",
     text(new TextDecoder().decode(asciiPly([0.5, 1.5, 2.5])).replace(/(\d)\.(5)/g, "$1,$2")),
-    /line 8 is not a point, its x is no number/,
+    /line 8 is not a point, its x is not a number/,
   ],
   ["first.xyz", text(`nan nan nan\n${lines(near, " ")}`), /has 1 of 601 points without a position/],
   ["short.obj", text("v 1 2 3\nv 4 5\n"), /line 2 has 2 values, and a vertex has 3, 4, 6 or 7: "v 4 5"/],
-  ["stumble.csv", text("x,y,z\n1,2,3\n4,five,6\n"), /line 3 is not a point, its column 2 is no number: "4,five,6"/],
+  ["stumble.csv", text("x,y,z\n1,2,3\n4,five,6\n"), /line 3 is not a point, its column 2 is not a number: "4,five,6"/],
   ["cube.obj", text("# no vertices\nf 1 2 3\n"), /holds no points/],
   ["nan.xyz", text(nan), /has 1 of 601 points without a position/],
   ["nan.ply", asciiPly([...near, 0, NaN, 0]), /has 1 of 601 points without a position/],

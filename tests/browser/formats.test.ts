@@ -231,7 +231,7 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
   [
     "swapped.ply",
     both(binaryPly(near, "float", true).slice(0, -12 * COUNT), binaryPly(near, "float", false).slice(-12 * COUNT)),
-    /its numbers are big-endian, and its header says that they are not/,
+    /its numbers are big-endian, but its header says the opposite/,
   ],
   [
     "swapped.pcd",

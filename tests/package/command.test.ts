@@ -242,7 +242,7 @@ describe("missing points, wrong files and wrong usage", () => {
     ["short-ascii.ply", /after 1 of the 5 vertices/, bytes(plyHeader("ascii", 5), "1 2 3 4 5\n")],
     [
       "words.ply",
-      /line 11 is not a point, its y is no number: "1 2 three 4 5"/,
+      /line 11 is not a point, its y is not a number: "1 2 three 4 5"/,
       bytes(plyHeader("ascii", 1), "1 2 three 4 5\n"),
     ],
     ["other.ply", /begin/, "solid cube\n"],
@@ -258,7 +258,7 @@ describe("missing points, wrong files and wrong usage", () => {
     ["negative.ply", /length of a list is -1/, bytes(listed("binary_little_endian", "char"), Buffer.alloc(13, 255))],
     [
       "lengthless.ply",
-      /counts the values of a list in a type that is not whole/,
+      /counts the values of a list in a type that is not an integer/,
       bytes(listed("binary_little_endian", "float"), Buffer.alloc(16, 255)),
     ],
     ["huge.ply", /after 0 of the 4000000000/, bytes(plyHeader("binary_little_endian", 4e9))],

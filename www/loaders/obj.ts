@@ -29,7 +29,7 @@ export async function readObj(reading: Reading, encoding: string): Promise<Loade
         throw lineProblem(number, `has ${words.length - 1} values, and a vertex has 3, 4, 6 or 7`, line);
       const [x, y, z] = words.slice(1, 4).map(numberIn);
       if (x === undefined || y === undefined || z === undefined)
-        throw lineProblem(number, "is not a point, a value is no number", line);
+        throw lineProblem(number, "is not a point, a value is not a number", line);
       if (!builder.takes()) continue;
       const i = builder.put(x, y, z);
       // An OBJ file may color some vertices and not others: NaN there, and no color for the whole.

@@ -2,10 +2,13 @@ import { isWhole, numberReader } from "./numbers.js";
 import { FormatProblem } from "./problem.js";
 import { type Axes, type Field, hasLists, rowBytes } from "./rows.js";
 
-/** Rows that are looked at, at most. */
+/** The largest number of rows that are checked. */
 export const ORDER_SAMPLE = 1000;
 
-/** Refuses rows in the wrong order of bytes: read so, few of their numbers are ones that anybody measures. */
+/**
+ * Refuses rows in the wrong byte order: most of their numbers would be far larger or smaller than
+ * any measured ones.
+ */
 export function checkByteOrder(rows: DataView, fields: readonly Field[], axes: Axes, littleEndian: boolean): void {
   if (hasLists(fields)) return;
   const size = rowBytes(fields);
@@ -20,7 +23,7 @@ export function checkByteOrder(rows: DataView, fields: readonly Field[], axes: A
   };
   if (count === 0 || odd(littleEndian) < 0.3 || odd(!littleEndian) > 0.01) return;
   const other = littleEndian ? "big" : "little";
-  throw new FormatProblem(`its numbers are ${other}-endian, and its header says that they are not`);
+  throw new FormatProblem(`its numbers are ${other}-endian, but its header says the opposite`);
 }
 
 function isOdd(value: number): boolean {

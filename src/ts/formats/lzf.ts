@@ -1,8 +1,8 @@
 import { FormatProblem } from "./problem.js";
 
-/** Unpacks LZF, with which PCD files are compressed: literal runs, and copies from up to 8 kB back. */
+/** Unpacks LZF, the compression of PCD files: literal runs, and copies from up to 8 kB back. */
 export function unpackLzf(packed: Uint8Array, length: number): Uint8Array<ArrayBuffer> {
-  // Three bytes stand for 264 at most.
+  // Three bytes unpack to 264 bytes at most.
   if (length > 88 * packed.length) throw damaged();
   const unpacked = new Uint8Array(length);
   let [from, to] = [0, 0];
@@ -20,7 +20,7 @@ export function unpackLzf(packed: Uint8Array, length: number): Uint8Array<ArrayB
     if (count === 9) count += packed[from++] ?? NaN;
     const back = ((control & 31) << 8) + (packed[from++] ?? NaN) + 1;
     if (!(back <= to && to + count <= length)) throw damaged();
-    // One by one: a copy may repeat bytes that it has just written.
+    // Bytes are copied one by one, because a copy may repeat bytes that it has just written.
     for (let i = 0; i < count; i++, to++) unpacked[to] = unpacked[to - back]!;
   }
   if (to !== length) throw damaged();

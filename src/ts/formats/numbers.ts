@@ -2,7 +2,7 @@
 export type NumberType =
   "int8" | "uint8" | "int16" | "uint16" | "int32" | "uint32" | "int64" | "uint64" | "float32" | "float64";
 
-/** Reads one number of a row that begins at `at`. */
+/** Reads one number of a row. `at` is the beginning of the row. */
 export type NumberReader = (view: DataView, at: number) => number;
 
 export function bytesOf(type: NumberType): number {
@@ -18,7 +18,7 @@ export function fitSingle(types: readonly NumberType[]): boolean {
   return types.every((type) => type === "float32" || bytesOf(type) <= 2);
 }
 
-/** @param offset of the number in its row */
+/** @param offset the place of the number in its row, in bytes */
 export function numberReader(type: NumberType, offset: number, littleEndian: boolean): NumberReader {
   switch (type) {
     case "int8": return (view, at) => view.getInt8(at + offset);
@@ -35,10 +35,10 @@ export function numberReader(type: NumberType, offset: number, littleEndian: boo
 }
 
 const DECIMAL = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
-/** Also as some C libraries write them: nan(ind), 1.#QNAN, -1.#INF. */
+/** This includes the words of some C libraries: nan(ind), 1.#QNAN, -1.#INF. */
 const NOT_FINITE = /^[-+]?(nan(\(\w*\))?|inf|infinity|1\.#(inf|ind|qnan|snan)0*)$/i;
 
-/** A decimal number, or NaN for a word such as "nan" or "inf"; undefined for any other word, "0x10" among them. */
+/** A decimal number, or NaN for a word such as "nan" or "inf". Undefined for any other word, for instance "0x10". */
 export function numberIn(word: string): number | undefined {
   if (DECIMAL.test(word)) {
     const value = Number(word);
@@ -47,13 +47,13 @@ export function numberIn(word: string): number | undefined {
   return NOT_FINITE.test(word) ? NaN : undefined;
 }
 
-/** A count in a header: digits alone. */
+/** A count in a header. It has only digits. */
 export function countIn(word: string | undefined): number | undefined {
   const count = Number(word);
   return word !== undefined && /^\d+$/.test(word) && Number.isSafeInteger(count) ? count : undefined;
 }
 
-/** Whether a text may give this number for one of this type. */
+/** Whether this number is in the range of a type. */
 export function fitsType(value: number, type: NumberType): boolean {
   if (!isWhole(type)) return true;
   const bits = 8 * bytesOf(type);

@@ -5,7 +5,7 @@ import { unpackLzf } from "./lzf.js";
 import { type Axes, type Field, type Group, rowBytes } from "./rows.js";
 import { checkRest, headerLines, type Line, wordsOf } from "./text.js";
 
-/** The header of a PCD file has to end within so many bytes. */
+/** The largest size of a PCD header in bytes. */
 export const LONGEST_PCD_HEADER = 1 << 16;
 
 export interface PcdHeader {
@@ -14,17 +14,17 @@ export interface PcdHeader {
   axes: Axes;
   /** 1 unless the points are an image. */
   height: number;
-  /** Where it was taken from, if the header says so. */
+  /** The place that it was taken from, if the header has it. */
   viewpoint: readonly [number, number, number] | undefined;
   lines: readonly Line[];
-  /** Where the header ends, in bytes. */
+  /** The end of the header, in bytes. */
   end: number;
 }
 
 const KEYWORDS = ["VERSION", "FIELDS", "SIZE", "TYPE", "COUNT", "WIDTH", "HEIGHT", "VIEWPOINT", "POINTS", "DATA"];
 const KINDS: Record<string, string> = { F: "float", I: "int", U: "uint" };
 
-/** A line of the header by its keyword. */
+/** The lines of the header by their keywords. */
 type Entries = ReadonlyMap<string, Line & { words: readonly string[] }>;
 
 /** @param start the file's bytes, or the first LONGEST_PCD_HEADER of them */
@@ -36,9 +36,9 @@ export function readPcdHeader(start: Uint8Array, chosen?: ChosenColumns): PcdHea
     lines.push(line);
     if (text === "" || text.startsWith("#")) continue;
     const [keyword, ...words] = wordsOf(text);
-    // An old name.
+    // An old name of FIELDS.
     const known = keyword!.toUpperCase().replace(/^COLUMNS$/, "FIELDS");
-    if (!KEYWORDS.includes(known)) throw lineProblem(number, "is no line of a PCD header", text);
+    if (!KEYWORDS.includes(known)) throw lineProblem(number, "is not a line of a PCD header", text);
     if (entries.has(known)) throw lineProblem(number, "stands in the PCD header a second time", text);
     entries.set(known, { ...line, words });
     if (known !== "DATA") continue;
@@ -64,7 +64,7 @@ function fieldsIn(entries: Entries): Field[] {
     return words;
   });
   return names.map((name, i) => {
-    // Several fields called _ are room between others.
+    // Fields called _ are padding between other fields, so there may be several.
     if (name !== "_" && names.indexOf(name) < i)
       throw lineProblem(entry(entries, "FIELDS").number, `names ${name} twice`);
     const [size, count] = [countIn(sizes![i]), countIn(counts![i])];
@@ -96,7 +96,7 @@ function countsIn(entries: Entries): { count: number; height: number } {
     const found = entries.get(keyword);
     if (found === undefined) return undefined;
     const count = found.words.length === 1 ? countIn(found.words[0]) : undefined;
-    if (count === undefined) throw lineProblem(found.number, "is no number of points", found.text);
+    if (count === undefined) throw lineProblem(found.number, "is not a number of points", found.text);
     return count;
   });
   const product = width === undefined ? undefined : width * (height ?? 1);

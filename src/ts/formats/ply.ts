@@ -4,7 +4,7 @@ import { FormatProblem, lineProblem } from "./problem.js";
 import type { Axes, Field, Group } from "./rows.js";
 import { headerLines, type Line, wordsOf } from "./text.js";
 
-/** The header of a PLY file has to end within so many bytes. */
+/** The largest size of a PLY header in bytes. */
 export const LONGEST_PLY_HEADER = 1 << 20;
 
 export interface PlyHeader {
@@ -12,9 +12,9 @@ export interface PlyHeader {
   elements: readonly Group[];
   vertices: Group;
   axes: Axes;
-  /** Its lines; those about an element carry its name. */
+  /** The lines of the header. Lines about an element carry its name. */
   lines: readonly (Line & { element?: string })[];
-  /** Where the header ends, in bytes. */
+  /** The end of the header, in bytes. */
   end: number;
 }
 
@@ -38,7 +38,7 @@ export function readPlyHeader(start: Uint8Array, chosen?: ChosenColumns): PlyHea
     const { text, number } = line;
     const [keyword = "", ...words] = wordsOf(text);
     if (number === 1) {
-      if (text !== "ply") throw new FormatProblem("it does not begin as a PLY file does");
+      if (text !== "ply") throw new FormatProblem("it does not begin like a PLY file");
     } else if (keyword === "format") {
       if (format !== undefined) throw lineProblem(number, "gives the PLY format a second time", text);
       format = formatIn(words, line);
@@ -49,7 +49,7 @@ export function readPlyHeader(start: Uint8Array, chosen?: ChosenColumns): PlyHea
       if (element === undefined) throw lineProblem(number, "is a property of no element", text);
       element.fields.push(propertyIn(words, line, element));
     } else if (keyword !== "" && keyword !== "comment" && keyword !== "obj_info" && text !== "end_header") {
-      throw lineProblem(number, "is no line of a PLY header", text);
+      throw lineProblem(number, "is not a line of a PLY header", text);
     }
     const element = keyword === "element" || keyword === "property" ? elements.at(-1)!.name : undefined;
     lines.push({ ...line, ...(element === undefined ? {} : { element }) });
@@ -74,7 +74,7 @@ function formatIn([format, version, ...more]: string[], { text, number }: Line):
 function elementIn([name, written, ...more]: string[], { text, number }: Line, before: readonly Element[]): Element {
   const count = countIn(written);
   if (name === undefined || count === undefined || more.length > 0)
-    throw lineProblem(number, "does not say how many there are of an element", text);
+    throw lineProblem(number, "does not give the number of an element", text);
   if (before.some((element) => element.name === name))
     throw lineProblem(number, "names an element a second time", text);
   return { name, count, fields: [] };
@@ -88,7 +88,7 @@ function propertyIn(words: string[], { text, number }: Line, { fields }: Element
     throw lineProblem(number, "is a property of unknown type", text);
   if (name === undefined || more.length > 0) throw lineProblem(number, "does not name one property", text);
   if (length !== undefined && !isWhole(length))
-    throw lineProblem(number, "counts the values of a list in a type that is not whole", text);
+    throw lineProblem(number, "counts the values of a list in a type that is not an integer", text);
   if (fields.some((field) => field.name === name)) throw lineProblem(number, "names a property a second time", text);
   return { name, type, count: 1, ...(length === undefined ? {} : { length }) };
 }

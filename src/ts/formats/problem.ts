@@ -1,27 +1,27 @@
-/** A file that breaks the rules of its format. The message goes on from "FILE cannot be read: ". */
+/** An error for a file that breaks the rules of its format. The message follows "FILE cannot be read: ". */
 export class FormatProblem extends Error {
   override readonly name = "FormatProblem";
 }
 
 const LONGEST_QUOTE = 60;
 
-/** A line of a file for a message: not all of it, and nothing that a terminal would take for a command. */
+/** A line of a file for a message. It is shortened, and has no characters that a terminal takes for a command. */
 export function quoted(text: string): string {
   const short = text.length > LONGEST_QUOTE ? `${text.slice(0, LONGEST_QUOTE)}…` : text;
   return `"${short.replace(/[\u0000-\u001f\u007f-\u009f]/g, "?")}"`;
 }
 
-/** @param says for example "has 2 values, and its header promises 3" */
+/** @param says what is wrong, for example "has 2 values, and its header promises 3" */
 export function lineProblem(line: number, says: string, text?: string): FormatProblem {
   return new FormatProblem(`line ${line} ${says}${text === undefined ? "" : `: ${quoted(text)}`}`);
 }
 
-/** @param name of the rows: "points", or the name of a PLY element */
+/** @param name the name of the rows: "points", or the name of a PLY element */
 export function endsEarly(found: number, count: number, name: string): FormatProblem {
   return new FormatProblem(`it ends after ${found} of the ${count} ${several(name)} that its header promises`);
 }
 
-/** What the rows are called in a sentence. */
+/** The name of the rows in a sentence. */
 export function several(name: string): string {
   return { points: "points", vertex: "vertices", face: "faces" }[name] ?? `"${name}" elements`;
 }

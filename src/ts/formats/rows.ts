@@ -1,18 +1,18 @@
-// Rows of numbers, of which a header tells: the elements of a PLY file, the points of a PCD file.
+// Rows of numbers that a header describes: the elements of a PLY file, the points of a PCD file.
 import { bytesOf, numberReader, type NumberType } from "./numbers.js";
 import { FormatProblem } from "./problem.js";
 
-/** What stands in each row: a number, several (in PCD), or a list behind its length (in PLY). */
+/** A part of each row: a number, several numbers (in PCD), or a list after its length (in PLY). */
 export interface Field {
   name: string;
   type: NumberType;
   count: number;
-  /** Of a list, the type of its length. */
+  /** For a list: the type of its length. */
   length?: NumberType;
 }
 
 export interface Group {
-  /** What its rows are, for messages: "points", or the name of a PLY element. */
+  /** The name of the rows in messages: "points", or the name of a PLY element. */
   name: string;
   count: number;
   fields: readonly Field[];
@@ -25,14 +25,14 @@ export function hasLists(fields: readonly Field[]): boolean {
   return fields.some(({ length }) => length !== undefined);
 }
 
-/** Bytes of these fields in a binary row; of a list, those of its length. */
+/** The number of bytes of these fields in a binary row. A list counts only with its length. */
 export function rowBytes(fields: readonly Field[]): number {
   return fields.reduce((sum, { type, count, length }) => sum + (length ? bytesOf(length) : count * bytesOf(type)), 0);
 }
 
 /**
- * Writes to `starts` where each field of a binary row begins, and gives back where the row ends; undefined where the view
- * ends first.
+ * Writes to `starts` where each field of a binary row begins, and returns where the row ends.
+ * Returns undefined if the view ends before the row.
  */
 export function walkRow(
   view: DataView,

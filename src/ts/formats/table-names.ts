@@ -1,10 +1,10 @@
-// What the head of a table calls its columns.
+// The names of columns in the head of a table.
 import { chosenAxes, type ChosenColumns } from "./axes.js";
 import { FormatProblem, quoted } from "./problem.js";
 import type { Axes } from "./rows.js";
 import { type Separator, separatorOf, split } from "./table-words.js";
 
-/** What x, y and z are called, and what else they may be called. */
+/** The names of x, y and z: the exact ones, and other usual ones. */
 const CALLED = [
   [/^x$/, /^(px|pos_?x|x_?pos|points:0|easting|east)$/],
   [/^y$/, /^(py|pos_?y|y_?pos|points:1|northing|north)$/],
@@ -13,20 +13,23 @@ const CALLED = [
 const LENGTH = /^[[(]?(m|mm|cm|dm|km|um|µm|ft|feet|foot|in|inch|inches|us-?ft|ftus|yd|met(er|re)s?)?[\])]?$/i;
 const UNIT = /[[(]([^\])]*)[\])]$|[ _.-](m|mm|cm|km|ft|met(?:er|re)s?)$/i;
 
-/** The names in a line: as they are written, and bare: in lower case and without units, "X [m]" and "x_m" are x. */
+/**
+ * The names in a line, as they are written and bare. A bare name is in lower case and has no unit:
+ * "X [m]" and "x_m" become x.
+ */
 export interface Names {
   written: readonly string[];
   bare: readonly string[];
   separator: Separator;
 }
 
-/** @param separator of the points, if it is known */
+/** @param separator the separator of the points, if it is known */
 export function namesIn(line: string, separator?: Separator): Names {
   const text = line
     .replace(/^(#+|\/\/+)\s*/, "")
     .replace(/^(columns|fields|format)\s*[:=]\s*/i, "")
     .replace(/\s+(?=\[[^\]]*\]|\([^)]*\))/g, "");
-  // Names of several words stand between tabs.
+  // Names of several words are divided by tabs.
   const own = separatorOf(text);
   const tabs = own === " " && separator !== "," && separator !== ";" && text.includes("\t");
   const between = tabs ? "\t" : own;
@@ -42,19 +45,20 @@ export function namesIn(line: string, separator?: Separator): Names {
   return { written, bare, separator: between };
 }
 
-/** Which columns are x, y and z by these names; undefined if the names do not say so. */
+/** The columns x, y and z by these names. Undefined if the names do not tell. */
 export function axesIn({ written, bare }: Names, chosen?: ChosenColumns): Axes | undefined {
   if (chosen) return chosenAxes(written, chosen);
   const placesOf = (pattern: RegExp | undefined) =>
     bare.flatMap((name, column) => (pattern?.test(name) === true ? [column] : []));
   const exact = CALLED.map(([pattern]) => placesOf(pattern));
-  // Other names beside x, y and z may be anything; instead of one of them, they have to be the only ones.
+  // If x, y and z are there, any other names may be there, too. Other names for x, y and z must be
+  // unique.
   const found = exact.every(({ length }) => length > 0) ? exact : CALLED.map((patterns) => patterns.flatMap(placesOf));
   if (found.some(({ length }) => length === 0)) return undefined;
   const several = found.find(({ length }) => length > 1);
   if (several)
     throw new FormatProblem(
-      `its columns ${several.map((column) => column + 1).join(" and ")} are called alike: ${quoted(written.join(" "))}`,
+      `its columns ${several.map((column) => column + 1).join(" and ")} are names of the same axis: ${quoted(written.join(" "))}`,
     );
   const axes = found.flat() as unknown as Axes;
   checkUnits(axes.map((axis) => unitOf(written[axis]!)));
@@ -79,7 +83,7 @@ function normal(unit: string): string {
   return lower.replace(/^met(er|re)s?$/, "m").replace(/^(foot|feet)$/, "ft");
 }
 
-/** Refuses coordinates in several units: together they are no place. */
+/** Refuses coordinates in different units: together they do not give a place. */
 function checkUnits(units: readonly string[]): void {
   const given = [...new Set(units.filter((unit) => unit !== ""))];
   if (given.length > 1) throw new FormatProblem(`its x, y and z are in different units: ${quoted(given.join(" "))}`);

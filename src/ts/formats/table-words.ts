@@ -1,4 +1,4 @@
-// How the lines of a table fall into words, and words into numbers.
+// Splits the lines of a table into words, and reads numbers from words.
 import { numberIn } from "./numbers.js";
 import { trimmed, wordsOf } from "./text.js";
 
@@ -6,14 +6,14 @@ export type Separator = ";" | "," | "\t" | " ";
 
 const DECIMAL_COMMA = /^[-+]?(\d+,\d+|,\d+)(e[-+]?\d+)?$/i;
 const MISSING = /^(|na|n\/a|#n\/a|null|none)$/i;
-/** A word in quotation marks, within which separators and doubled marks are letters; or any other word. */
+/** A word in quotation marks. In it, a separator is part of the word, and a doubled mark is one mark. */
 const QUOTED = /^\s*"((?:[^"]|"")*)"\s*$/;
 
 export function isComment(line: string): boolean {
   return line.startsWith("#") || line.startsWith("//");
 }
 
-/** By what the words of a trimmed line are divided. Commas may be decimal ones: "1,5 2,5 3,5". */
+/** The separator between the words of a trimmed line. Commas may be decimal commas: "1,5 2,5 3,5". */
 export function separatorOf(line: string): Separator {
   const bare = line.replace(/"[^"]*"/g, '""');
   if (bare.includes(";")) return ";";
@@ -25,7 +25,7 @@ export function separatorOf(line: string): Separator {
   return " ";
 }
 
-/** The words of a trimmed line, without quotation marks around them; undefined if a mark has no end. */
+/** The words of a trimmed line, without the quotation marks around them. Undefined if a mark has no end. */
 export function split(line: string, separator: Separator): string[] | undefined {
   if (!line.includes('"')) {
     if (separator === " ") return wordsOf(line);
@@ -48,13 +48,13 @@ export function split(line: string, separator: Separator): string[] | undefined 
   return words.map((each) => QUOTED.exec(each)?.[1]!.replaceAll('""', '"') ?? trimmed(each));
 }
 
-/** A number of a table, and by what its decimals are divided if it has any. */
+/** A number of a table, and its decimal separator if it has one. */
 export interface Cell {
   value: number;
   decimal?: "." | ",";
 }
 
-/** NaN where a value is missing; undefined for any other word. */
+/** NaN for a missing value. Undefined for any other word that is not a number. */
 export function cell(word: string): Cell | undefined {
   const value = numberIn(word);
   if (value !== undefined) return { value, ...(word.includes(".") && !Number.isNaN(value) ? { decimal: "." } : {}) };

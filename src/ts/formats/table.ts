@@ -5,13 +5,13 @@ import { areUnits, axesIn, type Names, namesIn } from "./table-names.js";
 import { cell, isComment, type Separator, separatorOf, split } from "./table-words.js";
 import { trimmed } from "./text.js";
 
-/** How the lines of a table are to be read. */
+/** How the lines of a table are read. */
 export interface Layout {
   separator: Separator;
-  /** So many words has each line. */
+  /** The number of words in each line. */
   width: number;
   axes: Axes;
-  /** What the columns are called, where the file says so. */
+  /** The names of the columns, if the file has them. */
   names: Names | undefined;
 }
 
@@ -20,12 +20,13 @@ export interface TablePoint {
   words: readonly string[];
 }
 
-/** Lines above the points that are no comments: a title or names, and units. */
+/** The largest number of lines above the points, without comments: a title or names, and units. */
 const MOST_HEAD_LINES = 2;
 
 /**
- * Takes the lines of a table, one point each: divided by spaces, tabs, commas or semicolons, with decimal points or commas.
- * Above the points may stand their number, a line of names, a line of units, and comments.
+ * Takes the lines of a table, one point each. Spaces, tabs, commas or semicolons divide the words.
+ * Numbers have decimal points or commas. Above the points there may be their number, a line of
+ * names, a line of units, and comments.
  */
 export class TableRows {
   readonly #chosen: ChosenColumns | undefined;
@@ -35,7 +36,7 @@ export class TableRows {
   #promised: { count: number; line: number } | undefined;
   #names: (Names & { line: number; axes: Axes }) | undefined;
   #headLines = 0;
-  /** The names that a comment gave. */
+  /** The names in a comment. */
   #commented: Names | undefined;
   #comments: { text: string; line: number }[] = [];
   #decimal: { mark: "." | ","; line: number } | undefined;
@@ -45,12 +46,12 @@ export class TableRows {
     this.#byNumber = chosen?.every(isNumber) ?? false;
   }
 
-  /** Undefined as long as there was no point. */
+  /** Undefined before the first point. */
   get layout(): Layout | undefined {
     return this.#layout;
   }
 
-  /** The point of this line; undefined for a line that is none. */
+  /** The point of this line. Undefined for a line that is not a point. */
   take(text: string, number: number): TablePoint | undefined {
     const line = trimmed(text);
     if (line === "") return undefined;
@@ -62,7 +63,7 @@ export class TableRows {
     if (this.#layout === undefined) return undefined;
     const { width, axes } = this.#layout;
     const words = rowWords(text, this.#layout);
-    if (words === undefined) throw lineProblem(number, "has a quotation mark without its end", line);
+    if (words === undefined) throw lineProblem(number, "has a quotation mark without an end", line);
     if (words.length !== width)
       throw lineProblem(number, `is not a point, it has ${words.length} columns and lines above have ${width}`, line);
     this.#count++;
@@ -70,7 +71,7 @@ export class TableRows {
     return { position: [coordinate(axes[0]), coordinate(axes[1]), coordinate(axes[2])], words };
   }
 
-  /** To be called when there are no more lines. */
+  /** Must be called after the last line. */
   finish(): void {
     if (this.#count === 0) throw new FormatProblem("it has no line of three numbers");
     if (this.#promised !== undefined && this.#promised.count !== this.#count) {
@@ -81,13 +82,13 @@ export class TableRows {
 
   #split(line: string, separator: Separator, number: number): string[] {
     const words = split(line, separator);
-    if (words === undefined) throw lineProblem(number, "has a quotation mark without its end", line);
+    if (words === undefined) throw lineProblem(number, "has a quotation mark without an end", line);
     return words;
   }
 
   #coordinate(word: string, axis: number, number: number, line: string): number {
     const found = cell(word);
-    if (found === undefined) throw lineProblem(number, `is not a point, its column ${axis + 1} is no number`, line);
+    if (found === undefined) throw lineProblem(number, `is not a point, its column ${axis + 1} is not a number`, line);
     if (found.decimal !== undefined) {
       this.#decimal ??= { mark: found.decimal, line: number };
       if (this.#decimal.mark !== found.decimal)
@@ -96,7 +97,7 @@ export class TableRows {
     return found.value;
   }
 
-  /** The layout if this line is the first point; else the line belongs to the head. */
+  /** The layout if this line is the first point. Otherwise the line belongs to the head. */
   #begin(line: string, whole: string, number: number): Layout | undefined {
     if (/^\d+$/.test(line) && this.#promised === undefined && this.#names === undefined) {
       this.#promised = { count: Number(line), line: number };
@@ -141,7 +142,7 @@ export class TableRows {
     return { separator, width: words.length, axes, names: this.#names ?? this.#commented };
   }
 
-  /** The columns that a comment above the points names, or the first three. */
+  /** The columns that a comment above the points names, or the first three columns. */
   #axesInComments(width: number, separator: Separator): Axes {
     for (const { text, line } of this.#comments.reverse()) {
       const names = namesIn(text, separator);
@@ -160,7 +161,10 @@ export class TableRows {
   }
 }
 
-/** Commas with and without spaces, or numbers that begin with 0 as decimals do: "1,5, 2,5" and "1,05,2,07". */
+/**
+ * Whether commas may be separators or decimal commas: "1,5, 2,5" has commas with and without
+ * spaces, "1,05,2,07" has numbers with a leading 0.
+ */
 function areCommasUnclear(line: string): boolean {
   return (/\d,\d/.test(line) && /\d,\s/.test(line)) || /,0\d/.test(line);
 }
@@ -173,18 +177,18 @@ export function rowWords(text: string, { separator, width }: Layout): string[] |
   return words;
 }
 
-/** Whether the columns need no word: they are called x, y and z, or there are no others. */
+/** Whether the choice of columns is obvious: they are called x, y and z, or there are no others. */
 export function isPlain({ axes, names, width }: Layout): boolean {
   if (names === undefined) return width === 3;
   return axes.map((axis) => names.bare[axis]).join("") === "xyz";
 }
 
-/** With the tabs at its ends, which divide empty words. */
+/** The line with the tabs at its ends, since empty words may stand there. */
 function untrimmed(text: string): string {
   return text.replace(/[\r\n]+$/, "");
 }
 
-/** Which columns are read, in words. */
+/** In words: the columns that are read. */
 export function columnsSaid({ axes, names }: Layout): string {
   const numbers = axes.map((axis) => axis + 1).join(", ");
   const called = names === undefined ? "" : ` (${axes.map((axis) => names.written[axis]!).join(", ")})`;

@@ -7,13 +7,13 @@ import { trimmed, wordsOf } from "./text.js";
 export interface TextPoint {
   position: readonly [number, number, number];
   words: readonly string[];
-  /** Which word is the first one of each field. */
+  /** The place of each field's first word among the words. */
   starts: readonly number[];
 }
 
 /**
- * Takes the lines behind a header, one row each, and checks all of them. A row that is a value short is refused: its later
- * values would stand for other fields.
+ * Takes the lines after a header, one row each, and checks all of them. A row with too few values
+ * is refused, because its later values would stand for other fields.
  */
 export class TextRows {
   readonly #groups: readonly Group[];
@@ -26,13 +26,13 @@ export class TextRows {
     [this.#groups, this.#points, this.#axes] = [groups, points, axes];
   }
 
-  /** The point of this line; undefined for a blank line, and for a row that is no point. */
+  /** The point of this line. Undefined for a blank line, and for a row that is not a point. */
   take(text: string, number: number): TextPoint | undefined {
     const line = trimmed(text);
     if (line === "") return undefined;
     while (this.#isDone()) this.#next();
     const group = this.#groups[this.#group];
-    if (group === undefined) throw lineProblem(number, "stands behind the last row that its header promises", line);
+    if (group === undefined) throw lineProblem(number, "comes after the last row that the header promises", line);
     this.#row++;
     const words = wordsOf(line);
     const starts = startsIn(group.fields, words, number, line);
@@ -41,7 +41,7 @@ export class TextRows {
     return { position: position as [number, number, number], words, starts };
   }
 
-  /** To be called when there are no more lines. */
+  /** Must be called after the last line. */
   finish(): void {
     while (this.#group < this.#groups.length) {
       const { name, count } = this.#groups[this.#group]!;
@@ -64,15 +64,15 @@ export class TextRows {
   #coordinate(word: string, axis: number, number: number, line: string): number {
     const value = numberIn(word);
     const { name, type } = this.#points.fields[axis]!;
-    if (value === undefined) throw lineProblem(number, `is not a point, its ${name} is no number`, line);
-    if (!fitsType(value, type)) throw lineProblem(number, `is not a point, its ${name} is no ${type}`, line);
+    if (value === undefined) throw lineProblem(number, `is not a point, its ${name} is not a number`, line);
+    if (!fitsType(value, type)) throw lineProblem(number, `is not a point, its ${name} is not of type ${type}`, line);
     return value;
   }
 }
 
 const FIXED = new WeakMap<readonly Field[], { starts: number[]; total: number } | null>();
 
-/** Which word begins each field, after a check that there are as many words as the fields need. */
+/** The place of each field's first word, after a check that the fields need exactly this number of words. */
 export function startsIn(
   fields: readonly Field[],
   words: readonly string[],

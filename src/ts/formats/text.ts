@@ -1,6 +1,6 @@
 import { FormatProblem, lineProblem, several } from "./problem.js";
 
-/** A line of a file: where it begins, and where the next one does. */
+/** A line of a file: the place where it begins, and the place where the next one begins. */
 export interface Line {
   text: string;
   /** Counted from 1. */
@@ -9,13 +9,13 @@ export interface Line {
   end: number;
 }
 
-/** No line of points is longer. Engines end a program that makes a text of some 500 MB. */
+/** The longest line of points. JavaScript engines end a program that makes a string of some 500 MB. */
 export const LONGEST_LINE = 1 << 20;
 
 const [LINE_FEED, RETURN] = [0x0a, 0x0d];
 const BYTE_ORDER_MARK = [0xef, 0xbb, 0xbf];
 
-/** Without blanks at its ends. Only ASCII ones are blanks, so that all encodings split a line alike. */
+/** The text without blanks at its ends. Only ASCII blanks count, so that all encodings give the same lines. */
 export function trimmed(text: string): string {
   return text.replace(/^[ \t\v\f\r\n]+|[ \t\v\f\r\n]+$/g, "");
 }
@@ -29,19 +29,19 @@ export function tooLong(line: number): FormatProblem {
   return lineProblem(line, `is longer than ${LONGEST_LINE / (1 << 20)} MB`);
 }
 
-/** How many bytes of a mark for UTF-8 stand at the beginning. */
+/** The length of a UTF-8 byte order mark at the beginning, in bytes. */
 export function markLength(bytes: Uint8Array): number {
   return BYTE_ORDER_MARK.every((byte, i) => bytes[i] === byte) ? BYTE_ORDER_MARK.length : 0;
 }
 
-/** Text has no control characters but tabs and ends of lines. */
+/** The only control characters of text are tabs and line ends. */
 export function looksBinary(start: Uint8Array): boolean {
   return start.some((byte) => byte < 0x09 || (byte > 0x0d && byte < 0x20));
 }
 
 /**
- * The trimmed lines of a header, all of which end as the first one does: a return there may be the first byte of what
- * follows the header.
+ * The trimmed lines of a header. All of them end as the first one does, because a carriage return
+ * may be the first byte after the header.
  */
 export function* headerLines(start: Uint8Array): Generator<Line> {
   const decoder = new TextDecoder();
@@ -57,8 +57,8 @@ export function* headerLines(start: Uint8Array): Generator<Line> {
   }
 }
 
-/** A file may end in blanks or zeros, which some programs add, but not in anything else. */
+/** A file may end in blanks or zeros, which some programs add. Any other content is refused. */
 export function checkRest(rest: Uint8Array, name: string): void {
   const blank = rest.every((byte) => byte === 0 || byte === 0x20 || (byte >= 0x09 && byte <= 0x0d));
-  if (!blank) throw new FormatProblem(`it goes on behind the last of the ${several(name)} that its header promises`);
+  if (!blank) throw new FormatProblem(`it goes on after the last of the ${several(name)} that its header promises`);
 }
