@@ -2,8 +2,8 @@ import { describe, HprError, typeTag } from "../base/errors.js";
 import { hasNodeModules, importNodeModule } from "../base/node.js";
 
 /**
- * `WebAssembly.Module`, written so that these types also compile where the
- * platform's own do not know it (Node's do not).
+ * `WebAssembly.Module`, written so that these types also compile if the platform's own types lack
+ * it (Node's do).
  */
 export type WasmModule = typeof globalThis extends {
   WebAssembly: { Module: { prototype: infer Module } };
@@ -15,8 +15,8 @@ export type WasmModule = typeof globalThis extends {
 export type SyncInitInput = ArrayBuffer | ArrayBufferView | WasmModule;
 
 /**
- * Where the wasm comes from: an address (in Node also a path), a response that
- * has arrived, its bytes, or the compiled module.
+ * The source of the wasm: an address (in Node also a path), a response, the bytes, or the compiled
+ * module.
  */
 export type InitInput = string | URL | Response | SyncInitInput;
 
@@ -55,14 +55,14 @@ async function compileResponse(response: Response): Promise<WebAssembly.Module> 
   if (!response.ok) {
     throw new Error(`the server answered ${response.status} ${response.statusText}`.trimEnd());
   }
-  // Browsers refuse to compile while streaming under any other type.
+  // Browsers compile while streaming only with this type.
   if (response.headers.get("Content-Type") === "application/wasm") {
     return WebAssembly.compileStreaming(response);
   }
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-/** The file that an address means, unless it is one to fetch. */
+/** The path of a file, if the address means a file. Undefined for an address to fetch. */
 function fileOf(address: string | URL): string | URL | undefined {
   let url: URL;
   try {
@@ -73,14 +73,14 @@ function fileOf(address: string | URL): string | URL | undefined {
   if (url.protocol === "file:") {
     return url;
   }
-  // C:\hpr.wasm parses as a URL too.
+  // C:\hpr.wasm also parses as a URL.
   return /^[a-z]:$/.test(url.protocol) ? address : undefined;
 }
 
 export function bytesOf(input: unknown): ArrayBuffer | Uint8Array<ArrayBuffer> {
   if (ArrayBuffer.isView(input)) {
     const bytes = new Uint8Array(input.buffer, input.byteOffset, input.byteLength);
-    // Compilers refuse shared memory, which could change under them.
+    // Compilers refuse shared memory, since others could change it during the compilation.
     return typeTag(input.buffer) === "ArrayBuffer" ? (bytes as Uint8Array<ArrayBuffer>) : bytes.slice();
   }
   if (typeTag(input) === "ArrayBuffer") {

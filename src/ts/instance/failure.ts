@@ -1,8 +1,9 @@
 import { HprError, type HprErrorCode } from "../base/errors.js";
 
 /**
- * A refusal as the wasm throws it: which one, and the option and numbers its message names
- * (src/wasm/failure.rs). Numbers are worded on this side, where that costs nothing.
+ * A refusal as the wasm throws it: its name, and the option and the numbers for its message
+ * (src/wasm/failure.rs). The message is written here, because text in the wasm would make it
+ * larger.
  */
 interface Failure {
   code: HprErrorCode;
@@ -11,7 +12,7 @@ interface Failure {
   numbers: [number, number, number];
 }
 
-/** The same words as the crate's `Error`. */
+/** The same messages as those of the crate's `Error`. */
 const MESSAGES = {
   nonFinite: (count, first) =>
     `${count} point(s) have a coordinate that is NaN or infinite, the first at index ${first}`,
@@ -48,7 +49,10 @@ const MESSAGES = {
 
 type Words = (...named: [first: string, second: string, third: string, option: string]) => string;
 
-/** What the bindings threw on purpose, having cleaned up behind them, as an error; else undefined. */
+/**
+ * The error of a refusal by the bindings, which have freed their memory by then. Undefined for any
+ * other thrown value.
+ */
 export function refusal(thrown: unknown): HprError | undefined {
   if (!isFailure(thrown)) {
     return undefined;
@@ -58,12 +62,12 @@ export function refusal(thrown: unknown): HprError | undefined {
   return new HprError(thrown.code, words(spelled(a), spelled(b), spelled(c), thrown.option));
 }
 
-/** What the core would refuse such points with. */
+/** The core's error for points that are not finite. */
 export function nonFinite(count: number, first: number): HprError {
   return new HprError("non-finite", MESSAGES.nonFinite(String(count), String(first)));
 }
 
-/** As the crate spells it: JavaScript's way, but for these. */
+/** The number as the crate writes it. JavaScript writes only these cases differently. */
 function spelled(number: number): string {
   if (Object.is(number, -0)) {
     return "-0";

@@ -2,13 +2,12 @@ import { HprError } from "../base/errors.js";
 import { refusal } from "./failure.js";
 import * as glue from "../wasm/hpr_bg.js";
 
-/** What the wasm exports, as the generated glue presents it. */
+/** The exports of the wasm, as the generated glue offers them. */
 export type Bindings = Omit<typeof glue, "__wbg_set_wasm">;
 
 /**
- * One running copy of the wasm. The glue serves one copy at a time, so at most
- * one is alive: after a trap its memory may be in any state, and it is given up
- * with every cloud in it.
+ * One running copy of the wasm. The glue serves one copy at a time, so at most one is alive. After
+ * a trap, the memory may be in any state. Then the copy is given up with every cloud in it.
  */
 export class Instance {
   readonly module: WebAssembly.Module;
@@ -24,7 +23,7 @@ export class Instance {
     return current === this;
   }
 
-  /** Calls into the wasm; whatever comes out of it is an `HprError`. */
+  /** Calls into the wasm. Every error of the wasm becomes an `HprError`. */
   call<T>(use: (bindings: Bindings) => T): T {
     if (!this.alive) {
       throw new HprError(
@@ -55,7 +54,7 @@ export class Instance {
 
 let current: Instance | undefined;
 
-/** What the wasm module imports. */
+/** The imports of the wasm module. */
 export const imports: WebAssembly.Imports = { "./hpr_bg.js": glue };
 
 /** The instance that is alive, if any. */
@@ -74,7 +73,7 @@ export function requireInstance(): Instance {
   return current;
 }
 
-/** Makes an instance the one that the glue serves. None may be alive. */
+/** Makes this instance the one that the glue serves. No other may be alive. */
 export function startInstance(module: WebAssembly.Module, { exports }: WebAssembly.Instance): void {
   glue.__wbg_set_wasm(exports);
   try {
@@ -87,8 +86,8 @@ export function startInstance(module: WebAssembly.Module, { exports }: WebAssemb
 }
 
 /**
- * The glue keeps views of the memory it last used and renews them only once
- * their buffer is detached, which every `grow` does, even one by nothing.
+ * The glue keeps views of the last memory and makes new ones only after their buffer is detached.
+ * Every `grow` detaches the buffer, even a `grow` by 0.
  */
 function detachMemory({ memory }: WebAssembly.Exports): void {
   if (memory instanceof WebAssembly.Memory) {

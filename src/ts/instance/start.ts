@@ -10,12 +10,12 @@ import {
 } from "./compile.js";
 import { imports, runningInstance, startInstance } from "./instance.js";
 
-/** What is loaded where `init()` is told nothing: the file beside the package, or the embedded wasm. */
+/** The source for `init()` without an argument: the file beside the package, or the embedded wasm. */
 export type OwnWasm = () => Promise<WasmModule>;
 
 let starting: { input: InitInput | undefined; done: Promise<void> } | undefined;
 
-/** What every entry's `init()` does, with the wasm that comes with that entry. */
+/** The `init()` of every entry, with that entry's own wasm. */
 export function initFrom(own: OwnWasm, input: InitInput | undefined): Promise<void> {
   if (runningInstance() !== undefined) {
     return Promise.resolve();
@@ -37,8 +37,8 @@ export function initFrom(own: OwnWasm, input: InitInput | undefined): Promise<vo
 }
 
 /**
- * Starts the wasm from its bytes or its compiled module, at once. Does nothing
- * where it is running already.
+ * Starts the wasm from its bytes or its compiled module, at once. Does nothing if it is running
+ * already.
  *
  * @throws HprError `load` if it cannot be compiled or started.
  */
@@ -73,7 +73,7 @@ async function start(own: OwnWasm, input: InitInput | undefined): Promise<void> 
   }
 }
 
-/** Compiles once, and keeps the module for workers and for a start after a trap; a failure is forgotten. */
+/** Compiles once, and keeps the module for workers and for a start after a trap. A failure is not kept. */
 export function compiledOnce(load: OwnWasm): OwnWasm {
   let module: Promise<WasmModule> | undefined;
   return () => {
