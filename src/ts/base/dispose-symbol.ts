@@ -1,7 +1,6 @@
 /**
- * Lets a class take part in `using`, on platforms that know it. Elsewhere
- * `Symbol.dispose` is undefined, and a method written with that name would be
- * called "undefined".
+ * Lets a class take part in `using`, on platforms that have it. On others, `Symbol.dispose` is
+ * undefined, and a method written with that name would be called "undefined".
  */
 export function addDisposeSymbol(prototype: { dispose(): unknown }): void {
   const { dispose } = Symbol as { dispose?: symbol };

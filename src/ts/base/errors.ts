@@ -1,4 +1,4 @@
-/** The stable short names of everything that can go wrong. */
+/** The stable short names of all errors. */
 export type HprErrorCode =
   | "positions-length"
   | "positions-type"
@@ -13,9 +13,9 @@ export type HprErrorCode =
   | "internal";
 
 /**
- * The one error type of this package. Branch on {@link HprError.code}; the
- * message is for people and names the offending value. What an argument's own
- * getter, or a proxy, throws while it is read is passed on as it is.
+ * The one error type of this package. Branch on {@link HprError.code}. The message is for people
+ * and contains the refused value. If an argument's own getter or a proxy throws while it is read,
+ * that error is passed on unchanged.
  *
  * | code | when |
  * |---|---|
@@ -33,7 +33,7 @@ export type HprErrorCode =
  */
 export class HprError extends Error {
   override readonly name = "HprError";
-  /** What went wrong, as a stable short name. */
+  /** The stable short name of the error. */
   readonly code: HprErrorCode;
 
   constructor(code: HprErrorCode, message: string, options?: { cause?: unknown }) {
@@ -42,12 +42,12 @@ export class HprError extends Error {
   }
 }
 
-/** Anything may be thrown. */
+/** Any thrown value as an error. */
 export function asError(thrown: unknown): Error {
   return thrown instanceof Error ? thrown : new Error(String(thrown));
 }
 
-/** A refused value as it appears in a message. */
+/** A refused value for a message. */
 export function describe(value: unknown): string {
   switch (typeof value) {
     case "string":
@@ -67,14 +67,14 @@ export function describe(value: unknown): string {
 }
 
 /**
- * The built-in type of a value, such as `"Float32Array"`. Unlike `instanceof`
- * it also recognizes values from another frame or context.
+ * The built-in type of a value, such as `"Float32Array"`. Unlike `instanceof`, this also recognizes
+ * values from another frame or context.
  */
 export function typeTag(value: unknown): string {
   try {
     return Object.prototype.toString.call(value).slice("[object ".length, -1);
   } catch {
-    // A revoked proxy, or a tag that throws.
+    // The value is a revoked proxy, or its tag throws.
     return "unknown";
   }
 }

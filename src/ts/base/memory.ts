@@ -1,6 +1,6 @@
 import { HprError } from "./errors.js";
 
-/** Runs an allocation in JavaScript's memory; one that is refused becomes `too-large`. */
+/** Runs an allocation in JavaScript's memory. If it is refused, the error is `too-large`. */
 export function allocating<T>(what: string, allocate: () => T): T {
   try {
     return allocate();

@@ -5,8 +5,8 @@ export function hasNodeModules(): boolean {
 }
 
 /**
- * A built-in module of Node. The name is a variable and the hints are there so
- * that bundlers for browsers, where this never runs, leave the import alone.
+ * A built-in module of Node. Bundlers for browsers must leave this import alone, since it never
+ * runs there. The variable for the name and the hints make them do so.
  */
 export async function importNodeModule<Module>(name: `node:${string}`): Promise<Module> {
   return (await import(/* webpackIgnore: true */ /* @vite-ignore */ name)) as Module;

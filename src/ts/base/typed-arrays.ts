@@ -1,10 +1,10 @@
 /**
- * What typed arrays are by themselves. Their own properties, their class and the
- * frame they come from may say something else.
+ * The true properties of typed arrays. Their own properties, their class and the frame that they
+ * come from may hide these.
  */
 const prototype = Object.getPrototypeOf(Uint8Array.prototype) as Uint8Array;
 
-/** A typed array whose elements are numbers, and which positions may be read from. */
+/** A typed array of numbers that positions may be read from. */
 export type NumberArray =
   | Int8Array
   | Uint8Array
@@ -17,7 +17,7 @@ export type NumberArray =
   | Float64Array;
 type TypedArrayClass<T> = new (buffer: ArrayBufferLike, byteOffset: number, length: number) => T;
 
-/** By name. Float16Array is not among them: not every platform has it. */
+/** The constructors by name. Float16Array is left out: not every platform has it. */
 const NUMBER_ARRAYS = new Map<string | undefined, TypedArrayClass<NumberArray>>([
   ["Int8Array", Int8Array],
   ["Uint8Array", Uint8Array],
@@ -39,18 +39,18 @@ export function isNumberArray(value: unknown): value is NumberArray {
   return NUMBER_ARRAYS.has(typedArrayType(value));
 }
 
-/** {@link plainView} for an array whose type is known only when it is read. */
+/** {@link plainView} for an array whose type is known only at run time. */
 export function plainNumbers(view: NumberArray): NumberArray | undefined {
   return plainView(view, NUMBER_ARRAYS.get(typedArrayType(view))!);
 }
 
 /**
- * The same memory in a plain typed array, which no subclass has a say in.
- * Undefined where the memory is gone: transferred away, or cut off by a resize.
+ * The same memory in a plain typed array, which no subclass can change. Undefined if the memory is
+ * gone: transferred away, or cut off by a resize.
  */
 export function plainView<T extends NumberArray>(view: T, Plain: TypedArrayClass<T>): T | undefined {
   try {
-    // Throws where the memory is gone, and does nothing else.
+    // This throws if the memory is gone, and has no other effect.
     prototype.keys.call(view);
   } catch {
     return undefined;
