@@ -110,8 +110,8 @@ test("a sample that is picked is in the address", async () => {
 
 test("?src is refused in a plain sentence if it is no address of a file", async () => {
   for (const [src, sentence] of [
-    ["//", "“//” is no address of a file."],
-    ["data:text/plain,1", "“data:text/plain,1” is no address of a file."],
+    ["//", "“//” is not the address of a file."],
+    ["data:text/plain,1", "“data:text/plain,1” is not the address of a file."],
   ] as const) {
     const page = await openPage(`?src=${src}&sample=bunny`);
     expect((await reached(page, "error")).sentence).toBe(sentence);

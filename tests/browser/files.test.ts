@@ -157,7 +157,7 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
   ["empty.xyz", new Uint8Array(), /is empty/],
   ["blank.xyz", text("\n\n \n"), /cannot be read: it has no line of three numbers/],
   ["picture.ply", png, /is not a point cloud: it does not begin like a PLY file/],
-  ["picture.xyz", png, /is not a point cloud this page knows/],
+  ["picture.xyz", png, /is not a point cloud that this page knows/],
   ["page.pcd", text("<!doctype html><title>404</title>"), /is not a point cloud: it does not begin like a PCD file/],
   [
     "letter.txt",

@@ -66,7 +66,7 @@ test("an octree with more points than allowed shows its coarser levels", async (
   const coarse = octree.filter((_, i) => Math.floor(i / 3) % 3 === 0);
   expect(now).toMatchObject({ total: 1000, ...(await answerInNode(coarse, now)) });
   expect(await page.locator("#message p").textContent()).toBe(
-    "1,000 of its 3,000 points are shown, those of its coarser levels.",
+    "1,000 of its 3,000 points are shown: the points of its coarser levels.",
   );
 
   const least = await openReady("?src=ranged/octree.copc.laz&points=250");
@@ -132,7 +132,7 @@ const layers = fixture("ball-14.laz");
 const tree = fixture("octree.copc.laz");
 
 const REFUSED: [string, Uint8Array, RegExp][] = [
-  ["cut.las", las(far).slice(0, 9000), /is broken: it ends before the 600 points its header promises/],
+  ["cut.las", las(far).slice(0, 9000), /is broken: it ends before the 600 points that its header promises/],
   [
     "boast.las",
     las(far, { minor: 4, format: 6, claimed: 1e12 }),
@@ -145,7 +145,7 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
     edited(las(far), (view) => {
       view.setUint8(25, 9);
     }),
-    /is of LAS version 1\.9/,
+    /has LAS version 1\.9/,
   ],
   [
     "format.las",
@@ -166,7 +166,7 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
     edited(las(far), (view) => {
       view.setUint32(96, 4e9, true);
     }),
-    /points would begin behind its end/,
+    /points would begin after its end/,
   ],
   [
     "scale.las",
@@ -180,7 +180,7 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
     edited(las(far), (view) => {
       view.setUint16(94, 3, true);
     }),
-    /the sizes in its LAS header cannot be/,
+    /the sizes in its LAS header are impossible/,
   ],
   ["swapped.las", text("FSAL and so on"), /is not a point cloud: it does not begin like a LAS file/],
   ["cut.laz", laz.slice(0, 3000), /is broken: it ends before the 600 points/],
@@ -208,15 +208,15 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
   [
     "unknown.glb",
     glb(near, { required: ["EXT_of_tomorrow"] }),
-    /needs what this page does not know \(EXT_of_tomorrow\)/,
+    /needs an extension that this page does not support \(EXT_of_tomorrow\)/,
   ],
-  ["cut.glb", glb(near).slice(0, 3000), /is broken: it ends before the length its header promises/],
+  ["cut.glb", glb(near).slice(0, 3000), /is broken: it is shorter than its header says/],
   [
     "version.glb",
     edited(glb(near), (view) => {
       view.setUint32(4, 1, true);
     }),
-    /is of glTF version 1/,
+    /has glTF version 1/,
   ],
   [
     "json.glb",
@@ -225,7 +225,7 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
     }),
     /the description of its scene cannot be read/,
   ],
-  ["nothing.gltf", text("{}"), /is broken: it does not say of which version of glTF it is/],
+  ["nothing.gltf", text("{}"), /is broken: it does not give its glTF version/],
   ["empty.glb", glb([]), /holds no points|is broken/],
   ["parts.gltf", gltf(near, "parts.bin"), /keeps its points in a file of its own \(parts\.bin\)/],
   [

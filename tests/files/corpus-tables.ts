@@ -208,7 +208,7 @@ const ROWS: Row[] = [
   ["words before all points", SPACED.replace(/^/gm, "p "), "line 1 is not a point, its column 1 is not a number"],
   ["a line without end", `${SPACED}${" ".repeat(1_100_000)}1 2 3\n`, "line 5 is longer than 1 MB"],
   ["one line of all numbers", `${"1.5 ".repeat(400_000)}\n`, "line 1 is longer than 1 MB"],
-  ["binary", Uint8Array.of(1, 2, 3, 0, 5, 6), "it is not text|is not a point cloud this page knows"],
+  ["binary", Uint8Array.of(1, 2, 3, 0, 5, 6), "it is not text|is not a point cloud that this page knows"],
   ["a byte that is no letter", bytes("x,y,z,caf", Uint8Array.of(0xe9), "\n1,2,3,4\n"), [1, 2, 3]],
   ["a letter of two bytes, one of them a blank in Latin-1", "x y z \u00e0\n1 2 3 4\n", [1, 2, 3]],
   [

@@ -1,16 +1,16 @@
 import type { Attribute, LoadedCloud, Values } from "../cloud/cloud.ts";
 import { isWhole } from "./numbers.ts";
 
-/** More than these are not worth the memory they take. */
+/** More attributes are not worth their memory. */
 const MOST_ATTRIBUTES = 8;
 const MOST_CATEGORIES = 64;
 
-/** Directions, opacities and what describes splats say nothing as a color. */
+/** Normals, opacities and the parameters of splats make no useful colors. */
 const NOT_FOR_EYES =
   /^(n[xyz]|normal_?[xyz]|scalar_n[xyz]|a|alpha|opacity|f_(dc|rest)_\d+|rot_\d+|scale_\d+|padding|_)$/i;
 const CATEGORY = /class|label|segment|cluster|category|return|source|ring|object|instance/i;
 
-/** Of the columns a file has: its colors, and what else its points can be colored by. */
+/** From the columns of a file: its colors, and the attributes that its points can be colored by. */
 export function attributesOf(
   columns: readonly { name: string; values: Values }[],
 ): Pick<LoadedCloud, "colors" | "attributes"> {
@@ -26,8 +26,8 @@ export function attributesOf(
 }
 
 /**
- * Bytes as a screen shows them, of whatever a file has: bytes, shares of 1, or 16 bits, in which many programs write bytes.
- * No colors at all if some are missing or all are black: the file has room for them, but nobody has filled it in.
+ * The display colors in bytes. A file may have bytes, shares of 1, or 16 bits, in which many programs write bytes.
+ * Returns no colors if some are missing or all are black: then the file has the columns, but nobody has filled them in.
  */
 export function displayColors(channels: readonly [Values, Values, Values]): Uint8Array | null {
   let largest = 0;
@@ -51,7 +51,7 @@ function isConstant(values: Values): boolean {
   return true;
 }
 
-/** Whole numbers, few of them, under a name that says so. */
+/** Whether a column is a category: its name says so, and it has few values, all of them integers. */
 function isCategory(name: string, values: Values): boolean {
   if (!CATEGORY.test(name)) return false;
   const seen = new Set<number>();

@@ -1,18 +1,18 @@
 import { LONGEST_LINE, tooLong } from "../../src/ts/formats/text.js";
 import { LoadProblem } from "./problem.ts";
 
-/** Where a file is read from, how many points of it at most, and who wants to hear how far it is. */
+/** The file to read, the largest number of points to keep, and the listener for the progress. */
 export interface Reading {
   name: string;
   blob: Blob;
   limit: number;
-  /** 0 … 1 */
+  /** The progress from 0 to 1. */
   onProgress: (fraction: number) => void;
 }
 
 export const BLOCK = 1 << 24;
 
-/** A file's bytes from `start`, a piece at a time: of a large file only that piece is in memory. */
+/** A file's bytes from `start`, one piece at a time: only that piece of a large file is in memory. */
 export async function* blocks(
   { name, blob, onProgress }: Reading,
   start: number,
@@ -33,7 +33,9 @@ export async function bytes(name: string, blob: Blob, from: number, to: number):
   }
 }
 
-/** Rows of `rowBytes` each, `count` of them from `start`: calls back with a view and where the row begins in it. */
+/**
+ * Reads `count` rows of `rowBytes` bytes each, from `start` on. Calls back with a view and the place of the row in it.
+ */
 export async function eachRow(
   reading: Reading,
   { start, rowBytes, count }: { start: number; rowBytes: number; count: number },
@@ -49,7 +51,7 @@ export async function eachRow(
   }
 }
 
-/** The lines of a text, by hundreds of thousands. The first one is counted as `firstNumber`. */
+/** The lines of a text, in groups of hundreds of thousands. `firstNumber` is the number of the first line. */
 export async function* lines(
   reading: Reading,
   start: number,
@@ -60,7 +62,8 @@ export async function* lines(
   let number = firstNumber;
   for await (const block of blocks(reading, start)) {
     const text = rest + decoder.decode(block, { stream: true });
-    // What stands after the last end of a line is not whole yet; nor is a return that the next block may go on.
+    // The text after the last line end is not complete yet. A carriage return may belong to a line end that the next
+    // block completes.
     const end = Math.max(text.lastIndexOf("\n"), text.lastIndexOf("\r", text.length - 2)) + 1;
     rest = text.slice(end);
     if (rest.length > LONGEST_LINE) throw tooLong(end > 0 ? number + split(text.slice(0, end)).length - 1 : number);

@@ -3,7 +3,7 @@ import type { NumberType } from "../../src/ts/formats/numbers.js";
 import { attributesOf } from "./attributes.ts";
 import { newValues } from "./numbers.ts";
 
-/** What a file has besides positions. Those called red, green and blue become the colors. */
+/** A file's values besides positions. Columns with the names red, green and blue become the colors. */
 export interface Column {
   name: string;
   type: NumberType;
@@ -13,14 +13,14 @@ const FIRST_CAPACITY = 65_536;
 const number = new Intl.NumberFormat("en-US");
 
 /**
- * Gathers a cloud row by row. Of more rows than `limit` it keeps every second, third, … one: evenly over the file, whose
- * rows mostly lie in the order of the scan. Where nobody knows beforehand how many will come, it starts with all and
- * drops every second one each time the limit is reached.
+ * Builds a cloud row by row. If there are more rows than `limit`, it keeps every second, every third, … row. So the
+ * kept rows are spread evenly over the file, which is mostly in the order of the scan. If the number of rows is not
+ * known beforehand, it first keeps all rows, and drops every second one each time the limit is reached.
  *
  *     for each row: if (builder.takes()) { const i = builder.put(x, y, z); builder.values[k][i] = …; }
  */
 export class CloudBuilder {
-  /** One array for each column, to be written at the index `put` returns. Replaced as they grow. */
+  /** One array for each column. Write to it at the index that `put` returns. The arrays are replaced as they grow. */
   readonly values: Values[];
   #positions: Float32Array | Float64Array;
   #kept = 0;
@@ -39,7 +39,7 @@ export class CloudBuilder {
     this.values = columns.map(({ type }) => newValues(type, this.#capacity));
   }
 
-  /** Counts the next row, and tells whether it is one to `put`. */
+  /** Counts the next row, and returns whether it must be `put`. */
   takes(): boolean {
     const row = this.#seen++;
     if (row % this.#step !== 0) return false;
@@ -57,7 +57,7 @@ export class CloudBuilder {
     return at;
   }
 
-  /** Rows so far, those that were not kept included. */
+  /** The number of rows so far, with those that were not kept. */
   get rows(): number {
     return this.#seen;
   }

@@ -1,11 +1,13 @@
 import { LoadProblem } from "./problem.ts";
 
-/** The pieces of a download are kept by the browser, on disk where they are large; an address cannot be trusted to end. */
+/**
+ * The browser keeps the pieces of a download, large ones on disk. There is a limit, because a download may never end.
+ */
 const MAX_DOWNLOAD = 4_000_000_000;
 
 /**
- * Fetches a file whole, telling how far it is where the server says how long it is. `unreachable`: why nothing of it can be
- * had, if that is known.
+ * Downloads a whole file, and tells the progress if the server gives the length. `unreachable`: the reason why the file
+ * is not available, if it is known.
  */
 export async function download(
   name: string,
@@ -17,7 +19,7 @@ export async function download(
 }
 
 /**
- * Reads a file by its ranges, or where the server has none, whole. Which of the two, the first answer tells.
+ * Reads a file in ranges, or as a whole if the server does not support ranges. The first answer shows which.
  */
 export async function downloadRanges(
   name: string,
@@ -28,7 +30,7 @@ export async function downloadRanges(
   try {
     first = await ask(name, url, { range: [0, FIRST] });
   } catch {
-    // Some servers refuse the question to other sites' pages, but not the file.
+    // Some servers refuse range requests from pages of other sites, but not the request for the whole file.
     return { blob: await download(name, url, onProgress) };
   }
   if (first.status !== 206) return { blob: await receive(name, first, onProgress) };
@@ -44,7 +46,7 @@ export async function downloadRanges(
   };
 }
 
-/** Enough for a header and what it lists. */
+/** Enough for a header and its records. */
 const FIRST = 1 << 16;
 
 interface Question {
@@ -74,7 +76,7 @@ async function bodyOf(name: string, response: Response): Promise<Uint8Array> {
 }
 
 async function receive(name: string, response: Response, onProgress: (fraction: number | null) => void): Promise<Blob> {
-  // With a compressed transfer the length is that of the wire, not of what arrives: no fraction then.
+  // With compression, the given length is that of the compressed data. Then the fraction is unknown.
   const compressed = response.headers.get("content-encoding") !== null;
   const total = compressed ? 0 : Number(response.headers.get("content-length") ?? 0);
   checkSize(name, total);

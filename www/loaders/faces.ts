@@ -7,7 +7,7 @@ import { readPlyHeader } from "./ply.ts";
 import { problemOf } from "./problem.ts";
 import { eachListRow, endOfRows } from "./rows.ts";
 
-/** The faces of a PLY or an OBJ file cut into triangles: three indices of its vertices each. */
+/** The faces of a PLY or an OBJ file, cut into triangles: three vertex indices each. */
 export async function readFaces(reading: Reading, vertices: number): Promise<Uint32Array> {
   const start = new TextDecoder("latin1").decode(await bytes(reading.name, reading.blob, 0, 4));
   const triangles = new Triangles(vertices);
@@ -27,10 +27,10 @@ class Triangles {
     this.#vertices = vertices;
   }
 
-  /** Cut from its first corner. */
+  /** A face is cut into a fan around its first corner. */
   addFace(corners: readonly number[]): void {
     if (!corners.every((corner) => corner >= 0 && corner < this.#vertices))
-      throw new FormatProblem("it has faces between points that it does not have");
+      throw new FormatProblem("it has faces whose points are missing");
     for (let i = 2; i < corners.length; i++) this.#corners.push(corners[0]!, corners[i - 1]!, corners[i]!);
   }
 
@@ -79,7 +79,7 @@ async function readPlyFaces(reading: Reading, triangles: Triangles): Promise<voi
   });
 }
 
-/** Counted from 1, or backwards from the last vertex so far. */
+/** An index counts from 1. A negative one counts backwards from the last vertex so far. */
 async function readObjFaces(reading: Reading, triangles: Triangles): Promise<void> {
   let vertices = 0;
   for await (const some of lines(reading, 0)) {

@@ -29,19 +29,19 @@ interface GltfJson {
   extensionsRequired?: string[];
 }
 
-/** What a file may need: three's loader brings it along, or it has nothing to do with where points are. */
+/** Extensions that a file may require: three's loader supports them, or they do not change where points are. */
 const UNDERSTOOD =
   /^(KHR_(mesh_quantization|meshopt_compression|materials_|texture_|lights_|animation_|xmp)|EXT_(meshopt_compression|mesh_gpu_instancing|texture_))/;
 
-/** What has vertices in a scene, and where it stands: once for each of its instances. */
+/** A thing with vertices in a scene, and its places: one for each of its instances. */
 interface Placed {
   geometry: BufferGeometry;
   matrices: Matrix4[];
 }
 
 /**
- * The vertices of a glTF scene, points and meshes alike, where its nodes put them. `base` is the address other files of it
- * are named from, or null where they cannot be had.
+ * The vertices of a glTF scene, of points and of meshes, placed by its nodes. The names of other files are relative to
+ * the address `base`. If it is null, other files cannot be loaded.
  */
 export async function readGltf(reading: Reading, base: string | null): Promise<LoadedCloud> {
   const { name, blob, limit } = reading;
@@ -70,7 +70,7 @@ export async function readGltf(reading: Reading, base: string | null): Promise<L
         point.fromBufferAttribute(positions, vertex).applyMatrix4(matrix);
         const i = builder.put(point.x, point.y, point.z);
         if (colored) {
-          // A file's colors are linear light.
+          // The colors in a file are linear light.
           new Color().fromBufferAttribute(attributes["color"] as BufferAttribute, vertex).getRGB(shown, SRGBColorSpace);
           [shown.r, shown.g, shown.b].forEach(
             (value, channel) => (builder.values[channel]![i] = Math.round(255 * Math.min(1, Math.max(0, value)))),
@@ -83,14 +83,14 @@ export async function readGltf(reading: Reading, base: string | null): Promise<L
   return { ...builder.finish(), taken: { up: "y" } };
 }
 
-/** The description of the scene: the file itself, or the first part of a binary one. */
+/** The description of the scene: the whole file, or the first part of a binary file. */
 function jsonOf(name: string, data: ArrayBuffer): GltfJson {
   const view = new DataView(data);
   const binary = view.byteLength >= 20 && view.getUint32(0, true) === 0x46546c67;
   if (binary && view.getUint32(4, true) !== 2)
-    throw new LoadProblem(`${name} is of glTF version ${view.getUint32(4, true)}, and this page knows 2.`);
+    throw new LoadProblem(`${name} has glTF version ${view.getUint32(4, true)}, but this page reads only version 2.`);
   if (binary && view.getUint32(8, true) > view.byteLength)
-    throw new LoadProblem(`${name} is broken: it ends before the length its header promises.`);
+    throw new LoadProblem(`${name} is broken: it is shorter than its header says.`);
   try {
     const text = binary ? new Uint8Array(data, 20, view.getUint32(12, true)) : new Uint8Array(data);
     return JSON.parse(new TextDecoder().decode(text)) as GltfJson;
@@ -100,8 +100,7 @@ function jsonOf(name: string, data: ArrayBuffer): GltfJson {
 }
 
 function checkUse(name: string, json: GltfJson, base: string | null): void {
-  if (json.asset?.version === undefined)
-    throw new LoadProblem(`${name} is broken: it does not say of which version of glTF it is.`);
+  if (json.asset?.version === undefined) throw new LoadProblem(`${name} is broken: it does not give its glTF version.`);
   const used = [...(json.extensionsUsed ?? []), ...(json.extensionsRequired ?? [])];
   if (used.includes("KHR_draco_mesh_compression")) {
     throw new LoadProblem(
@@ -109,24 +108,23 @@ function checkUse(name: string, json: GltfJson, base: string | null): void {
     );
   }
   const unknown = json.extensionsRequired?.find((extension) => !UNDERSTOOD.test(extension));
-  if (unknown !== undefined) throw new LoadProblem(`${name} needs what this page does not know (${unknown}).`);
+  if (unknown !== undefined)
+    throw new LoadProblem(`${name} needs an extension that this page does not support (${unknown}).`);
   const elsewhere = json.buffers?.find(({ uri }) => uri !== undefined && !uri.startsWith("data:"));
   if (elsewhere && base === null) {
-    throw new LoadProblem(
-      `${name} keeps its points in a file of its own (${elsewhere.uri}). Export it as one GLB file.`,
-    );
+    throw new LoadProblem(`${name} keeps its points in another file (${elsewhere.uri}). Export it as one GLB file.`);
   }
 }
 
 async function parse(name: string, data: ArrayBuffer, base: string | null): Promise<GLTF> {
   const loader = new GLTFLoader(new LoadingManager()).setMeshoptDecoder(MeshoptDecoder);
-  // Vertices alone are wanted: no picture is loaded, nor anything else a material would need.
+  // Only vertices are needed, so no textures are loaded, nor other data for materials.
   loader.register(() => ({ name: "no_materials", loadMaterial: () => Promise.resolve(new MeshBasicMaterial()) }));
   try {
     return await loader.parseAsync(data, base ?? "");
   } catch (error) {
     throw new LoadProblem(
-      `${name} is broken or uses what this page does not know: ${error instanceof Error ? error.message.replace(/^THREE\.\w+: |\.$/g, "") : "it could not be read"}.`,
+      `${name} is broken or uses a feature that this page does not support: ${error instanceof Error ? error.message.replace(/^THREE\.\w+: |\.$/g, "") : "it could not be read"}.`,
     );
   }
 }
@@ -136,7 +134,7 @@ function verticesIn({ scene, scenes }: GLTF): Placed[] {
   const root = (scene as Object3D | undefined) ?? scenes[0];
   root?.updateMatrixWorld(true);
   root?.traverse((object) => {
-    // Points and lines have a geometry as well.
+    // Points and lines also have a geometry.
     const { geometry } = object as Partial<Mesh>;
     if (!geometry || !("position" in geometry.attributes)) return;
     placed.push({ geometry, matrices: isInstanced(object) ? instances(object) : [object.matrixWorld] });
@@ -160,7 +158,7 @@ function position({ geometry }: Placed): BufferAttribute {
   return geometry.getAttribute("position") as BufferAttribute;
 }
 
-/** Numbers of the file's own, “_INTENSITY” and the like, where all its vertices have them. */
+/** The file's own numbers, such as “_INTENSITY”, if all vertices have them. */
 function extraColumns(placed: readonly Placed[]): (Column & { attribute: string })[] {
   const names = Object.keys(placed[0]?.geometry.attributes ?? {}).filter((name) => name.startsWith("_"));
   return names

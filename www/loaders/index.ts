@@ -6,7 +6,10 @@ import script from "./worker.ts?worker&url";
 export { LoadProblem } from "./problem.ts";
 export type { LoadRequest } from "./protocol.ts";
 
-/** Loads a cloud in a worker of its own: a large file does not hold up the page, and its memory goes when the worker ends. */
+/**
+ * Loads a cloud in its own worker. So a large file does not block the page, and its memory is freed when the worker
+ * ends.
+ */
 export function loadCloud(
   request: LoadRequest,
   signal: AbortSignal,
@@ -24,7 +27,7 @@ export function loadCloud(
     };
     worker.onerror = (event) => {
       event.preventDefault();
-      // Only an error of a worker that runs says where it happened.
+      // Only an error inside a running worker has a place in a file.
       const running = event instanceof ErrorEvent;
       reject(
         running
@@ -37,8 +40,8 @@ export function loadCloud(
 }
 
 /**
- * Browsers run no worker whose script comes from another origin, as it does where a page takes the element from elsewhere.
- * A script of the page's own may import it, though.
+ * Browsers do not run a worker whose script comes from another origin, for instance if a page loads the element from
+ * another site. But a script of the page's own origin may import that script.
  */
 function startWorker(): { worker: Worker; end: () => void } {
   const { href, origin } = new URL(script, import.meta.url);

@@ -1,10 +1,12 @@
 import type { LoadedCloud, Values } from "../cloud/cloud.ts";
 import { LoadProblem } from "./problem.ts";
 
-/** Of files that have to be in memory as a whole: LAZ, compressed PCD, GLB. Others are read a piece at a time. */
+/**
+ * The size limit of files that must be in memory as a whole: LAZ, compressed PCD, GLB. Other files are read in pieces.
+ */
 export const MAX_BYTES = 1_000_000_000;
 
-/** Beyond this, squared distances no longer fit the f32 arithmetic of the graphics card. */
+/** Beyond this, squared distances no longer fit into the f32 arithmetic of the graphics card. */
 const MAX_EXTENT = 1e18;
 
 const number = new Intl.NumberFormat("en-US");
@@ -12,12 +14,15 @@ const number = new Intl.NumberFormat("en-US");
 export function checkByteLength(name: string, bytes: number): void {
   if (bytes > MAX_BYTES) {
     throw new LoadProblem(
-      `${name} is too large: ${number.format(Math.round(bytes / 1e6))} MB, and this page opens such files up to ${number.format(MAX_BYTES / 1e6)} MB.`,
+      `${name} is too large: ${number.format(Math.round(bytes / 1e6))} MB. This page opens such files up to ${number.format(MAX_BYTES / 1e6)} MB.`,
     );
   }
 }
 
-/** Refuses an empty cloud, one with points that are nowhere (or drops those), and one that is too wide to draw. */
+/**
+ * Refuses an empty cloud, and one that is too wide to draw. Points without a position are refused, or dropped if that
+ * is asked for.
+ */
 export function checkedCloud(name: string, cloud: LoadedCloud, skipNonFinite: boolean): LoadedCloud {
   const total = cloud.positions.length / 3;
   if (total === 0) throw new LoadProblem(`${name} holds no points.`);
@@ -69,7 +74,7 @@ function picked<T extends Values>(values: T, kept: Uint32Array, width: number): 
   return result;
 }
 
-/** Half the memory where f32 holds every coordinate exactly. */
+/** Halves the memory if f32 holds every coordinate exactly. */
 function narrowed(positions: LoadedCloud["positions"]): LoadedCloud["positions"] {
   if (positions instanceof Float32Array) return positions;
   return positions.every((value) => Math.fround(value) === value) ? Float32Array.from(positions) : positions;

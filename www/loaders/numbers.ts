@@ -1,7 +1,7 @@
 import type { Values } from "../cloud/cloud.ts";
 import type { NumberType } from "../../src/ts/formats/numbers.js";
 
-/** What holds a file's numbers of each type; of the longest whole ones not all digits. */
+/** The array for each type of numbers in a file. For the longest integers it does not keep all digits. */
 const ARRAYS = {
   int8: Int8Array,
   uint8: Uint8Array,

@@ -6,7 +6,7 @@ import { lines, type Reading } from "./blocks.ts";
 import { CloudBuilder } from "./builder.ts";
 import { LoadProblem } from "./problem.ts";
 
-/** The vertices of an OBJ file (“v x y z”, with a color behind in some), whatever faces it has. */
+/** The vertices of an OBJ file (“v x y z”, in some files with a color after them). Its faces are optional. */
 export async function readObj(reading: Reading, encoding: string): Promise<LoadedCloud> {
   const { name, limit } = reading;
   const builder = new CloudBuilder(
@@ -24,7 +24,7 @@ export async function readObj(reading: Reading, encoding: string): Promise<Loade
       if (!/^\s*v\s/.test(text)) continue;
       const line = trimmed(text.replace(/#.*/, ""));
       const words = wordsOf(line);
-      // With a weight or a color behind, or both.
+      // The position may be followed by a weight, a color, or both.
       if (![4, 5, 7, 8].includes(words.length))
         throw lineProblem(number, `has ${words.length - 1} values, and a vertex has 3, 4, 6 or 7`, line);
       const [x, y, z] = words.slice(1, 4).map(numberIn);
@@ -32,7 +32,7 @@ export async function readObj(reading: Reading, encoding: string): Promise<Loade
         throw lineProblem(number, "is not a point, a value is not a number", line);
       if (!builder.takes()) continue;
       const i = builder.put(x, y, z);
-      // An OBJ file may color some vertices and not others: NaN there, and no color for the whole.
+      // An OBJ file may have colors for only some vertices. The others get NaN, and then the whole cloud has no colors.
       for (let channel = 0; channel < 3; channel++)
         builder.values[channel]![i] = words.length >= 7 ? Number(words[words.length - 3 + channel]) : NaN;
     }

@@ -19,7 +19,8 @@ async function readPoints(
   reading: Reading,
   { data, points: group, axes, end, lines }: PcdHeader,
 ): Promise<LoadedCloud> {
-  // Four bytes of color may call themselves a float, which would lose them where they are none.
+  // A color has four bytes and may have the type float. Reading it as a float would change the bytes that are not a
+  // number.
   const typeOf = (name: string, type: NumberType) =>
     COLOR.test(name) && data !== "ascii" && bytesOf(type) === 4 ? "uint32" : type;
   const columns = otherColumns(group, axes, (name) => name, typeOf);
@@ -32,7 +33,7 @@ async function readPoints(
   return cloud;
 }
 
-/** Compressed files go field by field: all x, all y, all z. */
+/** Compressed files hold field after field: all x, all y, all z. */
 async function readCompressed(reading: Reading, start: number, points: Points): Promise<LoadedCloud> {
   const { name, blob } = reading;
   const { group, axes, others } = points;
@@ -55,7 +56,7 @@ async function readCompressed(reading: Reading, start: number, points: Points): 
   return builder.finish();
 }
 
-/** A color is four bytes in one number; a text may write that as the float of the same bytes. */
+/** A color is four bytes in one number. A text may write them as the float with the same bytes. */
 function packedColors({ colors, attributes = [] }: LoadedCloud): Pick<LoadedCloud, "colors" | "attributes"> {
   const packed = attributes.find(({ name }) => COLOR.test(name));
   if (!packed) return { colors, attributes };
@@ -70,7 +71,7 @@ function packedColors({ colors, attributes = [] }: LoadedCloud): Pick<LoadedClou
   return { colors: bytes, attributes: attributes.filter((attribute) => attribute !== packed) };
 }
 
-/** Rows and columns as a depth camera sees them: in its own coordinates, x to the right, y down, z ahead. */
+/** The cloud of a depth camera, as rows and columns in the camera's coordinates: x to the right, y down, z ahead. */
 function taken({ height, viewpoint }: PcdHeader): Pick<LoadedCloud, "taken"> {
   if (!(height > 1)) return {};
   return { taken: { up: "-y", from: viewpoint ? [...viewpoint] : [0, 0, 0] } };

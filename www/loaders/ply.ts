@@ -3,12 +3,12 @@ import { LONGEST_PLY_HEADER, type PlyHeader, readPlyHeader as headerIn } from ".
 import { bytes, type Reading } from "./blocks.ts";
 import { checkEnd, endOfRows, otherColumns, type Points, readBinaryRows, readTextRows } from "./rows.ts";
 
-/** Colors that some files call otherwise. */
+/** Other names of colors in some files. */
 const NAMES: Record<string, string> = {
   r: "red", diffuse_red: "red", g: "green", diffuse_green: "green", b: "blue", diffuse_blue: "blue",
 }; // prettier-ignore
 
-/** The vertices of a PLY file, whatever faces it has. */
+/** The vertices of a PLY file. Its faces are ignored. */
 export async function readPly(reading: Reading): Promise<LoadedCloud> {
   const header = await readPlyHeader(reading);
   const { elements, vertices, axes, end, lines } = header;

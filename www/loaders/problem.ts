@@ -1,10 +1,10 @@
 import type { FormatProblem } from "../../src/ts/formats/problem.js";
 
-/** A file that cannot be shown: the message is the sentence the user reads. */
+/** An error for a file that cannot be shown. The user reads its message. */
 export class LoadProblem extends Error {
   override readonly name = "LoadProblem";
 
-  /** Points whose coordinates are not finite; the rest could be loaded without them. */
+  /** The number of points whose coordinates are not finite. The other points could be loaded without them. */
   readonly nonFinite: number;
 
   constructor(sentence: string, nonFinite = 0) {
@@ -13,15 +13,15 @@ export class LoadProblem extends Error {
   }
 }
 
-/** Formats are downloaded when they are needed, which may be long after the page. */
+/** The readers of formats are downloaded when they are needed, maybe long after the page. */
 export function missingPart(name: string): LoadProblem {
   return new LoadProblem(`${name} could not be read: a part of this page could not be downloaded.`);
 }
 
-/** @param promised points, by the header of a LAS file */
+/** @param promised the number of points in the header of a LAS file */
 export function endsEarly(name: string, promised: number): LoadProblem {
   return new LoadProblem(
-    `${name} is broken: it ends before the ${promised.toLocaleString("en-US")} points its header promises.`,
+    `${name} is broken: it ends before the ${promised.toLocaleString("en-US")} points that its header promises.`,
   );
 }
 

@@ -1,7 +1,7 @@
 import type { PreparedCloud } from "../cloud/cloud.ts";
 import type { GeneratorName } from "../samples/generators.ts";
 
-/** What the page asks of the loading worker; one request each. */
+/** A request of the page to the loading worker. Each worker gets one request. */
 export type LoadRequest =
   | { kind: "sample"; name: string; url: string }
   | { kind: "shape"; name: string; shape: GeneratorName }
@@ -10,11 +10,11 @@ export type LoadRequest =
 
 interface ReadOptions {
   skipNonFinite: boolean;
-  /** Of more points than these, only every so manyth is to be shown. */
+  /** If there are more points than this, the cloud is thinned evenly. */
   limit?: number;
 }
 
-/** What comes back: any number of steps, then the cloud or what was wrong. `fraction` is null where it cannot be known. */
+/** The replies: any number of progress steps, then the cloud or an error. `fraction` is null if it is not known. */
 export type LoadReply =
   | { kind: "progress"; step: string; fraction: number | null }
   | { kind: "cloud"; prepared: PreparedCloud }

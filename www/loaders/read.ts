@@ -5,7 +5,7 @@ import { looksBinary } from "../../src/ts/formats/text.js";
 import { bytes, type Reading } from "./blocks.ts";
 import { LoadProblem, missingPart, problemOf } from "./problem.ts";
 
-/** Reads a file by its first bytes, or by the ending of its name where the bytes say nothing. */
+/** Reads a file. Its first bytes tell the format, or else the ending of its name. */
 export async function readFile(reading: Reading, base: string | null): Promise<LoadedCloud> {
   const { name } = reading;
   try {
@@ -16,12 +16,12 @@ export async function readFile(reading: Reading, base: string | null): Promise<L
     if (error instanceof TypeError && error.message.includes("import")) throw missingPart(name);
     if (error instanceof RangeError)
       throw new LoadProblem(`${name} could not be read: it is broken, or there is too little memory for it.`);
-    // Whatever a loader trips over, it was the file: a size, an offset or a number that cannot be.
+    // An unexpected error in a loader means that the file is broken: a size, an offset or a number is impossible.
     throw new LoadProblem(`${name} is broken and could not be read.`);
   }
 }
 
-/** Each format is downloaded when it is needed. */
+/** Each reader is downloaded when it is needed. */
 async function readBy(reading: Reading, base: string | null): Promise<LoadedCloud> {
   const { name, blob } = reading;
   const data = await bytes(name, blob, 0, 4096);
@@ -31,7 +31,7 @@ async function readBy(reading: Reading, base: string | null): Promise<LoadedClou
   if (start.startsWith("glTF") || (ending === "gltf" && /^\s*\{/.test(start)))
     return (await import("./gltf.ts")).readGltf(reading, base);
   if (/^ply\s/.test(start)) return (await import("./ply.ts")).readPly(reading);
-  // Comments of any file may name a PCD file.
+  // Any file may have a comment about a PCD file.
   if (/^(#\s*\.PCD\b|VERSION\s|FIELDS\s)/.test(start) || (ending === "pcd" && /^(VERSION|FIELDS)\s/im.test(start)))
     return (await import("./pcd.ts")).readPcd(reading);
   if (/^(ply|pcd|las|laz|gltf|glb)$/.test(ending)) {
@@ -40,14 +40,16 @@ async function readBy(reading: Reading, base: string | null): Promise<LoadedClou
   }
   const encoding = encodingOf(data);
   if (encoding === "utf-8" && looksBinary(new Uint8Array(data)))
-    throw new LoadProblem(`${name} is not a point cloud this page knows. It opens ${listed(FORMATS, "and")} files.`);
+    throw new LoadProblem(
+      `${name} is not a point cloud that this page knows. It opens ${listed(FORMATS, "and")} files.`,
+    );
   const isObj = ending === "obj" || /^v[ \t]+[-+.\d]/m.test(start);
   return isObj
     ? (await import("./obj.ts")).readObj(reading, encoding)
     : (await import("./xyz.ts")).readXyz(reading, encoding);
 }
 
-/** By the mark at its beginning: some spreadsheets export text of two bytes a character. */
+/** The encoding by the byte order mark: some spreadsheets export text with two bytes for each character. */
 function encodingOf(data: ArrayBuffer): "utf-8" | "utf-16le" | "utf-16be" {
   const [first, second] = new Uint8Array(data, 0, Math.min(data.byteLength, 2));
   if (first === 0xff && second === 0xfe) return "utf-16le";

@@ -1,4 +1,4 @@
-// Rows of which a header tells, from a file that is read a block at a time.
+// Reads rows that a header describes, from a file that is read a block at a time.
 import type { LoadedCloud } from "../cloud/cloud.ts";
 import { checkByteOrder, ORDER_SAMPLE } from "../../src/ts/formats/byte-order.js";
 import { fitSingle, numberReader, type NumberReader, type NumberType } from "../../src/ts/formats/numbers.js";
@@ -9,7 +9,7 @@ import { checkRest } from "../../src/ts/formats/text.js";
 import { BLOCK, bytes, eachRow, lines, type Reading } from "./blocks.ts";
 import { CloudBuilder, type Column } from "./builder.ts";
 
-/** A file's points, and which of their other fields become attributes and colors. */
+/** A file's points, and the other fields that become attributes and colors. */
 export interface Points {
   group: Group;
   axes: Axes;
@@ -17,12 +17,12 @@ export interface Points {
 }
 
 export function builderFor({ limit }: Reading, { group, axes, others }: Points): CloudBuilder {
-  // A float of four bytes is one, also where a text writes it with more digits.
+  // A field with the type of a four-byte float is read as one, even if a text gives more digits.
   const single = fitSingle(axes.map((axis) => group.fields[axis]!.type));
   return new CloudBuilder(single ? "float32" : "float64", others, limit, group.count);
 }
 
-/** Reads rows in text: the lines from `start` on, which is the line of this number. */
+/** Reads rows in text. `start` is the place of the first line, `firstNumber` its number. */
 export async function readTextRows(
   reading: Reading,
   { start, firstNumber }: { start: number; firstNumber: number },
@@ -64,7 +64,7 @@ export async function readBinaryRows(
 
   const builder = builderFor(reading, points);
   const lists = hasLists(fields);
-  // Where lists have any length, a field begins in each row elsewhere.
+  // Lists have any length, so each row has its fields at other places.
   const reader = (field: number): NumberReader =>
     numberReader(fields[field]!.type, lists ? 0 : rowBytes(fields.slice(0, field)), littleEndian);
   const [x, y, z] = axes.map(reader) as [NumberReader, NumberReader, NumberReader];
@@ -88,7 +88,7 @@ export async function readBinaryRows(
   return builder.finish();
 }
 
-/** Goes over rows with lists, and gives back where they end. */
+/** Skips rows with lists, and returns where they end. */
 export async function eachListRow(
   { name, blob }: Reading,
   start: number,
@@ -110,7 +110,7 @@ export async function eachListRow(
       continue;
     }
     if (blockStart + view.byteLength >= blob.size) throw endsEarly(row, group.count, group.name);
-    // A row that does not fit into a block needs a longer one.
+    // A row that does not fit into a block needs a longer block.
     if (at === 0) length *= 2;
     blockStart += at;
     at = 0;
@@ -119,7 +119,7 @@ export async function eachListRow(
   return blockStart + at;
 }
 
-/** Where the rows of a group end. */
+/** The place where the rows of a group end. */
 export async function endOfRows(reading: Reading, start: number, group: Group, littleEndian: boolean): Promise<number> {
   const { name, count, fields } = group;
   if (hasLists(fields)) return eachListRow(reading, start, group, littleEndian, () => undefined);
@@ -129,12 +129,12 @@ export async function endOfRows(reading: Reading, start: number, group: Group, l
   return end;
 }
 
-/** Looks at what follows the last row, a block of it: a header with one field too few leaves much. */
+/** Checks one block after the last row: if a header lacks a field, much data is left over. */
 export async function checkEnd({ name, blob }: Reading, end: number, what: string): Promise<void> {
   checkRest(new Uint8Array(await bytes(name, blob, end, end + BLOCK)), what);
 }
 
-/** A column for each field that is one number and no axis. */
+/** A column for each field that is a single number and not x, y or z. */
 export function otherColumns(
   { fields }: Group,
   axes: Axes,
@@ -142,7 +142,7 @@ export function otherColumns(
   typeOf: (name: string, type: NumberType) => NumberType = (_, type) => type,
 ): (Column & { field: number })[] {
   return fields.flatMap(({ name, type, count, length }, field) =>
-    // Fields of several numbers are descriptors, histograms and room between others.
+    // Fields of several numbers are descriptors, histograms and padding.
     axes.includes(field) || count > 1 || length !== undefined
       ? []
       : [{ name: called(name), type: typeOf(name, type), field }],

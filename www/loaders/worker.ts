@@ -12,10 +12,10 @@ const post = (reply: LoadReply, transfer: Transferable[] = []) => {
   self.postMessage(reply, { transfer });
 };
 
-/** Why a sample cannot be had: those that have been opened before are (offline/service-worker.ts). */
+/** Why a sample is not available. Samples that have been opened before are kept (offline/service-worker.ts). */
 const NOT_KEPT = "there is no connection, and it has not been opened on this device before";
 
-/** Not more often than the eye can follow. */
+/** The least number of milliseconds between two reports: the eye sees no faster changes. */
 const EVERY = 50;
 let last = { step: "", at: 0 };
 const progress = (step: string, fraction: number | null) => {
@@ -41,7 +41,7 @@ self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
   }
 };
 
-/** As much of it as one reads in a sentence. */
+/** The beginning of the text, short enough for a sentence. */
 function shortened(address: string): string {
   return address.length > 60 ? `${address.slice(0, 60)}…` : address;
 }
@@ -57,7 +57,7 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   }
   if (request.kind === "sample") {
     const data = await (await download(name, request.url, downloading, NOT_KEPT)).arrayBuffer();
-    // A server that answers with a page for what it does not have.
+    // Some servers answer with a page if they do not have the file.
     if (data.byteLength % 12 !== 0)
       throw new LoadProblem(`${name} could not be downloaded: the server sent something else.`);
     return { positions: new Float32Array(data), colors: null };
@@ -65,9 +65,9 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
 
   const { limit = MAX_POINTS, skipNonFinite } = request;
   const check = (cloud: LoadedCloud) => checkedCloud(name, cloud, skipNonFinite);
-  // Neither what cannot be read as one, nor what holds its own content (data:).
+  // Refuses texts that cannot be read as an address, and addresses that hold their own content (data:).
   if (request.kind === "url" && !URL.canParse(".", request.url))
-    throw new LoadProblem(`“${shortened(request.url)}” is no address of a file.`);
+    throw new LoadProblem(`“${shortened(request.url)}” is not the address of a file.`);
   let blob: Blob;
   if (request.kind === "file") {
     blob = request.file;

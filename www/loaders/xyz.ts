@@ -11,11 +11,11 @@ interface Other {
   column: number;
 }
 
-/** Enough points to tell what the other columns hold. */
+/** Enough points to guess the meaning of the other columns. */
 const LOOK_AT = 200;
 const COLORS = [/^(r|red)$/, /^(g|green)$/, /^(b|blue)$/];
 
-/** A table of points: src/ts/formats/table.ts says which lines it may have. */
+/** Reads a table of points. src/ts/formats/table.ts says which lines it may have. */
 export async function readXyz(reading: Reading, encoding: string): Promise<LoadedCloud> {
   const { name } = reading;
   const rows = new TableRows();
@@ -40,7 +40,7 @@ export async function readXyz(reading: Reading, encoding: string): Promise<Loade
   rows.finish();
   const cloud = builder!.finish();
   const layout = rows.layout!;
-  // Points with colors behind them need no word either.
+  // Colors after the position are a sure sign, too, so no note is needed.
   const isSure = isPlain(layout) || (layout.names === undefined && others.some((other) => other.name === "red"));
   return isSure ? cloud : { ...cloud, notes: [`${name}: ${columnsSaid(layout)}.`, ...(cloud.notes ?? [])] };
 }
@@ -53,8 +53,8 @@ function sample(lines: readonly string[], layout: Layout): string[][] {
 }
 
 /**
- * Colors by their names, or without names the last three of 6 columns (x y z r g b) or 7 (with an intensity between) if all
- * are bytes; and the other columns of numbers.
+ * The colors by their names. Without names, they are the last three of 6 columns (x y z r g b) or of 7 (with an
+ * intensity before them), if all values are bytes. Also the other columns of numbers.
  */
 function otherColumns({ width, axes, names }: Layout, rows: readonly string[][]): Other[] {
   const bare = names?.bare ?? [];

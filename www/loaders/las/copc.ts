@@ -7,7 +7,7 @@ import { type LasHeader, parseHeader } from "./header.ts";
 import { type LazPerf, startLazPerf } from "./perf.ts";
 import { RecordTaker } from "./records.ts";
 
-/** Bytes of the file, wherever it is. */
+/** Reads bytes of the file, which may be on the device or on a server. */
 export type ReadRange = (from: number, to: number) => Promise<Uint8Array>;
 
 type Node = Hierarchy.Node;
@@ -15,15 +15,15 @@ type Node = Hierarchy.Node;
 const HEAD = 1 << 16;
 const DEEPEST = 40;
 const LARGEST_PART = 1 << 28;
-/** Nodes asked for ahead of the one that is decompressed. */
+/** The number of nodes that are requested ahead of the node being decompressed. */
 const AHEAD = 6;
 
 const number = new Intl.NumberFormat("en-US");
 
 /**
- * A cloud-optimized point cloud: an octree whose nodes hold ever finer samples. Its levels are read from the coarsest on,
- * as many whole ones as the limit allows, so that what is shown is even; of a first level beyond the limit, every so manyth
- * point.
+ * Reads a cloud-optimized point cloud: an octree in which deeper nodes hold finer samples. Levels are read from the
+ * coarsest on, whole ones as long as the limit allows. So the shown points are spread evenly. If the first level alone
+ * is beyond the limit, its points are thinned evenly.
  */
 export async function readCopc(
   { name, limit, onProgress }: Pick<Reading, "name" | "limit" | "onProgress">,
@@ -41,7 +41,7 @@ export async function readCopc(
     const node = nodes[i];
     if (!node) return;
     const part = read(node.pointDataOffset, node.pointDataOffset + node.pointDataLength);
-    // Its turn comes later, and with it the word about what went wrong.
+    // This error is reported later, when the node's turn comes.
     part.catch(() => undefined);
     asked.push(part);
   };
@@ -61,13 +61,13 @@ export async function readCopc(
   return {
     ...cloud,
     notes: [
-      `${shown} of its ${number.format(header.count)} points are shown, those of its coarser levels.`,
+      `${shown} of its ${number.format(header.count)} points are shown: the points of its coarser levels.`,
       ...cloud.notes!.slice(points > limit ? 1 : 0),
     ],
   };
 }
 
-/** The nodes of the coarsest levels, as far as the limit goes. */
+/** The nodes of the coarsest levels, up to the limit. */
 async function chooseNodes(
   name: string,
   read: ReadRange,
@@ -82,7 +82,7 @@ async function chooseNodes(
     const pages = [{ depth: 0, page: info.rootHierarchyPage }];
     const known = new Set<number>();
     for (let depth = 0; depth < DEEPEST; depth++) {
-      // What lies below a level may be listed in pages of their own.
+      // The nodes below a level may be listed in separate pages.
       for (let i = 0; i < pages.length; i++) {
         const { depth: from, page } = pages[i]!;
         if (from > depth) continue;
@@ -137,7 +137,7 @@ function decodeNode(
     decoder.open(format, rowBytes, from);
     for (let i = 0; i < node.pointCount; i++) {
       decoder.getPoint(to);
-      // The memory may have grown, and with it the buffer been replaced.
+      // If the memory has grown, its buffer has been replaced.
       taker.take(new DataView(perf.HEAPU8.buffer, to, rowBytes), 0);
     }
     decoder.delete();

@@ -4,18 +4,18 @@ import { bytesOf, type NumberReader, numberReader, type NumberType } from "../..
 import { LoadProblem } from "../problem.ts";
 
 /**
- * What the page needs of a LAS header, of any version from 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15). The copc package
- * has a parser too, which knows 1.2 and 1.4 and not all formats of points.
+ * The parts of a LAS header that the page needs, for the versions 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15). The
+ * copc package also has a parser, but only for 1.2 and 1.4, and not for all point formats.
  */
 export interface LasHeader {
   count: number;
   compressed: boolean;
-  /** A LAZ file that is an octree besides. */
+  /** Whether the LAZ file is also an octree. */
   isCopc: boolean;
   format: number;
   rowBytes: number;
   start: number;
-  /** Where a point is: its whole numbers times the scale, plus the offset. */
+  /** A coordinate is its integer times the scale, plus the offset. */
   scale: readonly [number, number, number];
   offset: readonly [number, number, number];
   low: readonly [number, number, number];
@@ -27,7 +27,7 @@ export interface LasColumn extends Column {
   read: NumberReader;
 }
 
-/** How long a point of each format is, and where its color and its time are. */
+/** For each point format: its length, and the places of its color and its time. */
 const FORMATS: Record<number, { bytes: number; color?: number; time?: number }> = {
   0: { bytes: 20 },
   1: { bytes: 28, time: 20 },
@@ -60,7 +60,7 @@ const LONGEST_HEADER = 1 << 20;
 export async function readHeader(name: string, blob: Blob): Promise<LasHeader> {
   const data = await bytes(name, blob, 0, LONGEST_HEADER);
   const header = parseHeader(name, data);
-  if (header.start > blob.size) throw new LoadProblem(`${name} is broken: its points would begin behind its end.`);
+  if (header.start > blob.size) throw new LoadProblem(`${name} is broken: its points would begin after its end.`);
   return header;
 }
 
@@ -70,13 +70,13 @@ export function parseHeader(name: string, data: ArrayBuffer): LasHeader {
   if (view.byteLength < 227) throw broken("it ends within its LAS header");
   const [major, minor] = [view.getUint8(24), view.getUint8(25)];
   if (major !== 1 || minor > 4)
-    throw new LoadProblem(`${name} is of LAS version ${major}.${minor}, and this page knows 1.0 to 1.4.`);
+    throw new LoadProblem(`${name} has LAS version ${major}.${minor}, but this page reads 1.0 to 1.4.`);
   const headerBytes = view.getUint16(94, true);
   const start = view.getUint32(96, true);
   if (headerBytes < 227 || start < headerBytes || (minor === 4 && view.byteLength < 375))
-    throw broken("the sizes in its LAS header cannot be");
+    throw broken("the sizes in its LAS header are impossible");
 
-  // The two upper bits of the format say that the points are compressed.
+  // The two upper bits of the format are set if the points are compressed.
   const format = view.getUint8(104) & 63;
   const compressed = view.getUint8(104) >> 6 !== 0;
   const layout = FORMATS[format];
@@ -116,7 +116,7 @@ interface VariableRecord {
   length: number;
 }
 
-/** The records between the header and the points; those that do not fit are left out. */
+/** The records between the header and the points. Records that do not fit there are left out. */
 function recordsOf(view: DataView, start: number, count: number): VariableRecord[] {
   const records: VariableRecord[] = [];
   for (let at = start, i = 0; i < count && at + 54 <= view.byteLength; i++) {
@@ -156,7 +156,7 @@ function pointColumns(format: number, { color, time }: { color?: number; time?: 
   ];
 }
 
-/** What a program has added to each point, as it describes it. */
+/** The extra values of each point, as the program that added them describes them. */
 function extraColumns(view: DataView, { at, length }: VariableRecord, from: number, rowBytes: number): LasColumn[] {
   const columns: LasColumn[] = [];
   let offset = from;
@@ -165,7 +165,7 @@ function extraColumns(view: DataView, { at, length }: VariableRecord, from: numb
     const options = view.getUint8(record + 3);
     const type = EXTRA_TYPES[kind];
     const size = kind === 0 ? options : type ? bytesOf(type) : kind <= 8 ? 8 : 0;
-    // Kinds of several numbers are no longer in use, and nothing says where the next one begins.
+    // Types of several numbers are deprecated, and the place of the next field is unknown then.
     if (size === 0 || offset + size > rowBytes) break;
     if (type) {
       const scale = options & 8 ? view.getFloat64(record + 112, true) : 1;

@@ -7,10 +7,10 @@ import { type LasHeader, readHeader } from "./header.ts";
 import { startLazPerf } from "./perf.ts";
 import { RecordTaker } from "./records.ts";
 
-/** Points decompressed between two looks at how far it is. */
+/** The number of points that are decompressed between two reports of progress. */
 const BATCH = 50_000;
 
-/** A LAS or LAZ file; one with an octree (COPC) node by node. */
+/** Reads a LAS or LAZ file. A file with an octree (COPC) is read node by node. */
 export async function readLas(reading: Reading): Promise<LoadedCloud> {
   const { name, blob, limit } = reading;
   const header = await readHeader(name, blob);
@@ -31,7 +31,7 @@ export async function readLas(reading: Reading): Promise<LoadedCloud> {
   return taker.finish();
 }
 
-/** The file goes into the decoder's memory as it is, and its points come out one after another. */
+/** The whole file is copied into the decoder's memory, and its points come out one after another. */
 async function decompress(reading: Reading, header: LasHeader, taker: RecordTaker): Promise<void> {
   const { name, blob, onProgress } = reading;
   checkFormat(name, header);
@@ -57,17 +57,17 @@ async function decompress(reading: Reading, header: LasHeader, taker: RecordTake
       for (let row = 0; row < batch; row++) taker.take(view, row * rowBytes);
     }
   } catch (error) {
-    // The decoder throws numbers, traps and aborts; whatever it is, it was the file.
+    // The decoder throws numbers, traps and aborts. Each of these means that the file is damaged.
     throw error instanceof LoadProblem ? error : damaged(name);
   }
 }
 
-/** A compressed file that was cut has lost the table of its chunks, which stands at its end. */
+/** Finds out whether a compressed file was cut: the table of its chunks is at its end, so that is missing then. */
 async function checkChunkTable({ name, blob }: Reading, { start, count }: LasHeader): Promise<void> {
   const head = await bytes(name, blob, start, start + 8);
   if (head.byteLength < 8) throw endsEarly(name, count);
   const at = Number(new DataView(head).getBigInt64(0, true));
-  // A program that writes to a stream puts the table's place at the very end.
+  // A program that writes to a stream stores the table's place at the very end.
   const table = at === -1 ? await lastNumber(name, blob) : at;
   if (table < start || table + 8 > blob.size) throw endsEarly(name, count);
   const chunks = new DataView(await bytes(name, blob, table, table + 8)).getUint32(4, true);

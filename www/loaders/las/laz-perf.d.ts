@@ -1,4 +1,4 @@
-/** The package's own types want Emscripten's. */
+/** The package's own types need those of Emscripten. */
 declare module "laz-perf/lib/worker/laz-perf.js" {
   const createLazPerf: (options: {
     locateFile: () => string;

@@ -2,7 +2,7 @@ import createLazPerf from "laz-perf/lib/worker/laz-perf.js";
 import { missingPart } from "../problem.ts";
 import wasm from "laz-perf/lib/worker/laz-perf.wasm?url";
 
-/** As much of laz-perf (the LAZ decoder of hobu, Apache 2.0) as is used here. */
+/** The part of laz-perf (the LAZ decoder of hobu, Apache 2.0) that is used here. */
 export interface LazPerf {
   HEAPU8: Uint8Array;
   _malloc(bytes: number): number;
@@ -15,10 +15,10 @@ export interface LazPerf {
   };
 }
 
-/** The formats of points it knows. */
+/** The point formats that it supports. */
 export const LAZ_FORMATS = [0, 1, 2, 3, 6, 7, 8];
 
-/** Its wasm is served by the page itself. */
+/** The page itself serves its wasm. */
 export async function startLazPerf(name: string): Promise<LazPerf> {
   try {
     return (await createLazPerf({

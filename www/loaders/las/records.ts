@@ -12,7 +12,7 @@ const CLASSES: Readonly<Record<number, string>> = {
 
 const number = new Intl.NumberFormat("en-US");
 
-/** Takes the points of a LAS file as its records come, from wherever they come. */
+/** Takes the points of a LAS file, one record after another. */
 export class RecordTaker {
   readonly #header: LasHeader;
   readonly #builder: CloudBuilder;
@@ -29,7 +29,7 @@ export class RecordTaker {
     const x = view.getInt32(at, true) * scale[0] + offset[0];
     const y = view.getInt32(at + 4, true) * scale[1] + offset[1];
     const z = view.getInt32(at + 8, true) * scale[2] + offset[2];
-    // By a step of the scale more: the header's bounds are rounded, too.
+    // The tolerance is one step of the scale, since the header's bounds are rounded, too.
     const isOutside = (value: number, axis: 0 | 1 | 2) =>
       value < low[axis] - scale[axis] || value > high[axis] + scale[axis];
     if (isOutside(x, 0) || isOutside(y, 1) || isOutside(z, 2)) this.#outside++;
