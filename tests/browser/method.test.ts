@@ -170,7 +170,7 @@ test("a number of neighbors above the number of points gives a message, and noth
   const page = await openReady("?src=clouds/few.ply&denoise=32");
   expect((await reached(page, "ready")).total).toBe(20);
   expect(await page.locator("#message p").textContent()).toMatch(
-    /do not suit this cloud .*: noise is told by the 32 nearest of each point, and there are too few points for that\.$/,
+    /do not suit this cloud .*: noise handling needs the 32 nearest neighbors of each point, and there are too few points\.$/,
   );
   // The section with the settings of the address is unfolded.
   await page.locator("#denoise").getByRole("radio", { name: "6", exact: true }).check();

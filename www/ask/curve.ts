@@ -3,14 +3,20 @@ import type { Settings, Viewpoint } from "../settings/settings.ts";
 import type { Inquiry } from "./inquiry.ts";
 import { isSameView, methodOf, type ViewQuestion } from "./question.ts";
 
-/** From the least radius there is to the end of the slider; every other one first, so that the shape is soon there. */
+/**
+ * The exponents from the least radius to the end of the slider. Every second one comes first, so that the shape shows
+ * soon.
+ */
 const EXPONENTS = [0, 2, 4, 6, 1, 3, 5, 0.5, 1.5, 2.5, 3.5, 4.5, 5.5];
-/** So many milliseconds the picture has to be at rest. */
+/** The number of milliseconds for which the picture must be at rest. */
 const REST = 400;
 
-/** How many points are visible with one radius after another. Each is asked by itself, and only while nothing else is. */
+/**
+ * Finds the number of visible points for one radius after another. Each question is asked alone, while no other is
+ * open.
+ */
 export class Curve {
-  /** By exponent. */
+  /** The shares by exponent. */
   readonly counts = new Map<number, number>();
   readonly #inquiry: Inquiry;
   readonly #size: number;
@@ -23,7 +29,7 @@ export class Curve {
     this.#size = size;
   }
 
-  /** Called every frame as long as the curve is looked at; `changed` after every change of it. */
+  /** Called every frame while the curve is shown. Calls `changed` after each change of the curve. */
   follow(viewpoint: Viewpoint, settings: Settings, changed: () => void): void {
     const viewpoints = settings.show === "points" ? settings.viewpoints : "one";
     const question: ViewQuestion = {
@@ -56,7 +62,7 @@ export class Curve {
       });
       if (note === null) count = visibility.count;
     } catch {
-      // The picture's own questions tell what is wrong; here a point is missing.
+      // The picture's own questions report errors. Here, only a point of the curve is missing.
     }
     if (question === this.#question) this.counts.set(exponent, count);
   }

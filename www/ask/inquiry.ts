@@ -22,25 +22,25 @@ import { askView, type ViewAnswer } from "./views.ts";
 import type { WorkerCloud } from "./worker-cloud.ts";
 
 export interface TimedView extends ViewAnswer {
-  /** Whether it only stands in, while something moves, for a slower one. */
+  /** Whether it is a quick substitute for a slower answer while something moves. */
   quick: boolean;
-  /** When it was asked (performance.now), and how long it took once it had its turn. */
+  /** The time of the question (performance.now), and the duration of the answer after its turn came. */
   asked: number;
   milliseconds: number;
 }
 
-/** A viewpoint or a light that has not moved for so many milliseconds is at rest. */
+/** A viewpoint or a light that has not moved for this number of milliseconds is at rest. */
 const REST = 250;
 
 /**
- * Keeps the answers up with the viewpoint and the settings: which points are seen, and how they are lit. Each is asked
- * anew only when something it depends on has changed.
+ * Keeps the answers up to date with the viewpoint and the settings: which points are seen, and how they are lit. Each
+ * question is asked again only if something that it depends on has changed.
  */
 export class Inquiry {
   onView: (answer: TimedView) => void = () => undefined;
   /** `null`: there are no lights. */
   onLight: (answer: LightAnswer | null) => void = () => undefined;
-  /** The exponent that the automatic radius has where the viewpoint rests. */
+  /** The exponent of the automatic radius at the viewpoint's last rest. */
   onAutomatic: (exponent: number) => void = () => undefined;
   onError: (error: unknown) => void = () => undefined;
 
@@ -52,7 +52,7 @@ export class Inquiry {
   readonly #viewFollower = new Follower({
     next: () => (this.#views.isNew ? this.#viewRound() : undefined),
     refused: (error) => {
-      // A refused question is not waited for either.
+      // A question that was refused also counts as answered.
       this.#answered.view = this.#views.asked;
       this.onError(error);
     },
@@ -73,14 +73,14 @@ export class Inquiry {
   #freeSince = 0;
   #upToDate = false;
 
-  /** `another` makes the same cloud once more, for questions that take long. */
+  /** `another` makes the same cloud once more, for slow questions. */
   constructor(cloud: WorkerCloud, another: () => Promise<WorkerCloud>, size: number) {
     this.#cloud = cloud;
     this.#second = new SecondCloud(another);
     this.#size = size;
   }
 
-  /** Whether an answer to the last question that was followed is still to come. */
+  /** Whether the answer to the last question is still to come. */
   get busy(): boolean {
     return !this.#upToDate;
   }
@@ -92,7 +92,7 @@ export class Inquiry {
     return this.#ask(this.#cloud, undefined, this.#views.take());
   }
 
-  /** Tells the automatic exponent where the answer itself does not, unless a newer question waits. */
+  /** Finds the automatic exponent if the answer itself does not contain it, unless a newer question waits. */
   async findAutomatic(): Promise<void> {
     const question = this.#views.wanted;
     if (!question?.method.radius || isAutomatic(question.method)) return;
@@ -100,14 +100,14 @@ export class Inquiry {
     if (question === this.#views.wanted) this.onAutomatic(exponent);
   }
 
-  /** Called every frame and after every change; does nothing while the questions stay the same. */
+  /** Called every frame and after every change. Does nothing while the questions stay the same. */
   follow(viewpoint: Viewpoint, settings: Settings): void {
     if (!this.#viewpoint || !isSamePlace(viewpoint, this.#viewpoint, this.#size)) {
       this.#viewpoint = viewpoint;
       this.#viewpointRest.moved();
     }
     if (this.#lamps !== settings.lights) {
-      // The first lights are at rest where they are.
+      // The first lights count as being at rest.
       if (this.#lamps) this.#lampsRest.moved();
       this.#lamps = settings.lights;
     }
@@ -126,14 +126,14 @@ export class Inquiry {
       (lights.length === 0 || (answered.light !== undefined && isSameLight(answered.light, light)));
   }
 
-  /** An answer besides those for the picture, which go first. */
+  /** Asks a question that is not for the picture. Questions for the picture go first. */
   async aside(question: ViewQuestion): Promise<ViewAnswer> {
     const answer = await askView(this.#cloud, question);
     this.#noteFree(this.#cloud);
     return answer;
   }
 
-  /** The cloud's spacing in its own units; 0 where it has none. */
+  /** The cloud's spacing in its own units. 0 if it has none. */
   get spacing(): number {
     return this.#cloud.points.spacing;
   }
@@ -159,7 +159,8 @@ export class Inquiry {
       this.#answered.light = undefined;
       return;
     }
-    // The light of a point does not depend on whether it is seen: while the view moves, the last mesh serves.
+    // The light of a point does not depend on whether the point is seen. So while the view moves, the last mesh is
+    // used.
     const asked = viewMoving && last ? { ...question, mesh: last.mesh } : question;
     this.#lights.want(lightsMoving ? quickLight(asked) : asked);
     this.#lightFollower.follow();
@@ -203,8 +204,7 @@ export class Inquiry {
   }
 
   /**
-   * Where a question is asked, and the signal that gives it up. An answer that comes soon is shown even if the camera has
-   * moved on.
+   * Where a question is asked, and the signal that cancels it. A quick answer is shown even if the camera has moved on.
    */
   async #placeFor(
     { method }: { method: Method },
@@ -213,7 +213,7 @@ export class Inquiry {
     return isSlow(method) ? [await this.#second.ready(overtaken), overtaken] : [this.#cloud, undefined];
   }
 
-  /** From now on the cloud in the foreground has time for the next question. */
+  /** From now on, the cloud in the foreground can take the next question. */
   #noteFree(cloud: WorkerCloud): void {
     if (cloud === this.#cloud) this.#freeSince = performance.now();
   }
@@ -229,7 +229,7 @@ export class Inquiry {
   }
 }
 
-/** Another question has overtaken one, which is open again then. */
+/** Another question has overtaken this one, which becomes open again. */
 function isGivenUp(error: unknown, questions: { forget(): void }): boolean {
   const isAbort = error instanceof DOMException && error.name === "AbortError";
   if (isAbort) questions.forget();

@@ -4,15 +4,15 @@ import type { WorkerCloud } from "./worker-cloud.ts";
 
 export interface LightAnswer {
   question: LightQuestion;
-  /** From 0 to 1, one for each index of the cloud. */
+  /** The brightness from 0 to 1, for each index of the cloud. */
   brightness: Float32Array;
   note: string | null;
 }
 
-/** So many lights on the rim of a soft one, besides that in its middle. */
+/** The number of lights on the rim of a soft light, besides the one in its middle. */
 const RIM = 8;
 
-/** How bright the lights make every point, whether the viewer sees it or not. */
+/** The brightness of every point under the lights, seen or not. */
 export async function askLight(
   cloud: WorkerCloud,
   question: LightQuestion,

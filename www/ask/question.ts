@@ -1,34 +1,34 @@
 import type { Inversion, Radius, Settings, Viewpoint, Viewpoints } from "../settings/settings.ts";
 
-/** How the library is to decide what a viewpoint or a light sees. */
+/** How the library decides which points a viewpoint or a light sees. */
 export interface Method {
-  /** Of the spherical flip alone; `null` with the others. */
+  /** Only for the spherical flip; `null` for the others. */
   radius: Radius | null;
   inversion: Inversion;
   denoise: number;
   vote: number;
 }
 
-/** A surface is that of one viewpoint. */
+/** Surfaces have only one viewpoint. */
 export type Shape = { kind: "points"; viewpoints: Viewpoints } | { kind: "surface"; edge: number };
 
-/** What can be seen, and as what. */
+/** The question of what can be seen, and how it is shown. */
 export interface ViewQuestion {
   viewpoint: Viewpoint;
   method: Method;
   shape: Shape;
-  /** Asked in the place of a slower one. */
+  /** A quick question that is asked instead of a slower one. */
   quick?: boolean;
 }
 
-/** What the lights reach. */
+/** The question of what the lights reach. */
 export interface LightQuestion {
   lights: readonly Viewpoint[];
   soft: number;
   ambient: number;
   smoothing: number;
   method: Method;
-  /** The triangles that the light is spread over. */
+  /** The triangles over which the light is interpolated. */
   mesh: Uint32Array | null;
 }
 
@@ -41,8 +41,9 @@ export function shapeOf({ show, viewpoints, edge }: Settings): Shape {
 }
 
 /*
- * The rules that search take 6 and about 40 hulls. As long as the viewpoint or the lights move, the automatic radius
- * stands in for them and single points for soft lights; when all has come to rest the question is asked as it is meant.
+ * The rules that search take 6 and about 40 hulls. While the viewpoint or the lights move, the automatic radius
+ * replaces them, and single points replace soft lights. When everything is at rest, the question is asked with the real
+ * settings.
  */
 
 export function quickView(question: ViewQuestion): ViewQuestion {
@@ -58,7 +59,7 @@ function quickMethod(method: Method): Method {
   return isSlow(method) ? { ...method, radius: { rule: "auto" } } : method;
 }
 
-/** Whether the radius takes many hulls to choose. */
+/** Whether the choice of the radius takes many hulls. */
 export function isSlow(method: Method): boolean {
   return method.radius !== null && "rule" in method.radius && !isAutomatic(method);
 }
@@ -68,7 +69,10 @@ export function isAutomatic({ radius }: Method): boolean {
   return radius !== null && "rule" in radius && radius.rule === "auto";
 }
 
-/** Orbit controls come back some bits off when nothing has moved; so little of the cloud's size is no new viewpoint. */
+/**
+ * Orbit controls return a few bits off when nothing has moved. A distance of this share of the cloud's size is no new
+ * viewpoint.
+ */
 const SAME = 1e-9;
 
 export function isSamePlace(a: Viewpoint, b: Viewpoint, size: number): boolean {
@@ -83,7 +87,7 @@ export function isSameLight({ mesh: a, ...rest }: LightQuestion, { mesh: b, ...o
   return a === b && textOf(rest) === textOf(others);
 }
 
-/** Infinity, the one number here that JSON does not know, becomes the one null. */
+/** Infinity is the only number here that JSON does not have, so it may become null. */
 function textOf(value: unknown): string {
   return JSON.stringify(value);
 }

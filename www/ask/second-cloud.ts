@@ -1,8 +1,9 @@
 import type { WorkerCloud } from "./worker-cloud.ts";
 
 /**
- * The same cloud in another worker, for questions of many hulls: what comes up meanwhile is not held up by them. A worker
- * cannot be stopped within a question, so one that has been overtaken goes on there, heard by nobody. Made when it is needed.
+ * The same cloud in another worker, for questions that take many hulls: they do not delay the other questions. A worker
+ * cannot be stopped within a question. So an overtaken question goes on there, and its answer is dropped. The worker is
+ * made when it is needed.
  */
 export class SecondCloud {
   readonly #make: () => Promise<WorkerCloud>;
@@ -13,12 +14,12 @@ export class SecondCloud {
     this.#make = make;
   }
 
-  /** Rejects with an AbortError when the signal aborts before it is there. */
+  /** Rejects with an AbortError if the signal aborts before the cloud is ready. */
   async ready(signal: AbortSignal): Promise<WorkerCloud> {
     if (this.#disposed) throw new DOMException("Another cloud is shown.", "AbortError");
     if (!this.#made) {
       this.#made = this.#make();
-      // Where it could not be made, the next question tries again.
+      // If it could not be made, the next question tries again.
       this.#made.catch(() => {
         this.#made = null;
       });

@@ -4,20 +4,20 @@ import { USUAL_EDGE, type Viewpoint } from "../settings/settings.ts";
 import type { Shape, ViewQuestion } from "./question.ts";
 import type { WorkerCloud } from "./worker-cloud.ts";
 
-/** What the worker found, with the question it belongs to. */
+/** The worker's answer, with its question. */
 export interface ViewAnswer {
   question: ViewQuestion;
   visibility: Visibility;
-  /** Of the surface, where that was asked for. */
+  /** The triangles of the surface, if it was asked for. */
   triangles: Uint32Array | null;
-  /** What the library refused, so that its defaults answered instead. */
+  /** Why the library refused the settings, if its defaults were used instead. */
   note: string | null;
 }
 
-/** How far the ring's viewpoints are from the one in its middle, as a share of the distance. */
+/** The distance between the ring's viewpoints and the viewpoint in its middle, as a share of the viewing distance. */
 const RING = { count: 4, fraction: 0.05 };
 
-/** What is seen from a viewpoint. Where the settings do not suit the cloud or the place, the library's defaults answer. */
+/** Finds what a viewpoint sees. If the settings do not suit the cloud or the place, the library's defaults are used. */
 export async function askView(cloud: WorkerCloud, question: ViewQuestion, signal?: AbortSignal): Promise<ViewAnswer> {
   const { viewpoint, method, shape } = question;
   const { value, note } = await orUsual(
@@ -27,7 +27,7 @@ export async function askView(cloud: WorkerCloud, question: ViewQuestion, signal
   return { question, ...value, note };
 }
 
-/** Runs `ask` with the options, or with none where these are refused, and says why. */
+/** Runs `ask` with the options. If these are refused, runs it without options, and says why. */
 export async function orUsual<T>(
   options: () => Promise<VisibilityOptions>,
   ask: (options: VisibilityOptions) => Promise<T>,

@@ -10,10 +10,10 @@ import { MOST_POWER } from "../settings/limits.ts";
 import type { Viewpoint } from "../settings/settings.ts";
 import type { Method } from "./question.ts";
 
-/** The cloud in its worker, asked in the terms of the page. */
+/** The cloud in its worker. It takes questions in the page's terms. */
 export class WorkerCloud {
   readonly points: WorkerPointCloud;
-  /** Of the bounding box, in the file's coordinates. */
+  /** The middle of the bounding box, in the file's coordinates. */
   readonly center: Viewpoint;
 
   constructor(points: WorkerPointCloud, center: Viewpoint) {
@@ -23,11 +23,12 @@ export class WorkerCloud {
 
   async options({ radius, inversion, denoise, vote }: Method, viewpoint: Viewpoint): Promise<VisibilityOptions> {
     const nearest = Math.max(denoise, vote);
-    // Said here, where it can be said plainly: the library names the numbers it takes, which of one point are none.
+    // This check is here because the library's message would be unclear: it gives the range of the number, which is
+    // empty for one point.
     if (nearest > 0 && nearest >= this.points.length)
       throw new HprError(
         "option",
-        `noise is told by the ${nearest} nearest of each point, and there are too few points for that`,
+        `noise handling needs the ${nearest} nearest neighbors of each point, and there are too few points`,
       );
     return {
       ...(radius === null
@@ -43,7 +44,7 @@ export class WorkerCloud {
     };
   }
 
-  /** Viewpoints around one that looks at the middle of the cloud. */
+  /** Viewpoints around a viewpoint that looks at the middle of the cloud. */
   async ring(viewpoint: Viewpoint, count: number, fraction: number): Promise<number[][]> {
     await init();
     return ringOfViewpoints(viewpoint, this.center, { count, fraction });
@@ -60,7 +61,10 @@ export class WorkerCloud {
     return { exponential: exponential === "auto" ? "auto" : exponential * this.points.spacing };
   }
 
-  /** The γ that, facing the viewer, lets pits be as deep as the automatic radius does: γ ÷ (γ − 1) = 2R ÷ r at the farthest distance r. */
+  /**
+   * The γ for which pits in a surface that faces the viewer may be as deep as with the automatic radius: γ ÷ (γ − 1) =
+   * 2R ÷ r at the farthest distance r.
+   */
   async #automaticPower(viewpoint: Viewpoint): Promise<number> {
     const { exponent } = await this.points.autoRadius(viewpoint, "auto");
     const diameters = 2 * 10 ** exponent;

@@ -55,12 +55,12 @@ export function rowOf(name: AttributeName): Attribute {
   return ATTRIBUTES[name];
 }
 
-/** What an attribute says; `undefined` if it is not there, or cannot be used. */
+/** The value of an attribute. `undefined` if the attribute is missing or cannot be used. */
 export function valueOf<Name extends WrittenAttribute>(element: Element, name: Name): ValueOf<Name> | undefined {
   return anyValueOf(element, name) as ValueOf<Name> | undefined;
 }
 
-/** The same for an attribute that is not known beforehand. */
+/** The same for an attribute whose name is not known beforehand. */
 export function anyValueOf(element: Element, name: AttributeName): unknown {
   const text = element.getAttribute(name);
   return text === null ? undefined : rowOf(name).written?.parse(text);

@@ -1,7 +1,7 @@
 import { ELEMENT_KEYS, spokenKeys } from "../controls/keys.ts";
 import style from "./element.css?inline";
 
-/** Milliseconds that a new sentence has to stand before screen readers hear it. */
+/** A new sentence must stay for this number of milliseconds before screen readers hear it. */
 const SETTLED = 1000;
 
 /** The element's shadow: the picture and the words over it, each with its slot and its part for the page. */
@@ -53,7 +53,7 @@ export class Frame {
     if (this.#canvas) this.#canvas.ariaLabel = `${label ?? "Point cloud"}. ${spokenKeys(ELEMENT_KEYS)}.`;
   }
 
-  /** `null`: it is loading, but nobody knows how far it is. */
+  /** `null`: it is loading, but the progress is not known. */
   showProgress(fraction: number | null): void {
     this.#bar.hidden = false;
     if (fraction === null) this.#bar.removeAttribute("value");

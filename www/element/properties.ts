@@ -2,7 +2,7 @@ import { PLACE } from "../settings/kinds.ts";
 import { SETTINGS } from "../settings/table.ts";
 import { anyValueOf, ATTRIBUTE_NAMES, type AttributeName, rowOf, valueOf } from "./attributes.ts";
 
-/** Gives a class of elements the properties of the attributes, but for those of places, which know the camera. */
+/** Gives a class of elements the properties of the attributes, except for the places, which need the camera. */
 export function reflect(prototype: Element): void {
   for (const attribute of ATTRIBUTE_NAMES) {
     const get = getterOf(attribute);
@@ -21,7 +21,7 @@ export function reflect(prototype: Element): void {
   }
 }
 
-/** What a property is while its attribute says nothing that can be used, where that is not `null`. */
+/** The value of a property while its attribute has no usable value, if that is not `null`. */
 const OTHERWISE: Partial<Record<AttributeName, unknown>> = { "hidden-points": SETTINGS.hidden.usual };
 
 /** `null` for a property that the class itself defines. */

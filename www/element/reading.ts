@@ -12,7 +12,7 @@ import {
 } from "./attributes.ts";
 import { Problem } from "./problem.ts";
 
-/** What the attributes say together. */
+/** The content of all attributes together. */
 export interface Reading {
   src: string | null;
   sample: string | null;
@@ -40,7 +40,7 @@ export function readAttributes(element: Element): Reading {
   };
   const read = <Name extends WrittenAttribute>(attribute: Name) => readAny(attribute) as ValueOf<Name> | undefined;
 
-  // An empty one is not an address: it would be that of the page around.
+  // An empty one is not used as an address: it would mean the page around.
   const src = element.getAttribute("src") || null;
   if (element.getAttribute("src") === "") refuse("src", "The attribute src names no file.");
   let sample = element.getAttribute("sample");

@@ -16,7 +16,7 @@ import { changedSettings, type Reading } from "./reading.ts";
 import type { Frame } from "./frame.ts";
 import { Problem, problemOf } from "./problem.ts";
 
-/** How a sentence calls places that attributes ask for: the view "that is asked for". */
+/** The phrase for places that attributes ask for: the view "that is asked for". */
 const ASKED = "that is asked for";
 
 /** A showing tells these to its element. */

@@ -9,16 +9,16 @@ const SAMPLE_NAMES = SAMPLES.map(({ name }) => name);
 /** The words of the document about the attributes; no script that is downloaded needs them. */
 export const ATTRIBUTE_WORDS: Record<AttributeName, Words> = {
   src: {
-    is: `the address of a ${listed(FORMATS, "or")} file; COPC is LAZ. Setting it stops the loading of another file`,
+    is: `the address of a ${listed(FORMATS, "or")} file; COPC is LAZ. If another file is being loaded, setting it stops that`,
     without: "",
   },
   sample: {
-    is: `a cloud of the demo page, instead of \`src\`: ${listed(SAMPLE_NAMES, "or")}. Those of the dragon and the bunny need the folder \`samples/\` beside the module`,
+    is: `a cloud of the demo page, instead of \`src\`: ${listed(SAMPLE_NAMES, "or")}. The clouds of the dragon and the bunny need the folder \`samples/\` beside the module`,
     without: "",
   },
   limit: PARAMETER_WORDS.points,
   "skip-non-finite": {
-    is: "leaves points out that have no position; the others are numbered anew",
+    is: "leaves out points that have no position; the other points get new numbers",
     without: "such a file is refused",
   },
   exponent: PARAMETER_WORDS.exponent,
@@ -31,16 +31,16 @@ export const ATTRIBUTE_WORDS: Record<AttributeName, Words> = {
   },
   viewpoint: {
     ...PARAMETER_WORDS.view,
-    is: "where the camera is at first. Set again, it moves the camera there again",
+    is: "the first place of the camera. If it is set again, the camera moves there again",
   },
-  target: { ...PARAMETER_WORDS.target, is: "what the camera looks at from the `viewpoint`" },
+  target: { ...PARAMETER_WORDS.target, is: "the place that the camera looks at from the `viewpoint`" },
   "point-size": SETTING_WORDS.size,
   fov: SETTING_WORDS.fieldOfView,
   up: { ...SETTING_WORDS.up, is: `${SETTING_WORDS.up.is}. Changing it goes back to the first view` },
   color: SETTING_WORDS.color,
-  label: { is: "what the cloud is, for people who do not see it", without: "“Point cloud”" },
+  label: { is: "the name of the cloud, for people who do not see it", without: "“Point cloud”" },
   announce: {
-    is: "screen readers hear how many points are visible, once that number has settled",
+    is: "screen readers hear how many points are visible, after that number has stopped changing",
     without: "they do not",
   },
 };

@@ -1,12 +1,12 @@
 /// <reference types="vite/client" />
 
 /**
- * Has the page kept for when there is no network, once it shows its first cloud: nothing is loaded before that. `sample`:
- * the address of the one that is shown.
+ * Stores the page for offline use, after it shows its first cloud, so that nothing delays this cloud. `sample`: the
+ * address of the cloud that is shown.
  */
 export function keepForOffline(sample: string | null): void {
   keep(sample).catch(() => {
-    // Private windows, frames and full disks: the page just needs the network then.
+    // Private windows, frames and full disks do not allow it. Then the page just needs the network.
   });
 }
 
@@ -14,11 +14,11 @@ async function keep(sample: string | null): Promise<void> {
   if (!("serviceWorker" in navigator)) return;
   const { serviceWorker } = navigator;
   if (!import.meta.env.PROD) {
-    // While the page is being worked on nothing is kept, nor by a build that was served here before.
+    // In development, nothing is stored. A service worker of an earlier build at this address is removed, too.
     for (const registration of await serviceWorker.getRegistrations()) await registration.unregister();
     return;
   }
-  // A worker that is in charge has seen the sample itself.
+  // An active service worker has stored the sample itself.
   if (serviceWorker.controller) return;
   await serviceWorker.register("./service-worker.js");
   const { active } = await serviceWorker.ready;

@@ -1,6 +1,6 @@
 /*
- * Keeps the page for when there is no network. With one, the newest page always wins: only files whose names change with
- * their content are answered from what is kept.
+ * Stores the page for offline use. With a network, the newest page always wins: only files whose names change with
+ * their content are answered from the store.
  *
  *                                   with a network         without
  *   the page, files of fixed names  network                as they were when this worker was installed
@@ -8,15 +8,15 @@
  *   samples                         network, then kept     kept, if they have been opened
  *   anything else                   never touched, never kept: files from other places are the user's
  *
- * Each build has a worker of its own with a store of its own, complete or not there at all. It takes over when no page of
- * the build before is open any more, so that none loses parts it has yet to load.
+ * Each build has its own service worker with its own store, which is complete or missing. It takes over when no page of
+ * the build before is open any more, so that no page loses parts that it has yet to load.
  */
 const worker = self as unknown as ServiceWorkerGlobalScope;
 
-/** Written before this file when the page is built (build/offline-plugin.ts), relative to it. */
+/** Written in front of this file when the page is built (build/offline-plugin.ts), with relative addresses. */
 declare const BUILD: {
   version: string;
-  /** The page's own script, by which its text is known to be of this build. */
+  /** The page's own script. The text of a page with this script belongs to this build. */
   entry: string;
   assets: readonly string[];
   fixed: readonly string[];
@@ -46,7 +46,7 @@ worker.addEventListener("activate", (event) => {
     (async () => {
       const old = (await caches.keys()).filter((name) => name.startsWith(STORES) && name !== STORE && name !== SAMPLES);
       await Promise.all(old.map((name) => caches.delete(name)));
-      // Also of the page that has brought this worker.
+      // This also takes over the page that has installed this worker.
       await worker.clients.claim();
     })(),
   );
@@ -57,12 +57,12 @@ worker.addEventListener("fetch", (event) => {
   if (answer) event.respondWith(answer);
 });
 
-/** A sample that a page has opened before it had a worker. */
+/** A sample that a page has opened before it had a service worker. */
 worker.addEventListener("message", (event) => {
   const address = event.data as unknown;
   if (typeof address !== "string" || !samples.has(address)) return;
   event.waitUntil(
-    // What the browser still has of it need not come again.
+    // The browser's cache may still have parts of it, which need not be downloaded again.
     caches.open(SAMPLES).then((store) => store.add(new Request(address, { cache: "force-cache" }))),
   );
 });
@@ -78,12 +78,15 @@ async function install(): Promise<void> {
   ]);
 }
 
-/** In the middle of a deployment it may be another one; then all is tried again at the next visit. */
+/**
+ * The page's text. During a deployment it may belong to another build. Then the installation is tried again at the next
+ * visit.
+ */
 async function pageOfThisBuild(): Promise<Response> {
   const response = await received(PAGE, "no-cache");
   const text = await response.text();
   if (!text.includes(BUILD.entry)) throw new Error("The page is of another build than its service worker.");
-  // A new one: what a host has redirected cannot be shown as a page.
+  // A new response is made, because a redirected one cannot be shown as a page.
   return new Response(text, { headers: response.headers });
 }
 
@@ -93,7 +96,7 @@ async function received(address: string, cache: RequestCache): Promise<Response>
   return response;
 }
 
-/** `null`: the browser's own business. */
+/** `null` leaves the request to the browser. */
 function answerFor(request: Request): Promise<Response> | null {
   if (request.method !== "GET" || request.headers.has("range")) return null;
   const { origin, pathname, search } = new URL(request.url);
@@ -122,7 +125,7 @@ async function networkFirst(request: Request, store: string, address: string): P
 
 async function sample(request: Request, address: string): Promise<Response> {
   const response = await networkFirst(request, SAMPLES, address);
-  // Where there is no room for it, it is still to be seen.
+  // If there is no room to store it, it is still shown.
   if (response.ok) {
     const copy = response.clone();
     void caches

@@ -9,7 +9,7 @@ export class Progress {
     this.#cancel.addEventListener("click", onCancel);
   }
 
-  /** `null`: it is loading, but nobody knows how far it is. */
+  /** `null`: it is loading, but the progress is not known. */
   show(fraction: number | null): void {
     this.#bar.hidden = this.#cancel.hidden = false;
     if (fraction === null) this.#bar.removeAttribute("value");
