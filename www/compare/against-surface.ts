@@ -69,7 +69,7 @@ export class AgainstSurface {
       : this.#rest.isReached && !this.stopped && this.progress === null;
     if (!due || this.problem !== null) return;
     if (!this.result) {
-      // Also an answer that was asked about before: its rays were given up.
+      // This also holds for an answer that was asked about before: its rays were given up.
       this.#newest.forget();
       this.progress = 0;
       this.#changed();

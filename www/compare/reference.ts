@@ -32,7 +32,7 @@ export class Reference<Question, Answer> {
     this.#sent = this.#send(positions);
   }
 
-  /** `null` if it was stopped. */
+  /** `null` if the computation was stopped. */
   async ask(question: Question): Promise<Answer | null> {
     await this.#sent;
     if (this.#ended) return null;

@@ -5,7 +5,9 @@ import type { TruthAnswer, TruthQuestion } from "./protocol.ts";
 import { receive } from "./receive.ts";
 import type { Oracle } from "./tracer.ts";
 
-/** Milliseconds between two reports of progress, at which messages are read; rays between two looks at the clock. */
+/**
+ * Milliseconds between two reports of progress, at which messages are read; and rays between two looks at the clock.
+ */
 const TURN = 50;
 const RAYS = 64;
 

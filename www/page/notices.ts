@@ -36,7 +36,7 @@ export class Notices {
   }
 }
 
-/** `what`: the words for what could not be done, if the error itself does not say it. */
+/** `what`: says what could not be done, if the error itself does not say it. */
 export function sentenceOf(error: unknown, what: string): string {
   return error instanceof LoadProblem ? error.message : `${what}: ${plain(error)}.`;
 }

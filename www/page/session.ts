@@ -31,7 +31,7 @@ export function startSession(wishes: Wishes, status: Status, message: Message): 
     () => workshop.introducing,
   );
   const actions = { name: () => opening.shownName, link: () => address.link() };
-  // A visitor without any wishes is shown what the page is about.
+  // A visitor whose address asks for nothing sees the introduction.
   const workshop: Workshop = new Workshop(viewer, store, actions, location.search === "");
   const parts = { viewer, store, panel, address, workshop, status, message, notices };
   const opening: Opening = new Opening(parts, sampleNamed(wishes.sample));
@@ -48,7 +48,7 @@ export function startSession(wishes: Wishes, status: Status, message: Message): 
   void opening.open(firstSource({ ...wishes, view }, limit));
 }
 
-/** The camera's place for the address; `null` for the first view, unless that was asked for. */
+/** The camera's place for the address. `null` at the first view, unless the address asked for that view. */
 function cameraPlace(viewer: Viewer, asked: AskedView | null): CameraPlace | null {
   if (viewer.isHome && viewer.isTargetHome) return asked && { view: asked.at, target: asked.target };
   return { view: viewer.viewpoint, target: viewer.target };

@@ -59,7 +59,10 @@ function scanRoom(): { surfaces: Surface[]; places: Iterable<Place> } {
   return { surfaces, places: scatter(surfaces, random) };
 }
 
-/** The surfaces as flat pieces, and each point on one of these: where its surface is, not where the noise has put it. */
+/**
+ * The surfaces as flat pieces, and each point on one of these. It is the point's place on the surface, without the
+ * noise.
+ */
 export function truth(): Truth {
   const { surfaces, places } = scanRoom();
   const mesh = joined(surfaces.map((surface) => grid(...surface.pieces, (u, v) => surface.at(u, v).point)));

@@ -1,6 +1,6 @@
 export interface Mesh {
   positions: Float32Array;
-  /** Three indices each. */
+  /** Three indices for each triangle. */
   triangles: Uint32Array;
 }
 

@@ -2,8 +2,8 @@ import type { Up } from "../cloud/cloud.ts";
 import type { GeneratorName } from "./generators.ts";
 
 /*
- * The clouds that the page brings along. A new one is an entry here, and a file that build/samples-plugin.ts makes or a
- * generator, with its line in generators.ts.
+ * The clouds that the page brings along. For a new one, add an entry here. Its points come from a file that
+ * build/samples-plugin.ts makes, or from a generator, which needs a line in generators.ts.
  */
 
 /**

@@ -1,6 +1,6 @@
 import { box, cylinder, group, type Hit, type Solid, sphere, type Vector } from "./trace.ts";
 
-/** A material: its color, its class (numbers as in LAS files, our own from 64 on), its reflectance. */
+/** A material: its color, its class (numbers as in LAS files, the page's own numbers from 64 on), its reflectance. */
 export interface Material {
   color: Vector;
   kind: number;

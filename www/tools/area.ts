@@ -9,8 +9,8 @@ interface Place {
 export class Area {
   readonly box: Box;
   /**
-   * By row of pixels from the top of the box, the parts of the line that pass through it. Each is four numbers: x and y of
-   * its beginning, y of its end, and its way sideways for each pixel down.
+   * The parts of the line that pass through each row of pixels, from the top of the box. Each part has four numbers: x
+   * and y of its beginning, y of its end, and its step sideways for each pixel down.
    */
   readonly #rows: number[][];
 
@@ -26,7 +26,7 @@ export class Area {
     }
   }
 
-  /** For places in the box. */
+  /** Only for places in the box. */
   holds(x: number, y: number): boolean {
     const parts = this.#rows[this.#rowOf(y)];
     if (!parts) return false;

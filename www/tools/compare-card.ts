@@ -101,11 +101,11 @@ export class CompareCard {
     );
     const beyond = outside - onlyReference;
     const more = beyond > 0 ? ` Ours sees ${number.format(beyond)} more.` : "";
-    this.#result.textContent = `Of the ${number.format(picture.inside)} points in the picture: it knows no others.${more}`;
+    this.#result.textContent = `Of the ${number.format(picture.inside)} points in the picture: the z-buffer knows no others.${more}`;
     return { left: `Z-buffer: ${number.format(picture.visible)}`, right: `Ours: ${number.format(onlyOurs)}` };
   }
 
-  /** `null` as above. */
+  /** Also `null` as long as nothing is known. */
   showSurface({ result, problem, progress, stopped }: AgainstSurface, total: number): Sides | null {
     this.#tracing.hidden = (progress === null && !stopped) || problem !== null || result !== null;
     this.#progress.hidden = stopped;

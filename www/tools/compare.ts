@@ -7,7 +7,7 @@ import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { CompareCard, type Sides } from "./compare-card.ts";
 
-/** The divider's first place: beside the middle, since the middle is needed to turn the cloud. */
+/** The divider's first place. It is beside the middle, since the middle is needed to turn the cloud. */
 const FIRST = 0.42;
 /** Shares of the width, in the order of the keys: left, right, down, up, page down, page up, home, end. */
 const STEPS = [-0.02, 0.02, -0.02, 0.02, -0.1, 0.1, -1, 1];

@@ -14,8 +14,9 @@ export interface Spot {
 const LAYER = 4;
 
 /**
- * The point that is meant at a spot. Among the points within the tolerance, on the surface nearest to the camera, it is the
- * one nearest to the spot. If there is none, points count that are drawn so large that they cover the spot.
+ * Finds the point that the user means at a spot. Among the points within the tolerance, only those on the surface
+ * nearest to the camera count, and the one nearest to the spot is taken. If there is no point, points count that are
+ * drawn so large that they cover the spot.
  */
 export function pointAt(viewer: Viewer, { x, y, tolerance }: Spot, through: boolean): number | null {
   const { pointWidth, pixelRatio } = viewer.stage;

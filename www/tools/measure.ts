@@ -71,7 +71,7 @@ export class Measure implements Tool {
   }
 }
 
-/** Six digits tell more than any scanner knows. */
+/** Six digits: no scanner measures more. */
 function distanceText(distance: number): string {
   return String(Number(distance.toPrecision(6)));
 }

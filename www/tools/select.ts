@@ -96,7 +96,7 @@ function box(a: Place, b: Place): Place[] {
   return [a, { x: b.x, y: a.y }, b, { x: a.x, y: b.y }];
 }
 
-/** The indices are ascending, the results too. */
+/** The indices and the result are ascending. */
 function joined(a: Uint32Array, b: Uint32Array): Uint32Array {
   const all = new Uint32Array(a.length + b.length);
   let count = 0;

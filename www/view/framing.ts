@@ -17,7 +17,7 @@ export interface Lens {
   aspect: number;
 }
 
-/** The first direction for files that nobody has chosen a view for: a little from the side and from above. */
+/** The first direction for files without a chosen view: a little from the side and from above. */
 const FROM: Record<Up, [number, number, number]> = { y: [0.55, 0.4, 1], z: [0.55, -1, 0.5], "-y": [0.3, -0.25, -1] };
 
 /** A view that was asked for. Without a target the camera looks at the middle of the cloud. */

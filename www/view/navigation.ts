@@ -33,7 +33,7 @@ export class Navigation {
     canvas.addEventListener(
       "wheel",
       (event) => {
-        // With Ctrl it is a pinch on a touchpad, or it would zoom the whole page.
+        // With Ctrl it is a pinch on a touchpad. If it did not zoom the picture, it would zoom the whole page.
         const others = !this.#attended && !event.ctrlKey;
         if (others || event.altKey) event.stopImmediatePropagation();
         if (others || !event.altKey) return;
@@ -106,7 +106,7 @@ export class Navigation {
       this.onFieldOfView(nth === 0 ? 1 / LENS_STEP : LENS_STEP);
       return;
     }
-    // Left, right, up, down.
+    // In the order left, right, up, down.
     const sign = nth % 2 === 0 ? 1 : -1;
     const sideways = nth < 2;
     if (action === "pan") this.#controls.pan(sideways ? sign * PAN_STEP : 0, sideways ? 0 : sign * PAN_STEP);

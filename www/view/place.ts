@@ -12,7 +12,7 @@ export function project({ scene, stage }: Viewer, place: Viewpoint): { x: number
   return { x: (0.5 + x / 2) * size.width, y: (0.5 - y / 2) * size.height };
 }
 
-/** The place behind a point of the picture that is as far ahead of the camera as `like`. */
+/** The place behind a point of the picture, as far ahead of the camera as `like`. */
 export function placeAt({ scene, stage }: Viewer, x: number, y: number, like: Viewpoint): Viewpoint {
   const { camera, size } = stage;
   const depth = -inLocal(scene.cloud, like).applyMatrix4(camera.matrixWorldInverse).z;

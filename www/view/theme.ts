@@ -6,7 +6,7 @@ export interface Theme {
   high: string;
   /** For all points, if they are drawn in one color. */
   plain: string;
-  /** Hidden points have a hue of their own. Dimmed ones that nothing covers are nearer to the background. */
+  /** Hidden points have their own hue. Dimmed points that nothing covers are nearer to the background. */
   hidden: string;
   hiddenDimmed: string;
   /** Selected points. */
