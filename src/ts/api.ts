@@ -1,4 +1,4 @@
-// What every entry has in common: all but where the wasm comes from.
+// The exports of every entry. The entries differ only in the source of the wasm.
 export type { ChosenRadius } from "./query/answers.js";
 export { hiddenPointRemoval, PointCloud } from "./cloud/cloud.js";
 export type { InitInput, SyncInitInput, WasmModule } from "./instance/compile.js";

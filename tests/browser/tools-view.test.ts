@@ -241,6 +241,6 @@ test("?embed=1 has no tools, but both sides of the divider have captions", async
   const note = page.locator("#compare-note span");
   await expect
     .poll(() => note.allTextContents())
-    .toEqual([expect.stringMatching(/^Z-buffer: [\d,]+$/), expect.stringMatching(/^Ours: [\d,]+$/)]);
+    .toEqual([expect.stringMatching(/^Z-buffer: [\d,]+$/), expect.stringMatching(/^HPR: [\d,]+$/)]);
   for (const side of await note.all()) expect(await side.isVisible()).toBe(true);
 });

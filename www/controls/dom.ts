@@ -1,4 +1,4 @@
-/** Resolves when the page has been drawn as it is now: for work that may come after that. */
+/** Resolves after the present state of the page has been drawn. Use it for work that may come later. */
 export function nextFrame(): Promise<unknown> {
   return new Promise((resolve) => requestAnimationFrame(resolve));
 }

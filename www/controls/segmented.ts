@@ -1,6 +1,6 @@
 import { byId } from "./dom.ts";
 
-/** A row of radio buttons of which one is chosen. */
+/** A row of radio buttons. One of them is chosen. */
 export class Segmented<Value extends string = string> {
   readonly #inputs: HTMLInputElement[];
 

@@ -59,7 +59,10 @@ export function write(element: Element, attribute: AttributeName, given: string 
   else element.setAttribute(attribute, given);
 }
 
-/** Takes over what was set on an element before the module was loaded: such properties would hide those of the class. */
+/**
+ * Takes over the properties that were set on an element before the module was loaded. They would hide the properties of
+ * the class.
+ */
 export function adoptEarly(element: Element): void {
   for (const name of ATTRIBUTE_NAMES.map(propertyOf)) {
     const descriptor = Object.getOwnPropertyDescriptor(element, name);

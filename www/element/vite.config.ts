@@ -6,7 +6,7 @@ import { declarations } from "../build/declarations-plugin.ts";
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 const NAME = "hidden-point-cloud";
 
-/** One module beside the page, with its types; what it loads later is in a folder of its name. */
+/** Builds one module beside the page, with its types. The files that it loads later are in a folder with its name. */
 export default defineConfig({
   ...COMMON,
   root: here(".."),

@@ -19,7 +19,7 @@ export interface Wish {
   settings: Partial<Settings>;
 }
 
-/** The place where it is to be shown. */
+/** The place in which the cloud will be shown. */
 export interface Place {
   /** The settings at the moment when the cloud has been loaded. */
   settings: () => Settings;

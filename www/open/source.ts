@@ -15,7 +15,7 @@ export function requestForSample({ label, from }: Sample, base: string): LoadReq
     : { kind: "shape", name: label, shape: from.generator };
 }
 
-/** A file on the web. A text that is no address is kept as it is: downloading it fails in plain words. */
+/** A file on the web. A text that is not an address is kept unchanged: its download fails with a clear message. */
 export function requestForAddress(text: string, options: FileOptions): LoadRequest {
   const url = addressOf(text);
   return { kind: "url", name: nameOf(text), url: url?.href ?? text, ...options };

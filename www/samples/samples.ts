@@ -22,7 +22,7 @@ export interface Sample {
   surface: KnownSurface | string;
   /** The words under its small picture (public/thumbnails, made by tests/browser/thumbnails.ts). Without them it has none. */
   picture?: string;
-  /** Shown on the page: where it comes from and on which terms. */
+  /** Shown on the page: the source of the cloud and its terms of use. */
   credit: { text: string; link?: { text: string; href: string } };
   /** The direction from the cloud's center to the first viewpoint. */
   direction?: [number, number, number];

@@ -25,7 +25,7 @@ export interface Parameter<T> extends Kind<T> {
   otherwise: string;
 }
 
-/** A parameter of whatever type. */
+/** A parameter of any type. */
 export type AnyParameter = Omit<Parameter<never>, "parse"> & { parse: (text: string) => unknown };
 
 /** Something that can be set on the page. */

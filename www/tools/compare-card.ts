@@ -92,17 +92,17 @@ export class CompareCard {
     this.#fill(
       [
         { label: "Z-buffer", count: picture.visible, more: time(picture.milliseconds) },
-        { label: "Ours", count: onlyOurs, more: time(ours.milliseconds) },
+        { label: "HPR", count: onlyOurs, more: time(ours.milliseconds) },
         { label: "Only the z-buffer", color: "var(--only-reference)", count: theirs, more: share(theirs) },
-        { label: "Only ours", color: "var(--only-ours)", count: mine, more: share(mine) },
+        { label: "Only HPR", color: "var(--only-ours)", count: mine, more: share(mine) },
       ],
       picture.inside,
       picture.milliseconds,
     );
     const beyond = outside - onlyReference;
-    const more = beyond > 0 ? ` Ours sees ${number.format(beyond)} more.` : "";
-    this.#result.textContent = `Of the ${number.format(picture.inside)} points in the picture: the z-buffer knows no others.${more}`;
-    return { left: `Z-buffer: ${number.format(picture.visible)}`, right: `Ours: ${number.format(onlyOurs)}` };
+    const more = beyond > 0 ? ` Outside the picture, HPR sees ${number.format(beyond)} more.` : "";
+    this.#result.textContent = `Of the ${number.format(picture.inside)} points in the picture. The z-buffer knows only these.${more}`;
+    return { left: `Z-buffer: ${number.format(picture.visible)}`, right: `HPR: ${number.format(onlyOurs)}` };
   }
 
   /** Also `null` as long as nothing is known. */
@@ -122,7 +122,7 @@ export class CompareCard {
     this.#fill(
       [
         { label: "Rays", count: truth.visible, more: time(truth.milliseconds) },
-        { label: "Ours", count: onlyOurs, more: time(ours.milliseconds) },
+        { label: "HPR", count: onlyOurs, more: time(ours.milliseconds) },
         { label: "Wrongly shown", color: "var(--only-ours)", count: wrong, more: percent(wrong, total) },
         { label: "Wrongly hidden", color: "var(--only-reference)", count: missed, more: percent(missed, total) },
       ],
@@ -130,7 +130,7 @@ export class CompareCard {
       truth.milliseconds,
     );
     this.#result.textContent = `Of all ${number.format(total)} points; together ${percent(wrong + missed, total)}.`;
-    return { left: `True: ${number.format(truth.visible)}`, right: `Ours: ${number.format(onlyOurs)}` };
+    return { left: `True: ${number.format(truth.visible)}`, right: `HPR: ${number.format(onlyOurs)}` };
   }
 
   #fill(rows: readonly Row[], of: number, milliseconds: number): void {

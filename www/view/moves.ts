@@ -12,7 +12,7 @@ export class Moves {
   /** A reset goes back to these. */
   readonly #usual: () => Pick<Settings, "fieldOfView">;
 
-  /** Also binds the keys of the canvas; `more` are those that only the page has. */
+  /** Also binds the keys of the canvas. `more` are the keys that only the page has. */
   constructor(
     canvas: HTMLCanvasElement,
     viewer: Viewer,

@@ -9,7 +9,7 @@ export class Stage {
   readonly points = new Scene();
   readonly through = new Scene();
   readonly overlay = new Scene();
-  /** Called before each frame, also before one that need not be drawn. */
+  /** Called before each frame, even if that frame need not be drawn. */
   onFrame: () => void = () => undefined;
   /** Called before a frame whose camera has moved or turned. */
   onCamera: () => void = () => undefined;
