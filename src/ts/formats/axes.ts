@@ -22,7 +22,7 @@ export function axesOf(names: readonly string[], chosen?: ChosenColumns): Axes {
   throw new FormatProblem(`its header names no x, y and z, but ${quoted(names.join(" "))}`);
 }
 
-/** @param names the names in lower case, or as they are written if no lower-case name matches */
+/** @param names the names as they are written. If none matches, they are compared in lower case. */
 export function chosenAxes(names: readonly string[], chosen: ChosenColumns): Axes {
   return chosen.map((choice) => {
     if (isNumber(choice)) {
