@@ -227,7 +227,7 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
   ],
   ["nothing.gltf", text("{}"), /is broken: it does not give its glTF version/],
   ["empty.glb", glb([]), /holds no points|is broken/],
-  ["parts.gltf", gltf(near, "parts.bin"), /keeps its points in a file of its own \(parts\.bin\)/],
+  ["parts.gltf", gltf(near, "parts.bin"), /keeps its points in another file \(parts\.bin\)/],
   [
     "swapped.ply",
     both(binaryPly(near, "float", true).slice(0, -12 * COUNT), binaryPly(near, "float", false).slice(-12 * COUNT)),
