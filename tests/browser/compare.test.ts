@@ -385,7 +385,7 @@ test("by keys alone: choose, move the divider, leave; and the card fits its plac
   await page.locator("#divider").focus();
   await page.keyboard.press("ArrowRight");
   // In a window of another shape the camera has another place, so rays are traced anew.
-  await expect.poll(() => page.locator("#divider").getAttribute("aria-valuetext")).toMatch(/on the left 44 %, Ours/);
+  await expect.poll(() => page.locator("#divider").getAttribute("aria-valuetext")).toMatch(/on the left 44 %, HPR/);
   await tool(page, "Compare").click();
   expect(await page.locator("#compare-card").isVisible()).toBe(false);
 });
