@@ -59,7 +59,9 @@ export class Panel {
   follow(answer: ViewAnswer): void {
     this.#radius.follow(answer);
     this.#followSurface(answer);
-    this.#followInversion(answer.visibility.inversion);
+    const { inversion } = answer.visibility;
+    // The page asks for one inversion; several looks have none to show.
+    if (inversion === "spherical" || !("looks" in inversion)) this.#followInversion(inversion);
   }
 
   markAutomatic(exponent: number): void {
