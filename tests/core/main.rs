@@ -26,5 +26,6 @@ mod reconstruct;
 mod refusals;
 mod search;
 mod sectors;
+mod survivors;
 mod thin;
 mod union;

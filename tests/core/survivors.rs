@@ -1,0 +1,138 @@
+//! What all other tests missed: found by changing the code in one place at a time, and by looking
+//! which lines no test reaches.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{Error, MAX_POINTS, Options, PointCloud, PointCloud2d, PointCloudNd};
+
+use crate::common::rng::Rng;
+use crate::common::{ask, sectors, shapes};
+
+/// Five points that all vote on each other, two or three of them visible: those at the front of
+/// the ray along x, and the ones on rays of their own. More than two fifths must be visible.
+#[test]
+fn two_of_five_votes_are_not_enough() {
+    let options = Options {
+        vote: Some(4),
+        ..Options::default()
+    };
+    let [a, b, c, d] = [1.0, 2.0, 3.0, 4.0].map(|x| [x, 0.0, 0.0]);
+    let (e, f) = ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
+    let two = ask(&[a, b, c, d, e], [0.0; 3], &options);
+    assert_eq!(two.indices(), []);
+    let three = ask(&[a, b, c, e, f], [0.0; 3], &options);
+    assert_eq!(three.indices(), [0, 1, 2, 3, 4]);
+}
+
+/// With a vote or denoising, one sector answers for all.
+#[test]
+fn sectors_of_views_with_votes_and_denoising_give_the_whole_answer() {
+    let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(1), 600)).unwrap();
+    for vote in [None, Some(6)] {
+        for denoise in [None, Some(8), Some(0), Some(600)] {
+            let options = Options {
+                vote,
+                denoise,
+                ..Options::default()
+            };
+            for count in [1, 3] {
+                let difference = sectors::compare(&cloud, [0.0, 0.5, 3.0], &options, count).err();
+                assert_eq!(difference, None, "vote {vote:?}, denoise {denoise:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn an_observer_that_forgets_starts_anew() {
+    let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(2), 600)).unwrap();
+    let mut observer = cloud.observer();
+    let mut moved = || {
+        let view = observer.visible_from([0.0, 0.5, 3.0], &Options::default());
+        assert_eq!(
+            view,
+            cloud.visible_from([0.0, 0.5, 3.0], &Options::default())
+        );
+        let moved = observer.moved();
+        if moved {
+            observer.forget();
+        }
+        moved
+    };
+    assert_eq!(
+        [moved(), moved(), moved(), moved()],
+        [false, true, false, true]
+    );
+}
+
+#[test]
+fn a_cloud_that_is_prepared_twice_answers_alike() {
+    let points = shapes::bumpy(&mut Rng::new(3), 600);
+    let options = Options {
+        denoise: Some(8),
+        ..Options::default()
+    };
+    let mut cloud = PointCloud::new(&points).unwrap();
+    cloud.prepare_for(&options).unwrap();
+    cloud.prepare_for(&options).unwrap();
+    let view = cloud.visible_from([0.0, 0.5, 3.0], &options).unwrap();
+    assert_eq!(view, ask(&points, [0.0, 0.5, 3.0], &options));
+}
+
+/// Three neighbors at the distances 3, 4 and 5.
+#[test]
+fn the_spacing_is_told_in_every_dimension() {
+    let flat = PointCloud2d::new(&[[0.0, 0.0], [3.0, 0.0], [0.0, 4.0]]).unwrap();
+    assert_eq!(flat.spacing(), 4.0);
+    let corners = [[0.0; 4], [3.0, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 4.0]].concat();
+    assert_eq!(PointCloudNd::new(4, &corners).unwrap().spacing(), 4.0);
+    let cloud = PointCloud::new(&[[0.0; 3]; 2]).unwrap();
+    assert_eq!(
+        format!("{cloud:?}"),
+        "PointCloud { len: 2, skipped: 0, .. }"
+    );
+}
+
+#[test]
+fn every_refusal_is_one_sentence() {
+    let direction = [0.0, f64::NEG_INFINITY, f64::NAN];
+    let points = format!("5 points exceed the limit of {MAX_POINTS}");
+    let (option, dimension) = ("vote", 4);
+    for (error, message) in [
+        (
+            Error::Direction { direction },
+            "the direction must be finite and not zero, got 0, -infinity, NaN",
+        ),
+        (
+            Error::ViewpointDimension { dimension },
+            "the viewpoint must be 4 finite numbers",
+        ),
+        (
+            Error::PositionsLength { len: 7, dimension },
+            "7 coordinates are not a multiple of the dimension, 4",
+        ),
+        (
+            Error::Dimension { option, dimension },
+            "vote needs a cloud of dimension 3, not 4",
+        ),
+        (
+            Error::OutOfRange {
+                option,
+                value: 0.0,
+                least: 1.0,
+                most: 9.0,
+            },
+            "vote must be from 1 to 9, got 0",
+        ),
+        (Error::TooManyPoints { count: 5 }, points.as_str()),
+        (
+            Error::MergeNeighbors { option },
+            "vote cannot be combined with merging",
+        ),
+        (Error::OutOfMemory, "not enough memory for this cloud"),
+    ] {
+        assert_eq!(error.to_string(), message);
+    }
+    assert_eq!(Error::OutOfMemory.code(), "too-large");
+}
