@@ -89,6 +89,7 @@ impl PointCloud {
             return self
                 .after_denoising(options, |cloud, options| cloud.nothing(viewpoint, options));
         }
+        self.check_options(options)?;
         if looks(options)?.is_some() {
             return self.answer(&[], ChosenRadius::unit(0.0), options.inversion);
         }

@@ -29,7 +29,7 @@ fn two_of_five_votes_are_not_enough() {
 #[test]
 fn sectors_of_views_with_votes_and_denoising_give_the_whole_answer() {
     let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(1), 600)).unwrap();
-    for vote in [None, Some(6)] {
+    for vote in [None, Some(6), Some(0), Some(600)] {
         for denoise in [None, Some(8), Some(0), Some(600)] {
             let options = Options {
                 vote,
