@@ -38,15 +38,18 @@ impl PointCloud {
         Ok(self.moved(&moved)?)
     }
 
-    /// Prepares the cloud for views with the same `denoise` and `vote`. It keeps the denoised
-    /// points and the neighbors that vote (up to 64 a point, 4 bytes each), until points are
-    /// appended or removed. Answers are the same as without; a view no longer searches
-    /// neighbors, which takes some microseconds a point.
+    /// Prepares the cloud for views with the same `sample`, `denoise` and `vote`. It keeps the
+    /// sampled or the denoised points and the neighbors that vote (up to 64 a point, 4 bytes
+    /// each), until points are appended or removed. Answers are the same as without; a view no
+    /// longer sorts out the sample, nor searches neighbors, which takes some microseconds a point.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] as for the view; [`Error::OutOfMemory`]. After an error the cloud
     /// answers as before.
     pub fn prepare_for(&mut self, options: &Options) -> Result<(), Error> {
+        if let Some(count) = options.sample {
+            return self.keep_sample(count, options);
+        }
         if let Some(k) = options.denoise {
             if self
                 .kept

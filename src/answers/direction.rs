@@ -56,9 +56,16 @@ impl PointCloud {
         direction: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
+        if let Some(count) = options.sample {
+            let seen = self.after_sampling(count, options, &mut |cloud, options| {
+                cloud.visible_from_direction(direction, options)
+            })?;
+            return Ok(seen.to(options));
+        }
         self.after_denoising(options, |cloud, options| {
             let (visible, chosen, inversion) = cloud.direction_marks(direction, options)?;
-            cloud.answer(&visible, chosen, inversion)
+            let seen = cloud.answer(&visible, chosen, inversion)?;
+            Ok(seen.to(options))
         })
     }
 
@@ -74,7 +81,7 @@ impl PointCloud {
         let lift = Lift::new(&self.bounds, ahead, bend);
         let points = &self.sequence.points;
         let lifted = |index: u32| lift.apply(points.get(index as usize));
-        let visible = hull::mark_lower_boundary(points.len() as u32, &lifted)?;
+        let visible = hull::mark_lower_boundary(points.len() as u32, &lifted, options.draft)?;
         Ok((self.voted(visible, options)?, chosen, inversion))
     }
 

@@ -67,6 +67,12 @@ impl PointCloud {
         options: &Options,
         lighting: &Lighting,
     ) -> Result<Vec<f32>, Error> {
+        options.refuse_draft("illuminate")?;
+        if let Some(count) = options.sample {
+            return self.after_sampling(count, options, &mut |cloud, options| {
+                cloud.illuminate(lights, options, lighting)
+            });
+        }
         let ambient = in_range("ambient", lighting.ambient, 0.0, 1.0)?;
         in_range("smoothing", lighting.smoothing as f64, 0.0, MOST_ROUNDS)?;
         options.refuse_looks("illuminate")?;

@@ -82,8 +82,13 @@ pub(crate) fn merge<'a>(
         return Err(Error::MergeRadius);
     }
     // The neighbors of a point in a part are not its neighbors in the cloud.
-    let asked = [("denoise", options.denoise), ("vote", options.vote)];
-    if let Some((option, _)) = asked.into_iter().find(|(_, k)| k.is_some()) {
+    let asked = [
+        ("denoise", options.denoise.is_some()),
+        ("vote", options.vote.is_some()),
+        ("draft", options.draft),
+        ("sample", options.sample.is_some()),
+    ];
+    if let Some((option, _)) = asked.into_iter().find(|&(_, is_asked)| is_asked) {
         return Err(Error::MergeNeighbors { option });
     }
     let mut count = 0usize;

@@ -8,6 +8,7 @@ pub(crate) mod looks;
 pub(crate) mod merge;
 pub(crate) mod observer;
 pub(crate) mod reconstruct;
+pub(crate) mod sample;
 pub(crate) mod sector;
 pub(crate) mod union;
 pub(crate) mod visibility;

@@ -59,6 +59,14 @@ impl PointCloud {
         options: &Options,
         max_edge: Option<f64>,
     ) -> Result<Reconstruction, Error> {
+        options.refuse_draft("reconstruct")?;
+        if let Some(count) = options.sample {
+            let seen = self.after_sampling(count, options, &mut |cloud, options| {
+                cloud.reconstruct(viewpoint, options, max_edge)
+            })?;
+            let visibility = seen.visibility.to(options);
+            return Ok(Reconstruction { visibility, ..seen });
+        }
         let longest = max_edge.unwrap_or(SPACINGS * self.statistics.spacing);
         in_range("maxEdge", longest, 0.0, f64::INFINITY)?;
         options.refuse_looks("reconstruct")?;

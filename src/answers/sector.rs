@@ -64,15 +64,18 @@ impl PointCloud {
         options: &Options,
         sector: Sector,
     ) -> Result<Visibility, Error> {
-        // With a vote or denoising, a point's answer needs those of its neighbors: the first
-        // sector answers for all.
-        let is_one_hull = !options.asks_for_looks();
+        memory.see_sample(options.sample);
+        // With a vote or denoising, a point's answer needs those of its neighbors. Drafts and
+        // samples take little time. The first sector answers for all.
+        let is_one_hull = !options.asks_for_looks() && options.is_exact();
         if sector.count > 1 && is_one_hull && options.denoise.is_none() && options.vote.is_none() {
             let view = self.view(viewpoint, options)?;
             if is_divisible(&view) {
                 let division = Some(self.division(viewpoint, view.chosen.radius, sector)?);
                 memory.forget();
-                hull::mark_visible(&self.sequence.points, &view.flip, division, memory)?;
+                let points = &self.sequence.points;
+                let blocks = &self.blocks.levels[0];
+                hull::mark_visible(points, blocks, &view.flip, division, memory)?;
                 return self.answer(memory.visible(), view.chosen, view.inversion);
             }
         }
@@ -85,6 +88,12 @@ impl PointCloud {
 
     /// The answer in which nothing is visible.
     fn nothing(&self, viewpoint: [f64; 3], options: &Options) -> Result<Visibility, Error> {
+        if let Some(count) = options.sample {
+            let seen = self.after_sampling(count, options, &mut |cloud, options| {
+                cloud.nothing(viewpoint, options)
+            })?;
+            return Ok(seen.to(options));
+        }
         if options.denoise.is_some() {
             return self
                 .after_denoising(options, |cloud, options| cloud.nothing(viewpoint, options));
@@ -94,7 +103,8 @@ impl PointCloud {
             return self.answer(&[], ChosenRadius::unit(0.0), options.inversion);
         }
         let view = self.view(viewpoint, options)?;
-        self.answer(&[], view.chosen, view.inversion)
+        let seen = self.answer(&[], view.chosen, view.inversion)?;
+        Ok(seen.to(options))
     }
 
     fn division(
@@ -118,7 +128,7 @@ impl PointCloud {
         }
         let mut memory = Memory::default();
         let flip = Flip::new(viewpoint, Kernel::Spherical { radius: coarse });
-        hull::mark_visible(&points, &flip, None, &mut memory)?;
+        hull::mark_visible(&points, &[], &flip, None, &mut memory)?;
         let ahead = DVec3::from_array(self.statistics.centroid);
         Division::new(
             &self.blocks,

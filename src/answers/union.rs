@@ -30,6 +30,12 @@ impl PointCloud {
         viewpoints: &[[f64; 3]],
         options: &Options,
     ) -> Result<Visibility, Error> {
+        if let Some(count) = options.sample {
+            let seen = self.after_sampling(count, options, &mut |cloud, options| {
+                cloud.visible_from_any(viewpoints, options)
+            })?;
+            return Ok(seen.to(options));
+        }
         self.after_denoising(options, |cloud, options| {
             cloud.visible_from_several(1, viewpoints, options)
         })
@@ -62,6 +68,12 @@ impl PointCloud {
         options: &Options,
     ) -> Result<Visibility, Error> {
         in_range("k", k as f64, 1.0, viewpoints.len() as f64)?;
+        if let Some(count) = options.sample {
+            let seen = self.after_sampling(count, options, &mut |cloud, options| {
+                cloud.visible_from_at_least(k, viewpoints, options)
+            })?;
+            return Ok(seen.to(options));
+        }
         self.after_denoising(options, |cloud, options| {
             cloud.visible_from_several(k, viewpoints, options)
         })
@@ -74,7 +86,9 @@ impl PointCloud {
         options: &Options,
     ) -> Result<Visibility, Error> {
         if options.scores {
-            return Err(Error::ScoresOfSeveral);
+            return Err(Error::ScoresWith {
+                other: "several viewpoints",
+            });
         }
         let inversion = match options.inversion {
             Inversion::Looks(_) => options.inversion,
@@ -95,7 +109,7 @@ impl PointCloud {
         }
         let mut visible: Vec<bool> = with_capacity(views.len())?;
         visible.extend(views.iter().map(|&views| views as usize >= k));
-        self.answer(&visible, chosen, inversion)
+        Ok(self.answer(&visible, chosen, inversion)?.to(options))
     }
 }
 

@@ -5,6 +5,7 @@ use alloc::vec::Vec;
 use crate::answers::looks::{scales, scores_of_indices};
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::error::Error;
+use crate::base::sort::sort_keyed;
 use crate::cloud::point_cloud::PointCloud;
 use crate::hull;
 use crate::view::options::{Inversion, Options, Radius};
@@ -20,6 +21,7 @@ pub struct Visibility {
     inversion: Inversion,
     looks: Vec<f64>,
     scores: Vec<f32>,
+    exact: bool,
 }
 
 impl Visibility {
@@ -37,7 +39,14 @@ impl Visibility {
             inversion,
             looks: Vec::new(),
             scores: Vec::new(),
+            exact: true,
         }
+    }
+
+    /// The same as the answer to a question with `options`.
+    pub(crate) fn to(self, options: &Options) -> Self {
+        let exact = self.exact && options.is_exact();
+        Self { exact, ..self }
     }
 
     /// The visible points' indices in the cloud, ascending.
@@ -107,6 +116,13 @@ impl Visibility {
         self.scores
     }
 
+    /// Whether this is the final answer to what was asked: false only for drafts
+    /// ([`Options::draft`]) and samples ([`Options::sample`]).
+    #[must_use]
+    pub fn exact(&self) -> bool {
+        self.exact
+    }
+
     /// One byte for each index of the cloud: 1 visible, 0 hidden.
     #[must_use]
     pub fn mask(&self) -> Vec<u8> {
@@ -166,6 +182,24 @@ impl PointCloud {
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
+        memory.see_sample(options.sample);
+        if let Some(count) = options.sample {
+            let seen = self.after_sampling(count, options, &mut |cloud, options| {
+                cloud.visible_from_whole(memory, viewpoint, options)
+            })?;
+            return Ok(seen.to(options));
+        }
+        self.visible_from_whole(memory, viewpoint, options)
+    }
+
+    /// The same of all points.
+    #[inline(never)]
+    fn visible_from_whole(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
         if options.denoise.is_some() {
             // The hull of other points is no start for this cloud.
             return self.after_denoising(options, |cloud, options| {
@@ -176,13 +210,14 @@ impl PointCloud {
             return self.seen_by_looks(memory, viewpoint, count, options);
         }
         let view = self.look(memory, viewpoint, options)?;
-        match options.vote {
+        let seen = match options.vote {
             Some(k) => {
                 let voted = self.vote(k, memory.visible())?;
-                self.answer(&voted, view.chosen, view.inversion)
+                self.answer(&voted, view.chosen, view.inversion)?
             }
-            None => self.answer(memory.visible(), view.chosen, view.inversion),
-        }
+            None => self.answer(memory.visible(), view.chosen, view.inversion)?,
+        };
+        Ok(seen.to(options))
     }
 
     /// Marks the visible points in `memory`, and returns the resolved view. It neither denoises
@@ -197,11 +232,17 @@ impl PointCloud {
         // The hull of one kind of flip is no start for another kind.
         let is_spherical = view.inversion == Inversion::Spherical;
         if !is_spherical {
-            memory.forget();
+            memory.forget_moves();
         }
-        hull::mark_visible(&self.sequence.points, &view.flip, None, memory)?;
+        let points = &self.sequence.points;
+        let blocks = &self.blocks.levels[0];
+        if options.draft {
+            hull::mark_draft(points, blocks, &view.flip, memory)?;
+        } else {
+            hull::mark_visible(points, blocks, &view.flip, None, memory)?;
+        }
         if !is_spherical {
-            memory.forget();
+            memory.forget_moves();
         }
         Ok(view)
     }
@@ -279,6 +320,9 @@ impl PointCloud {
     }
 }
 
+/// Fewer indices than one in so many are sorted rather than marked.
+const SPARSE: usize = 32;
+
 /// The caller's indices of the distinct points marked as `visible`, ascending and below `len`.
 /// `indices_of` lists the indices of one distinct point.
 pub(crate) fn marked_indices<'a>(
@@ -286,6 +330,18 @@ pub(crate) fn marked_indices<'a>(
     visible: &[bool],
     indices_of: &dyn Fn(usize) -> &'a [u32],
 ) -> Result<Vec<u32>, OutOfMemory> {
+    let places = || (0..visible.len()).filter(|&k| visible[k]);
+    let total: usize = places().map(|k| indices_of(k).len()).sum();
+    if total < len / SPARSE {
+        let mut sorted = with_capacity(total)?;
+        for k in places() {
+            sorted.extend(indices_of(k).iter().map(|&index| (u64::from(index), index)));
+        }
+        sort_keyed(&mut sorted);
+        let mut indices = with_capacity(total)?;
+        indices.extend(sorted.iter().map(|&(_, index)| index));
+        return Ok(indices);
+    }
     let mut count = 0;
     let mut marked: Vec<bool> = filled(len, false)?;
     for (k, _) in visible.iter().enumerate().filter(|(_, visible)| **visible) {

@@ -98,11 +98,19 @@ pub enum Error {
     /// [`Options::scores`](crate::Options::scores) without
     /// [`Inversion::Looks`](crate::Inversion::Looks).
     ScoresWithoutLooks,
-    /// [`Options::scores`](crate::Options::scores) of several viewpoints together.
-    ScoresOfSeveral,
+    /// Scores were asked for together with an option or a question that has none.
+    ScoresWith {
+        /// The option or question.
+        other: &'static str,
+    },
     /// The option has no meaning for a viewpoint at infinity.
     NoLimit {
         /// The option, as the JavaScript package calls it.
+        option: &'static str,
+    },
+    /// There is no draft of this.
+    NoDraft {
+        /// The option or method, as the JavaScript package calls it.
         option: &'static str,
     },
     /// A number is out of its range, or NaN.
@@ -168,7 +176,8 @@ impl Error {
             | Self::NoLimit { .. }
             | Self::LooksWith { .. }
             | Self::ScoresWithoutLooks
-            | Self::ScoresOfSeveral
+            | Self::ScoresWith { .. }
+            | Self::NoDraft { .. }
             | Self::Dimension { .. }
             | Self::IndexOutOfRange { .. }
             | Self::MergeRadius
@@ -213,13 +222,12 @@ impl fmt::Display for Error {
             }
             Self::LooksWith { other } => write!(f, "looks cannot be combined with {other}"),
             Self::ScoresWithoutLooks => write!(f, "scores can be asked for only with looks"),
-            Self::ScoresOfSeveral => {
-                write!(f, "scores cannot be combined with several viewpoints")
-            }
+            Self::ScoresWith { other } => write!(f, "scores cannot be combined with {other}"),
             Self::NoLimit { option } => write!(
                 f,
                 "{option} cannot be used for a direction: it has no limit far away"
             ),
+            Self::NoDraft { option } => write!(f, "draft cannot be combined with {option}"),
             Self::RadiusInvalid { radius } => {
                 let radius = Number(radius);
                 write!(f, "radius must be finite and positive, got {radius}")

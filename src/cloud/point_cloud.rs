@@ -54,6 +54,8 @@ pub(crate) struct Kept {
     /// The cloud without noise, and the number of neighbors that made its planes.
     pub denoised: Option<(usize, Box<PointCloud>)>,
     pub voters: Option<Voters>,
+    /// With the number of points asked for.
+    pub sampled: Option<(usize, Box<PointCloud>)>,
 }
 
 /// The `each` nearest other points of every point: `k` of them, or fewer in a small cloud.
@@ -230,6 +232,31 @@ impl PointCloud {
         let sequence = self
             .sequence
             .moved(positions, &HilbertCurve::new(&bounds))?;
+        let statistics = Statistics::measure(&sequence.points, &bounds)?;
+        let blocks = Blocks::around(&sequence.points)?;
+        Ok(Self {
+            sequence,
+            bounds,
+            statistics,
+            blocks,
+            kept: Kept::default(),
+            ..*self
+        })
+    }
+
+    /// The cloud of the distinct points at these places of the order, which ascend. Indices
+    /// stay.
+    #[inline(never)]
+    pub(crate) fn of_places(&self, places: &[u32]) -> Result<Self, OutOfMemory> {
+        let sequence = self.sequence.selected(places)?;
+        let mut bounds = Bounds::EMPTY;
+        sequence.points.iter().for_each(|p| bounds.include(p));
+        let curve = HilbertCurve::new(&bounds);
+        let sequence = if curve == HilbertCurve::new(&self.bounds) {
+            sequence
+        } else {
+            sequence.resorted(&curve)?
+        };
         let statistics = Statistics::measure(&sequence.points, &bounds)?;
         let blocks = Blocks::around(&sequence.points)?;
         Ok(Self {

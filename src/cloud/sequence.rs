@@ -107,6 +107,22 @@ impl Sequence {
         })
     }
 
+    /// The points at these places, which ascend.
+    #[inline(never)]
+    pub(crate) fn selected(&self, places: &[u32]) -> Result<Self, OutOfMemory> {
+        let mut indices = Groups::with_capacity(places.len())?;
+        for &place in places {
+            let list = self.indices.of(place as usize);
+            reserve(&mut indices.order, list.len())?;
+            indices.copy(list)?;
+        }
+        indices.close()?;
+        Ok(Self {
+            points: self.points.gathered(places)?,
+            indices,
+        })
+    }
+
     /// These points along another curve.
     #[inline(never)]
     pub(crate) fn resorted(&self, curve: &HilbertCurve) -> Result<Self, OutOfMemory> {

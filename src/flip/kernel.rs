@@ -5,7 +5,7 @@
 //! pow and exp come from `libm` in every build, so that all of them round alike.
 
 /// What a point's distance from the viewpoint becomes.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kernel {
     /// |q| = 2R − d: spherical flipping (paper §3, eq. 1).
     Spherical { radius: f64 },
@@ -38,6 +38,12 @@ impl Kernel {
             Self::Exponential { scale } => exponential(scale, d),
             _ => self.factor(d) * d,
         }
+    }
+
+    /// The same, out of the way of loops.
+    #[inline(never)]
+    pub(crate) fn factor_out_of_line(&self, d: f64) -> f64 {
+        self.factor(d)
     }
 
     /// The R of a flip on a sphere, 2.5 R (or 3 R) being the largest |q|; `None`

@@ -1,34 +1,44 @@
-//! A map of directions that says from which distance on every point is hidden.
+//! A map of directions that says how far K reaches.
 //!
-//! Directions are told by the faces of a cube around the viewpoint: on each, x and
-//! y are quotients of coordinates, and a window that holds the cloud's directions is
-//! cut into cells. Where K reaches at least r along the four corners of a cell, it
-//! holds everything shorter than r·√(1 − ⅜D²) in the cell's directions, D being the
-//! largest distance between corners taken as unit vectors: a convex combination
-//! Σλᵢuᵢ of four such vectors has the squared length 1 − ½ΣΣλᵢλⱼ|uᵢ − uⱼ|², and
-//! ½ΣΣλᵢλⱼ is at most ⅜. A point that flips to less is hidden, now and for
-//! every larger K, and need not be flipped to know it.
+//! Directions are told by the faces of a cube around the viewpoint: a flipped point q is
+//! z·(x, y, 1) on one of them, and a window that holds the cloud's directions (x, y) is cut
+//! into cells. K ends at 1/w times (x, y, 1), where w is the largest m·(x, y, 1) of all outer
+//! faces: a maximum of linear functions, so w is convex, and inside a cell it is at most
+//! what its values at the four corners give by interpolation. Hence a point of z·w < 1 is
+//! in K, which goes on beyond it: hidden, now and for every larger K.
 
 use alloc::vec::Vec;
+use core::ops::Range;
 use glam::DVec3;
 
 use super::flipped::Flipped;
 use super::incremental::Hull;
+use super::locate::larger;
 use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, reserve};
 use crate::base::real::square_root;
+use crate::cloud::blocks::{BLOCK, Sphere};
 
 /// Fewer points are located faster than a map is made.
 const MIN_POINTS: usize = 2048;
-/// Corners for each point of the cloud, at most.
-const CORNERS_PER_POINT: f64 = 1.0 / 16.0;
-/// How much of the cloud's depth the curvature of a cell may take.
-const MAX_LOSS: f64 = 0.25;
+/// Corners for each point of the cloud, at least and at most.
+const CORNERS_PER_POINT: (f64, f64) = (1.0 / 32.0, 0.4);
+/// The share of the cloud's depth that the map may lose, if it can be helped.
+const LOSS: f64 = 0.035;
 /// Every so manieth point tells where the cloud is seen.
 const SAMPLE: usize = 64;
 /// Directions nearer than this to a cell's border, in cells, are not looked up:
 /// far more than rounding can move them.
-const MARGIN: f64 = 1e-6;
+const BORDER: f64 = 1e-6;
+/// In cells of this size roundings stay within `BORDER`.
+const LEAST_CELL: f64 = 1e-8;
+const ROUNDING: f64 = f64::EPSILON / 2.0;
+/// At most the error of a place (x, y) on the cube and of a corner's, together: some
+/// twenty roundings of numbers up to 2.
+const PLACE_ERROR: f64 = 64.0 * ROUNDING;
+/// At most the relative error of q, z, the interpolation and z·w: some twenty roundings of
+/// products and of sums of positive numbers.
+const HEIGHT_ERROR: f64 = 64.0 * ROUNDING;
 
 /// The cells of one face of the cube.
 #[derive(Default)]
@@ -38,24 +48,34 @@ struct Window {
     /// Cells along x; none in an unused window.
     columns: usize,
     rows: usize,
-    /// Index of the first cell.
+    /// Index of the first corner.
     first: usize,
 }
 
 /// See the module's description. Kept for its memory from view to view.
 #[derive(Default)]
 pub(super) struct DepthMap {
-    viewpoint: DVec3,
     windows: [Window; 6],
     cells_per_unit: f64,
-    /// Squared distance from which on everything is hidden, for each cell.
-    hidden_from: Vec<f64>,
-    corners: Vec<f64>,
+    /// Not below w at each corner; infinite where w is in doubt.
+    heights: Vec<f64>,
+    /// How far K reaches along each corner, less what a cell beside it may lack.
+    reaches: Vec<f64>,
+    /// Below it z·w certainly is below 1.
+    limit: f64,
 }
 
 impl DepthMap {
+    /// Tells nothing any more.
+    pub(super) fn clear(&mut self) {
+        self.heights.clear();
+        self.reaches.clear();
+        self.windows = Default::default();
+    }
+
     /// Makes the map of `hull`, or an empty one where none would pay, for those points
     /// that it is `wanted` for, which are about `count`.
+    #[inline(never)]
     pub(super) fn make(
         &mut self,
         hull: &Hull,
@@ -63,9 +83,7 @@ impl DepthMap {
         count: usize,
         wanted: &dyn Fn(u32) -> bool,
     ) -> Result<(), OutOfMemory> {
-        self.hidden_from.clear();
-        self.windows = Default::default();
-        self.viewpoint = flipped.viewpoint();
+        self.clear();
         if count < MIN_POINTS || !flipped.keeps_depth() {
             return Ok(());
         }
@@ -73,177 +91,303 @@ impl DepthMap {
             return Ok(());
         };
         let extents = survey(flipped, wanted);
-        let Some(cell) = cell_size(&extents, flipped, count) else {
+        let Some(cell) = cell_size(&extents, count) else {
             return Ok(());
         };
         self.cells_per_unit = 1.0 / cell;
-        for (side, extent) in extents.sides.iter().enumerate() {
-            let [[x, y], [right, top]] = *extent;
-            if x > right {
-                continue;
+        self.limit = 1.0;
+        let mut corners = 0;
+        for (window, extent) in self.windows.iter_mut().zip(extents.sides) {
+            let [[x, y], [right, top]] = extent;
+            if x <= right {
+                *window = Window {
+                    x,
+                    y,
+                    columns: ((right - x) / cell) as usize + 1,
+                    rows: ((top - y) / cell) as usize + 1,
+                    first: corners,
+                };
+                corners += (window.columns + 1) * (window.rows + 1);
             }
-            let (columns, rows) = (
-                ((right - x) / cell) as usize + 1,
-                ((top - y) / cell) as usize + 1,
-            );
-            self.windows[side] = Window {
-                x,
-                y,
-                columns,
-                rows,
-                first: self.hidden_from.len(),
-            };
-            face = self.fill_window(side, hull, face, flipped)?;
+        }
+        reserve(&mut self.heights, corners)?;
+        reserve(&mut self.reaches, corners)?;
+        self.heights.resize(corners, f64::INFINITY);
+        self.reaches.resize(corners, 0.0);
+        self.want_corners(flipped);
+        for side in 0..self.windows.len() {
+            if self.windows[side].columns > 0 {
+                face = self.fill_window(side, hull, face);
+            }
         }
         Ok(())
     }
 
-    /// Whether a point at `p` is certainly hidden.
+    /// Makes the heights 0 that are to be found: where blocks are seen, or all of them.
+    #[inline(never)]
+    fn want_corners(&mut self, flipped: &Flipped) {
+        if flipped.blocks.is_empty() {
+            self.heights.fill(0.0);
+        }
+        for sphere in flipped.blocks {
+            let Some((side, [left, bottom, right, top])) = self.cells_around(flipped, sphere)
+            else {
+                // Around the viewpoint.
+                self.heights.fill(0.0);
+                return;
+            };
+            let window = &self.windows[side];
+            let last = |x: f64, cells: usize| (x + 1.0).min(cells as f64) as usize;
+            let (right, top) = (last(right, window.columns), last(top, window.rows));
+            for row in bottom as usize..=top {
+                let row = window.first + row * (window.columns + 1);
+                if let Some(run) = self.heights.get_mut(row + left as usize..=row + right) {
+                    run.fill(0.0);
+                }
+            }
+        }
+    }
+
+    /// The cells that hold all directions of a sphere's points on the side of its center:
+    /// left, bottom, right and top, in cells from the window's corner. `None` for a sphere
+    /// around the viewpoint.
+    fn cells_around(&self, flipped: &Flipped, sphere: &Sphere) -> Option<(usize, [f64; 4])> {
+        let v = DVec3::from_array(sphere.center) - flipped.flip.viewpoint();
+        let (side, x, y, z) = place(v);
+        let window = &self.windows[side];
+        let room = z - sphere.radius;
+        let spread = |x: f64| {
+            let far = sphere.radius * (1.0 + x.abs()) / room;
+            far * self.cells_per_unit * (1.0 + BORDER) + BORDER
+        };
+        let (spread_x, spread_y) = (spread(x), spread(y));
+        let x = (x - window.x) * self.cells_per_unit;
+        let y = (y - window.y) * self.cells_per_unit;
+        let cells = [x - spread_x, y - spread_y, x + spread_x, y + spread_y];
+        (room > 0.0).then_some((side, cells))
+    }
+
+    /// Whether a point is certainly hidden.
     #[inline]
-    pub(super) fn hides(&self, p: [f64; 3]) -> bool {
-        let v = DVec3::from_array(p) - self.viewpoint;
-        let (side, x, y) = place(v);
+    pub(super) fn hides(&self, flipped: &Flipped, index: u32) -> bool {
+        let v = flipped.relative(index);
+        // q is v times a positive number, but for roundings.
+        let (side, x, y, z) = place(v);
         let window = &self.windows[side];
         let x = (x - window.x) * self.cells_per_unit;
         let y = (y - window.y) * self.cells_per_unit;
         // Out of range becomes 0 or large, NaN becomes 0; both fail below.
         let (column, row) = (x as u32, y as u32);
-        let (dx, dy) = (x - f64::from(column), y - f64::from(row));
-        const INNER: core::ops::Range<f64> = MARGIN..1.0 - MARGIN;
-        let known = (column as usize) < window.columns
-            && (row as usize) < window.rows
-            && INNER.contains(&dx)
-            && INNER.contains(&dy);
+        let (x, y) = (x - f64::from(column), y - f64::from(row));
+        const INNER: f64 = 0.5 - BORDER;
+        let (column, row) = (column as usize, row as usize);
+        let known = column < window.columns
+            && row < window.rows
+            && (x - 0.5).abs() < INNER
+            && (y - 0.5).abs() < INNER;
+        if !known {
+            return false;
+        }
         // Only where it is known is the product in range.
-        known
-            && v.dot(v)
-                >= self.hidden_from[window.first + row as usize * window.columns + column as usize]
+        let corners = window.columns + 1;
+        let low = window.first + row * corners + column;
+        let high = low + corners;
+        let between = |a: f64, b: f64, t: f64| (1.0 - t) * a + t * b;
+        let below = between(self.heights[low], self.heights[low + 1], x);
+        let above = between(self.heights[high], self.heights[high + 1], x);
+        let height = between(below, above, y);
+        let (far, near) = flipped.flip.ratio(v);
+        z * far * height < near * self.limit
     }
 
-    /// The thresholds of one side's cells.
-    fn fill_window(
-        &mut self,
-        side: usize,
-        hull: &Hull,
-        mut face: FaceId,
-        flipped: &Flipped,
-    ) -> Result<FaceId, OutOfMemory> {
+    /// Whether the points of a run in the spatial order certainly are hidden, as far as their
+    /// blocks tell.
+    #[inline(never)]
+    pub(super) fn hides_run(&self, flipped: &Flipped, run: &Range<u32>) -> bool {
+        let block = flipped.blocks.get(run.start as usize / BLOCK);
+        !self.heights.is_empty() && block.is_some_and(|sphere| self.hides_all(flipped, sphere))
+    }
+
+    /// Whether all points of a sphere certainly are hidden: those in the directions of a cell
+    /// are if K reaches beyond the nearest along all four corners, by what a cell between
+    /// them may lack ([`shrink`]).
+    fn hides_all(&self, flipped: &Flipped, sphere: &Sphere) -> bool {
+        let Some((side, [left, bottom, right, top])) = self.cells_around(flipped, sphere) else {
+            return false;
+        };
+        let window = &self.windows[side];
+        let known = left >= 0.0
+            && bottom >= 0.0
+            && right < window.columns as f64
+            && top < window.rows as f64;
+        if !known {
+            return false;
+        }
+        let v = DVec3::from_array(sphere.center) - flipped.flip.viewpoint();
+        let needed = flipped
+            .flip
+            .most_beyond(square_root(v.dot(v)) - sphere.radius);
+        let corners = window.columns + 1;
+        (bottom as usize..=top as usize + 1).all(|row| {
+            let row = window.first + row * corners;
+            let run = &self.reaches[row + left as usize..=row + right as usize + 1];
+            run.iter().all(|&reach| reach > needed)
+        })
+    }
+
+    /// The heights of one side's corners that are wanted.
+    #[inline(never)]
+    fn fill_window(&mut self, side: usize, hull: &Hull, mut face: FaceId) -> FaceId {
         let Window {
             x: left,
             y: bottom,
             columns,
             rows,
-            ..
+            first,
         } = self.windows[side];
         let cell = 1.0 / self.cells_per_unit;
-        self.corners.clear();
-        reserve(&mut self.corners, (columns + 1) * (rows + 1))?;
-        reserve(&mut self.hidden_from, columns * rows)?;
+        let shrink = shrink(cell);
         let mut row_start = face;
+        // The largest relative change from a corner to the next.
+        let mut steepest = 0.0;
         for row in 0..=rows {
             face = row_start;
+            let mut is_start = true;
             for column in 0..=columns {
+                let place = first + row * (columns + 1) + column;
+                if self.heights[place] > 0.0 {
+                    continue;
+                }
                 let x = left + column as f64 * cell;
                 let y = bottom + row as f64 * cell;
+                let height;
                 let corner = direction(side, x, y);
-                let reach;
-                (face, reach) = hull.reach_along(corner, face);
-                if column == 0 {
+                (face, height) = hull.height_along(corner, face);
+                if core::mem::take(&mut is_start) {
                     row_start = face;
                 }
-                self.corners.push(reach);
+                let mut compare = |other: f64| {
+                    let change = (height - other).abs();
+                    // Not with an infinite one.
+                    if change < f64::INFINITY {
+                        steepest = larger(steepest, change / smaller(height, other));
+                    }
+                };
+                if column > 0 {
+                    compare(self.heights[place - 1]);
+                }
+                if row > 0 {
+                    compare(self.heights[place - 1 - columns]);
+                }
+                self.heights[place] = height;
+                self.reaches[place] = square_root(corner.dot(corner)) * shrink / height;
             }
         }
-        let shrink = shrink(cell);
-        for row in 0..rows {
-            for column in 0..columns {
-                let at = |row: usize, column: usize| self.corners[row * (columns + 1) + column];
-                let reach = at(row, column)
-                    .min(at(row, column + 1))
-                    .min(at(row + 1, column))
-                    .min(at(row + 1, column + 1));
-                self.hidden_from.push(flipped.hidden_from(reach * shrink));
-            }
-        }
-        Ok(face)
+        // Within a cell heights change by two such steps, along two axes.
+        let change = 2.0 * steepest * (2.0 + steepest);
+        let error = HEIGHT_ERROR + PLACE_ERROR * self.cells_per_unit * change;
+        self.limit = smaller(self.limit, 1.0 - error);
+        face
     }
 }
 
-/// The side of the cube that `v` points to, and where.
+/// The side of the cube that `v` points to, where, and how far out it is.
 #[inline]
-fn place(v: DVec3) -> (usize, f64, f64) {
+fn place(v: DVec3) -> (usize, f64, f64, f64) {
     let a = v.abs();
     if a.z >= a.x && a.z >= a.y {
         let inverse = 1.0 / a.z;
-        (usize::from(v.z < 0.0), v.x * inverse, v.y * inverse)
+        (usize::from(v.z < 0.0), v.x * inverse, v.y * inverse, a.z)
     } else if a.x >= a.y {
         let inverse = 1.0 / a.x;
-        (2 + usize::from(v.x < 0.0), v.y * inverse, v.z * inverse)
+        (
+            2 + usize::from(v.x < 0.0),
+            v.y * inverse,
+            v.z * inverse,
+            a.x,
+        )
     } else {
         let inverse = 1.0 / a.y;
-        (4 + usize::from(v.y < 0.0), v.z * inverse, v.x * inverse)
+        (
+            4 + usize::from(v.y < 0.0),
+            v.z * inverse,
+            v.x * inverse,
+            a.y,
+        )
     }
 }
 
-/// The unit vector that points to (x, y) on a side of the cube.
+/// (x, y) on a side of the cube.
 fn direction(side: usize, x: f64, y: f64) -> DVec3 {
     let z = if side % 2 == 0 { 1.0 } else { -1.0 };
-    let v = match side / 2 {
+    match side / 2 {
         0 => DVec3::new(x, y, z),
         1 => DVec3::new(z, x, y),
         _ => DVec3::new(y, z, x),
-    };
-    v / square_root(v.dot(v))
+    }
 }
 
 /// Where a sample of the points is seen.
 struct Extents {
     /// Directions on each side of the cube: [[left, bottom], [right, top]].
     sides: [[[f64; 2]; 2]; 6],
-    /// Squared distances.
-    nearest: f64,
-    farthest: f64,
+    /// Squares of |q|.
+    shortest: f64,
+    longest: f64,
 }
 
 fn survey(flipped: &Flipped, wanted: &dyn Fn(u32) -> bool) -> Extents {
     let mut extents = Extents {
         sides: [[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; 6],
-        nearest: f64::INFINITY,
-        farthest: 0.0,
+        shortest: f64::INFINITY,
+        longest: 0.0,
     };
     let sample = (0..flipped.len() as u32).step_by(SAMPLE);
     for index in sample.filter(|&index| wanted(index)) {
-        let v = DVec3::from_array(flipped.position(index)) - flipped.viewpoint();
-        let (side, x, y) = place(v);
+        let Some(q) = flipped.get_out_of_line(index) else {
+            continue;
+        };
+        let (side, x, y, _) = place(q);
         let [[left, bottom], [right, top]] = &mut extents.sides[side];
         *left = left.min(x);
         *bottom = bottom.min(y);
         *right = right.max(x);
         *top = top.max(y);
-        extents.nearest = extents.nearest.min(v.dot(v));
-        extents.farthest = extents.farthest.max(v.dot(v));
+        extents.shortest = extents.shortest.min(q.dot(q));
+        extents.longest = extents.longest.max(q.dot(q));
     }
     extents
 }
 
-/// The edge of square cells as many as `count` points pay for; `None`
-/// where they would be so large that the map told little.
-fn cell_size(extents: &Extents, flipped: &Flipped, count: usize) -> Option<f64> {
+/// The edge of square cells: as many as keep the loss of a map small, for a cloud of `count`
+/// points; `None` where there is no such number.
+fn cell_size(extents: &Extents, count: usize) -> Option<f64> {
     let sides = extents.sides.iter();
     let area: f64 = sides
         .filter(|[[left, _], [right, _]]| left <= right)
         .map(|[[left, bottom], [right, top]]| (right - left) * (top - bottom))
         .sum();
-    let cell = square_root(area / (count as f64 * CORNERS_PER_POINT));
-    let [near, far] = [extents.nearest, extents.farthest].map(square_root);
-    let depth = flipped.depth_between(near, far);
-    // What the curvature of the flipped cloud takes: |q|·(1 − shrink), |q| at its largest.
-    let loss = flipped.largest_reach() * (1.0 - shrink(cell));
-    ((1e-5..1.0).contains(&cell) && loss < MAX_LOSS * depth).then_some(cell)
+    let longest = square_root(extents.longest);
+    let depth = longest - square_root(extents.shortest);
+    // Between corners K bulges by up to a quarter of |q|·cell².
+    let corners = 0.25 * longest * area / (LOSS * depth);
+    let (few, many) = CORNERS_PER_POINT;
+    let count = count as f64;
+    let corners = smaller(larger(corners, few * count), many * count);
+    let cell = square_root(area / corners);
+    (LEAST_CELL..1.0).contains(&cell).then_some(cell)
 }
 
-/// How much shorter K may be in a cell's directions than along its corners. On the
-/// cube's side their distances are at most `cell`·√2, and less as unit vectors.
+/// How much shorter K may be in a cell's directions than along its corners. Let D be the
+/// largest distance between the corners as unit vectors, at most `cell`·√2: a convex
+/// combination Σλᵢuᵢ of four has the squared length 1 − ½ΣΣλᵢλⱼ|uᵢ − uⱼ|², and ½ΣΣλᵢλⱼ is at
+/// most ⅜.
 fn shrink(cell: f64) -> f64 {
-    square_root((1.0 - 0.375 * 2.0 * cell * cell).max(0.0)) * (1.0 - 1e-12)
+    square_root(larger(1.0 - 0.75 * cell * cell, 0.0)) * (1.0 - HEIGHT_ERROR)
+}
+
+/// `f64::min`, which WebAssembly calls a function for.
+#[inline]
+fn smaller(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use crate::cloud::blocks::Sphere;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
 
@@ -9,6 +10,8 @@ use crate::flip::inversion::Flip;
 pub(super) struct Flipped<'a> {
     pub points: &'a Points,
     pub flip: Flip,
+    /// Around every so many points, if they are known.
+    pub blocks: &'a [Sphere],
 }
 
 impl Flipped<'_> {
@@ -19,6 +22,12 @@ impl Flipped<'_> {
     #[inline]
     pub(super) fn position(&self, index: u32) -> [f64; 3] {
         self.points.get(index as usize)
+    }
+
+    /// The point relative to the viewpoint.
+    #[inline]
+    pub(super) fn relative(&self, index: u32) -> DVec3 {
+        DVec3::from_array(self.position(index)) - self.flip.viewpoint()
     }
 
     /// The flipped point, or `None` for a point at the viewpoint.
@@ -37,25 +46,8 @@ impl Flipped<'_> {
         self.flip.reach()
     }
 
-    pub(super) fn viewpoint(&self) -> DVec3 {
-        self.flip.viewpoint()
-    }
-
-    /// The largest |q| there can be, before it is rescaled.
-    pub(super) fn largest_reach(&self) -> f64 {
-        self.flip.largest_length()
-    }
-
-    pub(super) fn depth_between(&self, near: f64, far: f64) -> f64 {
-        self.flip.depth_between(near, far)
-    }
-
-    pub(super) fn hidden_from(&self, length: f64) -> f64 {
-        self.flip.hidden_from(length)
-    }
-
     /// Whether squares of distances neither over- nor underflow.
     pub(super) fn keeps_depth(&self) -> bool {
-        (1e-100..1e100).contains(&self.largest_reach())
+        (1e-100..1e100).contains(&self.reach())
     }
 }

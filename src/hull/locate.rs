@@ -99,42 +99,52 @@ impl Hull {
         }
     }
 
-    /// How far the hull certainly reaches along the ray of `direction`, whose
-    /// length is near 1: K holds `direction` times this. 0 where the answer is in
-    /// doubt or the ray leaves K at once. Also the face to start the next such walk at,
-    /// which is no hint for [`Hull::locate`]: this walk may end at a ghost or edge-on
-    /// face, whose infinite error makes the reach 0.
-    pub(super) fn reach_along(&self, direction: DVec3, hint: FaceId) -> (FaceId, f64) {
+    /// A number that m·`direction` certainly is not above for any outer face's m: K holds
+    /// the direction divided by it. Infinite where that is in doubt, or K does not go that
+    /// way. The direction's length is near 1. Also the face to start the next walk at.
+    #[inline(never)]
+    pub(super) fn height_along(&self, direction: DVec3, hint: FaceId) -> (FaceId, f64) {
+        // For the roundings of the last line.
+        const ROUNDING: f64 = 1e-15;
         let mut id = hint;
         let mut face = self.surface.face(id);
         let mut height = face.data.m.dot(direction);
         for _ in 0..PATIENCE {
             let mut steepest = id;
             let mut steepest_height = height;
-            // Of all neighbors, as a multiple of `height`, with both errors.
-            let mut bound = f64::NEG_INFINITY;
             for twin in face.twins {
-                let neighbor = &self.surface.face(twin.face()).data;
-                let h = neighbor.m.dot(direction);
-                bound = larger(bound, h + height.abs() * neighbor.error);
+                let h = self.surface.face(twin.face()).data.m.dot(direction);
                 if h > steepest_height {
                     steepest = twin.face();
                     steepest_height = h;
                 }
             }
             if steepest == id {
-                let error = face.data.error;
-                let certain = height > 0.0 && bound < height * (1.0 - error);
-                // Less the error of m·q − 1 at the returned place, and a rest for
-                // the roundings of this line.
-                let reach = (1.0 - 2.0 * error - 1e-12) / height;
-                return (id, if certain { reach } else { 0.0 });
+                let bound = height * (1.0 + 2.0 * face.data.error + ROUNDING);
+                let certain = height > 0.0 && self.is_pierced(face, direction, height);
+                return (id, if certain { bound } else { f64::INFINITY });
             }
             id = steepest;
             face = self.surface.face(id);
             height = steepest_height;
         }
-        (id, 0.0)
+        (id, f64::INFINITY)
+    }
+
+    /// Whether the ray of `direction` certainly leaves K through `face`, whose m·direction is
+    /// the positive `height`.
+    fn is_pierced(&self, face: &Face<Plane>, direction: DVec3, height: f64) -> bool {
+        let error = face.data.error;
+        !face.data.is_exact_only()
+            && face.twins.iter().enumerate().all(|(edge, twin)| {
+                let neighbor = &self.surface.face(twin.face()).data;
+                if neighbor.is_exact_only() {
+                    // Beyond the edge of a ghost face there is nothing of K.
+                    return !self.vertices.is_beyond(face, edge, direction);
+                }
+                let h = neighbor.m.dot(direction);
+                h + height * neighbor.error < height * (1.0 - error)
+            })
     }
 
     /// Exactly, for near-ties: an edge of `face` beyond which the ray of `q` passes.

@@ -22,16 +22,18 @@ use crate::hull::predicates::{Sign, orient2d, side_of_face};
 /// The ghost vertex, infinitely far up.
 const ABOVE: Vertex = 0;
 
-/// Marks the points on the lower boundary among `count`.
+/// Marks the points on the lower boundary among `count`; for a draft also others that are not
+/// above the boundary of one point in eight.
 pub(crate) fn mark_lower_boundary(
     count: u32,
     lifted: &dyn Fn(u32) -> DVec3,
+    draft: bool,
 ) -> Result<Vec<bool>, OutOfMemory> {
     let mut visible = filled(count as usize, false)?;
     let seed = first_triangle(count, order::sample_step(count), lifted)
         .or_else(|| first_triangle(count, 1, lifted));
     match seed {
-        Some(corners) => mark_in_space(count, lifted, corners, &mut visible)?,
+        Some(corners) => mark_in_space(count, lifted, corners, draft, &mut visible)?,
         None => mark_upright(count, lifted, &mut visible)?,
     }
     Ok(visible)
@@ -72,13 +74,15 @@ fn mark_in_space(
     count: u32,
     lifted: &dyn Fn(u32) -> DVec3,
     corners: [u32; 3],
+    draft: bool,
     visible: &mut [bool],
 ) -> Result<(), OutOfMemory> {
     let mut hull = LowerHull::new(corners, lifted)?;
     // On the boundary now; visible only if that is so at the end.
     let mut on_boundary: Vec<u32> = Vec::new();
     let mut hint = 0;
-    for round in order::spatial_rounds() {
+    let rounds = order::coarse_rounds().chain((!draft).then_some(order::last_round()));
+    for round in rounds {
         for index in round.indices(count) {
             let q = lifted(index);
             let (face, side) = hull.locate(q, hint);
@@ -90,6 +94,14 @@ fn mark_in_space(
                 }
                 Sign::Negative => face,
             };
+        }
+    }
+    if draft {
+        // What is above the hull of one point in eight is above that of all.
+        for index in order::last_round().indices(count) {
+            let (face, side) = hull.locate(lifted(index), hint);
+            visible[index as usize] = side != Sign::Negative;
+            hint = face;
         }
     }
     for (_, face) in hull.surface.alive() {

@@ -13,6 +13,7 @@ use super::order;
 use super::repair::Repair;
 use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, push};
+use crate::flip::inversion::Flip;
 
 /// The last view's hull, and room for the next one's. What it holds never changes
 /// an answer, as long as it is only used for one sequence of points.
@@ -31,6 +32,11 @@ pub(crate) struct Memory {
     pub(super) moved: bool,
     /// How much of the last view's hull may have changed for it to be mended.
     patience: Patience,
+    /// The flip of the draft whose hull `hull` is, with the map of it; the view that is asked
+    /// for next may go on from there.
+    pub(super) drafted: Option<Flip>,
+    /// Of how many sampled points the last view was, if not of all.
+    sample: Option<usize>,
 }
 
 impl Memory {
@@ -54,14 +60,38 @@ impl Memory {
         self.patience = Patience::GREAT;
     }
 
+    /// The next view is of a sample of so many points, or of all of them: of others than the
+    /// last, maybe.
+    pub(crate) fn see_sample(&mut self, sample: Option<usize>) {
+        if self.sample != sample {
+            self.forget();
+            self.sample = sample;
+        }
+    }
+
+    /// No later view is found from the last one by moving its hull; a draft is gone on from.
+    pub(crate) fn forget_moves(&mut self) {
+        self.holds_hull = false;
+    }
+
     /// Forgets the last view, but keeps the room.
     pub(crate) fn forget(&mut self) {
         self.holds_hull = false;
         self.patience = Patience::USUAL;
+        self.drafted = None;
     }
 }
 
 impl Memory {
+    /// None of so many points is marked.
+    #[inline(never)]
+    pub(super) fn clear_marks(&mut self, count: usize) -> Result<(), OutOfMemory> {
+        self.visible.clear();
+        self.visible.try_reserve_exact(count)?;
+        self.visible.resize(count, false);
+        Ok(())
+    }
+
     /// The last view's hull becomes that of the same vertices in this one, which are
     /// then marked as visible, if that is worth the while.
     pub(super) fn move_hull(&mut self, flipped: &Flipped) -> Result<bool, OutOfMemory> {
@@ -78,24 +108,41 @@ impl Memory {
         Ok(moved)
     }
 
-    /// Every point, to a hull that was just started.
-    pub(super) fn add_in_rounds(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
+    /// Adds every point but those of the last round to a hull that was just started.
+    #[inline(never)]
+    pub(super) fn add_coarse_rounds(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
         self.start_witnesses(flipped.len())?;
         let mut hint = 0;
         let count = flipped.len() as u32;
-        for round in order::spatial_rounds() {
-            if !round.is_last() {
-                for index in round.indices(count) {
-                    hint = self.add(index, flipped, [hint, hint])?;
-                    self.witnesses[index as usize] = hint;
-                }
+        for round in order::coarse_rounds() {
+            for index in round.indices(count) {
+                hint = self.add(index, flipped, [hint, hint])?;
+                self.witnesses[index as usize] = hint;
+            }
+        }
+        Ok(())
+    }
+
+    /// Maps the hull of the coarse rounds, which has its shape.
+    #[inline(never)]
+    pub(super) fn make_map(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
+        self.depth
+            .make(&self.hull, flipped, flipped.len(), &|_| true)
+    }
+
+    /// The points of the last round.
+    #[inline(never)]
+    pub(super) fn add_last_round(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
+        let Some(mut hint) = self.hull.outer_face() else {
+            return Ok(());
+        };
+        for run in order::runs(flipped.len() as u32) {
+            if self.depth.hides_run(flipped, &run) {
+                self.witnesses[run.start as usize..run.end as usize].fill(hint);
                 continue;
             }
-            // By now the hull has its shape.
-            self.depth
-                .make(&self.hull, flipped, flipped.len(), &|_| true)?;
-            for index in round.indices(count) {
-                if !self.depth.hides(flipped.position(index)) {
+            for index in order::last_round().indices_in(run) {
+                if !self.depth.hides(flipped, index) {
                     hint = self.add(index, flipped, [hint, hint])?;
                 }
                 self.witnesses[index as usize] = hint;
@@ -114,7 +161,7 @@ impl Memory {
     ) -> Result<(), OutOfMemory> {
         self.start_witnesses(flipped.len())?;
         let mut hint = 0;
-        for round in order::spatial_rounds() {
+        for round in order::coarse_rounds().chain([order::last_round()]) {
             for (_, index) in plane.sorted(round, flipped)? {
                 hint = self.add(index, flipped, [hint, hint])?;
                 self.witnesses[index as usize] = hint;
@@ -140,7 +187,7 @@ impl Memory {
             return Ok(());
         };
         for index in 0..flipped.len() as u32 {
-            if self.visible[index as usize] || self.depth.hides(flipped.position(index)) {
+            if self.visible[index as usize] || self.depth.hides(flipped, index) {
                 continue;
             }
             let witness = self.witnesses[index as usize];
@@ -175,13 +222,19 @@ impl Memory {
         })
     }
 
-    /// Reads the complete hull. A point found exactly on the boundary is visible only if
-    /// it still is; one at the viewpoint is in any case.
+    /// Reads the complete hull, which the next view may start from.
     pub(super) fn finish(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
         #[cfg(debug_assertions)]
         self.hull.assert_is_hull();
-        self.hull.mark_outer_vertices(&mut self.visible);
         self.holds_hull = true;
+        self.mark_boundary(flipped)
+    }
+
+    /// Marks what is on the hull's boundary of the points that were added. A point that was
+    /// found exactly on it is visible only if it still is; one at the viewpoint is in any case.
+    #[inline(never)]
+    pub(super) fn mark_boundary(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
+        self.hull.mark_outer_vertices(&mut self.visible);
         let Some(mut hint) = self.hull.outer_face() else {
             return Ok(());
         };

@@ -35,5 +35,5 @@ mod triangles;
 
 pub(crate) use lower::mark_lower_boundary;
 pub(crate) use memory::Memory;
-pub(crate) use outer_boundary::{mark_visible, triangulate_visible, visible_once};
+pub(crate) use outer_boundary::{mark_draft, mark_visible, triangulate_visible, visible_once};
 pub(crate) use outer_faces::{Exit, OuterFaces, Snapshot};

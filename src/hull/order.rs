@@ -1,5 +1,12 @@
 //! In which order points enter the hull. The order never changes the answer.
 
+use core::ops::Range;
+
+use crate::cloud::blocks::BLOCK;
+
+/// The stride of the last round but one.
+const COARSE: u32 = 8;
+
 /// One round: the multiples of `stride` that are no multiples of `given`, the
 /// stride of the round before.
 #[derive(Clone, Copy)]
@@ -11,13 +18,13 @@ pub(super) struct Round {
 impl Round {
     /// The round's indices below `count`, ascending.
     pub(super) fn indices(self, count: u32) -> impl Iterator<Item = u32> + Clone {
-        (0..count)
-            .step_by(self.stride as usize)
-            .filter(move |i| self.given == 0 || i % self.given != 0)
+        self.indices_in(0..count)
     }
 
-    pub(super) fn is_last(self) -> bool {
-        self.stride == 1
+    /// Those in a run that starts at a multiple of every stride, or of the last two.
+    pub(super) fn indices_in(self, run: Range<u32>) -> impl Iterator<Item = u32> + Clone {
+        run.step_by(self.stride as usize)
+            .filter(move |i| self.given == 0 || i % self.given != 0)
     }
 }
 
@@ -26,12 +33,27 @@ impl Round {
 ///
 /// The early rounds give the hull its shape with few points; inside a round
 /// neighbors in space follow each other, so each is found near the last one.
-pub(super) fn spatial_rounds() -> impl Iterator<Item = Round> + Clone {
-    const STRIDES: [u32; 5] = [4096, 512, 64, 8, 1];
+///
+/// These are all rounds but the last: one point in eight.
+pub(super) fn coarse_rounds() -> impl Iterator<Item = Round> + Clone {
+    const STRIDES: [u32; 4] = [4096, 512, 64, COARSE];
     (0..STRIDES.len()).map(|round| Round {
         stride: STRIDES[round],
         given: if round == 0 { 0 } else { STRIDES[round - 1] },
     })
+}
+
+pub(super) fn last_round() -> Round {
+    Round {
+        stride: 1,
+        given: COARSE,
+    }
+}
+
+/// All indices below `count` in runs of a block each.
+pub(super) fn runs(count: u32) -> impl Iterator<Item = Range<u32>> {
+    let starts = (0..count).step_by(BLOCK);
+    starts.map(move |start| start..count.min(start + BLOCK as u32))
 }
 
 /// The step from one to the next of the few points that are looked at for a start, before
@@ -43,13 +65,14 @@ pub(super) fn sample_step(count: u32) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::spatial_rounds;
+    use super::{coarse_rounds, last_round};
     use alloc::vec::Vec;
 
     #[test]
     fn every_index_comes_once() {
         for count in [0, 1, 2, 7, 64, 4096, 10_001] {
-            let mut seen: Vec<u32> = spatial_rounds()
+            let mut seen: Vec<u32> = coarse_rounds()
+                .chain([last_round()])
                 .flat_map(|round| round.indices(count))
                 .collect();
             seen.sort_unstable();

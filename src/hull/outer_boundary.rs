@@ -10,13 +10,16 @@ use super::memory::Memory;
 use super::predicates::{Sign, side_of_origin};
 use super::{flat, order, share};
 use crate::base::allocation::OutOfMemory;
+use crate::cloud::blocks::Sphere;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
 
 /// Finds out which of `points`, flipped by `flip`, are visible, all of them or of a
 /// divided view only the sector's own: [`Memory::visible`].
+#[inline(never)]
 pub(crate) fn mark_visible(
     points: &Points,
+    blocks: &[Sphere],
     flip: &Flip,
     division: Option<Division>,
     memory: &mut Memory,
@@ -24,26 +27,27 @@ pub(crate) fn mark_visible(
     let flipped = Flipped {
         points,
         flip: flip.rescaled_for(points),
+        blocks,
     };
-    memory.visible.clear();
-    memory.visible.try_reserve_exact(points.len())?;
-    memory.visible.resize(points.len(), false);
+    memory.clear_marks(points.len())?;
+    let drafted = memory.drafted.take();
+    if division.is_none() && drafted == Some(*flip) {
+        memory.moved = false;
+        if !flip.is_fast() {
+            memory.depth.clear();
+        }
+        memory.add_last_round(&flipped)?;
+        return memory.finish(&flipped);
+    }
     let held = core::mem::take(&mut memory.holds_hull);
     memory.moved = held && division.is_none() && memory.move_hull(&flipped)?;
     if memory.moved {
         memory.add_to_moved_hull(&flipped)?;
         return memory.finish(&flipped);
     }
-    let count = points.len() as u32;
-    let seed = if flipped.flip.keeps_in_plane(points) {
-        None
-    } else {
-        first_tetrahedron(&flipped, order::sample_step(count))
-            .or_else(|| first_tetrahedron(&flipped, 1))
-    };
-    let Some(corners) = seed else {
+    let Some(corners) = seed(&flipped) else {
         let flipped = |index| flipped.get_out_of_line(index);
-        flat::mark_visible(count, &flipped, &mut memory.visible)?;
+        flat::mark_visible(points.len() as u32, &flipped, &mut memory.visible)?;
         return keep_own(division, memory);
     };
     let room = division
@@ -55,7 +59,14 @@ pub(crate) fn mark_visible(
     } else if let Some(division) = division {
         return share::mark_visible(memory, &flipped, division);
     } else {
-        memory.add_in_rounds(&flipped)?;
+        memory.add_coarse_rounds(&flipped)?;
+        if flip.is_fast() {
+            memory.make_map(&flipped)?;
+        } else {
+            // The map would flip most points once more, which takes longer than to locate them.
+            memory.depth.clear();
+        }
+        memory.add_last_round(&flipped)?;
     }
     memory.finish(&flipped)?;
     keep_own(division, memory)
@@ -69,10 +80,61 @@ fn keep_own(division: Option<Division>, memory: &mut Memory) -> Result<(), OutOf
     Ok(())
 }
 
+/// Marks a certain superset of the visible points, from the hull of one point in eight. The
+/// same view asked with [`mark_visible`] next goes on from there.
+#[inline(never)]
+pub(crate) fn mark_draft(
+    points: &Points,
+    blocks: &[Sphere],
+    flip: &Flip,
+    memory: &mut Memory,
+) -> Result<(), OutOfMemory> {
+    let flipped = Flipped {
+        points,
+        flip: flip.rescaled_for(points),
+        blocks,
+    };
+    if memory.drafted != Some(*flip) {
+        memory.forget();
+        let Some(corners) = seed(&flipped) else {
+            return mark_visible(points, blocks, flip, None, memory);
+        };
+        memory.hull.start(corners, flipped.reach(), points.len())?;
+        if Around::of(&corners, &flipped).is_some() {
+            return mark_visible(points, blocks, flip, None, memory);
+        }
+        memory.add_coarse_rounds(&flipped)?;
+        memory.make_map(&flipped)?;
+        memory.drafted = Some(*flip);
+    }
+    memory.moved = false;
+    memory.clear_marks(points.len())?;
+    memory.mark_boundary(&flipped)?;
+    for run in order::runs(points.len() as u32) {
+        if memory.depth.hides_run(&flipped, &run) {
+            continue;
+        }
+        for index in order::last_round().indices_in(run) {
+            memory.visible[index as usize] = !memory.depth.hides(&flipped, index);
+        }
+    }
+    Ok(())
+}
+
+/// Three points to start a hull in space from, unless all is in one plane with the viewpoint.
+#[inline(never)]
+fn seed(flipped: &Flipped) -> Option<[(u32, DVec3); 3]> {
+    if flipped.flip.keeps_in_plane(flipped.points) {
+        return None;
+    }
+    first_tetrahedron(flipped, order::sample_step(flipped.len() as u32))
+        .or_else(|| first_tetrahedron(flipped, 1))
+}
+
 /// Which of `points` are visible, for a single view.
 pub(crate) fn visible_once(points: &Points, flip: &Flip) -> Result<Vec<bool>, OutOfMemory> {
     let mut memory = Memory::default();
-    mark_visible(points, flip, None, &mut memory)?;
+    mark_visible(points, &[], flip, None, &mut memory)?;
     Ok(memory.visible)
 }
 
@@ -83,11 +145,15 @@ pub(crate) fn triangulate_visible(
     flip: &Flip,
 ) -> Result<(Vec<bool>, Vec<[u32; 3]>), OutOfMemory> {
     let mut memory = Memory::default();
-    mark_visible(points, flip, None, &mut memory)?;
+    mark_visible(points, &[], flip, None, &mut memory)?;
     let mut triangles = Vec::new();
     if memory.holds_hull {
         let flip = flip.rescaled_for(points);
-        let flipped = Flipped { points, flip };
+        let flipped = Flipped {
+            points,
+            flip,
+            blocks: &[],
+        };
         triangles = memory.hull.outer_triangles(&memory.on_boundary, &flipped)?;
     }
     Ok((memory.visible, triangles))

@@ -35,7 +35,11 @@ impl Memory {
             return Ok(None);
         }
         let flip = flip.rescaled_for(points);
-        let flipped = Flipped { points, flip };
+        let flipped = Flipped {
+            points,
+            flip,
+            blocks: &[],
+        };
         self.hull.cut_by(&self.on_boundary, &flipped)?;
         let first = self.hull.outer_face();
         Ok(first.map(|first| OuterFaces {

@@ -86,7 +86,7 @@ pub(super) fn mark_visible(
             if share.division.roles[block] != Role::Far {
                 let start = (block * BLOCK) as u32;
                 for index in (start..count.min(start + BLOCK as u32)).step_by(stride) {
-                    let is_told = stride == 1 && depth.hides(flipped.position(index));
+                    let is_told = stride == 1 && depth.hides(flipped, index);
                     if index % given != 0 && !is_told {
                         share.add(index)?;
                     }

@@ -89,9 +89,34 @@ pub struct Options {
     /// How sure the answer is, too: [`Visibility::scores`](crate::Visibility::scores).
     /// With [`Inversion::Looks`] and one viewpoint only.
     pub scores: bool,
+    /// An early answer: contains all that is visible, with the same radius, and some of what
+    /// is hidden. What it leaves out is hidden for certain. Takes about a third of the time;
+    /// from an [`Observer`](crate::Observer) the same view without `draft` goes on from it.
+    /// Not with [`Radius::Search`] or [`Radius::Opposite`], whose choice takes longer, nor
+    /// where the whole hull is needed ([`Error::NoDraft`]).
+    pub draft: bool,
+    /// Only an even sample of so many points takes part: the answer is that of a cloud of the
+    /// sampled points alone, its own spacing and farthest distance included. Of equal points
+    /// all are sampled or none. The sample depends on the set of points alone; a smaller one
+    /// is part of a larger one. Chosen anew for each query, unless the cloud is
+    /// [prepared](crate::PointCloud::prepare_for) for it.
+    pub sample: Option<usize>,
 }
 
 impl Options {
+    /// Whether the answer is the final one to its question.
+    pub(crate) fn is_exact(&self) -> bool {
+        !self.draft && self.sample.is_none()
+    }
+
+    /// Refuses a draft of what `option` asks for.
+    pub(crate) fn refuse_draft(&self, option: &'static str) -> Result<(), Error> {
+        if self.draft {
+            return Err(Error::NoDraft { option });
+        }
+        Ok(())
+    }
+
     /// Refuses options that need space, for a cloud of another dimension.
     pub(crate) fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
         let asked = [
@@ -117,6 +142,15 @@ impl Options {
             return Err(Error::LooksWith { other });
         }
         Ok(())
+    }
+
+    /// Refuses drafts and samples, in a dimension that has none.
+    pub(crate) fn check_whole(&self, dimension: usize) -> Result<(), Error> {
+        let asked = [("draft", self.draft), ("sample", self.sample.is_some())];
+        match asked.into_iter().find(|(_, is_asked)| *is_asked) {
+            Some((option, _)) => Err(Error::Dimension { option, dimension }),
+            None => Ok(()),
+        }
     }
 
     /// Options with R given in the cloud's units.

@@ -99,6 +99,9 @@ pub(crate) fn check_flip(options: &Options) -> Result<(), Error> {
 /// each other.
 #[inline(never)]
 pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inversion, Error> {
+    if matches!(options.radius, Radius::Search | Radius::Opposite) {
+        options.refuse_draft(options.radius.name())?;
+    }
     let refuse = |inversion| {
         let option = options.radius.name();
         Err(Error::RadiusWithInversion { option, inversion })
@@ -140,6 +143,9 @@ pub(crate) fn looks(options: &Options) -> Result<Option<usize>, Error> {
             if options.radius != Radius::Auto {
                 let other = options.radius.name();
                 return Err(Error::LooksWith { other });
+            }
+            if options.draft {
+                return Err(Error::LooksWith { other: "draft" });
             }
             Ok(Some(count))
         }

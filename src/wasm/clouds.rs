@@ -97,14 +97,19 @@ pub(super) fn with_cloud<T>(
     })
 }
 
-/// Asks a cloud for a view. Neighbors for noise handling are kept for the next view, where
-/// there is memory.
+/// Asks a cloud for a view. Neighbors for noise handling and the sample are kept for the next
+/// view, where there is memory.
 pub(super) fn with_view<T>(
     handle: u32,
     options: &Options,
     query: impl FnOnce(&PointCloud) -> Result<T, Error>,
 ) -> Result<T, Failure> {
-    if options.denoise.or(options.vote).is_some() {
+    if options
+        .denoise
+        .or(options.vote)
+        .or(options.sample)
+        .is_some()
+    {
         prepare(handle, options)?;
     }
     with_cloud(handle, query)

@@ -89,10 +89,17 @@ impl From<Error> for Failure {
                 ("looksWith", [0.0; 3])
             }
             Error::ScoresWithoutLooks => ("scoresWithoutLooks", [0.0; 3]),
-            Error::ScoresOfSeveral => ("scoresOfSeveral", [0.0; 3]),
+            Error::ScoresWith { other } => {
+                named = other;
+                ("scoresWith", [0.0; 3])
+            }
             Error::NoLimit { option } => {
                 named = option;
                 ("noLimit", [0.0; 3])
+            }
+            Error::NoDraft { option } => {
+                named = option;
+                ("noDraft", [0.0; 3])
             }
             Error::MergeNeighbors { option } => {
                 named = option;

@@ -47,6 +47,8 @@ interface ViewOptions {
   denoise: number;
   vote: number;
   scores: boolean;
+  draft: boolean;
+  sample: number;
   /** Makes room for so many indices of an answer. */
   memory: (length: number) => Uint32Array<ArrayBuffer>;
 }

@@ -25,6 +25,10 @@ extern "C" {
     fn vote(this: &ViewOptions) -> f64;
     #[wasm_bindgen(method, getter)]
     fn scores(this: &ViewOptions) -> bool;
+    #[wasm_bindgen(method, getter)]
+    fn draft(this: &ViewOptions) -> bool;
+    #[wasm_bindgen(method, getter)]
+    fn sample(this: &ViewOptions) -> f64;
     /// JavaScript makes the arrays of an answer. It can reuse memory, and a refused allocation
     /// there is an error rather than a trap.
     #[wasm_bindgen(method, catch)]
@@ -34,7 +38,7 @@ extern "C" {
 impl ViewOptions {
     pub(super) fn read(&self) -> Options {
         // Conversions saturate. 0 stands for no option; JavaScript refuses a 0 of the caller.
-        let neighbors = |k: f64| (k > 0.0).then_some(k as usize);
+        let number = |k: f64| (k > 0.0).then_some(k as usize);
         Options {
             radius: self.read_radius(),
             inversion: match self.kernel() as u32 {
@@ -44,9 +48,11 @@ impl ViewOptions {
                 4 => Inversion::Looks(self.parameter() as usize),
                 _ => Inversion::Spherical,
             },
-            denoise: neighbors(self.denoise()),
-            vote: neighbors(self.vote()),
+            denoise: number(self.denoise()),
+            vote: number(self.vote()),
             scores: self.scores(),
+            draft: self.draft(),
+            sample: number(self.sample()),
         }
     }
 

@@ -10,6 +10,7 @@ import { timeAdapter } from "./adapter.js";
 import { fidelityTables } from "../fidelity/tables.js";
 import { type BrowserEngine, openChromium } from "./chromium.js";
 import { CLOUDS, type Cloud } from "./clouds.js";
+import { timeDrafts } from "./drafts.js";
 import { localEngines } from "./engines.js";
 import { measureGarbage } from "./garbage.js";
 import { timeSizes } from "./linear.js";
@@ -33,6 +34,7 @@ const others = options.sections.has("speed") ? peers(options.peers) : [];
 const browser = options.sections.has("speed") ? await openChromium() : undefined;
 try {
   if (options.sections.has("speed")) tables.push(...(await timeQueries(chosenClouds(), enginesWith(browser), others)));
+  if (options.sections.has("drafts")) tables.push(timeDrafts());
   if (options.sections.has("workers")) tables.push(...[await timeWorkers()].filter((table) => table !== undefined));
   if (options.sections.has("linear")) tables.push(await timeSizes(localEngines()));
   if (options.sections.has("adapter")) tables.push(await timeAdapter(), await timeNodes(), await measureGarbage());

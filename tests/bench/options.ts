@@ -5,9 +5,10 @@ import { CLOUDS } from "./clouds.js";
 
 export const USAGE = `npm run bench -- [WHAT…] [--clouds NAME,NAME…] [--peers] [--json] [--write]
 
-WHAT, by default --speed and --workers:
+WHAT, by default --speed, --drafts and --workers:
   --speed      cold queries and a moving viewpoint, natively, in Node and in Chromium;
                three.js and quickhull3d on the same flipped points
+  --drafts     early answers and samples against cold ones
   --workers    two workers against one, on a million points
   --linear     nanoseconds a point from 30,000 to 3 million points
   --adapter    what the adapters for three.js take of the page's own thread, and the memory
@@ -24,7 +25,7 @@ WHAT, by default --speed and --workers:
   --json       prints JSON instead of tables
   --write      writes the tables to tests/bench, too: to RESULTS.md, or PAGE.md and SOAK.md`;
 
-const SECTIONS = ["speed", "workers", "linear", "adapter", "memory", "page", "soak", "fidelity"] as const;
+const SECTIONS = ["speed", "drafts", "workers", "linear", "adapter", "memory", "page", "soak", "fidelity"] as const;
 type Section = (typeof SECTIONS)[number];
 /** The sections that "all" leaves out. */
 const ALONE = new Set<Section>(["page", "soak"]);
@@ -42,6 +43,7 @@ export function readOptions(args: string[]): BenchOptions {
   const flag = { type: "boolean", default: false } as const;
   const flags = {
     speed: flag,
+    drafts: flag,
     workers: flag,
     linear: flag,
     adapter: flag,
@@ -57,7 +59,7 @@ export function readOptions(args: string[]): BenchOptions {
   const clouds = values.clouds?.split(",") ?? Object.keys(CLOUDS);
   const unknown = clouds.find((name) => !(name in CLOUDS));
   if (unknown !== undefined) throw new Error(`There is no cloud named ${unknown}.`);
-  const usual: Section[] = values.clouds === undefined ? ["speed", "workers"] : ["speed"];
+  const usual: Section[] = values.clouds === undefined ? ["speed", "drafts", "workers"] : ["speed"];
   return {
     sections: new Set(asked.length === 0 ? usual : asked),
     clouds,

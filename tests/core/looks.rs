@@ -421,7 +421,12 @@ fn what_needs_one_hull_refuses_looks() {
     };
     assert_eq!(view(scores), Error::ScoresWithoutLooks);
     let several = cloud.visible_from_any(&[FRONT], &looks(3)).unwrap_err();
-    assert_eq!(several, Error::ScoresOfSeveral);
+    assert_eq!(
+        several,
+        Error::ScoresWith {
+            other: "several viewpoints"
+        }
+    );
     let nowhere = cloud
         .visible_from([f64::NAN, 0.0, 0.0], &options)
         .unwrap_err();

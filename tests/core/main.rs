@@ -9,6 +9,7 @@ mod changes;
 mod definition;
 mod digest;
 mod direction;
+mod draft;
 mod fixtures;
 mod guarantees;
 mod hyperspace;

@@ -60,6 +60,7 @@ impl PointCloud {
             return Err(Error::Viewpoint { viewpoint });
         }
         let points = &self.sequence.points;
+        let blocks = &self.blocks.levels[0];
         self.blocks.farthest_distance(points, viewpoint)?;
         let scales = scales(count, self.statistics.spacing);
         let looks = |number: usize| {
@@ -70,7 +71,7 @@ impl PointCloud {
         // sphere must not depend on what was asked before.
         memory.forget();
         let first = looks(0);
-        hull::mark_visible(points, &first.flip, None, memory)?;
+        hull::mark_visible(points, blocks, &first.flip, None, memory)?;
         let tight = Outcome::of(memory, points, &first.flip, &|_| true)?;
         // From one look to the next few points change: each hull becomes the next.
         memory.expect_other_scales();
@@ -78,7 +79,7 @@ impl PointCloud {
         // The loosest hull comes second, because it tells the spacing by which the first
         // is judged. What that decides needs no other.
         let last = looks(count - 1);
-        hull::mark_visible(points, &last.flip, None, memory)?;
+        hull::mark_visible(points, blocks, &last.flip, None, memory)?;
         let spacing = {
             let faces = memory.outer_faces(points, &last.flip)?;
             spacing::local(points, faces.as_ref(), self.statistics.spacing)?
@@ -89,7 +90,7 @@ impl PointCloud {
         let is_flat = matches!(loose, Outcome::Flat(_));
         if count == 3 {
             let middle = looks(1);
-            hull::mark_visible(points, &middle.flip, None, memory)?;
+            hull::mark_visible(points, blocks, &middle.flip, None, memory)?;
             let usual = Outcome::of(memory, points, &middle.flip, &verdicts.open())?;
             verdicts.take(&middle, usual);
         }

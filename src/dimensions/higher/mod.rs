@@ -215,6 +215,7 @@ impl PointCloudNd {
 
     fn check_options(&self, options: &Options) -> Result<Inversion, Error> {
         options.check_dimension(self.rows.dimension)?;
+        options.check_whole(self.rows.dimension)?;
         resolved_inversion(options, self.rows.spacing)
     }
 

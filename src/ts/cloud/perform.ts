@@ -108,6 +108,7 @@ function found({ length }: Target, settings: ViewSettings, answer: CoreAnswer): 
     exponent,
     evaluations,
     inversion: resolvedInversion(settings, scales),
+    exact: !settings.draft && settings.sample === 0,
     length,
   };
   return settings.scores ? { ...found, scores: answer.scores } : found;

@@ -20,6 +20,8 @@ export interface Visibility extends ChosenRadius {
    * scale c of each look, which tells how the answer was found, but is no option.
    */
   readonly inversion: ResolvedInversion;
+  /** Whether this is the final answer to what was asked: false only for drafts and samples. */
+  readonly exact: boolean;
   /**
    * Only where the option `scores` asked for it: for each point of the cloud how likely it
    * is visible, from 0 to 1, and 0 for those removed and skipped. The caller's own copy. A
@@ -62,6 +64,7 @@ export class VisibilityAnswer implements Visibility {
   readonly exponent: number;
   readonly evaluations: number;
   readonly inversion: ResolvedInversion;
+  readonly exact: boolean;
   declare readonly scores?: Float32Array;
   readonly #cloudLength: number;
 
@@ -90,6 +93,7 @@ export class VisibilityAnswer implements Visibility {
     this.exponent = answer.exponent;
     this.evaluations = answer.evaluations;
     this.inversion = answer.inversion;
+    this.exact = answer.exact;
     this.#cloudLength = answer.length;
     if (answer.scores !== undefined) {
       this.scores = answer.scores;

@@ -18,6 +18,7 @@ export interface ChosenRadius {
 export interface Found extends ChosenRadius {
   indices: Uint32Array<ArrayBuffer>;
   inversion: ResolvedInversion;
+  exact: boolean;
   length: number;
   /** Where they were asked for. */
   scores?: Float32Array<ArrayBuffer>;

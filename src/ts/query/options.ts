@@ -132,3 +132,12 @@ export function number(given: Record<string, unknown>, name: string): number | u
   }
   return value;
 }
+
+/** An option that is true or false; false where it was not given. */
+export function flag(given: Record<string, unknown>, name: string): boolean {
+  const value = given[name] ?? false;
+  if (typeof value !== "boolean") {
+    throw new HprError("option", `${name} must be true or false, got ${describe(value)}`);
+  }
+  return value;
+}

@@ -77,9 +77,11 @@ type GivenOptions = Record<string, unknown>;
 export function viewQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"visibleFrom"> {
   const position = readViewpoint(viewpoint, dimension);
   const settings = viewSettings(given, dimension);
-  // Votes, moved points and other inversions have no bounds that hold from far away.
-  const { kernel, denoise, vote } = settings;
-  const divisible = dimension === 3 && kernel === 0 && denoise === 0 && vote === 0;
+  // Votes, moved points and other inversions have no bounds that hold from far away; drafts
+  // and samples take one worker little time.
+  const { kernel, denoise, vote, draft, sample } = settings;
+  const isPlain = kernel === 0 && denoise === 0 && vote === 0 && !draft && sample === 0;
+  const divisible = dimension === 3 && isPlain;
   return { kind: "visibleFrom", viewpoint: position, settings, divisible };
 }
 

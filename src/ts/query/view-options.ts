@@ -1,5 +1,5 @@
 import { describe, HprError } from "../base/errors.js";
-import { givenOptions, integer, number } from "./options.js";
+import { flag, givenOptions, integer, number } from "./options.js";
 import { MOST_POINTS } from "./positions.js";
 
 /** How the radius R is chosen where it is not given. */
@@ -59,6 +59,20 @@ export interface VisibilityOptions {
   looks?: 2 | 3 | undefined;
   /** With `looks`: how sure the answer is, too, as `scores`. For one viewpoint only. */
   scores?: boolean | undefined;
+  /**
+   * An early answer, in about a third of the time: it contains all that is visible, and some
+   * of what is hidden. What it leaves out is hidden for certain. Radius and inversion are
+   * the exact answer's. The same view asked without `draft` next goes on from it. Not with
+   * `radius: "search"` or `"opposite"`, and neither for `reconstruct` nor `illuminate`.
+   * Default false.
+   */
+  draft?: boolean | undefined;
+  /**
+   * Only an even sample of about so many points takes part: the answer is that of a cloud of
+   * the sampled points alone, its own spacing and farthest distance included. The sample
+   * depends on the set of points only; a smaller one is part of a larger one. At least 1.
+   */
+  sample?: number | undefined;
 }
 
 /** {@link VisibilityOptions}, checked for type, as the core reads them (src/wasm/options.rs). */
@@ -75,12 +89,25 @@ export interface ViewSettings {
   denoise: number;
   vote: number;
   scores: boolean;
+  draft: boolean;
+  /** How many points; 0 for all. */
+  sample: number;
 }
 
 export const Rule = { auto: 0, search: 1, opposite: 2, radius: 3, exponent: 4 } as const;
 export const Kernel = { spherical: 0, power: 1, automaticExponential: 2, exponential: 3, looks: 4 } as const;
 
-export const VIEW_OPTIONS = ["radius", "exponent", "inversion", "denoise", "vote", "looks", "scores"] as const;
+export const VIEW_OPTIONS = [
+  "radius",
+  "exponent",
+  "inversion",
+  "denoise",
+  "vote",
+  "looks",
+  "scores",
+  "draft",
+  "sample",
+] as const;
 
 /** Types only: ranges are the core's to check, which knows the distances. */
 export function viewSettings(given: Record<string, unknown>, dimension: number): ViewSettings {
@@ -90,6 +117,8 @@ export function viewSettings(given: Record<string, unknown>, dimension: number):
     denoise: neighbors(given, "denoise", dimension),
     vote: neighbors(given, "vote", dimension),
     scores: wantsScores(given),
+    draft: wantsDraft(given, dimension),
+    sample: sampled(given, dimension),
   };
 }
 
@@ -106,6 +135,8 @@ export function ruleSettings(rule: unknown): ViewSettings {
     denoise: 0,
     vote: 0,
     scores: false,
+    draft: false,
+    sample: 0,
   };
 }
 
@@ -162,15 +193,16 @@ function chosenLooks(
   if (excluded !== undefined) {
     throw new HprError("option", `looks and ${excluded} exclude each other; give one of the two`);
   }
+  if (flag(given, "draft")) {
+    throw new HprError("option", "looks cannot be combined with draft");
+  }
   requireSpace("looks", dimension);
   return { kernel: Kernel.looks, parameter: looks };
 }
 
-function wantsScores({ looks, scores = false }: Record<string, unknown>): boolean {
-  if (typeof scores !== "boolean") {
-    throw new HprError("option", `scores must be a boolean, got ${describe(scores)}`);
-  }
-  if (scores && looks === undefined) {
+function wantsScores(given: Record<string, unknown>): boolean {
+  const scores = flag(given, "scores");
+  if (scores && given["looks"] === undefined) {
     throw new HprError("option", "scores can be asked for only with looks");
   }
   return scores;
@@ -221,6 +253,30 @@ function neighbors(given: Record<string, unknown>, name: "denoise" | "vote", dim
   }
   requireSpace(name, dimension);
   return integer(given, name, 1, MOST_POINTS - 1) ?? 0;
+}
+
+function wantsDraft(given: Record<string, unknown>, dimension: number): boolean {
+  const draft = flag(given, "draft");
+  if (draft) {
+    requireLow("draft", dimension);
+  }
+  return draft;
+}
+
+/** 0 where all points take part. */
+function sampled(given: Record<string, unknown>, dimension: number): number {
+  if (given["sample"] === undefined) {
+    return 0;
+  }
+  requireLow("sample", dimension);
+  return integer(given, "sample", 1, MOST_POINTS) ?? 0;
+}
+
+/** Refuses what higher dimensions have not. In the crate's words. */
+function requireLow(what: string, dimension: number): void {
+  if (dimension > 3) {
+    requireSpace(what, dimension);
+  }
 }
 
 function isRule(value: unknown): value is RadiusRule {

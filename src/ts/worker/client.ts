@@ -1,7 +1,7 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import type { Answers, ChosenRadius } from "../query/answers.js";
 import { addDisposeSymbol } from "../base/dispose-symbol.js";
-import { describe, HprError } from "../base/errors.js";
+import { HprError } from "../base/errors.js";
 import { moduleForWorker } from "../loader.js";
 import { allocating } from "../base/memory.js";
 import {
@@ -9,6 +9,7 @@ import {
   type CloudSettings,
   cloudSettings,
   type CloudSize,
+  flag,
   givenOptions,
   pick,
   type PointCloudOptions,
@@ -147,7 +148,7 @@ export class WorkerPointCloud {
   static async create(positions: Positions, options?: WorkerPointCloudOptions): Promise<WorkerPointCloud> {
     const given = givenOptions(options, CLOUD_OPTIONS, CREATE_OPTIONS);
     const settings = cloudSettings(pick(given, CLOUD_OPTIONS));
-    const transfer = readFlag(given, "transfer");
+    const transfer = flag(given, "transfer");
     const workers = readPlacement(given);
     const signal = readSignal(given["signal"]);
     const progress = readProgress(given["onProgress"]);
@@ -344,7 +345,7 @@ export class WorkerPointCloud {
   ): Promise<Answers[K]> {
     this.#queue.requireOpen();
     const given = givenOptions(options, names, REQUEST_OPTIONS);
-    const latest = readFlag(given, "latest") ? method : undefined;
+    const latest = flag(given, "latest") ? method : undefined;
     const signal = readSignal(given["signal"]);
     const query = read(this.#settings.dimension, given);
     return untilAborted(signal, this.#queue.query(query, { latest, signal, owner: this }));
@@ -395,19 +396,11 @@ function giveAway(
 /** Starts this cloud's own workers, or joins the shared one. */
 function readPlacement(given: Record<string, unknown>): number | "shared" | undefined {
   const workers = readWorkers(given["workers"]);
-  if (!readFlag(given, "shared")) {
+  if (!flag(given, "shared")) {
     return workers;
   }
   if (workers !== undefined) {
     throw new HprError("option", "shared and workers exclude each other; give one of the two");
   }
   return "shared";
-}
-
-function readFlag(given: Record<string, unknown>, name: string): boolean {
-  const value = given[name] ?? false;
-  if (typeof value !== "boolean") {
-    throw new HprError("option", `${name} must be true or false, got ${describe(value)}`);
-  }
-  return value;
 }

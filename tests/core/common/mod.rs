@@ -10,6 +10,7 @@
 pub mod certify;
 pub mod definition;
 pub mod degenerate;
+pub mod drafts;
 pub mod flip;
 pub mod lower;
 pub mod oracle;

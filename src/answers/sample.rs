@@ -1,0 +1,114 @@
+//! Even samples of a cloud: what the sampled points alone answer.
+
+use alloc::boxed::Box;
+use alloc::vec::Vec;
+
+use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::base::error::{Error, in_range};
+use crate::base::limit::MAX_POINTS;
+use crate::cloud::point_cloud::PointCloud;
+use crate::view::options::Options;
+
+impl PointCloud {
+    /// Asks the cloud of `count` sampled points alone.
+    pub(crate) fn after_sampling<T>(
+        &self,
+        count: usize,
+        options: &Options,
+        query: &mut dyn FnMut(&Self, &Options) -> Result<T, Error>,
+    ) -> Result<T, Error> {
+        in_range("sample", count as f64, 1.0, MAX_POINTS as f64)?;
+        if options.scores {
+            return Err(Error::ScoresWith { other: "sample" });
+        }
+        let made;
+        let cloud = match &self.kept.sampled {
+            _ if self.holds_at_most(count) => self,
+            Some((kept, sampled)) if *kept == count => sampled,
+            _ => {
+                made = self.sampled(count)?;
+                &made
+            }
+        };
+        let options = Options {
+            sample: None,
+            ..*options
+        };
+        query(cloud, &options)
+    }
+
+    /// Keeps the sample for later views.
+    pub(crate) fn keep_sample(&mut self, count: usize, options: &Options) -> Result<(), Error> {
+        in_range("sample", count as f64, 1.0, MAX_POINTS as f64)?;
+        let options = Options {
+            sample: None,
+            ..*options
+        };
+        if self.holds_at_most(count) {
+            return self.prepare_for(&options);
+        }
+        let kept = self.kept.sampled.as_ref();
+        if kept.is_none_or(|&(kept, _)| kept != count) {
+            // Never room for two.
+            self.kept.sampled = None;
+            self.kept.sampled = Some((count, Box::new(self.sampled(count)?)));
+        }
+        let sampled = self.kept.sampled.as_mut();
+        sampled.map_or(Ok(()), |(_, cloud)| cloud.prepare_for(&options))
+    }
+
+    fn holds_at_most(&self, count: usize) -> bool {
+        self.sequence.points.len() <= count
+    }
+
+    /// The cloud of `count` of the distinct points, fewer than there are. Indices stay.
+    #[inline(never)]
+    fn sampled(&self, count: usize) -> Result<Self, OutOfMemory> {
+        let places = even_places(self.sequence.points.len(), count)?;
+        self.of_places(&places)
+    }
+}
+
+/// The first `count` places below `all`, ascending, in an order in which every beginning is
+/// spread evenly: by their digits in base two, the lowest digit first. So a smaller sample is
+/// part of a larger one.
+fn even_places(all: usize, count: usize) -> Result<Vec<u32>, OutOfMemory> {
+    let unused = (all as u32).saturating_sub(1).leading_zeros();
+    let mut is_chosen: Vec<bool> = Vec::new();
+    is_chosen.try_reserve_exact(all)?;
+    is_chosen.resize(all, false);
+    let order = (0..u32::MAX).map(|number| number.reverse_bits().checked_shr(unused).unwrap_or(0));
+    for place in order.filter(|&place| (place as usize) < all).take(count) {
+        is_chosen[place as usize] = true;
+    }
+    let mut places = with_capacity(count)?;
+    places.extend((0..all as u32).filter(|&place| is_chosen[place as usize]));
+    Ok(places)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::even_places;
+
+    #[test]
+    fn smaller_samples_are_part_of_larger_ones() {
+        for all in [2, 3, 7, 8, 9, 1000] {
+            let mut smaller = even_places(all, 1).unwrap();
+            for count in 2..=all {
+                let larger = even_places(all, count).unwrap();
+                assert_eq!(larger.len(), count);
+                assert!(smaller.iter().all(|place| larger.contains(place)));
+                smaller = larger;
+            }
+        }
+    }
+
+    #[test]
+    fn samples_are_even() {
+        let places = even_places(100_000, 3000).unwrap();
+        let gaps = places.windows(2).map(|pair| pair[1] - pair[0]);
+        let (least, most) = (gaps.clone().min().unwrap(), gaps.max().unwrap());
+        // 2^17 ÷ 2^12 and twice that.
+        assert_eq!((least, most), (32, 64));
+    }
+}

@@ -1,0 +1,63 @@
+//! What must hold of drafts: checked here for one view.
+
+use hidden_point_removal::{Observer, Options, PointCloud, Visibility};
+
+/// What is wrong with the draft of a view, as an observer sees it, and with the exact answer
+/// that goes on from it, if anything is.
+pub fn fault(
+    cloud: &PointCloud,
+    observer: &mut Observer,
+    viewpoint: [f64; 3],
+    options: &Options,
+) -> Option<String> {
+    let asked = Options {
+        draft: true,
+        ..*options
+    };
+    let draft = observer.visible_from(viewpoint, &asked);
+    let exact = observer.visible_from(viewpoint, options);
+    let cold = cloud.visible_from(viewpoint, options);
+    let (draft, exact, cold) = match (draft, exact, cold) {
+        (Ok(draft), Ok(exact), Ok(cold)) => (draft, exact, cold),
+        (Err(draft), Err(exact), Err(cold))
+            if [&draft, &exact].map(|e| e.to_string()) == [&cold, &cold].map(|e| e.to_string()) =>
+        {
+            return None;
+        }
+        (draft, exact, cold) => {
+            let answers = [draft, exact, cold].map(|answer| answer.map(|seen| seen.count()));
+            return Some(format!("draft, exact, cold: {answers:?}"));
+        }
+    };
+    if exact != cold || !exact.exact() {
+        return Some(format!(
+            "{} visible after the draft, {} cold",
+            exact.count(),
+            cold.count()
+        ));
+    }
+    if draft.exact() || resolved(&draft) != resolved(&cold) {
+        return Some(format!("the draft says {:?}", resolved(&draft)));
+    }
+    let again = cloud.visible_from(viewpoint, &asked);
+    if again.as_ref() != Ok(&draft) {
+        let again = again.map(|seen| seen.count());
+        return Some(format!("drafts of {} and {again:?}", draft.count()));
+    }
+    let mask = draft.mask();
+    let lost = |&&index: &&u32| mask[index as usize] == 0;
+    let lost: Vec<&u32> = cold.indices().iter().filter(lost).collect();
+    (!lost.is_empty()).then(|| {
+        let first = &lost[..lost.len().min(10)];
+        format!(
+            "{} visible points hidden, the first are {first:?}",
+            lost.len()
+        )
+    })
+}
+
+fn resolved(seen: &Visibility) -> (u64, u64, u32, String) {
+    let inversion = format!("{:?}", seen.inversion());
+    let (radius, exponent) = (seen.radius().to_bits(), seen.exponent().to_bits());
+    (radius, exponent, seen.evaluations(), inversion)
+}

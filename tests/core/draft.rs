@@ -1,0 +1,341 @@
+//! Drafts: certain supersets, the same ones whatever was asked before, and exact answers that
+//! go on from them.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{
+    Exponential, Inversion, Lighting, Options, PointCloud, Radius, Visibility, merge_visible,
+};
+
+use crate::common::drafts::fault;
+use crate::common::rng::Rng;
+use crate::common::scenes::{EXTREME, KINDS};
+use crate::common::shapes::{self, Points};
+use crate::common::walk::Walk;
+
+/// Enough for a map of directions.
+const MANY: usize = 6000;
+
+fn drafted(options: Options) -> Options {
+    Options {
+        draft: true,
+        ..options
+    }
+}
+
+fn assert_sound(points: &[[f64; 3]], viewpoint: [f64; 3], options: &Options, title: &str) {
+    let cloud = PointCloud::new(points).expect("an acceptable cloud");
+    let found = fault(&cloud, &mut cloud.observer(), viewpoint, options);
+    assert_eq!(found, None, "{title}, from {viewpoint:?} with {options:?}");
+}
+
+fn inversions() -> [Options; 6] {
+    [
+        Options::default(),
+        Options::with_exponent(0.0),
+        Options::with_exponent(4.0),
+        Options::with_inversion(Inversion::Power(1.5)),
+        Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
+        Options {
+            vote: Some(5),
+            ..Options::with_exponent(2.0)
+        },
+    ]
+}
+
+#[test]
+fn drafts_of_scenes_of_every_kind_hold_all_that_is_visible() {
+    for (number, kind) in KINDS.iter().chain(EXTREME).enumerate() {
+        for n in [0, 5, 300, MANY] {
+            if n > 100 && EXTREME.iter().any(|extreme| extreme.name == kind.name) {
+                continue;
+            }
+            let scene = kind.scene(number as u64, n);
+            assert_sound(&scene.points, scene.viewpoint, &scene.options, kind.name);
+        }
+    }
+}
+
+#[test]
+fn drafts_hold_all_that_is_visible_with_every_inversion() {
+    let mut rng = Rng::new(1);
+    let shapes: [fn(&mut Rng, usize) -> Points; 3] = [shapes::bumpy, shapes::room, shapes::ball];
+    for shape in shapes {
+        let points = shape(&mut rng, MANY);
+        for options in inversions() {
+            for viewpoint in [[0.3, 0.2, 0.1], [5.0, 7.0, 4.0]] {
+                assert_sound(&points, viewpoint, &options, "a shape");
+            }
+        }
+    }
+}
+
+#[test]
+fn drafts_from_within_the_planes_of_walls_hold_all_that_is_visible() {
+    let mut rng = Rng::new(2);
+    let points = shapes::room(&mut rng, MANY);
+    for viewpoint in [
+        [4.0, 0.3, 0.2],
+        [9.0, 3.0, 0.1],
+        [-7.0, -3.0, 1.25],
+        [0.5, 0.2, -1.25],
+    ] {
+        for exponent in [0.0, 2.0, 3.0] {
+            let options = Options::with_exponent(exponent);
+            assert_sound(&points, viewpoint, &options, "a wall");
+        }
+    }
+}
+
+#[test]
+fn drafts_from_very_far_away_hold_all_that_is_visible() {
+    let mut rng = Rng::new(3);
+    let points = shapes::bumpy(&mut rng, MANY);
+    for far in [1e3, 1e5, 1e7, 1e9, 1e15] {
+        let viewpoint = [0.6 * far, 0.0, 0.8 * far];
+        for options in inversions() {
+            assert_sound(&points, viewpoint, &options, "far away");
+        }
+    }
+    let away = points.iter().map(|p| p.map(|x| x * 1e-3 + 1e9)).collect();
+    let away: Points = away;
+    for options in inversions() {
+        assert_sound(
+            &away,
+            [1e9 + 0.01, 1e9, 1e9 - 0.002],
+            &options,
+            "in map units",
+        );
+    }
+}
+
+#[test]
+fn what_was_asked_before_changes_no_draft() {
+    let mut rng = Rng::new(4);
+    let points = shapes::bumpy(&mut rng, MANY);
+    let cloud = PointCloud::new(&points).expect("an acceptable cloud");
+    let mut observer = cloud.observer();
+    let mut walk = Walk::new(&points, [0.0, 0.0, 3.0], Options::default());
+    for step in 0..60 {
+        walk.step(&mut rng);
+        if rng.chance(3) {
+            // A moved view, or a draft that nothing goes on from.
+            let options = Options {
+                draft: rng.chance(2),
+                ..walk.options
+            };
+            let _ = observer.visible_from(walk.viewpoint, &options);
+            walk.step(&mut rng);
+        }
+        let found = fault(&cloud, &mut observer, walk.viewpoint, &walk.options);
+        assert_eq!(found, None, "step {step}, {:?}", walk.options);
+    }
+}
+
+#[test]
+fn drafts_hide_most_of_what_is_hidden() {
+    let mut rng = Rng::new(5);
+    let points = shapes::bumpy(&mut rng, 40_000);
+    let cloud = PointCloud::new(&points).expect("an acceptable cloud");
+    let viewpoint = [1.0, 2.0, 2.0];
+    for (options, least) in [
+        (Options::with_exponent(2.0), 0.8),
+        (Options::with_exponent(3.0), 0.6),
+        (Options::default(), 0.6),
+    ] {
+        let exact = cloud.visible_from(viewpoint, &options).unwrap();
+        let draft = cloud.visible_from(viewpoint, &drafted(options)).unwrap();
+        let hidden = |seen: &Visibility| (points.len() - seen.count()) as f64;
+        let share = hidden(&draft) / hidden(&exact);
+        assert!(share > least, "{share} with {options:?}");
+    }
+}
+
+#[test]
+fn drafts_from_several_viewpoints_and_along_a_direction_hold_all_that_is_visible() {
+    let mut rng = Rng::new(6);
+    let points = shapes::bumpy(&mut rng, MANY);
+    let cloud = PointCloud::new(&points).expect("an acceptable cloud");
+    let viewpoints = [[3.0, 0.0, 0.0], [2.9, 0.4, 0.0], [2.9, 0.0, 0.4]];
+    type Ask = fn(&PointCloud, &[[f64; 3]], &Options) -> Visibility;
+    let asks: [Ask; 3] = [
+        |cloud, viewpoints, options| cloud.visible_from_any(viewpoints, options).unwrap(),
+        |cloud, viewpoints, options| cloud.visible_from_at_least(2, viewpoints, options).unwrap(),
+        |cloud, viewpoints, options| {
+            cloud
+                .visible_from_direction(viewpoints[0], options)
+                .unwrap()
+        },
+    ];
+    for ask in asks {
+        for options in [Options::default(), Options::with_exponent(2.0)] {
+            let exact = ask(&cloud, &viewpoints, &options);
+            let draft = ask(&cloud, &viewpoints, &drafted(options));
+            assert!(exact.exact() && !draft.exact());
+            assert!(draft.count() < points.len());
+            assert_eq!(draft.radius().to_bits(), exact.radius().to_bits());
+            let mask = draft.mask();
+            assert!(exact.indices().iter().all(|&i| mask[i as usize] == 1));
+        }
+    }
+}
+
+#[test]
+fn there_is_no_draft_of_a_search_a_mesh_light_or_a_merged_answer() {
+    let points = [[0.0, 0.0, 1.0], [0.0, 0.0, 2.0], [1.0, 0.0, 0.0]];
+    let cloud = PointCloud::new(&points).expect("an acceptable cloud");
+    let viewpoint = [0.0, 0.0, 5.0];
+    let plain = drafted(Options::default());
+    let mut refusals = Vec::new();
+    for radius in [Radius::Search, Radius::Opposite] {
+        let options = Options { radius, ..plain };
+        refusals.push(cloud.visible_from(viewpoint, &options).err());
+        refusals.push(cloud.visible_from_any(&[], &options).err());
+    }
+    refusals.push(cloud.reconstruct(viewpoint, &plain, None).err());
+    refusals.push(
+        cloud
+            .illuminate(&[viewpoint], &plain, &Lighting::default())
+            .err(),
+    );
+    let parts = [(&points[..], &[0, 1, 2][..])];
+    for options in [plain, sampled(2)] {
+        let options = Options {
+            radius: Radius::Absolute(9.0),
+            ..options
+        };
+        refusals.push(merge_visible(&parts, viewpoint, &options).err());
+    }
+    for refusal in refusals {
+        assert_eq!(refusal.expect("a refusal").code(), "option");
+    }
+}
+
+fn sampled(count: usize) -> Options {
+    Options {
+        sample: Some(count),
+        ..Options::default()
+    }
+}
+
+/// Which indices a sample of `count` takes: all of them are visible at a viewpoint inside a
+/// sphere.
+fn sample_of(cloud: &PointCloud, count: usize) -> Vec<u32> {
+    let options = Options {
+        radius: Radius::Exponent(9.0),
+        ..sampled(count)
+    };
+    let seen = cloud.visible_from([0.0; 3], &options).unwrap();
+    assert!(!seen.exact());
+    seen.into_indices()
+}
+
+#[test]
+fn smaller_samples_are_part_of_larger_ones_in_any_order_of_the_points() {
+    let mut rng = Rng::new(7);
+    let points = shapes::sphere(&mut rng, 3000);
+    let cloud = PointCloud::new(&points).expect("an acceptable cloud");
+    let mut order: Vec<u32> = (0..3000).collect();
+    rng.shuffle(&mut order);
+    let mut shuffled: Points = order.iter().map(|&i| points[i as usize]).collect();
+    shuffled.extend_from_within(..500);
+    let mut other = PointCloud::new(&shuffled[..1000]).expect("an acceptable cloud");
+    other
+        .append(&shuffled[1000..])
+        .expect("an acceptable cloud");
+    let mut smaller: Vec<u32> = Vec::new();
+    for count in [1, 2, 50, 51, 777, 1500, 2999] {
+        let sample = sample_of(&cloud, count);
+        assert_eq!(sample.len(), count);
+        assert!(smaller.iter().all(|i| sample.contains(i)), "{count}");
+        let mut same: Vec<u32> = sample_of(&other, count)
+            .iter()
+            .filter(|&&i| i < 3000)
+            .map(|&i| order[i as usize])
+            .collect();
+        same.sort_unstable();
+        assert_eq!(same, sample);
+        smaller = sample;
+    }
+    assert_eq!(sample_of(&cloud, 5000).len(), 3000);
+}
+
+#[test]
+fn a_sample_answers_as_a_cloud_of_its_points() {
+    let mut rng = Rng::new(8);
+    // The sphere tells which indices are sampled, in the order of the same cloud.
+    let points = shapes::sphere(&mut rng, 5000);
+    let mut cloud = PointCloud::new(&points).expect("an acceptable cloud");
+    let taken = sample_of(&cloud, 700);
+    let alone: Points = taken.iter().map(|&i| points[i as usize]).collect();
+    let alone = PointCloud::new(&alone).expect("an acceptable cloud");
+    let viewpoint = [0.2, 1.4, 1.9];
+    for kept in [false, true] {
+        for options in inversions() {
+            let asked = Options {
+                sample: Some(700),
+                ..options
+            };
+            if kept {
+                cloud.prepare_for(&asked).expect("enough memory");
+            }
+            let seen = cloud.visible_from(viewpoint, &asked).unwrap();
+            let expected = alone.visible_from(viewpoint, &options).unwrap();
+            let indices: Vec<u32> = expected
+                .indices()
+                .iter()
+                .map(|&i| taken[i as usize])
+                .collect();
+            assert_eq!(seen.indices(), indices);
+            assert_eq!(seen.radius().to_bits(), expected.radius().to_bits());
+            assert_eq!(seen.exponent().to_bits(), expected.exponent().to_bits());
+            assert_eq!(seen.inversion(), expected.inversion());
+            assert_eq!(seen.mask().len(), points.len());
+        }
+    }
+    let mesh = cloud.reconstruct(viewpoint, &sampled(700), None).unwrap();
+    let expected = alone
+        .reconstruct(viewpoint, &Options::default(), None)
+        .unwrap();
+    let triangles = expected
+        .triangles
+        .iter()
+        .map(|t| t.map(|i| taken[i as usize]));
+    assert!(mesh.triangles.into_iter().eq(triangles));
+    let lighting = Lighting::default();
+    let light = cloud
+        .illuminate(&[viewpoint], &sampled(700), &lighting)
+        .unwrap();
+    let expected = alone
+        .illuminate(&[viewpoint], &Options::default(), &lighting)
+        .unwrap();
+    assert!(taken.iter().map(|&i| light[i as usize]).eq(expected));
+}
+
+#[test]
+fn an_observer_tells_samples_from_the_whole() {
+    let mut rng = Rng::new(9);
+    let points = shapes::bumpy(&mut rng, MANY);
+    let cloud = PointCloud::new(&points).expect("an acceptable cloud");
+    let mut observer = cloud.observer();
+    for step in 0..12 {
+        let viewpoint = [0.01 * f64::from(step), 0.0, 3.0];
+        for options in [Options::default(), sampled(4000), drafted(sampled(4000))] {
+            let seen = observer.visible_from(viewpoint, &options).unwrap();
+            assert_eq!(seen, cloud.visible_from(viewpoint, &options).unwrap());
+        }
+    }
+}
+
+#[test]
+fn samples_of_nothing_are_refused() {
+    let cloud = PointCloud::new(&[[0.0, 0.0, 1.0]]).expect("an acceptable cloud");
+    let refusal = cloud.visible_from([0.0; 3], &sampled(0)).unwrap_err();
+    assert_eq!(refusal.code(), "option");
+    let empty = PointCloud::new::<[f64; 3]>(&[]).expect("an acceptable cloud");
+    assert_eq!(
+        empty.visible_from([0.0; 3], &sampled(1)).unwrap().count(),
+        0
+    );
+}

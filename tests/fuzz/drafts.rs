@@ -1,0 +1,100 @@
+//! Drafts against exact answers:
+//! `cargo run --release --example fuzz_drafts -- --minutes 5 [--seed N]`
+//!
+//! Viewpoints walk around, in and through clouds of every kind, with every inversion. Each
+//! view is asked as a draft, then exactly, going on from it, and compared with answers of
+//! nothing but the view. The last line says how many were tried and how many were wrong.
+
+use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
+
+use hidden_point_removal::{Exponential, Inversion, Options, PointCloud};
+
+#[path = "../core/common/mod.rs"]
+mod common;
+
+use common::drafts::fault;
+use common::rng::Rng;
+use common::scenes::KINDS;
+use common::shapes::{self, Points};
+use common::walk::Walk;
+
+/// Views of one cloud.
+const WALK: usize = 12;
+
+fn main() {
+    let minutes: f64 = argument("--minutes").map_or(1.0, |x| x.parse().expect("a number"));
+    let now = SystemTime::now()
+        .duration_since(UNIX_EPOCH)
+        .expect("a clock");
+    let seed: u64 = argument("--seed").map_or(now.as_secs(), |x| x.parse().expect("a number"));
+    println!("seed {seed}, {minutes} minutes");
+    let end = Instant::now() + Duration::from_secs_f64(60.0 * minutes);
+    let mut rng = Rng::new(seed);
+    let [mut tried, mut wrong] = [0; 2];
+    while Instant::now() < end {
+        let (name, points, viewpoint) = subject(&mut rng);
+        let cloud = PointCloud::new(&points).expect("an acceptable cloud");
+        let mut observer = cloud.observer();
+        let mut walk = Walk::new(&points, viewpoint, Options::default());
+        for _ in 0..WALK {
+            let mut options = walk.options;
+            if rng.chance(4) {
+                options = Options::with_inversion(inversion(&mut rng));
+            }
+            if rng.chance(12) && points.len() > 8 {
+                options.vote = Some(1 + rng.below(7));
+            }
+            if let Some(found) = fault(&cloud, &mut observer, walk.viewpoint, &options) {
+                wrong += 1;
+                let count = points.len();
+                println!(
+                    "wrong: {name} ({count} points) from {:?} with {options:?}: {found}",
+                    walk.viewpoint
+                );
+            }
+            tried += 1;
+            walk.step(&mut rng);
+        }
+    }
+    println!("{tried} tried, {wrong} wrong");
+    if wrong > 0 {
+        std::process::exit(1);
+    }
+}
+
+fn argument(name: &str) -> Option<String> {
+    std::env::args().skip_while(|arg| arg != name).nth(1)
+}
+
+/// A cloud, mostly large enough for a map of directions, and where to look at it from.
+fn subject(rng: &mut Rng) -> (&'static str, Points, [f64; 3]) {
+    let n = match rng.below(4) {
+        0 => rng.below(2100),
+        _ => 2100 + rng.below(8000),
+    };
+    if rng.chance(4) {
+        // In the plane of a wall, or of two.
+        let points = shapes::room(rng, n);
+        let mut viewpoint = rng.in_ball().map(|x| x * 6.0);
+        viewpoint[0] = rng.pick(&[4.0, -4.0, viewpoint[0]]);
+        viewpoint[2] = rng.pick(&[1.25, -1.25, viewpoint[2]]);
+        return ("room", points, viewpoint);
+    }
+    if rng.chance(6) {
+        // From ever farther away.
+        let far = 10f64.powf(rng.between(0.5, 10.0));
+        let viewpoint = rng.direction().map(|x| x * far);
+        return ("bumpy from far", shapes::bumpy(rng, n), viewpoint);
+    }
+    let kind = &KINDS[rng.below(KINDS.len())];
+    let scene = kind.scene(rng.bits(), n);
+    (kind.name, scene.points, scene.viewpoint)
+}
+
+fn inversion(rng: &mut Rng) -> Inversion {
+    match rng.below(3) {
+        0 => Inversion::Power(rng.between(1.001, 4.0)),
+        1 => Inversion::Exponential(Exponential::Auto),
+        _ => Inversion::Exponential(Exponential::Scale(10f64.powf(rng.between(-6.0, 1.0)))),
+    }
+}
