@@ -88,19 +88,25 @@ impl PointCloud {
         query: impl FnOnce(&Self, &Options) -> Result<T, Error>,
     ) -> Result<T, Error> {
         let mut options = *options;
-        let made;
-        let cloud = match options.denoise.take() {
-            None => self,
-            Some(k) => match &self.kept.denoised {
-                Some((kept, denoised)) if *kept == k => denoised,
-                _ => {
-                    made = self.denoised(k)?;
-                    &made
-                }
-            },
-        };
+        let mut made = None;
+        let cloud = self.kept_or_denoised(options.denoise.take(), &mut made)?;
         // A single call, because the compiler copies the query for each.
         query(cloud, &options)
+    }
+
+    #[inline(never)]
+    fn kept_or_denoised<'a>(
+        &'a self,
+        k: Option<usize>,
+        made: &'a mut Option<Self>,
+    ) -> Result<&'a Self, Error> {
+        let Some(k) = k else {
+            return Ok(self);
+        };
+        Ok(match &self.kept.denoised {
+            Some((kept, denoised)) if *kept == k => denoised,
+            _ => made.insert(self.denoised(k)?),
+        })
     }
 
     /// Every distinct point and its `k` nearest other points vote on whether it is visible.

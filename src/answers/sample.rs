@@ -17,24 +17,31 @@ impl PointCloud {
         options: &Options,
         query: &mut dyn FnMut(&Self, &Options) -> Result<T, Error>,
     ) -> Result<T, Error> {
-        in_range("sample", count as f64, 1.0, MAX_POINTS as f64)?;
-        if options.scores {
-            return Err(Error::ScoresWith { other: "sample" });
-        }
-        let made;
-        let cloud = match &self.kept.sampled {
-            _ if self.holds_at_most(count) => self,
-            Some((kept, sampled)) if *kept == count => sampled,
-            _ => {
-                made = self.sampled(count)?;
-                &made
-            }
-        };
+        let mut made = None;
+        let cloud = self.kept_or_sampled(count, options, &mut made)?;
         let options = Options {
             sample: None,
             ..*options
         };
         query(cloud, &options)
+    }
+
+    #[inline(never)]
+    fn kept_or_sampled<'a>(
+        &'a self,
+        count: usize,
+        options: &Options,
+        made: &'a mut Option<Self>,
+    ) -> Result<&'a Self, Error> {
+        in_range("sample", count as f64, 1.0, MAX_POINTS as f64)?;
+        if options.scores {
+            return Err(Error::ScoresWith { other: "sample" });
+        }
+        Ok(match &self.kept.sampled {
+            _ if self.holds_at_most(count) => self,
+            Some((kept, sampled)) if *kept == count => sampled,
+            _ => made.insert(self.sampled(count)?),
+        })
     }
 
     /// Keeps the sample for later views.

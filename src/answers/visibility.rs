@@ -290,6 +290,7 @@ impl PointCloud {
     }
 
     /// The answer for marked distinct points.
+    #[inline(never)]
     pub(crate) fn answer(
         &self,
         visible: &[bool],

@@ -37,6 +37,7 @@ pub(crate) struct Blocks {
 
 impl Blocks {
     /// Around `points`, which are in their spatial order.
+    #[inline(never)]
     pub(crate) fn around(points: &Points) -> Result<Self, OutOfMemory> {
         let point = |index: usize| Sphere {
             center: points.get(index),

@@ -232,16 +232,7 @@ impl PointCloud {
         let sequence = self
             .sequence
             .moved(positions, &HilbertCurve::new(&bounds))?;
-        let statistics = Statistics::measure(&sequence.points, &bounds)?;
-        let blocks = Blocks::around(&sequence.points)?;
-        Ok(Self {
-            sequence,
-            bounds,
-            statistics,
-            blocks,
-            kept: Kept::default(),
-            ..*self
-        })
+        self.with_sequence(sequence, bounds)
     }
 
     /// The cloud of the distinct points at these places of the order, which ascend. Indices
@@ -257,6 +248,12 @@ impl PointCloud {
         } else {
             sequence.resorted(&curve)?
         };
+        self.with_sequence(sequence, bounds)
+    }
+
+    /// A cloud with the same indices whose points are those of `sequence`, in the box `bounds`.
+    #[inline(never)]
+    fn with_sequence(&self, sequence: Sequence, bounds: Bounds) -> Result<Self, OutOfMemory> {
         let statistics = Statistics::measure(&sequence.points, &bounds)?;
         let blocks = Blocks::around(&sequence.points)?;
         Ok(Self {

@@ -226,7 +226,7 @@ impl DepthMap {
         let v = DVec3::from_array(sphere.center) - flipped.flip.viewpoint();
         let needed = flipped
             .flip
-            .most_beyond(square_root(v.dot(v)) - sphere.radius);
+            .most_beyond(square_root(v.dot(v)) * (1.0 - HEIGHT_ERROR) - sphere.radius);
         let corners = window.columns + 1;
         (bottom as usize..=top as usize + 1).all(|row| {
             let row = window.first + row * corners;

@@ -5,7 +5,7 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use hidden_point_removal::{
-    Exponential, Inversion, Lighting, Options, PointCloud, Radius, Visibility, merge_visible,
+    Error, Exponential, Inversion, Lighting, Options, PointCloud, Radius, Visibility, merge_visible,
 };
 
 use crate::common::drafts::fault;
@@ -338,4 +338,26 @@ fn samples_of_nothing_are_refused() {
         empty.visible_from([0.0; 3], &sampled(1)).unwrap().count(),
         0
     );
+}
+
+#[test]
+fn looks_have_samples_but_no_drafts_nor_scores_of_samples() {
+    let points = shapes::bumpy(&mut Rng::new(5), 3000);
+    let cloud = PointCloud::new(&points).unwrap();
+    let looks = Options::with_inversion(Inversion::Looks(3));
+    let error = cloud.visible_from([0.0, 0.0, 3.0], &drafted(looks));
+    assert_eq!(error.unwrap_err(), Error::LooksWith { other: "draft" });
+
+    let sampled = Options {
+        sample: Some(1000),
+        ..looks
+    };
+    let seen = cloud.visible_from([0.0, 0.0, 3.0], &sampled).unwrap();
+    assert!(!seen.exact() && seen.count() > 0 && seen.count() < 1000);
+    let scored = Options {
+        scores: true,
+        ..sampled
+    };
+    let error = cloud.visible_from([0.0, 0.0, 3.0], &scored);
+    assert_eq!(error.unwrap_err(), Error::ScoresWith { other: "sample" });
 }

@@ -1,5 +1,5 @@
 //! Drafts against exact answers:
-//! `cargo run --release --example fuzz_drafts -- --minutes 5 [--seed N]`
+//! `cargo run --profile fuzz --example fuzz_drafts -- --minutes 5 [--seed N]`
 //!
 //! Viewpoints walk around, in and through clouds of every kind, with every inversion. Each
 //! view is asked as a draft, then exactly, going on from it, and compared with answers of
