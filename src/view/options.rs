@@ -90,7 +90,7 @@ pub struct Options {
     /// With [`Inversion::Looks`] and one viewpoint only.
     pub scores: bool,
     /// An early answer: contains all that is visible, with the same radius, and some of what
-    /// is hidden. What it leaves out is hidden for certain. Takes about a third of the time;
+    /// is hidden. What it leaves out is hidden for certain. Takes about half of the time;
     /// from an [`Observer`](crate::Observer) the same view without `draft` goes on from it.
     /// Not with [`Radius::Search`] or [`Radius::Opposite`], whose choice takes longer, nor
     /// where the whole hull is needed ([`Error::NoDraft`]).

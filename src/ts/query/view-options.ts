@@ -60,7 +60,7 @@ export interface VisibilityOptions {
   /** With `looks`: how sure the answer is, too, as `scores`. For one viewpoint only. */
   scores?: boolean | undefined;
   /**
-   * An early answer, in about a third of the time: it contains all that is visible, and some
+   * An early answer, in about half of the time: it contains all that is visible, and some
    * of what is hidden. What it leaves out is hidden for certain. Radius and inversion are
    * the exact answer's. The same view asked without `draft` next goes on from it. Not with
    * `radius: "search"` or `"opposite"`, and neither for `reconstruct` nor `illuminate`.
