@@ -23,7 +23,7 @@ const HEADER_FAULTS: [name: string, edit: Edit, expected: Case["expected"]][] = 
   ["count below zero", ["vertex 4", "vertex -4"], "line 4 does not give the number of an element"],
   ["no count", ["vertex 4", "vertex"], "line 4 does not give the number of an element"],
   ["two counts", ["vertex 4", "vertex 4 5"], "line 4 does not give the number of an element"],
-  ["count beyond all numbers", ["vertex 4", `vertex ${"9".repeat(30)}`], "line 4 does not say how many there are"],
+  ["count beyond all numbers", ["vertex 4", `vertex ${"9".repeat(30)}`], "line 4 does not give the number of an element"],
   ["property of no element", [/(element vertex)/, "property float w\n$1"], "line 4 is a property of no element"],
   ["unknown type", ["float y", "half y"], 'line 6 is a property of unknown type: "property half y"'],
   ["type of every object", ["float y", "toString y"], "line 6 is a property of unknown type"],
@@ -63,7 +63,7 @@ const HEADER_FAULTS: [name: string, edit: Edit, expected: Case["expected"]][] = 
   ["ends of Windows", (text) => text.replaceAll("\n", "\r\n"), SAME],
   ["ends of old Macs", (text) => text.replaceAll("\n", "\r"), SAME],
   ["tabs and blanks", (text) => text.replace("element vertex 4", " element\t vertex  4 "), SAME],
-  ["no faces promised", ["face 1", "face 0"], "behind the last"],
+  ["no faces promised", ["face 1", "face 0"], "after the last"],
   ["a face more", ["face 1", "face 2"], "it ends after 1 of the 2 faces that its header promises"],
 ];
 

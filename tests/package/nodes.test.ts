@@ -270,6 +270,8 @@ describe("a cloud split into nodes", () => {
 
 describe("recovers from the death of the worker", () => {
   const started: threads.Worker[] = [];
+  /** Called with the first message of a worker. A fast worker sends it before anybody could ask for it. */
+  let atFirstMessage: (worker: threads.Worker) => void = () => undefined;
   const Original = threads.Worker;
   const replace = (replacement: typeof threads.Worker) => {
     threads.Worker = replacement;
@@ -283,12 +285,16 @@ describe("recovers from the death of the worker", () => {
         constructor(...args: ConstructorParameters<typeof Original>) {
           super(...args);
           started.push(this);
+          this.once("message", () => {
+            atFirstMessage(this);
+          });
         }
       },
     );
   });
 
   afterEach(() => {
+    atFirstMessage = () => undefined;
     replace(Original);
   });
 
@@ -314,17 +320,18 @@ describe("recovers from the death of the worker", () => {
     const errors: unknown[] = [];
     scene.filter.addEventListener("error", ({ error }) => errors.push(error));
     scene.camera.position.fromArray(scene.root.localToWorld(new THREE.Vector3(0, 0, 5)).toArray());
-    scene.filter.update(scene.camera);
-    await expect.poll(() => started.length, { timeout: 60_000 }).toBe(1);
-    const [worker] = started;
-    // After it has started, and before any node is ready.
-    await new Promise<void>((resolve) => {
-      worker!.once("message", () => {
-        worker!.removeAllListeners("message");
-        resolve();
-      });
+    // After the worker has started, and before any node is ready.
+    const dead = new Promise<void>((resolve, reject) => {
+      atFirstMessage = (worker) => {
+        atFirstMessage = () => undefined;
+        worker.removeAllListeners("message");
+        worker.terminate().then(() => {
+          resolve();
+        }, reject);
+      };
     });
-    await worker!.terminate();
+    scene.filter.update(scene.camera);
+    await dead;
     await settle(scene);
     expect(errors).toEqual([]);
     expect(scene.changes.at(-1)!.nodes).toBe(nodes.length);
