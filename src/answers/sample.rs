@@ -1,4 +1,4 @@
-//! Even samples of a cloud: what the sampled points alone answer.
+//! Even samples of a cloud: the answers of the sampled points alone.
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
@@ -56,7 +56,7 @@ impl PointCloud {
         }
         let kept = self.kept.sampled.as_ref();
         if kept.is_none_or(|&(kept, _)| kept != count) {
-            // Never room for two.
+            // The old one goes first: there may be no memory for two.
             self.kept.sampled = None;
             self.kept.sampled = Some((count, Box::new(self.sampled(count)?)));
         }
@@ -76,9 +76,8 @@ impl PointCloud {
     }
 }
 
-/// The first `count` places below `all`, ascending, in an order in which every beginning is
-/// spread evenly: by their digits in base two, the lowest digit first. So a smaller sample is
-/// part of a larger one.
+/// `count` of the places below `all`, ascending: the first ones in bit-reversed order. Every
+/// beginning of this order is spread evenly, and a smaller sample is part of a larger one.
 fn even_places(all: usize, count: usize) -> Result<Vec<u32>, OutOfMemory> {
     let unused = (all as u32).saturating_sub(1).leading_zeros();
     let mut is_chosen: Vec<bool> = Vec::new();

@@ -1,6 +1,6 @@
-//! The flip: points move along their rays from the viewpoint C, the nearest go
-//! farthest. By default to the far side of a sphere of radius R around C (paper
-//! §3, eq. 1); other inversions differ in how far alone (`kernel`).
+//! The flip: points move along their rays from the viewpoint C, and the nearest point goes
+//! farthest. The default mirrors points in a sphere of radius R around C (paper §3, eq. 1).
+//! Other inversions differ only in the distance (`kernel`).
 //!
 //! ```text
 //!   before                          after
@@ -22,7 +22,7 @@ use crate::flip::kernel::Kernel;
 pub(crate) struct Flip {
     viewpoint: DVec3,
     kernel: Kernel,
-    /// A power of two that brings |q| near 1 where it is extreme; otherwise 1.
+    /// A power of two that brings an extreme |q| near 1; 1 where |q| is not extreme.
     scale: f64,
     /// No coordinate of a flipped point is larger, but for rounding and `scale`.
     extent: f64,
@@ -61,8 +61,8 @@ impl Flip {
         )
     }
 
-    /// Two numbers whose quotient, but for a few roundings, is how many times longer a point
-    /// at `v` from the viewpoint becomes; a quotient that is not finite for one at the viewpoint.
+    /// Two numbers. Their quotient is the factor s of a point at `v` from the viewpoint, but for a
+    /// few roundings. It is not finite for a point at the viewpoint.
     #[inline]
     pub(crate) fn ratio(&self, v: DVec3) -> (f64, f64) {
         let d = square_root(v.dot(v));
@@ -72,8 +72,7 @@ impl Flip {
         }
     }
 
-    /// The largest length that a point at least at `distance` from the viewpoint can flip to,
-    /// roundings included.
+    /// An upper bound of |q| for points at least `distance` from the viewpoint, roundings included.
     #[inline(never)]
     pub(crate) fn most_beyond(&self, distance: f64) -> f64 {
         const ROUNDING: f64 = 1e-12;
@@ -87,8 +86,8 @@ impl Flip {
         length * self.scale
     }
 
-    /// The same for any kernel, out of the way of the hull's loops. A point that goes
-    /// beyond the range of f64 counts as at the viewpoint, too.
+    /// The same for any kernel; not inlined, to keep the hull's loops small. A point that leaves
+    /// the range of f64 counts as at the viewpoint too.
     #[inline(never)]
     fn apply_other(&self, p: [f64; 3]) -> Option<DVec3> {
         let v = DVec3::from_array(p) - self.viewpoint;
@@ -113,8 +112,8 @@ impl Flip {
     }
 
     /// Rescales the flipped cloud by a power of two where it is so large or small
-    /// that floating-point filters would over- or underflow. Signs don't change with
-    /// scale; where the scaling itself would round, it is left out.
+    /// that floating-point filters would overflow or underflow. Signs do not depend on the scale.
+    /// Where the scaling itself would round, it is left out.
     pub(crate) fn rescaled_for(mut self, points: &Points) -> Self {
         const MODERATE: core::ops::Range<f64> = 1e-30..1e30;
         match self.kernel {
@@ -141,8 +140,8 @@ impl Flip {
         points.iter().all(|p| p[2] == self.viewpoint.z)
     }
 
-    /// The length of the nearest point, which no other exceeds; but for squares that
-    /// underflow, which `reach` allows for.
+    /// |q| of the nearest point, which is the largest one, unless squares underflow; `reach` allows
+    /// for that.
     fn length_of_nearest(&self, points: &Points) -> f64 {
         let mut nearest = f64::INFINITY;
         for p in points.iter() {

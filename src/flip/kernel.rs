@@ -1,16 +1,15 @@
-//! How far a flip moves a point, as a function of its distance d: the factors s
+//! The distance to which a flip moves a point, as a function of its distance d: the factor s
 //! of q = v·s. Each is strictly decreasing in |q| = d·s but for rounding, except
 //! the antipodal one, which is strictly increasing.
 //!
 //! pow and exp come from `libm` in every build, so that all of them round alike.
 
-/// What a point's distance from the viewpoint becomes.
+/// The new distance |q| of a point at distance d from the viewpoint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kernel {
     /// |q| = 2R − d: spherical flipping (paper §3, eq. 1).
     Spherical { radius: f64 },
-    /// |q| = 2R + d: the farthest point of a ray wins, as if one looked back along
-    /// the same rays. Only for choosing R (`radius::search`).
+    /// |q| = 2R + d: the farthest point of a ray wins, as in a look back along the same rays. Only for choosing R (`radius::search`).
     Antipodal { radius: f64 },
     /// |q| = d·(d/S)^−γ: the paper's other kernel (§3), 1/‖p‖^γ.
     Power { gamma: f64, unit: f64 },
@@ -18,7 +17,7 @@ pub(crate) enum Kernel {
     Exponential { scale: f64 },
 }
 
-/// The largest exponent that `exp` is given: beyond, points all go equally far.
+/// The largest exponent for `exp`. All points with a larger one go equally far.
 const MAX_EXPONENT: f64 = 200.0;
 
 impl Kernel {
@@ -32,7 +31,7 @@ impl Kernel {
         }
     }
 
-    /// The length |q| of a point at distance `d`, where the kernel alone tells it.
+    /// |q| of a point at distance `d`, for kernels that need no other number.
     pub(crate) fn length(&self, d: f64) -> f64 {
         match *self {
             Self::Exponential { scale } => exponential(scale, d),
@@ -40,7 +39,7 @@ impl Kernel {
         }
     }
 
-    /// The same, out of the way of loops.
+    /// The same, not inlined, to keep loops small.
     #[inline(never)]
     pub(crate) fn factor_out_of_line(&self, d: f64) -> f64 {
         self.factor(d)

@@ -14,22 +14,22 @@ use super::order::Round;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::sort::{ordered, sort_keyed};
 
-/// Points this far off the plane, as a share of the largest distance, still count as in it.
-/// Rounding leaves 1e-16 of the coordinates, which a cloud in a large frame of reference has
-/// up to 1e6 times its size.
+/// A point counts as in the plane up to this distance from it, as a share of the largest
+/// distance. Rounding errors are 1e-16 of the coordinates, and the coordinates of a cloud in a
+/// large frame of reference may be 1e6 times its size.
 const THICKNESS: f64 = 1e-9;
 
 /// Fewer points than this take no time in any order.
 const MIN_POINTS: usize = 128;
 
-/// The plane in which all points are, but for rounding, by two axes of unit length.
+/// The plane that holds all points but for rounding, given by two axes of unit length.
 pub(super) struct Around {
     axes: [DVec3; 2],
 }
 
 impl Around {
-    /// The plane of the first tetrahedron, whose last corner is the farthest one from the
-    /// plane of the others, if it is as near as all that.
+    /// The plane of the first tetrahedron, if its corners are that near to one plane with the
+    /// viewpoint. The last corner is the point farthest from the plane of the others.
     pub(super) fn of(corners: &[(u32, DVec3); 3], flipped: &Flipped) -> Option<Self> {
         if flipped.len() < MIN_POINTS {
             return None;
@@ -75,7 +75,7 @@ impl Around {
         } else {
             -2.0 - share
         };
-        // Any place in the order will do for the origin, whose direction is no number.
+        // The origin has no direction. Any place in the order is right for it.
         if turn.is_nan() { 0.0 } else { turn + 0.0 }
     }
 }

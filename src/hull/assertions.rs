@@ -1,5 +1,5 @@
-//! What a finished hull must be. Compiled with debug assertions only, for tests and
-//! fuzzers.
+//! Assertions about a finished hull. They are compiled with debug assertions only, for tests
+//! and fuzzers.
 
 use glam::DVec3;
 
@@ -7,9 +7,9 @@ use super::incremental::{Hull, ORIGIN};
 use super::topology::{FaceId, HalfEdge};
 use crate::hull::predicates::{Sign, side_of_origin};
 
-/// More faces than this are looked at by an even sample.
+/// Of more faces than this only an even sample is checked.
 const MOST_FACES: usize = 4096;
-/// Rays tried, of which some may run exactly through an edge.
+/// How many rays are tried: a ray that runs exactly through an edge says nothing.
 const RAYS: usize = 4;
 
 impl Hull {
@@ -68,7 +68,7 @@ impl Hull {
     }
 }
 
-/// A ray strictly inside the face; none where rounding moved it out of a thin one.
+/// A ray strictly inside the face; `None` where rounding moved it out of a thin face.
 fn middle(corners: [DVec3; 3]) -> Option<DVec3> {
     let ray = corners.iter().sum::<DVec3>();
     (ray.is_finite() && sides(corners, ray) == [Sign::Positive; 3]).then_some(ray)

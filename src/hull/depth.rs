@@ -1,8 +1,7 @@
 //! A map of directions that says how far K reaches.
 //!
-//! Directions are told by the faces of a cube around the viewpoint: a flipped point q is
-//! z·(x, y, 1) on one of them, and a window that holds the cloud's directions (x, y) is cut
-//! into cells. K ends at 1/w times (x, y, 1), where w is the largest m·(x, y, 1) of all outer
+//! A cube around the viewpoint holds the directions. On one of its faces a flipped point q is
+//! z·(x, y, 1). A window that contains the cloud's directions (x, y) is cut into cells. K ends at 1/w times (x, y, 1), where w is the largest m·(x, y, 1) of all outer
 //! faces: a maximum of linear functions, so w is convex, and inside a cell it is at most
 //! what its values at the four corners give by interpolation. Hence a point of z·w < 1 is
 //! in K, which goes on beyond it: hidden, now and for every larger K.
@@ -23,20 +22,20 @@ use crate::cloud::blocks::{BLOCK, Sphere};
 const MIN_POINTS: usize = 2048;
 /// Corners for each point of the cloud, at least and at most.
 const CORNERS_PER_POINT: (f64, f64) = (1.0 / 32.0, 0.4);
-/// The share of the cloud's depth that the map may lose, if it can be helped.
+/// The share of the cloud's depth that the map may lose, where enough corners allow it.
 const LOSS: f64 = 0.035;
-/// Every so manieth point tells where the cloud is seen.
+/// The step of the sample of points that tells where the cloud is seen.
 const SAMPLE: usize = 64;
-/// Directions nearer than this to a cell's border, in cells, are not looked up:
-/// far more than rounding can move them.
+/// Directions nearer than this to a cell's border, in cells, are not looked up. Rounding moves
+/// a direction by far less.
 const BORDER: f64 = 1e-6;
-/// In cells of this size roundings stay within `BORDER`.
+/// The smallest cell: in it, roundings stay within `BORDER`.
 const LEAST_CELL: f64 = 1e-8;
 const ROUNDING: f64 = f64::EPSILON / 2.0;
-/// At most the error of a place (x, y) on the cube and of a corner's, together: some
-/// twenty roundings of numbers up to 2.
+/// A bound of the error of a place (x, y) on the cube and of the error of a corner, together:
+/// about twenty roundings of numbers up to 2.
 const PLACE_ERROR: f64 = 64.0 * ROUNDING;
-/// At most the relative error of q, z, the interpolation and z·w: some twenty roundings of
+/// A bound of the relative error of q, z, the interpolation and z·w: about twenty roundings of
 /// products and of sums of positive numbers.
 const HEIGHT_ERROR: f64 = 64.0 * ROUNDING;
 
@@ -52,29 +51,29 @@ struct Window {
     first: usize,
 }
 
-/// See the module's description. Kept for its memory from view to view.
+/// The map; the module's description explains it. Its memory is kept from view to view.
 #[derive(Default)]
 pub(super) struct DepthMap {
     windows: [Window; 6],
     cells_per_unit: f64,
-    /// Not below w at each corner; infinite where w is in doubt.
+    /// An upper bound of w at each corner; infinite where w is in doubt.
     heights: Vec<f64>,
-    /// How far K reaches along each corner, less what a cell beside it may lack.
+    /// How far K certainly reaches along each corner, and in the cells beside it.
     reaches: Vec<f64>,
-    /// Below it z·w certainly is below 1.
+    /// Where the rounded z·w is below this number, the exact one is below 1.
     limit: f64,
 }
 
 impl DepthMap {
-    /// Tells nothing any more.
+    /// Empties the map: it hides no point any more.
     pub(super) fn clear(&mut self) {
         self.heights.clear();
         self.reaches.clear();
         self.windows = Default::default();
     }
 
-    /// Makes the map of `hull`, or an empty one where none would pay, for those points
-    /// that it is `wanted` for, which are about `count`.
+    /// Makes the map of `hull` for the `wanted` points, about `count` of them; or an empty map
+    /// where a map would not pay.
     #[inline(never)]
     pub(super) fn make(
         &mut self,
@@ -123,7 +122,7 @@ impl DepthMap {
         Ok(())
     }
 
-    /// Makes the heights 0 that are to be found: where blocks are seen, or all of them.
+    /// Marks the heights that are to be found with 0: those where blocks are seen, or all.
     #[inline(never)]
     fn want_corners(&mut self, flipped: &Flipped) {
         if flipped.blocks.is_empty() {
@@ -132,7 +131,7 @@ impl DepthMap {
         for sphere in flipped.blocks {
             let Some((side, [left, bottom, right, top])) = self.cells_around(flipped, sphere)
             else {
-                // Around the viewpoint.
+                // The sphere contains the viewpoint.
                 self.heights.fill(0.0);
                 return;
             };
@@ -148,9 +147,9 @@ impl DepthMap {
         }
     }
 
-    /// The cells that hold all directions of a sphere's points on the side of its center:
-    /// left, bottom, right and top, in cells from the window's corner. `None` for a sphere
-    /// around the viewpoint.
+    /// The cells of all directions of a sphere's points, on the side of its center: left, bottom,
+    /// right and top, in cells from the window's corner. `None` for a sphere that contains the
+    /// viewpoint.
     fn cells_around(&self, flipped: &Flipped, sphere: &Sphere) -> Option<(usize, [f64; 4])> {
         let v = DVec3::from_array(sphere.center) - flipped.flip.viewpoint();
         let (side, x, y, z) = place(v);
@@ -171,7 +170,7 @@ impl DepthMap {
     #[inline]
     pub(super) fn hides(&self, flipped: &Flipped, index: u32) -> bool {
         let v = flipped.relative(index);
-        // q is v times a positive number, but for roundings.
+        // But for roundings, q is v times a positive number.
         let (side, x, y, z) = place(v);
         let window = &self.windows[side];
         let x = (x - window.x) * self.cells_per_unit;
@@ -200,17 +199,17 @@ impl DepthMap {
         z * far * height < near * self.limit
     }
 
-    /// Whether the points of a run in the spatial order certainly are hidden, as far as their
-    /// blocks tell.
+    /// Whether all points of a run in the spatial order are certainly hidden, by the bounds of
+    /// their blocks.
     #[inline(never)]
     pub(super) fn hides_run(&self, flipped: &Flipped, run: &Range<u32>) -> bool {
         let block = flipped.blocks.get(run.start as usize / BLOCK);
         !self.heights.is_empty() && block.is_some_and(|sphere| self.hides_all(flipped, sphere))
     }
 
-    /// Whether all points of a sphere certainly are hidden: those in the directions of a cell
-    /// are if K reaches beyond the nearest along all four corners, by what a cell between
-    /// them may lack ([`shrink`]).
+    /// Whether all points of a sphere are certainly hidden. The points in the directions of a cell
+    /// are hidden if K reaches beyond the nearest point along all four corners, also after
+    /// [`shrink`].
     fn hides_all(&self, flipped: &Flipped, sphere: &Sphere) -> bool {
         let Some((side, [left, bottom, right, top])) = self.cells_around(flipped, sphere) else {
             return false;
@@ -235,7 +234,7 @@ impl DepthMap {
         })
     }
 
-    /// The heights of one side's corners that are wanted.
+    /// Finds the wanted heights at the corners of one side.
     #[inline(never)]
     fn fill_window(&mut self, side: usize, hull: &Hull, mut face: FaceId) -> FaceId {
         let Window {
@@ -268,7 +267,7 @@ impl DepthMap {
                 }
                 let mut compare = |other: f64| {
                     let change = (height - other).abs();
-                    // Not with an infinite one.
+                    // An infinite height says nothing about the change.
                     if change < f64::INFINITY {
                         steepest = larger(steepest, change / smaller(height, other));
                     }
@@ -291,7 +290,7 @@ impl DepthMap {
     }
 }
 
-/// The side of the cube that `v` points to, where, and how far out it is.
+/// The side of the cube that `v` points to, the place (x, y) there, and z.
 #[inline]
 fn place(v: DVec3) -> (usize, f64, f64, f64) {
     let a = v.abs();
@@ -359,8 +358,8 @@ fn survey(flipped: &Flipped, wanted: &dyn Fn(u32) -> bool) -> Extents {
     extents
 }
 
-/// The edge of square cells: as many as keep the loss of a map small, for a cloud of `count`
-/// points; `None` where there is no such number.
+/// The edge of the square cells for a cloud of `count` points, small enough to keep the loss of
+/// the map small; `None` where no size is right.
 fn cell_size(extents: &Extents, count: usize) -> Option<f64> {
     let sides = extents.sides.iter();
     let area: f64 = sides
@@ -378,7 +377,8 @@ fn cell_size(extents: &Extents, count: usize) -> Option<f64> {
     (LEAST_CELL..1.0).contains(&cell).then_some(cell)
 }
 
-/// How much shorter K may be in a cell's directions than along its corners. Let D be the
+/// A factor: K reaches at least this much of its reach along the corners in all directions of a
+/// cell. Let D be the
 /// largest distance between the corners as unit vectors, at most `cell`·√2: a convex
 /// combination Σλᵢuᵢ of four has the squared length 1 − ½ΣΣλᵢλⱼ|uᵢ − uⱼ|², and ½ΣΣλᵢλⱼ is at
 /// most ⅜.
@@ -386,7 +386,7 @@ fn shrink(cell: f64) -> f64 {
     square_root(larger(1.0 - 0.75 * cell * cell, 0.0)) * (1.0 - HEIGHT_ERROR)
 }
 
-/// `f64::min`, which WebAssembly calls a function for.
+/// `f64::min` without the function call that WebAssembly makes for it.
 #[inline]
 fn smaller(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }

@@ -1,4 +1,4 @@
-//! A face's plane in the form that asks a point's side with one dot product.
+//! The dual plane of a face: one dot product tells the side of a point.
 
 use glam::DVec3;
 
@@ -26,7 +26,7 @@ pub(super) struct Plane {
 }
 
 impl Plane {
-    /// A plane that decides nothing by itself: ghost faces, faces seen edge-on.
+    /// The plane of ghost faces and of faces seen edge-on. It decides nothing by itself.
     pub(super) const EXACT_ONLY: Self = Self {
         m: DVec3::ZERO,
         error: f64::INFINITY,
@@ -36,7 +36,7 @@ impl Plane {
     pub(super) fn through(a: DVec3, b: DVec3, p: DVec3, reach: f64) -> Self {
         const ROUNDING: f64 = f64::EPSILON / 2.0;
         const MAX_CONDITION: f64 = 1e10;
-        // Above this no product in `n` that matters has underflowed.
+        // A volume above this shows that no product that matters has underflowed.
         const MIN_VOLUME: f64 = 1e-200;
         let u = a - p;
         let w = b - p;
@@ -44,7 +44,7 @@ impl Plane {
         let volume = n.dot(p);
         let inverse = 1.0 / volume;
         let condition = 0.5 * (u.length_squared() + w.length_squared()) * reach * inverse;
-        // Written so that a NaN is refused, too.
+        // Written so that a NaN is refused too.
         if volume > MIN_VOLUME && volume < f64::MAX && condition < MAX_CONDITION {
             Self {
                 m: n * inverse,

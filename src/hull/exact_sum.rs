@@ -2,8 +2,8 @@
 //!
 //! Kulisch's long accumulator: every product of three `f64`s is an integer multiple of
 //! 2^-3222 below 2^3072, so a fixed-point number of some 6,300 bits holds each exactly,
-//! and sums of a few. In WebAssembly this is 1 kB, where the three operations that
-//! signs need of a library of big integers were 26 kB.
+//! and sums of a few. In WebAssembly this takes 1 kB; the three operations of a library of big
+//! integers took 26 kB.
 
 use core::cmp::Ordering;
 
@@ -12,7 +12,7 @@ const LIMB: usize = u64::BITS as usize;
 /// and carries of up to 2^30 products.
 const LIMBS: usize = (3 * 2045 + 159 + 30usize).div_ceil(LIMB);
 
-/// A sum of products, those of either sign apart, so that there are only additions.
+/// A sum of products. Positive and negative ones are kept apart, so that nothing is subtracted.
 pub(crate) struct ExactSum {
     positive: [u64; LIMBS],
     negative: [u64; LIMBS],

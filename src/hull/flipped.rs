@@ -1,4 +1,4 @@
-//! A cloud's points as one view flips them, each computed when it is asked for.
+//! The points of a cloud as one view flips them. Each is computed when it is needed.
 
 use glam::DVec3;
 
@@ -10,7 +10,7 @@ use crate::flip::inversion::Flip;
 pub(super) struct Flipped<'a> {
     pub points: &'a Points,
     pub flip: Flip,
-    /// Around every so many points, if they are known.
+    /// The spheres around blocks of points, if they are known.
     pub blocks: &'a [Sphere],
 }
 
@@ -36,7 +36,7 @@ impl Flipped<'_> {
         self.flip.apply(self.position(index))
     }
 
-    /// The same, where it is called too rarely to be worth copies of it.
+    /// The same, not inlined: for callers that run rarely.
     #[inline(never)]
     pub(super) fn get_out_of_line(&self, index: u32) -> Option<DVec3> {
         self.get(index)
@@ -46,7 +46,7 @@ impl Flipped<'_> {
         self.flip.reach()
     }
 
-    /// Whether squares of distances neither over- nor underflow.
+    /// Whether squares of distances neither overflow nor underflow.
     pub(super) fn keeps_depth(&self) -> bool {
         (1e-100..1e100).contains(&self.reach())
     }

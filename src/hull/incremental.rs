@@ -21,7 +21,7 @@ use crate::hull::predicates::{Sign, side_of_face, side_of_origin};
 /// The ghost vertex.
 pub(super) const ORIGIN: Vertex = 0;
 
-/// A hull under construction, or the last one, kept for its memory and for `motion`.
+/// A hull under construction, or the last hull, which is kept for its memory and for `motion`.
 #[derive(Default)]
 pub(super) struct Hull {
     pub surface: Surface<Plane>,
@@ -119,8 +119,8 @@ impl Vertices {
 
 impl Hull {
     /// Becomes the first tetrahedron: the origin and `corners`, counter-clockwise
-    /// seen from outside. With room, if it can be had, for a hull that half of
-    /// `count` points are on: growing later would hold two copies for a moment.
+    /// seen from outside. Reserves memory for half of `count` vertices where it can, because
+    /// growing later holds two copies for a moment.
     pub(super) fn start(
         &mut self,
         corners: [(u32, DVec3); 3],
@@ -198,7 +198,7 @@ impl Hull {
         face.is_alive() && !face.data.is_exact_only()
     }
 
-    /// How many vertices there ever were; the origin is the first.
+    /// How many vertex numbers were ever given; the origin has the first.
     pub(super) fn vertex_count(&self) -> usize {
         self.vertices.points.len()
     }
@@ -208,7 +208,7 @@ impl Hull {
         self.vertices.points[vertex as usize]
     }
 
-    /// The corners of a face, unless it is none of the surface's.
+    /// The corners of a face; `None` for a number that the surface does not use.
     #[inline]
     pub(super) fn corners(&self, id: FaceId) -> Option<[Vertex; 3]> {
         let face = self.surface.face(id);
@@ -221,7 +221,7 @@ impl Hull {
         !face.vertices.contains(&ORIGIN) && self.vertices.is_outer(face)
     }
 
-    /// The dual plane m of a face, and a limit: what has m·q below it is strictly inside.
+    /// The dual plane m of a face, and a limit: a point with m·q below it is strictly inside.
     #[inline]
     pub(super) fn support(&self, id: FaceId) -> (DVec3, f64) {
         let Plane { m, error } = self.surface.face(id).data;

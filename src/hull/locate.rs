@@ -8,7 +8,7 @@ use super::incremental::Hull;
 use super::topology::{Face, FaceId, HalfEdge};
 use crate::hull::predicates::Sign;
 
-/// Steps of a walk before it is worth looking for a better start.
+/// After this many steps a walk looks for a better start.
 const PATIENCE: usize = 64;
 
 /// Where a flipped point lies relative to the hull.
@@ -37,7 +37,7 @@ impl Hull {
         let mut id = hint;
         let mut height = self.surface.face(id).data.m.dot(q);
         for step in 0..PATIENCE + self.surface.slots() {
-            // Each time after twice as many steps, so that a walk comes to its end in any case.
+            // The steps between two jumps double, so that every walk comes to its end.
             if step >= PATIENCE && step.is_power_of_two() && self.is_sound(id) {
                 id = self.jump(id, q, step);
                 height = self.surface.face(id).data.m.dot(q);
@@ -99,9 +99,9 @@ impl Hull {
         }
     }
 
-    /// A number that m·`direction` certainly is not above for any outer face's m: K holds
-    /// the direction divided by it. Infinite where that is in doubt, or K does not go that
-    /// way. The direction's length is near 1. Also the face to start the next walk at.
+    /// An upper bound of m·`direction` over the dual planes m of all outer faces, and the face to
+    /// start the next walk at. K contains `direction` divided by this bound. It is infinite where
+    /// it is in doubt, or where K does not reach that way. The length of `direction` is near 1.
     #[inline(never)]
     pub(super) fn height_along(&self, direction: DVec3, hint: FaceId) -> (FaceId, f64) {
         // For the roundings of the last line.
@@ -160,9 +160,9 @@ impl Hull {
             .map(|edge| face.twins[edge])
     }
 
-    /// A better place to walk on from than `id`, after many steps: walks are short
-    /// but for those around a vertex of very many faces. Looks at as many faces as
-    /// a walk between two of them may need steps.
+    /// A better face than `id` to walk on from, after many steps. Walks are long only around a
+    /// vertex with very many faces. Samples faces so densely that a walk between two of them takes
+    /// about as many steps as there are samples.
     #[cold]
     fn jump(&self, id: FaceId, q: DVec3, step: usize) -> FaceId {
         let slots = self.surface.slots();
@@ -190,7 +190,7 @@ impl Hull {
         }
     }
 
-    /// The answer by looking at every face, for the rare walk that ends nowhere.
+    /// The answer of a rare walk without an end: looks at every face.
     #[cold]
     fn search(&self, q: DVec3, hint: FaceId) -> Location {
         let mut location = Location::Inside(hint);
@@ -205,7 +205,7 @@ impl Hull {
     }
 }
 
-/// `f64::max`, which WebAssembly calls a function for.
+/// `f64::max` without the function call that WebAssembly makes for it.
 #[inline]
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }

@@ -1,4 +1,4 @@
-//! The lower boundary of a convex hull: what a viewer infinitely far below sees.
+//! The lower boundary of a convex hull: the points that a viewer infinitely far below sees.
 //!
 //! INPUT    points (x, y, w); the viewer looks along +w, and the ghost vertex is
 //!          infinitely far above.
@@ -54,7 +54,7 @@ fn first_triangle(count: u32, step: usize, lifted: &dyn Fn(u32) -> DVec3) -> Opt
     };
     let (i, a) = points().next()?;
     let likely = largest(&|p| (p.x - a.x) * (p.x - a.x) + (p.y - a.y) * (p.y - a.y))?;
-    // In doubt, any that is not above the first.
+    // In doubt, any point that is not above the first one.
     let apart = |p: DVec3| p.x != a.x || p.y != a.y;
     let (j, b) = Some(likely)
         .filter(|(_, p)| apart(*p))
@@ -224,7 +224,7 @@ fn mark_upright(
     if count == 0 {
         return Ok(());
     }
-    // A coordinate that tells apart what is not above each other.
+    // A coordinate in which points differ that are not above each other.
     let first = lifted(0);
     let by_x = (0..count).any(|i| lifted(i).x != first.x);
     let mut places: Vec<[f64; 2]> = with_capacity(count as usize)?;

@@ -24,18 +24,18 @@ pub(crate) struct Memory {
     pub(super) repair: Repair,
     pub(super) on_boundary: Vec<u32>,
     pub(super) visible: Vec<bool>,
-    /// Near which face each point was last seen: where to look for it next time.
+    /// The face near which each point was located last: the start of its next walk.
     witnesses: Vec<FaceId>,
     /// Whether `hull` is that of the last view.
     pub(super) holds_hull: bool,
-    /// Whether the last view was found from the one before it.
+    /// Whether the last view started from the view before it.
     pub(super) moved: bool,
-    /// How much of the last view's hull may have changed for it to be mended.
+    /// How much of the last hull may change before it is made anew rather than mended.
     patience: Patience,
-    /// The flip of the draft whose hull `hull` is, with the map of it; the view that is asked
-    /// for next may go on from there.
+    /// The flip of the last draft, if `hull` is its hull and `depth` its map. The next view may go
+    /// on from there.
     pub(super) drafted: Option<Flip>,
-    /// Of how many sampled points the last view was, if not of all.
+    /// The number of sampled points in the last view; `None` where all took part.
     sample: Option<usize>,
 }
 
@@ -45,12 +45,12 @@ impl Memory {
         &self.visible
     }
 
-    /// Whether the last view was found from the one before it.
+    /// Whether the last view started from the view before it.
     pub(crate) fn moved(&self) -> bool {
         self.moved
     }
 
-    /// Near which face each point was last seen.
+    /// The face near which each point was located last.
     pub(super) fn witnesses(&self) -> &[FaceId] {
         &self.witnesses
     }
@@ -60,8 +60,8 @@ impl Memory {
         self.patience = Patience::GREAT;
     }
 
-    /// The next view is of a sample of so many points, or of all of them: of others than the
-    /// last, maybe.
+    /// The next view is of a sample of `count` points, or of all. Forgets the last view if it was
+    /// of other points.
     pub(crate) fn see_sample(&mut self, sample: Option<usize>) {
         if self.sample != sample {
             self.forget();
@@ -69,7 +69,7 @@ impl Memory {
         }
     }
 
-    /// No later view is found from the last one by moving its hull; a draft is gone on from.
+    /// No later view starts by moving the last hull. A view may still go on from a draft.
     pub(crate) fn forget_moves(&mut self) {
         self.holds_hull = false;
     }
@@ -83,7 +83,7 @@ impl Memory {
 }
 
 impl Memory {
-    /// None of so many points is marked.
+    /// Marks none of `count` points.
     #[inline(never)]
     pub(super) fn clear_marks(&mut self, count: usize) -> Result<(), OutOfMemory> {
         self.visible.clear();
@@ -93,7 +93,7 @@ impl Memory {
     }
 
     /// The last view's hull becomes that of the same vertices in this one, which are
-    /// then marked as visible, if that is worth the while.
+    /// then marked as visible, if that is faster than starting anew.
     pub(super) fn move_hull(&mut self, flipped: &Flipped) -> Result<bool, OutOfMemory> {
         let moved =
             self.hull

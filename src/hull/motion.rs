@@ -1,16 +1,16 @@
 //! The hull of a nearby view, from the hull of the last one.
 //!
 //! INPUT    the last view's hull; the flip of the new view.
-//! OUTPUT   the exact hull, in the new view, of points that were vertices in the
-//!          last one, and which they are; or the verdict that starting anew is better.
+//! OUTPUT   the exact hull, in the new view, of points that were vertices of the last
+//!          hull, and a list of these points; or the verdict that starting anew is faster.
 //! SUMMARY  From a viewpoint close by, most faces are the same. So the vertices
 //!          are flipped anew and every face and edge is looked at. Faces that the
 //!          motion turned over are unfolded; edges that became reflex are flipped;
 //!          a vertex that stands in the way is taken out, to be located again like
 //!          any other point. A surface whose faces all turn outward, whose edges
 //!          are all convex and which covers one direction once is the hull, however
-//!          it was found, so nothing here can make an answer wrong: where in doubt,
-//!          there is always the way of starting anew.
+//!          it was found. So nothing here can make an answer wrong: in doubt, the view
+//!          starts anew.
 
 use glam::DVec3;
 
@@ -22,13 +22,13 @@ use super::topology::{FaceId, HalfEdge, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::hull::predicates::{Sign, side_of_origin};
 
-/// How much of a hull may have changed for mending it to be worth the while.
+/// How much of a hull may change before starting anew is faster than mending it.
 #[derive(Clone, Copy)]
 pub(super) struct Patience {
-    /// With more faces turned over than one in this many, starting anew is faster.
+    /// Starting anew is faster where more than one face in this many has turned over.
     few_turned: usize,
-    /// Likewise for reflex ones among their edges, in hulls of few faces and in those of
-    /// very many.
+    /// Starting anew is faster where more than one edge in this many has become reflex: in hulls of
+    /// few faces, and in hulls of very many.
     few_reflex: usize,
 }
 
@@ -44,8 +44,8 @@ impl Patience {
         few_turned: 100,
         few_reflex: 45,
     };
-    /// For another scale from the same viewpoint: far more edges turn reflex, but most
-    /// points stay near their faces.
+    /// For another scale from the same viewpoint: far more edges become reflex, but most points
+    /// stay near their faces.
     pub(super) const GREAT: Self = Self {
         few_turned: 20,
         few_reflex: 2,
@@ -61,7 +61,8 @@ const MANY: usize = 300_000;
 const FACES_PER_FLIP: usize = 2;
 /// Edge flips that a repair of even the smallest hull may take.
 const FEWEST_FLIPS: usize = 64;
-/// What a repair may spend on taking out vertices beyond one a face, in squares of degrees.
+/// The effort that a repair may spend on taking out vertices, in squares of their degrees: one
+/// for each face, and this many more.
 const SPARE_EFFORT: usize = 1000;
 
 impl Hull {

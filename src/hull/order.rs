@@ -21,7 +21,7 @@ impl Round {
         self.indices_in(0..count)
     }
 
-    /// Those in a run that starts at a multiple of every stride, or of the last two.
+    /// The round's indices in a run that starts at a multiple of every stride, or of the last two.
     pub(super) fn indices_in(self, run: Range<u32>) -> impl Iterator<Item = u32> + Clone {
         run.step_by(self.stride as usize)
             .filter(move |i| self.given == 0 || i % self.given != 0)
@@ -56,8 +56,7 @@ pub(super) fn runs(count: u32) -> impl Iterator<Item = Range<u32>> {
     starts.map(move |start| start..count.min(start + BLOCK as u32))
 }
 
-/// The step from one to the next of the few points that are looked at for a start, before
-/// all are.
+/// The step of the sample in which a start is searched, before all points are searched.
 pub(super) fn sample_step(count: u32) -> usize {
     const SAMPLE: u32 = 512;
     count.div_ceil(SAMPLE).max(1) as usize

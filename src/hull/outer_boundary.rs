@@ -14,8 +14,8 @@ use crate::cloud::blocks::Sphere;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
 
-/// Finds out which of `points`, flipped by `flip`, are visible, all of them or of a
-/// divided view only the sector's own: [`Memory::visible`].
+/// Finds out which of `points`, flipped by `flip`, are visible: [`Memory::visible`]. In a divided
+/// view only the sector's own points are marked.
 #[inline(never)]
 pub(crate) fn mark_visible(
     points: &Points,

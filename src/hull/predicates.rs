@@ -1,7 +1,7 @@
-//! Exact signs: first of rounded determinants with a bound of their error, and where
-//! that leaves a doubt, of exact sums.
+//! Exact signs: of a rounded determinant where its error bound leaves no doubt, else of an
+//! exact sum.
 //!
-//! Signs are told from the viewer's side. The viewer stands at the origin, and
+//! Signs are defined from the viewer's side. The viewer stands at the origin, and
 //! a face (a, b, c) of the hull is counter-clockwise seen from outside.
 
 use core::cmp::Ordering;

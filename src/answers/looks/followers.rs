@@ -1,4 +1,4 @@
-//! What no look decided follows most of its decided neighbors.
+//! A point that no look decided follows the majority of its decided neighbors.
 
 use alloc::vec::Vec;
 
@@ -6,11 +6,11 @@ use super::look::{Verdict, Verdicts};
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::cloud::neighbors::{Nearest, Neighbors};
 
-/// So many of the nearest others are asked.
+/// How many nearest points are asked.
 const VOTERS: usize = 16;
-/// At least so many of them must be decided.
+/// How many of them must be decided at least.
 const DECIDED: usize = 2;
-/// Whoever was decided in one round is asked in the next.
+/// The number of rounds. A point that was decided in one round is asked in the next.
 const ROUNDS: usize = 2;
 
 pub(super) fn follow(verdicts: &mut Verdicts) -> Result<(), OutOfMemory> {
@@ -46,7 +46,7 @@ pub(super) fn follow(verdicts: &mut Verdicts) -> Result<(), OutOfMemory> {
     Ok(())
 }
 
-/// The share of visible ones among the decided, or −1 where those are too few.
+/// The share of visible points among the decided ones; −1 where too few are decided.
 fn share(nearest: &Nearest, verdicts: &[Verdict]) -> f64 {
     let (mut decided, mut visible) = (0usize, 0usize);
     for neighbor in nearest.found() {

@@ -1,4 +1,4 @@
-//! One look: what it is sure of.
+//! One look: it decides only the points that it is sure of.
 
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -10,23 +10,22 @@ use crate::flip::inversion::Flip;
 use crate::flip::kernel::Kernel;
 use crate::hull::{Exit, Memory, Snapshot};
 
-/// A triangle of the hull is surface where its longest edge is at most so many local
-/// spacings.
+/// A triangle of the hull is surface if its longest edge is at most this many local spacings.
 const SOLID: f64 = 4.0;
-/// Surface hides what is farther behind it, along the ray, than so many local spacings.
+/// Surface hides a point that lies more than this many local spacings behind it, along the ray.
 const BEHIND: f64 = 1.0;
-/// A hull vertex counts only where c is at least so many local spacings of the vertices
-/// beside it: a hull that is too loose for its samples has vertices behind the surface.
+/// A hull vertex counts as visible only if c is at least this many local spacings of the vertices
+/// beside it. A hull that is too loose for its samples has vertices behind the surface.
 const RING: f64 = 0.02;
 /// The score of a point that surface hides or not, by its depth in local spacings:
 /// [`SURE`] / (1 + exp((depth − [`HALF`]) / [`SOFT`])).
 const SURE: f64 = 0.97;
 const HALF: f64 = 1.2;
 const SOFT: f64 = 0.4;
-/// The score of what nothing decides.
+/// The score of a point that nothing decides.
 const UNKNOWN: f64 = 0.2;
 
-/// How one look is taken.
+/// The settings of one look.
 pub(super) struct Look {
     pub flip: Flip,
     /// Its c.
@@ -45,7 +44,7 @@ impl Look {
     }
 }
 
-/// What a look found.
+/// The result of one look.
 pub(super) enum Outcome {
     Hull(Snapshot),
     /// All is in one plane with the viewpoint: there are no triangles. For each point
@@ -54,7 +53,7 @@ pub(super) enum Outcome {
 }
 
 impl Outcome {
-    /// What the hull in `memory` says of `wanted` points.
+    /// The result of the hull in `memory` for the `wanted` points.
     pub(super) fn of(
         memory: &mut Memory,
         points: &Points,
@@ -84,7 +83,7 @@ pub(super) enum Verdict {
     Visible,
 }
 
-/// What the looks so far have decided.
+/// The decisions of the looks so far.
 pub(super) struct Verdicts<'a> {
     pub points: &'a Points,
     viewpoint: DVec3,
@@ -97,7 +96,7 @@ pub(super) struct Verdicts<'a> {
     rings: Vec<Ring>,
 }
 
-/// What is beside a hull vertex: the sum of spacings, and how many they are.
+/// The neighbors of a hull vertex: the sum of their spacings, and their number.
 #[derive(Clone, Copy, Default)]
 struct Ring {
     sum: f64,
@@ -138,7 +137,7 @@ impl<'a> Verdicts<'a> {
         |point| self.of[point] == Verdict::Undecided
     }
 
-    /// Lets a look decide what it is sure of.
+    /// Lets a look decide the points that it is sure of.
     pub(super) fn take(&mut self, look: &Look, outcome: Outcome) {
         match outcome {
             Outcome::Flat(visible) => {

@@ -4,11 +4,11 @@
 //! INPUT    distinct points, a viewpoint, how many looks.
 //! OUTPUT   for each point whether it is visible, and a score if asked for.
 //! SUMMARY  A tight hull (a large c) closes the gaps between samples of a surface, but
-//!          reaches across to what is not surface. A loose one (a small c) follows the
+//!          also bridges gaps that are no surface. A loose hull (a small c) follows the
 //!          samples. So a look lets a triangle of its hull hide points only where its
 //!          corners, back in their places, are as near to each other as samples are
-//!          (`look`). How near samples are, the loosest hull tells (`spacing`). What no
-//!          look decides, follows its neighbors (`followers`).
+//!          (`look`). The loosest hull tells how near samples are (`spacing`). A point that
+//!          no look decides follows its neighbors (`followers`).
 
 mod followers;
 mod look;

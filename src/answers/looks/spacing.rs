@@ -10,10 +10,9 @@ use crate::cloud::neighbors::distance_squared;
 use crate::cloud::points::Points;
 use crate::hull::OuterFaces;
 
-/// So many of a vertex's shortest edges count.
+/// How many shortest edges of a vertex count.
 const EDGES: usize = 3;
-/// What their mean is multiplied by, which makes it the mean distance to the nearest
-/// points on scanned surfaces.
+/// Their mean times this factor is the mean distance to the nearest points, on scanned surfaces.
 const SHARE: f64 = 0.9;
 
 /// The local spacing of every point: [`SHARE`] × the mean of its three shortest edges in
@@ -69,7 +68,7 @@ fn mean(shortest: &[f64; EDGES]) -> f64 {
     if count > 0.0 { sum / count } else { -1.0 }
 }
 
-/// The median of those that are not negative.
+/// The median of the numbers that are not negative.
 fn median(values: &[f64]) -> Result<f64, OutOfMemory> {
     let mut sorted = with_capacity(values.len())?;
     // The bits of numbers that are not negative are in their order.

@@ -5,16 +5,16 @@ use glam::DVec3;
 use crate::base::real::square_root;
 use crate::cloud::blocks::Sphere;
 
-/// More than any error of the roundings in a bound, relative to its largest term.
+/// A bound of the error of all roundings in a bound, relative to its largest term.
 pub(super) const MARGIN: f64 = 1e-12;
 
-/// Flipped points known together: directions within an angle around `axis`, at most
-/// `reach` away from the origin.
+/// Bounds of a group of flipped points: their directions lie within an angle around `axis`, and
+/// none is farther than `reach` from the origin.
 #[derive(Clone, Copy)]
 pub(super) struct Cone {
     pub axis: DVec3,
     pub cos: f64,
-    /// 1 for what is in all directions.
+    /// The sine of the angle; 1 for points in all directions.
     pub sin: f64,
     pub reach: f64,
 }

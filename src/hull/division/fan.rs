@@ -7,10 +7,10 @@ use super::cone::Cone;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::sort::sort_keyed;
 
-/// Blocks whose directions decide where the seams are.
+/// The number of sampled blocks whose directions decide where the seams are.
 const SAMPLES: usize = 1024;
 
-/// Half-planes that meet in a line through the viewpoint. Angles around it are told
+/// Half-planes that meet in a line through the viewpoint. Angles around this line are measured
 /// on the diamond |x| + |y| = 1 instead of the circle: four quarters of length 1.
 pub(super) struct Fan {
     right: DVec3,
@@ -126,7 +126,7 @@ impl Fan {
 
 /// How far beyond a seam points are far, in mean radii of the blocks as seen.
 const BAND: f64 = 1.0;
-/// The work of a point that is visible, where that of a hidden one is 1.
+/// The work of a visible point; the work of a hidden one is 1.
 const SEEN: u32 = 4;
 
 /// The angle below 2 for which half of the work is less than 2 above it. `angles` are

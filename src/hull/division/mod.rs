@@ -2,10 +2,10 @@
 //!
 //! INPUT    a cloud's blocks, a viewpoint and a radius; which sector of how many.
 //! OUTPUT   for each block, whether it is the sector's own, near it or far from it,
-//!          the same in every worker; and what bounds m·q over the far ones.
+//!          the same in every worker; and bounds of m·q over the far blocks.
 //! SUMMARY  The directions are cut by half-planes that meet in a line through the
 //!          viewpoint, and every block belongs to the sector of its center. Any
-//!          division is right (see `hull::sector`); this one has short seams.
+//!          division is right (see `hull::share`); this one has short seams.
 
 mod cone;
 mod fan;
@@ -21,8 +21,7 @@ use crate::cloud::blocks::{BLOCK, Blocks, FANOUT};
 
 /// One of several sectors that a view is divided into.
 ///
-/// Each can be asked in a thread of its own, and none needs to know of the others:
-/// see [`PointCloud::visible_in_sector`](crate::PointCloud::visible_in_sector).
+/// Each can be asked in a thread of its own, and needs nothing of the others; see [`PointCloud::visible_in_sector`](crate::PointCloud::visible_in_sector).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sector {
     pub(crate) number: u32,
@@ -44,14 +43,14 @@ impl Sector {
     }
 }
 
-/// What a block is to a sector.
+/// The role of a block for a sector.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// Its points are the sector's to decide.
+    /// The sector decides about its points.
     Own,
-    /// They are another sector's, but near the seam, or already in the hull.
+    /// It belongs to another sector, but it is near the seam or already in the hull.
     Entered,
-    /// They are another sector's, and not in the hull.
+    /// It belongs to another sector and is not in the hull.
     Far,
 }
 
@@ -75,7 +74,7 @@ pub(crate) struct Division {
 }
 
 impl Division {
-    /// The points whose visibility, in a view of them alone, decides how the work is shared.
+    /// A sample of the points. A view of the sample alone decides how the work is shared.
     pub(crate) fn sample(blocks: &Blocks) -> impl Iterator<Item = u32> {
         let count = blocks.levels[0].len();
         (0..count)
@@ -151,7 +150,7 @@ impl Division {
             };
             self.roles.push(role);
         }
-        // A seam with nothing far beyond it but what is beyond the other, too.
+        // Every far block beyond this seam is beyond the other seam too.
         match beyond {
             [true, _] => self.seams[1] = self.seams[0],
             [_, true] => self.seams[0] = self.seams[1],
