@@ -4,7 +4,7 @@
 //! cargo run --release --example filter_xyz -- cloud.xyz 0,0,5 > visible.xyz
 //! ```
 //!
-//! Every line holds x, y, z and whatever else, separated by spaces; lines are
+//! Every line holds x, y, z and any further values, separated by spaces. Lines are
 //! copied unchanged.
 
 use std::error::Error;

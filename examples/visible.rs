@@ -1,4 +1,4 @@
-//! Which points of a raw cloud are visible, for other programs to read:
+//! Writes the visible points of a raw cloud to a file that other programs can read:
 //! `cargo run --release --example visible -- FILE X,Y,Z EXPONENT OUT`
 //!
 //! FILE holds little-endian `f32` x y z; OUT receives the visible points' indices,

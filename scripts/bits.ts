@@ -1,5 +1,5 @@
-// npm run bits: one corpus of questions, built for and run on every platform that this machine has or can
-// have. All must answer with the same bits. Writes tests/bits/RESULTS.md; ends with status 1 on a difference.
+// npm run bits: builds one corpus of questions for every platform that this machine can run, and runs it
+// there. All answers must have the same bits. Writes tests/bits/RESULTS.md; ends with status 1 on a difference.
 import { readFileSync, writeFileSync } from "node:fs";
 
 import { answersIn, answersOn, firstDifference } from "./bits/corpus.js";
@@ -23,7 +23,7 @@ await command(async () => {
   await setUpRust();
   await setUpLinker();
   const rows: Row[] = [];
-  const skipped = new Map(PLATFORMS.map(([name]) => [name, "not run, because the command was ended before"]));
+  const skipped = new Map(PLATFORMS.map(([name]) => [name, "not run, because the command ended earlier"]));
   let expected: Answers | undefined;
   for (const [name, prepare] of PLATFORMS) {
     say(`\n${name}…`);
@@ -42,14 +42,14 @@ await command(async () => {
       rows.push({ platform: `${name} (\`${[platform.target, ...platform.build.slice(2)].join(" ")}\`)`, cells });
       say(`${name}: ${verdict}`);
     }
-    // After each platform, so that a run that is ended early leaves the rows that it has.
+    // Written after each platform, so that a run that ends early keeps its rows.
     const versions = await versionsOfTools();
     writeFileSync(inRoot(RESULT), report(versions, rows, skipped, expected?.cases.size ?? 0));
   }
   console.log(`\n${readFileSync(inRoot(RESULT), "utf8")}\n${RESULT}`);
 });
 
-/** The platform, or why it cannot be had here. */
+/** The platform, or the reason why this machine cannot run it. */
 async function orReason(platform: Promise<Platform>): Promise<Platform | string> {
   try {
     return await platform;
@@ -70,7 +70,7 @@ function runBy({ runner: [program] }: Platform): string {
   return program === process.execPath ? "Node" : program;
 }
 
-/** Asked when all that was missing is installed. */
+/** Called after the missing tools are installed. */
 async function versionsOfTools(): Promise<string> {
   const version = async (program: string, ...args: string[]): Promise<string> => {
     const { output } = await run(program, args, { show: "nothing" });
@@ -89,8 +89,8 @@ Written by \`npm run bits\` on ${new Date().toISOString().slice(0, 10)}, with ${
 
 One corpus of ${cases} cases (\`corpus.rs\`): all kinds of scenes of the core's tests, thin clouds, tiny and huge
 units, map coordinates, 12 to 20,000 points; every inversion, rule of the radius and kind of question. The digest
-is one of all visible sets, meshes, brightness, scores and radii. Dimensions 4 and higher are not promised to the bit and
-are left out. "Optimized" is the profile \`quick\`: that of a release, without optimization across crates.
+covers all visible sets, meshes, brightness, scores and radii. Dimensions 4 and higher are not promised to the bit and
+are left out. "Optimized" is the profile \`quick\`: the profile of a release, without optimization across crates.
 
 | platform | run by | seconds | cases | digest of all | |
 |---|---|---:|---:|---|---|

@@ -5,11 +5,11 @@ import type { Platform } from "./platforms.js";
 export interface Answers {
   /** `digest count radius` by the case's name. */
   cases: Map<string, string>;
-  /** The digest of all. */
+  /** The digest of all cases. */
   all: string;
 }
 
-/** Builds the corpus for a platform and runs it; returns what it printed, or undefined where it failed. */
+/** Builds the corpus for a platform and runs it; returns its output, or undefined if it failed. */
 export async function answersOn(platform: Platform): Promise<{ output: string; seconds: number } | undefined> {
   const { target, build, env, runner } = platform;
   const args = ["build", "--locked", "--example", "bits_corpus", "--target", target, ...build];
@@ -33,7 +33,7 @@ export function answersIn(output: string): Answers | undefined {
   return name === "all" && cases.size > 0 && Number(count) === cases.size ? { cases, all } : undefined;
 }
 
-/** The first case that is answered otherwise, or by one of the two only; undefined where all are equal. */
+/** The first case with different answers, or with an answer on one side only; undefined if all are equal. */
 export function firstDifference(expected: Answers, got: Answers): string | undefined {
   const names = [...expected.cases.keys(), ...got.cases.keys()];
   const different = names.find((name) => expected.cases.get(name) !== got.cases.get(name));

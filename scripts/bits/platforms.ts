@@ -11,23 +11,24 @@ export interface Platform {
   /** How cargo builds it, besides the target. */
   build: string[];
   env: Record<string, string>;
-  /** What runs the program; empty where this machine does so itself. */
+  /** The command that runs the program; empty if this machine runs it directly. */
   runner: string[];
 }
 
 interface Machine {
   target: string;
-  /** The processor, as Node calls it, and as QEMU does. */
+  /** Node's name of the processor. */
   processor: string;
+  /** The program of QEMU that emulates the processor. */
   qemu: string;
-  /** Of another C library, where the target does not bring its own. */
+  /** The folder of the C library, for a target that does not bring its own. */
   root?: string;
   linker?: { program: string; package: string };
 }
 
 const OPTIMIZED = ["--profile", "quick"];
 const DEBUG = ["--profile", "dev"];
-// Targets with musl bring all that linking needs, so that no C compiler for them has to be there.
+// Targets with musl bring everything that linking needs. They need no C compiler.
 const X64: Machine = { target: "x86_64-unknown-linux-musl", processor: "x64", qemu: "qemu-x86_64" };
 const X86: Machine = { target: "i686-unknown-linux-musl", processor: "x64", qemu: "qemu-i386" };
 const ARM64: Machine = { target: "aarch64-unknown-linux-musl", processor: "arm64", qemu: "qemu-aarch64" };
@@ -39,10 +40,10 @@ const ARM32: Machine = {
   linker: { program: "arm-linux-gnueabihf-gcc", package: "gcc-arm-linux-gnueabihf" },
 };
 const WASI = "wasm32-wasip1";
-// A crate without std cannot be a cdylib; musl's targets have none.
+// A crate without std cannot be built as a cdylib. On targets with musl, cargo builds no cdylib.
 const NO_STD = ["--no-default-features"];
 
-/** Every platform, with what makes it ready; a `Problem` says why it cannot be had here. */
+/** Every platform, with the function that prepares it. A `Problem` says why this machine cannot run it. */
 export const PLATFORMS: [name: string, prepare: (name: string) => Promise<Platform>][] = [
   ["this machine, optimized", (name) => thisMachine(name, OPTIMIZED)],
   ["WebAssembly", (name) => wasi(name, OPTIMIZED, "")],
@@ -53,7 +54,7 @@ export const PLATFORMS: [name: string, prepare: (name: string) => Promise<Platfo
   ["ARM, 32 bits", (name) => linux(name, ARM32, OPTIMIZED)],
   ["x86, 64 bits, AVX2 and FMA", (name) => linux(name, X64, OPTIMIZED, "-C target-cpu=x86-64-v3")],
   ["x86, 32 bits, without std", (name) => linux(name, X86, [...OPTIMIZED, ...NO_STD])],
-  // The slow ones last.
+  // The slow platforms come last.
   ["this machine, debug", (name) => thisMachine(name, DEBUG)],
   ["x86, 32 bits, debug", (name) => linux(name, X86, DEBUG)],
   ["WebAssembly, SIMD, debug", (name) => wasi(name, DEBUG, "-C target-feature=+simd128")],
@@ -84,7 +85,7 @@ async function wasi(name: string, build: string[], flags: string): Promise<Platf
   return { name, target: WASI, build, env: { RUSTFLAGS: flags }, runner };
 }
 
-/** A program of a Debian package, installed where that can be done. */
+/** Finds a program. If it is missing, installs its Debian package where possible. */
 async function program(name: string, debian: string): Promise<string> {
   const there = findOnPath(name) !== undefined || (canInstallOnDebian() && (await aptInstall(debian)));
   if (!there) throw new Problem(`${name} is missing (Debian package ${debian})`);

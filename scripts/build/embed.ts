@@ -3,7 +3,7 @@ import { gzipSync } from "node:zlib";
 
 import { inRoot } from "../lib/paths.js";
 
-/** The wasm as a text module, for the entry that contains it. */
+/** A module that holds the wasm as text, for the entry `inline`. */
 export const EMBEDDED = ["embedded.js", "embedded.d.ts"];
 
 /** Writes these files beside the wasm. */

@@ -11,7 +11,7 @@ const FAILED = "The WebAssembly module could not be built";
 
 export const GLUE = ["hpr_bg.js", "hpr_bg.d.ts", "hpr_bg.wasm", "hpr_bg.wasm.d.ts"];
 
-/** Rust → WebAssembly and its glue, in src/ts/wasm beside the code that uses it. */
+/** Compiles Rust to WebAssembly. Puts the module and its glue into src/ts/wasm, beside the code that uses them. */
 export async function buildWasm(): Promise<void> {
   const work = {
     name: "wasm",
@@ -21,9 +21,9 @@ export async function buildWasm(): Promise<void> {
   };
   const result = await unlessUnchanged(work, async () => {
     say("Building the WebAssembly module…");
-    // bundler: only with this glue can the package start the wasm itself, and start
-    // another copy after a trap. hpr.js would start the wasm, so it is left out. Its
-    // types serve for hpr_bg.js.
+    // bundler: this glue lets the package start the wasm itself, and start another copy
+    // after a trap. No other glue does. hpr.js would start the wasm, so it is left out.
+    // The types of hpr.js also fit hpr_bg.js.
     // no-install: wasm-pack would download tools. The project's tools are on the PATH,
     // and wasm-opt comes from the npm package binaryen.
     const args = [

@@ -21,7 +21,7 @@ export const supplyChecks: Check[] = [
       return sum([
         none("License not in the list of deny.toml", notAllowed(all)),
         none("Not locked to a registry by a checksum", notLocked()),
-        none("Not as it would be written", current ? [] : ["THIRD_PARTY.md: run `npm run licenses`"]),
+        none("Out of date", current ? [] : ["THIRD_PARTY.md: run `npm run licenses`"]),
       ]);
     },
   },

@@ -25,7 +25,7 @@ export const typescriptChecks: Check[] = [
   },
   {
     title: "TypeScript: imports go downward",
-    // The generated glue is also a room, and tests import the built package.
+    // Needs the build, because the check also follows imports of the generated glue and of the built package.
     part: "lint",
     needs: [BUILD],
     run: () => checkCommand("depcruise", ["--config", ".dependency-cruiser.mjs", "src/ts", "www", "scripts", "tests"]),

@@ -10,7 +10,7 @@ const text = { type: "string" } as const;
 const { positionals, values } = parseArgs({ options: { minutes: text, seed: text }, allowPositionals: true });
 const [file = "", name = ""] = positionals;
 
-/** The whole count. Or only the number of wrong cases, after lines that end in `N cases, M wrong`. */
+/** The whole count, or the number of wrong cases. With a number, the function prints lines `N cases, M wrong` itself. */
 type Result = Tally | number;
 type Module = Record<string, (minutes: number, seed: number) => Promise<Result>>;
 const { module } = await runnerImport<Module>(inRoot(file), { root, configFile: false, logLevel: "warn" });

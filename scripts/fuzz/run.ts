@@ -6,7 +6,7 @@ export interface Tally {
   wrong: number;
 }
 
-/** Runs one fuzzer and reads its last line. A fuzzer that crashes, or gives no count, counts as one wrong. */
+/** Runs one fuzzer and reads its last line. A crash or a missing count is one wrong case. */
 export async function runFuzzer({ title, command }: Fuzzer, minutes: number, seed: number): Promise<Tally> {
   const [program = "", ...args] = command;
   console.log(`… ${title}`);

@@ -23,7 +23,7 @@ interface RunOptions {
 export function run(command: string, args: string[], options: RunOptions = {}): Promise<RunResult> {
   const show = options.show ?? "progress";
   const screen = ({ progress: "stderr", results: "stdout", nothing: undefined } as const)[show];
-  // Colors are lost when a command writes to a pipe, unless it is asked for them.
+  // A command that writes to a pipe prints colors only if these variables ask for them.
   const color = screen !== undefined && process[screen].isTTY ? { CARGO_TERM_COLOR: "always", FORCE_COLOR: "1" } : {};
   const settings: SpawnOptions = {
     cwd: root,
@@ -65,10 +65,10 @@ export async function mustRun(
   if (!result.ok) throw new Problem(`${whatFailed} (the messages above say why).`);
 }
 
-/** Prints what is being done, among the progress of the commands. */
+/** Prints the current step to standard error, where the progress of the commands goes, too. */
 export function say(message: string): void {
   print(`${message}\n`, "stderr");
 }
 
-/** A problem that the user can solve. It is shown without a stack. */
+/** A problem that the user can solve. It is shown without a stack trace. */
 export class Problem extends Error {}

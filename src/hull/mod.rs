@@ -4,9 +4,9 @@
 //!          (none for points at the viewpoint); the viewpoint is the origin.
 //! OUTPUT   for each point: visible (the ray from the origin through q leaves K
 //!          at q) or hidden. Exact for the rounded q, in every dimension K has.
-//! SUMMARY  Three points that span space with the origin start an incremental
-//!          hull (`incremental`); where there are none, K is flat and its
-//!          dimension decides (`flat`).
+//! SUMMARY  Three points that, together with the origin, span space start an
+//!          incremental hull (`incremental`). If no such points exist, K is flat,
+//!          and `flat` answers according to its dimension.
 
 pub(crate) mod division;
 

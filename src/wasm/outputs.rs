@@ -1,4 +1,4 @@
-//! Meshes and light, which are made of views.
+//! Meshes and light. Both are computed from views.
 
 use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;

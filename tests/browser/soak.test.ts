@@ -3,7 +3,7 @@ import { expect, test } from "vitest";
 import { countHoldings, type Holdings, holdingsOf, type MemoryUse, memoryOf } from "./holdings.js";
 import { openReady, status, upToDate } from "./support.js";
 
-/** Allowed growth, for compiled code and the like. The arrays of one answer are larger than this limit allows over many answers. */
+/** Allowed growth, for compiled code and the like. If each answer left its arrays in memory, the growth would be larger. */
 const NOISE = { heap: 600_000, buffers: 60_000 };
 
 /** The page's memory and objects after its timers have run. */

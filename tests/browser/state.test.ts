@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { drag, openReady, status, type Status, unfold, upToDate } from "./support.js";
 
-/** The address's query once it has been written for the last time. */
+/** The query of the address, after the page has written its last change. */
 async function written(page: Awaited<ReturnType<typeof openReady>>): Promise<string> {
   await upToDate(page);
   await page.waitForTimeout(800);
@@ -12,7 +12,7 @@ function same({ visible, viewpoint, radius, inversion, show, triangles, lights }
   return { visible, viewpoint, radius, inversion, show, triangles, lights };
 }
 
-test("the address, copied, shows the same cloud, camera and settings again", async () => {
+test("a copied address shows the same cloud, camera and settings again", async () => {
   const page = await openReady("?sample=dragon_res4");
   await unfold(page, "Surface");
   await page.getByRole("radio", { name: "Surface" }).check();
@@ -51,7 +51,7 @@ test("the address, copied, shows the same cloud, camera and settings again", asy
   expect(await written(again)).toBe(query);
 });
 
-test("points, a rule, a ring, noise, a frozen viewpoint and an up side come back, too", async () => {
+test("the address also restores the rule of the radius, the ring, noise, the frozen viewpoint and the up axis", async () => {
   const page = await openReady("?sample=bunny");
   await page.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).check();
   await page.getByRole("button", { name: "Search" }).click();
@@ -146,7 +146,7 @@ test("?embed=1 shows only the picture", async () => {
     expect(await page.locator(chrome).isVisible()).toBe(false);
   expect((await status(page)).total).toBe(5205);
 
-  // Screen readers hear of it, hidden tools do not take the drags, and the link opens the whole page in the same state.
+  // Screen readers get the answer. Hidden tools do not take the drags. The link opens the whole page in the same state.
   await expect.poll(() => page.getByRole("status").textContent()).toMatch(/of 5,205 points/);
   await page.locator("#view").focus();
   await page.keyboard.press("s");

@@ -53,7 +53,7 @@ fn expected(points: &[[f64; 3]], viewpoint: [f64; 3]) -> f64 {
 }
 
 #[test]
-fn the_spacing_is_told() {
+fn the_cloud_gives_its_spacing() {
     for kind in KINDS {
         for (seed, n) in [(1, 2), (2, 7), (3, 60), (4, 500)] {
             let points = kind.scene(seed, n).points;
@@ -100,7 +100,7 @@ fn two_thousand_points_are_measured_completely() {
 }
 
 #[test]
-fn larger_clouds_are_sampled_well_and_whatever_their_order() {
+fn samples_of_larger_clouds_are_accurate_in_every_order_of_the_points() {
     let mut rng = Rng::new(12);
     let mut points = shapes::bumpy(&mut rng, 6000);
     let viewpoint = [0.0, 2.0, 1.0];
@@ -118,7 +118,7 @@ fn larger_clouds_are_sampled_well_and_whatever_their_order() {
 }
 
 #[test]
-fn it_is_the_default_and_reports_what_it_took() {
+fn it_is_the_default_and_the_answer_reports_the_chosen_radius() {
     for kind in KINDS {
         let scene = kind.scene(21, 50);
         let (radius, exponent) = automatic(&scene.points, scene.viewpoint);
@@ -153,7 +153,7 @@ fn it_is_the_farthest_distance_where_there_is_no_spacing() {
         automatic(&[[0.0; 3], [-0.0; 3], [0.0; 3]], viewpoint),
         (3.0, 0.0)
     );
-    // One point at the viewpoint, one away: two distinct points.
+    // One point at the viewpoint and one far from it: two distinct points.
     assert_eq!(
         automatic(&[[0.0; 3], viewpoint], viewpoint),
         (7.5, 2.5f64.log10())
@@ -162,7 +162,7 @@ fn it_is_the_farthest_distance_where_there_is_no_spacing() {
 
 #[test]
 fn an_overflow_is_clamped() {
-    // Distances fit, their squares over the spacing do not.
+    // The distances fit into a float; their squares divided by the spacing do not.
     let mut points = vec![[1e150, 0.0, 0.0], [0.0, 1e150, 0.0], [0.0, 0.0, 1e150]];
     points.extend([[1e-200, 0.0, 0.0], [0.0, 1e-200, 0.0]]);
     let (radius, exponent) = automatic(&points, [-1e153, 0.0, 0.0]);

@@ -17,15 +17,16 @@ const ORDER = [
 
 const INTRODUCTION = `# The paper's figures
 
-\`npm run figures\` draws them all again, with the demo page in Chromium, and measures the captions' numbers on the way;
-names after \`--\` choose some (before-after, errors, radius, reconstruction, shadows, fidelity). Viewpoints and lights are in
-the coordinates of the files. Part of it needs data that is not in the repository (\`HPR_SHARED\`); without it the errors
-against R and the bunny's surface are left as they are, and the first bunny is the small one of npm.
+\`npm run figures\` draws all figures again, with the demo page in Chromium, and measures the numbers of the captions.
+Names after \`--\` choose some (before-after, errors, radius, reconstruction, shadows, fidelity). Viewpoints and lights are in
+the coordinates of the files. Some figures need data that is not in the repository (\`HPR_SHARED\`). Without this data, the
+errors against R and the surface of the bunny are not drawn again, and the first figure shows the small bunny from npm.
 [FIDELITY.md](FIDELITY.md) has the errors in numbers.
 
-The paper's own clouds cannot be had here, save for the dragon and the bunny: not David, Bimba, Igea, the hand, the carter, the
-oil pump, the block, the bottle nor the jet fighter (the airplane of rings stands in for it). Nor can its times be measured again:
-Matlab on a computer of 2007. Figures 3 and 5 illustrate the flip in two dimensions and show no result.
+Of the paper's own clouds, only the dragon and the bunny are available here. David, Bimba, Igea, the hand, the carter, the oil
+pump, the block, the bottle and the jet fighter are not. The airplane of rings takes the place of the jet fighter. The paper's
+times cannot be measured again, because they come from Matlab on a computer of 2007. Figures 3 and 5 illustrate the flip in
+two dimensions and show no result.
 
 The Stanford dragon and bunny: Stanford Computer Graphics Laboratory, The Stanford 3D Scanning Repository.
 `;

@@ -1,7 +1,7 @@
 import { bytes, type Case, type Edit, edited, SAME } from "./corpus";
 import { binary, plyBody, PLY_FORMATS, plyHeader, POINTS, type Value } from "./valid";
 
-/** Faults of the header, which are the same in text and binary. A bar divides sentences that are all right. */
+/** Faults of the header, which are the same in text and binary. A bar separates messages; each of them is right. */
 const HEADER_FAULTS: [name: string, edit: Edit, expected: Case["expected"]][] = [
   ["other first word", ["ply", "plyx"], "it does not begin like a PLY file"],
   ["no end", ["end_header\n", ""], "|its PLY header has no end|is not a line of a PLY header"],
@@ -23,10 +23,14 @@ const HEADER_FAULTS: [name: string, edit: Edit, expected: Case["expected"]][] = 
   ["count below zero", ["vertex 4", "vertex -4"], "line 4 does not give the number of an element"],
   ["no count", ["vertex 4", "vertex"], "line 4 does not give the number of an element"],
   ["two counts", ["vertex 4", "vertex 4 5"], "line 4 does not give the number of an element"],
-  ["count beyond all numbers", ["vertex 4", `vertex ${"9".repeat(30)}`], "line 4 does not give the number of an element"],
+  [
+    "count too large for a number",
+    ["vertex 4", `vertex ${"9".repeat(30)}`],
+    "line 4 does not give the number of an element",
+  ],
   ["property of no element", [/(element vertex)/, "property float w\n$1"], "line 4 is a property of no element"],
   ["unknown type", ["float y", "half y"], 'line 6 is a property of unknown type: "property half y"'],
-  ["type of every object", ["float y", "toString y"], "line 6 is a property of unknown type"],
+  ["type named like a method of every object", ["float y", "toString y"], "line 6 is a property of unknown type"],
   ["no type", ["property float y", "property y"], "line 6 is a property of unknown type"],
   ["no name", ["float y", "float"], "line 6 does not name one property"],
   ["two names", ["float y", "float y w"], "line 6 does not name one property"],
@@ -80,10 +84,10 @@ const BODY_FAULTS: [name: string, edit: Edit, expected: Case["expected"]][] = [
   ["decimal commas everywhere", (text) => text.replaceAll(".", ","), "line 13 is not a point, its x is not a number"],
   ["separated by commas", ["1.5 -2 0.25 10", "1.5,-2,0.25,10"], "line 13 has 1 values, and its header promises 4"],
   ["typographic minus", ["-2", "\u22122"], "line 13 is not a point, its y is not a number"],
-  ["blank of no width", ["1.5 -2", "1.5\u00a0-2"], "line 13 has 3 values"],
+  ["no-break space", ["1.5 -2", "1.5\u00a0-2"], "line 13 has 3 values"],
   ["empty exponent", ["1.5", "1.5e"], "line 13 is not a point, its x is not a number"],
-  ["two points", ["1.5", "1.5.0"], "line 13 is not a point, its x is not a number"],
-  ["a point alone", ["1.5", "."], "line 13 is not a point, its x is not a number"],
+  ["two decimal points", ["1.5", "1.5.0"], "line 13 is not a point, its x is not a number"],
+  ["a decimal point alone", ["1.5", "."], "line 13 is not a point, its x is not a number"],
   ["NA", ["1.5", "NA"], "line 13 is not a point, its x is not a number"],
   ["a comment", ["1.5 -2", "# 1.5 -2"], "line 13 has 5 values"],
   ["a point more", ["1.5 -2", "9 9 9 9\n1.5 -2"], "line 16 is a row whose list has a length of -0.5"],
@@ -92,7 +96,7 @@ const BODY_FAULTS: [name: string, edit: Edit, expected: Case["expected"]][] = [
   ["a face more", ["3 0 1 2", "3 0 1 2\n3 0 1 3"], "line 17 comes after the last row that the header promises"],
   ["a corner short", ["3 0 1 2", "3 0 1"], "line 16 has 3 values, and its header promises 4"],
   ["corners below zero", ["3 0 1 2", "-3 0 1 2"], "line 16 is a row whose list has a length of -3"],
-  ["corners in half", ["3 0 1 2", "1.5 0 1 2"], "line 16 is a row whose list has a length of 1.5"],
+  ["one and a half corners", ["3 0 1 2", "1.5 0 1 2"], "line 16 is a row whose list has a length of 1.5"],
   ["text behind the end", (text) => `${text}the end\n`, "line 17 comes after the last row"],
   ["nothing", () => "", "it ends after 0 of the 4 vertices that its header promises"],
   ["cut in a row", (text) => text.slice(0, 15), "line 13 has 2 values"],
@@ -144,7 +148,7 @@ function headerCases(): Case[] {
   );
 }
 
-/** Types of x, y and z that a text does not fit, or does. */
+/** Types of x, y and z, each with values that fit the type or do not. */
 const TYPED: [type: string, row: string, expected: Case["expected"]][] = [
   ["uchar", "255 0 7", [255, 0, 7]],
   ["uchar", "256 0 7", "line 8 is not a point, its x is not of type uint8"],

@@ -1,4 +1,4 @@
-// Both filters for three.js when their worker dies, and when their objects get wrong values.
+// Tests both filters for three.js: their worker dies, or their objects get wrong values.
 import type threads from "node:worker_threads";
 import { init, PointCloud } from "hidden-point-removal";
 import { HiddenPointNodesFilter } from "hidden-point-removal/nodes";
@@ -14,7 +14,7 @@ const sphere = bumpySphere(1, 3000);
 
 beforeAll(() => init());
 
-/** One cloud, in one piece or as a node, and the reports of its filter. */
+/** A cloud in a group of a scene, and a camera. One filter takes the points, the other takes the group. */
 function pointsOf(positions = sphere) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
@@ -84,7 +84,7 @@ describe.each([
       expect(errors).toEqual([]);
     });
 
-    it("reports once that the deaths do not end, and tries again from another viewpoint", async () => {
+    it("reports once that its workers keep dying, and tries again from another viewpoint", async () => {
       dying = 4;
       const { points, camera, geometry } = pointsOf();
       const { filter, errors } = filterFor(points);
@@ -166,7 +166,7 @@ describe.each([
       "ShaderMaterial",
       (points) => replaced(loose(points), "material", new THREE.ShaderMaterial()),
     ],
-  ])("refuses %s while it filters, once, and goes on when that is over", async (_what, code, words, spoil) => {
+  ])("refuses %s once while it filters, and goes on after the value is restored", async (_what, code, words, spoil) => {
     const { points, camera, geometry } = pointsOf();
     const { filter, errors } = filterFor(points, { worker: false, mode: "dim" });
     const update = async () => {
@@ -194,7 +194,7 @@ describe.each([
   });
 });
 
-/** Puts another value in a property, and back. */
+/** Gives a property another value. Returns a function that restores the old value. */
 function replaced(object: Record<string, unknown>, name: string, value: unknown): () => void {
   const before = object[name];
   object[name] = value;

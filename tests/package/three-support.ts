@@ -9,7 +9,7 @@ export const VERSIONS: [name: string, load: () => Promise<THREE>][] = [
   ["three-oldest", () => import("three-oldest")],
 ];
 
-/** The package as on a fresh page that has this three.js. */
+/** Loads the package together with this three.js, as a fresh page does. */
 export async function adapterFor(load: () => Promise<THREE>) {
   vi.resetModules();
   vi.doMock("three", load);
@@ -45,7 +45,7 @@ export function nextChange(filter: Filter): Promise<{ count: number; millisecond
   });
 }
 
-/** The indices of the points that it draws, in order. */
+/** The indices of the points that a geometry draws, in order. */
 export function drawn({ index, drawRange, attributes }: Three.BufferGeometry): number[] {
   const start = Math.max(0, drawRange.start);
   const end = Math.min(index?.count ?? attributes["position"]!.count, drawRange.start + drawRange.count);

@@ -12,11 +12,11 @@ const EXPONENTS = [0, 2, 4, 6, 1, 3, 5, 0.5, 1.5, 2.5, 3.5, 4.5, 5.5];
 const REST = 400;
 
 /**
- * Finds the number of visible points for one radius after another. Each question is asked alone, while no other is
- * open.
+ * Finds the number of visible points for one radius after another. Asks one question at a time, and only while no
+ * other question is open.
  */
 export class Curve {
-  /** The shares by exponent. */
+  /** The number of visible points by exponent; NaN if the question failed. */
   readonly counts = new Map<number, number>();
   readonly #inquiry: Inquiry;
   readonly #size: number;

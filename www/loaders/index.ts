@@ -27,7 +27,7 @@ export function loadCloud(
     };
     worker.onerror = (event) => {
       event.preventDefault();
-      // Only an error inside a running worker has a place in a file.
+      // Only an error inside a running worker is an ErrorEvent. Otherwise the worker's script is missing.
       const running = event instanceof ErrorEvent;
       reject(
         running

@@ -10,8 +10,8 @@ export interface Generator {
 }
 
 /**
- * A surface, and for each point of the cloud its place on it. The points are the vertices of the mesh, lie on its faces,
- * or lie on a scene of solids that rays can be sent into.
+ * A surface, and for each point of the cloud its place on it. The points are the vertices of the mesh, or lie on its
+ * faces, or lie on the solids of a scene. Rays can be traced in this scene.
  */
 export type Truth = { mesh: Mesh; on: OnFaces | null } | { scene: Solid<unknown>; places: Float64Array };
 

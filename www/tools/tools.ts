@@ -13,7 +13,7 @@ import { onClick, TOLERANCE } from "./pointer.ts";
 import { Select } from "./select.ts";
 import type { Bench, Tool } from "./tool.ts";
 
-/** The bar over the cloud. At most one of its tools is at work, and takes the clicks or the drags. */
+/** The bar over the cloud. At most one of its tools is active. This tool receives the clicks or the drags. */
 export class Tools {
   readonly #tools: Tool[];
   readonly #marks: Marks;
@@ -51,13 +51,13 @@ export class Tools {
     return this.#compare.introducing;
   }
 
-  /** Another cloud is about to be shown. */
+  /** Called before another cloud is shown. */
   clear(): void {
     for (const tool of this.#tools) tool.clear?.();
     this.#compare.drop();
   }
 
-  /** Other points are visible. */
+  /** Called when other points have become visible. */
   follow(): void {
     this.#marks.invalidate();
     this.#compare.follow();
@@ -106,7 +106,7 @@ export class Tools {
     });
     this.#stage.addEventListener("keydown", (event) => {
       if (!isKeyOf("cancel", event) || !this.#active) return;
-      // First gives up a step that has been begun, then the tool itself.
+      // The key cancels a step that has begun. Without such a step, it ends the use of the tool.
       if (!this.#active.cancel?.()) this.#show(null);
       this.#canvas.focus();
     });

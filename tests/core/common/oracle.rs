@@ -3,12 +3,12 @@
 //!
 //! Why it is the definition. λq ∈ K for some λ > 1 says that q = Σ cⱼqⱼ with
 //! cⱼ ≥ 0 and Σ cⱼ < 1 (divide the convex combination, whose share of the origin
-//! is left out, by λ; backwards, λ = 1/Σ cⱼ, or q = 0 and any λ). Among all such
-//! sums the least Σ cⱼ is a linear program with a bounded optimum, so a basic
+//! is left out, by λ). For the other direction, take λ = 1/Σ cⱼ, or any λ if q = 0.
+//! To find the least Σ cⱼ is a linear program with a bounded optimum, so a basic
 //! solution attains it: the qⱼ with cⱼ ≠ 0 are linearly independent, so there are at
-//! most three. So q is hidden exactly when q = 0 or
-//!   one qⱼ, or two or three linearly independent ones, give q with Σ cⱼ < 1.
-//! This assumes no rank: planes, lines and single points need no other case.
+//! most three. So q is hidden exactly when q = 0 or when
+//!   one qⱼ, or two or three linearly independent qⱼ, give q with Σ cⱼ < 1.
+//! The proof assumes no rank: planes, lines and single points need no other case.
 
 use num_bigint::{BigInt, Sign};
 
