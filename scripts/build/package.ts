@@ -8,7 +8,7 @@ import { GLUE } from "./wasm.js";
 
 const GENERATED = [...GLUE, ...EMBEDDED];
 
-/** TypeScript → the npm package's modules and types, in dist. */
+/** Compiles the TypeScript to the modules of the npm package and types, in dist. */
 export async function buildPackage(): Promise<void> {
   const work = {
     name: "package",
@@ -18,7 +18,7 @@ export async function buildPackage(): Promise<void> {
   };
   const result = await unlessUnchanged(work, async () => {
     say("Compiling the npm package…");
-    // Emptied first, so that no module outlives its source.
+    // The folder is emptied first: a module whose source is gone must not stay.
     rmSync(inRoot("dist"), { recursive: true, force: true });
     embedWasm();
     await mustRun("tsc", ["-p", "tsconfig.build.json"], "The npm package does not compile");

@@ -5,7 +5,7 @@ import { looksBinary } from "../../src/ts/formats/text.js";
 import { bytes, type Reading } from "./blocks.ts";
 import { LoadProblem, missingPart, problemOf } from "./problem.ts";
 
-/** Reads a file. Its first bytes tell the format, or else the ending of its name. */
+/** Reads a file. The first bytes tell its format; if they do not, the ending of its name does. */
 export async function readFile(reading: Reading, base: string | null): Promise<LoadedCloud> {
   const { name } = reading;
   try {
@@ -31,7 +31,7 @@ async function readBy(reading: Reading, base: string | null): Promise<LoadedClou
   if (start.startsWith("glTF") || (ending === "gltf" && /^\s*\{/.test(start)))
     return (await import("./gltf.ts")).readGltf(reading, base);
   if (/^ply\s/.test(start)) return (await import("./ply.ts")).readPly(reading);
-  // Any file may have a comment about a PCD file.
+  // A comment of any file may mention PCD.
   if (/^(#\s*\.PCD\b|VERSION\s|FIELDS\s)/.test(start) || (ending === "pcd" && /^(VERSION|FIELDS)\s/im.test(start)))
     return (await import("./pcd.ts")).readPcd(reading);
   if (/^(ply|pcd|las|laz|gltf|glb)$/.test(ending)) {
