@@ -13,6 +13,7 @@ export {
 export { type MergeOptions, mergeVisible, type VisiblePart } from "./cloud/merge.js";
 export type { PointCloudOptions } from "./query/options.js";
 export type { Positions } from "./query/positions.js";
+export type { NumberArray } from "./base/typed-arrays.js";
 export type { IlluminationOptions, ReconstructionOptions } from "./query/queries.js";
 export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
 export { initSync } from "./instance/start.js";

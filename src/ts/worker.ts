@@ -2,6 +2,7 @@ export type { ChosenRadius } from "./query/answers.js";
 export { HprError, type HprErrorCode } from "./base/errors.js";
 export type { PointCloudOptions } from "./query/options.js";
 export type { Positions } from "./query/positions.js";
+export type { NumberArray } from "./base/typed-arrays.js";
 export type { IlluminationOptions, ReconstructionOptions } from "./query/queries.js";
 export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
 export type { Reconstruction, Visibility } from "./cloud/visibility.js";
