@@ -21,13 +21,12 @@ import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/
 import { type Reconstruction, ReconstructionAnswer, type Visibility, VisibilityAnswer } from "./visibility.js";
 
 /**
- * A point cloud in the memory of the wasm: prepared once, then asked from as
- * many viewpoints as needed. Points can be appended and removed; answers and
- * automatic radii are then, to the bit, those of a cloud built from the points
- * that are there.
+ * A point cloud in the memory of the wasm. It is prepared once, and can then be asked from as many
+ * viewpoints as needed. Points can be appended and removed. After that, answers and automatic radii
+ * are the same, to the bit, as those of a cloud built from the remaining points.
  *
- * Its memory is given back by {@link PointCloud.dispose}, at the end of a `using`
- * block, or some time after it has become unreachable.
+ * {@link PointCloud.dispose} frees its memory, and so does the end of a `using` block. Otherwise the
+ * memory is freed some time after the cloud has become unreachable.
  */
 export class PointCloud {
   /** The same as {@link PointCloud.dispose}, on platforms that have `Symbol.dispose`. */
@@ -40,11 +39,11 @@ export class PointCloud {
   }
 
   /**
-   * Copies and prepares positions, in any units: O(n log n) for n points.
+   * Copies and prepares positions, in any units. This takes O(n log n) for n points.
    *
-   * @param positions the coordinates of one point after another: x, y, z unless
-   *   `dimension` says otherwise. A Float32Array stays in single precision (up to three
-   *   dimensions); everything else is read in double precision.
+   * @param positions the coordinates of one point after another: x, y, z, or another number of
+   *   coordinates by the option `dimension`. A Float32Array stays in single precision (up to three
+   *   dimensions). Everything else is read in double precision.
    * @throws HprError `not-initialised`, `option`, `positions-type`,
    *   `positions-length`, `non-finite`, `too-large`, `internal`.
    */
@@ -55,32 +54,32 @@ export class PointCloud {
   }
 
   /**
-   * How many points were ever given, skipped and removed ones included: the next
-   * index, and the length of a mask.
+   * The number of all points ever given, with the skipped and the removed ones. This is also the next
+   * index and the length of a mask.
    */
   get length(): number {
     return this.#core.size.length;
   }
 
-  /** How many of the points given are left out because a coordinate is not finite. */
+  /** How many of the given points are left out because a coordinate is not finite. */
   get skipped(): number {
     return this.#core.size.skipped;
   }
 
   /**
-   * The mean distance of a point to its 6 nearest others, in the cloud's units: what the
-   * automatic rules go by. Measured at 2048 distinct points (512 beyond three dimensions)
-   * where there are more; 0 where there are fewer than two.
+   * The mean distance of a point to its 6 nearest neighbors, in the cloud's units. The automatic
+   * rules use it. It is measured at 2048 distinct points (512 above three dimensions), or at all
+   * points if there are fewer. It is 0 for fewer than two points.
    */
   get spacing(): number {
     return this.#core.size.spacing;
   }
 
   /**
-   * Which points can be seen from a viewpoint, which may lie outside the cloud
-   * or inside it: the hidden-point-removal operator of the paper (§3, algorithm 1).
-   * A point is visible exactly when its flipped image is on the outer boundary of
-   * the convex hull of all flipped images and the viewpoint.
+   * Finds the points that can be seen from a viewpoint. The viewpoint may lie outside the cloud or
+   * inside it. This is the hidden-point-removal operator of the paper (§3, algorithm 1). A point is
+   * visible exactly if its flipped image is on the outer boundary of the convex hull of all flipped
+   * images and the viewpoint.
    *
    * @param viewpoint x, y, z (as many as the cloud has dimensions) in the cloud's units.
    * @throws HprError `viewpoint`, `option`, `radius`, `too-large`, `disposed`, `internal`.
@@ -92,18 +91,19 @@ export class PointCloud {
   }
 
   /**
-   * Which points can be seen along a direction, the way an orthographic camera looks: the
-   * limit of viewpoints that recede to infinity against it, R = a·r² at distance r.
-   * Exactly: the lower boundary of the convex hull of all (x, y, z + a·(x² + y²)), z being
-   * the depth along the direction.
+   * Finds the points that can be seen along a direction, as an orthographic camera looks. The answer
+   * is the limit of viewpoints ever farther back, where R = a·r² at the distance r. The visible points
+   * are exactly those on the lower boundary of the convex hull of all (x, y, z + a·(x² + y²)). Here z
+   * is the depth along the direction.
    *
-   * a is 5 ÷ the cloud's spacing by default, 1/2c with `inversion: { exponential: c }`, and
-   * R/d² for a given `radius` or `exponent`, measured from where the centroid is one
-   * diagonal d of the bounding box ahead. The answer's `radius` is R for that viewpoint.
-   * `"search"`, `"opposite"` and `power` have no limit and are refused (`option`).
+   * By default, a is 5 ÷ the cloud's spacing. With `inversion: { exponential: c }`, a is 1/(2c). For a
+   * given `radius` or `exponent`, a is R/d². Here d is the diagonal of the bounding box, and R is
+   * measured from the viewpoint that lies at the distance d before the centroid. The answer's `radius`
+   * is R for that viewpoint. `"search"`, `"opposite"` and `power` have no limit and are refused
+   * (`option`).
    *
    * @param direction x, y, z, not zero, of any length. Needs a cloud of dimension 3.
-   * @throws HprError `viewpoint` for the direction, otherwise as {@link PointCloud.visibleFrom}.
+   * @throws HprError `viewpoint` for the direction, otherwise the same as {@link PointCloud.visibleFrom}.
    */
   visibleFromDirection(direction: ArrayLike<number>, options?: VisibilityOptions): Visibility {
     this.#core.requireOpen();
@@ -112,9 +112,9 @@ export class PointCloud {
   }
 
   /**
-   * Which points can be seen from one of several viewpoints (paper, §5: viewpoints added
-   * around the first help at silhouettes). Each view chooses its own R; the answer tells
-   * the largest, and the hulls that all choices took. No viewpoint sees nothing.
+   * Finds the points that can be seen from at least one of several viewpoints. Viewpoints added around
+   * the first one help at silhouettes (paper, §5). Each view chooses its own R. The answer holds the
+   * largest R, and the number of hulls that all choices took. Without viewpoints, nothing is visible.
    *
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
@@ -125,8 +125,9 @@ export class PointCloud {
   }
 
   /**
-   * Which points can be seen from at least `k` of several viewpoints. Two of a small ring
-   * (see `ringOfViewpoints`) and its middle find silhouettes, too, but no hidden planes.
+   * Finds the points that can be seen from at least `k` of several viewpoints. For silhouettes, use
+   * `k` = 2 with a small ring of viewpoints (see `ringOfViewpoints`) and its middle. Unlike
+   * `visibleFromAny`, this does not show hidden planes.
    *
    * @param k from 1 to the number of viewpoints.
    * @throws HprError as {@link PointCloud.visibleFrom}.
@@ -138,8 +139,8 @@ export class PointCloud {
   }
 
   /**
-   * The radius that a rule (by default `"auto"`) chooses for a viewpoint, without asking
-   * what is visible.
+   * The radius that a rule (by default `"auto"`) chooses for a viewpoint. The visible points are not
+   * computed.
    *
    * @param viewpoint x, y, z in the cloud's units.
    * @throws HprError `viewpoint`, `option`, `radius`, `too-large`, `disposed`, `internal`.
@@ -150,9 +151,10 @@ export class PointCloud {
   }
 
   /**
-   * The surface that a viewpoint sees, as far as points tell (paper, §5): the triangles of
-   * the very hull that visibility is found with, corners back in their places. Triangles
-   * with an edge longer than `maxEdge` are left out, and those at the viewpoint.
+   * The surface that a viewpoint sees, as far as the points show it (paper, §5). It consists of
+   * triangles of the same hull that decides visibility, with the corners back at their own places.
+   * Triangles with an edge longer than `maxEdge` are left out, and so are triangles that touch the
+   * viewpoint.
    *
    * @param viewpoint x, y, z in the cloud's units. Needs a cloud of dimension 3.
    * @throws HprError as {@link PointCloud.visibleFrom}.
@@ -164,12 +166,12 @@ export class PointCloud {
   }
 
   /**
-   * Light and shadow (paper, §5): for every index ambient + (1 − ambient)·(lights that see
-   * it ÷ lights), softened `smoothing` times. Skipped and removed points are not lit;
-   * without lights all is ambient.
+   * Light and shadow (paper, §5). The brightness of each point is ambient + (1 − ambient)·s. Here s is
+   * the share of the lights that see the point. Then the brightness is softened `smoothing` times.
+   * Skipped and removed points are not lit. Without lights, every point has the brightness `ambient`.
    *
    * @param lights the places of point lights, x, y, z each. Needs a cloud of dimension 3.
-   * @returns one number from 0 to 1 for each index: the caller's own copy.
+   * @returns one number from 0 to 1 for each index. The array is the caller's own copy.
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
   illuminate(lights: readonly ArrayLike<number>[], options?: IlluminationOptions): Float32Array {
@@ -179,58 +181,58 @@ export class PointCloud {
   }
 
   /**
-   * Adds points, which take the next indices: all of them, or none and an error.
-   * For m points to n: O(n + m log m), except that the whole cloud is sorted again
-   * where they extend its bounding box beyond a power of two (or a multiple of it).
+   * Adds points, which take the next indices. After an error, none of them is added. Adding m points
+   * to n takes O(n + m log m). But if they extend the bounding box beyond a power of two (or a
+   * multiple of it), the whole cloud is sorted again.
    *
-   * @param positions coordinates of one point after another, in the cloud's units and with
-   *   the `dimension`, `stride` and `nonFinite` the cloud was made with. Double precision
-   *   appended to single precision makes the whole cloud one of double precision.
+   * @param positions the coordinates of one point after another, in the cloud's units. The cloud's
+   *   `dimension`, `stride` and `nonFinite` apply. If the cloud has single precision and these
+   *   positions have double precision, the whole cloud changes to double precision.
    * @throws HprError `positions-type`, `positions-length`, `non-finite`,
-   *   `too-large`, `disposed`, `internal`; the cloud is unchanged then.
+   *   `too-large`, `disposed`, `internal`. Then the cloud is unchanged.
    */
   append(positions: Positions): void {
     this.#core.append(positions);
   }
 
   /**
-   * Removes points: they are never visible again and hide nothing, and their
-   * indices are never given again. What was removed before is ignored. Of several
-   * equal points the others stay. One pass over the cloud.
+   * Removes points. They are never visible again and hide nothing. Their indices are never used again.
+   * Points that were removed before are ignored. Other points at the same position stay. This takes
+   * one pass over the cloud.
    *
-   * @param indices of points, in any order; removed all together, or none and an error.
-   * @throws HprError `option` for what is not the index of a point, `too-large`,
-   *   `disposed`, `internal`; the cloud is unchanged then.
+   * @param indices indices of points, in any order. After an error, none of them is removed.
+   * @throws HprError `option` for a value that is not the index of a point, `too-large`,
+   *   `disposed`, `internal`. Then the cloud is unchanged.
    */
   remove(indices: ArrayLike<number>): void {
     this.#core.remove(indices);
   }
 
   /**
-   * Gives the memory of an answer's `indices`, which are gone then, to answers to come: for
-   * a viewpoint that moves, so that no memory is left to the garbage collector. `indices`
-   * may then be the start of a longer buffer. Does nothing with an answer whose indices
-   * are gone already.
+   * Reuses the memory of an answer's `indices` for later answers. The indices of this answer are gone
+   * then. This is for a viewpoint that moves: no memory is left to the garbage collector. After this,
+   * `indices` of an answer may be the start of a longer buffer. Does nothing if the indices are gone
+   * already.
    *
-   * @throws HprError `option` for what is no answer of a cloud.
+   * @throws HprError `option` for a value that is not an answer of a cloud.
    */
   recycle(answer: Visibility): void {
     this.#core.keepMemory(VisibilityAnswer.takeMemory(answer));
   }
 
-  /** Gives the cloud's memory back. Answers already given stay valid. May be called twice. */
+  /** Frees the cloud's memory. Earlier answers stay valid. May be called twice. */
   dispose(): void {
     this.#core.dispose();
   }
 }
 
 /**
- * The whole operation in one call: builds a cloud, asks it once and frees it.
- * For several viewpoints a {@link PointCloud} does the preparation only once.
+ * The whole operation in one call. It builds a cloud, asks it once and frees it. For several
+ * viewpoints, use a {@link PointCloud}: it does the preparation only once.
  *
  * @param positions x, y, z of one point after another.
  * @param viewpoint x, y, z in the same units.
- * @throws HprError as the constructor of `PointCloud` and `PointCloud.visibleFrom`.
+ * @throws HprError the same as the constructor of `PointCloud` and as `PointCloud.visibleFrom`.
  */
 export function hiddenPointRemoval(
   positions: Positions,

@@ -8,8 +8,8 @@ import type { Query, QueryKind } from "../query/queries.js";
 import { Spares } from "./spares.js";
 
 /**
- * A cloud in the memory of the wasm, asked with queries that were read before, maybe in another
- * thread. `PointCloud` is this with the methods that a user calls; a worker needs no more than this.
+ * A cloud in the memory of the wasm. Its queries were read and checked before, maybe in another
+ * thread. `PointCloud` adds the methods that a user calls. A worker needs only this class.
  */
 export class CoreCloud {
   readonly #instance: Instance;
@@ -19,7 +19,7 @@ export class CoreCloud {
   readonly #spares = new Spares();
 
   /**
-   * @param progress is told which share of the building is done, and must not throw.
+   * @param progress is called with the share of the building that is done. It must not throw.
    * @throws HprError as the constructor of `PointCloud`.
    */
   constructor(instance: Instance, positions: unknown, settings: CloudSettings, progress?: (share: number) => void) {
@@ -85,7 +85,7 @@ export class CoreCloud {
     this.#size = this.#instance.call((bindings) => bindings.remove(handle, integers));
   }
 
-  /** Keeps memory for the indices of answers to come. */
+  /** Keeps memory for the indices of later answers. */
   keepMemory(buffer: ArrayBuffer | undefined): void {
     if (this.#handle !== undefined) {
       this.#spares.keep(buffer);
@@ -115,10 +115,10 @@ function readPacked(positions: unknown, { stride, dimension }: CloudSettings): F
   return packed(readPositions(positions, stride), stride, dimension);
 }
 
-/** Clouds that were never disposed of, freed once nothing refers to them any more. */
+/** Frees the clouds that were never disposed of, after nothing refers to them any more. */
 const unreachable = new FinalizationRegistry(freeCloud);
 
-/** A lost instance took its clouds along, and their numbers may be in use again. */
+/** Frees a cloud unless its instance is lost. The number of a lost cloud may be in use again for another cloud. */
 function freeCloud({ instance, handle }: { instance: Instance; handle: number }): void {
   if (instance.alive) {
     instance.call((bindings) => {

@@ -4,23 +4,23 @@ import { allocating } from "../base/memory.js";
 import { givenOptions, integer, number } from "../query/options.js";
 import { readViewpoint } from "../query/positions.js";
 
-/** How viewpoints are added around one. */
+/** How viewpoints are added around a viewpoint. */
 export interface RingOptions {
-  /** How many: an integer from 1 to 10,000. Default 4. */
+  /** The number of added viewpoints: an integer from 1 to 10,000. Default 4. */
   count?: number | undefined;
-  /** The ring's radius as a part of the distance to the target, at least 0. Default 0.05. */
+  /** The ring's radius ÷ the distance to the target, at least 0. Default 0.05. */
   fraction?: number | undefined;
 }
 
 const MOST_VIEWPOINTS = 10_000;
 
 /**
- * Viewpoints evenly around one (paper, §5), on a circle across its line to a target. The
- * viewpoint itself is not among them. For `PointCloud.visibleFromAny` and
- * `PointCloud.visibleFromAtLeast`.
+ * Returns viewpoints evenly spaced on a circle around a given viewpoint (paper, §5). The circle is
+ * perpendicular to the line from the viewpoint to a target. The viewpoint itself is not among them.
+ * Use them with `PointCloud.visibleFromAny` and `PointCloud.visibleFromAtLeast`.
  *
  * @param viewpoint x, y, z.
- * @param target x, y, z of what is looked at, in the same units.
+ * @param target x, y, z of the place that the viewer looks at, in the same units.
  * @throws HprError `not-initialised`, `viewpoint` (for the target, too), `option`.
  */
 export function ringOfViewpoints(
@@ -42,15 +42,15 @@ export function ringOfViewpoints(
 }
 
 /**
- * The curvature up to which a pit's bottom is still found visible (paper, Lemma 4.3), in
- * one over the units of lengths:
+ * The largest curvature k of a pit whose bottom is still found visible (paper, Lemma 4.3), in the
+ * inverse of the unit of length:
  *
  * k < [4R(2R − r)·cot²β + 2Rr] / (4Rr − 4R² + (r − 2R)²/sin²β)^(3/2)
  *
  * @param R the radius of the flipping sphere.
  * @param r the point's distance from the viewpoint: 0 < r ≤ R.
- * @param beta the angle between the ray and the hull's plane at the *flipped* point, from
- *   0 to π; π/2 faces the viewer.
+ * @param beta the angle β between the ray and the hull's plane at the *flipped* point, from 0 to π.
+ *   With π/2, the plane faces the viewer.
  * @throws HprError `not-initialised`, `option`.
  */
 export function permissibleCurvature(R: number, r: number, beta: number): number {
@@ -60,11 +60,11 @@ export function permissibleCurvature(R: number, r: number, beta: number): number
 }
 
 /**
- * The radius R below which the back of a body stays hidden (paper, §4): thickness ·
- * distance² / spacing², for a back at that `distance` from the viewpoint and samples of
- * the front twice the `spacing` apart. A larger R sees the back between them.
+ * The radius R below which the back of a body stays hidden (paper, §4): thickness · distance² /
+ * spacing². The back of the body is at `distance` from the viewpoint, and the samples of its front lie
+ * twice the `spacing` apart. With a larger R, the back shows between the samples of the front.
  *
- * @throws HprError `not-initialised`; `option` for what is not positive and finite.
+ * @throws HprError `not-initialised`; `option` for a number that is not positive and finite.
  */
 export function radiusBound(thickness: number, distance: number, spacing: number): number {
   const instance = requireInstance();

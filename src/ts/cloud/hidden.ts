@@ -1,6 +1,9 @@
 import { allocating } from "../base/memory.js";
 
-/** Lists, after the first numbers of `order`, which ascend, all others below its length, ascending too. */
+/**
+ * Completes `order` to a list of all indices below its length. Its first `visible` numbers are given
+ * in ascending order. The others are written after them, also in ascending order.
+ */
 export function listHidden(order: Uint32Array, visible: number): void {
   const total = order.length;
   let at = visible;
@@ -13,8 +16,8 @@ export function listHidden(order: Uint32Array, visible: number): void {
 }
 
 /**
- * The indices of visible points, in memory where those of all others follow: in their own
- * where there is room.
+ * The indices of visible points, in memory where the indices of all other points follow. This is the
+ * same memory as before if it has room.
  */
 export function withHidden(indices: Uint32Array<ArrayBuffer>, length: number): Uint32Array<ArrayBuffer> {
   const order = fits(indices, length)
@@ -27,7 +30,7 @@ export function withHidden(indices: Uint32Array<ArrayBuffer>, length: number): U
   return order.subarray(0, indices.length);
 }
 
-/** What `withHidden` has listed: all indices, those of visible points first. */
+/** All indices that `withHidden` has listed. The indices of visible points come first. */
 export function orderIn(indices: Uint32Array<ArrayBuffer>, length: number): Uint32Array<ArrayBuffer> {
   return new Uint32Array(indices.buffer, indices.byteOffset, length);
 }

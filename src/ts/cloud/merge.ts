@@ -7,7 +7,7 @@ import { MAX_LENGTH, type Positions, positionsGone, readPositions, readViewpoint
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import { Kernel, type ResolvedInversion, Rule, type ViewSettings, viewSettings } from "../query/view-options.js";
 
-/** What is visible in one part of a cloud, or any more of that part. */
+/** The visible points of one part of a cloud. It may also contain hidden points of that part. */
 export interface VisiblePart {
   /** x, y, z of one point after another, in the units of the whole cloud. */
   positions: Positions;
@@ -15,12 +15,12 @@ export interface VisiblePart {
   ids: Uint32Array;
 }
 
-/** How all of the parts were seen. */
+/** How the views of all parts were computed. */
 export interface MergeOptions {
   /**
-   * R of the flipping sphere, in the cloud's units: the same for every part, and at
-   * least the distance of the farthest point. With an inversion by power its unit S.
-   * There is no default; only an exponential inversion has none.
+   * R of the flipping sphere, in the cloud's units. It is the same for every part, and at least the
+   * distance of the farthest point. With an inversion by power, this is its unit S. It must be
+   * given, except with an exponential inversion: there it must be left out.
    */
   radius?: number | undefined;
   /** How every part was flipped, with numbers only. Default `"spherical"`. */
@@ -28,19 +28,19 @@ export interface MergeOptions {
 }
 
 /**
- * Which points of a cloud are visible, from what is visible in its parts.
+ * Finds the visible points of a cloud from the visible points of its parts.
  *
- * However the cloud was divided: ask each part (a tile, a worker's share, a
- * server's) from one viewpoint with one radius and inversion, and bring only the
- * visible points together here. visible(A ∪ B) = visible(visible(A) ∪ visible(B)), exactly.
+ * The cloud may be divided in any way, for instance into tiles or among workers or servers. Ask each
+ * part from the same viewpoint with the same radius and inversion. Then pass only the visible points
+ * to this function. The answer is exact: visible(A ∪ B) = visible(visible(A) ∪ visible(B)).
  *
- * @param parts their positions and ids. Equal positions share one answer, in
- *   whichever parts they are.
- * @param viewpoint x, y, z that every part was seen from.
+ * @param parts their positions and ids. Points at equal positions are all visible or all hidden, also
+ *   if they are in different parts.
+ * @param viewpoint x, y, z of the viewpoint of every part.
  * @returns the ids of the visible points, ascending, each once.
  * @throws HprError `not-initialised`, `option`, `positions-type`,
- *   `positions-length` (also unless there is one id for each point), `non-finite`
- *   (its index counts through all parts), `viewpoint`, `radius`, `too-large`, `internal`.
+ *   `positions-length` (also if the numbers of ids and points differ), `non-finite` (its index
+ *   counts through all parts), `viewpoint`, `radius`, `too-large`, `internal`.
  */
 export function mergeVisible(
   parts: readonly VisiblePart[],
@@ -64,7 +64,7 @@ interface Points {
 }
 
 interface ReadPart extends Points {
-  /** How many points it had when it was read. */
+  /** The number of points when the part was read. */
   count: number;
 }
 
@@ -74,7 +74,7 @@ function readSettings(options: unknown): ViewSettings {
   if (settings.kernel === Kernel.automaticExponential) {
     throw new HprError("option", `inversion exponential must be the number that all parts were seen with, got "auto"`);
   }
-  // With a radius, too: the core says that the two exclude each other.
+  // A radius is also read with an exponential inversion: the core then refuses the two together.
   const needsRadius = settings.kernel !== Kernel.exponential || given["radius"] !== undefined;
   if (needsRadius && settings.rule !== Rule.radius) {
     throw new HprError(
@@ -109,7 +109,7 @@ function readPart(part: unknown, number: number): ReadPart {
     throw new HprError("option", `parts[${number}] must be { positions, ids }, got ${describe(part)}`);
   }
   const { positions, ids } = part as Partial<Record<"positions" | "ids", unknown>>;
-  // Before the ids: only positions in an array of their own kind have getters.
+  // Positions are read before the ids: only they can be an array-like object with getters.
   const ownPositions = readPositionsOf(number, positions);
   const ownIds = typedArrayType(ids) === "Uint32Array" ? plainView(ids as Uint32Array, Uint32Array) : undefined;
   if (ownIds === undefined) {
@@ -134,12 +134,12 @@ function readPositionsOf(number: number, positions: unknown): Float32Array | Flo
   }
 }
 
-/** Says which part a refusal is about. */
+/** The same error, with the number of the part in its message. */
 function inPart(number: number, cause: HprError): HprError {
   return new HprError(cause.code, `parts[${number}]: ${cause.message}`, { cause });
 }
 
-/** All parts as one, in single precision only where every part is. */
+/** All parts as one. It has single precision only if every part has. */
 function joined(parts: ReadPart[]): Points {
   const total = parts.reduce((sum, { count }) => sum + count, 0);
   if (3 * total > MAX_LENGTH) {

@@ -12,7 +12,7 @@ interface Target {
   handle: number;
   dimension: number;
   length: number;
-  /** Where there may be memory for the answer's indices. */
+  /** These may hold memory for the answer's indices. */
   spares: Spares;
 }
 
@@ -89,7 +89,7 @@ export function perform<K extends QueryKind>(target: Target, query: Query<K>): A
   return performers[query.kind](target, query);
 }
 
-/** What the core reads of a view's settings, and where it gets arrays from: the first for the indices. */
+/** A view's settings as the core reads them. The core calls `memory` for its arrays, first for the indices. */
 export function coreOptions(settings: ViewSettings, spares?: Spares) {
   let left = spares;
   const memory = (length: number) => {

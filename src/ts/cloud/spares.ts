@@ -1,11 +1,14 @@
-/** Two are in flight where the answer that is shown is given back for the next but one. */
+/**
+ * The number of buffers to keep. Two are in use by turns if an answer is recycled when the next one is
+ * shown.
+ */
 const USUAL = 2;
 
-/** Memory of answers that nobody reads any more, for answers to come. */
+/** The memory of answers that nobody reads any more. Later answers use it again. */
 export class Spares {
   readonly #buffers: ArrayBuffer[] = [];
 
-  /** Keeps the largest ones. */
+  /** Adds a buffer. Only the largest buffers are kept. */
   keep(buffer: ArrayBuffer | undefined): void {
     if (buffer !== undefined && buffer.byteLength > 0) {
       this.#buffers.push(buffer);
@@ -24,8 +27,8 @@ export class Spares {
 }
 
 /**
- * Room for so many indices: at the start of spare memory, where there is enough of it.
- * Where there was too little, the next answer may be a little longer still.
+ * Memory for `length` indices. The start of `spare` is used if it is large enough. If it is too small,
+ * new memory is made with some room to spare, since the next answer may be a little longer.
  */
 export function roomIn(spare: ArrayBuffer | undefined, length: number): Uint32Array<ArrayBuffer> {
   if (spare === undefined) {

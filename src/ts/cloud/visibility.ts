@@ -5,58 +5,59 @@ import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import type { ResolvedInversion } from "../query/view-options.js";
 
 /**
- * Which points are visible, from one viewpoint or several. The masks are made from `indices`
- * when they are asked for: what is written there shows in them, and once its
- * buffer has been recycled or transferred away the methods throw an HprError `disposed`.
+ * The points that are visible from one or several viewpoints. The masks are made from `indices` at
+ * each call, so a change of `indices` changes them. After the buffer of `indices` was recycled or
+ * transferred away, the methods throw an HprError `disposed`.
  */
 export interface Visibility extends ChosenRadius {
-  /** The visible points' indices, ascending: the caller's own copy. */
+  /** The indices of the visible points, ascending. This is the caller's own copy. */
   readonly indices: Uint32Array;
   /** How many points are visible. */
   readonly count: number;
   /**
-   * How the points were flipped, with numbers only: asked with it (and with the radius,
-   * if it is not exponential), any part of the cloud is flipped alike. With `looks` the
-   * scale c of each look, which tells how the answer was found, but is no option.
+   * How the points were flipped, with numbers only. With this inversion (and the radius, if it is not
+   * exponential) as options, the points of any part of the cloud are flipped in the same way. With
+   * `looks`, this holds the scale c of each look. That form is only information: it is not accepted as
+   * an option.
    */
   readonly inversion: ResolvedInversion;
-  /** Whether this is the final answer to what was asked: false only for drafts and samples. */
+  /** Whether this is the final answer to the question. False only for drafts and samples. */
   readonly exact: boolean;
   /**
-   * Only where the option `scores` asked for it: for each point of the cloud how likely it
-   * is visible, from 0 to 1, and 0 for those removed and skipped. The caller's own copy. A
-   * score need not be above ½ exactly where the point is visible; with `vote` it is that of
-   * the answer before the vote.
+   * How likely it is that each point of the cloud is visible, from 0 to 1. Only with the option
+   * `scores`. The score of removed and skipped points is 0. A visible point may have a score below ½,
+   * and a hidden point a score above ½. With `vote`, the scores are those of the answer before the
+   * vote. This is the caller's own copy.
    */
   readonly scores?: Float32Array;
   /** One byte for each point of the cloud: 1 visible, 0 hidden. */
   mask(): Uint8Array;
   /**
-   * Writes the mask to the start of `target`, which must hold at least one byte
-   * for each point of the cloud.
+   * Writes the mask to the start of `target`, which must have room for one byte for each point of the
+   * cloud.
    *
-   * @throws HprError `option` if it does not.
+   * @throws HprError `option` if `target` is too short.
    */
   maskInto(target: Uint8Array): void;
   /**
-   * Writes the indices to the start of `target`, which must hold at least
-   * `count` numbers. Returns `count`.
+   * Writes the indices to the start of `target`, which must have room for `count` numbers. Returns
+   * `count`.
    *
-   * @throws HprError `option` if it does not.
+   * @throws HprError `option` if `target` is too short.
    */
   indicesInto(target: Uint32Array): number;
 }
 
-/** What is visible from a viewpoint, as a mesh. */
+/** The visible points of a view, and the mesh between them. */
 export interface Reconstruction extends Visibility {
   /**
-   * Three indices a triangle, counter-clockwise seen from the viewpoint; of equal points
-   * the lowest index. The caller's own copy.
+   * Three indices for each triangle, counter-clockwise as seen from the viewpoint. The lowest index
+   * stands for equal points. This is the caller's own copy.
    */
   readonly triangles: Uint32Array;
 }
 
-/** The answer to one query: numbers in JavaScript's own memory, with no tie to the wasm. */
+/** The answer to one query. Its numbers are in JavaScript's own memory, independent of the wasm. */
 export class VisibilityAnswer implements Visibility {
   readonly indices: Uint32Array;
   readonly count: number;
@@ -69,9 +70,9 @@ export class VisibilityAnswer implements Visibility {
   readonly #cloudLength: number;
 
   /**
-   * Takes the memory of an answer's indices away from everybody who still looks at them.
+   * Takes the memory of an answer's indices away. Nobody can read these indices after that.
    *
-   * @throws HprError `option` for what is no answer of a cloud.
+   * @throws HprError `option` for a value that is not an answer of a cloud.
    */
   static takeMemory(answer: unknown): ArrayBuffer | undefined {
     if (typeof answer !== "object" || answer === null || !(#cloudLength in answer)) {
@@ -81,7 +82,7 @@ export class VisibilityAnswer implements Visibility {
       const { buffer } = answer.indices;
       return structuredClone(buffer as ArrayBuffer, { transfer: [buffer as ArrayBuffer] });
     } catch {
-      // Gone already: recycled before, or transferred away.
+      // The memory is gone already: recycled before, or transferred away.
       return undefined;
     }
   }

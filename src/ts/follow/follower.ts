@@ -8,7 +8,8 @@ export interface Round<Answer = unknown> {
   /**
    * Takes the answer up. An error that it throws is a refusal.
    *
-   * @returns the function that tells the listeners. It is called when the next round has begun, for listeners may throw.
+   * @returns the function that informs the listeners. It is called after the next round has begun,
+   *   because listeners may throw.
    */
   use(answer: Answer): (() => void) | undefined;
   /** Whether an error means that the question was given up. This is no refusal. */
@@ -21,7 +22,7 @@ export interface Round<Answer = unknown> {
 export interface Course {
   /** The round that is due now: always about the newest view. Undefined if nothing is to be asked. */
   next(): Round | undefined;
-  /** A question was refused. `again`: so was the one before, and nothing has been answered since. */
+  /** A question was refused. `again`: the question before was refused, too, and nothing has been answered since. */
   refused(error: Error, again: boolean): void;
   /**
    * The worker was lost: drop all that was made in it. `isComingBack`: the next round begins without
@@ -65,7 +66,7 @@ export class Follower {
     return this.#recovery.isLost;
   }
 
-  /** Whether something is on its way, be it only another worker. */
+  /** Whether a round or another worker is on its way. */
   get isWaiting(): boolean {
     return this.#isBusy || this.#recovery.isUnderWay;
   }
@@ -73,7 +74,8 @@ export class Follower {
   /**
    * Begins the next round. If one is on its way, the next one begins when it ends.
    *
-   * @throws what the question is refused with at once, if `throws`. Otherwise this is told.
+   * @throws the error of a question that is refused at once, if `throws` is true. Otherwise the course
+   *   hears of this error.
    */
   follow(throws = false): void {
     if (this.#isBusy || this.#isStopped || this.isLost) {
@@ -110,19 +112,19 @@ export class Follower {
     );
   }
 
-  /** As `follow`, in each frame in which an answer is wanted: also brings back what was lost. */
+  /** As `follow`, but also brings back a lost worker. To be called in each frame in which an answer is wanted. */
   wish(isNew: boolean): void {
     this.#recovery.wish(isNew);
     this.follow();
   }
 
-  /** To be called when an answer is taken up: the next refusal is told again. */
+  /** To be called when an answer is taken up. The next refusal does not count as `again`. */
   answered(): void {
     this.#isRefused = false;
     this.#recovery.answered();
   }
 
-  /** Something was refused, in a round or outside. */
+  /** To be called when something was refused, in a round or outside. */
   refuse(thrown: unknown): void {
     if (this.#isStopped) {
       return;
@@ -140,7 +142,7 @@ export class Follower {
     this.#course.refused(error, again);
   }
 
-  /** Nothing is asked or told any more. */
+  /** Ends the following. After that, nothing is asked or reported. */
   stop(): void {
     this.#isStopped = true;
     this.#recovery.stop();
@@ -162,7 +164,10 @@ export class Follower {
     tell?.();
   }
 
-  /** Goes on by itself: where frames are drawn on demand, there may be no other. */
+  /**
+   * Reports the error and begins the next round. It does not wait for the next frame: if frames are
+   * drawn on demand, there may be none.
+   */
   #fail(round: Round, error: unknown): void {
     try {
       if (round.isGivenUp?.(error) !== true) {

@@ -16,8 +16,8 @@ export class Readiness {
   }
 
   /**
-   * An error that nobody is told of in another way becomes an unhandled rejection, also when the
-   * promise is settled already.
+   * Rejects the promise. If nobody hears of the error in another way (`isTold`), it becomes an
+   * unhandled rejection, even if the promise is settled already.
    */
   reject(error: Error, isTold: boolean): void {
     if (isTold) {

@@ -41,7 +41,7 @@ export class Recovery {
     return this.#timer !== undefined;
   }
 
-  /** Tells whether an error means that the cloud is lost. The caller must drop it then. */
+  /** Returns whether an error means that the cloud is lost. Then the caller must drop the cloud. */
   notices(error: Error): boolean {
     if (!(error instanceof HprError) || error.code !== "internal") {
       return false;

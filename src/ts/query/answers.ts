@@ -3,24 +3,24 @@ import type { ResolvedInversion } from "./view-options.js";
 /** How a radius was chosen. */
 export interface ChosenRadius {
   /**
-   * R, the radius of the flipping sphere in the cloud's units; 0 where no point
-   * is away from the viewpoint. With an inversion by power its unit S, with an
-   * exponential one 0.
+   * R, the radius of the flipping sphere, in the cloud's units. It is 0 if no point is away from
+   * the viewpoint. With an inversion by power, this is its unit S. With an exponential inversion,
+   * this is 0.
    */
   readonly radius: number;
-  /** log₁₀(R ÷ farthest distance), the paper's parameter; 0 where there is no R. */
+  /** log₁₀(R ÷ farthest distance), the paper's parameter. It is 0 if there is no R. */
   readonly exponent: number;
-  /** Hulls computed to choose R, the final one not counted. */
+  /** The number of hulls computed to choose R, without the final hull. */
   readonly evaluations: number;
 }
 
-/** What is visible, with the length of the cloud that was asked. */
+/** The visible points, with the length of the cloud. */
 export interface Found extends ChosenRadius {
   indices: Uint32Array<ArrayBuffer>;
   inversion: ResolvedInversion;
   exact: boolean;
   length: number;
-  /** Where they were asked for. */
+  /** Undefined unless the option `scores` asked for them. */
   scores?: Float32Array<ArrayBuffer>;
 }
 

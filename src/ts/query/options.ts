@@ -1,21 +1,22 @@
 import { describe, HprError, typeTag } from "../base/errors.js";
 
-/** How a cloud's positions are to be read. */
+/** How the positions of a cloud are read. */
 export interface PointCloudOptions {
   /**
-   * Coordinates of a point: 3; 2, for clouds in a plane, whose answers are as exact; or
-   * from 4 to 64, in double precision and with a tolerance of 10⁻¹⁰. Default 3.
+   * The number of coordinates of a point, from 2 to 64. Use 2 for clouds in a plane: their answers
+   * are as exact as with 3. From 4 on, the cloud has double precision and a tolerance of 10⁻¹⁰.
+   * Default 3.
    */
   dimension?: number | undefined;
   /**
-   * Numbers from the start of one point to the start of the next, at least the
-   * dimension; those after a point's coordinates are skipped. Default: the dimension.
+   * How many numbers there are from the start of one point to the start of the next. This is at
+   * least the dimension. The numbers after a point's coordinates are skipped. Default: the
+   * dimension.
    */
   stride?: number | undefined;
   /**
-   * What becomes of points with a NaN or infinite coordinate: `"error"` refuses
-   * the cloud, `"skip"` keeps their indices, but they are never visible and hide
-   * nothing. Default `"error"`.
+   * How to treat points with a NaN or infinite coordinate. `"error"` refuses the cloud. `"skip"`
+   * keeps their indices, but these points are never visible and hide nothing. Default `"error"`.
    */
   nonFinite?: "error" | "skip" | undefined;
 }
@@ -27,7 +28,7 @@ export interface CloudSettings {
   skipNonFinite: boolean;
 }
 
-/** What changes with the points of a cloud, and can be asked of it. */
+/** The public properties of a cloud that change with its points. */
 export interface CloudSize {
   length: number;
   skipped: number;
@@ -36,21 +37,21 @@ export interface CloudSize {
 
 export const CLOUD_OPTIONS = ["dimension", "stride", "nonFinite"] as const;
 
-/** A greater one would not fit into the core's memory. */
+/** A larger stride would not fit into the core's memory. */
 const MAX_STRIDE = 2 ** 32 - 1;
 const MAX_DIMENSION = 64;
 
 /**
- * The options that were really given, those that are `undefined` left out.
- * Refuses what is in none of the groups of names. Has no prototype, so that
- * nothing but what was given can be read from it.
+ * Returns the options that were given, without those that are `undefined`. Refuses a name that is
+ * in none of the groups. The returned object has no prototype, so it has no properties besides
+ * the given options.
  */
 export function givenOptions(options: unknown, ...groups: readonly (readonly string[])[]): Record<string, unknown> {
   const given = Object.create(null) as Record<string, unknown>;
   if (options === undefined) {
     return given;
   }
-  // The tag refuses arrays, maps, promises and the like, whose contents would be ignored.
+  // The tag refuses arrays, maps, promises and similar objects: their contents would be ignored.
   if (typeof options !== "object" || options === null || typeTag(options) !== "Object") {
     throw new HprError("option", `the options must be a plain object, got ${describe(options)}`);
   }
@@ -69,16 +70,16 @@ export function givenOptions(options: unknown, ...groups: readonly (readonly str
 }
 
 /**
- * What an object and its prototypes define: the known names, and whatever else
- * can be enumerated. Not what `Object.prototype` defines, which every object
- * inherits and no caller means.
+ * The names that an object and its prototypes define: the known names, and all others that are
+ * enumerable. The names that `Object.prototype` defines are left out: every object inherits them,
+ * and no caller means them.
  */
 function namesIn(options: object, known: readonly string[]): Set<string | symbol> {
   const names = new Set<string | symbol>();
   let level: object | null = options;
   while (level !== null) {
     const next = Object.getPrototypeOf(level) as object | null;
-    // That of another frame, too.
+    // This also recognizes the `Object.prototype` of another frame.
     if (next === null && Object.hasOwn(level, "isPrototypeOf")) {
       break;
     }
@@ -93,7 +94,7 @@ function namesIn(options: object, known: readonly string[]): Set<string | symbol
   return names;
 }
 
-/** Those of the given options that are in one group of names. */
+/** The given options whose names are in one group. */
 export function pick(given: Record<string, unknown>, names: readonly string[]): Record<string, unknown> {
   const picked = Object.create(null) as Record<string, unknown>;
   for (const name of names) {
@@ -124,7 +125,7 @@ export function integer(given: Record<string, unknown>, name: string, least: num
   return value as number;
 }
 
-/** An option that is a number, if it was given. Its range is the core's to check. */
+/** An option that is a number, if it was given. The core checks its range. */
 export function number(given: Record<string, unknown>, name: string): number | undefined {
   const value = given[name];
   if (value !== undefined && typeof value !== "number") {
@@ -133,7 +134,7 @@ export function number(given: Record<string, unknown>, name: string): number | u
   return value;
 }
 
-/** An option that is true or false; false where it was not given. */
+/** An option that is true or false. It is false if it was not given. */
 export function flag(given: Record<string, unknown>, name: string): boolean {
   const value = given[name] ?? false;
   if (typeof value !== "boolean") {

@@ -3,21 +3,21 @@ import { allocating } from "../base/memory.js";
 import { isNumberArray, type NumberArray, plainNumbers, typedArrayType } from "../base/typed-arrays.js";
 
 /**
- * Coordinates of points, x, y, z after one another. A Float32Array is kept in
- * single precision. Any other typed array of numbers, or array of numbers, is read in
- * double precision; arrays of BigInts and of 16-bit floats are refused. Views of a
- * SharedArrayBuffer are accepted. The positions are always copied.
+ * The coordinates of points: x, y, z of one point after another. A Float32Array is kept in single
+ * precision. Any other typed array of numbers, or array of numbers, is read in double precision.
+ * Arrays of BigInts and of 16-bit floats are refused. Views of a SharedArrayBuffer are accepted.
+ * The positions are always copied.
  */
 export type Positions = NumberArray | ArrayLike<number>;
 
-/** The core's limit, known here so that nothing is copied in vain. */
+/** The core's limit. It is checked here, too, before anything is copied. */
 export const MOST_POINTS = 2 ** 28;
-/** A 32-bit memory cannot address more. */
+/** The largest length of an array: a 32-bit memory cannot address more. */
 export const MAX_LENGTH = 2 ** 32 - 1;
 
 /**
- * Positions in a form that wasm can copy from: a plain view of the memory of the
- * caller's own array of floats, or a new array.
+ * Positions in a form that wasm can copy from. If the caller's array is an array of floats, this is
+ * a plain view of its memory. Otherwise it is a new array.
  */
 export function readPositions(positions: unknown, stride: number): Float32Array | Float64Array {
   if (isNumberArray(positions)) {
@@ -29,22 +29,22 @@ export function readPositions(positions: unknown, stride: number): Float32Array 
       : allocating(`${numbers.length} coordinates`, () => new Float64Array(numbers));
   }
   const numbers = fromArrayLike(positions, stride);
-  // Only now: that [[1, 2, 3]] is nested says more than its length.
+  // The length is checked last: for [[1, 2, 3]], an error about the nesting says more.
   checkMultiple(numbers.length, stride);
   return numbers;
 }
 
 /**
- * Coordinates that a point has in the core: a cloud in the plane is one in space with
- * z = 0, where the same operations round alike.
+ * The number of coordinates that a point has in the core. The core reads a cloud in a plane as a
+ * cloud in space with z = 0. This does not change any rounding.
  */
 export function coreDimension(dimension: number): number {
   return Math.max(dimension, 3);
 }
 
 /**
- * The coordinates of every `stride` numbers, which is all that the core reads, in the
- * core's own dimension, beyond three in double precision.
+ * The coordinates in the core's own dimension, without the numbers that the stride skips. The core
+ * reads nothing else. Above three dimensions, they are in double precision.
  */
 export function packed(
   numbers: Float32Array | Float64Array,
@@ -72,8 +72,8 @@ export function packed(
 }
 
 /**
- * A viewpoint's coordinates, in the core's dimension. Whether they are finite is the
- * core's to check, which does not know that a plane has two.
+ * A viewpoint's coordinates, in the core's dimension. Their number is checked here, since the core
+ * does not know that a plane has two. The core checks that they are finite.
  */
 export function readViewpoint(viewpoint: unknown, dimension: number, name = "viewpoint"): number[] {
   const length = lengthOf(viewpoint);
@@ -81,7 +81,7 @@ export function readViewpoint(viewpoint: unknown, dimension: number, name = "vie
     const got = length === undefined ? describe(viewpoint) : `${length} of them`;
     throw new HprError("viewpoint", `the ${name} must be ${dimension} numbers, got ${got}`);
   }
-  // Read once each: a getter may change its mind.
+  // Each is read only once: a getter may return another value the next time.
   const coordinates = Array.from({ length }, (_, axis) => (viewpoint as ArrayLike<unknown>)[axis]);
   if (!coordinates.every((x) => typeof x === "number")) {
     throw new HprError(
@@ -98,7 +98,7 @@ export function readViewpoint(viewpoint: unknown, dimension: number, name = "vie
   return coordinates;
 }
 
-/** The coordinates of several viewpoints, one after another. Refusals say which one. */
+/** The coordinates of several viewpoints, one after another. An error says which viewpoint it is about. */
 export function readViewpoints(viewpoints: unknown, dimension: number, name: string): Float64Array<ArrayBuffer> {
   if (!Array.isArray(viewpoints)) {
     throw new HprError(
@@ -112,7 +112,7 @@ export function readViewpoints(viewpoints: unknown, dimension: number, name: str
   return allocating(`${lists.length} viewpoints`, () => Float64Array.from(lists.flat()));
 }
 
-/** Indices of points to remove, copied. Whether the cloud has them is the core's to check. */
+/** A copy of the indices of points to remove. The core checks that the cloud has these points. */
 export function readIndices(indices: unknown): Uint32Array<ArrayBuffer> {
   const length = lengthOf(indices);
   if (length === undefined) {
@@ -188,7 +188,7 @@ function fromArrayLike(positions: unknown, stride: number): Float64Array {
   return numbers;
 }
 
-/** The length of what can be read like an array, asked for once: a getter may change its mind. */
+/** The length of an array or of an object like one. Read only once: a getter may return another value later. */
 function lengthOf(value: unknown): number | undefined {
   if (typeof value !== "object" || value === null || !("length" in value)) {
     return undefined;

@@ -12,11 +12,12 @@ import {
   type VisibilityOptions,
 } from "./view-options.js";
 
-/** How a mesh is made of one view. */
+/** How a mesh is made from one view. */
 export interface ReconstructionOptions extends VisibilityOptions {
   /**
-   * The longest edge that a triangle may have, in the cloud's units, between its points
-   * where they are; `Infinity` keeps all. Default: 5 times the cloud's spacing.
+   * The longest edge that a triangle may have, in the cloud's units. Edges are measured between the
+   * given positions of the points. `Infinity` keeps all triangles. Default: 5 times the cloud's
+   * spacing.
    */
   maxEdge?: number | undefined;
 }
@@ -24,34 +25,34 @@ export interface ReconstructionOptions extends VisibilityOptions {
 /** How light is spread. */
 export interface IlluminationOptions extends VisibilityOptions {
   /**
-   * The mesh whose vertices the points are, three indices a triangle: shadows are
-   * softened along its edges. Without it among the 6 nearest points.
+   * A mesh with the points as its vertices: three indices for each triangle. Shadows are softened
+   * along its edges. Without a mesh, they are softened over the 6 nearest points.
    */
   triangles?: Uint32Array | undefined;
   /**
-   * So many times every point takes the mean of itself and its neighbors: an integer
-   * from 0 to 1000. Default 1.
+   * How many times the light is softened: an integer from 0 to 1000. Each time, every point takes
+   * the mean of itself and its neighbors. Default 1.
    */
   smoothing?: number | undefined;
   /** The brightness that no shadow takes away, from 0 to 1. Default 0. */
   ambient?: number | undefined;
 }
 
-/** Which part of a view is asked for, where several workers share it: number 0 to count − 1. */
+/** The part of a view that one of several workers computes. `number` is from 0 to `count` − 1. */
 export interface Sector {
   number: number;
   count: number;
 }
 
 /**
- * What can be asked of a cloud, by kind: arguments read, copied and checked for type.
- * Points have as many coordinates as the core's own (see `coreDimension`).
+ * The questions to a cloud, by kind. Their arguments are read, copied and checked for type. Their
+ * points have the core's number of coordinates (see `coreDimension`).
  */
 export interface Questions {
-  /** `divisible`: worth being divided into sectors. */
+  /** `divisible`: whether the view can be divided into sectors, and gains by it. */
   visibleFrom: { viewpoint: number[]; settings: ViewSettings; divisible: boolean; sector?: Sector };
   visibleFromDirection: { direction: number[]; settings: ViewSettings };
-  /** From at least `k` of the viewpoints, one after another. */
+  /** Asks for points visible from at least `k` of the viewpoints. These are stored one after another. */
   visibleFromSeveral: { viewpoints: Float64Array<ArrayBuffer>; k: number; settings: ViewSettings };
   autoRadius: { viewpoint: number[]; settings: ViewSettings };
   reconstruct: { viewpoint: number[]; settings: ViewSettings; maxEdge: number | undefined };
@@ -67,7 +68,8 @@ export interface Questions {
 export type QueryKind = keyof Questions;
 export type Query<K extends QueryKind = QueryKind> = { [P in K]: { kind: P } & Questions[P] }[K];
 
-// `given` are options already gathered, under the names of these lists: a worker has more.
+// In the functions below, `given` holds options whose names were checked against these lists. A worker
+// accepts more names.
 
 export const RECONSTRUCTION_OPTIONS = [...VIEW_OPTIONS, "maxEdge"] as const;
 export const ILLUMINATION_OPTIONS = [...VIEW_OPTIONS, "triangles", "smoothing", "ambient"] as const;
@@ -77,8 +79,8 @@ type GivenOptions = Record<string, unknown>;
 export function viewQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"visibleFrom"> {
   const position = readViewpoint(viewpoint, dimension);
   const settings = viewSettings(given, dimension);
-  // Votes, moved points and other inversions have no bounds that hold from far away; drafts
-  // and samples take one worker little time.
+  // Votes, moved points and other inversions have no bounds that hold from far away. Drafts and
+  // samples are not divided because one worker computes them in little time.
   const { kernel, denoise, vote, draft, sample } = settings;
   const isPlain = kernel === 0 && denoise === 0 && vote === 0 && !draft && sample === 0;
   const divisible = dimension === 3 && isPlain;
@@ -95,7 +97,7 @@ export function directionQuery(
   return { kind: "visibleFromDirection", direction: ahead, settings: viewSettings(given, dimension) };
 }
 
-/** From at least `k` of the viewpoints; without `k` from any. */
+/** Asks for points visible from at least `k` of the viewpoints. Without `k`, from at least one. */
 export function severalQuery(
   dimension: number,
   viewpoints: unknown,
@@ -145,7 +147,7 @@ export function illuminationQuery(dimension: number, lights: unknown, given: Giv
 /** The core's limit. */
 const MOST_ROUNDS = 1000;
 
-/** Copied. Whether the cloud has such indices is checked when it is asked. */
+/** A copy of the triangles. Their indices are checked later, when the cloud is asked. */
 function readTriangles(triangles: unknown): Uint32Array<ArrayBuffer> | undefined {
   if (triangles === undefined) {
     return undefined;

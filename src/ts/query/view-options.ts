@@ -2,75 +2,82 @@ import { describe, HprError } from "../base/errors.js";
 import { flag, givenOptions, integer, number } from "./options.js";
 import { MOST_POINTS } from "./positions.js";
 
-/** How the radius R is chosen where it is not given. */
+/** How the radius R is chosen if it is not given. */
 export type RadiusRule = "auto" | "search" | "opposite";
 
 /**
- * How points are flipped (paper, §3): `"spherical"`, 2R − d; `{ power: γ }`, with
- * 1 < γ ≤ 16, d·(d/S)^−γ, where S is `radius` or else the farthest distance and fixes
- * the rounding only; `{ exponential: c }`, exp(c/d), c in the cloud's units and positive,
- * which is 0.07 of the cloud's spacing for `"auto"`.
+ * How points are flipped (paper, §3). A point at distance d from the viewpoint moves to the distance
+ *
+ * - 2R − d with `"spherical"`;
+ * - d·(d/S)^−γ with `{ power: γ }`, where 1 < γ ≤ 16. S is `radius` if it is given, otherwise the
+ *   farthest distance. S affects only the rounding;
+ * - exp(c/d) with `{ exponential: c }`, where c is positive and in the cloud's units. With `"auto"`,
+ *   c is 0.07 of the cloud's spacing.
  */
 export type Inversion = "spherical" | { power: number } | { exponential: number | "auto" };
 
 /**
- * An inversion with numbers only, as an answer tells it; or the c of each look, from tight to
- * loose, which is no option: `looks` asks for it.
+ * The inversion of an answer, with numbers only. With `looks`, it holds the c of each look, from
+ * tight to loose. This last form is not accepted as an option: use the option `looks` for it.
  */
 export type ResolvedInversion =
   "spherical" | { readonly power: number } | { readonly exponential: number } | { readonly looks: readonly number[] };
 
 /**
- * How one view is computed. At most one of `radius` and `exponent` may be given. With an
- * inversion by `power`, `radius` may be a number, with `exponential` neither is allowed.
- * `looks` excludes all three.
+ * How one view is computed. At most one of `radius` and `exponent` may be given. With an inversion by
+ * `power`, `radius` may be a number, but `exponent` is not allowed. With `exponential`, neither of the
+ * two is allowed. `looks` excludes `radius`, `exponent` and `inversion`.
  */
 export interface VisibilityOptions {
   /**
-   * R, the radius of the sphere that points are flipped about (paper, §3.1, eq. 1), in
-   * the cloud's units: finite, and at least the distance of the farthest point. Or how it
-   * is chosen: `"auto"`, the default, from the cloud's spacing and the viewpoint;
-   * `"search"` by antipodal search, which takes six hulls; `"opposite"` by the paper's own
-   * rule (§4), some 40 hulls, mostly far too large in perspective.
+   * R, the radius of the sphere that points are flipped about (paper, §3.1, eq. 1), in the cloud's
+   * units. It is finite, and at least the distance of the farthest point. Instead of a number, this
+   * can be the rule that chooses R:
+   *
+   * - `"auto"`, the default, chooses R from the cloud's spacing and the viewpoint.
+   * - `"search"` chooses R by antipodal search, which takes six hulls.
+   * - `"opposite"` is the paper's own rule (§4), which takes about 40 hulls. In perspective, its R is
+   *   mostly far too large.
    */
   radius?: number | RadiusRule | undefined;
-  /** R = farthest distance · 10^exponent, the paper's own parameter; at least 0. */
+  /** R = farthest distance · 10^exponent, the paper's own parameter. It is at least 0. */
   exponent?: number | undefined;
-  /** How points are flipped; default `"spherical"`. */
+  /** How points are flipped. Default `"spherical"`. */
   inversion?: Inversion | ResolvedInversion | undefined;
   /**
-   * For noisy clouds: before everything else, each point is projected on the
-   * least-squares plane of itself and so many nearest others, at least 1 and less than
-   * the number of points. Indices and the caller's positions stay.
+   * For noisy clouds. Before everything else, each point is projected on the least-squares plane of
+   * itself and its nearest neighbors. This is the number of neighbors: at least 1, and less than the
+   * number of points. Indices and the caller's positions stay.
    */
   denoise?: number | undefined;
   /**
-   * For noisy clouds: a point is visible when more than 0.4 of it and so many nearest
-   * others are; at least 1 and less than the number of points.
+   * For noisy clouds. A point is visible if more than 0.4 of the group of itself and its nearest
+   * neighbors are visible. This is the number of neighbors: at least 1, and less than the number of
+   * points.
    */
   vote?: number | undefined;
   /**
-   * Two or three looks instead of one flip: exact hulls of exp(c/d), c from large to small
-   * in the cloud's spacing, each of which decides only what it is sure of. Truer where the
-   * sampling is uneven and around silhouettes, for about three times the time, but no longer
-   * the operator of the paper: of several points on one ray more than the nearest may be
-   * visible, and parts cannot be merged. Needs a cloud of dimension 3.
+   * Uses two or three looks instead of one flip. Each look is an exact hull of exp(c/d), and decides
+   * only the points that it is sure of. The scale c goes from large to small, in units of the cloud's
+   * spacing. The answer is truer around silhouettes and if the sampling is uneven, but takes about
+   * three times as long. It is no longer the operator of the paper: several points on one ray may be
+   * visible, not only the nearest, and parts cannot be merged. Needs a cloud of dimension 3.
    */
   looks?: 2 | 3 | undefined;
-  /** With `looks`: how sure the answer is, too, as `scores`. For one viewpoint only. */
+  /** Only with `looks`: the answer also has `scores`, which say how sure it is. For one viewpoint only. */
   scores?: boolean | undefined;
   /**
-   * An early answer, in about half of the time: it contains all that is visible, and some
-   * of what is hidden. What it leaves out is hidden for certain. Radius and inversion are
-   * the exact answer's. The same view asked without `draft` next goes on from it. Not with
-   * `radius: "search"` or `"opposite"`, and neither for `reconstruct` nor `illuminate`.
-   * Default false.
+   * Asks for an early answer, in about half of the time. It contains all visible points and some
+   * hidden ones. The points that it leaves out are certainly hidden. Its radius and inversion are
+   * those of the exact answer. If the next question is the same view without `draft`, its
+   * computation goes on from the draft. Not allowed with `radius: "search"` or `"opposite"`, nor for
+   * `reconstruct` and `illuminate`. Default false.
    */
   draft?: boolean | undefined;
   /**
-   * Only an even sample of about so many points takes part: the answer is that of a cloud of
-   * the sampled points alone, its own spacing and farthest distance included. The sample
-   * depends on the set of points only; a smaller one is part of a larger one. At least 1.
+   * Uses only an even sample of about this number of points, at least 1. The answer is the same as
+   * for a cloud of only the sampled points, with that cloud's spacing and farthest distance. The
+   * sample depends only on the set of points. A smaller sample is part of a larger one.
    */
   sample?: number | undefined;
 }
@@ -79,18 +86,18 @@ export interface VisibilityOptions {
 export interface ViewSettings {
   /** A number of {@link Rule}. */
   rule: number;
-  /** R or the exponent, where one is given. */
+  /** R or the exponent, if one is given. */
   size: number;
   /** A number of {@link Kernel}. */
   kernel: number;
-  /** γ or c, where one is given, or how many looks. */
+  /** γ or c, if one is given, or the number of looks. */
   parameter: number;
-  /** Neighbors; 0 for none. */
+  /** The number of neighbors. 0 means no denoising. */
   denoise: number;
   vote: number;
   scores: boolean;
   draft: boolean;
-  /** How many points; 0 for all. */
+  /** The number of sampled points. 0 means all points. */
   sample: number;
 }
 
@@ -109,7 +116,7 @@ export const VIEW_OPTIONS = [
   "sample",
 ] as const;
 
-/** Types only: ranges are the core's to check, which knows the distances. */
+/** Reads the options and checks their types. The core checks the ranges, since it knows the distances. */
 export function viewSettings(given: Record<string, unknown>, dimension: number): ViewSettings {
   return {
     ...chosenRadius(given),
@@ -140,7 +147,7 @@ export function ruleSettings(rule: unknown): ViewSettings {
   };
 }
 
-/** What an answer to such a view says of its inversion; `scales` are the c that were used. */
+/** The inversion in the answer to a view with these settings. `scales` are the values of c that were used. */
 export function resolvedInversion({ kernel, parameter }: ViewSettings, scales: readonly number[]): ResolvedInversion {
   switch (kernel) {
     case Kernel.power:
@@ -155,7 +162,7 @@ export function resolvedInversion({ kernel, parameter }: ViewSettings, scales: r
   }
 }
 
-/** Refuses what makes sense in three dimensions alone. In the crate's words. */
+/** Refuses an option or method that works only in three dimensions. The message is the crate's. */
 export function requireSpace(what: string, dimension: number): void {
   if (dimension !== 3) {
     throw new HprError("option", `${what} needs a cloud of dimension 3, not ${dimension}`);
@@ -180,7 +187,7 @@ function chosenRadius(given: Record<string, unknown>): Pick<ViewSettings, "rule"
   return { rule: Rule[radius ?? "auto"], size: 0 };
 }
 
-/** How many looks, where they are asked for. */
+/** The settings for `looks`, if the option is given. */
 function chosenLooks(
   given: Record<string, unknown>,
   dimension: number,
@@ -237,7 +244,7 @@ function chosenInversion(inversion: unknown): Pick<ViewSettings, "kernel" | "par
   return { kernel: Kernel.exponential, parameter: exponential };
 }
 
-/** Refusals say which option they are about. */
+/** Reads an inversion that is an object. Its errors name the option `inversion`. */
 function givenInversion(inversion: unknown): Record<string, unknown> {
   try {
     return givenOptions(inversion, ["power", "exponential"]);
@@ -246,7 +253,7 @@ function givenInversion(inversion: unknown): Record<string, unknown> {
   }
 }
 
-/** The core, which knows how many points are present, allows fewer; it could not say a greater number. */
+/** The number of neighbors. The core checks it again: only the core knows how many points are present. */
 function neighbors(given: Record<string, unknown>, name: "denoise" | "vote", dimension: number): number {
   if (given[name] === undefined) {
     return 0;
@@ -263,7 +270,7 @@ function wantsDraft(given: Record<string, unknown>, dimension: number): boolean 
   return draft;
 }
 
-/** 0 where all points take part. */
+/** The size of the sample. 0 means that all points take part. */
 function sampled(given: Record<string, unknown>, dimension: number): number {
   if (given["sample"] === undefined) {
     return 0;
@@ -272,7 +279,7 @@ function sampled(given: Record<string, unknown>, dimension: number): number {
   return integer(given, "sample", 1, MOST_POINTS) ?? 0;
 }
 
-/** Refuses what higher dimensions have not. In the crate's words. */
+/** Refuses an option that needs at most three dimensions. The message is the crate's. */
 function requireLow(what: string, dimension: number): void {
   if (dimension > 3) {
     requireSpace(what, dimension);

@@ -65,7 +65,7 @@ function create(): Worker {
  * The address of the worker's script, wherever a bundler has put it. Undefined where `Worker`
  * cannot be replaced.
  *
- * Bundlers rewrite the call in `create`, and nothing else tells the address. So this makes the call
+ * Bundlers rewrite the call in `create`, and nothing else gives the address. So this makes the call
  * once with a constructor that only notes the address. The global is replaced for that one
  * synchronous call and put back. There are ways without this, and each is worse:
  *

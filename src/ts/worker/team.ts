@@ -121,7 +121,7 @@ export class Team {
     }
   }
 
-  /** The team needs all of its members: each holds only its part of every view. */
+  /** The team needs all of its members: each answers only its part of a view. */
   #died(cause: unknown): void {
     if (!this.#over) {
       this.#over = true;
