@@ -22,9 +22,9 @@ import { askView, type ViewAnswer } from "./views.ts";
 import type { WorkerCloud } from "./worker-cloud.ts";
 
 export interface TimedView extends ViewAnswer {
-  /** Whether it is a quick substitute for a slower answer while something moves. */
+  /** Whether this is a quick answer in place of a slower one, because something moves. */
   quick: boolean;
-  /** The time of the question (performance.now), and the duration of the answer after its turn came. */
+  /** The time of the question (performance.now), and how long the answer took, without the time of waiting. */
   asked: number;
   milliseconds: number;
 }
@@ -73,26 +73,26 @@ export class Inquiry {
   #freeSince = 0;
   #upToDate = false;
 
-  /** `another` makes the same cloud once more, for slow questions. */
+  /** `another` makes a second copy of the cloud, for slow questions. */
   constructor(cloud: WorkerCloud, another: () => Promise<WorkerCloud>, size: number) {
     this.#cloud = cloud;
     this.#second = new SecondCloud(another);
     this.#size = size;
   }
 
-  /** Whether the answer to the last question is still to come. */
+  /** Whether the last question still waits for its answer. */
   get busy(): boolean {
     return !this.#upToDate;
   }
 
-  /** The first answer, before anything is shown. */
+  /** Returns the first answer. Nothing is shown before it. */
   async first(viewpoint: Viewpoint, settings: Settings): Promise<TimedView> {
     this.#viewpoint = viewpoint;
     this.#views.want({ viewpoint, method: methodOf(settings), shape: shapeOf(settings) });
     return this.#ask(this.#cloud, undefined, this.#views.take());
   }
 
-  /** Finds the automatic exponent if the answer itself does not contain it, unless a newer question waits. */
+  /** Finds the automatic exponent if the answer does not contain it. Does nothing if a newer question waits. */
   async findAutomatic(): Promise<void> {
     const question = this.#views.wanted;
     if (!question?.method.radius || isAutomatic(question.method)) return;
@@ -204,7 +204,8 @@ export class Inquiry {
   }
 
   /**
-   * Where a question is asked, and the signal that cancels it. A quick answer is shown even if the camera has moved on.
+   * Returns the cloud that answers a question, and the signal that cancels the question. Only a slow question has a
+   * signal. The answer to any other question is shown even if the camera has moved on.
    */
   async #placeFor(
     { method }: { method: Method },
@@ -229,7 +230,7 @@ export class Inquiry {
   }
 }
 
-/** Another question has overtaken this one, which becomes open again. */
+/** Whether a newer question has cancelled this one. Then this one can be asked again. */
 function isGivenUp(error: unknown, questions: { forget(): void }): boolean {
   const isAbort = error instanceof DOMException && error.name === "AbortError";
   if (isAbort) questions.forget();

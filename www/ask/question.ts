@@ -70,8 +70,8 @@ export function isAutomatic({ radius }: Method): boolean {
 }
 
 /**
- * Orbit controls return a few bits off when nothing has moved. A distance of this share of the cloud's size is no new
- * viewpoint.
+ * Orbit controls change the viewpoint by a few bits even if nothing has moved. So a move by less than this share of the
+ * cloud's size does not count.
  */
 const SAME = 1e-9;
 
@@ -87,7 +87,7 @@ export function isSameLight({ mesh: a, ...rest }: LightQuestion, { mesh: b, ...o
   return a === b && textOf(rest) === textOf(others);
 }
 
-/** Infinity is the only number here that JSON does not have, so it may become null. */
+/** JSON writes infinity as null. That is safe, because no other number here becomes null. */
 function textOf(value: unknown): string {
   return JSON.stringify(value);
 }

@@ -4,9 +4,9 @@ import type { UserConfig } from "vite";
 export const COMMON = {
   // Relative addresses: both can be served from any folder of any site.
   base: "./",
-  // The decoder's build for workers; the copc package would bring another one.
+  // This is the decoder's build for workers. The copc package would import another build.
   resolve: { alias: [{ find: /^laz-perf$/, replacement: "laz-perf/lib/worker/index.js" }] },
   worker: { format: "es" },
-  // Its worker and its wasm are found beside its files.
+  // The library finds its worker and its wasm beside its own files.
   optimizeDeps: { exclude: ["hidden-point-removal"] },
 } satisfies UserConfig;

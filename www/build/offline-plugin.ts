@@ -20,7 +20,7 @@ export function offline(): Plugin {
       publicDir = config.publicDir;
     },
     generateBundle: {
-      // When the page itself is among the files.
+      // It runs late, when the page itself is among the files.
       order: "post",
       async handler(_, bundle) {
         const built = Object.keys(bundle);

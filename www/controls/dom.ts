@@ -1,4 +1,4 @@
-/** Resolves after the present state of the page has been drawn. Use it for work that may come later. */
+/** Resolves after the present state of the page has been drawn. Use it for work that is not urgent. */
 export function nextFrame(): Promise<unknown> {
   return new Promise((resolve) => requestAnimationFrame(resolve));
 }

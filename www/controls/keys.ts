@@ -4,15 +4,15 @@
  */
 
 export interface Key {
-  /** As keyboard events name them, letters in lower case. Handlers are told which of them is pressed. */
+  /** The names of the keys in keyboard events, with letters in lower case. Handlers get the place in this list. */
   keys: readonly string[];
-  /** Only together with Shift. */
+  /** The keys work only together with Shift. */
   shift?: true;
-  /** As one sees them on a keyboard; as in `keys`, in capitals, where this is missing. */
+  /** The keys as they look on a keyboard. If this is missing, they are those of `keys` in capitals. */
   shown?: readonly string[];
-  /** As one says them. */
+  /** The spoken words for the keys. */
   said?: string;
-  /** The end of a sentence that begins with them; for the keys that screen readers and the document name. */
+  /** The end of a sentence that begins with the keys. Only keys for screen readers and for the document have it. */
   does?: string;
 }
 
@@ -36,9 +36,9 @@ export const KEYS = {
   middle: { keys: ["Enter"], shown: ["Enter"], does: "picks the point in the middle" },
   cancel: { keys: ["Escape"], shown: ["Esc"] },
   sheet: { keys: ["?"], said: "the question mark", does: "shows all keys" },
-  /** While a light has the focus. */
+  /** These keys work while a light has the focus. */
   light: { keys: [...ARROWS, "+", "=", "-"], shown: ["arrow keys", "+", "−"] },
-  /** While the divider has the focus. */
+  /** These keys work while the divider has the focus. */
   divide: {
     keys: ["ArrowLeft", "ArrowRight", "ArrowDown", "ArrowUp", "PageDown", "PageUp", "Home", "End"],
     shown: ["←", "→"],
@@ -47,7 +47,7 @@ export const KEYS = {
 
 export type Action = keyof typeof KEYS;
 
-/** The sheet of keys, row by row; an action in braces stands for its keys. */
+/** The rows of the sheet of keys. An action in braces stands for its keys. */
 export const SHEET: readonly (readonly [title: string, how: string])[] = [
   ["Orbit", "drag · one finger · {orbit}"],
   ["Pan", "right drag · two fingers · {pan}"],
@@ -66,16 +66,16 @@ export const SHEET: readonly (readonly [title: string, how: string])[] = [
   ["This sheet", "{sheet}"],
 ];
 
-/** The keys of a picture that stands in another page. */
+/** The keys of a picture that is part of another page. */
 export const ELEMENT_KEYS: readonly Action[] = ["orbit", "pan", "zoom", "lens", "freeze", "hidden", "reset", "middle"];
 
-/** As one sees them on a keyboard. */
+/** The keys of an action as they look on a keyboard. */
 export function shownKeys(action: Action): readonly string[] {
   const { keys, shown }: Key = KEYS[action];
   return shown ?? keys.map((key) => key.toUpperCase());
 }
 
-/** For screen readers: what the keys of some actions do, without a full stop. */
+/** A sentence for screen readers about the keys of some actions, without a full stop. */
 export function spokenKeys(actions: readonly Action[]): string {
   const sentence = actions
     .map((action) => {
@@ -86,7 +86,7 @@ export function spokenKeys(actions: readonly Action[]): string {
   return sentence.charAt(0).toUpperCase() + sentence.slice(1);
 }
 
-/** The action that a key asks for, and the number of the key among the action's. With Ctrl, Meta or Alt: `null`. */
+/** Returns the action of a pressed key, and the key's number in its list. With Ctrl, Meta or Alt, returns `null`. */
 export function pressed<Name extends Action>(
   event: KeyboardEvent,
   among: readonly Name[],
@@ -101,7 +101,7 @@ export function pressed<Name extends Action>(
   return null;
 }
 
-/** Whether a key is one of the action's, whatever else is held down. */
+/** Whether a key belongs to the action. It does not matter which other keys are held down. */
 export function isKeyOf(action: Action, { key }: KeyboardEvent): boolean {
   const { keys }: Key = KEYS[action];
   return keys.includes(key);

@@ -17,7 +17,7 @@ export class Segmented<Value extends string = string> {
     return this.#inputs.find((input) => input.checked)!.value as Value;
   }
 
-  /** A value without a button leaves none chosen. */
+  /** If the value has no button, no button is chosen. */
   set value(value: Value) {
     for (const input of this.#inputs) input.checked = input.value === value;
   }

@@ -1,6 +1,6 @@
 import { byId } from "./dom.ts";
 
-/** A range input with its value written beside its label, in the output `id`-value. */
+/** A range input. Its value is shown beside its label, in the output `id`-value. */
 export class Slider {
   readonly #input: HTMLInputElement;
   readonly #output: HTMLOutputElement;
@@ -21,20 +21,20 @@ export class Slider {
     return this.#input.valueAsNumber;
   }
 
-  /** The knob stops at the ends of its track; the output shows the value itself. */
+  /** The knob stops at the ends of its track. The output shows the real value, even beyond these ends. */
   set value(value: number) {
     this.#input.value = String(value);
     this.#show(value);
   }
 
-  /** Marks a value under the track; for a slider of the class `marked`. */
+  /** Marks a value under the track. The slider must have the class `marked`. */
   mark(value: number): void {
     const { min, max } = this.#input;
     const share = (value - Number(min)) / (Number(max) - Number(min));
     this.#input.parentElement!.style.setProperty("--mark", String(Math.min(1, Math.max(0, share))));
   }
 
-  /** Shows no value as long as none is known. */
+  /** Shows no value, because none is known yet. */
   clear(): void {
     this.#output.textContent = "";
   }

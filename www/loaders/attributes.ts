@@ -5,12 +5,12 @@ import { isWhole } from "./numbers.ts";
 const MOST_ATTRIBUTES = 8;
 const MOST_CATEGORIES = 64;
 
-/** Normals, opacities and the parameters of splats make no useful colors. */
+/** Columns that make no useful colors: normals, opacities and the parameters of splats. */
 const NOT_FOR_EYES =
   /^(n[xyz]|normal_?[xyz]|scalar_n[xyz]|a|alpha|opacity|f_(dc|rest)_\d+|rot_\d+|scale_\d+|padding|_)$/i;
 const CATEGORY = /class|label|segment|cluster|category|return|source|ring|object|instance/i;
 
-/** From the columns of a file: its colors, and the attributes that its points can be colored by. */
+/** Returns the colors in the columns of a file, and the attributes by which its points can be colored. */
 export function attributesOf(
   columns: readonly { name: string; values: Values }[],
 ): Pick<LoadedCloud, "colors" | "attributes"> {

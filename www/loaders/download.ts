@@ -6,7 +6,7 @@ import { LoadProblem } from "./problem.ts";
 const MAX_DOWNLOAD = 4_000_000_000;
 
 /**
- * Downloads a whole file, and tells the progress if the server gives the length. `unreachable`: the reason why the file
+ * Downloads a whole file. Reports the progress if the server gives the length. `unreachable`: the reason why the file
  * is not available, if it is known.
  */
 export async function download(

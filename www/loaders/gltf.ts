@@ -33,7 +33,7 @@ interface GltfJson {
 const UNDERSTOOD =
   /^(KHR_(mesh_quantization|meshopt_compression|materials_|texture_|lights_|animation_|xmp)|EXT_(meshopt_compression|mesh_gpu_instancing|texture_))/;
 
-/** A thing with vertices in a scene, and its places: one for each of its instances. */
+/** An object with vertices in a scene, and its places: one for each of its instances. */
 interface Placed {
   geometry: BufferGeometry;
   matrices: Matrix4[];

@@ -5,7 +5,7 @@ import { looksBinary } from "../../src/ts/formats/text.js";
 import { bytes, type Reading } from "./blocks.ts";
 import { LoadProblem, missingPart, problemOf } from "./problem.ts";
 
-/** Reads a file. The first bytes tell its format; if they do not, the ending of its name does. */
+/** Reads a file. Its first bytes show its format. If they do not, the ending of its name is used. */
 export async function readFile(reading: Reading, base: string | null): Promise<LoadedCloud> {
   const { name } = reading;
   try {

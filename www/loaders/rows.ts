@@ -17,7 +17,7 @@ export interface Points {
 }
 
 export function builderFor({ limit }: Reading, { group, axes, others }: Points): CloudBuilder {
-  // A field with the type of a four-byte float is read as one, even if a text gives more digits.
+  // If the type of a field is a four-byte float, it is read as such, even if a text has more digits.
   const single = fitSingle(axes.map((axis) => group.fields[axis]!.type));
   return new CloudBuilder(single ? "float32" : "float64", others, limit, group.count);
 }
@@ -64,7 +64,7 @@ export async function readBinaryRows(
 
   const builder = builderFor(reading, points);
   const lists = hasLists(fields);
-  // Lists have any length, so each row has its fields at other places.
+  // Lists may have any length, so the places of the fields differ from row to row.
   const reader = (field: number): NumberReader =>
     numberReader(fields[field]!.type, lists ? 0 : rowBytes(fields.slice(0, field)), littleEndian);
   const [x, y, z] = axes.map(reader) as [NumberReader, NumberReader, NumberReader];

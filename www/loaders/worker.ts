@@ -15,7 +15,7 @@ const post = (reply: LoadReply, transfer: Transferable[] = []) => {
 /** Why a sample is not available. Samples that have been opened before are kept (offline/service-worker.ts). */
 const NOT_KEPT = "there is no connection, and it has not been opened on this device before";
 
-/** The least number of milliseconds between two reports: the eye sees no faster changes. */
+/** The least number of milliseconds between two reports. The eye does not see faster changes. */
 const EVERY = 50;
 let last = { step: "", at: 0 };
 const progress = (step: string, fraction: number | null) => {

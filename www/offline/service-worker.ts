@@ -8,12 +8,13 @@
  *   samples                         network, then kept     kept, if they have been opened
  *   anything else                   never touched, never kept: files from other places are the user's
  *
- * Each build has its own service worker with its own store, which is complete or missing. It takes over when no page of
- * the build before is open any more, so that no page loses parts that it has yet to load.
+ * Each build has its own service worker with its own store. A store is complete, or it does not exist. The service
+ * worker takes over when no page of the build before is open any more. So each page can still load the parts that it
+ * needs.
  */
 const worker = self as unknown as ServiceWorkerGlobalScope;
 
-/** Written in front of this file when the page is built (build/offline-plugin.ts), with relative addresses. */
+/** The build writes this in front of the file (build/offline-plugin.ts). The addresses are relative. */
 declare const BUILD: {
   version: string;
   /** The page's own script. The text of a page with this script belongs to this build. */
@@ -62,7 +63,7 @@ worker.addEventListener("message", (event) => {
   const address = event.data as unknown;
   if (typeof address !== "string" || !samples.has(address)) return;
   event.waitUntil(
-    // The browser's cache may still have parts of it, which need not be downloaded again.
+    // The browser's cache may still have it. Then it need not be downloaded again.
     caches.open(SAMPLES).then((store) => store.add(new Request(address, { cache: "force-cache" }))),
   );
 });

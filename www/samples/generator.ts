@@ -5,7 +5,7 @@ import type { Solid } from "./trace.ts";
 /** A module that makes a sample: the same points on every machine. */
 export interface Generator {
   make: () => LoadedCloud;
-  /** The surface that the points were taken from; not every sample has one. */
+  /** The surface that the points were taken from. Some samples have none. */
   truth?: () => Truth;
 }
 

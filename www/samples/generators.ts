@@ -2,8 +2,8 @@ import type { LoadedCloud } from "../cloud/cloud.ts";
 import type { Generator } from "./generator.ts";
 
 /*
- * The generators of samples, each downloaded when it is needed. Only workers import this: in the page's own script, each
- * import would bring Vite's code for loading ahead.
+ * The generators of samples. Each is downloaded when it is needed. Only workers import this file. In the page's own
+ * script, each import would add Vite's code for loading ahead.
  */
 const GENERATORS = {
   room: () => import("./living-room.ts"),

@@ -5,9 +5,9 @@ import { mulberry32 } from "./random.ts";
 import { box, type Color, cylinder, dot, legs, rectangle, sphere, type Surface, type Vector } from "./surfaces.ts";
 
 /*
- * A living room of 6 × 2.7 × 4.6 meters as a scanner might leave it: points spread evenly over every surface, two
- * millimeters of noise, muted colors with soft baked light. y is up, the floor is y = 0, the middle is x = z = 0.
- * A fixed seed: the same points on every machine.
+ * A living room of 6 × 2.7 × 4.6 meters, as a scanner might measure it. Points are spread evenly over every surface,
+ * with two millimeters of noise. The colors are muted and contain soft light. y is up, the floor is y = 0, the middle
+ * is x = z = 0. The seed is fixed: the points are the same on every machine.
  */
 
 const POINTS = 300_000;
@@ -43,7 +43,7 @@ export function make(): LoadedCloud {
   return { positions, colors };
 }
 
-/** Where a point lies on its surface, its measured distance from it, and a random number from 0 to 1 for its color. */
+/** A point's place on its surface, its distance from the surface, and a random number from 0 to 1 for its color. */
 interface Place {
   surface: Surface;
   u: number;
@@ -60,8 +60,7 @@ function scanRoom(): { surfaces: Surface[]; places: Iterable<Place> } {
 }
 
 /**
- * The surfaces as flat pieces, and each point on one of these. It is the point's place on the surface, without the
- * noise.
+ * The surfaces as flat pieces, and for each point of the cloud its place on one of the pieces. This place has no noise.
  */
 export function truth(): Truth {
   const { surfaces, places } = scanRoom();
@@ -81,7 +80,7 @@ export function truth(): Truth {
   return { mesh, on: { positions: Float32Array.from(on.positions), faces: Uint32Array.from(on.faces) } };
 }
 
-/** The point of the flat pieces in the place of a point of the surface, and the number of its triangle in `grid`. */
+/** The point of the flat pieces that replaces the surface's point at u, v, and the number of its triangle in `grid`. */
 function onPieces(surface: Surface, u: number, v: number): { place: Vector; face: number } {
   const [columns, rows] = surface.pieces;
   const [column, row] = [Math.floor(u * columns), Math.floor(v * rows)];
@@ -106,7 +105,7 @@ function* scatter(surfaces: readonly Surface[], random: () => number): Generator
     let v = random();
     for (; i < end; i++) {
       const here = { u, v };
-      // M. Roberts' R2 sequence fills a square evenly, as a scanner does; independent random points leave holes.
+      // M. Roberts' R2 sequence fills a square evenly, as a scanner does. Independent random points leave holes.
       u = (u + 0.7548776662466927) % 1;
       v = (v + 0.5698402909980532) % 1;
       yield { surface, ...here, off: NOISE * (random() + random() + random() - 1.5), grain: random() };
@@ -114,7 +113,7 @@ function* scatter(surfaces: readonly Surface[], random: () => number): Generator
   }
 }
 
-/** Everything in the room; `random` decides about books and leaves. */
+/** Everything in the room. `random` chooses the books and the leaves. */
 export function roomSurfaces(random: () => number): Surface[] {
   return [...shell(), ...furniture(random)];
 }

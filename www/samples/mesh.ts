@@ -4,7 +4,7 @@ export interface Mesh {
   triangles: Uint32Array;
 }
 
-/** A patch of surface in columns and rows of rectangles, each cut in two; `at` takes two numbers from 0 to 1. */
+/** A piece of surface in columns and rows of rectangles, each cut in two. `at` takes two numbers from 0 to 1. */
 export function grid(columns: number, rows: number, at: (u: number, v: number) => readonly number[]): Mesh {
   const positions = new Float32Array(3 * (columns + 1) * (rows + 1));
   const triangles = new Uint32Array(6 * columns * rows);

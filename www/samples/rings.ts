@@ -2,14 +2,14 @@ import type { LoadedCloud } from "../cloud/cloud.ts";
 import type { Truth } from "./generator.ts";
 
 /*
- * An airplane some 15 meters long as a designer might sketch it: nothing but rings of points, cross-sections far apart
- * compared with the points along them. It is sparse and uneven: one can look through between the rings. x is forward,
- * y up, z to the right.
+ * An airplane about 15 meters long, as a designer might sketch it. It consists only of rings of points: cross-sections
+ * that are far apart, with points close together on each. It is sparse and uneven: one can look through between the
+ * rings. x is forward, y up, z to the right.
  */
 
 type Vector = [number, number, number];
 
-/** A closed curve: a place for each turn from 0 to 1. */
+/** A closed curve: the place for each part of the turn, from 0 to 1. */
 type Ring = (turn: number) => Vector;
 
 /** Along the fuselage: x, the height of its middle, half its height and half its width. */
@@ -126,14 +126,14 @@ function fuselage(): Ring[] {
 }
 
 function ribs({ root, tip, chords, thickness, rings }: Wing): Ring[] {
-  // A fin stands upright: its thickness is along z, a wing's along y.
+  // A fin stands upright, so its thickness is along z. The thickness of a wing is along y.
   const across = Math.abs(tip[1] - root[1]) > Math.abs(tip[2] - root[2]) ? 2 : 1;
   return Array.from({ length: rings }, (_, i) => {
     const share = i / (rings - 1);
     const edge = root.map((value, axis) => value + share * (tip[axis]! - value)) as Vector;
     const chord = chords[0] + share * (chords[1] - chords[0]);
     return (turn) => {
-      // Rounded in front, sharp behind.
+      // The cross-section is round in front and sharp behind.
       const back = (1 - Math.cos(2 * Math.PI * turn)) / 2;
       const half = chord * thickness * 1.5 * (Math.sqrt(back) - back) * Math.sign(0.5 - turn);
       const place: Vector = [edge[0] - back * chord, edge[1], edge[2]];

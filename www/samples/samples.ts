@@ -7,8 +7,9 @@ import type { GeneratorName } from "./generators.ts";
  */
 
 /**
- * A surface that a cloud was taken from: triangles between its points, in a file that build/samples-plugin.ts makes; the
- * truth of a sample's generator; or the faces of the user's own file, which is opened once more for them.
+ * A surface that a cloud was taken from. There are three kinds: triangles between its points, in a file that
+ * build/samples-plugin.ts makes; the truth of a sample's generator; the faces of the user's own file, which is opened
+ * once more for them.
  */
 export type KnownSurface = { faces: string } | { sample: GeneratorName } | { file: Blob | string };
 
@@ -18,7 +19,7 @@ export interface Sample {
   /** A file of little-endian f32 x y z, made by build/samples-plugin.ts, or a generator, downloaded when it is needed. */
   from: { file: string } | { generator: GeneratorName };
   up: Up;
-  /** What its visible points can be compared with; a sentence says why there is nothing. */
+  /** The surface that its visible points can be compared with. If there is none, a sentence says why. */
   surface: KnownSurface | string;
   /** The words under its small picture (public/thumbnails, made by tests/browser/thumbnails.ts). Without them it has none. */
   picture?: string;

@@ -34,14 +34,14 @@ const FACADE = 6.4;
 const DEPTH = 4.2;
 const STOREY = 3.3;
 
-/** `throughPane` decides for each ray at a window whether it passes. */
+/** `throughPane` decides for each ray that meets a window whether it passes. */
 export function makeScene(random: () => number, throughPane: () => boolean): Solid<Material> {
   const solids: Solid<Material>[] = [ground()];
   for (const side of [-1, 1] as const) {
     for (let x = -HALF_LENGTH; x < HALF_LENGTH - 4;) {
       const width = Math.min(HALF_LENGTH - x, 8 + 5 * random());
       const storeys = 3 + Math.floor(2.4 * random());
-      // Here and there is a gap between two houses.
+      // Some neighboring houses have a gap between them.
       if (random() < 0.86)
         solids.push(
           house(

@@ -5,10 +5,10 @@ import { makeScene, type Material } from "./street-scene.ts";
 import type { Hit, Vector } from "./trace.ts";
 
 /*
- * A street of 70 meters with houses, trees and parked cars, as a terrestrial laser scanner sees it from three places:
- * rays in even steps of both angles, with one point where a ray hits first. Glass lets most rays through. So there are
- * points of the rooms behind the façades, which nobody in the street would see through the walls. Units are meters; x is
- * along the street, z up. The seed is fixed: the points are the same on every machine.
+ * A street of 70 meters with houses, trees and parked cars, as a terrestrial laser scanner sees it from three places.
+ * The rays have even steps of both angles. Each ray makes one point, at its first hit. Glass lets most rays through. So
+ * there are points of the rooms behind the façades. Through the walls, nobody in the street would see these points.
+ * Units are meters; x is along the street, z up. The seed is fixed: the points are the same on every machine.
  */
 
 const SEED = 2007;
@@ -103,14 +103,14 @@ function* scan(): Generator<{
   }
 }
 
-/** Soft daylight from the south and above; rooms are darker. */
+/** Soft daylight from the south and from above. Rooms are darker. */
 function shade(normal: Vector, { kind }: Material, random: () => number): number {
   const light =
     0.84 + 0.16 * normal[2] + 0.14 * Math.max(0, 0.5 * normal[0] - 0.86 * normal[1]) + 0.06 * (random() - 0.5);
   return kind === 66 ? 0.8 * light : light;
 }
 
-/** Near enough to a normal distribution: the sum of four even ones. */
+/** Nearly a normal distribution: the sum of four uniform random numbers. */
 function gaussian(random: () => number): number {
   return (random() + random() + random() + random() - 2) * Math.sqrt(3);
 }

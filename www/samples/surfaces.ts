@@ -7,7 +7,7 @@ export type Color = [number, number, number];
 export interface Surface {
   area: number;
   color: Color;
-  /** As a mesh it is made of this many flat pieces along u and v: enough for a round one to look round. */
+  /** The number of flat pieces along u and v if it becomes a mesh. A round surface has enough pieces to look round. */
   pieces: [number, number];
   /** A point of the surface and its normal; u and v go from 0 to 1. */
   at(u: number, v: number): { point: Vector; normal: Vector };
@@ -66,7 +66,7 @@ export function sphere([x, y, z]: Vector, r: number, color: Color): Surface {
     color,
     pieces: [64, 32],
     at(u, v) {
-      // Archimedes: even in height and in longitude is even on the sphere.
+      // By Archimedes, points that are even in height and in longitude are even on the sphere.
       const turn = 2 * Math.PI * u;
       const up = 2 * v - 1;
       const ring = Math.sqrt(1 - up * up);

@@ -10,7 +10,7 @@ export interface Return {
 interface House {
   x: number;
   y: number;
-  /** The angle between its ridge and east. */
+  /** The angle between the ridge of its roof and east. */
   turn: number;
   halfLength: number;
   halfWidth: number;
@@ -29,7 +29,7 @@ interface Tree {
 }
 
 const CELL = 10;
-/** Steps of a beam on its way down. */
+/** The length of a beam's steps on its way down, in meters. */
 const DOWN = 0.6;
 
 /** Hills, a stream, a road with houses along it, and trees, for beams from above. */
@@ -52,7 +52,7 @@ export function makeLand(side: number, random: () => number) {
     if (isFree(x, y, 22)) houses.push(house(x, y, Math.PI * random(), random));
   }
   for (let i = 0; i < 520; i++) {
-    // A wood on the hill, a row along the stream, and some between the houses.
+    // There is a wood on the hill, a row of trees along the stream, and some trees between the houses.
     const place =
       i < 330
         ? [190 + 130 * random(), 195 + 125 * random()]
@@ -68,7 +68,7 @@ export function makeLand(side: number, random: () => number) {
   }
 
   const near = cells(side, [...houses, ...trees]);
-  /** The highest thing at a place. */
+  /** The highest surface at a place. */
   const surface = (x: number, y: number): Return => {
     let found = groundAt(x, y);
     for (const thing of near(x, y)) {
@@ -84,7 +84,7 @@ export function makeLand(side: number, random: () => number) {
       const things = near(x, y);
       if (things.length === 0) return groundAt(x, y);
       const ground = terrain(x, y);
-      // From above all things there, down to the first that the beam meets.
+      // The beam starts above everything there, and goes down until it meets something.
       const highest = things.reduce(
         (most, thing) => Math.max(most, "ridge" in thing ? thing.base + thing.ridge + 1 : thing.top),
         ground,
@@ -94,7 +94,8 @@ export function makeLand(side: number, random: () => number) {
         if (east < 0 || east > side) return null;
         const hit = surface(east, y);
         if (hit.z < z) continue;
-        // A beam meets a wall from the side, between the last step and this one; a roof or the ground from above.
+        // A beam meets a wall from the side, between the last step and this one. It meets a roof or the ground from
+        // above.
         const wall = hit.kind === 6 && hit.z - z > 1.2;
         return wall ? { ...hit, z: z + DOWN * random() } : hit;
       }
@@ -170,7 +171,7 @@ function crownAt({ x: cx, y: cy, radius, top, base }: Tree, x: number, y: number
   return { x, y, z, kind: 5, tone: 0.75 + (0.5 * (z - base)) / (top - base) };
 }
 
-/** The things near a place, by the cells of a grid. */
+/** Finds the things near a place, with the cells of a grid. */
 function cells<T extends { x: number; y: number }>(
   side: number,
   things: readonly T[],

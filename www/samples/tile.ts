@@ -12,7 +12,7 @@ import { makeLand, type Return } from "./tile-land.ts";
 const EAST = 512_000;
 const NORTH = 5_403_000;
 const SIDE = 320;
-/** The distance of two sweeps along the line of flight, and of two beams of a sweep. */
+/** The distance between two sweeps along the line of flight, and between two beams of a sweep. */
 const STEP = 0.66;
 const FLIGHT_HEIGHT = 700;
 const LINES = [70, 250];
@@ -52,7 +52,7 @@ export function make(): LoadedCloud {
 
   for (const line of LINES) {
     for (let y = 0; y < SIDE; y += STEP) {
-      // Neighboring strips meet in the middle between their lines.
+      // Two neighboring strips meet halfway between their flight lines.
       const [from, to] = line < SIDE / 2 ? [0, SIDE / 2] : [SIDE / 2, SIDE];
       for (let x = from + STEP * random(); x < to; x += STEP) {
         const northing = y + STEP * 0.3 * random();

@@ -8,7 +8,7 @@ export interface Hit<M> {
   material: M;
 }
 
-/** The first hit of a ray that is nearer than `reach`. `along` has length 1. */
+/** Returns the first hit of a ray if it is nearer than `reach`. `along` has length 1. */
 export type Solid<M> = (from: Vector, along: Vector, reach: number) => Hit<M> | null;
 
 /** A box from its lower corner to its upper one. A ray from inside hits its inner sides. */
@@ -63,7 +63,7 @@ export function cylinder<M>([cx, cy, cz]: Vector, radius: number, height: number
   };
 }
 
-/** Several solids as one. They are asked only if the ray comes near them. */
+/** Several solids as one. They are tested only if the ray meets the sphere `around`. */
 export function group<M>(solids: readonly Solid<M>[], around?: { center: Vector; radius: number }): Solid<M> {
   return (from, along, reach) => {
     if (around) {

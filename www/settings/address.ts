@@ -5,7 +5,7 @@ import { PARAMETERS, type SettingName, SETTINGS } from "./table.ts";
 /** How the address names a cloud, by parameter and value: a sample of the page, or a file on the web. */
 export type CloudName = ["sample" | "src", string];
 
-/** The settings that a cloud is seen with if the address says nothing. */
+/** The settings of a cloud that hold if the address does not have them. */
 export type Usual = Pick<Settings, "size" | "fieldOfView" | "up">;
 
 export interface CameraPlace {
@@ -14,16 +14,16 @@ export interface CameraPlace {
   target: Viewpoint | null;
 }
 
-/** The address of a cloud, and the settings that it need not say. */
+/** The name of a cloud in the address, and the settings that the address need not have. */
 interface Named {
   name: CloudName;
   usual: Usual;
 }
 
-/** Milliseconds without a change before the address is written: browsers refuse to write it every frame. */
+/** The address is written after this many milliseconds without a change. Browsers refuse to write it every frame. */
 const CALM = 300;
 
-/** Keeps the page's address such that a copy of it shows the same cloud, picture and settings again. */
+/** Keeps the page's address up to date: a copy of it opens the same cloud, picture and settings. */
 export class Address {
   /** `null` for the usual place. */
   readonly #camera: () => CameraPlace | null;
@@ -45,14 +45,14 @@ export class Address {
     });
   }
 
-  /** This cloud is on screen now, and the address follows it. */
+  /** Must be called when a cloud is on screen. From then on, the address follows it. */
   begin(name: CloudName | null, usual: Usual): void {
     this.#cloud = name && { name, usual };
     this.#before = null;
     this.touch();
   }
 
-  /** Names a cloud at once that is about to be loaded. Parameters of the cloud before it go. */
+  /** Writes the name of a cloud before it is loaded. Removes the parameters of the cloud before it. */
   choose([parameter, value]: CloudName): void {
     this.#before ??= { cloud: this.#cloud, href: location.href };
     this.#cloud = null;
@@ -64,7 +64,7 @@ export class Address {
     replace(address);
   }
 
-  /** The chosen cloud could not be opened: the one before has stayed, and its address comes back. */
+  /** Brings the address of the cloud before back, because the chosen cloud could not be opened. */
   giveUp(): void {
     if (!this.#before) return;
     this.#cloud = this.#before.cloud;
@@ -73,7 +73,7 @@ export class Address {
     this.touch();
   }
 
-  /** Something has changed that the address may have to say. */
+  /** Must be called when something has changed that may be part of the address. */
   touch(): void {
     if (!this.#cloud) return;
     clearTimeout(this.#timer);
@@ -82,7 +82,7 @@ export class Address {
     }, CALM);
   }
 
-  /** The page as it is now, for others to open; `null` if no address can open it. */
+  /** The address that opens the page as it is now. `null` if no address can do that. */
   link(): string | null {
     this.#write();
     return this.#cloud && location.href;
@@ -96,7 +96,7 @@ export class Address {
     const introducing = this.#introducing();
     const settings = introducing ? { ...this.#store.current, compare: null } : this.#store.current;
     const values = { ...settingsInAddress(settings, usual), ...cameraInAddress(this.#camera()) };
-    // Nothing has been done yet: the bare address stays, and brings the introduction the next time.
+    // The user has changed nothing yet. The address stays empty, so the next visit begins with the introduction, too.
     if (introducing && address.search === "" && Object.values(values).every((texts) => texts.length === 0)) return;
     searchParams.delete(name[0] === "src" ? "sample" : "src");
     searchParams.set(...name);
@@ -108,9 +108,9 @@ export class Address {
   }
 }
 
-/** Every parameter with its values; with none where the setting is the usual one. */
+/** Every parameter with its values. If the setting is the usual one, there are no values. */
 function settingsInAddress(now: Settings, usual: Usual): Record<string, string[]> {
-  // A radius has one of two parameters.
+  // A radius is written by one of two parameters.
   const { radius } = now;
   const texts: Record<string, string[]> = {
     exponent: "exponent" in radius ? [PARAMETERS.exponent.write(radius.exponent)] : [],
@@ -124,7 +124,7 @@ function settingsInAddress(now: Settings, usual: Usual): Record<string, string[]
   for (const name of Object.keys(SETTINGS)) write(name as SettingName);
   texts[SETTINGS.lights.parameter] = now.lights.map(String);
   if ("exponent" in radius) texts[SETTINGS.radius.parameter] = [];
-  // Without a comparison its kind means nothing, and without the z-buffer the width of its points.
+  // The kind of comparison is needed only with a comparison, the width of its points only with the z-buffer.
   if (now.compare === null) texts[SETTINGS.against.parameter] = [];
   if (now.compare === null || now.against !== "zbuffer") texts[SETTINGS.splat.parameter] = [];
   return texts;

@@ -6,7 +6,7 @@ export interface Kind<T> {
   /** `undefined` for a text that cannot be used. */
   parse: (text: string) => T | undefined;
   write: (value: T) => string;
-  /** The texts that can be used, in words; a text that stands for itself is in backticks. */
+  /** Describes the texts that can be used. A literal text is in backticks. */
   values: string;
 }
 
@@ -42,7 +42,7 @@ export function wholeBetween(least: number, most: number): Kind<number> {
   };
 }
 
-/** A kind with one more word. */
+/** A kind that takes one more word as a value. */
 export function orWord<T, Word extends string | number>(
   { parse, write, values }: Kind<T>,
   word: string,
@@ -74,7 +74,7 @@ export const PLACE: Kind<Viewpoint> = {
   values: "three numbers `x,y,z`",
 };
 
-/** Any text; whether the cloud has something of that name shows when it is loaded. */
+/** Any text. Only after the cloud is loaded is it known whether the cloud has something of that name. */
 export const NAME: Kind<string> = { parse: (text) => text, write: String, values: "a name" };
 
 const RULE = oneOf<Extract<Radius, { rule: string }>["rule"]>("auto", "search", "opposite");
@@ -91,7 +91,7 @@ export const RADIUS: Kind<Radius> = {
   values: "`auto`, `search`, `opposite` or a positive number",
 };
 
-/** A word, and after a colon its parameter. */
+/** A word. Its parameter may follow after a colon. */
 export const INVERSION: Kind<Inversion> = {
   parse: (text) => {
     const [word, parameter, ...more] = text.split(":");
@@ -110,7 +110,7 @@ export const INVERSION: Kind<Inversion> = {
   values: `\`spherical\`, \`exponential\`, \`exponential:c\` with a positive c, \`power\` or \`power:γ\` with γ above 1 and at most ${MOST_POWER}`,
 };
 
-/** Like Number, but an empty text is no number. */
+/** Like `Number`, but an empty text gives no number. */
 function parseNumber(text: string): number {
   return text.trim() === "" ? NaN : Number(text);
 }

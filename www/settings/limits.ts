@@ -1,5 +1,5 @@
 /*
- * How large a value may be. Each limit stands here once: the address, the panel, the element, the loaders and the
+ * The limits of values. Each limit is written only here. The address, the panel, the element, the loaders and the
  * documents take it from here.
  */
 
@@ -17,16 +17,16 @@ export const MOST_NEIGHBORS = 100;
 
 export const MOST_LIGHTS = 8;
 
-/** Rounds that smooth the light. */
+/** The most rounds that smooth the light. */
 export const MOST_ROUNDS = 1000;
 
-/** Of a point, in multiples of the points' rough distance from one another. */
+/** The limits of the point size, in multiples of the rough distance between neighboring points. */
 export const POINT_SIZE = { least: 0.05, most: 50 };
 
-/** Vertical, in degrees. */
+/** The limits of the vertical field of view, in degrees. */
 export const FIELD_OF_VIEW = { least: 5, most: 100 };
 
-/** How wide the z-buffer may draw a point, in pixels. */
+/** The greatest width of a point in the z-buffer, in pixels. */
 export const MOST_SPLAT = 64;
 
 /** The farthest place from which a cloud can be looked at, in radii of the cloud. Further out, f32 is too coarse. */

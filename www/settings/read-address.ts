@@ -10,16 +10,16 @@ export interface Wishes {
   /** Where the camera stands, in the file's own coordinates, and what it looks at. */
   view: Viewpoint | null;
   target: Viewpoint | null;
-  /** How many points of a file are shown at most; `null` for as many as the page can. */
+  /** The most points of a file that are shown. `null`: as many as the page can show. */
   points: number | null;
-  /** Nothing but the picture. */
+  /** Whether only the picture is shown. */
   embed: boolean;
   /** The settings that are in the address. */
   settings: Partial<Settings>;
   notes: string[];
 }
 
-/** The first of the samples is the usual one. */
+/** Reads the address. The first sample is the usual one. */
 export function readAddress(search: string, samples: readonly string[]): Wishes {
   const query = new URLSearchParams(search);
   const notes: string[] = [];
@@ -32,7 +32,7 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
   const src = query.get("src");
   if (src === "") notes.push(`The address names no file after “src=”, so this is the ${sample}.`);
 
-  /** `undefined` where the address does not have it, or has something that cannot be used. */
+  /** Returns `undefined` if the address does not have the parameter, or if its value cannot be used. */
   const read = <T>(name: string, row: Parameter<T>): T | undefined => {
     const text = query.get(name);
     const value = text === null ? undefined : row.parse(text);
@@ -66,7 +66,7 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
   };
 }
 
-/** The parameter stands once for each light. */
+/** The address has the parameter once for each light. */
 function readLights(texts: readonly string[], notes: string[]): Viewpoint[] {
   const places = texts.map(PLACE.parse);
   const lights = places.filter((place) => place !== undefined).slice(0, MOST_LIGHTS);

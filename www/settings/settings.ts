@@ -3,7 +3,7 @@ import { type Setting, type SettingName, SETTINGS } from "./table.ts";
 export type * from "./types.ts";
 export { OWN_COLORS, USUAL_EDGE } from "./table.ts";
 
-/** Everything that can be set on the page. The panel and the address change it; the questions and the picture follow. */
+/** Everything that can be set on the page. The panel and the address change it. Questions and the picture use it. */
 export type Settings = {
   [Name in SettingName]: (typeof SETTINGS)[Name] extends Setting<infer T> ? T : never;
 };

@@ -1,6 +1,6 @@
 import { FIELD_OF_VIEW, MOST_EXPONENT, MOST_SPLAT } from "./limits.ts";
 
-/** The track of a slider of the panel. It need not reach as far as the values that the address takes. */
+/** The track of a slider of the panel. The address may allow values beyond the ends of the track. */
 export interface Slider {
   least: number;
   most: number;
@@ -15,7 +15,7 @@ export interface Slider {
 /** The end of the track stands for all edges. */
 const ALL_EDGES = 21;
 
-/** By setting or parameter. */
+/** The sliders, by the name of their setting or parameter. */
 export const SLIDERS = {
   edge: {
     least: 1,

@@ -2,7 +2,7 @@ import type { Settings } from "./settings.ts";
 
 type Listener = (now: Settings, before: Settings) => void;
 
-/** The present settings. Each change makes a new object, so a value that is the same object is unchanged. */
+/** The present settings. Each change makes a new object. So if a value is the same object, it is unchanged. */
 export class Store {
   #settings: Settings;
   readonly #listeners: Listener[] = [];

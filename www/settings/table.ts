@@ -19,9 +19,9 @@ import type { Against, HiddenMode, Inversion, Radius, ThemeChoice, Viewpoint, Vi
 
 /** A parameter of the page's address. */
 export interface Parameter<T> extends Kind<T> {
-  /** What a sentence calls it; its own name where there is no other word. */
+  /** Its name in a sentence. If this is missing, the sentence has the parameter's own name. */
   called?: string;
-  /** How a sentence ends about a value that cannot be used: "so …". */
+  /** The end of a sentence about a value that cannot be used, after "so". */
   otherwise: string;
 }
 
@@ -31,9 +31,9 @@ export type AnyParameter = Omit<Parameter<never>, "parse"> & { parse: (text: str
 /** Something that can be set on the page. */
 export interface Setting<T> extends Parameter<T> {
   usual: T;
-  /** What the address calls it. */
+  /** Its name in the address. */
   parameter: string;
-  /** It belongs to one cloud: the next one does not take it over. */
+  /** The setting belongs to one cloud. The next cloud begins with the usual value. */
   ofCloud?: true;
 }
 
@@ -48,7 +48,7 @@ function parameter<T>(row: Parameter<T>): Parameter<T> {
 /** The file's own colors. */
 export const OWN_COLORS = "own";
 
-/** In the order of the panel and of the key. */
+/** The modes in the order of the panel. The key goes through them in the same order. */
 export const HIDDEN_MODES: readonly HiddenMode[] = ["off", "dimmed", "shown"];
 
 /** The library's own default, in spacings. */
@@ -123,7 +123,7 @@ export const SETTINGS = {
   ambient: setting<number>({
     parameter: "ambient",
     ...between(0, 1),
-    // Where no light comes one still sees the shapes.
+    // With this value, shapes are visible even in places without light.
     usual: 0.3,
     called: "ambient light",
     otherwise: "the usual one is used",
@@ -217,7 +217,7 @@ export const SETTINGS = {
 
 export type SettingName = keyof typeof SETTINGS;
 
-/** Parameters of the address that are no settings. */
+/** Parameters of the address that are not settings. */
 export const PARAMETERS = {
   view: parameter<Viewpoint>({
     ...PLACE,
@@ -245,7 +245,7 @@ export const PARAMETERS = {
 
 export type ParameterName = keyof typeof PARAMETERS;
 
-/** How a sentence ends about a value that cannot be used: "is not …". */
+/** The end of a sentence about a value that cannot be used, after "is not". */
 export function refusalOf({ values, otherwise }: Pick<AnyParameter, "values" | "otherwise">): string {
   return `${values.replaceAll("`", "")}, so ${otherwise}`;
 }

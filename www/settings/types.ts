@@ -5,7 +5,7 @@ export type Viewpoint = [number, number, number];
 export type HiddenMode = "off" | "dimmed" | "shown";
 
 /**
- * How the flipping sphere's radius R is chosen, or how large it is: in the file's units, or as
+ * The radius R of the flipping sphere: a rule that chooses it, its length in the file's units, or its exponent
  * log₁₀(R ÷ farthest distance).
  */
 export type Radius = { rule: "auto" | "search" | "opposite" } | { exponent: number } | { length: number };

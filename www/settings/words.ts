@@ -7,13 +7,13 @@ import type { PARAMETERS, SettingName } from "./table.ts";
  */
 
 export interface Words {
-  /** What it sets. */
+  /** The thing that the row sets. */
   is: string;
-  /** What holds without it; the usual value if this is missing. */
+  /** The value if the address does not have the parameter. If this is missing, it is the usual value. */
   without?: string;
 }
 
-/** The labels are those of the choices that the panel offers, by their texts. */
+/** `labels`: the labels of the choices in the panel, by the text of each choice. */
 export type SettingWords = Words & { labels?: Readonly<Record<string, string>> };
 
 const NEIGHBORS = { 0: "Off", 6: "6", 16: "16", 32: "32" };

@@ -6,7 +6,7 @@ import type { Theme } from "./theme.ts";
 /** The share of a selected point's own color that is covered. */
 const CHOSEN_COVERAGE = 0.65;
 
-/** Stands before the `main` of a vertex shader: the color of a vertex, and its brightness under the lights. */
+/** The text before the `main` of a vertex shader: the color of a vertex, and its brightness under the lights. */
 export const TINT_SHADER = /* glsl */ `
   uniform vec3 up, low, high;
   uniform vec2 heights;
@@ -35,7 +35,7 @@ export class CloudAttributes {
   readonly uniforms = {
     up: { value: new Vector3(0, 1, 0) },
     heights: { value: new Vector2(-1, 1) },
-    // Not converted: the shading pass and the screen both take display colors.
+    // The colors are not converted, because the shading pass and the screen both take display colors.
     low: { value: new Color() },
     high: { value: new Color() },
     lit: { value: false },
@@ -72,12 +72,12 @@ export class CloudAttributes {
     if (this.#color) geometry.setAttribute("color", this.#color);
     if (this.#brightness) geometry.setAttribute("brightness", this.#brightness);
     if (this.#chosen) geometry.setAttribute("chosen", this.#chosen);
-    // Otherwise three.js computes it from all points, for each geometry again.
+    // Otherwise three.js computes it from all points, once for each geometry.
     geometry.boundingSphere = this.#bounds;
     this.#geometries.push(geometry);
   }
 
-  /** The points that are selected. */
+  /** Sets the points that are selected. */
   setChosen(indices: Uint32Array): void {
     if (!this.#chosen) {
       if (indices.length === 0) return;
@@ -95,7 +95,7 @@ export class CloudAttributes {
     this.uniforms.heights.value.copy(rampHeights(this.#local, this.uniforms.up.value));
   }
 
-  /** Three bytes a point; `null` for the file's own colors, or for two tones if it has none. */
+  /** Takes three bytes for each point. `null`: the file's own colors, or two tones if it has none. */
   setTints(tints: Uint8Array | null): void {
     const colors = tints ?? this.#ownColors;
     this.uniforms.colored.value = colors !== null;
@@ -105,12 +105,12 @@ export class CloudAttributes {
       this.#color.needsUpdate = true;
       return;
     }
-    // A copy: the file's own colors must not change.
+    // This is a copy, because the file's own colors must not change.
     this.#color = new BufferAttribute(colors.slice(), 3, true).setUsage(DynamicDrawUsage);
     for (const geometry of this.#geometries) geometry.setAttribute("color", this.#color);
   }
 
-  /** One number from 0 to 1 a point; `null` for no lights. */
+  /** Takes one number from 0 to 1 for each point. `null`: there are no lights. */
   setBrightness(brightness: Float32Array | null): void {
     this.uniforms.lit.value = brightness !== null;
     if (!brightness) return;
@@ -124,7 +124,7 @@ export class CloudAttributes {
   }
 }
 
-/** The display color that the shaders take; the colors of three.js are linear. */
+/** The display color for the shaders. The colors of three.js are linear. */
 export function display(color: string): Color {
   return new Color(color).convertLinearToSRGB();
 }

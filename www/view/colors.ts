@@ -7,7 +7,7 @@ const PLAIN = "plain";
 const HEIGHT = "height";
 
 export interface Coloring {
-  /** Three bytes a point; `null` for the file's own. */
+  /** Three bytes for each point. `null`: the file's own colors. */
   tints: Uint8Array | null;
   legend: Legend | null;
 }
@@ -20,8 +20,8 @@ const STEPS = 256;
 const MOST_ENTRIES = 12;
 
 /**
- * Matplotlib's viridis (van der Walt and Smith, 2015; CC0) at 16 places, linear between them, at most 7 of 255 off the
- * whole map. It is even to the eye, also for the color-blind, and readable in gray.
+ * Matplotlib's viridis (van der Walt and Smith, 2015; CC0) at 16 places, linear between them. It differs from the whole
+ * map by at most 7 of 255. The eye sees even steps, also with color blindness. It is readable in gray, too.
  */
 const VIRIDIS_STOPS = [
   "#440154", "#481a6c", "#472f7d", "#414487", "#39568c", "#31688e", "#2a788e", "#23888e",
@@ -60,7 +60,7 @@ const CLASS_COLORS: Readonly<Record<string, string>> = {
 
 type Rgb = readonly [number, number, number];
 
-/** Everything that a cloud can be colored by, with a label. */
+/** Everything by which a cloud can be colored, each with a label. */
 export function colorChoices({ colors, attributes }: Cloud): { value: string; label: string }[] {
   return [
     { value: OWN_COLORS, label: colors ? "Its own colors" : "Two tones" },
@@ -82,14 +82,14 @@ export function colorBy(choice: string, cloud: Cloud, up: Up, theme: Theme): Col
   return kind === "category" ? categories(attribute) : ramp(cloud.count, (i) => values[i]!);
 }
 
-/** In the file's coordinates. */
+/** The heights of the points, in the file's coordinates. */
 function heights({ local, center }: Cloud, up: Up): (i: number) => number {
   const axis = up === "z" ? 2 : 1;
   const sign = upVector(up)[axis];
   return (i) => sign * (local[3 * i + axis]! + center[axis]);
 }
 
-/** A few stray values below and above do not count. */
+/** Colors from low to high. A few stray values at either end do not count. */
 function ramp(count: number, value: (i: number) => number): Coloring {
   const [low, high] = spreadOf(count, value);
   const scale = high > low ? (STEPS - 1) / (high - low) : 0;
@@ -117,7 +117,7 @@ function categories({ values, labels = {} }: Attribute): Coloring {
     color: shown.get(value)!,
     count: counts[known.indexOf(value)]!,
   }));
-  // If there are too many for the list, the largest ones.
+  // If there are too many for the list, only the largest ones are kept.
   if (entries.length > MOST_ENTRIES) entries.sort((a, b) => b.count - a.count).splice(MOST_ENTRIES);
   return { tints, legend: { kind: "categories", entries } };
 }

@@ -16,14 +16,15 @@ import {
 } from "three";
 
 /*
- * Eye-dome lighting (C. Boucheny, 2009). A scan has no normals to shade by. So a pixel is darkened by the distance that its
- * neighbors stand in front of it. Edges, folds and slopes become visible, and so do points that shine through from behind.
+ * Eye-dome lighting (C. Boucheny, 2009). A scan has no normals for shading. So a pixel is darker the farther its
+ * neighbors are in front of it. Edges, folds and slopes become visible. Points that show through from behind become
+ * visible, too.
  */
 
 const STRENGTH = 150;
 /** Points wider than this many device pixels are shaded more softly, since each would get its own dark rim. */
 const SOFT_FROM = 2;
-/** The distance of the neighbors in device pixels; for wide points it grows by this share of their extra width. */
+/** The distance of the neighbors in device pixels. For wide points it grows by this share of their extra width. */
 const REACH = 1.6;
 const WIDE = 0.5;
 
@@ -80,7 +81,7 @@ const fragmentShader = /* glsl */ `
 export class EyeDome {
   /** The width of a point in the scene's units. */
   pointWidth = 1;
-  /** If it is off, the picture is drawn without shading; something else shows the shape. */
+  /** Whether the picture is shaded. It is off if something else shows the shape. */
   enabled = true;
   readonly #target: WebGLRenderTarget;
   readonly #material: ShaderMaterial;
@@ -113,7 +114,7 @@ export class EyeDome {
         layer: { value: false },
       },
     });
-    // One triangle that covers the screen.
+    // This is one triangle that covers the screen.
     const triangle = new BufferGeometry();
     triangle.setAttribute("position", new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
     this.#cover = new Mesh(triangle, this.#material);
@@ -121,7 +122,7 @@ export class EyeDome {
     this.#screen.add(this.#cover);
   }
 
-  /** In display colors. */
+  /** Sets the background, in display colors. */
   setBackground(color: Color): void {
     this.#material.uniforms["background"]!.value = color;
   }
@@ -156,12 +157,12 @@ export class EyeDome {
     this.#planes.set(camera.near, camera.far);
     this.#material.uniforms["reach"]!.value = REACH * renderer.getPixelRatio();
     this.#material.uniforms["strength"]!.value = this.enabled ? STRENGTH : 0;
-    // The distance at which a point is as wide as SOFT_FROM pixels; nearer ones are wider in proportion.
+    // At this distance a point is as wide as SOFT_FROM pixels. Nearer points are wider in proportion.
     const pixels = (camera.projectionMatrix.elements[5] * this.#size.y) / 2;
     this.#material.uniforms["softness"]!.value = (this.pointWidth * pixels) / SOFT_FROM;
   }
 
-  /** Draws onto the screen: a layer of an opacity, or with `null` a new picture. */
+  /** Draws onto the screen. `layer`: the opacity of a layer over the picture; `null` begins a new picture. */
   #draw(renderer: WebGLRenderer, layer: number | null): void {
     const { uniforms } = this.#material;
     uniforms["layer"]!.value = layer !== null;

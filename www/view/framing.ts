@@ -11,7 +11,7 @@ export interface Home {
   viewpoint: Viewpoint;
 }
 
-/** The vertical field of view in degrees, and width by height. */
+/** The vertical field of view in degrees, and the ratio width ÷ height. */
 export interface Lens {
   fov: number;
   aspect: number;
@@ -26,7 +26,7 @@ export interface AskedView {
   target: Viewpoint | null;
 }
 
-/** The view that was asked for, or the sample's own, or a view of the whole cloud. */
+/** Returns the view that was asked for, else the sample's own view, else a view of the whole cloud. */
 export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: AskedView | null, lens: Lens): Home {
   const upward = new Vector3(...upVector(up));
   const at = (viewpoint: Viewpoint, target: Vector3) => ({
@@ -51,7 +51,7 @@ export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: Aske
   };
 }
 
-/** Whether the cloud could be seen from there. From further away it is far smaller than a pixel. */
+/** Whether the place is near enough to see the cloud. From further away the cloud is far smaller than a pixel. */
 function isInReach(cloud: Cloud, view: Viewpoint): boolean {
   return Math.hypot(...view.map((value, axis) => value - cloud.center[axis]!)) <= REACH * cloud.radius;
 }
@@ -99,7 +99,7 @@ export function inLocal({ center }: Cloud, place: Viewpoint): Vector3 {
   return new Vector3(place[0] - center[0], place[1] - center[1], place[2] - center[2]);
 }
 
-/** From the recentered coordinates to those of the file. */
+/** Converts the recentered coordinates to the coordinates of the file. */
 export function inFile(cloud: Cloud, local: Vector3): Viewpoint {
   return [local.x + cloud.center[0], local.y + cloud.center[1], local.z + cloud.center[2]];
 }

@@ -5,11 +5,11 @@ import type { Store } from "../settings/store.ts";
 import { HIDDEN_MODES } from "../settings/table.ts";
 import type { Viewer } from "./viewer.ts";
 
-/** What keys and buttons do to the picture, the same in the page and in an element. */
+/** The actions of keys and buttons on the picture. They are the same in the page and in an element. */
 export class Moves {
   readonly #viewer: Viewer;
   readonly #store: Store;
-  /** A reset goes back to these. */
+  /** A reset goes back to these settings. */
   readonly #usual: () => Pick<Settings, "fieldOfView">;
 
   /** Also binds the keys of the canvas. `more` are the keys that only the page has. */
@@ -50,7 +50,7 @@ export class Moves {
     return this.#store.current.freeze !== null;
   }
 
-  /** Keeps the viewpoint where it is while the camera moves on, or lets it go with the camera again. */
+  /** Keeps the viewpoint in its place while the camera moves on, or lets it move with the camera again. */
   freeze(frozen: boolean): void {
     if (this.#viewer.cloud && frozen !== this.frozen)
       this.#store.change({ freeze: frozen ? this.#viewer.viewpoint : null });

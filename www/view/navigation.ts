@@ -2,7 +2,7 @@ import { type PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { pressed } from "../controls/keys.ts";
 
-/** Where the camera stands and what it looks at, in the recentered coordinates. */
+/** The camera's place and its target, in the recentered coordinates. */
 export interface Pose {
   at: Vector3;
   target: Vector3;
@@ -13,7 +13,7 @@ export interface Pose {
 export class Navigation {
   /** Asks for another field of view, by its ratio to the present one. */
   onFieldOfView: (factor: number) => void = () => undefined;
-  /** The camera has been moved. */
+  /** Called when the camera has been moved. */
   onMove: () => void = () => undefined;
   readonly #camera: PerspectiveCamera;
   readonly #canvas: HTMLCanvasElement;
@@ -57,7 +57,7 @@ export class Navigation {
     this.#controls.dispose();
   }
 
-  /** What the camera looks at. */
+  /** The place that the camera looks at. */
   get target(): Vector3 {
     return this.#controls.target;
   }
@@ -106,7 +106,7 @@ export class Navigation {
       this.onFieldOfView(nth === 0 ? 1 / LENS_STEP : LENS_STEP);
       return;
     }
-    // In the order left, right, up, down.
+    // The order is left, right, up, down.
     const sign = nth % 2 === 0 ? 1 : -1;
     const sideways = nth < 2;
     if (action === "pan") this.#controls.pan(sideways ? sign * PAN_STEP : 0, sideways ? 0 : sign * PAN_STEP);
@@ -115,7 +115,7 @@ export class Navigation {
   }
 }
 
-/** For each press of a key: radians, a share of the distance, pixels, and a factor of the field of view. */
+/** The steps for each press of a key: radians, a share of the distance, pixels, and a factor of the field of view. */
 const ORBIT_STEP = Math.PI / 36;
 const ZOOM_STEP = 0.92;
 const PAN_STEP = 24;

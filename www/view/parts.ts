@@ -1,7 +1,7 @@
-/** The answer of a reference about a point. */
+/** The answers that a reference can give about a point. */
 export const HIDDEN = 0;
 export const VISIBLE = 1;
-/** It lies outside the picture, so a z-buffer does not know it. */
+/** The point is outside the picture, so a z-buffer has no answer. */
 export const OUTSIDE = 2;
 
 /** Our answer beside the answer of a reference. */

@@ -3,7 +3,7 @@ import type { Viewpoint } from "../settings/settings.ts";
 import type { Viewer } from "./viewer.ts";
 import { inFile, inLocal } from "./framing.ts";
 
-/** Where a place is in the picture, in CSS pixels from its left and top; `null` behind the camera. */
+/** Finds a place in the picture, in CSS pixels from its left and top. `null`: it is behind the camera. */
 export function project({ scene, stage }: Viewer, place: Viewpoint): { x: number; y: number } | null {
   const { camera, size } = stage;
   const seen = inLocal(scene.cloud, place).applyMatrix4(camera.matrixWorldInverse);

@@ -21,9 +21,9 @@ const COVERAGE = 0.7;
 export const THROUGH_OPACITY: Record<HiddenMode, number> = { off: 0, dimmed: 0.4, shown: 0.85 };
 const THROUGH_WIDTH = 0.45;
 
-/** The greatest width of a point in device pixels: a wider one would cover the view. */
+/** The greatest width of a point in device pixels. A wider point would cover the view. */
 export const MOST_PIXELS = 160;
-/** In device pixels: to the right of any picture. */
+/** A number of device pixels that is wider than any picture. */
 const EVERYWHERE = 1e9;
 
 const vertexShader = /* glsl */ `
@@ -211,14 +211,14 @@ export class CloudPoints {
     for (const [{ material }, color] of colors) material.uniforms["cover"]!.value = display(color);
   }
 
-  /** Takes multiples of the points' rough distance from one another; returns the width of a point in the cloud's units. */
+  /** Takes multiples of the rough distance between neighbors. Returns the width of a point in the cloud's units. */
   setPointSize(size: number): number {
     this.#width = size * this.#spacing;
     this.#setWidths();
     return this.#width;
   }
 
-  /** Gives each draw its part of the order; the hidden points are the last. */
+  /** Gives each draw its part of the order. The hidden points are the last part. */
   #setRanges(ends: readonly number[]): void {
     let from = 0;
     [...ends, this.#order.count].forEach((end, i) => {
@@ -242,12 +242,15 @@ export class CloudPoints {
   }
 }
 
-/** As if the points lay evenly on the faces of their bounding box. It is near enough for a surface, and needs no search. */
+/**
+ * The distance between neighbors if the points were spread evenly over the faces of their bounding box. It is good
+ * enough for a surface, and needs no search.
+ */
 function roughSpacing({ size: [x, y, z], count }: Cloud): number {
   return Math.sqrt((2 * (x * y + y * z + z * x)) / count);
 }
 
-/** A few points are drawn larger, so that they can be found. */
+/** The least width of a point in pixels. If there are few points, it is larger, so that they can be found. */
 function leastPixels(count: number): number {
   return count < 100 ? 6 : count < 1000 ? 3 : 1.5;
 }

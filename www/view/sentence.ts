@@ -14,7 +14,7 @@ export function sentenceOf({ visibility, quick, milliseconds }: TimedView, total
   return `${number.format(visibility.count)} of ${number.format(total)} ${total === 1 ? "point" : "points"} (${share}) ${where}, found in ${time}\u00a0ms${standIn}.`;
 }
 
-/** Rounded, but to 0 % only for none, and to 100 % only for all. */
+/** Rounds the percentage. Only no points at all give 0 %, and only all points give 100 %. */
 function percent(count: number, total: number): string {
   const share = total > 0 ? Math.round((100 * count) / total) : 0;
   if (share === 0 && count > 0) return "<\u00a01\u00a0%";

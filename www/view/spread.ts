@@ -2,7 +2,7 @@
 const STRAYS = 0.01;
 const SAMPLE = 5000;
 
-/** The two values between which nearly all values are; finite ones only. */
+/** Finds two values that have nearly all other values between them. Only finite values count. */
 export function spreadOf(count: number, value: (i: number) => number): [low: number, high: number] {
   const step = Math.ceil(count / SAMPLE);
   const sample = new Float64Array(Math.ceil(count / step));

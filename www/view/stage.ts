@@ -24,7 +24,7 @@ export class Stage {
   readonly #eyeDome: EyeDome;
   readonly #resizing = new ResizeObserver(() => {
     this.#resize();
-    // A resized canvas is empty; drawing at once avoids a flash.
+    // A resized canvas is empty. It is drawn at once to avoid a flash.
     this.#frame();
   });
   #shape = { width: 1, height: 1 };
@@ -120,7 +120,7 @@ export class Stage {
   #resize(): void {
     const { clientWidth: width, clientHeight: height } = this.#canvas;
     if (width === 0 || height === 0) return;
-    // Kept: reading it again makes the browser lay the document out.
+    // The shape is kept, because to read it again makes the browser compute the layout.
     this.#shape = { width, height };
     this.#renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.#renderer.setSize(width, height, false);
@@ -134,7 +134,7 @@ export class Stage {
     return this.#renderer.getPixelRatio();
   }
 
-  /** The present picture as a PNG file; rejects if there is none. */
+  /** Returns the present picture as a PNG file. Rejects if there is no picture. */
   snapshot(): Promise<Blob> {
     if (this.#renderer.getContext().isContextLost())
       return Promise.reject(new Error("the browser has taken the picture away"));
@@ -178,10 +178,10 @@ export function clipping(distance: number, extent: number): { near: number; far:
   return { near: Math.max(distance - 1.1 * extent, far / 5000), far };
 }
 
-/** The same attributes that three.js asks for. */
+/** The attributes of the context. They are the same as in three.js. */
 const CONTEXT: WebGLContextAttributes = { alpha: true, antialias: false, powerPreference: "high-performance" };
 
-/** Whether this browser can draw on a canvas. Asked before three.js, which would log an error; it takes this context over. */
+/** Whether this browser can draw. Ask it before three.js, which would log an error. three.js then uses this context. */
 export function canDraw(canvas: HTMLCanvasElement): boolean {
   return canvas.getContext("webgl2", CONTEXT) !== null;
 }

@@ -1,10 +1,10 @@
 /** The colors of the canvas. The page around it has the same colors from styles/theme.css. */
 export interface Theme {
   background: string;
-  /** For files without colors: two calm tones from low to high. The shading shows the shape. */
+  /** Two calm tones from low to high, for files without colors. The shading shows the shape. */
   low: string;
   high: string;
-  /** For all points, if they are drawn in one color. */
+  /** The color of all points, if they are drawn in one color. */
   plain: string;
   /** Hidden points have their own hue. Dimmed points that nothing covers are nearer to the background. */
   hidden: string;

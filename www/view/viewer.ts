@@ -25,9 +25,9 @@ export interface Opened {
   inquiry: Inquiry;
   home: Home;
   answer: TimedView;
-  /** The first view with that side up, for the present shape of the picture. */
+  /** Finds the first view if `up` points up, for the present shape of the picture. */
   findHome: (up: Up) => Home;
-  /** The surface that its points were taken from; if it is not known, a sentence says why. */
+  /** The surface that its points were taken from. If it is not known, a sentence says why. */
   surface: KnownSurface | string;
 }
 
@@ -63,7 +63,7 @@ export class Viewer {
   /** Whether the picture shows our answer beside a reference. */
   #compared = false;
 
-  /** `polite`: over the picture one can scroll the page around it. */
+  /** `polite`: the wheel and one finger over the picture scroll the page around it. */
   constructor(canvas: HTMLCanvasElement, store: Store, polite: boolean) {
     this.#store = store;
     this.stage = new Stage(canvas);
@@ -77,7 +77,7 @@ export class Viewer {
     this.navigation.onMove = () => {
       this.#inquire();
     };
-    // Before the first move, the whole cloud stays in the picture; afterwards the camera stays where it is.
+    // Before the first move, the whole cloud stays in the picture. After it, the camera stays in its place.
     this.stage.onResize = () => {
       if (this.isHome) this.reset();
     };
@@ -91,7 +91,7 @@ export class Viewer {
     return this.#shown?.cloud ?? null;
   }
 
-  /** For the tools; only while there is a cloud. */
+  /** The cloud and its visible points, for the tools. Use it only while there is a cloud. */
   get scene(): Opened & { visible: Uint32Array } {
     return { ...this.#shown!, visible: this.#shown!.answer.visibility.indices };
   }
@@ -180,7 +180,7 @@ export class Viewer {
     this.#setUp(this.#store.current.up);
     this.#paint(this.#store.current);
     inquiry.onView(answer);
-    // If something is wrong with the worker, the next answer tells it.
+    // If the worker has failed, the next answer reports the error.
     inquiry.findAutomatic().catch(() => undefined);
     this.#inquire();
   }
@@ -198,7 +198,7 @@ export class Viewer {
     this.reset();
   }
 
-  /** Draws the last answer beside a reference, also while newer answers come; with `null`, the newest answer alone. */
+  /** Draws the last answer beside a reference, even while newer answers come. `null`: draws only the newest answer. */
   showParts(parts: Parts | null, fill = false): void {
     if (!this.#shown || (!parts && !this.#compared)) return;
     this.#compared = parts !== null;
@@ -298,7 +298,7 @@ export class Viewer {
     this.stage.setFieldOfView(fieldOfView);
   }
 
-  /** Marks the frozen viewpoint. It has the direction of the camera if that stands there, else it looks at the target. */
+  /** Marks the frozen viewpoint. It has the camera's direction if the camera is there, else it faces the target. */
   #placeMarker(freeze: Viewpoint | null): void {
     this.#marker.remove();
     const { cloud } = this.#shown!;
@@ -315,7 +315,7 @@ export class Viewer {
     );
     this.#shown!.frozen = here ? camera.quaternion.clone() : toTarget;
     this.#marker.place(at, this.#shown!.frozen, 0.18 * cloud.radius);
-    // The marker must be in the picture, too, from wherever the camera looks back at it.
+    // The marker must be in the picture, too, from every place of the camera.
     this.stage.setExtent(Math.max(cloud.radius, at.length() + 0.2 * cloud.radius));
   }
 }
