@@ -1,7 +1,7 @@
 import { existsSync } from "node:fs";
 import { dirname, join } from "node:path";
 
-/** The repository. Some of this runs where it is, and some compiled, deep in target/. */
+/** The folder of the repository. Some test files run in place. Others are compiled and run deep in target/. */
 export const root = above(import.meta.dirname);
 
 function above(directory: string): string {

@@ -1,7 +1,7 @@
 import { bytes, type Case, type Edit, edited, SAME } from "./corpus";
 import { binary, literals, packed, pcdBody, type PcdEncoding, pcdHeader, POINTS, type Value } from "./valid";
 
-/** Faults of the header, which are the same in text and binary. A bar divides sentences that are all right. */
+/** Faults of the header. They are the same in text and binary. A bar separates messages. Each of them is right. */
 const HEADER_FAULTS: [name: string, edit: Edit, expected: Case["expected"]][] = [
   ["no end", [/DATA.*\n/, ""], "its PCD header has no end|is not a line of a PCD header"],
   [
@@ -137,7 +137,7 @@ const PACKED_FAULTS: [name: string, content: Uint8Array, expected: Case["expecte
   ["all zeros, by one copy of itself", packed(Uint8Array.of(0, 0, 0xe0, 42, 0), 52), new Array<number>(12).fill(0)],
 ];
 
-/** Types of x, y and z, with three numbers between them. */
+/** Types of x, y and z. Three numbers of another type lie between x and y. */
 function typedCases(): Case[] {
   const types: [letter: string, size: number, values: readonly number[], write: (view: DataView, at: number, value: number) => void][] = [
     ["I", 1, [-128, 127, 0], (view, at, value) => { view.setInt8(at, value); }],

@@ -1,7 +1,7 @@
 import { bytes, type Case, type Edit, edited, SAME } from "./corpus";
 import { binary, plyBody, PLY_FORMATS, plyHeader, POINTS, type Value } from "./valid";
 
-/** Faults of the header, which are the same in text and binary. A bar separates messages; each of them is right. */
+/** Faults of the header. They are the same in text and binary. A bar separates messages. Each of them is right. */
 const HEADER_FAULTS: [name: string, edit: Edit, expected: Case["expected"]][] = [
   ["other first word", ["ply", "plyx"], "it does not begin like a PLY file"],
   ["no end", ["end_header\n", ""], "|its PLY header has no end|is not a line of a PLY header"],
@@ -148,7 +148,7 @@ function headerCases(): Case[] {
   );
 }
 
-/** Types of x, y and z, each with values that fit the type or do not. */
+/** Types of x, y and z. Each row has values that all fit the type, or one value that does not. */
 const TYPED: [type: string, row: string, expected: Case["expected"]][] = [
   ["uchar", "255 0 7", [255, 0, 7]],
   ["uchar", "256 0 7", "line 8 is not a point, its x is not of type uint8"],
@@ -176,7 +176,7 @@ function typedCases(): Case[] {
   }));
 }
 
-/** Lists in vertices, and an element before them. */
+/** Files with lists in their vertices, and with another element before the vertices. */
 function listCases(): Case[] {
   const header = (format: string) =>
     `ply\nformat ${format} 1.0\nelement camera 1\nproperty list uchar float matrix\nproperty uchar id\nelement vertex 2\nproperty list uchar ushort seen\nproperty float x\nproperty float y\nproperty float z\nend_header\n`;

@@ -4,7 +4,7 @@ import { POINTS, table } from "./valid";
 
 const SPACED = table(" ");
 const COMMAS = table(",");
-/** The points with their number before them and a time behind. */
+/** Each point has its number before it and a time after it. */
 const NUMBERED = POINTS.map((point, i) => [i + 1, ...point, 0.5 * i]);
 const commas = (text: string) => text.replaceAll(".", ",");
 const withFirst = (x: number) => [x, ...SAME.slice(1)];
@@ -246,7 +246,7 @@ const ROWS: Row[] = [
   ["columns in a comment", `# a b c d e\n${table(" ", NUMBERED)}`, SAME, ["b", "c", "d"]],
 ];
 
-/** A first number that is no coordinate in any of these spellings, and one that is. */
+/** Spellings of a first number, and its value. If the value is undefined, the spelling is not a coordinate. */
 const NUMBERS: [word: string, value: number | undefined][] = [
   ["+7", 7],
   ["007", 7],

@@ -1,17 +1,17 @@
 import type { ChosenColumns } from "../../src/ts/formats/axes";
 import { FLAT } from "./valid";
 
-/** A file with a named fault, and what has to come of it. */
+/** A file with a named fault, and the expected result. */
 export interface Case {
   name: string;
   file: string;
   content: Uint8Array;
   columns?: ChosenColumns;
-  /** The points that are read, or a part of the sentence that refuses the file. */
+  /** The points that must be read, or a part of the message that must refuse the file. */
   expected: readonly number[] | string;
 }
 
-/** A change of a text: what is replaced by what, or how the whole is written anew. */
+/** A change of a text: a replacement of one part, or a function that returns the whole new text. */
 export type Edit = readonly [from: string | RegExp, to: string] | ((text: string) => string);
 
 export function edited(text: string, edit: Edit): string {
@@ -20,7 +20,7 @@ export function edited(text: string, edit: Edit): string {
   return result;
 }
 
-/** The same points as without the fault. */
+/** The expected points are the same as without the fault. */
 export const SAME = FLAT;
 
 export const bytes = (...parts: (string | Uint8Array)[]) =>

@@ -1,5 +1,6 @@
-// A second reader, written from the definitions of the formats alone: slow, without a word about faults, and without any code
-// of the readers it checks. It throws on what it cannot read, and gives undefined where it has no opinion.
+// A second reader, written only from the definitions of the formats. It is slow, and it does not describe faults. It
+// shares no code with the readers that it checks. It throws if it cannot read a file. It returns undefined if it has
+// no opinion.
 
 export function naive(name: string, content: Uint8Array): number[] | undefined {
   if (name.endsWith(".ply")) return ply(content);
@@ -37,7 +38,7 @@ function whole(word: string | undefined): number {
   return parseInt(word, 10);
 }
 
-/** The header's lines and where the data begins: headers are ended as their first line is. */
+/** The lines of the header, and where the data begins. All lines of a header end like its first line. */
 function header(content: Uint8Array, isLast: (line: string) => boolean): { lines: string[]; start: number } {
   const text = latin(content).replace(/^\xef\xbb\xbf/, "");
   const mark = content.length - text.length;
@@ -122,7 +123,7 @@ function axesIn(columns: readonly Column[]): Column[] {
   fail();
 }
 
-/** A number of a text, as its type holds it. */
+/** A number from a text, rounded like its type rounds it. An integer type must be given an integer. */
 function typed(value: number, type: string): number {
   if (type === "f4") return Math.fround(value);
   if (type !== "f8" && !Number.isInteger(value)) fail();
@@ -207,7 +208,7 @@ function unpacked(data: Uint8Array): Uint8Array {
 
 const AXES = [/^(x|easting)$/, /^(y|northing)$/, /^(z|height)$/];
 
-/** Without quotation marks. Names are those that the fuzzer writes. */
+/** Reads tables without quotation marks. It knows only the column names that the fuzzer writes. */
 function table(text: string): number[] | undefined {
   if (text.includes('"')) return undefined;
   const lines = text.split(/\r\n|\r|\n/).filter((line) => !blank(line)); // prettier-ignore
@@ -239,7 +240,7 @@ function table(text: string): number[] | undefined {
     }
     isHead = false;
     divider = by;
-    // A separator may stand at the end of each line but that of the names.
+    // A separator may stand at the end of each line, except the line of names.
     if (names !== undefined && words.length === names.length + 1 && words.at(-1) === "") words.pop();
     width ??= words.length;
     if (words.length === width + 1 && words.at(-1) === "") words.pop();
@@ -264,7 +265,7 @@ function placesIn(names: readonly string[]): number[] {
   return exact.includes(-1) ? AXES.map((axis) => names.findIndex((name) => axis.test(name))) : exact;
 }
 
-/** Where a comment names the columns; otherwise they are the first three. */
+/** The columns of x, y and z that a comment names. Without such a comment they are the first three. */
 function commentedPlaces(comments: readonly string[], width: number, marked: boolean): number[] {
   for (const comment of comments.toReversed()) {
     const line = strip(comment.replace(/^(#+|\/\/+)/, ""));

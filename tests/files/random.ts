@@ -78,7 +78,7 @@ export class Random {
   }
 }
 
-/** Numbers that single precision and a short text hold. */
+/** A random number that single precision and a short text hold exactly. */
 function someNumber(random: Random): number {
   return random.of([random.below(20) - 10, (random.below(4000) - 2000) / 8, random.below(2) + 0.5]);
 }

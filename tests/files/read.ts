@@ -1,4 +1,4 @@
-// Reads a file as the command does and as the page does, in this process.
+// Reads a file in this process: once like the command does, and once like the page does.
 import { extname } from "node:path";
 import type { ChosenColumns } from "../../src/ts/formats/axes";
 import { FormatProblem } from "../../src/ts/formats/problem";

@@ -24,7 +24,7 @@ export function binary(values: readonly Value[], littleEndian: boolean): Buffer 
 
 export const PLY_FORMATS = { ascii: "ascii", little: "binary_little_endian", big: "binary_big_endian" };
 
-/** Vertices with a color, and one face. */
+/** The header of a file with colored vertices and one face. */
 export function plyHeader(encoding: keyof typeof PLY_FORMATS): string {
   return [
     "ply",
@@ -55,7 +55,7 @@ export function plyBody(encoding: keyof typeof PLY_FORMATS): Buffer {
 
 export type PcdEncoding = "ascii" | "binary" | "binary_compressed";
 
-/** Points with an intensity. */
+/** The header of a file with points that have an intensity. */
 export function pcdHeader(encoding: PcdEncoding): string {
   return [
     "# .PCD v0.7",
@@ -88,7 +88,7 @@ export function pcdBody(encoding: PcdEncoding): Buffer {
   return packed(literals(columns), columns.length);
 }
 
-/** Compressed data behind its two lengths. */
+/** Compressed data, after its compressed and its uncompressed length. */
 export function packed(data: Uint8Array, unpacked: number, length = data.length): Buffer {
   const sizes = Buffer.alloc(8);
   sizes.writeUInt32LE(length, 0);
@@ -96,7 +96,7 @@ export function packed(data: Uint8Array, unpacked: number, length = data.length)
   return Buffer.concat([sizes, data]);
 }
 
-/** LZF without repetitions: runs of up to 32 bytes, each behind its length less one. */
+/** LZF without compression: runs of up to 32 bytes. The length minus one comes before each run. */
 export function literals(plain: Uint8Array): Buffer {
   const parts: Uint8Array[] = [];
   for (let at = 0; at < plain.length; at += 32) {
@@ -106,7 +106,7 @@ export function literals(plain: Uint8Array): Buffer {
   return Buffer.concat(parts);
 }
 
-/** The lines of a table, the columns divided by `separator`. */
+/** The lines of a table. `separator` stands between the columns. */
 export function table(separator: string, points: readonly (readonly (number | string)[])[] = POINTS): string {
   return points.map((point) => `${point.join(separator)}\n`).join("");
 }

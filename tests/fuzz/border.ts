@@ -1,4 +1,4 @@
-// The public API under arguments of any kind: every call is answered rightly or refused as the contract says.
+// The public API under arguments of any kind. Every call must be answered correctly, or refused as the contract says.
 import fc from "fast-check";
 import { init } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
@@ -11,9 +11,9 @@ import { oneShot, questions } from "./border/single.js";
 
 interface Property {
   name: string;
-  /** How many cases take about a second, or less. */
+  /** This many cases take about one second at most. */
   pace: number;
-  /** Tries so many cases. `wrong` says what is wrong, and what repeats it. */
+  /** Tries this many cases. `wrong` describes the fault and how to repeat it. */
   check: (seed: number, cases: number) => Promise<{ tried: number; wrong: string | undefined }>;
 }
 

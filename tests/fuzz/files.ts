@@ -1,5 +1,5 @@
-// Random changes of valid files: each is refused in a sentence, or read as a second, naive reader reads it, by the command
-// and by the page alike.
+// Random changes of valid files. Each changed file must be refused with a message, or read like a second, naive reader
+// reads it. The command and the page must do the same.
 import { naive } from "../files/naive";
 import { type Outcome, readAsCommand, readAsPage } from "../files/read";
 import { Random, validFile } from "../files/random";
@@ -11,7 +11,7 @@ interface Tally {
   wrong: number;
 }
 
-/** Tries files for so many minutes, prints what was tried, and gives back how many were read wrongly. */
+/** Tries files for this many minutes and prints the counts. Returns how many files were read wrongly. */
 export async function fuzzFiles(minutes: number, seed: number): Promise<number> {
   console.log(`seed ${seed}, ${minutes} minutes`);
   const end = Date.now() + 60_000 * minutes;
@@ -24,7 +24,7 @@ export async function fuzzFiles(minutes: number, seed: number): Promise<number> 
 
 const CHANGES_OF_EACH = 20;
 
-/** A valid file and changes of it, all of which the seed tells. */
+/** Tries a valid file and changes of it. The seed determines all of them. */
 export async function tryRound(seed: number, tallies: Map<string, Tally>, say: (text: string) => void): Promise<void> {
   const random = new Random(seed);
   const { kind, name, content, points } = validFile(random);
@@ -56,7 +56,7 @@ function attempt(name: string, content: Uint8Array): Outcome | undefined {
   }
 }
 
-/** @param expected points, or undefined where the naive reader has to tell */
+/** @param expected the right points; if undefined, the naive reader finds them */
 async function faultOf(name: string, content: Uint8Array, expected?: readonly number[]): Promise<string | undefined> {
   let command: Outcome;
   let page: Outcome;
@@ -81,7 +81,7 @@ async function faultOf(name: string, content: Uint8Array, expected?: readonly nu
 }
 
 function equal(a: readonly number[], b: readonly number[]): boolean {
-  // What is infinite is no position, as what is missing.
+  // An infinite number is not a position. It counts as missing, like NaN.
   return (
     a.length === b.length && a.every((value, i) => value === b[i] || !(Number.isFinite(value) || Number.isFinite(b[i])))
   );

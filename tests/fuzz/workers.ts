@@ -1,5 +1,6 @@
-// Clouds that several workers share by default, against one instance: rooms and blocks of a
-// lattice of 200,000 points and more, from viewpoints in their planes, on their points and corners.
+// Compares clouds that several workers share by default with the same clouds in one instance.
+// The clouds are rooms and blocks of a lattice, with 200,000 points and more. The viewpoints
+// lie in planes of these clouds, on their points and on their corners.
 import { init, PointCloud } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 
@@ -23,7 +24,7 @@ function randomNumbers(seed: number): Random {
   };
 }
 
-/** Points on the walls of a room; to multiples of `unit`, if it is not 0. */
+/** Points on the walls of a room. If `unit` is not 0, coordinates are rounded to multiples of it. */
 function room(random: Random, count: number, unit: number): Float64Array {
   const positions = new Float64Array(3 * count);
   for (let i = 0; i < count; i++) {
@@ -36,7 +37,7 @@ function room(random: Random, count: number, unit: number): Float64Array {
   return positions;
 }
 
-/** In the room, in planes of walls and points, on corners, points and lines through points. */
+/** A viewpoint in the plane of a wall or a point, on a corner, on a point, or on a line through two points. */
 function viewpoint(random: Random, positions: Float64Array | Float32Array): Place {
   const any = (): Place => {
     const i = 3 * Math.floor((random() * positions.length) / 3);
@@ -72,7 +73,7 @@ function options(random: Random): object {
   return choices[Math.floor(random() * choices.length)]!;
 }
 
-/** Compares views of shared clouds with those of one instance until the minutes are over. */
+/** Compares views of shared clouds with views of one instance until the time is over. */
 export async function fuzzWorkers(minutes: number, seed: number): Promise<{ tried: number; wrong: number }> {
   await init();
   const random = randomNumbers(seed);

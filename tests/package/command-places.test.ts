@@ -137,7 +137,7 @@ describe.runIf(isUnix)("a path that is not a regular file", () => {
 });
 
 describe.runIf(isUnix)("a command that is stopped", () => {
-  /** Large enough to be written in several pieces: 40 MB, in lines of 400 kB, so that there are few points. */
+  /** Writes 40 MB, so that the command writes in several pieces. Lines of 400 kB keep the number of points small. */
   function writeLarge(): void {
     const file = openSync(inScratch("large.xyz"), "w");
     for (let i = 0; i < 100; i++) writeSync(file, `0 ${i} 1 ${"word".repeat(100_000)}\n`);
@@ -156,7 +156,7 @@ describe.runIf(isUnix)("a command that is stopped", () => {
   it.each(["SIGINT", "SIGTERM", "SIGHUP"] as const)("leaves nothing behind after %s", async (signal) => {
     writeLarge();
     let hit = 0;
-    // The file exists for some milliseconds only. Some tries come too late.
+    // The unfinished file exists for some milliseconds only. Some tries come too late.
     for (let tries = 0; tries < 20 && hit === 0; tries++) {
       rmSync(inScratch("stopped.xyz"), { force: true });
       const child = spawn(process.execPath, [COMMAND, "large.xyz", "--from", "0,0,500", "-o", "stopped.xyz"], {

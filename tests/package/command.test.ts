@@ -43,7 +43,7 @@ function run(...args: string[]) {
   return { stdout, stderr: stderr.toString(), status };
 }
 
-/** Filters a file and gives back what was written. */
+/** Filters a file, and returns the contents of the output file. */
 function filtered(name: string, content: Uint8Array | string, ...options: string[]): Buffer {
   writeFileSync(inScratch(name), content);
   const output = `out-${name}`;
@@ -155,7 +155,7 @@ describe("PCD files keep every byte of the visible points", () => {
     sizes.writeUInt32LE(packed.length, 0);
     sizes.writeUInt32LE(columns.length, 4);
     const file = bytes(pcdHeader("binary_compressed", COUNT), sizes, packed);
-    // The file is one that other programs accept.
+    // Other programs accept this file, too.
     const geometry = new PCDLoader().parse(new Uint8Array(file).buffer).geometry;
     expect([...geometry.getAttribute("position").array]).toEqual([...sphere]);
     expect(packed.length).toBeLessThan(columns.length);
@@ -342,7 +342,7 @@ describe("the rest", () => {
   });
 });
 
-/** Packs runs that repeat the bytes 4 or 8 places earlier. */
+/** Compresses with LZF. It packs only bytes that are equal to the bytes 4 or 8 places earlier. */
 function lzf(data: Buffer): Buffer {
   const out: number[] = [];
   let literals: number[] = [];

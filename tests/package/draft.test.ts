@@ -23,7 +23,7 @@ it("drafts hold all that is visible, with the same radius and inversion", () => 
     expect(exact.exact).toBe(true);
     expect(isPart(exact.indices, draft.indices)).toBe(true);
     expect(draft.count).toBeLessThan(cloud.length);
-    // Whatever was asked before.
+    // The answer does not depend on earlier questions.
     expect(cloud.visibleFrom(from, { ...options, draft: true }).indices).toEqual(draft.indices);
     expect(hiddenPointRemoval(positions, from, options).indices).toEqual(exact.indices);
   }
@@ -86,7 +86,7 @@ it("drafts and samples of clouds in a plane are had", () => {
 
 it("a sample answers as a cloud of its points, until the cloud changes", () => {
   const cloud = new PointCloud(positions);
-  // From the middle, with such a sphere, all that take part are visible.
+  // With this exponent, all points that take part are visible from the middle.
   const taken = (sample: number) => cloud.visibleFrom([0, 0, 0], { sample, exponent: 12 });
   const sampled = taken(2000);
   expect(sampled.exact).toBe(false);

@@ -20,7 +20,7 @@ const remove = (indices: unknown) => () => {
   new PointCloud(sphere).remove(loose(indices));
 };
 
-/** code, what the message names, and a call that fails for it */
+/** A code, a pattern for the message, and a call that is refused with them. */
 const refusals: [code: string, names: RegExp, call: () => unknown][] = [
   ["positions-length", /got 4\b.*multiple of 3/, newCloud([1, 2, 3, 4])],
   ["positions-length", /got 2\b/, newCloud(new Float32Array(2))],

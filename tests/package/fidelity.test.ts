@@ -36,7 +36,8 @@ describe("rays", () => {
     const facing = Array.from(seen, (_, i) =>
       point(mesh.positions, i).reduce((sum, x, axis) => sum + x * VIEWPOINT[axis]!, -1),
     );
-    // The silhouette of a ball of flat faces is a little off. At its poles many vertices share a place, each with its own faces.
+    // The silhouette of a ball of flat faces is a little off. At its poles many vertices share a place, and each has its
+    // own faces.
     const isPole = (i: number) => Math.abs(mesh.positions[3 * i + 2]!) > 0.999999;
     const sure = facing.flatMap((height, i) => (Math.abs(height) > 0.1 && !isPole(i) ? [i] : []));
     expect(sure.length).toBeGreaterThan(0.9 * seen.length);
@@ -72,7 +73,7 @@ test("points are scattered over the faces by area and density", () => {
   for (let i = 0; i < 10_000; i += 97) {
     const [x, y, z] = point(positions, i);
     expect(z).toBe(-1.5);
-    // Two faces to each of four columns of four rows.
+    // The floor has four rows of four squares. Each square has two faces.
     expect(Math.floor(faces![i]! / 2)).toBe(4 * Math.floor((y + 4) / 2) + Math.floor((x + 4) / 2));
   }
 });

@@ -385,7 +385,7 @@ describe("a lost worker is made again", () => {
     recovery = new Recovery(() => made++);
   });
 
-  /** For this many milliseconds, loses it again each time as soon as it is made. */
+  /** For this many milliseconds, loses each new worker as soon as it is made. Returns the times of the losses. */
   function lose(milliseconds: number, wish?: boolean): number[] {
     const times: number[] = [];
     let before = made;

@@ -204,7 +204,7 @@ describe("arguments that act while they are read", () => {
       }),
     );
 
-    // Another cloud in its place does not answer for it.
+    // If another cloud takes its place, that cloud does not answer instead.
     const other = new PointCloud(sphere);
     const replace = () => {
       other.dispose();
@@ -275,7 +275,7 @@ describe("arguments that act while they are read", () => {
     await expectRefusal("positions-type", /unknown/, () => new PointCloud(loose(secretive)));
     await expectRefusal("positions-type", /positions\[0\]/, () => new PointCloud(loose([proxy, 1, 1])));
     await expectRefusal("viewpoint", /unknown/, () => witness.visibleFrom(loose(secretive)));
-    // The engine's own complaint.
+    // This error comes from the JavaScript engine itself.
     expect(await problemOf(() => new PointCloud(loose(proxy)))).toBeInstanceOf(TypeError);
   });
 });

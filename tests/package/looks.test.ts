@@ -13,12 +13,12 @@ const sphere = bumpySphere(1, 3000);
 const farAway = [0, 0, 5];
 const cloud = new PointCloud(sphere);
 
-/** What the reference answered, in Python, for the bunny of 1,839 points. */
+/** An answer of the reference, which is in Python, for the bunny of 1,839 points. */
 interface Reference {
   viewpoint: number[];
-  /** One bit a point, the first in the highest. */
+  /** One bit for each point. The first point is in the highest bit. */
   visible: string;
-  /** One byte a point: the score times 255. */
+  /** One byte for each point: the score times 255. */
   scores: string;
 }
 const references = JSON.parse(

@@ -102,7 +102,7 @@ describe("a cloud split into nodes", () => {
     await expectWhole(early);
     root.add(...late);
     await expectWhole(nodes);
-    // Some leave, one is hidden, and they come back.
+    // Some nodes leave, and one is hidden. Later they come back.
     const left = nodes.filter((_, i) => i % 3 === 0);
     root.remove(...left);
     nodes[1]!.visible = false;

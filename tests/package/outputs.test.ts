@@ -128,7 +128,7 @@ describe("light", () => {
   });
 
   it("is softened by means over a mesh", () => {
-    // A strip 0-1-2-3 of two triangles, 3 in the last one only. 4 is in no triangle.
+    // Points 0 to 3 form a strip of two triangles. Point 3 is in the second triangle only. Point 4 is in none.
     const strip = new PointCloud([0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, -1]);
     const triangles = Uint32Array.of(0, 1, 2, 1, 3, 2);
     const light = [[0, 0, 5]];

@@ -1,5 +1,5 @@
 // The tables of settings and keys in the documents must match the page. After a change of the page,
-// `HPR_WRITE=1 npx vitest run tests/package/page-documents.test.ts` writes them anew.
+// `HPR_WRITE=1 npx vitest run tests/package/page-documents.test.ts` updates the tables.
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "vitest";
@@ -21,7 +21,7 @@ function table(head: readonly string[], rows: readonly (readonly string[])[]): s
   return [line(head), `|${"---|".repeat(head.length)}`, ...rows.map(line)].join("\n");
 }
 
-/** What holds without a setting: the usual value, if there are no words for it. */
+/** The words for a missing setting. If there are no words, its usual value. */
 function usualOf(name: SettingName): string {
   const { write, usual } = SETTINGS[name] as unknown as AnyRow;
   return SETTING_WORDS[name].without ?? `\`${write(usual)}\``;

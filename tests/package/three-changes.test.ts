@@ -471,7 +471,7 @@ describe.each(VERSIONS)("with %s", (_, load) => {
         all.forEach((filter, j) => {
           filter.update(scenes[j]!.camera);
         });
-        // Waits for both: a filter that has not answered since the last death would blame itself for the next.
+        // Waits for both filters. If a filter has not answered since the last death, it blames itself for the next.
         await expect.poll(() => drawn(scenes[0]!.geometry)).toEqual(visibleFrom([x, 0, 5], sphere));
         await expect.poll(() => drawn(scenes[1]!.geometry)).toEqual(visibleFrom([x, 0, 5], other));
       }

@@ -4,7 +4,7 @@ import { describe, expect, it } from "vitest";
 
 const consumer = fileURLToPath(new URL("./consumer/consumer.ts", import.meta.url));
 
-/** What the compiler says about the consumer, the package's declarations included. */
+/** The compiler's messages about the consumer and about the package's declarations. */
 function complaints(options: ts.CompilerOptions): string[] {
   const program = ts.createProgram([consumer], {
     target: ts.ScriptTarget.ES2022,

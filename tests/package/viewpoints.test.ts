@@ -120,7 +120,7 @@ describe("a direction", () => {
     for (const options of [{}, { inversion: { exponential: "auto" } }] as const) {
       const limit = cloud.visibleFromDirection(direction, options);
       expect(limit.count).toBeGreaterThan(200);
-      // At this distance, this many points still differ.
+      // At each distance: the number of points that still differ.
       const differing = [3, 300, 30_000].map((distance) => {
         const [near, far] = [cloud.visibleFrom(from(distance), options).mask(), limit.mask()];
         return near.filter((visible, i) => visible !== far[i]).length;

@@ -150,7 +150,7 @@ describe("a cloud in a worker", () => {
       const onProgress = (fraction: number) => told.push(fraction);
       const cloud = await WorkerPointCloud.create(positions, { workers, onProgress });
       expect([told[0], told.at(-1)]).toEqual([0, 1]);
-      // Checked and sorted, in each of them.
+      // Each worker reports at least two steps: its points are checked, and then sorted.
       expect(told.length).toBeGreaterThan(2 * workers);
       expect(told).toEqual([...new Set(told)].sort((a, b) => a - b));
       await cloud.visibleFrom(farAway);
@@ -285,7 +285,7 @@ describe("requests given up", () => {
     ];
     const none = new Array<string>(7).fill("aborted");
     const all = new Array<string>(7).fill("answered");
-    // The first one had already begun.
+    // The first request had already begun.
     expect(await first).toEqual(["answered", ...none.slice(1)]);
     expect(await second).toEqual(none);
     expect(await third).toEqual(all);
@@ -381,7 +381,7 @@ describe("a worker that is gone", () => {
 
   it("rejects everything with internal if it died, and a new cloud works", async () => {
     const [cloud, other] = [await WorkerPointCloud.create(sphere), await WorkerPointCloud.create(sphere)];
-    // It dies before its first message, however fast it is.
+    // The worker dies before its first message, however fast it is.
     started[0]!.removeAllListeners("message");
     const pending = codesOf(pendingIn(cloud));
     void started[0]!.terminate();
@@ -400,7 +400,7 @@ describe("a worker that is gone", () => {
     expect((await cloud.autoRadius(farAway)).radius).toBeGreaterThan(0);
     expect(await codesOf(pendingIn(cloud))).toEqual(Array<string>(5).fill("internal"));
     expect(await codesOf([cloud.autoRadius(farAway)])).toEqual(["internal"]);
-    // Its memory is given back without dispose().
+    // The worker's memory is given back without dispose().
     await expect.poll(() => started[0]!.threadId).toBe(-1);
     expect((await problemOf(() => new hpr.PointCloud(sphere).visibleFrom(farAway))).code).toBe("internal");
     const next = await hpr.WorkerPointCloud.create(sphere);

@@ -1,4 +1,4 @@
-// What `npm run fuzz` reads from its arguments and from its fuzzers.
+// How `npm run fuzz` reads its arguments and the output of its fuzzers.
 import { expect, it } from "vitest";
 
 import { askedFor } from "../../scripts/fuzz/arguments.js";

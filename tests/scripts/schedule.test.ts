@@ -1,4 +1,4 @@
-// In which order the checks of `npm test` run.
+// The order in which the checks of `npm test` run.
 import { expect, it } from "vitest";
 
 import { chosenParts } from "../../scripts/checks/parts.js";
@@ -12,7 +12,7 @@ const JOBS: Job[] = [
   { title: "format" },
 ];
 
-/** Runs the jobs, each for some turns of the event loop; tells begins and ends in their order. */
+/** Runs the jobs, each for some turns of the event loop. Returns their begins and ends in order. */
 async function events(jobs: Job[], workers: number): Promise<string[]> {
   const seen: string[] = [];
   await inOrder(jobs, workers, async ({ title }) => {

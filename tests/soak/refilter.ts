@@ -1,23 +1,23 @@
-// A page that runs all day: viewpoints move through several clouds in workers, points come and go.
-// Memory must stay flat, and answers must be those of a new cloud in a new instance.
+// Runs like a page that is open all day: viewpoints move through several clouds in workers, and points come and go.
+// Memory must not grow. Each checked answer must equal the answer of a new cloud in a new instance.
 import { setFlagsFromString } from "node:v8";
 import { runInNewContext } from "node:vm";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 import type { Visibility } from "hidden-point-removal";
 import { bumpySurface, seeded, terrainUtm, unevenSurface } from "../bench/generators.js";
 
-/** One cloud, and what is done with it. */
+/** One cloud, and its use. */
 interface Subject {
   name: string;
   positions: Float32Array | Float64Array;
-  /** How it is brought to its workers. */
+  /** The options that choose its workers. */
   placement: { workers?: number; shared?: boolean };
-  /** The viewpoint stays about this middle, so far along every axis at most. */
+  /** The viewpoint stays near this middle: on each axis it is at most `reach` away. */
   middle: readonly [number, number, number];
   reach: number;
-  /** How many of 40 views are its own. */
+  /** Of every 40 views, this many are views of this cloud. */
   share: number;
-  /** Every so many views some points are removed, and others appended. */
+  /** The number of views between two changes of the points. A change removes some points and appends others. */
   changes?: number;
 }
 
@@ -65,7 +65,7 @@ const SUBJECTS: readonly Subject[] = [
   },
 ];
 
-/** After so many views, all of a kind that were counted since the last row. */
+/** The state after this many views. Seconds and counts are from the start of the run. */
 export interface Row {
   views: number;
   seconds: number;
@@ -81,11 +81,11 @@ export interface Soak {
   rows: Row[];
   clouds: { name: string; views: number; visible: number }[];
   wrong: number;
-  /** How much the process has grown from the first row to the last, as a part of it. */
+  /** The growth of the process from the first row to the last, as a share of its size in the first row. */
   growth: number;
 }
 
-/** Asks so many views, in turn of all clouds. One in 100 is compared with a new cloud's answer. */
+/** Asks `count` views. The clouds take turns. One view in 100 is compared with a new cloud's answer. */
 export async function soak(count: number, seed = 20261122, tell: (row: Row) => void = () => undefined): Promise<Soak> {
   const random = seeded(seed);
   const walkers = await Promise.all(SUBJECTS.map((subject) => Walker.start(subject, random)));
@@ -97,7 +97,7 @@ export async function soak(count: number, seed = 20261122, tell: (row: Row) => v
     const walker = turns[view % turns.length]!;
     await walker.step();
     if (view % 100 === 0) {
-      // Each cloud in its turn.
+      // The clouds are checked in turn.
       checked += 1;
       wrong += (await walkers[(view / 100) % walkers.length]!.isRight()) ? 0 : 1;
     }
@@ -124,7 +124,7 @@ class Walker {
   readonly #cloud: WorkerPointCloud;
   readonly #random: () => number;
   #place: [number, number, number];
-  /** All positions ever given, and which of them were removed. */
+  /** All positions that the cloud ever got. `#removed` holds the indices of the removed points. */
   #given: number[] | undefined;
   readonly #removed = new Set<number>();
 
@@ -150,13 +150,13 @@ class Walker {
     }
     const answer = await this.#ask();
     this.visible += answer.count;
-    // Half of the memory goes back by hand, half is left to the garbage collector.
+    // The memory of every second answer is given back by hand. The rest is left to the garbage collector.
     if (this.views % 2 === 0) {
       this.#cloud.recycle(answer);
     }
   }
 
-  /** The same question to a new cloud of the points that are there, in an instance of its own. */
+  /** Asks a new cloud of the present points, in an instance of its own, and compares the answers. */
   async isRight(): Promise<boolean> {
     const given = this.#given ?? this.subject.positions;
     const kept = Array.from({ length: given.length / 3 }, (_, i) => i).filter((i) => !this.#removed.has(i));
@@ -180,7 +180,7 @@ class Walker {
     return this.#cloud.visibleFrom(this.#place);
   }
 
-  /** One step in 50 is a jump to anywhere in reach. */
+  /** Moves the viewpoint by one step. One step in 50 is a jump to any place within reach. */
   #move(): void {
     const { middle, reach } = this.subject;
     const jump = this.#random() < 0.02;
@@ -188,12 +188,12 @@ class Walker {
     this.#place = this.#place.map((x, axis) => {
       const from = jump ? middle[axis]! : x;
       const to = from + size * (this.#random() - 0.5);
-      // Beyond its reach it goes on from the other side.
+      // A step beyond the reach goes to the mirror image of the place, on the other side of the middle.
       return Math.abs(to - middle[axis]!) > reach ? 2 * middle[axis]! - from : to;
     }) as [number, number, number];
   }
 
-  /** As many points go as come, so that the cloud keeps its size. Indices are never given again. */
+  /** Removes and appends equally many points, so that the cloud keeps its size. No index is used twice. */
   async #change(): Promise<void> {
     const given = this.#given!;
     const more = Array.from({ length: 60 }, () => 2 * this.#random() - 1);
@@ -210,7 +210,7 @@ class Walker {
   }
 }
 
-/** Of the process, its workers included. */
+/** The memory of the process, including its workers. */
 async function memory(): Promise<Pick<Row, "process" | "objects" | "buffers">> {
   setFlagsFromString("--expose-gc");
   const collectGarbage = runInNewContext("gc") as () => void;
@@ -228,7 +228,7 @@ async function memory(): Promise<Pick<Row, "process" | "objects" | "buffers">> {
   return { process: resident, objects, buffers };
 }
 
-/** What was found, as the tables of RESULTS.md. */
+/** The results, as the tables of RESULTS.md. */
 export function report({ rows, clouds, growth, wrong }: Soak, lines: readonly string[]): string {
   const number = (x: number, digits = 0) =>
     x.toLocaleString("en-US", { minimumFractionDigits: digits, maximumFractionDigits: digits });

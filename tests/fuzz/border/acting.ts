@@ -1,4 +1,4 @@
-// Properties of arguments that act while they are read: they change the cloud, dispose of it, take memory away, throw.
+// Properties of arguments that act while they are read: they change or dispose of the cloud, take memory, or throw.
 import fc from "fast-check";
 import { PointCloud } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
@@ -61,7 +61,7 @@ const ACTIONS: Record<string, (cloud: AnyCloud) => unknown> = {
 };
 const THROWN = new RangeError("the argument's own");
 
-/** The answer is that of the cloud as its arguments have left it. */
+/** The answer is right for the cloud after its arguments have acted. */
 export const actingArguments = fc.asyncProperty(
   fc.constantFrom(...Object.keys(SLOTS)),
   fc.constantFrom(...Object.keys(ACTIONS)),
@@ -87,7 +87,7 @@ export const actingArguments = fc.asyncProperty(
   },
 );
 
-/** Changes whose own arguments change the cloud: each takes effect once, or is refused as a whole. */
+/** Changes whose own arguments change the cloud. Each change takes effect once, or is refused as a whole. */
 export const actingChanges = fc.asyncProperty(
   fc.constantFrom("append", "remove"),
   fc.constantFrom("dispose", "append", "remove", "throw"),
@@ -115,7 +115,7 @@ export const actingChanges = fc.asyncProperty(
   },
 );
 
-/** The same changes one after the other, with plain arguments: the inner one first. */
+/** The outcome of the same changes with plain arguments, one after the other. The argument's change is the first. */
 async function expectedAfter(change: string, action: string): Promise<Outcome> {
   const cloud = new PointCloud(START);
   await ACTIONS[action]!(cloud);
@@ -125,7 +125,7 @@ async function expectedAfter(change: string, action: string): Promise<Outcome> {
   return outcome;
 }
 
-/** Memory that an option's getter takes away before it is read. */
+/** Memory that the getter of an option takes away before the memory is read. */
 export const disappearingMemory = fc.asyncProperty(
   fc.constantFrom("positions", "triangles", "indices"),
   fc.boolean(),

@@ -1,16 +1,17 @@
-// Arguments with what the contract says about each: accepted, refused with a code, or left open.
+// Arguments, and the contract's rule for each: accepted, refused with a code, or left open.
 import fc from "fast-check";
 
 /**
- * One argument. `make` makes it anew for every call, since some of them are used up. `codes` are the codes that a refusal
- * may have. `sure`: the call must be refused; otherwise it may be.
+ * One argument. `make` makes a new one for every call, because a call may use it up. `codes` are the codes that a
+ * refusal may have. If `sure` is true, the call must be refused. If it is false, the call may be refused with one of
+ * the codes.
  */
 export interface Argument<Meaning = unknown> {
   name: string;
   make: () => unknown;
   codes: readonly string[];
   sure: boolean;
-  /** What an accepted argument says, in plain numbers and objects. */
+  /** The meaning of an accepted argument, in plain numbers and objects. */
   meaning: Meaning;
 }
 
@@ -30,7 +31,7 @@ export const bad = <M>(code: string, name: string, make: () => unknown, meaning:
   meaning,
 });
 
-/** Prints as its name when a case fails. */
+/** Makes the report of a failed case print the name of the argument. */
 export function named<T extends { name: string }>(arbitrary: fc.Arbitrary<T>): fc.Arbitrary<T> {
   return arbitrary.map((argument) => Object.assign(argument, { [fc.toStringMethod]: () => argument.name }));
 }

@@ -6,7 +6,7 @@ import { type Argument, bad, good, JUNK, named } from "./argument.js";
 import { directionOptions, illuminationOptions, reconstructionOptions, viewOptions } from "./options.js";
 import { viewpoint, viewpoints } from "./points.js";
 
-/** Either of the two: a method of the worker's answers with a promise. */
+/** A cloud of either kind. A method of a `WorkerPointCloud` answers with a promise. */
 type AnyCloud = PointCloud | WorkerPointCloud;
 type Method =
   | "visibleFrom"
@@ -21,12 +21,12 @@ export interface Call {
   name: string;
   method: Method;
   codes: readonly string[];
-  /** It must be refused. */
+  /** The call must be refused. */
   sure: boolean;
-  /** It names points by their indices. */
+  /** An argument of the call names points by their indices. */
   hasTriangles: boolean;
   on(cloud: AnyCloud): unknown;
-  /** The same question in plain arrays and objects. */
+  /** Asks the same question with plain arrays and objects. */
   plainlyOn(cloud: PointCloud): unknown;
 }
 
@@ -59,7 +59,7 @@ const rule = named(
   ),
 );
 
-/** Good ones depend on how many viewpoints there are. */
+/** The required number of viewpoints. It is good from 1 to `count`, the number of viewpoints given. */
 const least = (count: number) =>
   named(
     fc.oneof(
@@ -70,7 +70,7 @@ const least = (count: number) =>
     ),
   );
 
-/** In a cloud of this dimension. */
+/** Any question to a cloud of this dimension. */
 export function anyCall(dimension: number): fc.Arbitrary<Call> {
   const inSpaceOnly = dimension === 3 ? [] : ["option"];
   const calls = fc.oneof(
@@ -96,7 +96,7 @@ export function anyCall(dimension: number): fc.Arbitrary<Call> {
   return named(calls);
 }
 
-/** A direction must not be zero. */
+/** Marks a direction of zero as bad, because it must be refused. */
 function directed(ahead: Argument<readonly number[]>): Argument<readonly number[]> {
   const isZero = !ahead.sure && ahead.meaning.every((x) => x === 0);
   return isZero ? { ...ahead, codes: ["viewpoint"], sure: true } : ahead;

@@ -1,4 +1,4 @@
-// Properties of clouds that change: any sequence of steps, here and in a worker that is not waited for.
+// Properties of clouds that change: any sequence of steps, on this thread, and in a worker without waiting for it.
 import fc from "fast-check";
 import { PointCloud, type Visibility } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
@@ -19,7 +19,7 @@ type Step = { name: string } & (
 
 const loose = (value: unknown) => value as never;
 
-/** Some are beyond the cloud's end: the model says which. */
+/** Indices to remove. Some are beyond the cloud's end. The model finds these. */
 const indices = named(
   fc.oneof(
     { weight: 6, arbitrary: fc.array(fc.nat({ max: 25 }), { maxLength: 6 }).chain(dressed) },
@@ -34,7 +34,7 @@ const indices = named(
     {
       weight: 1,
       arbitrary: fc.constantFrom(
-        // An array of BigInts, and of nothing, is none of indices either.
+        // Arrays of BigInts, and objects without numbers, are not lists of indices either.
         ...JUNK.filter(([name]) => name !== "a length that is a string").map(([name, make]) =>
           bad<readonly number[]>("option", name, make, []),
         ),
@@ -66,7 +66,7 @@ const steps = fc.array(
   { minLength: 1, maxLength: 8 },
 );
 
-/** What a cloud has to hold: all points ever given, and whether each is still there. */
+/** The right contents of a cloud: all points that it ever got, and whether each is still there. */
 class Model {
   points: number[];
   there: boolean[];
@@ -88,7 +88,7 @@ class Model {
     }
   }
 
-  /** Codes that a refusal may have. */
+  /** Removes points. Returns the codes that a refusal may have. */
   remove({ sure, codes, meaning }: Argument<readonly number[]>): readonly string[] {
     if (sure) {
       return codes;
@@ -149,7 +149,7 @@ async function walk(cloud: AnyCloud, start: number[], list: readonly Step[]): Pr
         }
         break;
       case "dispose":
-        // Workers that end in flight have a property of their own.
+        // flight.ts tests workers that end while they work.
         await Promise.allSettled(checks);
         void cloud.dispose();
         model.disposed = true;
@@ -159,7 +159,7 @@ async function walk(cloud: AnyCloud, start: number[], list: readonly Step[]): Pr
       require(cloud.length === model.there.length, `after ${step.name}: length is ${cloud.length}`);
     }
   }
-  // All outcomes first: one that fails must leave none unhandled.
+  // Waits for all outcomes first. Otherwise, after one failure, the rejections of others would be unhandled.
   const failed = (await Promise.allSettled(checks)).find((check) => check.status === "rejected");
   await cloud.dispose();
   if (failed !== undefined) {
@@ -172,11 +172,11 @@ async function asked(cloud: AnyCloud, call: Call, { points, kept, there, dispose
     judge(call.name, { codes: ["disposed"], sure: true }, await outcomeOf(() => call.on(cloud)));
     return;
   }
-  // Asked at once, before later steps change the cloud.
+  // The question is asked at once, before later steps change the cloud.
   const found = outcomeOf(() => call.on(cloud));
   const here = kept.flatMap((i) => points.slice(3 * i, 3 * i + 3));
   const expected = await reference(call, 3, here, kept, there.length);
-  // The reference has other indices, and so other triangles.
+  // The reference numbers its points differently, so the question's triangles would be others there.
   compare(call, await found, call.hasTriangles ? await found : expected, kept);
 }
 

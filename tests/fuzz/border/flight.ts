@@ -1,4 +1,4 @@
-// Properties of workers that end while they work: killed, disposed of, given up.
+// Properties of requests that are interrupted: a worker is killed, the cloud is disposed of, or a request is aborted.
 import fc from "fast-check";
 import { PointCloud } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
@@ -8,7 +8,7 @@ import { judge, type Outcome, outcomeOf, require } from "./outcome.js";
 const START = Array.from({ length: 300 }, (_, i) => Math.sin(i * i));
 const MORE = Array.from({ length: 30 }, (_, i) => Math.cos(i));
 
-/** The requests that are under way when it happens. */
+/** The requests that may be under way when an event happens. */
 const REQUESTS = {
   visibleFrom: (cloud, options) => cloud.visibleFrom([0, 0, 5], options),
   visibleFromDirection: (cloud, options) => cloud.visibleFromDirection([0, 0, -1], options),
@@ -44,7 +44,7 @@ const plan = fc.record({
   }),
 });
 
-/** Every promise is settled, with an answer or with a code that what happened explains; the next cloud works. */
+/** Every promise settles, with an answer or with a code that the events explain. The next cloud works. */
 export const flights = fc.asyncProperty(plan, async ({ placement, steps }) => {
   replaceWorker(CountedWorker);
   const unhandled: unknown[] = [];
@@ -106,7 +106,7 @@ async function fly(placement: object, steps: readonly (Event | Request)[]): Prom
     judge(name, { codes: [...codes, ...ended], sure: false }, await outcome);
   }
   for (const other of others) {
-    // Killed while it started, it is one that could not be started.
+    // A worker that is killed during its start may count as one that cannot be started.
     judge("another cloud", { codes: ended.includes("internal") ? ["internal", "load"] : [], sure: false }, await other);
   }
   await cloud.dispose();
@@ -117,7 +117,7 @@ async function fly(placement: object, steps: readonly (Event | Request)[]): Prom
   );
 }
 
-/** A cloud that is created after all that answers, and answers rightly. */
+/** Creates a cloud after all events. Its answer must be right. */
 async function restarted(placement: object): Promise<void> {
   const next = await WorkerPointCloud.create(START, placement);
   const direct = new PointCloud(START);

@@ -1,4 +1,4 @@
-// Properties of what needs no cloud, and of what an answer writes into.
+// Properties of functions that need no cloud, and of arrays that an answer writes into.
 import fc from "fast-check";
 import { permissibleCurvature, PointCloud, radiusBound, ringOfViewpoints } from "hidden-point-removal";
 import { JUNK, transferredAway } from "./argument.js";
@@ -15,7 +15,7 @@ const anything = fc.oneof(
   { weight: 1, arbitrary: fc.constantFrom(...JUNK).map(([, make]) => make()) },
 );
 
-/** A number, or `option`. */
+/** A formula gives a number, or is refused with `option`. */
 export const formulas = fc.asyncProperty(anything, anything, anything, async (a, b, c) => {
   for (const formula of [permissibleCurvature, radiusBound]) {
     const found = await outcomeOf(() => formula(loose(a), loose(b), loose(c)));
@@ -25,7 +25,7 @@ export const formulas = fc.asyncProperty(anything, anything, anything, async (a,
   }
 });
 
-/** As many viewpoints as were asked for, as far from the middle as was asked for. */
+/** A ring has the requested number of viewpoints, at the requested distance from its middle. */
 export const rings = fc.asyncProperty(
   viewpoint(3),
   viewpoint(3),
@@ -37,7 +37,7 @@ export const rings = fc.asyncProperty(
     const options = { count, fraction };
     const wrong = (count !== undefined && !isCount) || (fraction !== undefined && !isFraction);
     const found = await outcomeOf(() => ringOfViewpoints(loose(from.make()), loose(to.make()), loose(options)));
-    // A ring of 1e308 lies nowhere, nor does one around what is as far away.
+    // A ring with a radius of 1e308 overflows. So may a ring around a place that is very far away.
     const far = [from, to].some(({ codes }) => codes.includes("radius")) || (isFraction && fraction > 1e300);
     const codes = [...(from.sure || to.sure || far ? ["viewpoint"] : []), ...(wrong || far ? ["option"] : [])];
     judge(
@@ -57,11 +57,11 @@ export const rings = fc.asyncProperty(
 );
 
 const cloud = () => new PointCloud([0, 0, 1, 0, 0, 2, 1, 0, 0, 0, 1, 0]);
-/** Of an array that may have been transferred away. */
+/** The contents of an array. The array may have been transferred away. */
 const contents = (array: ArrayLike<unknown>) => Array.from({ length: array.length }, (_, i) => array[i]).join();
 const TARGETS = [Uint8Array, Uint8ClampedArray, Int32Array, Uint32Array, Float32Array, BigInt64Array];
 
-/** Written where there is room, of the one type; else `option`, and nothing is written. */
+/** An array with enough room and the right type is written to. Others are refused with `option`, and not written to. */
 export const outputs = fc.asyncProperty(
   fc.constantFrom(...TARGETS),
   fc.nat({ max: 6 }),

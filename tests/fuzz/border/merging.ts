@@ -15,7 +15,7 @@ const badIds: Argument<undefined>[] = [
   bad("option", "transferred away", () => transferredAway(new Uint32Array(3)), undefined),
 ];
 
-/** A part whose ids count on from `first`; `short` has one id too few. */
+/** A part whose ids count up from `first`. A `short` part has one id too few. */
 const part = fc
   .tuple(
     positions(3, 3, false, 10),
@@ -100,7 +100,7 @@ const options = named(
   ),
 );
 
-/** Merged, they are what a cloud of all points answers, in double precision. */
+/** Merged parts equal the answer of one cloud of all points, in double precision. */
 export const merges = fc.asyncProperty(partList, viewpoint(3), options, async (parts, from, how) => {
   const all = [parts, from, how];
   const expected = { codes: all.flatMap(({ codes }) => codes), sure: all.some(({ sure }) => sure) };
@@ -118,7 +118,7 @@ export const merges = fc.asyncProperty(partList, viewpoint(3), options, async (p
   }
 });
 
-/** Memory that a getter takes away while the parts are read, whichever it is. */
+/** Memory that a getter takes away while the parts are read. It can be the memory of any part. */
 export const disappearingParts = fc.asyncProperty(
   fc.constantFrom("positions", "ids"),
   fc.nat({ max: 2 }),
@@ -145,14 +145,14 @@ export const disappearingParts = fc.asyncProperty(
       ids,
     };
     const found = await outcomeOf(() => [...mergeVisible(loose(given), [9, 9, 9], { radius: 1e3 })]);
-    // What was copied before it went away is not missed.
+    // Memory that was copied before it went away is not missed.
     const copied = Type === Uint8Array && what === "positions" && victim < actor;
     const code = what === "positions" ? "positions-type" : "option";
     judge(`the ${what} of part ${victim}, taken away by part ${actor}`, { codes: [code], sure: !copied }, found);
   },
 );
 
-/** In a buffer that can shrink. */
+/** An array in a buffer that can shrink. */
 function memory<T>(Type: TypeOf<T>, length: number): T {
   const bytes = Type.BYTES_PER_ELEMENT * length;
   const Resizable = ArrayBuffer as unknown as new (length: number, options: { maxByteLength: number }) => ArrayBuffer;

@@ -1,4 +1,4 @@
-// Options of clouds and views: fields one by one, and the contract's rules for what they may be together.
+// Options of clouds and views: single fields, and the contract's rules about fields that are used together.
 import { inspect } from "node:util";
 import fc from "fast-check";
 import { type Argument, bad, good, JUNK, named, transferredAway } from "./argument.js";
@@ -6,10 +6,10 @@ import { type Argument, bad, good, JUNK, named, transferredAway } from "./argume
 interface Field {
   key: string;
   make: () => unknown;
-  /** Codes of a refusal; none where the value is accepted. */
+  /** Codes of a refusal. Empty if the value is accepted. */
   codes: readonly string[];
   sure: boolean;
-  /** Which rule about several options it belongs to. */
+  /** The kind of the value, for the rules about several fields. */
   is?: "radius" | "rule" | "exponent" | "power" | "exponential" | "neighbors";
 }
 
@@ -77,7 +77,7 @@ const UNKNOWN: Field[] = [
   wrong("option", "dimension", () => 3),
 ];
 
-/** One of several lists, whichever its length, and then one of it: good values as often as bad ones. */
+/** Chooses a list, whatever its length, and then one of its values: a good value four times as often as a bad one. */
 function oneOf(...lists: Field[][]): fc.Arbitrary<Field> {
   const groups = lists.flatMap((list) => [list.filter(({ sure }) => !sure), list.filter(({ sure }) => sure)]);
   return fc.oneof(
@@ -89,10 +89,10 @@ function oneOf(...lists: Field[][]): fc.Arbitrary<Field> {
 
 const view = oneOf(RADIUS, EXPONENT, INVERSION, NEIGHBORS, UNKNOWN);
 
-/** For one view from a viewpoint, in a cloud of this dimension. */
+/** Options for a view from one viewpoint, in a cloud of this dimension. */
 export const viewOptions = (dimension: number): fc.Arbitrary<Options> => together(view, dimension, () => []);
 
-/** Far away there is no power, and nothing to search. */
+/** Options for a view along a direction. A power and the rules `search` and `opposite` are refused there. */
 export const directionOptions = (dimension: number): fc.Arbitrary<Options> =>
   together(view, dimension, (fields) => fields.filter(({ is }) => is === "power" || is === "rule").map(() => "option"));
 
@@ -122,7 +122,7 @@ const light: Field[] = [
 export const illuminationOptions = (dimension: number): fc.Arbitrary<Options> =>
   together(fc.oneof(view, oneOf(light)), dimension, () => []);
 
-/** Up to two fields; where both are of one name, the later counts. */
+/** Options with up to two fields. If both have the same name, the later one counts. */
 function together(
   field: fc.Arbitrary<Field>,
   dimension: number,
@@ -149,7 +149,7 @@ function together(
     fc.oneof(
       { weight: 4, arbitrary: none },
       { weight: 10, arbitrary: options },
-      // What an object like an array has, would be ignored.
+      // Maps, strings and the like are refused as options, because their contents would be ignored.
       { weight: 1, arbitrary: fc.constantFrom(...junk) },
     ),
   );
@@ -158,7 +158,7 @@ function together(
 const valuesOf = (fields: Field[]) => Object.fromEntries(fields.map(({ key, make }) => [key, make()]));
 const shown = (value: unknown) => inspect(value, { maxStringLength: 40, breakLength: Infinity });
 
-/** What excludes each other, and what a dimension has not. */
+/** The code for fields that exclude each other, or that this dimension does not have. */
 function clash(fields: Field[], dimension: number): string[] {
   const has = (is: Field["is"]) => fields.some((one) => one.is === is);
   const sized = fields.some(({ key }) => key === "radius") && has("exponent");
@@ -189,7 +189,7 @@ export interface CloudShape {
   skips: boolean;
 }
 
-/** How a cloud is read. Refused options leave dimension and stride at 3. */
+/** Options that say how positions are read. For refused options, dimension and stride are 3. */
 export const cloudShape: fc.Arbitrary<CloudShape & { options: Options }> = fc.oneof(
   {
     weight: 8,

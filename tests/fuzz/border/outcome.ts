@@ -1,12 +1,12 @@
-// What came of a call, in a form that can be compared.
+// The outcome of a call, in a form that can be compared.
 import { HprError } from "hidden-point-removal";
 
 export type Outcome = { answer: unknown } | { refused: string; error: unknown };
 
-/** The most that an answer may take, on a machine that does other work, too. */
+/** The longest time that an answer may take, in milliseconds. The machine may do other work, too. */
 const PATIENCE = 60_000;
 
-/** Waits for an answer, but not for ever. */
+/** Waits for an answer, but not longer than `PATIENCE`. */
 export async function outcomeOf(call: () => unknown): Promise<Outcome> {
   let timer: ReturnType<typeof setTimeout> | undefined;
   const late = new Promise<never>((_, reject) => {
@@ -23,7 +23,7 @@ export async function outcomeOf(call: () => unknown): Promise<Outcome> {
   }
 }
 
-/** A stable code, `AbortError`, or what names an error that is neither. */
+/** A stable code, `AbortError`, or a description of any other error. */
 function codeOf(error: unknown): string {
   if (error instanceof HprError) {
     return error.code;
@@ -34,7 +34,7 @@ function codeOf(error: unknown): string {
   return `a foreign error: ${String(error)}`;
 }
 
-/** An answer's numbers alone, checked against each other where that needs nothing else. */
+/** Only the numbers of an answer. Also checks that they do not contradict each other. */
 function plain(answer: unknown): unknown {
   if (typeof answer !== "object" || answer === null || !("indices" in answer)) {
     return answer instanceof Float32Array ? [...answer] : answer;
@@ -76,7 +76,7 @@ export function require(holds: boolean, what: string): asserts holds {
   }
 }
 
-/** Refused where it must be, with a code it may have; answered where it must be, as expected. */
+/** Checks that a call is refused if it must be, and only with one of the codes. */
 export function judge(
   name: string,
   { codes, sure }: { codes: readonly string[]; sure: boolean },
@@ -93,7 +93,7 @@ export function judge(
   }
 }
 
-/** Both the same numbers, or both refused alike. */
+/** Checks that both outcomes have the same numbers, or that both are refused with the same code. */
 export function agree(name: string, one: Outcome, other: Outcome): void {
   const words = [one, other].map((it) => ("refused" in it ? it.refused : JSON.stringify(it.answer)));
   require(words[0] === words[1], `${name}: ${words[0]} is not ${words[1]}`);

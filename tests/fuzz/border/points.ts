@@ -2,7 +2,7 @@
 import fc from "fast-check";
 import { type Argument, bad, dressed, good, growing, JUNK, named, transferredAway } from "./argument.js";
 
-/** Small whole numbers: every typed array holds them, and points coincide, lie in lines and in planes. */
+/** Small whole numbers. Every typed array holds them. Many points coincide, or lie on one line or in one plane. */
 const coordinate = fc.integer({ min: 0, max: 6 });
 const anywhere = fc.oneof(
   { weight: 4, arbitrary: coordinate },
@@ -71,7 +71,7 @@ function badPositions(stride: number): Argument<readonly number[]>[] {
   ];
 }
 
-/** A view of a part of its buffer that is not there any more. */
+/** A view that reaches beyond the end of its buffer, because the buffer was made smaller. */
 function cutOff(): Float64Array {
   const { buffer } = growing(96, 96);
   const view = new Float64Array(buffer, 48, 6);
@@ -79,7 +79,7 @@ function cutOff(): Float64Array {
   return view;
 }
 
-/** `radius`: so far away that distances overflow. */
+/** A viewpoint. Some are so far away that distances overflow: these may be refused with `radius`. */
 export function viewpoint(dimension: number): fc.Arbitrary<Argument<readonly number[]>> {
   const place = fc.array(fc.oneof(anywhere, fc.integer({ min: -20, max: 20 })), {
     minLength: dimension,
@@ -115,7 +115,7 @@ export function viewpoint(dimension: number): fc.Arbitrary<Argument<readonly num
   );
 }
 
-/** A list of viewpoints, good only if each is. */
+/** A list of viewpoints. It is good only if each viewpoint is good. */
 export function viewpoints(dimension: number): fc.Arbitrary<Argument<readonly (readonly number[])[]>> {
   const list = fc
     .array(viewpoint(dimension), { maxLength: 4 })

@@ -1,4 +1,4 @@
-// Properties of single calls: any cloud, any question, here and in a worker.
+// Properties of single calls: any cloud and any question, on this thread and in a worker.
 import fc from "fast-check";
 import { hiddenPointRemoval, PointCloud } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
@@ -10,7 +10,7 @@ import { positions, viewpoint } from "./points.js";
 
 const loose = (value: unknown) => value as never;
 
-/** A cloud of any arguments, and questions to it. */
+/** A cloud that is made from any arguments, and questions to it. */
 const scene = cloudShape.chain(({ options, ...shape }) =>
   fc.record({
     shape: fc.constant(shape),
@@ -20,7 +20,7 @@ const scene = cloudShape.chain(({ options, ...shape }) =>
   }),
 );
 
-/** Points that take part: as plain numbers in double precision, with the index that each had. */
+/** The points that take part, as plain numbers in double precision. `kept` holds the index of each. */
 export function present(
   numbers: readonly number[],
   { dimension, stride }: CloudShape,
@@ -37,7 +37,7 @@ export function present(
   return { kept, points };
 }
 
-/** What a cloud of the points that take part alone answers, with the indices they had. */
+/** The answer of a cloud that has only the points that take part. The answer uses their original indices. */
 export async function reference(
   call: Call,
   dimension: number,
@@ -68,17 +68,17 @@ export async function reference(
   return found;
 }
 
-/** Of skipped and removed points nothing is promised but that they are not lit: 0 or ambient. */
+/** Leaves out the brightness of skipped and removed points, because it may be 0 or ambient. */
 function onlyPresent(found: Outcome, kept: readonly number[]): Outcome {
   return "answer" in found && Array.isArray(found.answer)
     ? { answer: kept.map((i) => (found.answer as number[])[i]) }
     : found;
 }
 
-/** Accepted or refused as it has to be, and answered as a cloud that was built of plain arrays answers. */
+/** Checks that a call is refused if it must be, and that its answer equals the expected one. */
 export function compare(call: Call, found: Outcome, expected: Outcome, kept: readonly number[]): void {
   judge(call.name, call, found);
-  // Of several things that are wrong, either may be said first.
+  // If several arguments are wrong, the refusal may name any of them. So refusals are not compared.
   if (!call.sure) {
     agree(call.name, onlyPresent(found, kept), onlyPresent(expected, kept));
   }
@@ -105,7 +105,7 @@ export const questions = fc.asyncProperty(scene, async ({ shape, options, points
   const [first] = clouds;
   if (first !== undefined) {
     for (const call of calls) {
-      // The reference has other indices, and so other triangles.
+      // The reference numbers its points differently, so the question's triangles would be others there.
       const expected =
         call.hasTriangles && kept.length < length
           ? await outcomeOf(() => call.on(first))
@@ -118,14 +118,14 @@ export const questions = fc.asyncProperty(scene, async ({ shape, options, points
   for (const cloud of clouds) await cloud.dispose();
 });
 
-/** The same options for the worker's client, in the worker that all of them share. */
+/** The same options for a `WorkerPointCloud`, in the one worker that all of them share. */
 function shared(options: Options): unknown {
   const value = options.make();
   const isBag = options.codes.length === 0;
   return isBag ? { ...(value as object | undefined), shared: true } : value;
 }
 
-/** The whole operation in one call. */
+/** Tests `hiddenPointRemoval`, which does the whole operation in one call. */
 export const oneShot = fc.asyncProperty(
   cloudShape.chain(({ options, ...shape }) =>
     fc.record({
@@ -137,9 +137,9 @@ export const oneShot = fc.asyncProperty(
     }),
   ),
   async ({ shape, options, points, from, view }) => {
-    // `dimension` among the view's options would count here.
+    // In this call, `dimension` would be accepted among the view's options.
     fc.pre(options.codes.length === 0 && !("dimension" in (view.meaning ?? {})));
-    // No options, or refused ones, hold nothing that could be added to the cloud's.
+    // Missing and refused options of the view cannot be combined with the cloud's options.
     const all = () => (view.meaning === undefined ? view.make() : { ...options.meaning, ...view.meaning });
     fc.pre(view.sure || view.meaning !== undefined || Object.keys(options.meaning ?? {}).length === 0);
     const parts: Argument[] = [points, from, view];
