@@ -1,5 +1,5 @@
-// The time that the adapter for three.js takes of the page's own thread: in a frame in which
-// nothing changes, in a frame that asks, and when an answer is drawn.
+// The time of the adapter for three.js on the page's own thread: in a frame in which nothing
+// changes, in a frame that asks the worker, and when an answer is drawn.
 import { setFlagsFromString } from "node:v8";
 import { runInNewContext } from "node:vm";
 
@@ -13,7 +13,7 @@ import { median, type Row, type Table } from "./report.js";
 import { orbit } from "./views.js";
 
 const FRAMES = 10_000;
-/** Few enough that no collection of the young generation comes between them. */
+/** This number is small, so that no collection of the young generation comes between these frames. */
 const FRAMES_BETWEEN = 500;
 const ANSWERS = 21;
 

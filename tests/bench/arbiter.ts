@@ -1,4 +1,4 @@
-// Decides who is right where a peer answers differently (peers decide within a tolerance).
+// Decides whether the library or a peer is right where they differ. Peers decide within a tolerance.
 // It follows the definition itself, for one point, with every sign in exact integers.
 
 type Exact = readonly [bigint, bigint, bigint];
@@ -92,7 +92,7 @@ export class Arbiter {
     return above.find(([, i]) => this.#height(face, i) > 0n)?.[1];
   }
 
-  /** Whether the ray, moved a little towards the points of the first face, goes through this one. */
+  /** Whether the ray goes through this face. The ray is first moved a little towards the points of the face `start`. */
   #holds([a, b, c]: Face, start: Face): boolean {
     const exact = ([i, j, k]: Face): bigint => det(this.#exact(i), this.#exact(j), this.#exact(k));
     const turns = (u: number, v: number): boolean => {

@@ -16,9 +16,9 @@ const shared = resolve(root, process.env["HPR_SHARED"] ?? "../shared");
 export interface Cloud {
   name: string;
   positions: Float32Array | Float64Array;
-  /** Where its points come from; for generated ones the generator and its seed. */
+  /** The origin of the points. For generated points: the generator and its seed. */
   source: string;
-  /** How far from the center of its box it is seen, in radii of the box's corner sphere. */
+  /** The distance of the viewpoints from the center of the cloud's box, in radii of the box's corner sphere. */
   distance: number;
 }
 

@@ -1,4 +1,4 @@
-// How long a draft takes, and how much of what is hidden it hides.
+// How long a draft takes, and the share of the hidden points that it hides.
 import { PointCloud, type VisibilityOptions } from "hidden-point-removal";
 
 import { WrongAnswer } from "./check.js";
@@ -16,7 +16,7 @@ const SETTINGS: Record<string, VisibilityOptions> = {
 const RUNS = 3;
 const SAMPLE = 50_000;
 
-/** Every draft is checked to hold the exact answer. */
+/** Throws if a draft hides a visible point, or if the answer after a draft is not exact. */
 export function timeDrafts(): Table {
   const rows: Row[] = [];
   for (const name of NAMES) {
@@ -28,7 +28,7 @@ export function timeDrafts(): Table {
       const times = { cold: [] as number[], draft: [] as number[], after: [] as number[], sample: [] as number[] };
       let found = 0;
       for (let run = 0; run <= RUNS; run++) {
-        // Seen from the other side in between, so that nothing of the last view helps.
+        // Before each query the cloud is seen from the other side, so that nothing of the last view helps.
         cloud.visibleFrom(at(180), options);
         const cold = timed(() => cloud.visibleFrom(at(0), options));
         cloud.visibleFrom(at(180), options);
@@ -37,7 +37,7 @@ export function timeDrafts(): Table {
         cloud.visibleFrom(at(180), { ...options, sample: SAMPLE });
         const sample = timed(() => cloud.visibleFrom(at(0), { ...options, sample: SAMPLE }));
         found = shareFound(cold.answer.mask(), draft.answer.mask(), after.answer.mask(), name);
-        // The first is not counted.
+        // The first run is not counted.
         if (run === 0) continue;
         times.cold.push(cold.milliseconds);
         times.draft.push(draft.milliseconds);

@@ -39,7 +39,7 @@ const native: Engine = {
   },
 };
 
-/** As native.rs reads it. */
+/** The task as one line of text, in the form that native.rs reads. */
 function taskLine({ exponent, runs, viewpoint, paths }: Task): string {
   const groups = [[exponent, runs, ...viewpoint], ...paths.map((path) => path.flat())];
   return groups.map((numbers) => numbers.join(" ")).join(" / ");

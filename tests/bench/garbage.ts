@@ -11,7 +11,7 @@ import type { Row, Table } from "./report.js";
 import { orbit } from "./views.js";
 
 const VIEWS = 60;
-/** Views that are asked first, until the recycled memory has room for the largest answer. */
+/** The number of views before the counting. After them, the recycled memory has room for the largest answer. */
 const BEFORE = 3;
 
 export async function measureGarbage(): Promise<Table> {

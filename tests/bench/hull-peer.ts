@@ -13,7 +13,7 @@ import { flip } from "./flip.js";
 import type { Point } from "./measure.js";
 import { readCloud } from "./paths.js";
 
-// The only one of its files that Node can load; it has no types of its own.
+// Node can load only this file of quickhull3d. The file has no types of its own.
 const bundle = "quickhull3d/dist/quickhull3d.js";
 const { default: quickhull3d } = (await import(bundle)) as typeof Quickhull3d;
 

@@ -9,7 +9,7 @@ import { measureAll } from "./speed.js";
 import { median, type Row, type Table } from "./report.js";
 import { tasksFor } from "./views.js";
 
-/** The visible points, in % of all: the share of the dragon at exponent 3. */
+/** The wanted share of visible points, in %. The dragon has this share at exponent 3. */
 const SHARE = 33;
 const SHARE_TOLERANCE = 0.05;
 
@@ -39,7 +39,7 @@ export async function timeSizes(engines: Engine[]): Promise<Table> {
   return { title: "Time a point", note, rows };
 }
 
-/** The larger the radius, the more is visible: halving finds the share. */
+/** Finds the exponent for `SHARE` by halving an interval. A larger radius shows more points. */
 function exponentForShare(cloud: Cloud, viewpoint: Point): number {
   const points = new PointCloud(cloud.positions);
   let [low, high] = [1, 8];

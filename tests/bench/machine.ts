@@ -17,7 +17,7 @@ export function describeMachine(chromium: string | undefined, peers: Peer[]): Re
     ...peers.map(({ name, version }) => `${name} ${version}`),
   ];
   return {
-    // Read before anything is timed. Only the build just before should show in it.
+    // This load is read before anything is timed. Only the build before the benchmark should add to it.
     "load before (one minute)": loadBefore.toFixed(2),
     date: new Date().toISOString().slice(0, 10),
     machine: `${cores[0]?.model.trim() ?? "unknown CPU"}, ${cores.length} cores, ${memory}, ${platform()} ${release()}`,

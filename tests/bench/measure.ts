@@ -9,11 +9,11 @@ export interface Task {
   exponent: number;
   /** The viewpoint of the cold queries. */
   viewpoint: Point;
-  /** A viewpoint whose answer does not help at the others. */
+  /** A viewpoint whose answer does not help at the other viewpoints. */
   away: Point;
   /** How many cold queries are timed. */
   runs: number;
-  /** Each starts with a viewpoint that is not timed. The viewpoints of the motion follow, step by step. */
+  /** Each path starts with a viewpoint that is not timed. The viewpoints of the motion follow, step by step. */
   paths: Point[][];
 }
 
@@ -33,7 +33,7 @@ export interface Answer {
   digest: string;
 }
 
-/** Queries until the engine has compiled the hot code: at least two, and for this time. */
+/** Queries run for this time before the timing, and at least two of them. So the engine compiles the hot code. */
 const WARM_UP_MS = 600;
 const BUILDS = 3;
 

@@ -2,9 +2,9 @@
 
     python3 peers.py scipy|open3d CLOUD f32|f64 X,Y,Z RADIUS RUNS OUT
 
-CLOUD holds little-endian x y z; OUT receives the numbers of the hull's vertices as
-little-endian u32. SciPy's ConvexHull gets the flipped points and the viewpoint, and
-only the hull is timed; Open3D's hidden_point_removal flips by itself.
+CLOUD holds little-endian x y z. OUT receives the numbers of the hull's vertices as
+little-endian u32. SciPy's ConvexHull gets the flipped points and the viewpoint. Only its
+hull is timed. Open3D's hidden_point_removal flips by itself.
 Prints the milliseconds of each run as JSON.
 """
 

@@ -24,7 +24,7 @@ export interface PeerResult {
   peer: string;
   /** Milliseconds of each run; undefined if the first run was stopped. */
   milliseconds: number[] | undefined;
-  /** How many points have another label than in the library's answer. */
+  /** The number of points whose label differs from the library's answer. */
   differing: number;
 }
 
@@ -32,13 +32,13 @@ export interface Peer {
   name: string;
   version: string;
   takes: (cloud: Cloud) => boolean;
-  /** Prints milliseconds as JSON and writes the hull's vertices; undefined if it was stopped. */
+  /** Writes the hull's vertices to `out`. Returns the milliseconds as JSON, or undefined if it was stopped. */
   run(view: View, out: string): string | undefined;
   /** Whether it flips exactly as the library does. If so, the definition decides differences. */
   sameFlip: boolean;
 }
 
-/** A peer that has not finished by then is stopped. */
+/** A peer that has not finished after this time is stopped. */
 export const PEER_LIMIT_MS = 120_000;
 /** How many differing labels are checked one by one. The others are assumed to be like them. */
 const JUDGED = 100;
@@ -81,7 +81,7 @@ function judge(peer: Peer, view: View, vertices: Uint32Array): number {
   throw new WrongAnswer(`${where} is right about the points ${mistakes.join(", ")}, and the library is wrong`);
 }
 
-/** Points with another label in one answer than in the other. Equal points share a label. */
+/** The points whose labels differ between the two answers. Equal points share a label. */
 function differences(q: Float64Array, visible: Uint32Array, vertices: Uint32Array): number[] {
   const count = q.length / 3;
   const key = (i: number): string => `${q[3 * i]!},${q[3 * i + 1]!},${q[3 * i + 2]!}`;
@@ -114,7 +114,7 @@ function javascriptPeer(library: string, name: string): Peer {
   };
 }
 
-/** From here on one run of a peer is enough. */
+/** From this number of points on, one run of a peer is enough. */
 const LARGE = 500_000;
 
 function pythonPeers(): Peer[] {

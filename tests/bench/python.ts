@@ -11,8 +11,8 @@ export interface Python {
 }
 
 /**
- * A Python that can import a module, and the module's version. If it cannot import it, pip
- * installs the first of `packages` that it can into a directory of its own.
+ * A Python that can import a module, and the module's version. If the import fails, pip tries
+ * `packages` in turn until the import works. The packages go into a directory of their own.
  */
 export function withPython(module: string, packages: string[]): Python | undefined {
   const local = join(root, "target", `bench-${module}`);

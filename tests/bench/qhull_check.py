@@ -5,7 +5,7 @@
     python3 tests/bench/qhull_check.py
 
 Reads the dragon from node_modules (`npm ci --ignore-scripts`) and the bunny (36k)
-from $HPR_SHARED/clouds (default ../shared); asks the core through
+from $HPR_SHARED/clouds (default ../shared). Asks the core through
 `cargo run --release --example visible`. At exponents 2, 3 and 4, from 3 viewpoints
 outside and 1 inside, the visible sets must be equal. Points that flip to one place
 share one answer. Qhull decides within a tolerance. Where Qhull and the core differ, the
@@ -47,7 +47,7 @@ def bunny():
 
 
 def flip(points, viewpoint, exponent):
-    """The fixed sequence of operations. numpy rounds each one and fuses none."""
+    """The flip by the fixed sequence of operations. numpy rounds each operation and fuses none."""
     v = points.astype(np.float64) - viewpoint
     x, y, z = v.T
     d = np.sqrt((x * x + y * y) + z * z)
@@ -66,7 +66,7 @@ def qhull(q):
 
 def core(binary, file, viewpoint, exponent, radius):
     with tempfile.NamedTemporaryFile() as out:
-        # A comma-led list may start with a minus sign; the example takes it as it is.
+        # The list of coordinates may start with a minus sign. The example accepts that.
         place = ",".join(repr(float(x)) for x in viewpoint)
         args = [binary, file, place, repr(exponent), out.name]
         printed = subprocess.run(args, check=True, capture_output=True, text=True).stdout
@@ -75,8 +75,8 @@ def core(binary, file, viewpoint, exponent, radius):
 
 
 def defined(q, p):
-    """Is point p visible by the definition? Walks to the face its ray leaves
-    through (the simplex method); every sign is decided in rational numbers."""
+    """Is point p visible by the definition? Walks to the face where the ray through p leaves
+    the hull (the simplex method). Every sign is decided in rational numbers."""
 
     def exact(i):
         return [Fraction(float(x)) for x in q[i]]
@@ -92,7 +92,7 @@ def defined(q, p):
         return det(x, b, c) + det(a, x, c) + det(a, b, x) - det(a, b, c)
 
     def turns(start, u, v):
-        """The sign of det(q + ε·a + ε²·b, u, v), ε infinitesimal."""
+        """Is det(q + ε·a + ε²·b, u, v) above 0 for an infinitely small ε?"""
         signs = (det(exact(s), exact(u), exact(v)) for s in start)
         return next((s for s in signs if s != 0), 0) > 0
 

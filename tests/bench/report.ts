@@ -8,7 +8,7 @@ export interface Table {
   rows: Row[];
 }
 
-/** Nothing for a table without rows. A missing cell stays empty. */
+/** Returns an empty text for a table without rows. A missing cell stays empty. */
 export function markdown({ title, note, rows }: Table): string {
   if (rows.length === 0) return "";
   const columns = [...new Set(rows.flatMap((row) => Object.keys(row)))];

@@ -9,7 +9,7 @@ import { compareWithPeer, PEER_LIMIT_MS, type Peer, type PeerResult, type View }
 import { median, type Row, type Table } from "./report.js";
 import { STEPS, tasksFor } from "./views.js";
 
-/** Three tables over all clouds. Throws at the first wrong answer. */
+/** Makes three tables of all clouds. Throws at the first wrong answer. */
 export async function timeQueries(clouds: Iterable<Cloud>, engines: Engine[], peers: Peer[]): Promise<Table[]> {
   const [cold, moving, others]: Row[][] = [[], [], []];
   for (const cloud of clouds) {
@@ -89,7 +89,7 @@ function movingRow(cloud: Cloud, { exponent }: Task, engine: string, { paths }: 
   return row;
 }
 
-/** The answer itself. It must be equal to the timed answer. */
+/** Asks a timed question again for its whole answer. It must be equal to the timed answer. */
 function viewOf(cloud: Cloud, { exponent, viewpoint }: Task, timed: Outcome): View {
   const points = new PointCloud(cloud.positions);
   const { indices, radius } = points.visibleFrom(viewpoint, { exponent });

@@ -10,7 +10,7 @@ export const EXPONENTS = [2, 3, 4];
 export const STEPS = [0.2, 1, 3, 10];
 
 const FROM: Point = [0.36, 0.48, 0.8];
-/** The horizontal direction at a right angle to it. */
+/** The horizontal direction at a right angle to `FROM`. */
 const TOWARDS: Point = [0.8 / Math.hypot(0.8, 0.36), 0, -0.36 / Math.hypot(0.8, 0.36)];
 
 const LARGE = 1_000_000;

@@ -1,4 +1,4 @@
-// Two workers against one, on a million points.
+// Compares two workers with one, on a million points.
 import { HprError, PointCloud } from "hidden-point-removal";
 import { WorkerPointCloud, type WorkerPointCloudOptions } from "hidden-point-removal/worker";
 

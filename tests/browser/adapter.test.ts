@@ -151,7 +151,7 @@ describe.each([
     expect(before!.drawn.red).toBeGreaterThan(2000);
     expect(before!.drawn.green).toBeGreaterThan(1000);
     expect(before!.picked.green).toBeGreaterThan(0);
-    // The green points that are left lie at the border, where no red point is in front.
+    // The remaining green points lie at the border. No red point is in front of them.
     expect(hide!.drawn.red).toBe(before!.drawn.red);
     expect(hide!.drawn.green).toBeLessThan(before!.drawn.green / 4);
     expect(hide!.picked).toEqual({ red: before!.picked.red, green: 0 });

@@ -3,8 +3,8 @@ import { binaryPly, georeferencedBall } from "./clouds.js";
 import { inNode, openReady, served, status, upToDate } from "./support.js";
 
 /*
- * The ball of 600 points has UTM coordinates, for which f32 would be half a meter off. The camera looks at it from
- * straight ahead, so that tests can compute where its points are in the picture.
+ * The ball of 600 points has UTM coordinates. In f32 they would be wrong by half a meter. The camera looks at the ball
+ * from straight ahead, so that tests can compute where its points are in the picture.
  */
 const COUNT = 600;
 export const positions = georeferencedBall(COUNT);
@@ -51,7 +51,7 @@ export async function visible(page: Page): Promise<number[]> {
   return inNode(positions, (cloud) => [...cloud.visibleFrom(viewpoint).indices]);
 }
 
-/** The points of `among` that are far from every other point in the picture. */
+/** The points of `among` that are far from all other points of `rivals` in the picture. */
 export async function lonely(page: Page, among: number[], rivals: number[]): Promise<number[]> {
   const places = new Map(await Promise.all(rivals.map(async (i) => [i, await place(page, i)] as const)));
   return among.filter((i) => {

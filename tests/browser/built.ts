@@ -8,7 +8,7 @@ export function builtPage(name: string): Promise<string> {
   return builtFrom(join(ROOT, "tests/browser", name), name);
 }
 
-/** The same for a page in any folder of the repository. */
+/** Bundles a page in any folder of the repository. */
 export async function builtFrom(source: string, name: string): Promise<string> {
   const out = `target/tests/${name}`;
   await build({

@@ -45,7 +45,10 @@ interface Screen {
   pixels: number;
 }
 
-/** The definition, point by point and pixel by pixel: 2 for out of the picture, 1 if no splat over the point's pixel is much nearer, else 0. */
+/**
+ * Follows the definition of the z-buffer, point by point and pixel by pixel. Returns 2 for a point out of the picture,
+ * 1 if no splat over the point's pixel is much nearer, else 0.
+ */
 function slowly(
   seen: { x: number; y: number; depth: number }[],
   { width, height, pixels }: Screen,
@@ -66,7 +69,7 @@ function slowly(
   });
 }
 
-/** The numbers on the card, after they differ from `before`. */
+/** Waits until the numbers on the card differ from `before`. Returns these numbers. */
 async function figures(
   page: Page,
   before = "",
@@ -86,7 +89,8 @@ async function figures(
 }
 
 test.for([1, 2, 3, 4, 9, 24])("the z-buffer agrees with its definition (splats of %i pixels)", (splat) => {
-  // A bumpy ball in front of a wall. A part is out of the picture or behind the camera, which looks from the origin along −z.
+  // A bumpy ball in front of a wall. Some points are out of the picture or behind the camera.
+  // The camera looks from the origin along −z.
   const wall = grid(12, 12, (u, v) => [20 * u - 10, 16 * v - 8, -14]).positions;
   const local = Float32Array.from([
     ...ball(400).map((value, i) => value - (i % 3 === 2 ? 5 : 0)),
@@ -164,7 +168,7 @@ test("faces of the user's files are read and cut into triangles", async () => {
 test("the scanner of the street sees all points that its own beams met", async () => {
   const street = await oracleFor({ sample: "street" }, new Float32Array());
   const sees = street.from([-21, 1.1, 1.75]);
-  // The first of three stations; its 60,000 points come first.
+  // These points belong to the first of three stations. The first 60,000 points are from this station.
   const tried = Array.from({ length: 6000 }, (_, i) => 7 * i);
   expect(tried.filter((i) => !sees(i))).toEqual([]);
   // From the other end of the street, many points are hidden.
@@ -186,7 +190,7 @@ test("in the room the ceiling is seen and the floor under the rug is hidden, als
     expect(chosen.length).toBeGreaterThan(1000);
     return chosen.filter(sees).length / chosen.length;
   };
-  // Parts of it lie over the bookcase, the lamp or the plant.
+  // The bookcase, the lamp and the plant hide small parts of the ceiling.
   expect(share((_x, y) => y > 2.69)).toBeGreaterThan(0.97);
   expect(share((x, y, z) => y < 0.004 && x > -1.99 && x < 0.59 && z > -1.09 && z < 0.79)).toBe(0);
 });
@@ -229,7 +233,7 @@ test("compared with the z-buffer: the counts follow its definition, live, and th
   expect(await status(page)).toEqual(before);
   await expect.poll(() => page.url()).toMatch(/compare=0\.42&against=zbuffer&splat=24/);
 
-  // Nearer, a part of the ball leaves the picture. A z-buffer knows nothing of this part.
+  // When the camera is nearer, a part of the ball is out of the picture. A z-buffer knows nothing of this part.
   await page.locator("#view").focus();
   for (let i = 0; i < 12; i++) await page.keyboard.press("+");
   const near = await upToDate(page);
@@ -240,13 +244,13 @@ test("compared with the z-buffer: the counts follow its definition, live, and th
   expect(await figures(page)).toMatchObject(there);
   expect(await page.locator("#compare-result").textContent()).toContain(`Of the ${there.of} points in the picture`);
 
-  // 1.75 spacings of a ball of radius 2 with 600 points are some 0.5 units.
+  // 1.75 spacings of a ball of radius 2 with 600 points are about 0.5 units.
   await page.locator("#splat-auto").click();
   await expect.poll(async () => Number(await page.getByLabel("Splat width").inputValue())).toBeGreaterThan(30);
   await expect.poll(() => page.url()).not.toContain("splat");
 });
 
-/** The counts that the page must show for this viewpoint and radius, by the tracer of the fidelity tables. */
+/** Computes the counts that the page must show for this viewpoint and radius. Uses the fidelity tables' tracer. */
 async function bunnyTruth({ viewpoint, radius, total }: Status) {
   const seen = new RayTracer(bunny).visibleFrom(viewpoint);
   const mask = await inNode(bunny.positions, (cloud) => cloud.visibleFrom(viewpoint, { radius }).mask());
@@ -382,7 +386,7 @@ test("by keys alone: choose, move the divider, leave; and the card fits its plac
   }
   await page.locator("#divider").focus();
   await page.keyboard.press("ArrowRight");
-  // In a window of another shape the camera has another place, so rays are traced anew.
+  // In a window of another shape the camera has another place, so rays are traced again.
   await expect.poll(() => page.locator("#divider").getAttribute("aria-valuetext")).toMatch(/on the left 44 %, HPR/);
   await tool(page, "Compare").click();
   expect(await page.locator("#compare-card").isVisible()).toBe(false);

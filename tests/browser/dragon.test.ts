@@ -67,7 +67,7 @@ test("a slow question from an old viewpoint does not delay the next answer", asy
   const page = await openReady("?sample=dragon_res2&radius=opposite");
   const first = await upToDate(page);
   expect(first.evaluations).toBeGreaterThan(10);
-  // The camera rests until the slow rule (some 40 hulls) is asked, and moves on before the answer.
+  // The camera rests until the slow rule is asked, which needs about 40 hulls. It moves again before the answer.
   await page.locator("#view").press("ArrowLeft");
   const quick = await answered(page, first);
   expect(quick.evaluations).toBe(0);

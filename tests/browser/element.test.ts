@@ -70,7 +70,7 @@ test("two elements from another origin, under a strict policy, answer as the pac
   await expect.poll(() => kept(page)).toEqual({ workers: 1, pictures: 2 });
   expect(await page.evaluate(() => (globalThis as unknown as { forbidden: string[] }).forbidden)).toEqual([]);
 
-  // Drawn: not one color alone.
+  // The cloud is drawn: the picture has many colors.
   const colors = await element(page, "a", async (cloud) => {
     const bitmap = await createImageBitmap(await cloud.toBlob());
     const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
@@ -293,7 +293,7 @@ test("a missing file, a file that is no cloud, and a file that comes too late", 
     message: expect.stringContaining("page.ply is not a point cloud") as string,
   });
 
-  // The page around does not scroll.
+  // An empty `src` names no file.
   const none = await hears(page, "a", "error", () =>
     element(page, "a", (cloud) => {
       cloud.src = "";
@@ -302,7 +302,7 @@ test("a missing file, a file that is no cloud, and a file that comes too late", 
   expect(none).toEqual({ code: "attribute", attribute: "src", message: "The attribute src names no file." });
   expect(await element(page, "a", ({ state }) => state)).toBe("empty");
 
-  // The first of these is given up, and reports nothing.
+  // The load of the first file is given up, and reports nothing.
   await element(page, "a", async (cloud) => {
     cloud.src = "clouds/b.ply";
     await Promise.resolve();
@@ -367,7 +367,7 @@ test("visible points are picked and hidden ones are not, and the page around scr
   expect(through.some((point) => !point.visible)).toBe(true);
   for (const point of through) expect(point.visible).toBe(visible.includes(point.index));
 
-  // There and back again.
+  // `project` gives the place of a point on the screen. Picking at this place gives the same point.
   const { index, position } = hits[0]!;
   const spot = (await element(page, "a", (cloud, place) => cloud.project(place), position))!;
   expect(await element(page, "a", (cloud, { x, y }) => cloud.pick(x, y, { tolerance: 0.5 })?.index, spot)).toBe(index);
@@ -383,7 +383,7 @@ test("visible points are picked and hidden ones are not, and the page around scr
     }),
   ).toMatch(/TypeError/);
 
-  // The click has given it the focus: the wheel zooms.
+  // The click has given the element the focus, so the wheel zooms.
   const zoomed = await hears(page, "a", "change", () => page.mouse.wheel(0, 120));
   expect(zoomed.viewpoint).not.toEqual([1, 2, 9]);
   expect(await page.evaluate(() => scrollY)).toBe(0);

@@ -200,7 +200,7 @@ test("a file that is no cloud is refused in a plain sentence, and the previous c
     expect(await page.locator("#sample").inputValue()).toBe("bunny");
     expect(await page.locator("#progress").isVisible()).toBe(false);
 
-    // By the button and by the keyboard, in turn.
+    // The message is dismissed by the button and by the keyboard, in turn.
     const dismiss = message.getByRole("button", { name: "Dismiss" });
     if (number % 2 === 0) {
       await dismiss.click();

@@ -199,7 +199,7 @@ test("loading can be stopped, and the previous cloud stays", async () => {
   const moved = await answered(page, after);
   expect(moved).toMatchObject({ state: "ready", total: 1839 });
 
-  // So does its address, which a chosen sample would have had.
+  // The address of the previous cloud stays, too. A chosen sample has changed it before its loading is stopped.
   await page.route("**/tile.bin", () => undefined);
   await page.locator("#sample").selectOption("tile");
   await expect.poll(() => page.url()).toContain("?sample=tile");

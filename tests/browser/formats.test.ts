@@ -104,7 +104,7 @@ test("24 million points are thinned, and are never all in memory", async () => {
   const page = await openReady("?sample=bunny&points=1000000");
   const before = await status(page);
   const start = las(far, { format: 0, claimed: 24_000_000 });
-  // The header once, and then the same 600 points again and again.
+  // The file has its header once, and then the same 600 points again and again.
   await page.evaluate(
     ([bytes, count]) => {
       const header = Uint8Array.from(bytes.slice(0, 227));

@@ -96,7 +96,7 @@ export interface GlbOptions {
   twice?: boolean;
 }
 
-/** A scene whose node moves its points by OFFSET. Their own coordinates are small, so that they fit f32. */
+/** A scene whose node moves its points by NODE_AT. Their own coordinates are small, so that they fit f32. */
 export function glb(positions: ArrayLike<number>, options: GlbOptions = {}): Uint8Array {
   const { json, binary } = gltfParts(positions, options);
   const text = padded(
@@ -114,7 +114,7 @@ export function glb(positions: ArrayLike<number>, options: GlbOptions = {}): Uin
   );
 }
 
-/** The same as text. Its numbers are inside, or at `uri`. */
+/** The scene of `glb` as text. Its numbers are inside, or at `uri`. */
 export function gltf(positions: ArrayLike<number>, uri?: string): Uint8Array {
   const { json, binary } = gltfParts(positions, {});
   const buffer = {
@@ -124,7 +124,7 @@ export function gltf(positions: ArrayLike<number>, uri?: string): Uint8Array {
   return new TextEncoder().encode(JSON.stringify({ ...json, buffers: [buffer] }));
 }
 
-/** The binary part, as a file of its own. */
+/** The binary part of the scene, as a file of its own. */
 export function gltfBinary(positions: ArrayLike<number>): Uint8Array {
   return gltfParts(positions, {}).binary;
 }
@@ -186,7 +186,7 @@ export function table(positions: ArrayLike<number>): Uint8Array {
   return new TextEncoder().encode(`x,y,z,intensity,class,red,green,blue\n${lines.join("\n")}\n`);
 }
 
-/** The same as a PLY file. */
+/** The points of `table` as a PLY file. */
 export function attributedPly(positions: ArrayLike<number>): Uint8Array {
   const properties = [
     "float x",
@@ -220,7 +220,7 @@ export function attributedPly(positions: ArrayLike<number>): Uint8Array {
   return new Uint8Array(Buffer.concat([new TextEncoder().encode(header), new Uint8Array(view.buffer)]));
 }
 
-/** The same as a PCD file. Its colors are four bytes that are declared as a float. */
+/** The points of `table` as a PCD file. Its colors are four bytes that are declared as a float. */
 export function attributedPcd(positions: ArrayLike<number>): Uint8Array {
   const count = positions.length / 3;
   const header = [

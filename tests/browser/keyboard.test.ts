@@ -4,11 +4,14 @@ import { answered, openReady, PHONE, reached, status } from "./support.js";
 
 interface Stop {
   name: string;
-  /** The fault of the visible focus there, or `null`. */
+  /** The fault of the visible focus on this element, or `null`. */
   flaw: string | null;
 }
 
-/** The element with the focus, and whether the focus is visible: a ring with enough contrast (WCAG 1.4.11: 3) around a visible element. */
+/**
+ * Returns the element with the focus, and checks that the focus is visible. The ring must have enough contrast
+ * (WCAG 1.4.11: 3) and be around a visible element.
+ */
 async function stop(page: Page): Promise<Stop | null> {
   return page.evaluate(() => {
     const element = document.activeElement as HTMLElement | null;
@@ -112,7 +115,7 @@ test.for([
     for (let i = 0; i < 2 * expected.length; i++) {
       await page.keyboard.press("Tab");
       const here = await stop(page);
-      // Out of the page, and around.
+      // Ends when the focus has left the page or is back at the first element.
       if (!here || here.name === stops[0]?.name) break;
       stops.push(here);
     }
@@ -123,7 +126,7 @@ test.for([
     ).toEqual([]);
     expect(stops.length, "visited").toBeLessThan(2 * expected.length);
     expect(stops.flatMap(({ flaw }) => flaw ?? [])).toEqual([]);
-    // And back.
+    // Shift+Tab goes back to the last element.
     await page.keyboard.press("Shift+Tab");
     expect((await stop(page))?.name).toBe(names.at(-1));
   },

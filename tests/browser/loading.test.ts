@@ -8,7 +8,7 @@ import { browser, openPage, PHONE, reached, site, upToDate } from "./support.js"
 /** A sample that is downloaded, and small. */
 const SMALL = "?sample=bunny";
 
-/** The bytes of a response: files that are already compressed as they are, others compressed for the download. */
+/** The bytes of a response. Files that are already compressed are sent as they are. Others are compressed first. */
 function onTheWire(name: string): number {
   const bytes = readFileSync(join(root, "www", "dist", name || "index.html"));
   return /\.webp$/.test(name) ? bytes.length : gzipSync(bytes, { level: 9 }).length;
@@ -49,7 +49,7 @@ test("the download for the first cloud, with three.js, wasm and workers, is at m
   console.log(`${total} bytes before the first cloud is on screen`);
   expect(new Set(asked).size).toBe(asked.length);
   expect(asked.some((name) => name.endsWith(".wasm"))).toBe(true);
-  // Looks and drafts brought 14 kB of WebAssembly.
+  // Looks and drafts have added 14 kB of WebAssembly.
   expect(total).toBeLessThanOrEqual(312_000);
   await context.close();
 });

@@ -42,7 +42,7 @@ test("the radius follows any of the rules, and by hand it stays fixed", async ()
   await page.getByLabel("Exponent", { exact: true }).fill("1.5");
   const byHand = await upToDate(page);
   expect(byHand).toMatchObject(await answerInNode(positions, byHand, { exponent: 1.5 }));
-  // The mark on the track stays at the automatic radius, from 0 to 6.
+  // The mark on the track stays at the automatic radius. The track goes from 0 to 6.
   const mark = () =>
     page
       .locator(".slider:has(#exponent)")
@@ -102,7 +102,7 @@ test("exponential flipping has its own parameter and no radius", async () => {
   for (const name of ["Search", "By hand"]) expect(await page.getByRole("button", { name }).isDisabled()).toBe(true);
   expect(await page.getByLabel("Exponent", { exact: true }).isDisabled()).toBe(true);
 
-  // log₁₀ of c in spacings. The automatic c is 0.07 spacings.
+  // The field holds log₁₀ of c in spacings. The automatic c is 0.07 spacings.
   await page.getByLabel("c in exp(c/d)").fill("-0.5");
   const larger = await upToDate(page);
   const c = Number(larger.inversion.split(":")[1]);

@@ -35,7 +35,7 @@ beforeEach(async () => {
 
 type Test = (app: App) => boolean;
 
-/** Waits until the page says so. */
+/** Waits until `test` is true in the page. */
 async function reached(test: Test): Promise<void> {
   await page.waitForFunction(`(${test.toString()})(globalThis.app)`, undefined, { timeout: 30_000 });
 }

@@ -25,7 +25,7 @@ const page = await browser.newPage({ viewport: { width: WIDTH + PANEL, height: H
 await page.goto(`${site.address}?sample=dragon_res3`);
 await page.locator('#status[data-state="ready"]').waitFor();
 await addStyle(page, "#tools { display: none }");
-// A little closer than the page's first view.
+// Moves a little closer than the page's first view.
 for (let step = 0; step < 2; step++) await page.locator("#view").press("+");
 await page.locator("#view").blur();
 // Waits for the answer to the last step.

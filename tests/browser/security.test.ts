@@ -29,7 +29,7 @@ function policy(): string {
 /** The number of elements that markup in a name would add. */
 const added = (page: Page) =>
   page.locator("img:not([src^='./']):not([src^='thumbnails']), script:not([src]), iframe").count();
-/** How many pixels wider than the window the page is. */
+/** The width of the page minus the width of the window, in pixels. */
 const overflow = (page: Page) =>
   page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
 const hacked = (page: Page) => page.evaluate(() => "hacked" in window);

@@ -53,7 +53,7 @@ test.for(["points", "surface"])("on the %s, places that a light does not reach a
   expect((await status(page)).lights).toBe(1);
   const lit = await brightnessAt(page, -0.6);
   const shadowed = await brightnessAt(page, 0.6);
-  // Only the ambient light.
+  // Only the ambient light reaches the shadow.
   expect(shadowed / lit).toBeCloseTo(0.3, 1);
   await page.getByLabel("Ambient light").fill("0.6");
   await upToDate(page);

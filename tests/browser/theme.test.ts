@@ -9,7 +9,7 @@ const NEAREST = everything.toSorted((i, j) => at(j)[2] - at(i)[2]).slice(0, 2);
 
 const OTHER: Record<ThemeName, ThemeName> = { dark: "light", light: "dark" };
 
-/** The colors of the page: the background in the canvas' corner, and of the page's parts. */
+/** The colors of the page: the background in the corner of the canvas, and the colors of the page's parts. */
 async function colors(page: Page): Promise<Record<string, string>> {
   const corner = await pixel(page, await picture(page), 4, 4);
   const own = await page.evaluate(() => {

@@ -156,7 +156,7 @@ test("the picture is saved as it is on the screen, with its marks", async () => 
   const seen = await visible(page);
   const canvas = (await page.locator("#view").boundingBox())!;
   for (const shift of [-60, 60]) {
-    // Wherever the next visible point is.
+    // Looks for visible points in a box around this place.
     const places = await within(page, seen, {
       left: canvas.x + canvas.width / 2 + shift - 40,
       right: canvas.x + canvas.width / 2 + shift + 40,

@@ -22,7 +22,7 @@ test("a click tells a visible point's index and its place in full precision", as
     expect(ring.x + ring.width / 2).toBeCloseTo(x, 0);
     expect(ring.y + ring.height / 2).toBeCloseTo(y, 0);
   }
-  // A drag turns the camera and picks nothing; the ring goes with its point.
+  // A drag turns the camera and picks nothing. The ring moves with its point.
   const before = (await page.locator("#marks .ring").boundingBox())!;
   await drag(page, 40, 0);
   expect((await settled(page)).viewpoint).not.toEqual([X, Y, Z + 9]);
@@ -66,7 +66,7 @@ test("hidden points are picked only through the surface", async () => {
 test("by keyboard: P opens the tool, Enter picks the middle, Escape ends first the point and then the tool", async () => {
   const target = 300;
   const [x, y, z] = at(target);
-  // Seen from straight outside of this point, so it is visible.
+  // The camera is straight outside of this point, so the point is visible.
   const from = [x + 3 * (x - X), y + 3 * (y - Y), z + 3 * (z - Z)];
   const page = await openBall({}, from);
   await page.locator("#view").focus();
@@ -193,7 +193,7 @@ test("a label is shown as long as its point is visible", async () => {
   const label = page.locator("#marks .note");
   expect(await label.locator("text").textContent()).toBe("Chimney <b> crest?");
   expect(await label.isVisible()).toBe(true);
-  // To the other side of the ball and back.
+  // The camera goes to the other side of the ball and back.
   await page.locator("#view").focus();
   for (let i = 0; i < 36; i++) await page.keyboard.press("ArrowLeft");
   await settled(page);

@@ -190,7 +190,7 @@ describe.each([
       // Hidden points are drawn at the node's place.
       expect(children).toEqual(Array(nodes).fill(true));
     }
-    // They are at the places in the file, except for the viewer's own offset.
+    // All points are at the places in the file, except for the viewer's own offset.
     const offset = viewer === "potree-core" ? [-2, -2, -2] : [100, -20, 3];
     const sorted = (points: number[][]) => points.map(String).sort();
     const positions = Array.from({ length: 6000 }, (_, i) => found.all.slice(3 * i, 3 * i + 3));

@@ -55,7 +55,7 @@ function consumer({ name, command, version }: Browser, how: string, open: Serve)
   };
 }
 
-/** Ends the browser, first with SIGTERM: a killed screen leaves its lock behind. */
+/** Ends the browser. Tries SIGTERM first, because a virtual screen that is killed leaves its lock behind. */
 async function end(child: ChildProcess): Promise<void> {
   const ended = once(child, "exit");
   process.kill(-child.pid!, "SIGTERM");

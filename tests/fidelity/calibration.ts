@@ -2,7 +2,10 @@
 
 const BINS = 20;
 
-/** For each point: the difference between the share of visible points in its bin and the bin's mean score. The mean over all points. */
+/**
+ * Sorts the points into bins by score. The error of a bin is the difference between its share of visible points and its
+ * mean score. Returns the mean of this error over all points.
+ */
 export function calibrationError(scores: Float64Array, labels: Uint8Array): number {
   const bins = Array.from({ length: BINS }, () => ({ score: 0, visible: 0 }));
   scores.forEach((score, i) => {

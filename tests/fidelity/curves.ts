@@ -15,7 +15,7 @@ export interface Curve {
   name: string;
   points: number;
   views: number;
-  /** The errors by rising R. */
+  /** The errors, in the order of rising R. */
   errors: AtRadius[];
   /** The R that each rule chose, and its errors. */
   rules: (AtRadius & { rule: string })[];
@@ -23,7 +23,7 @@ export interface Curve {
 
 export const EXPONENTS = Array.from({ length: 37 }, (_, i) => 1 + i / 8);
 
-/** One for each view. */
+/** Returns one curve for each view. */
 export function curves({ name, positions, views }: Labelled, exponents = EXPONENTS): Curve[] {
   const { center, radius } = bounds({ positions });
   const cloud = new PointCloud(positions);

@@ -44,7 +44,7 @@ export function* lidarScenes(): Generator<LidarScene> {
   }
 }
 
-/** One byte for each point, from one bit. The first point is in the highest bit. Every view starts at a new byte. */
+/** Makes a byte for each point from its bit. The first point is in the highest bit. Each view starts at a new byte. */
 function unpacked(packed: Uint8Array, view: number, count: number): Uint8Array {
   const start = view * Math.ceil(count / 8);
   return Uint8Array.from({ length: count }, (_, i) => (packed[start + (i >> 3)]! >> (7 - (i & 7))) & 1);

@@ -51,7 +51,7 @@ export const METHODS: Method[] = [
 
 const DENOISED: VisibilityOptions = { denoise: 32, vote: 16 };
 
-/** For a noisy cloud: the best rules without and with the options against noise. */
+/** The methods for a noisy cloud: the best rules, without and with the options against noise. */
 export const AGAINST_NOISE: Method[] = [
   AUTOMATIC,
   SEARCH,
@@ -66,7 +66,7 @@ export const AGAINST_NOISE: Method[] = [
   ),
 ];
 
-/** For simulated lidar, where the best R of a view is not known. */
+/** The methods for simulated lidar. There the best R of a view is not known. */
 export const FOR_LIDAR: Method[] = [
   AUTOMATIC,
   SEARCH,
@@ -89,7 +89,7 @@ function several(name: string, ask: (subject: Subject, ring: number[][]) => Visi
 }
 
 /**
- * The paper's other kernel. Its power allows a surface that faces the viewer at distance r the same curvature as
+ * The paper's other kernel. With its power, a surface that faces the viewer at distance r may be as curved as with
  * the automatic R: γ/((γ − 1)·r) = 2R/r².
  */
 function asCurved({ cloud, viewpoint, middle }: Subject): Visibility {

@@ -37,7 +37,10 @@ export function errorsOf(mask: Uint8Array, seen: Uint8Array): Errors {
   };
 }
 
-/** Scores every view by every method. `compared`: with the best R, which comes with the view or is found by scanning. */
+/**
+ * Scores every view by every method. With `compared`, also compares the error with the error of the best R. That error
+ * comes with the view or is found by scanning.
+ */
 export function score({ positions, views }: Labelled, methods: Method[], compared = true): Score[] {
   const { center, radius } = bounds({ positions });
   const cloud = new PointCloud(positions);
@@ -60,7 +63,7 @@ export function score({ positions, views }: Labelled, methods: Method[], compare
 const COARSE = Array.from({ length: 21 }, (_, i) => 1 + 0.2 * i);
 const FINE = [-0.15, -0.1, -0.05, 0.05, 0.1, 0.15];
 
-/** The least error of all R, first at exponents 0.2 apart, then 0.05. */
+/** The least error of all R. First tries exponents 0.2 apart, then exponents 0.05 apart around the best one. */
 function bestError(cloud: PointCloud, { viewpoint, seen }: View): number {
   const error = (exponent: number): number => errorsOf(cloud.visibleFrom(viewpoint, { exponent }).mask(), seen).total;
   const errors = COARSE.map(error);

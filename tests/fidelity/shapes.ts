@@ -5,7 +5,7 @@ import { bumpyRadius, direction, seeded } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";
 import type { MeshPoints } from "./rays.js";
 
-/** A ring of radius 1 and thickness 0.8, lying level. */
+/** A horizontal ring of radius 1 and thickness 0.8. */
 export function torus(): Mesh {
   const thick = 0.4;
   return grid(240, 100, (u, v) => {
@@ -29,7 +29,7 @@ export function room(): Mesh {
   return joined(roomSurfaces(seeded(20070802)).map((surface) => grid(12, 8, (u, v) => surface.at(u, v).point)));
 }
 
-/** `count` random points on the faces. `density` weighs the faces by their place; by default all weigh the same. */
+/** `count` random points on the faces. `density` gives each place a weight. By default all are equal. */
 export function scatter(
   mesh: Mesh,
   count: number,

@@ -9,7 +9,7 @@ interface Pair {
   title: string;
   look: string;
   query: Query;
-  /** Point sizes: small enough before that the far side shows through, and large enough after to close the surface. */
+  /** Point sizes. Before: small, so that the far side shows through. After: large, so that the surface is closed. */
   sizes: [number, number];
 }
 

@@ -111,13 +111,16 @@ class Scene {
     this.#surface = this.cloud.reconstruct(VIEWPOINT).triangles;
   }
 
-  /** The rim of a light. Its radius is this share of its distance from the middle, as on the page. */
+  /** The rim of a light. Its radius is `soft` times the light's distance from the middle, as on the page. */
   rim(light: Point, soft: number): Point[] {
     const { center } = bounds({ positions: this.positions });
     return ringOfViewpoints(light, center, { count: RIM, fraction: soft }) as Point[];
   }
 
-  /** The brightness by rays, softened like the library's, and how the library's light differs before softening. */
+  /**
+   * The brightness by rays, softened as the library softens its shadows. Also the errors of the library's light before
+   * softening.
+   */
   exact(lights: Point[]) {
     const reached = new Float32Array(this.cloud.length);
     const errors = lights.map((light) => {

@@ -6,7 +6,7 @@ import { traced } from "./trace.js";
 import { answered, newContext, ready, upToDate, watchedBy, watchedPage } from "./visit.js";
 
 const SECONDS = 8;
-/** What is on screen while the camera orbits. */
+/** The name of the first picture. Only this picture is also timed with its drawing. */
 const FIRST = "visible points";
 const PICTURES = {
   [FIRST]: "?sample=dragon",
@@ -75,7 +75,7 @@ export async function timeOrbit(browser: Browser, address: string): Promise<Tabl
   ];
 }
 
-/** A drag about the middle of the picture that never stands still. */
+/** Drags around the middle of the picture without a pause. */
 async function orbit(page: Page, seconds: number): Promise<void> {
   const box = (await page.locator("#view").boundingBox())!;
   const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
@@ -88,7 +88,7 @@ async function orbit(page: Page, seconds: number): Promise<void> {
   await upToDate(page);
 }
 
-/** The tasks between the beginning of each frame and the beginning of the next. */
+/** The JavaScript time from the beginning of each frame to the beginning of the next frame. */
 function perFrame(tasks: { start: number; script: number }[], frames: number[]): number[] {
   const sums = frames.map(() => 0);
   let frame = -1;

@@ -7,7 +7,7 @@ import { answered, newContext, ready, upToDate, watchedPage } from "./visit.js";
 
 const FIRST = 36;
 const ANSWERS = 200;
-/** Opens the room and then the dragon again. */
+/** The number of changes. Each change opens the room and then the dragon again. */
 const CHANGES = 20;
 const EVERY = { answers: 50, changes: 5 };
 const MB = 1e6;

@@ -7,7 +7,7 @@ export const SIZE = { width: 1280, height: 800 };
 const LONGEST_WAIT = 120_000;
 
 export interface Watched {
-  /** When the first frame with an answer was handed over, in milliseconds since the navigation. */
+  /** The time at which the first frame with an answer was done, in milliseconds since the navigation. */
   firstPicture?: number;
   /** For each viewpoint: when it was asked, and when the page got its answer. The frame of the answer follows later. */
   asked: Record<string, number>;
