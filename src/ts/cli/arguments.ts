@@ -31,7 +31,7 @@ Exit codes: 0 done, 1 a file could not be read, written or understood, 2 wrong u
 
 export interface Settings {
   input: string;
-  /** "-" for standard output. */
+  /** The name of a file, or "-" for standard output. */
   output: string;
   viewpoint: number[];
   /** Undefined for the automatic exponent. */

@@ -11,7 +11,7 @@ export class OutputProblem extends Error {}
 
 /** Reads a whole file. `onProgress` gets the share that has been read. */
 export async function readWhole(name: string, onProgress: (share: number) => void): Promise<Buffer> {
-  // Otherwise, opening a FIFO would wait until another program writes to it.
+  // Without this flag, opening a FIFO would wait until another program writes to it.
   const handle = await open(name, constants.O_RDONLY | nonBlocking());
   try {
     const stats = await handle.stat();
@@ -31,7 +31,7 @@ export async function readWhole(name: string, onProgress: (share: number) => voi
   }
 }
 
-/** Windows has no such flag. */
+/** The flag for opening without waiting. It is 0 on Windows, which has no such flag. */
 function nonBlocking(): number {
   return (constants as Partial<typeof constants>).O_NONBLOCK ?? 0;
 }
@@ -46,8 +46,8 @@ function room(size: number): Buffer {
 
 /**
  * Writes a file; "-" is standard output. A FIFO or a device is written to directly. A regular file
- * is first written beside its place, so that a failure leaves no half of it. A link is followed,
- * and the permissions of the file stay.
+ * is first written under another name in the same folder, so that a failure leaves no half of a
+ * file. Links are followed, and the permissions of a replaced file stay.
  */
 export async function writeWhole(name: string, parts: Iterable<Uint8Array>): Promise<void> {
   if (name === "-") {
@@ -83,7 +83,7 @@ async function writeNamed(name: string, parts: Iterable<Uint8Array>): Promise<vo
   }
 }
 
-/** The place of a file that exists, or that will be made: behind all links, also behind a link to a missing file. */
+/** Follows all links, and returns the place of the file. The file may not exist yet. */
 async function linkedFrom(name: string): Promise<string> {
   let place = name;
   for (let links = 0; links < 40; links++) {
@@ -97,7 +97,7 @@ async function linkedFrom(name: string): Promise<string> {
 }
 
 async function writeInto(place: string, parts: Iterable<Uint8Array>, isFifo: boolean): Promise<void> {
-  // Otherwise, opening a FIFO without a reader would wait for a reader, perhaps for ever.
+  // This fails at once if no program reads the FIFO. The `open` below would wait, perhaps for ever.
   const probe = isFifo ? await open(place, constants.O_WRONLY | nonBlocking()).catch(noReader) : undefined;
   try {
     const handle = await open(place, constants.O_WRONLY);

@@ -26,7 +26,7 @@ export class Progress {
     if (percent === Math.floor(100 * this.#share) && doing === this.#doing) return;
     [this.#share, this.#doing] = [share, doing];
     this.#draw();
-    // The seconds go on counting while the share does not change.
+    // The timer draws the seconds, also while the share does not change.
     this.#timer ??= setInterval(() => {
       this.#draw();
     }, 500).unref();

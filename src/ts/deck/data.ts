@@ -13,7 +13,7 @@ export interface BinaryData {
 interface BinaryAttribute {
   value: ArrayLike<number>;
   size?: number;
-  /** In bytes. */
+  /** The distance from one point to the next, in bytes. */
   stride?: number;
   offset?: number;
 }
@@ -24,7 +24,7 @@ export function isBinary(data: unknown): data is BinaryData {
   return typeof data === "object" && data !== null && "attributes" in data && "length" in data;
 }
 
-/** The positions of a layer's data, x, y, z of one point after another, for both kinds of data. */
+/** The positions of a layer's data: x, y, z of one point after another. The data may be binary or objects. */
 export function positionsOf(data: unknown, getPosition: unknown): Float32Array | Float64Array {
   if (isBinary(data) && "getPosition" in data.attributes) {
     return fromAttribute(data.attributes["getPosition"] as BinaryAttribute | ArrayLike<number>, data.length);

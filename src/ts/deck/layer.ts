@@ -12,8 +12,8 @@ import { Sight } from "./sight.js";
 export type VisiblePointCloudLayerProps<DataT = unknown> = PointCloudLayerProps<DataT> & {
   /**
    * The viewpoint: x, y, z in the data's own coordinates. Default: the place of the view's camera,
-   * or its direction if it is orthographic. The default needs Cartesian coordinates, and neither
-   * `modelMatrix` nor `coordinateOrigin`.
+   * or its direction if it is orthographic. The default works only with Cartesian coordinates,
+   * without `modelMatrix` and without `coordinateOrigin`.
    */
   viewpoint?: readonly [number, number, number] | null;
   /** How each view is computed. */
@@ -33,8 +33,8 @@ interface Own {
 type State = {
   sight: Sight;
   /**
-   * One number for each point: 1 visible, 0 hidden. Undefined before the first answer; each answer
-   * writes a new array.
+   * One number for each point: 1 if it is visible, 0 if it is hidden. Undefined before the first
+   * answer. Later answers overwrite the array.
    */
   mask: Float32Array | undefined;
   /** The number of answers so far. */
@@ -50,9 +50,9 @@ const filter = new DataFilterExtension({ filterSize: 1 });
 const VISIBLE: [number, number] = [0.5, 1.5];
 
 /**
- * A deck.gl `PointCloudLayer` that draws, and lets one pick, only the points that the camera sees.
- * The answer comes from a worker that all layers share. A `DataFilterExtension` filters by it on
- * the graphics card. Before the first answer, all points are drawn.
+ * A deck.gl `PointCloudLayer` that draws only the points that the camera sees. Only these points can
+ * be picked. The answer comes from a worker that all layers share. A `DataFilterExtension` applies
+ * the answer on the graphics card. Before the first answer, all points are drawn.
  *
  * ```js
  * new VisiblePointCloudLayer({
@@ -63,7 +63,7 @@ const VISIBLE: [number, number] = [0.5, 1.5];
  * });
  * ```
  *
- * Refusals are raised like any error of a layer (`onError`), as an `HprError`.
+ * If something is refused, the layer raises an `HprError`, like any error of a layer (`onError`).
  */
 export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<VisiblePointCloudLayerProps<DataT>> {
   static override layerName = "VisiblePointCloudLayer";
@@ -90,7 +90,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     this.setState({ sight, mask: undefined, version: 0, data: undefined });
   }
 
-  /** Also called if only the camera has moved. @internal */
+  /** Returns true for each change, also if only the camera has moved. @internal */
   override shouldUpdateState({ changeFlags }: Update): boolean {
     return changeFlags.somethingChanged;
   }
@@ -157,7 +157,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
   }
 }
 
-/** The viewpoint of a camera whose space is the data's. */
+/** Returns the camera's viewpoint or direction. Refuses a camera that does not use the data's coordinates. */
 function eyeOf(viewport: Viewport, props: object): { from: number[]; isDirection: boolean } {
   const { modelMatrix, coordinateOrigin } = props as { modelMatrix?: unknown; coordinateOrigin?: readonly number[] };
   const isElsewhere = coordinateOrigin?.some((x) => x !== 0) ?? false;

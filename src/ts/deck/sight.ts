@@ -41,7 +41,11 @@ export class Sight {
     return this.#cloud?.length ?? 0;
   }
 
-  /** @throws the error of reading the positions. They are read again if the worker is lost. */
+  /**
+   * Reads the positions now, and again if the worker is lost.
+   *
+   * @throws the error of `read`.
+   */
   setPositions(read: ReadPositions): void {
     this.dispose();
     const positions = read();

@@ -4,14 +4,14 @@ import type { Axes } from "./rows.js";
 /** The columns that the user has chosen for x, y and z: names, or numbers that count from 1. */
 export type ChosenColumns = readonly [string, string, string];
 
-/** What x, y and z are called, best first. */
+/** The usual names of x, y and z. The best names come first. */
 const CALLED = [
   ["x", "y", "z"],
   ["px", "py", "pz"],
   ["posx", "posy", "posz"],
 ];
 
-/** Which of the fields of a PLY or PCD file are x, y and z. */
+/** Finds the fields x, y and z of a PLY or PCD file. */
 export function axesOf(names: readonly string[], chosen?: ChosenColumns): Axes {
   if (chosen) return chosenAxes(names, chosen);
   const lower = names.map((name) => name.toLowerCase());

@@ -6,8 +6,8 @@ import { type Axes, type Field, hasLists, rowBytes } from "./rows.js";
 export const ORDER_SAMPLE = 1000;
 
 /**
- * Refuses rows in the wrong byte order: most of their numbers would be far larger or smaller than
- * any measured ones.
+ * Refuses rows in the wrong byte order. Such rows have many numbers that are far larger or smaller
+ * than any measured number. In the other byte order, they have almost none.
  */
 export function checkByteOrder(rows: DataView, fields: readonly Field[], axes: Axes, littleEndian: boolean): void {
   if (hasLists(fields)) return;

@@ -1,6 +1,6 @@
 import { FormatProblem } from "./problem.js";
 
-/** Unpacks LZF, the compression of PCD files: literal runs, and copies from up to 8 kB back. */
+/** Unpacks LZF, the compression of PCD files. It has runs of plain bytes, and copies from up to 8 kB back. */
 export function unpackLzf(packed: Uint8Array, length: number): Uint8Array<ArrayBuffer> {
   // Three bytes unpack to 264 bytes at most.
   if (length > 88 * packed.length) throw damaged();

@@ -35,7 +35,7 @@ export function numberReader(type: NumberType, offset: number, littleEndian: boo
 }
 
 const DECIMAL = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
-/** This includes the words of some C libraries: nan(ind), 1.#QNAN, -1.#INF. */
+/** Words for numbers that are not finite. Some C libraries write nan(ind), 1.#QNAN or -1.#INF. */
 const NOT_FINITE = /^[-+]?(nan(\(\w*\))?|inf|infinity|1\.#(inf|ind|qnan|snan)0*)$/i;
 
 /** A decimal number, or NaN for a word such as "nan" or "inf". Undefined for any other word, for instance "0x10". */

@@ -12,9 +12,9 @@ export interface PcdHeader {
   data: "ascii" | "binary" | "binary_compressed";
   points: Group;
   axes: Axes;
-  /** 1 unless the points are an image. */
+  /** The number of rows if the points are an image. Otherwise, it is 1. */
   height: number;
-  /** The place that it was taken from, if the header has it. */
+  /** The place from which the points were measured, if the header has it. */
   viewpoint: readonly [number, number, number] | undefined;
   lines: readonly Line[];
   /** The end of the header, in bytes. */
@@ -36,7 +36,7 @@ export function readPcdHeader(start: Uint8Array, chosen?: ChosenColumns): PcdHea
     lines.push(line);
     if (text === "" || text.startsWith("#")) continue;
     const [keyword, ...words] = wordsOf(text);
-    // An old name of FIELDS.
+    // COLUMNS is an old name of FIELDS.
     const known = keyword!.toUpperCase().replace(/^COLUMNS$/, "FIELDS");
     if (!KEYWORDS.includes(known)) throw lineProblem(number, "is not a line of a PCD header", text);
     if (entries.has(known)) throw lineProblem(number, "stands in the PCD header a second time", text);

@@ -5,7 +5,7 @@ export class FormatProblem extends Error {
 
 const LONGEST_QUOTE = 60;
 
-/** A line of a file for a message. It is shortened, and has no characters that a terminal takes for a command. */
+/** Quotes a line of a file for a message. It is shortened, and control characters are replaced. */
 export function quoted(text: string): string {
   const short = text.length > LONGEST_QUOTE ? `${text.slice(0, LONGEST_QUOTE)}…` : text;
   return `"${short.replace(/[\u0000-\u001f\u007f-\u009f]/g, "?")}"`;
@@ -21,7 +21,7 @@ export function endsEarly(found: number, count: number, name: string): FormatPro
   return new FormatProblem(`it ends after ${found} of the ${count} ${several(name)} that its header promises`);
 }
 
-/** The name of the rows in a sentence. */
+/** The name of the rows in the plural, for a sentence. */
 export function several(name: string): string {
   return { points: "points", vertex: "vertices", face: "faces" }[name] ?? `"${name}" elements`;
 }

@@ -2,7 +2,7 @@
 import { bytesOf, numberReader, type NumberType } from "./numbers.js";
 import { FormatProblem } from "./problem.js";
 
-/** A part of each row: a number, several numbers (in PCD), or a list after its length (in PLY). */
+/** A part of each row: a number, several numbers (in PCD), or a length and then a list (in PLY). */
 export interface Field {
   name: string;
   type: NumberType;
@@ -18,14 +18,14 @@ export interface Group {
   fields: readonly Field[];
 }
 
-/** Which fields are x, y and z. */
+/** The indices of the fields or columns x, y and z. */
 export type Axes = readonly [number, number, number];
 
 export function hasLists(fields: readonly Field[]): boolean {
   return fields.some(({ length }) => length !== undefined);
 }
 
-/** The number of bytes of these fields in a binary row. A list counts only with its length. */
+/** The number of bytes of these fields in a binary row. For a list, only the bytes of its length are counted. */
 export function rowBytes(fields: readonly Field[]): number {
   return fields.reduce((sum, { type, count, length }) => sum + (length ? bytesOf(length) : count * bytesOf(type)), 0);
 }

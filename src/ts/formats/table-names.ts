@@ -14,8 +14,8 @@ const LENGTH = /^[[(]?(m|mm|cm|dm|km|um|µm|ft|feet|foot|in|inch|inches|us-?ft|f
 const UNIT = /[[(]([^\])]*)[\])]$|[ _.-](m|mm|cm|km|ft|met(?:er|re)s?)$/i;
 
 /**
- * The names in a line, as they are written and bare. A bare name is in lower case and has no unit:
- * "X [m]" and "x_m" become x.
+ * The names in a line, in two forms: as they are written, and bare. A bare name is in lower case and
+ * has no unit: "X [m]" and "x_m" become x.
  */
 export interface Names {
   written: readonly string[];
@@ -29,7 +29,7 @@ export function namesIn(line: string, separator?: Separator): Names {
     .replace(/^(#+|\/\/+)\s*/, "")
     .replace(/^(columns|fields|format)\s*[:=]\s*/i, "")
     .replace(/\s+(?=\[[^\]]*\]|\([^)]*\))/g, "");
-  // Names of several words are divided by tabs.
+  // If names have several words, tabs separate the names.
   const own = separatorOf(text);
   const tabs = own === " " && separator !== "," && separator !== ";" && text.includes("\t");
   const between = tabs ? "\t" : own;
@@ -45,14 +45,14 @@ export function namesIn(line: string, separator?: Separator): Names {
   return { written, bare, separator: between };
 }
 
-/** The columns x, y and z by these names. Undefined if the names do not tell. */
+/** Finds the columns x, y and z by these names. Returns undefined if one of them is not found. */
 export function axesIn({ written, bare }: Names, chosen?: ChosenColumns): Axes | undefined {
   if (chosen) return chosenAxes(written, chosen);
   const placesOf = (pattern: RegExp | undefined) =>
     bare.flatMap((name, column) => (pattern?.test(name) === true ? [column] : []));
   const exact = CALLED.map(([pattern]) => placesOf(pattern));
-  // If x, y and z are there, any other names may be there, too. Other names for x, y and z must be
-  // unique.
+  // If there are columns x, y and z, all other columns are ignored. Otherwise, only one column may
+  // have a name for each axis.
   const found = exact.every(({ length }) => length > 0) ? exact : CALLED.map((patterns) => patterns.flatMap(placesOf));
   if (found.some(({ length }) => length === 0)) return undefined;
   const several = found.find(({ length }) => length > 1);

@@ -6,7 +6,7 @@ export type Separator = ";" | "," | "\t" | " ";
 
 const DECIMAL_COMMA = /^[-+]?(\d+,\d+|,\d+)(e[-+]?\d+)?$/i;
 const MISSING = /^(|na|n\/a|#n\/a|null|none)$/i;
-/** A word in quotation marks. In it, a separator is part of the word, and a doubled mark is one mark. */
+/** A word in quotation marks. In it, a separator is part of the word, and a doubled mark stands for one mark. */
 const QUOTED = /^\s*"((?:[^"]|"")*)"\s*$/;
 
 export function isComment(line: string): boolean {
@@ -54,7 +54,7 @@ export interface Cell {
   decimal?: "." | ",";
 }
 
-/** NaN for a missing value. Undefined for any other word that is not a number. */
+/** Reads a word. A missing value is NaN. Returns undefined for any other word that is not a number. */
 export function cell(word: string): Cell | undefined {
   const value = numberIn(word);
   if (value !== undefined) return { value, ...(word.includes(".") && !Number.isNaN(value) ? { decimal: "." } : {}) };

@@ -20,7 +20,7 @@ export interface TablePoint {
   words: readonly string[];
 }
 
-/** The largest number of lines above the points, without comments: a title or names, and units. */
+/** The largest number of lines above the points: a title or names, and units. Comments are not counted. */
 const MOST_HEAD_LINES = 2;
 
 /**
@@ -97,7 +97,7 @@ export class TableRows {
     return found.value;
   }
 
-  /** The layout if this line is the first point. Otherwise the line belongs to the head. */
+  /** Returns the layout if this line is the first point. Otherwise, the line belongs to the head. */
   #begin(line: string, whole: string, number: number): Layout | undefined {
     if (/^\d+$/.test(line) && this.#promised === undefined && this.#names === undefined) {
       this.#promised = { count: Number(line), line: number };
@@ -142,7 +142,7 @@ export class TableRows {
     return { separator, width: words.length, axes, names: this.#names ?? this.#commented };
   }
 
-  /** The columns that a comment above the points names, or the first three columns. */
+  /** Finds x, y and z by the names in a comment above the points. Without names, takes the first three columns. */
   #axesInComments(width: number, separator: Separator): Axes {
     for (const { text, line } of this.#comments.reverse()) {
       const names = namesIn(text, separator);
@@ -162,8 +162,8 @@ export class TableRows {
 }
 
 /**
- * Whether commas may be separators or decimal commas: "1,5, 2,5" has commas with and without
- * spaces, "1,05,2,07" has numbers with a leading 0.
+ * Whether it is unclear if the commas are separators or decimal commas. "1,5, 2,5" has commas with
+ * and without spaces. "1,05,2,07" has numbers with a leading 0.
  */
 function areCommasUnclear(line: string): boolean {
   return (/\d,\d/.test(line) && /\d,\s/.test(line)) || /,0\d/.test(line);
@@ -183,7 +183,7 @@ export function isPlain({ axes, names, width }: Layout): boolean {
   return axes.map((axis) => names.bare[axis]).join("") === "xyz";
 }
 
-/** The line with the tabs at its ends, since empty words may stand there. */
+/** Removes only the line end. Tabs at both ends stay, since empty words may stand there. */
 function untrimmed(text: string): string {
   return text.replace(/[\r\n]+$/, "");
 }

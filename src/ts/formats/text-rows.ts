@@ -7,7 +7,7 @@ import { trimmed, wordsOf } from "./text.js";
 export interface TextPoint {
   position: readonly [number, number, number];
   words: readonly string[];
-  /** The place of each field's first word among the words. */
+  /** For each field, the index of its first word. */
   starts: readonly number[];
 }
 
@@ -50,7 +50,7 @@ export class TextRows {
     }
   }
 
-  /** An element without properties has no lines. */
+  /** Whether all rows of the group were read. An element without properties has no lines. */
   #isDone(): boolean {
     const group = this.#groups[this.#group];
     return group !== undefined && (this.#row === group.count || group.fields.length === 0);
@@ -72,7 +72,7 @@ export class TextRows {
 
 const FIXED = new WeakMap<readonly Field[], { starts: number[]; total: number } | null>();
 
-/** The place of each field's first word, after a check that the fields need exactly this number of words. */
+/** Returns the index of each field's first word. Refuses a line with too few or too many words. */
 export function startsIn(
   fields: readonly Field[],
   words: readonly string[],

@@ -34,14 +34,14 @@ export function markLength(bytes: Uint8Array): number {
   return BYTE_ORDER_MARK.every((byte, i) => bytes[i] === byte) ? BYTE_ORDER_MARK.length : 0;
 }
 
-/** The only control characters of text are tabs and line ends. */
+/** Whether this is not text. The only control characters of text are tabs and line ends. */
 export function looksBinary(start: Uint8Array): boolean {
   return start.some((byte) => byte < 0x09 || (byte > 0x0d && byte < 0x20));
 }
 
 /**
- * The trimmed lines of a header. All of them end as the first one does, because a carriage return
- * may be the first byte after the header.
+ * The trimmed lines of a header. All lines must have the same line end as the first line, because a
+ * carriage return may be the first byte after the header.
  */
 export function* headerLines(start: Uint8Array): Generator<Line> {
   const decoder = new TextDecoder();

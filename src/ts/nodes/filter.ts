@@ -14,9 +14,9 @@ import { type HiddenPointNodesFilterOptions, type NodesSettings, readNodesOption
 /** The events of a filter of nodes. */
 export interface HiddenPointNodesFilterEvents {
   /**
-   * A new answer is drawn: how many points of how many nodes are visible, how many milliseconds the
-   * answer took, the viewpoint or the direction (the other one is null), and the radius (0 if the
-   * inversion has none). All of this is in the root's space.
+   * A new answer is drawn. `count` is the number of visible points. `nodes` is the number of nodes
+   * in the cloud. Either `viewpoint` or `direction` is null. `radius` is 0 if the inversion has none.
+   * The viewpoint, the direction and the radius are in the root's space.
    */
   change: {
     count: number;
@@ -27,9 +27,9 @@ export interface HiddenPointNodesFilterEvents {
     radius: number;
   };
   /**
-   * A node (`points`) or a view (`points` is null) is refused. This is told once for each node
-   * until it changes, and once for views until there is an answer again. Without a listener, the
-   * error is an unhandled rejection.
+   * A node (`points`) or a view (`points` is null) is refused. For a node, this comes only once
+   * until the node changes. For views, it comes only once until there is an answer again. Without a
+   * listener, the error is an unhandled rejection.
    */
   error: { error: Error; points: Points | null };
 }
@@ -42,11 +42,11 @@ interface Asked {
 }
 
 /**
- * Takes many `THREE.Points` as one cloud, and draws only the points that the camera sees. Tiled
- * viewers need this: potree-core's octrees, the point tiles of 3d-tiles-renderer. Nodes may come
- * and go, lie in one another, and have their own offsets.
+ * Takes many `THREE.Points` as one cloud, and draws only the points that the camera sees. This is
+ * for tiled viewers, such as potree-core (octrees) and 3d-tiles-renderer (point tiles). Nodes may
+ * come and go, may be children of other nodes, and may have their own offsets.
  *
- * The picture is, to the bit, the picture of one cloud that had never been split. New nodes are
+ * The picture is the same, to the bit, as for one cloud that was never split. New nodes are
  * appended to the cloud, and nodes that are gone are removed.
  *
  * ```js
@@ -59,13 +59,13 @@ interface Asked {
  * ```
  *
  * Nodes may move with the root freely. If they move within the root, they are read again. The
- * options and an orthographic camera mean the same as in a `HiddenPointFilter`, for the cloud of
- * all nodes.
+ * options mean the same as in a `HiddenPointFilter`, but for the cloud of all nodes. Orthographic
+ * cameras are handled as in that filter, too.
  */
 export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvents> {
   /**
-   * While true, no new view is asked about, wherever the camera goes. An answer that is on its way
-   * is still drawn. New nodes are drawn whole.
+   * While true, the filter asks about no new view, even if the camera moves. An answer that is on
+   * its way is still drawn. All points of new nodes are drawn.
    */
   frozen = false;
 
@@ -93,15 +93,15 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
   #isDropped = false;
   #visible = 0;
   #disposed = false;
-  /** Calls of listeners, made after everything else: listeners may throw. */
+  /** The errors that listeners have not received yet. They are sent last, because listeners may throw. */
   #untold: { error: Error; points: Points | null }[] = [];
   readonly #refuseNode: Refused = (error, points) => {
     this.#untold.push({ error, points });
   };
 
   /**
-   * @param root an object above all nodes. In its space the nodes are one cloud, and a radius has
-   *   its units.
+   * @param root an object above all nodes. The nodes are one cloud in the space of this object, and
+   *   a radius is in the units of this space.
    * @throws HprError `option`.
    */
   constructor(root: Object3D, options?: HiddenPointNodesFilterOptions) {
@@ -125,14 +125,14 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     this.#nodes.enabled = enabled;
   }
 
-  /** How many points of all nodes together are visible in the last answer. */
+  /** The number of visible points of all nodes, in the last answer. */
   get visibleCount(): number {
     return this.#visible;
   }
 
   /**
-   * Whether nothing is on its way: the picture is the answer for the nodes and the camera of the
-   * last `update`, unless that was refused.
+   * Whether no answer is on its way. Then the picture shows the answer for the nodes and the camera
+   * of the last `update`, unless these were refused.
    */
   get settled(): boolean {
     return !this.#follower.isWaiting && (this.#follower.isLost || !this.#wantsAnswer());
@@ -218,7 +218,7 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     };
   }
 
-  /** Undefined if no node has a point. */
+  /** Updates the cloud and asks it. Returns undefined if no node has a point. */
   async #ask(): Promise<Asked | undefined> {
     const gathered = this.#gathered;
     this.#askedVersion = this.#nodes.version;

@@ -12,12 +12,15 @@ interface Span {
   revision: number;
 }
 
-/** The cloud keeps removed points in memory. Up to this number, they may outnumber the others. */
+/**
+ * The cloud keeps removed points in memory. It is made again when the removed points are more than
+ * half of all its points, plus this number.
+ */
 const FEW = 10_000;
 
 /**
  * The points of all nodes, in the root's space, as one cloud. Nodes are appended to it and removed
- * from it. Its answers are, to the bit, the answers of a cloud that had never been split.
+ * from it. Its answers are the same, to the bit, as the answers of a cloud that was never split.
  *
  *      indices   [ node 3 …… | removed …… | node 1 …… | node 7 …… ]
  */
@@ -44,7 +47,7 @@ export class Gathered {
   }
 
   /**
-   * Changes the cloud to that of these nodes. Refused nodes take no part.
+   * Changes the cloud, so that it has the points of exactly these nodes. Refused nodes are left out.
    *
    * @throws HprError (as a rejection) the errors of the clouds. Then this cloud is dropped.
    */
@@ -76,7 +79,7 @@ export class Gathered {
     return isDirection ? this.#cloud!.visibleFromDirection(from, view) : this.#cloud!.visibleFrom(from, view);
   }
 
-  /** Splits ascending indices of the cloud by node, as indices of the node's own points. */
+  /** Splits ascending indices of the cloud by node. The result has indices of each node's own points. */
   *split(indices: Uint32Array): Generator<[node: CloudNode, own: Uint32Array]> {
     let from = 0;
     for (const [node, { first, count, revision }] of this.#spans) {
@@ -112,7 +115,7 @@ export class Gathered {
     if (positions.length === 0) {
       return;
     }
-    // Each node lists its own hidden points.
+    // The cloud need not list hidden points, because each node lists its own.
     const cloud = await prepareCloud({ numbers: positions, own: true }, { ...this.#settings, dim: false });
     if (this.#isClosed) {
       void cloud.dispose();
@@ -136,7 +139,7 @@ export class Gathered {
     return indices;
   }
 
-  /** The points of new nodes, which take the next indices. */
+  /** Reads the points of new nodes. They get the next indices. */
   #read(nodes: readonly CloudNode[], refused: Refused): Float64Array {
     const parts: (Float32Array | Float64Array)[] = [];
     const begun = this.#length;

@@ -6,21 +6,24 @@ import { CloudNode, type Refused } from "./node.js";
 import type { NodesSettings } from "./options.js";
 import { Places } from "./place.js";
 
-/** The present nodes. The set is checked in every frame; without a change, nothing is allocated. */
+/** The present nodes. The set is checked in every frame. If there is no change, nothing is allocated. */
 export class NodeSet {
   readonly #root: Object3D;
   readonly #settings: NodesSettings;
   readonly #refused: Refused;
   readonly #places: Places;
   readonly #nodes = new Map<Points, CloudNode>();
-  /** Points that had a filter already or could not be dimmed, with the geometry and the material that they had. */
+  /**
+   * Points that were refused because they had a filter already or could not be dimmed. The geometry
+   * and the material that they had then are kept with them.
+   */
   readonly #refusedPoints = new WeakMap<Points, { geometry: unknown; material: unknown }>();
   #enabled = true;
   #frame = 0;
   #seen = 0;
   #version = 0;
 
-  /** @param refused is told of points that cannot be a node, or whose material can no longer be dimmed. */
+  /** @param refused is called with points that cannot be a node, or whose material can no longer be dimmed. */
   constructor(root: Object3D, settings: NodesSettings, refused: Refused) {
     this.#root = root;
     this.#settings = settings;
@@ -43,7 +46,7 @@ export class NodeSet {
     for (const { display } of this.#nodes.values()) display.enabled = enabled;
   }
 
-  /** The nodes that can be part of the cloud, and those that have not been checked yet. */
+  /** The nodes that are not refused. Some of them may not have been read yet. */
   present(): CloudNode[] {
     return [...this.#nodes.values()].filter(({ isRefused }) => !isRefused);
   }
@@ -69,7 +72,7 @@ export class NodeSet {
   /** Notes which nodes are present now, and how they have changed. */
   takeUp(): void {
     const { nodes } = this.#settings;
-    // If this throws, nothing is changed.
+    // This comes first: if it throws, nothing has changed yet.
     const given = nodes === undefined ? undefined : listed(nodes());
     this.#frame += 1;
     this.#places.next();
@@ -141,12 +144,15 @@ export class NodeSet {
   }
 }
 
-/** This is called for every object in every frame, and `in` would search the prototypes. */
+/**
+ * Whether an object is a `Points`. This is called for every object in every frame, so it does not
+ * use `in`, which would search the prototypes.
+ */
 function isPoints(object: Object3D): object is Points {
   return (object as Partial<Points>).isPoints === true;
 }
 
-/** Each node once, however often it is listed. */
+/** Returns each node once, even if it is listed several times. */
 function listed(nodes: Iterable<Points>): Set<Points> {
   const points = new Set(nodes);
   for (const one of points) requirePoints(one);

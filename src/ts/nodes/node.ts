@@ -10,7 +10,7 @@ import type { Place, Places } from "./place.js";
 
 const IDENTITY = new Matrix4();
 
-/** Is told of points that cannot be a node. */
+/** Is called with points that cannot be a node. */
 export type Refused = (error: Error, points: Points) => void;
 
 /** One node: its points, their place in the root's space, and the part of them that is drawn. */
@@ -26,7 +26,7 @@ export class CloudNode {
   readonly #places: Places;
   readonly #place: Place;
   #placeVersion = -1;
-  /** The state in which it was refused. It is not read again until this changes. */
+  /** The state in which the node was refused. The node is not read again until its state changes. */
   #refused: readonly unknown[] | undefined;
   /** Whether its points were read in its present revision. */
   #isRead = false;
@@ -45,7 +45,7 @@ export class CloudNode {
     return this.#refused !== undefined;
   }
 
-  /** Whether it has changed since it was read or refused. A change is told once. */
+  /** Whether the node has changed since it was read or refused. Returns true only once for each change. */
   noticeChange(): boolean {
     if (!this.#isRead || this.#isUnchanged()) {
       return false;
@@ -58,7 +58,7 @@ export class CloudNode {
   }
 
   /**
-   * The positions of its points in the root's space.
+   * Reads the positions of the node's points in the root's space.
    *
    * @throws HprError the errors of `DrawnPoints.take`, and `non-finite`. Then the node is refused.
    */

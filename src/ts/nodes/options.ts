@@ -3,7 +3,7 @@ import type { Points } from "three";
 import { describe, HprError } from "../base/errors.js";
 import { type FilterSettings, type HiddenPointFilterOptions, readFilterOptions } from "../three/options.js";
 
-/** The options of a `HiddenPointFilter`, for all nodes as one cloud, and the choice of the nodes. */
+/** The options of a `HiddenPointFilter` for the cloud of all nodes, and a function that chooses the nodes. */
 export interface HiddenPointNodesFilterOptions extends HiddenPointFilterOptions {
   /** Returns the present nodes. Default: every visible `Points` below the root. */
   nodes?: (() => Iterable<Points>) | undefined;

@@ -44,7 +44,10 @@ export class Place {
     if (this.above !== undefined) this.matrix.premultiply(this.above.matrix);
   }
 
-  /** Composing a matrix takes longer than all other work of a frame. */
+  /**
+   * Whether the object's matrix would be composed of the same parts as before. Composing a matrix
+   * takes longer than all other work of a frame.
+   */
   #isMadeOfTheSame(): boolean {
     const { position, quaternion, scale } = this.object;
     // Older versions of three have no pivot.
@@ -70,7 +73,7 @@ export class Place {
   }
 }
 
-/** The places of objects. Each object is checked once a frame, however many nodes are in it. */
+/** The places of objects. Each object is checked once a frame, even if many nodes are below it. */
 export class Places {
   readonly #root: Object3D;
   readonly #known = new WeakMap<Object3D, Place>();
@@ -118,8 +121,9 @@ export class Places {
   }
 
   /**
-   * The object that another object's own matrix is relative to, unless it is the root. Octrees of
-   * potree-core (and their parts) nest their nodes, but draw each node relative to the octree.
+   * Returns the object that the matrix of `object` is relative to. Returns undefined if this is the
+   * root. In the octrees of potree-core, nodes are children of nodes, but each node is drawn
+   * relative to the octree.
    */
   #holderOf(object: Object3D): Object3D | undefined {
     for (let at = object.parent; at !== null; at = at.parent) {

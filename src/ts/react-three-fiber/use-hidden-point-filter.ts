@@ -7,19 +7,19 @@ import type { HiddenPointFilterOptions } from "../three/options.js";
 
 /** The options of a `HiddenPointFilter`, its state and its callbacks. */
 export interface UseHiddenPointFilterOptions extends HiddenPointFilterOptions {
-  /** While true, the picture of the points stays, wherever the camera goes. Default false. */
+  /** While true, the same points stay drawn, even if the camera moves. Default false. */
   frozen?: boolean | undefined;
   /** While false, all points are drawn. Default true. */
   enabled?: boolean | undefined;
-  /** A new answer is drawn: how many points are visible, and how many milliseconds the answer took. */
+  /** A new answer is drawn. `count` is the number of visible points. `milliseconds` is the time that it took. */
   onChange?: ((change: { count: number; milliseconds: number }) => void) | undefined;
   /** The points or a view are refused. Without this callback, the error is an unhandled rejection. */
   onError?: ((error: Error) => void) | undefined;
 }
 
 /**
- * Draws only those points of a `<points>` that the canvas' camera sees, and lets pointer events hit
- * only these; see `HiddenPointFilter`. Before each frame, it checks whether the view is new. With
+ * Draws only the points of a `<points>` that the canvas' camera sees. Pointer events hit only these
+ * points (see `HiddenPointFilter`). Before each frame, the hook checks whether the view is new. With
  * `frameloop="demand"`, each answer requests a frame.
  *
  * ```tsx
@@ -34,7 +34,7 @@ export interface UseHiddenPointFilterOptions extends HiddenPointFilterOptions {
  * callbacks. It is also made again when `ref` holds another object after a render.
  *
  * @returns the filter, or null while there are no points.
- * @throws HprError the errors of `HiddenPointFilter`'s constructor, to the nearest error boundary.
+ * @throws HprError the errors of `HiddenPointFilter`'s constructor. The nearest error boundary gets them.
  */
 export function useHiddenPointFilter(
   ref: RefObject<Points | null>,
@@ -48,7 +48,7 @@ export function useHiddenPointFilter(
   const callbacks = useRef({ onChange, onError });
   const isHeard = onError !== undefined;
 
-  // A ref does not tell when it gets another object.
+  // A ref gives no notice of another object, so it is read after each render.
   useLayoutEffect(() => {
     setPoints(ref.current);
     callbacks.current = { onChange, onError };
@@ -72,7 +72,7 @@ export function useHiddenPointFilter(
       setFilter(null);
       invalidate();
     };
-    // Options that each render writes as a new object are the same if they have the same content.
+    // Each render may write the options as new objects. Only a change of their content counts.
   }, [points, dimMaterial, JSON.stringify(inversion), JSON.stringify(plain), isHeard, invalidate]);
 
   useEffect(() => {

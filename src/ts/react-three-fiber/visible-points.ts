@@ -4,15 +4,15 @@ import type { Points } from "three";
 
 import { useHiddenPointFilter, type UseHiddenPointFilterOptions } from "./use-hidden-point-filter.js";
 
-/** The properties of `<points>`, and how they are filtered. */
+/** The properties of `<points>`, and the options of the filter. */
 export type VisiblePointsProps = ThreeElements["points"] & {
   /** See {@link UseHiddenPointFilterOptions}. */
   filter?: UseHiddenPointFilterOptions | undefined;
 };
 
 /**
- * A `<points>` that draws only the points that the canvas' camera sees, and whose other points
- * pointer events do not hit.
+ * A `<points>` that draws only the points that the canvas' camera sees. Pointer events do not hit
+ * the other points.
  *
  * ```tsx
  * <VisiblePoints geometry={geometry} filter={{ exponent: 3, mode: "dim" }}>

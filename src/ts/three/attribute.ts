@@ -10,11 +10,11 @@ export type PositionAttribute = BufferAttribute | InterleavedBufferAttribute;
 /** The positions of a geometry's points: x, y, z of one point after another. */
 export interface ReadPositions {
   numbers: Float32Array | Float64Array;
-  /** Whether the memory is not the attribute's own: then it may be given away. */
+  /** Whether the numbers are a copy. Then their memory may be given away. Otherwise, it is the attribute's. */
   own: boolean;
 }
 
-/** Types whose values are exact in single precision. Whole numbers of 32 bits and their quotients are not. */
+/** Types whose values are all exact in single precision. Integers of 32 bits are not exact. */
 const EXACT_IN_SINGLE = ["Float32Array", "Int8Array", "Uint8Array", "Uint8ClampedArray", "Int16Array", "Uint16Array"];
 
 /** Refuses a geometry whose positions cannot be read here. */
@@ -46,9 +46,10 @@ export function versionOf(attribute: PositionAttribute): number {
 }
 
 /**
- * The positions of the points with these numbers, or of all points. They are read as three itself
- * reads them: `normalized` integers are divided, and the result is in double precision. With
- * `place`, the elements of a matrix, the positions are transformed by it, also in double precision.
+ * Reads the positions of the points with these numbers, or of all points. They are read as three
+ * itself reads them: `normalized` integers are divided, and the result is in double precision.
+ * `place` has the elements of a matrix. If it is given, the positions are transformed by it, also
+ * in double precision.
  */
 export function readPositions(
   attribute: PositionAttribute,
@@ -75,7 +76,7 @@ export function readPositions(
   return { numbers, own: true };
 }
 
-/** A translation alone is one exact addition for each coordinate. */
+/** Transforms points by a matrix. If this is only a translation, the result is one addition per coordinate. */
 function movePoints(numbers: Float32Array | Float64Array, m: readonly number[]): void {
   for (let i = 0; i < numbers.length; i += 3) {
     const x = numbers[i]!;

@@ -2,7 +2,7 @@
 export interface Box {
   low: [number, number, number];
   high: [number, number, number];
-  /** The number of points with a coordinate that is NaN or infinite, and the first of them. */
+  /** The number of points with a NaN or infinite coordinate. `firstStray` is the first of them, or -1. */
   strays: number;
   firstStray: number;
 }

@@ -5,7 +5,7 @@ import { WorkerPointCloud } from "../worker/client.js";
 import { listHiddenToo } from "../worker/listing.js";
 import type { ReadPositions } from "./attribute.js";
 
-/** Both classes answer alike; one of them answers with promises. */
+/** Both classes give the same answers. A `WorkerPointCloud` gives them as promises. */
 export type Cloud = PointCloud | WorkerPointCloud;
 
 /**

@@ -14,8 +14,8 @@ export function isDimmed(points: Points): boolean {
 }
 
 /**
- * Draws the hidden points, too. It is a child of the points with the same attributes and the rest
- * of the index. Rays pass through it.
+ * Draws the hidden points faintly. For this, the points get a child with the same attributes and
+ * the rest of the index. Rays do not hit the child.
  */
 export class DimmedPoints {
   readonly #points: Points;
@@ -64,8 +64,8 @@ export class DimmedPoints {
   /**
    * Copies all changes of the points since the last frame.
    *
-   * @throws HprError `option` if the material cannot be dimmed, once. Then hidden points are not
-   *   drawn until there is an answer with another material.
+   * @throws HprError `option`, only once, if the material cannot be dimmed. Then hidden points are
+   *   not drawn until there is an answer with another material.
    */
   follow(): void {
     const [points, child] = [this.#points, this.#child];
@@ -73,8 +73,8 @@ export class DimmedPoints {
     if (!this.#isShown || attributes === undefined) {
       return;
     }
-    // Tile viewers hide everything before they show something, and they do not set the place of
-    // children of others.
+    // Tile viewers hide all objects before they show some of them. They do not update the place of
+    // children that they have not added themselves.
     child.visible = true;
     child.matrixWorld.copy(points.matrixWorld);
     child.layers.mask = points.layers.mask;
@@ -132,7 +132,7 @@ export class DimmedPoints {
     }
   }
 
-  /** Hidden points cover nothing, and other hidden points are seen through them. */
+  /** Copies the material, and makes it faint. Other hidden points are seen through such points. */
   #copy(): Material {
     const material = requireDimmable(this.#points.material);
     this.#copied = { from: material, version: material.version };
@@ -144,7 +144,7 @@ export class DimmedPoints {
   }
 }
 
-/** Only for three's own materials for points is it known that `opacity` and `size` have an effect. */
+/** Accepts only three's own materials for points. It is known that these use `opacity` and `size`. */
 function requireDimmable(material: unknown): PointsMaterial {
   const {
     type = describe(material),

@@ -3,7 +3,7 @@ import type { Material, Points } from "three";
 import { DimmedPoints } from "./dimmed.js";
 import { DrawnPoints } from "./drawn-points.js";
 
-/** Draws some points: all of them, or the visible ones, and maybe the hidden ones dimmed. */
+/** Draws either all points or only the visible ones. The hidden points may be drawn, too, but dimmed. */
 export class Display {
   readonly drawn: DrawnPoints;
   readonly #dimmed: DimmedPoints | undefined;
@@ -36,8 +36,8 @@ export class Display {
   }
 
   /**
-   * Draws the visible points. `indices`: their ascending indices among the points that `drawn`
-   * read. `isListed`: the indices of hidden points, to be dimmed, follow in memory already.
+   * Draws the visible points. `indices` are their ascending indices among the points that `drawn`
+   * has read. With `isListed`, the indices of the hidden points follow in memory already.
    *
    * @throws HprError `too-large`, `option`.
    */
@@ -52,7 +52,7 @@ export class Display {
     this.#dimmed?.follow();
   }
 
-  /** Draws everything, until there is an answer or it is enabled again. */
+  /** Draws all points, until there is an answer or `enabled` is set to true. */
   showAll(): void {
     this.drawn.showAll();
     this.#dimmed?.hide();

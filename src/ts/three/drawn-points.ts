@@ -5,7 +5,7 @@ import { listHidden, orderIn } from "../cloud/hidden.js";
 import { allocating } from "../base/memory.js";
 import { type PositionAttribute, readPositions, type ReadPositions, requirePositions, versionOf } from "./attribute.js";
 
-/** A geometry as its user left it. */
+/** The state of a geometry before it got a filter. */
 interface Taken {
   geometry: BufferGeometry;
   position: PositionAttribute;
@@ -20,7 +20,8 @@ interface Taken {
 const taken = new WeakSet<BufferGeometry>();
 
 /**
- * The points that a geometry draws, and the index and draw range with which it draws fewer.
+ * The points that a geometry draws. To draw fewer points, the geometry gets another index and another
+ * draw range.
  *
  *      order   [ visible …… | hidden …… ]     numbers of points, in the user's own order
  *                draw range ──
@@ -56,7 +57,7 @@ export class DrawnPoints {
     return this.#order;
   }
 
-  /** Whether the points are still the ones that were read last, wherever they are now. */
+  /** Whether the geometry still draws the points that were read last. Their positions may have changed. */
   get isSame(): boolean {
     const last = this.#taken;
     if (last === undefined || this.#points.geometry !== last.geometry) {
@@ -79,11 +80,11 @@ export class DrawnPoints {
   }
 
   /**
-   * Reads the points as they are now, and returns their positions: in their own space, or, with the
-   * elements of a matrix, transformed by it. If the points are the same, the visible ones stay
-   * drawn.
+   * Reads the points as they are now, and returns their positions in their own space. If `place` is
+   * given (the elements of a matrix), the positions are transformed by it. If the points are the
+   * same as before, only the visible ones stay drawn.
    *
-   * @throws HprError `positions-type`, `option`, `too-large`; then nothing has been read.
+   * @throws HprError `positions-type`, `option`, `too-large`. Then nothing has been read.
    */
   take(place?: readonly number[]): ReadPositions {
     const same = this.isSame;
@@ -108,15 +109,15 @@ export class DrawnPoints {
     return readPositions(position, this.#ids, place);
   }
 
-  /** The positions of some points. `indices` count the points that `take` returned. */
+  /** Returns the positions of some points. `indices` are their indices among the points that `take` returned. */
   positionsOf(indices: Uint32Array, place?: readonly number[]): Float32Array | Float64Array {
     const ids = this.#ids === undefined ? indices : indices.map((i) => this.#ids![i]!);
     return readPositions(this.#taken!.position, ids, place).numbers;
   }
 
   /**
-   * Notes the visible points: ascending indices of the points that `take` returned. With
-   * `isListed`, the indices of the hidden points follow in memory.
+   * Notes the visible points. `indices` are their ascending indices among the points that `take`
+   * returned. With `isListed`, the indices of the hidden points follow in memory.
    */
   setVisible(indices: Uint32Array, isListed = false): void {
     this.#order ??= allocating(`${this.#total} indices`, () => {
@@ -213,7 +214,10 @@ function requireFilterable(geometry: BufferGeometry): PositionAttribute {
   return position;
 }
 
-/** The point numbers that an index and a draw range have drawn, in their order. Undefined if they draw all. */
+/**
+ * Returns the numbers of the points that an index and a draw range draw, in the order of drawing.
+ * Returns undefined if there is no index and all points are drawn.
+ */
 function drawnIds(
   length: number,
   index: BufferAttribute | null,
@@ -237,7 +241,7 @@ function drawnIds(
   return ids;
 }
 
-/** Refuses values that three itself would fail to draw without an error. */
+/** Refuses values that three itself could not draw, although it would report no error. */
 function requireDrawable(index: unknown, range: unknown): void {
   if (index !== null && typeof (index as Partial<BufferAttribute> | undefined)?.getX !== "function") {
     throw new HprError("option", `points: index must be a THREE.BufferAttribute or null, got ${describe(index)}`);

@@ -4,9 +4,9 @@ import { describe, HprError } from "../base/errors.js";
 
 /** How far a matrix may differ from a similarity: rounding to single precision makes such differences. */
 const DISTORTION = 1e-5;
-/** Two views are the same within this share of the cloud's extent, or of a unit direction. */
+/** The largest difference of two equal views: a share of the cloud's extent, or of a direction's length. */
 const SAME = 1e-9;
-/** The relative error of world coordinates after some matrices. */
+/** The relative rounding error of world coordinates after the product of several matrices. */
 const ROUNDING = 1e-14;
 
 /**
@@ -93,7 +93,7 @@ function isNear(a: number, b: number, blur: number): boolean {
   return Math.abs(a - b) <= blur || Object.is(a, b);
 }
 
-/** @throws HprError `option` if distances in the world depend on their direction. */
+/** @throws HprError `option` if the scale from the points' space to the world is not uniform. */
 export function requireUniformScale(points: Object3D): void {
   points.updateWorldMatrix(true, false);
   uniformScale(points.matrixWorld.elements);
@@ -105,12 +105,12 @@ function requireCamera(camera: unknown): void {
   }
 }
 
-/** Cameras of other classes are recognized by their projection. */
+/** Whether a camera is orthographic. The projection matrix shows this, also for cameras of other classes. */
 function isOrthographic(camera: Camera): boolean {
   return camera.projectionMatrix.elements[15] !== 0 && !("isPerspectiveCamera" in camera);
 }
 
-/** The scale from the points' space to the world. Mirrored points are seen alike. */
+/** Returns the scale from the points' space to the world. A mirrored space is accepted. */
 function uniformScale(m: readonly number[]): number {
   const a = Math.hypot(m[0]!, m[1]!, m[2]!);
   const b = Math.hypot(m[4]!, m[5]!, m[6]!);

@@ -14,11 +14,11 @@ import { Reporter } from "./reporter.js";
 
 /** The events of a filter. */
 export interface HiddenPointFilterEvents {
-  /** A new answer is drawn: how many points are visible, and how many milliseconds the answer took. */
+  /** A new answer is drawn. `count` is the number of visible points. `milliseconds` is the time that it took. */
   change: { count: number; milliseconds: number };
   /**
-   * A view or the points were refused. This is told once, until there is an answer again. Without a
-   * listener, the error is an unhandled rejection.
+   * A view or the points were refused. This comes only once until there is an answer again. Without
+   * a listener, the error is an unhandled rejection.
    */
   error: { error: Error };
 }
@@ -26,7 +26,7 @@ export interface HiddenPointFilterEvents {
 /**
  * Draws only those points of a `THREE.Points` that the camera sees, and lets rays pick only these.
  * To do so, it replaces the geometry's index and draw range until it is disposed of. Points that
- * the geometry's own index and draw range leave out take no part. Attributes, materials and the
+ * the geometry's own index and draw range leave out are ignored. Attributes, materials and the
  * user's own index stay untouched.
  *
  * ```js
@@ -48,12 +48,15 @@ export interface HiddenPointFilterEvents {
  * Morph targets, instances and a non-uniform scale are refused (`option`).
  */
 export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
-  /** While true, no new view is asked about, wherever the camera goes. An answer that is on its way is still drawn. */
+  /**
+   * While true, the filter asks about no new view, even if the camera moves. An answer that is on
+   * its way is still drawn.
+   */
   frozen = false;
   readonly #readiness = new Readiness();
   /**
-   * Resolves when the points are prepared and, if `update` was called before that, the first answer
-   * is drawn. Rejects with the error if the points or that view are refused.
+   * Resolves when the points are prepared. If `update` was called before that, this resolves when
+   * the first answer is drawn. Rejects with the error if the points or that view are refused.
    */
   readonly ready: Promise<void> = this.#readiness.promise;
 
@@ -113,7 +116,7 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
   /**
    * Call this in each frame, before rendering. It asks for an answer if the view is new, and draws
    * the answer when it arrives (with `worker: false`, at once). While one view is being answered,
-   * of all later views only the last one is kept.
+   * only the newest of the later views is kept.
    */
   update(camera: Camera): void {
     if (this.#disposed) {
@@ -151,7 +154,7 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
     this.#follower.stop();
     this.#display.dispose();
     this.#dropCloud();
-    // The caller of dispose() knows of the end already.
+    // The caller of dispose() knows this already, so this is never an unhandled rejection.
     this.#readiness.reject(new HprError("disposed", "this filter has been disposed of"), true);
   }
 
@@ -180,7 +183,7 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
       },
       use: (cloud) => {
         this.#cloud = cloud;
-        // A view that is set in the same task counts.
+        // If `update` is called in the same task, `ready` waits for the answer.
         queueMicrotask(() => {
           if (!this.#follower.isBusy) {
             this.#readiness.resolve();

@@ -4,7 +4,7 @@ import { describe, HprError } from "../base/errors.js";
 import { givenOptions, pick } from "../query/options.js";
 import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "../query/view-options.js";
 
-/** How points are filtered: how each view is computed, and these options. */
+/** The options of a filter. The options of `VisibilityOptions` set how each view is computed. */
 export interface HiddenPointFilterOptions extends VisibilityOptions {
   /**
    * Whether answers are computed in a worker, which all filters of a page share. Until an answer
@@ -55,7 +55,7 @@ export function requirePoints(points: unknown): asserts points is Points {
   }
 }
 
-/** One of several values. The first one is the default. */
+/** Reads an option that has one of these values. The first value is the default. */
 function oneOf<T extends string | boolean>(given: Record<string, unknown>, name: string, values: readonly [T, T]): T {
   const value = given[name] ?? values[0];
   if (!values.includes(value as T)) {

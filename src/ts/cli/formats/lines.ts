@@ -4,7 +4,7 @@ import type { Records } from "./point-file.js";
 
 const [LINE_FEED, RETURN] = [0x0a, 0x0d];
 
-/** The lines from a place on, with any kind of line end. */
+/** The lines of a file from a place on. They may have any kind of line end. */
 export function* linesOf(file: Buffer, from = 0, firstNumber = 1): Generator<Line> {
   let start = from;
   let [feed, back] = [-1, -1];

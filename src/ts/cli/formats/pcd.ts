@@ -22,7 +22,7 @@ export function readPcd(file: Buffer, chosen?: ChosenColumns): PointFile {
   };
 }
 
-/** In Latin-1, which keeps every byte. */
+/** The header for another number of points. It is in Latin-1, which keeps every byte. */
 function headerOf(file: Buffer, { lines, data }: PcdHeader, count: number): string {
   const values: Record<string, string> = {
     WIDTH: String(count),
@@ -46,7 +46,7 @@ function readBinary(file: Buffer, { points, axes, end }: PcdHeader): Points {
   return read;
 }
 
-/** Puts data in rows that holds all values of one field before the values of the next. */
+/** Returns the data in rows. In `columns`, all values of a field come before all values of the next field. */
 function interleaved(columns: Uint8Array, { fields, count }: Group): Uint8Array {
   const size = rowBytes(fields);
   const rows = new Uint8Array(columns.length);

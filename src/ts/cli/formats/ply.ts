@@ -20,7 +20,7 @@ export function readPly(file: Buffer, chosen?: ChosenColumns): PointFile {
   };
 }
 
-/** In Latin-1, which keeps every byte. */
+/** The header for another number of points. It is in Latin-1, which keeps every byte. */
 function headerOf(file: Buffer, { lines }: PlyHeader, count: number): string {
   return lines
     .filter(({ element }) => element === undefined || element === "vertex")

@@ -9,7 +9,7 @@ import { equalRecords, type PointFile } from "./point-file.js";
 
 export type Points = Pick<PointFile, "positions" | "records">;
 
-/** Reads rows in text. `start` is the place of the first line, `firstNumber` its number. */
+/** Reads rows of text. The first row begins at `start`, and its line has the number `firstNumber`. */
 export function readTextRows(
   file: Buffer,
   { start, firstNumber }: { start: number; firstNumber: number },
