@@ -42,7 +42,7 @@ await command(async () => {
       rows.push({ platform: `${name} (\`${[platform.target, ...platform.build.slice(2)].join(" ")}\`)`, cells });
       say(`${name}: ${verdict}`);
     }
-    // Written after each platform, so that a run that ends early keeps its rows.
+    // The file is written after each platform, so that a run that ends early keeps its rows.
     const versions = await versionsOfTools();
     writeFileSync(inRoot(RESULT), report(versions, rows, skipped, expected?.cases.size ?? 0));
   }
@@ -70,7 +70,7 @@ function runBy({ runner: [program] }: Platform): string {
   return program === process.execPath ? "Node" : program;
 }
 
-/** Called after the missing tools are installed. */
+/** The versions of the tools. Called after the missing tools are installed. */
 async function versionsOfTools(): Promise<string> {
   const version = async (program: string, ...args: string[]): Promise<string> => {
     const { output } = await run(program, args, { show: "nothing" });

@@ -30,7 +30,7 @@ function packagesMatchLock() {
   const wanted = JSON.parse(readFileSync(join(root, "package-lock.json"), "utf8")).packages;
   return Object.entries(wanted).every(
     ([path, entry]) =>
-      // The project itself, and binaries for other platforms.
+      // The project itself and binaries for other platforms need not match.
       path === "" || entry.optional || entry.devOptional || have[path]?.integrity === entry.integrity,
   );
 }

@@ -1,4 +1,4 @@
-// npm run docs: the API reference of both packages, from their doc comments.
+// npm run docs: writes the API reference of both packages, from their doc comments.
 import { buildPackage } from "./build/package.js";
 import { buildWasm } from "./build/wasm.js";
 import { command } from "./lib/command.js";

@@ -1,5 +1,5 @@
 // npm run mutants -- [--files GLOB]... [--shard K/N] [--quick]: changes one place of the core at a time, by
-// cargo-mutants, and looks whether a test fails. Mutants that were tried before are not tried again, so
+// cargo-mutants, and checks that a test fails. Mutants that were tried before are not tried again, so
 // the command can be stopped at any time. Writes tests/mutations/rust.tsv and the table of RUST.md there.
 import { parseArgs } from "node:util";
 
@@ -13,7 +13,7 @@ import type { Tests } from "./mutants/try.js";
 import { allTests, checkTests, listMutants, quickTests, tryMutants } from "./mutants/try.js";
 import { copyTree } from "./mutants/tree.js";
 
-/** Tried by one start of cargo-mutants. Fewer are lost when the command is stopped; more start faster. */
+/** The number of mutants for one start of cargo-mutants. A small batch loses less at a stop. A large one is faster. */
 const BATCH = 5;
 
 await command(async () => {
@@ -39,7 +39,7 @@ await command(async () => {
       saveResults(results, every);
     }
   };
-  // All tests are slow, and only few mutants need them: those come last.
+  // Running all tests is slow, and only few mutants need it. These mutants come last.
   const isNew = (name: string) => !results.has(name);
   for (const [pattern, tests] of quickTests) {
     await tryAll((name) => isNew(name) && pattern.test(fileOf(name)), tests);
@@ -51,7 +51,7 @@ await command(async () => {
 interface Asked {
   files: string[];
   shard: string | undefined;
-  /** Leaves mutants open that the quick tests miss. */
+  /** Whether mutants that the quick tests miss are left open. */
   quick: boolean;
 }
 

@@ -40,7 +40,7 @@ async function built(folder: string, env: Record<string, string>): Promise<Map<s
   symlinkSync(inRoot("node_modules"), join(folder, "node_modules"), "dir");
   symlinkSync(inRoot("target", "tools"), join(folder, "target", "tools"), "dir");
   const args = [join(folder, "scripts", "bootstrap.mjs"), "build", "package"];
-  // The PATH of this process is for this folder. The build makes its own.
+  // The PATH of this process belongs to this repository. The build makes its own PATH.
   const { PATH = "" } = environment();
   await mustRun(process.execPath, args, "The build failed", { env: { ...env, PATH } });
   return digestsIn(join(folder, "dist"));

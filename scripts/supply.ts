@@ -6,7 +6,7 @@ import { setUpLinker } from "./setup/linker.js";
 import { setUpRust } from "./setup/rust.js";
 import { setUpCargoDeny } from "./supply/deny.js";
 
-/** Each check has a pattern for its message that the list of weaknesses cannot be reached. */
+/** The checks. `unreachable` matches the message that the list of weaknesses cannot be reached. */
 const CHECKS: { name: string; command: string[]; unreachable?: RegExp }[] = [
   { name: "crates: licenses, duplicates, sources", command: ["cargo-deny", "check", "licenses", "bans", "sources"] },
   {

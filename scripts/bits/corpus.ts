@@ -3,13 +3,13 @@ import { run } from "../lib/run.js";
 import type { Platform } from "./platforms.js";
 
 export interface Answers {
-  /** `digest count radius` by the case's name. */
+  /** The text `digest count radius` of each case, by the case's name. */
   cases: Map<string, string>;
   /** The digest of all cases. */
   all: string;
 }
 
-/** Builds the corpus for a platform and runs it; returns its output, or undefined if it failed. */
+/** Builds the corpus for a platform and runs it. Returns its output, or undefined if it failed. */
 export async function answersOn(platform: Platform): Promise<{ output: string; seconds: number } | undefined> {
   const { target, build, env, runner } = platform;
   const args = ["build", "--locked", "--example", "bits_corpus", "--target", target, ...build];
@@ -24,7 +24,10 @@ export async function answersOn(platform: Platform): Promise<{ output: string; s
   return ok ? { output, seconds: (performance.now() - start) / 1000 } : undefined;
 }
 
-/** Reads the lines `name digest count radius`; undefined unless the last is `all`, with the right number of cases. */
+/**
+ * Reads the lines `name digest count radius`. Returns undefined unless the last line is `all`, with the right number of
+ * cases.
+ */
 export function answersIn(output: string): Answers | undefined {
   const lines = [...output.matchAll(/^(\S+) ([0-9a-f]{16} \d+ (?:[0-9a-f]{16}|-))\r?$/gm)];
   const [, name, last = ""] = lines.pop() ?? [];

@@ -8,7 +8,7 @@ import { setUpTarget } from "../setup/rust.js";
 export interface Platform {
   name: string;
   target: string;
-  /** How cargo builds it, besides the target. */
+  /** The arguments for cargo's build, without the target. */
   build: string[];
   env: Record<string, string>;
   /** The command that runs the program; empty if this machine runs it directly. */
@@ -17,7 +17,7 @@ export interface Platform {
 
 interface Machine {
   target: string;
-  /** Node's name of the processor. */
+  /** The name of the processor in Node. */
   processor: string;
   /** The program of QEMU that emulates the processor. */
   qemu: string;

@@ -2,7 +2,7 @@
 import { readFileSync } from "node:fs";
 import { WASI } from "node:wasi";
 
-/** Node's types leave WebAssembly to those of the browser, which scripts are compiled without. */
+/** The types of Node lack WebAssembly. The types of the browser have it, but scripts are compiled without them. */
 interface Engine {
   Module: new (bytes: Uint8Array) => object;
   Instance: new (module: object, imports: object) => object;

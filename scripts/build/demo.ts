@@ -4,7 +4,7 @@ import { inRoot } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
 
-/** The demo page, and the element for other pages. Both lie in www/dist and can be hosted under any path. */
+/** Builds the demo page, and the element for other pages. Both lie in www/dist and can be hosted under any path. */
 export async function buildDemo(): Promise<void> {
   const work = {
     name: "demo",
@@ -13,7 +13,7 @@ export async function buildDemo(): Promise<void> {
     outputs: ["www/dist/index.html", "www/dist/hidden-point-cloud.js", "www/dist/hidden-point-cloud.d.ts"],
   };
   const result = await unlessUnchanged(work, async () => {
-    // The page first: it empties the folder.
+    // The page is built first, because its build empties the folder.
     for (const [what, config] of [
       ["demo page", "www/vite.config.ts"],
       ["element", "www/element/vite.config.ts"],

@@ -48,7 +48,7 @@ export async function buildWasm(): Promise<void> {
   say(`WebAssembly module: ${result}`);
 }
 
-/** The wasm contains the paths of crates. They are made equal on every machine, so that the bytes are equal. */
+/** Flags for rustc. The wasm contains the paths of crates. The flags make them, and so the bytes, equal everywhere. */
 async function flags(): Promise<string> {
   await mustRun("cargo", ["fetch", "--locked", "--target", WASM_TARGET], FAILED);
   const sources = join(process.env["CARGO_HOME"] ?? join(homedir(), ".cargo"), "registry", "src");

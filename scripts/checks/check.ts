@@ -8,7 +8,7 @@ export interface Outcome {
   failed: number;
   /** The names of failed tests, each with the first line of its message, if the check knows them. */
   failures?: string[];
-  /** Why the check ran nothing: this machine or this repository lacks something. */
+  /** The reason why the check ran nothing: this machine or this repository lacks something. */
   skipped?: string;
 }
 

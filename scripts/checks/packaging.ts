@@ -57,7 +57,7 @@ async function npmPackage(): Promise<Outcome> {
   return sum([unwanted.length === 0 ? PASS : FAIL, missing.length === 0 ? PASS : FAIL, await rehearsal()]);
 }
 
-/** Publishing, without sending anything. npm reports what it would have to correct. */
+/** Rehearses the publication, without sending anything. npm reports everything that it would have to correct. */
 async function rehearsal(): Promise<Outcome> {
   const { ok, output } = await run("npm", ["publish", "--dry-run", "--offline"], { show: "nothing" });
   const corrected = output

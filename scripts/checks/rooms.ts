@@ -8,7 +8,7 @@ import { root } from "../lib/paths.js";
 import type { Check } from "./check.js";
 import { FAIL, PASS } from "./check.js";
 
-/** From upstream to downstream. `lib` lists the public names; `wasm` uses only them and its own names. */
+/** The rooms from upstream to downstream. `lib` lists the public names; `wasm` uses only them and its own names. */
 const ROOMS = ["base", "cloud", "flip", "hull", "view", "answers", "dimensions", "lib", "wasm"];
 
 const source = join(root, "src");

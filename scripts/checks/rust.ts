@@ -13,7 +13,7 @@ export const rustChecks: Check[] = [
     part: "core",
     needs: [SETUP],
     locks: "fuzz",
-    // Without the examples: cargo would link each example by itself, and clippy compiles them anyway.
+    // The examples are left out: cargo would link each of them by itself, and clippy compiles them anyway.
     run: async () => sum([await cargoTest("fuzz", ["--lib", "--tests"]), await cargoTest("fuzz", ["--doc"])]),
   },
   roomsCheck,

@@ -3,8 +3,8 @@ import { existsSync, readFileSync } from "node:fs";
 import { inRoot } from "../lib/paths.js";
 
 /**
- * A program that takes `--minutes M --seed N`. It prints the facts that repeat each wrong answer, and
- * then a last line `N tried, M wrong`.
+ * A program that takes `--minutes M --seed N`. For each wrong answer it prints the facts that one needs to repeat it.
+ * Its last line is `N tried, M wrong`.
  */
 export interface Fuzzer {
   title: string;

@@ -18,7 +18,7 @@ export async function runFuzzer({ title, command }: Fuzzer, minutes: number, see
   return counted;
 }
 
-/** The last line, `N tried, M wrong`; or the sum of the lines that end in `N cases, M wrong`. */
+/** Reads the last line, `N tried, M wrong`. Without it, adds the lines that end in `N cases, M wrong`. */
 export function tallyIn(output: string): Tally {
   const last = /(\d+) tried, (\d+) wrong\s*$/.exec(output);
   const lines = last === null ? [...output.matchAll(/(\d+) cases, (\d+) wrong$/gm)] : [last];

@@ -1,6 +1,6 @@
 import { Problem } from "./run.js";
 
-/** Runs a command's main function; a `Problem` is shown as a plain sentence. */
+/** Runs the main function of a command. Shows a `Problem` as a plain sentence. */
 export async function command(main: () => Promise<void>): Promise<void> {
   try {
     await main();

@@ -11,7 +11,7 @@ export function print(text: string | Buffer, stream: Stream = "stdout"): void {
   else parts.push(text.toString());
 }
 
-/** Runs an action and collects its output in one piece, because others print at the same time. */
+/** Runs an action and collects its output in one piece, because other actions print at the same time. */
 export async function collected<T>(action: () => Promise<T>): Promise<{ value: T; output: string }> {
   const parts: string[] = [];
   const value = await collector.run(parts, action);

@@ -6,7 +6,7 @@ import { environment, root } from "./paths.js";
 
 export interface RunResult {
   ok: boolean;
-  /** Standard output and standard error, as they came. */
+  /** Standard output and standard error together, in the order in which they came. */
   output: string;
 }
 
@@ -19,7 +19,7 @@ interface RunOptions {
   show?: "progress" | "results" | "nothing";
 }
 
-/** Runs a command in the repository's root and waits for it; never throws. */
+/** Runs a command in the repository's root and waits for it. Never throws. */
 export function run(command: string, args: string[], options: RunOptions = {}): Promise<RunResult> {
   const show = options.show ?? "progress";
   const screen = ({ progress: "stderr", results: "stdout", nothing: undefined } as const)[show];

@@ -3,7 +3,7 @@ import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 
 import { inRoot, root } from "../lib/paths.js";
 
-/** `open`: the quick tests missed it, and all tests have not been asked yet. */
+/** The results of a mutant. `open`: the quick tests missed it, and the complete tests have not run yet. */
 export const RESULTS = ["caught", "timeout", "unviable", "missed", "open"] as const;
 export type Result = (typeof RESULTS)[number];
 
@@ -23,14 +23,14 @@ export function readResults(): Map<string, Result> {
   return new Map(Array.from(lines, ([, result, name]) => [name!, result as Result]));
 }
 
-/** Saves what is known of the mutants of `every`, in their order; others are of older sources. */
+/** Saves the results of the mutants in `every`, in this order. Other mutants belong to older sources. */
 export function saveResults(results: Map<string, Result>, every: string[]): void {
   const lines = every.flatMap((name) => (results.has(name) ? [`${results.get(name)}\t${name}\n`] : []));
   mkdirSync(inRoot(FOLDER), { recursive: true });
   writeFileSync(inRoot(FILE), lines.join(""));
 }
 
-/** Renews the part of the report between its two marks. The text around it is written by hand. */
+/** Writes the part of the report between its two marks again. The text around it is written by hand. */
 export function writeTable(results: Map<string, Result>, every: string[]): void {
   const commit = execFileSync("git", ["rev-parse", "--short", "HEAD"], { cwd: root, encoding: "utf8" }).trim();
   const files = [...new Set(every.map((name) => fileOf(name)))];

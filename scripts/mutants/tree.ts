@@ -4,13 +4,13 @@ import { dirname, join } from "node:path";
 
 import { inRoot, root } from "../lib/paths.js";
 
-/** A copy of the crate, so that a command that is stopped leaves no mutant in the sources. */
+/** A copy of the crate. Mutants are made there, so that a stopped command leaves no mutant in the sources. */
 export const tree = inRoot("target", "mutation", "tree");
 
 const WHAT = ["*.rs", "Cargo.toml", "Cargo.lock", ".cargo", "README.md", "docs/API.md"];
 const LIST = "files.txt";
 
-/** Brings the copy up to date. Only files that differ are written: cargo compiles what is newer. */
+/** Brings the copy up to date. Only files that differ are written, because cargo compiles newer files again. */
 export function copyTree(): void {
   const list = ["ls-files", "--cached", "--others", "--exclude-standard", ...WHAT];
   const listed = execFileSync("git", list, { cwd: root, encoding: "utf8" }).trim().split("\n");
@@ -26,6 +26,6 @@ export function copyTree(): void {
     writeFileSync(target, source);
   }
   writeFileSync(join(tree, LIST), files.join("\n"));
-  // The scanned clouds.
+  // The tests find the scanned clouds there.
   if (!existsSync(join(tree, "node_modules"))) symlinkSync(inRoot("node_modules"), join(tree, "node_modules"));
 }

@@ -9,23 +9,23 @@ import { tree } from "./tree.js";
 
 const out = inRoot("target", "mutation");
 
-/** In seconds of CPU and bytes: a mutant that never ends must not take the machine's memory. */
+/** The limit of memory in bytes: a mutant that never ends must not take all memory of the machine. */
 const MEMORY = 4e9;
-/** In seconds; only for what waits without using CPU. */
+/** The limit of time in seconds. It is only for tests that wait without using CPU. */
 const LONGEST = 7200;
 
-/** Sets of tests: what they are called, and what it means when none of them fails. */
+/** A set of tests: its name, and the result of a mutant if none of the tests fails. */
 export interface Tests {
   title: string;
   missed: Result;
-  /** Of CPU, for each test program. */
+  /** The limit of CPU time for each test program, in seconds. */
   seconds: number;
   args: string[];
 }
 
 const FAIL_FAST = ["--", "-Zunstable-options", "--fail-fast"];
 
-/** For the files that a pattern fits, the tests that know most about them: seconds each. */
+/** The tests that fit best to the files of a pattern. They take only seconds. */
 export const quickTests: [pattern: RegExp, tests: Tests][] = [
   [
     /sector|share|division/,
@@ -54,7 +54,7 @@ function quick(title: string, programs: string[], filter: string): Tests {
   return { title, missed: "open", seconds: 30, args: [...programs, ...FAIL_FAST, ...filter.split(" ")] };
 }
 
-/** Refuses to start where the tests fail without a mutant. */
+/** Refuses to start if the tests fail without a mutant. */
 export async function checkTests({ seconds, args }: Tests): Promise<void> {
   const place = ["--manifest-path", join(tree, "Cargo.toml"), "--target-dir", join(tree, "target")];
   const all = ["--config", limit(seconds), "test", "--locked", "--profile", "mutants", ...place, ...args];
@@ -62,19 +62,19 @@ export async function checkTests({ seconds, args }: Tests): Promise<void> {
 }
 
 /**
- * How test programs are started: they end with the first failure and, where `prlimit` is, with so
- * much CPU time and memory. Returns the file that tells cargo.
+ * Sets how cargo starts test programs. They end at the first failure. If this machine has `prlimit`, they also end at
+ * the limits of CPU time and memory. Returns the configuration file for cargo.
  */
 function limit(seconds: number): string {
   const limits = ["prlimit", `--as=${MEMORY}`, `--cpu=${seconds}:${seconds + 5}`];
-  // Stable Rust allows `--fail-fast` where this variable is set.
+  // Stable Rust allows `--fail-fast` if this variable is set.
   const runner = ["env", "RUSTC_BOOTSTRAP=1", ...(findOnPath("prlimit") === undefined ? [] : limits)];
   const file = join(tree, ".cargo", "config.toml");
   writeFileSync(file, `[target.'cfg(unix)']\nrunner = ${JSON.stringify(runner)}\n`);
   return file;
 }
 
-/** The names of the mutants of these files, all where none is given: `file:line:column: what`. */
+/** The names of the mutants of these files, or of all files if none is given: `file:line:column: what`. */
 export async function listMutants(files: string[], shard: string | undefined): Promise<string[]> {
   const part = shard === undefined ? [] : ["--shard", shard, "--sharding", "round-robin"];
   const args = ["mutants", "--list", "--dir", tree, ...files.flatMap((glob) => ["--file", glob]), ...part];
@@ -91,7 +91,7 @@ interface Outcome {
 
 const SUMMARIES: Record<string, Result> = { CaughtMutant: "caught", Unviable: "unviable", Timeout: "timeout" };
 
-/** Tries these mutants; a batch that is stopped gives those that were finished. */
+/** Tries these mutants. If it is stopped, it returns the results of the mutants that were finished. */
 export async function tryMutants(names: string[], tests: Tests): Promise<[string, Result][]> {
   limit(tests.seconds);
   rmSync(join(out, "mutants.out"), { recursive: true, force: true });

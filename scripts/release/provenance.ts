@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 
-/** The reasons why npm cannot sign the place of the build here. Only a build service can vouch for that place. */
+/** The reasons why npm cannot sign where the package was built. Only a build service can confirm that place. */
 export function provenanceRefusals(root: string): string[] {
   const { repository } = JSON.parse(readFileSync(join(root, "package.json"), "utf8")) as { repository?: unknown };
   const reasons: string[] = [];

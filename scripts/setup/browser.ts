@@ -58,7 +58,7 @@ async function installBrowser(): Promise<void> {
   // needs, and it may be reachable when downloads are not.
   if (canInstallOnDebian() && (await aptInstall("chromium"))) return;
   // Playwright may ask for a password to install libraries. So it installs them only
-  // if it need not ask.
+  // if it does not need one.
   const libraries = process.getuid?.() === 0 ? ["--with-deps"] : [];
   await run("playwright-core", ["install", ...libraries, "--no-shell", "chromium"]);
 }

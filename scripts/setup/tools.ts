@@ -23,7 +23,7 @@ export async function setUpWasmTools(): Promise<void> {
   say(`Building wasm-bindgen ${version} and wasm-pack (about two minutes)…`);
   const args = ["install", "--path", inRoot("tools", "wasm"), "--force", ...QUICK_BUILD];
   await mustRun("cargo", args, "wasm-bindgen and wasm-pack could not be built", { env: NO_DEBUG_INFO });
-  // 800 MB that only a new version would use again.
+  // This folder has 800 MB that only a new version would use again.
   rmSync(join(toolsRoot, "build"), { recursive: true, force: true });
 }
 
@@ -33,7 +33,7 @@ async function hasWasmBindgen(version: string): Promise<boolean> {
   return found.every((one) => one === version);
 }
 
-/** Any wasm-pack will do that is not older than the version the build was made with. */
+/** Any wasm-pack is good enough that is not older than the version with which this build was written. */
 async function hasWasmPack(): Promise<boolean> {
   const found = await versionOf("wasm-pack");
   return found !== undefined && found.localeCompare(WASM_PACK, "en", { numeric: true }) >= 0;

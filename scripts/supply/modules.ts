@@ -12,7 +12,7 @@ interface Manifest {
   dependencies?: Record<string, string>;
 }
 
-/** These files run while the page is built, or are not sources of the page. */
+/** Files that run while the page is built, or that are not sources of the page. */
 const NOT_OF_THE_PAGE = /^(build|dist|public)\/|vite\.config\.ts$/;
 
 /**

@@ -5,7 +5,7 @@ import type { Component } from "./component.js";
 import { cratesOfWasm } from "./crates.js";
 import { modulesOfPage } from "./modules.js";
 
-/** The list of the works of others that are shipped, with the license texts that must come with them. */
+/** The file that lists all shipped works of others, with the license texts that must come with them. */
 export const THIRD_PARTY = inRoot("THIRD_PARTY.md");
 
 export async function shipped(): Promise<{ crates: Component[]; modules: Component[] }> {

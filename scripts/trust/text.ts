@@ -38,7 +38,7 @@ function read(root: string, file: string): string {
   return readFileSync(join(root, file), "utf8").trim();
 }
 
-/** A result file without its title, its headings one level deeper, and its links seen from tests/. */
+/** A result file without its title. Its headings are one level deeper, and its links are relative to tests/. */
 function withoutTitle(root: string, file: string): string {
   const folder = posix.relative("tests", dirname(file));
   return read(root, file)

@@ -7,13 +7,13 @@ import { pictureFrom } from "./picture.ts";
 import type { PictureAnswer, PictureQuestion } from "./protocol.ts";
 import { Reference, sentenceOf } from "./reference.ts";
 
-/** The settings, and what the picture depends on, as text. */
+/** The settings, and a text of everything that the picture depends on. */
 interface Wanted {
   settings: Settings;
   key: string;
 }
 
-/** Our answer beside the z-buffer of the same picture. The z-buffer is computed again for every answer and every turn. */
+/** Our answer beside the z-buffer of the same picture. Every new answer and every turn needs a new z-buffer. */
 export class AgainstPicture {
   /** The z-buffer's last answer, and our answer to compare with it. */
   result: { picture: PictureAnswer; ours: TimedView } | null = null;
@@ -45,7 +45,7 @@ export class AgainstPicture {
     if (this.problem !== null) return;
     const { answer } = this.#viewer.scene;
     const { matrix, ...rest } = pictureFrom(this.#viewer, answer.question.viewpoint);
-    // Orbit controls return a few bits off when nothing has moved.
+    // Orbit controls can change the last bits of the matrix although nothing has moved.
     const key = JSON.stringify([answer.asked, matrix.map(Math.fround), rest, settings.splat]);
     this.#newest.want({ settings, key });
     this.#follower.follow();

@@ -9,7 +9,7 @@ import type { Viewer } from "../view/viewer.ts";
 import type { TruthAnswer, TruthQuestion } from "./protocol.ts";
 import { Reference, sentenceOf } from "./reference.ts";
 
-/** Milliseconds that the view has to rest before rays are traced. */
+/** Rays are traced when the view has been at rest for this number of milliseconds. */
 const REST = 300;
 
 /** Our answer beside the truth. Rays are traced when the view rests. */
@@ -34,17 +34,17 @@ export class AgainstSurface {
       this.#changed();
     },
   });
-  /** The viewpoint whose truth is known or being traced. */
+  /** The viewpoint whose truth is known or is being traced. */
   #at: Viewpoint | null = null;
   readonly #rest = new Rest(REST);
 
   constructor(viewer: Viewer, surface: KnownSurface, changed: () => void) {
     this.#viewer = viewer;
     this.#changed = changed;
-    // The worker's own address is not the page's.
+    // The worker has another address than the page, so it needs an absolute address.
     this.#surface = "faces" in surface ? { faces: new URL(surface.faces, document.baseURI).href } : surface;
     const { positions, cloud } = viewer.scene;
-    // A mesh is traced in f32. Coordinates in f64, such as a map's, are taken from the middle of the cloud.
+    // A mesh is traced in f32. Coordinates in f64, such as those of a map, are measured from the middle of the cloud.
     const single = positions instanceof Float32Array;
     this.#origin = single ? [0, 0, 0] : cloud.center;
     this.#worker = new Reference(
@@ -63,13 +63,13 @@ export class AgainstSurface {
     if (!this.#at || !isSamePlace(answer.question.viewpoint, this.#at, cloud.radius))
       this.#leave(answer.question.viewpoint);
     if (inquiry.busy) this.#rest.moved();
-    // From the same place the truth is known, and only our answer has changed.
+    // With a result, the truth about this place is known, and only our answer can have changed.
     const due = this.result
       ? answer !== this.#newest.wanted
       : this.#rest.isReached && !this.stopped && this.progress === null;
     if (!due || this.problem !== null) return;
     if (!this.result) {
-      // This also holds for an answer that was asked about before: its rays were given up.
+      // Rays for the same answer may have been given up before. They must be traced again.
       this.#newest.forget();
       this.progress = 0;
       this.#changed();
@@ -111,13 +111,13 @@ export class AgainstSurface {
     const at = this.#at!;
     return {
       ask: () => {
-        // Exactly that place: a place a few bits off would be traced again.
+        // The place is exact: a place that differs in the last bits would be traced again.
         const viewpoint = at.map((value, axis) => value - this.#origin[axis]!) as Viewpoint;
         const current = isSamePlace(question.viewpoint, at, this.#viewer.scene.cloud.radius);
         return current ? this.#worker.ask({ surface: this.#surface, viewpoint, visible: visibility.indices }) : null;
       },
       use: (truth) => {
-        // A truth about a place that has been left is not shown.
+        // The truth is not shown if the viewpoint has left the place.
         if (truth !== null && !this.stopped && this.#at === at) {
           this.result = { truth, ours };
           this.#viewer.showParts(truth.parts, true);

@@ -6,7 +6,7 @@ import type { KnownSurface } from "../samples/samples.ts";
 import type { Solid, Vector } from "../samples/trace.ts";
 import { meshOracle, type Oracle } from "./tracer.ts";
 
-/** The truth about a cloud whose surface is known, asked and answered in the coordinates of `positions`. */
+/** The truth about a cloud whose surface is known. Questions and answers are in the coordinates of `positions`. */
 export async function oracleFor(surface: KnownSurface, positions: Float32Array): Promise<Oracle> {
   if ("faces" in surface) return meshOracle({ positions, triangles: await facesAt(surface.faces) });
   if ("file" in surface) {
@@ -21,7 +21,7 @@ export async function oracleFor(surface: KnownSurface, positions: Float32Array):
   return oracleOf(truth!());
 }
 
-/** Three indices of vertices a face, little-endian and packed. */
+/** Downloads the faces: three indices of vertices for each face, little-endian and packed. */
 async function facesAt(url: string): Promise<Uint32Array> {
   const packed = await download("The surface", url, () => undefined);
   return new Uint32Array(
@@ -33,7 +33,7 @@ function oracleOf(truth: Truth): Oracle {
   return "mesh" in truth ? meshOracle(truth.mesh, truth.on) : sceneOracle(truth.scene, truth.places);
 }
 
-/** A ray stops before its point by this share of the way, since its end is rounded. */
+/** The end of a ray is rounded. So the ray ends before its point, by this share of its length. */
 const ROUNDING = 1e-9;
 
 /** Sends a ray from the viewpoint to each point of a scene of solids. */

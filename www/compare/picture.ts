@@ -5,7 +5,7 @@ import { inLocal } from "../view/framing.ts";
 import type { Viewer } from "../view/viewer.ts";
 import type { Picture } from "./zbuffer.ts";
 
-/** The picture on screen, but from exactly that viewpoint: the camera may have moved on since the question. */
+/** The picture on screen, but from exactly this viewpoint. The camera may have moved since the question. */
 export function pictureFrom(viewer: Viewer, viewpoint: Viewpoint): Picture {
   const { cloud } = viewer.scene;
   const { camera, resolution } = viewer.stage;

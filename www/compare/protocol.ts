@@ -2,7 +2,10 @@ import type { Parts } from "../view/parts.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import type { Picture } from "./zbuffer.ts";
 
-/** From the page to a worker with a reference: the cloud in pieces, so that nothing stops, then one question at a time. */
+/**
+ * A message from the page to a worker with a reference. The cloud is sent in pieces, so that the page never stops. Then
+ * the page asks one question at a time.
+ */
 export type Told<Question> =
   | { kind: "points"; count: number; at: number; points: Float32Array }
   | { kind: "ask"; question: Question }
@@ -16,7 +19,7 @@ export type Reply<Answer> =
 
 export interface PictureQuestion {
   picture: Picture;
-  /** The width of a splat in pixels, or the spacing of the cloud, by which it is chosen. */
+  /** The width of a splat in pixels, or the spacing of the cloud if the worker chooses the width. */
   splat: number | { spacing: number };
   /** Our answer. */
   visible: Uint32Array;
@@ -25,7 +28,7 @@ export interface PictureQuestion {
 export interface PictureAnswer {
   parts: Parts;
   splat: number;
-  /** The number of points in the picture, and of those that the z-buffer shows. */
+  /** The number of points in the picture, and the number of points that the z-buffer shows. */
   inside: number;
   visible: number;
   /** The time of the z-buffer alone. */

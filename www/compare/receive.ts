@@ -2,7 +2,7 @@
 import type { Parts } from "../view/parts.ts";
 import type { Reply, Told } from "./protocol.ts";
 
-/** Answers a question; `null` if it gave up because `stopped`. */
+/** Answers a question. Returns `null` if `stopped` ended the computation. */
 type Ask<Question> = (
   positions: Float32Array,
   question: Question,

@@ -1,6 +1,6 @@
 import type { Reply, Told } from "./protocol.ts";
 
-/** Points sent in one go: copying them takes a fraction of a frame. */
+/** The number of points in one message. Copying them takes a fraction of a frame. */
 const PIECE = 250_000;
 
 /** The page's side: a worker with the cloud and a reference, which is asked one question at a time. */

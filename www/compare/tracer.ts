@@ -21,7 +21,7 @@ export function meshOracle(mesh: Mesh, on: OnFaces | null = null): Oracle {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(mesh.positions, 3));
   geometry.setIndex(new BufferAttribute(mesh.triangles, 1));
-  // Indirect: the triangles keep their order, and with it their numbers.
+  // Indirect: the triangles keep their order, so they keep their numbers.
   const tree = new MeshBVH(geometry, { indirect: true });
   const { triangles } = mesh;
   const positions = on ? on.positions : mesh.positions;

@@ -5,10 +5,9 @@ import type { TruthAnswer, TruthQuestion } from "./protocol.ts";
 import { receive } from "./receive.ts";
 import type { Oracle } from "./tracer.ts";
 
-/**
- * Milliseconds between two reports of progress, at which messages are read; and rays between two looks at the clock.
- */
+/** Milliseconds between two reports of progress. Messages are read at each report. */
 const TURN = 50;
+/** The number of rays after which the worker reads the clock. */
 const RAYS = 64;
 
 interface Traced {

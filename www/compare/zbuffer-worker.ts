@@ -7,7 +7,7 @@ receive((positions, { picture, splat, visible: ours }: PictureQuestion): Promise
   const asked = performance.now();
   const projected = new Projected(positions, picture);
   const known = performance.now();
-  // The time for the choice of a width does not count for the z-buffer.
+  // The choice of a width is not part of the measured time.
   const width = typeof splat === "number" ? splat : projected.splatFor(splat.spacing);
   const chosen = performance.now();
   const said = zBuffer(projected, width);

@@ -2,9 +2,9 @@ import { MOST_SPLAT } from "../settings/limits.ts";
 import { HIDDEN, OUTSIDE, VISIBLE } from "../view/parts.ts";
 
 /*
- * The usual way to find visible points. Every point is drawn as a splat of some pixels into a buffer of depths. A point is
- * visible if it lies no deeper than the depth of its own pixel. It is plain arithmetic here and not on the graphics card,
- * so that it is the same everywhere and can be tested.
+ * The usual way to find visible points. Every point is drawn as a splat of some pixels into a buffer of depths. A point
+ * is visible if it lies no deeper than the depth of its own pixel. The processor computes it here, not the graphics
+ * card, so that the result is the same everywhere and can be tested.
  */
 
 /** A picture of the cloud: the camera's matrix from the cloud to clip space, by columns, and its size in pixels. */
@@ -12,28 +12,28 @@ export interface Picture {
   matrix: readonly number[];
   width: number;
   height: number;
-  /** Points nearer than this are not in it. */
+  /** Points nearer than this distance are not in the picture. */
   near: number;
   /** The length of a unit at distance 1, in pixels. */
   pixels: number;
 }
 
 /*
- * TOLERANCE: a point may lie this many widths of a splat deeper than its pixel, since neighbors on a slope cover one
- * another. SPACINGS: an automatic splat is as wide as this many spacings of the cloud, at the middle depth of the picture.
- * These values have the fewest errors over 24 ray-traced views of the bunny and three of the dragons: the z-buffer is at
- * its best.
+ * TOLERANCE: a visible point may lie deeper than its pixel by this number of splat widths, since neighbors on a slope
+ * cover one another. SPACINGS: the width of an automatic splat, in spacings of the cloud at the middle depth of the
+ * picture. These values give the z-buffer the fewest errors over 24 ray-traced views of the bunny and three of the
+ * dragons.
  */
 const TOLERANCE = 1.75;
 const SPACINGS = 1.75;
-/** Up to this width in pixels a splat is a square, above it is a disc, like the points of the page. */
+/** Up to this width in pixels a splat is a square. A wider splat is a disc, like the points of the page. */
 const SQUARE = 3;
 /** This many depths are enough to find the middle one. */
 const SAMPLE = 10_000;
 
 /** The place of each point in a picture. */
 export class Projected {
-  /** In pixels from the left and the top. A point outside the picture has depth 0. */
+  /** The place in pixels from the left and the top. A point outside the picture has depth 0. */
   readonly x: Float64Array;
   readonly y: Float64Array;
   readonly depth: Float64Array;
@@ -82,7 +82,7 @@ export function zBuffer({ x, y, depth, picture }: Projected, splat: number): Uin
   for (let i = 0; i < depth.length; i++) {
     const own = depth[i]!;
     if (own === 0) continue;
-    // A splat covers the pixels whose middle is in it: in each row as many as it is wide.
+    // A splat covers the pixels whose middle is in it. A square splat covers as many pixels in each row as it is wide.
     const left = Math.ceil(x[i]! - half - 0.5);
     const top = Math.ceil(y[i]! - half - 0.5);
     const right = Math.min(width, left + splat);

@@ -2,20 +2,20 @@ import { type AnyParameter, type Parameter, PARAMETERS, type SettingName, SETTIN
 
 /** An attribute of the element. Its property has the same name in camel case. */
 export interface Attribute {
-  /** How its value is written; where this is missing, any text will do, or it is a flag. */
+  /** How its value is written. Without this field, the attribute takes any text, or it is a flag. */
   written?: AnyParameter;
-  /** The setting that it makes. */
+  /** The setting that it sets. */
   setting?: SettingName;
   /**
-   * The property: the attribute's `text`, a `flag`, the `value` that the text stands for, the text if it can be used
-   * (`word`), or an `own` one, which the element defines.
+   * The value of the property. `text`: the attribute's text. `flag`: whether the attribute is there. `value`: the value
+   * that the text stands for. `word`: the text, if it can be used. `own`: the element itself defines the property.
    */
   property: "text" | "flag" | "value" | "word" | "own";
-  /** It names the points. */
+  /** The attribute says which points are shown. */
   ofSource?: true;
 }
 
-/** The one table of attributes. With words.ts, the document's table is made from it. */
+/** The one table of attributes. The table in the document is made from it and from words.ts. */
 export const ATTRIBUTES = {
   src: { property: "text", ofSource: true },
   sample: { property: "text", ofSource: true },
@@ -38,7 +38,7 @@ export const ATTRIBUTES = {
 
 export type AttributeName = keyof typeof ATTRIBUTES;
 
-/** Those whose values are written as in the page's address. */
+/** The attributes whose values are written as in the page's address. */
 export type WrittenAttribute = {
   [Name in AttributeName]: (typeof ATTRIBUTES)[Name] extends { written: unknown } ? Name : never;
 }[AttributeName];
@@ -48,7 +48,7 @@ export type ValueOf<Name extends WrittenAttribute> =
 
 export const ATTRIBUTE_NAMES = Object.keys(ATTRIBUTES) as AttributeName[];
 
-/** Those that name the points. */
+/** The attributes that say which points are shown. */
 export const SOURCES: readonly string[] = ATTRIBUTE_NAMES.filter((name) => rowOf(name).ofSource);
 
 export function rowOf(name: AttributeName): Attribute {
@@ -60,7 +60,7 @@ export function valueOf<Name extends WrittenAttribute>(element: Element, name: N
   return anyValueOf(element, name) as ValueOf<Name> | undefined;
 }
 
-/** The same for an attribute whose name is not known beforehand. */
+/** The value of an attribute, like `valueOf`, for a name that is not known beforehand. */
 export function anyValueOf(element: Element, name: AttributeName): unknown {
   const text = element.getAttribute(name);
   return text === null ? undefined : rowOf(name).written?.parse(text);

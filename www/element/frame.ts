@@ -4,7 +4,7 @@ import style from "./element.css?inline";
 /** A new sentence must stay for this number of milliseconds before screen readers hear it. */
 const SETTLED = 1000;
 
-/** The element's shadow: the picture and the words over it, each with its slot and its part for the page. */
+/** The element's shadow tree: the picture and the words over it. Each has a slot and a part that the page can use. */
 export class Frame {
   readonly #root: ShadowRoot;
   readonly #bar = make("progress", "progress");
@@ -18,7 +18,7 @@ export class Frame {
 
   constructor(root: ShadowRoot) {
     this.#root = root;
-    // A style element would need the permission of the page's security policy.
+    // A style element would be refused by a page whose security policy does not allow it.
     const sheet = new CSSStyleSheet();
     sheet.replaceSync(style);
     root.adoptedStyleSheets = [sheet];
@@ -32,7 +32,7 @@ export class Frame {
     root.append(this.#bar, this.#loading, this.#error, this.#fallback, this.#live);
   }
 
-  /** A new canvas each time: one that has been given up draws no more. */
+  /** Makes a new canvas each time: a canvas that has been given up cannot draw again. */
   newCanvas(): HTMLCanvasElement {
     const canvas = make("canvas", "canvas");
     canvas.tabIndex = 0;
@@ -53,7 +53,7 @@ export class Frame {
     if (this.#canvas) this.#canvas.ariaLabel = `${label ?? "Point cloud"}. ${spokenKeys(ELEMENT_KEYS)}.`;
   }
 
-  /** `null`: it is loading, but the progress is not known. */
+  /** Shows the progress. `null`: a cloud is being loaded, but the progress is not known. */
   showProgress(fraction: number | null): void {
     this.#bar.hidden = false;
     if (fraction === null) this.#bar.removeAttribute("value");
@@ -64,7 +64,7 @@ export class Frame {
     this.#bar.hidden = true;
   }
 
-  /** In the middle of the empty picture. */
+  /** Shows a sentence in the middle of the empty picture. */
   sayLoading(sentence: string | null): void {
     say(this.#loading, sentence);
   }
@@ -73,7 +73,7 @@ export class Frame {
     say(this.#error, sentence);
   }
 
-  /** Shows what the page has put into the element instead of the picture; `false` if it has put nothing there. */
+  /** Shows the page's own content of the element instead of the picture. Returns `false` if there is none. */
   showFallback(): boolean {
     const slot = this.#fallback.querySelector("slot")!;
     const filled = slot.assignedNodes().some((node) => node instanceof Element || node.textContent!.trim() !== "");
@@ -88,7 +88,7 @@ export class Frame {
     }, SETTLED);
   }
 
-  /** Screen readers hear nothing more. */
+  /** Takes the sentences for screen readers away. */
   hush(): void {
     clearTimeout(this.#announcing);
     this.#live.textContent = "";
@@ -101,7 +101,7 @@ function make<Tag extends "canvas" | "progress" | "div" | "p">(tag: Tag, part: s
   return element;
 }
 
-/** Words of the element's own, unless the page has others for the slot of that name. */
+/** The element's own words, unless the page puts others into the slot of this name. */
 function words(name: string): HTMLElement {
   const box = make("div", name);
   box.className = "words";

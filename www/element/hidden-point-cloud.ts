@@ -28,7 +28,7 @@ type Reflected = Exclude<
 >;
 type Own = Omit<Api.HiddenPointCloudElement, keyof HTMLElement | Reflected>;
 
-/** On a server there are no elements: importing this defines the class and does nothing else. */
+/** A server has no elements. There, importing this module defines the class and does nothing else. */
 const Base = "HTMLElement" in globalThis ? HTMLElement : (Object as unknown as typeof HTMLElement);
 
 class HiddenPointCloud extends Base implements Own {
@@ -38,12 +38,12 @@ class HiddenPointCloud extends Base implements Own {
   #showing: { showing: Showing; pointing: Pointing } | null = null;
   #state: Own["state"] = "empty";
   #ready = new Settling();
-  /** Whether the attributes name another cloud than the one that is shown or being loaded. */
+  /** Whether the attributes name another cloud than the present one, which is shown or is being loaded. */
   #stale = true;
   /** Whether an attribute of the view was set, maybe to the same value again. */
   #looks = false;
   #updating = false;
-  /** The messages that have been told already, by attribute. */
+  /** The messages that have been reported already, by attribute. */
   #told = new Map<string, string>();
 
   connectedCallback(): void {
@@ -52,19 +52,19 @@ class HiddenPointCloud extends Base implements Own {
   }
 
   disconnectedCallback(): void {
-    // An element that is moved in the document is back at once.
+    // An element that is moved in the document leaves it and is back at once.
     queueMicrotask(() => {
       if (!this.isConnected) this.#sleep();
     });
   }
 
-  /** Moved without having left. */
+  /** The element was moved and never left the document. */
   connectedMoveCallback(): void {
     this.#touch();
   }
 
   attributeChangedCallback(name: string, before: string | null, now: string | null): void {
-    // Setting the same address again tries it again.
+    // Setting the same address again starts another attempt.
     const renamed =
       name === "src" || (SOURCES.includes(name) && before !== now && !(name === "sample" && this.getAttribute("src")));
     if (renamed) this.#renew();
@@ -132,7 +132,7 @@ class HiddenPointCloud extends Base implements Own {
     return showing?.cloud ? showing.viewer.scene.visible : new Uint32Array(0);
   }
 
-  /** Attributes that are written together take effect together. */
+  /** Lets attributes that are written together take effect together. */
   #touch(): void {
     if (this.#updating) return;
     this.#updating = true;
@@ -159,7 +159,7 @@ class HiddenPointCloud extends Base implements Own {
     showing.open();
   }
 
-  /** `null` if nothing can be drawn, which is told once. */
+  /** Returns `null` if nothing can be drawn. This error is reported once. */
   #wake(reading: Reading): Showing | null {
     if (this.#state === "error") return null;
     const canvas = this.#frame.newCanvas();
@@ -239,7 +239,7 @@ class HiddenPointCloud extends Base implements Own {
     this.#ready.reject(problem);
   }
 
-  /** The problems that have not been told yet. A problem is told again after its attribute has changed. */
+  /** The problems that have not been reported yet. A problem is reported again after its attribute has changed. */
   #newProblems({ problems }: Reading): Problem[] {
     const fresh = [...problems]
       .filter(([attribute, { message }]) => this.#told.get(attribute) !== message)
@@ -271,7 +271,7 @@ class Settling {
         reject(problem);
       };
     });
-    // The error event tells it. A promise that nobody waits for must not report it as well.
+    // The error event reports the error. A promise that nobody waits for must not report it as well.
     this.promise.catch(() => undefined);
   }
 

@@ -10,7 +10,10 @@ interface Options {
   tolerance?: number;
 }
 
-/** From the pointer to points and back, in client coordinates. Without a cloud there are no points. */
+/**
+ * Finds the point at a place of the pointer, and the place of a point. Places are in client coordinates. Without a
+ * cloud there are no points.
+ */
 export class Pointing {
   readonly #canvas: HTMLCanvasElement;
   readonly #viewer: Viewer;
@@ -38,7 +41,7 @@ export class Pointing {
     return at && { x: left + at.x * scale, y: top + at.y * scale };
   }
 
-  /** Tells of visible points that are clicked, and at Enter of the one in the middle. */
+  /** Calls `tell` for a visible point that is clicked. Enter counts as a click on the middle of the picture. */
   onPick(tell: (point: PickedPoint) => void): void {
     const at = (x: number, y: number, tolerance: number) => {
       const index = this.#viewer.cloud ? pointAt(this.#viewer, { x, y, tolerance }, false) : null;

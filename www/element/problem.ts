@@ -15,7 +15,7 @@ export class Problem extends Error implements HiddenPointCloudError {
   }
 }
 
-/** Whatever was thrown, as a problem of the element. */
+/** Makes a problem of the element from anything that was thrown. */
 export function problemOf(thrown: unknown, name: string): Problem {
   if (thrown instanceof Problem) return thrown;
   if (thrown instanceof LoadProblem) return new Problem("source", thrown.message, { cause: thrown });

@@ -21,10 +21,10 @@ export function reflect(prototype: Element): void {
   }
 }
 
-/** The value of a property while its attribute has no usable value, if that is not `null`. */
+/** The values of `value` properties whose attribute cannot be used. A property that is not listed is `null` then. */
 const OTHERWISE: Partial<Record<AttributeName, unknown>> = { "hidden-points": SETTINGS.hidden.usual };
 
-/** `null` for a property that the class itself defines. */
+/** The getter of a property. `null` if the class itself defines the property. */
 function getterOf(attribute: AttributeName): ((element: Element) => unknown) | null {
   switch (rowOf(attribute).property) {
     case "text":
@@ -40,7 +40,7 @@ function getterOf(attribute: AttributeName): ((element: Element) => unknown) | n
   }
 }
 
-/** A rule's name, or a number. */
+/** The radius as a property: the name of a rule, or a number. */
 function radius(element: Element): unknown {
   const chosen = valueOf(element, "radius");
   if (!chosen || "exponent" in chosen) return null;
@@ -53,7 +53,7 @@ function textOf(given: unknown): string | null {
   return given === null || given === undefined ? null : String(given);
 }
 
-/** `null` takes the attribute away. */
+/** Writes an attribute. `null` takes it away. */
 export function write(element: Element, attribute: AttributeName, given: string | null): void {
   if (given === null) element.removeAttribute(attribute);
   else element.setAttribute(attribute, given);
@@ -73,12 +73,12 @@ export function adoptEarly(element: Element): void {
   }
 }
 
-/** In camel case. */
+/** The name of the property: the attribute's name in camel case. */
 function propertyOf(attribute: AttributeName): string {
   return attribute.replace(/-(\w)/g, (_, letter: string) => letter.toUpperCase());
 }
 
-/** Three finite numbers. */
+/** A place that a page has given, as three finite numbers. */
 export function placeOf(given: ArrayLike<number>): [number, number, number] {
   const place = PLACE.parse(Array.from(given).join(","));
   if (!place) throw new TypeError("expected three finite numbers");

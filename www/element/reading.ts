@@ -22,7 +22,7 @@ export interface Reading {
   settings: Partial<Settings>;
   frozen: boolean;
   view: AskedView | null;
-  /** By attribute. */
+  /** The problem of each attribute that has one. */
   problems: Map<string, Problem>;
 }
 
@@ -40,7 +40,7 @@ export function readAttributes(element: Element): Reading {
   };
   const read = <Name extends WrittenAttribute>(attribute: Name) => readAny(attribute) as ValueOf<Name> | undefined;
 
-  // An empty one is not used as an address: it would mean the page around.
+  // An empty text is not used as an address: it would be the address of the page itself.
   const src = element.getAttribute("src") || null;
   if (element.getAttribute("src") === "") refuse("src", "The attribute src names no file.");
   let sample = element.getAttribute("sample");
@@ -82,7 +82,7 @@ export function readAttributes(element: Element): Reading {
   };
 }
 
-/** The settings that the attributes change from one reading to the next. Without its attribute, a setting is usual. */
+/** The settings that differ between two readings. A setting without its attribute has its usual value. */
 export function changedSettings(before: Reading, now: Reading, usual: Partial<Settings>): Partial<Settings> {
   const whole = ({ settings }: Reading): Settings => ({ ...USUAL_SETTINGS, ...usual, ...settings });
   const [old, next] = [whole(before), whole(now)];

@@ -16,10 +16,10 @@ import { changedSettings, type Reading } from "./reading.ts";
 import type { Frame } from "./frame.ts";
 import { Problem, problemOf } from "./problem.ts";
 
-/** The phrase for places that attributes ask for: the view "that is asked for". */
+/** In sentences, a view that attributes ask for is the view "that is asked for". */
 const ASKED = "that is asked for";
 
-/** A showing tells these to its element. */
+/** A showing calls these functions of its element. */
 export interface Listener {
   loaded: (total: number, notes: string[]) => void;
   failed: (problem: Problem) => void;
@@ -27,11 +27,11 @@ export interface Listener {
   progressed: (fraction: number | null) => void;
   /** Something is wrong, but there is a picture. */
   refused: (problem: Problem) => void;
-  /** Keys have changed the settings, and not attributes. */
+  /** Keys have changed the settings. It is not called for attributes. */
   moved: (settings: Settings) => void;
 }
 
-/** The picture of an element while that is in a document. */
+/** The picture of an element, as long as the element is in a document. */
 export class Showing {
   readonly viewer: Viewer;
   readonly canvas: HTMLCanvasElement;
@@ -86,15 +86,15 @@ export class Showing {
     return this.viewer.cloud;
   }
 
-  /** The attributes have changed. `look`: one of the view was set, maybe to the same value again. */
+  /** The attributes have changed. `look`: an attribute of the view was set, maybe to the same value again. */
   follow(reading: Reading, look: boolean): void {
     const before = this.#reading;
     this.#reading = reading;
-    // A cloud that is being loaded follows when it is there.
+    // A cloud that is being loaded follows the attributes later, when it is there.
     if (this.#ready) this.#apply(before, this.#ready, look);
   }
 
-  /** Opens the cloud that the attributes name, instead of the one that is there or being loaded. */
+  /** Opens the cloud that the attributes name. It replaces the present cloud, even if that is still being loaded. */
   open(): void {
     this.#loading.abort();
     const { signal } = (this.#loading = new AbortController());
@@ -165,7 +165,7 @@ export class Showing {
     this.#hear(opened.answer);
   }
 
-  /** From what the attributes said before to what they say now. */
+  /** Applies the difference between the attributes before and the attributes now. */
   #apply(before: Reading, ready: Ready, look: boolean): void {
     const reading = this.#reading;
     const changed = changedSettings(before, reading, ready.usual);
@@ -198,7 +198,7 @@ export class Showing {
   }
 
   #hear(answer: TimedView): void {
-    // The first answer is told together with the cloud.
+    // The first answer is reported together with the cloud.
     if (!this.#ready) return;
     if (answer.note !== null && answer.note !== this.#note) this.#tell.refused(new Problem("attribute", answer.note));
     this.#note = answer.note;

@@ -3,7 +3,7 @@ import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { placeAt, project } from "../view/place.ts";
 
-/** A handle over the picture for each light. It is dragged, or moved around the cloud by keys. */
+/** A handle over the picture for each light. The user drags it, or moves it around the cloud by keys. */
 export class LightHandles {
   readonly #container: HTMLElement;
   readonly #viewer: Viewer;
@@ -51,7 +51,7 @@ export class LightHandles {
       if (!handle.hasPointerCapture(event.pointerId)) return;
       const { left, top, width, height } = this.#container.getBoundingClientRect();
       const lights = [...this.#store.current.lights];
-      // Not out of the picture: nobody could drag it back.
+      // The handle stays in the picture: outside it, nobody could drag it back.
       const [x, y] = [clamp(event.clientX - left, width), clamp(event.clientY - top, height)];
       lights[i] = placeAt(this.#viewer, x, y, lights[i]!);
       this.#store.change({ lights });

@@ -7,8 +7,9 @@ import { inFile, inLocal } from "../view/framing.ts";
 import { placeAt } from "../view/place.ts";
 import type { Viewer } from "../view/viewer.ts";
 
-/** Radians, and a share of the distance, for each press of a key. */
+/** The angle of a turn for each press of a key, in radians. */
 const TURN = Math.PI / 36;
+/** A light that is moved nearer keeps this share of its distance. */
 const NEARER = 0.92;
 /** The places of the first lights, as shares of the picture's width and height: visible, and away from the middle. */
 const SPOTS = [
@@ -38,7 +39,7 @@ export function addLight(store: Store, viewer: Viewer): void {
     const [x, y] = SPOTS[i % SPOTS.length]!.map((share) => 0.5 + inwards * (share - 0.5)) as [number, number];
     const place = placeAt(viewer, x * width, y * height, like);
     const isFree = lights.every((light) => new Vector3(...light).distanceTo(new Vector3(...place)) > gap);
-    // This many tries find a free place, unless many lights are in the middle.
+    // After this number of tries the place is used even if it is not free: then many lights are in the middle.
     if (!isFree && i <= 2 * lights.length) continue;
     store.change({ lights: [...lights, place] });
     return;
@@ -56,7 +57,7 @@ export function lightByKey(event: KeyboardEvent, i: number, store: Store, viewer
   const place = inLocal(cloud, lights[i]!);
   const up = new Vector3(...upVector(store.current.up));
   const around = up.clone().cross(place);
-  // A light straight above has no side of its own: the camera's is taken.
+  // A light straight above has no sideways axis of its own, so it takes the axis of the camera.
   if (around.lengthSq() < 1e-9 * place.lengthSq()) around.setFromMatrixColumn(viewer.stage.camera.matrixWorld, 0);
   const [sideways, upwards, farther] = STEPS[found.nth]!;
   place
@@ -67,7 +68,7 @@ export function lightByKey(event: KeyboardEvent, i: number, store: Store, viewer
   store.change({ lights });
 }
 
-/** In the order of the keys: left, right, up, down, plus, plus without Shift, minus. */
+/** The steps, in the order of the keys: left, right, up, down, plus, plus without Shift, minus. */
 const STEPS: readonly [sideways: number, upwards: number, farther: number][] = [
   [-1, 0, 1],
   [1, 0, 1],

@@ -10,7 +10,7 @@ import type { Opened } from "../view/viewer.ts";
 import { surfaceOf, usableAgainst, usableColor } from "./usable.ts";
 import { usualLook } from "./usual.ts";
 
-/** A cloud to be opened, and how it is to be seen. */
+/** A cloud to be opened, and the way in which it is to be shown. */
 export interface Wish {
   request: LoadRequest;
   sample: Sample | null;
@@ -25,7 +25,7 @@ export interface Place {
   settings: () => Settings;
   /** Width by height of the picture. */
   aspect: () => number;
-  /** How a sentence calls a place that is asked for: the view "in the address". */
+  /** The words in a sentence for a view that is asked for, such as "in the address". */
   asked: string;
   /** Whether a small cloud shares a worker with the other clouds of the document. */
   shared: boolean;
@@ -36,13 +36,13 @@ export interface Place {
 /** A cloud that can be shown, and everything that changes with it. */
 export interface Ready {
   opened: Opened;
-  /** To be set before it is shown. */
+  /** The settings to be set before the cloud is shown. */
   settings: Partial<Settings>;
-  /** The settings that it would be seen with if nothing were asked for. */
+  /** The settings that the cloud has if nothing else is asked for. */
   usual: Pick<Settings, "size" | "fieldOfView" | "up">;
-  /** The view asked for; `null` if none was, or if it is out of reach. */
+  /** The view that is asked for. `null` if no view is asked for, or if it is out of reach. */
   view: AskedView | null;
-  /** The first view if that view is asked for. */
+  /** Returns the first view, if this view is asked for. */
   homeFrom: (view: AskedView | null) => (up: Up) => Home;
   /** Sentences about wishes that cannot be met. */
   refusals: string[];
@@ -123,7 +123,7 @@ export async function openCloud(
   }
 }
 
-/** A radius in units of the cloud before means nothing to the next one. */
+/** A radius in the units of one cloud has no meaning for the next cloud. Then the automatic radius is used. */
 function radiusFor({ radius }: Settings): Partial<Settings> {
   return "length" in radius ? { radius: { rule: "auto" } } : {};
 }

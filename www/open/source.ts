@@ -1,14 +1,14 @@
 import type { LoadRequest } from "../loaders/index.ts";
 import type { Sample } from "../samples/samples.ts";
 
-/** What reading a file may leave out. */
+/** Says which points may be left out when a file is read. */
 export interface FileOptions {
   skipNonFinite: boolean;
-  /** How many points of it are shown at most. */
+  /** The largest number of points that are shown. */
   limit?: number;
 }
 
-/** The bytes of a sample lie beside the page, or beside the element's module: `base` is the address of either. */
+/** Sample files lie beside the page, or beside the element's module. `base` is the address of that page or module. */
 export function requestForSample({ label, from }: Sample, base: string): LoadRequest {
   return "file" in from
     ? { kind: "sample", name: label, url: new URL(from.file, base).href }
@@ -21,12 +21,12 @@ export function requestForAddress(text: string, options: FileOptions): LoadReque
   return { kind: "url", name: nameOf(text), url: url?.href ?? text, ...options };
 }
 
-/** As the page around reads it; `null` for a text that is no address. */
+/** The address as the page reads it. `null` for a text that is no address. */
 export function addressOf(text: string): URL | null {
   return URL.canParse(text, document.baseURI) ? new URL(text, document.baseURI) : null;
 }
 
-/** What a sentence calls a file on the web. */
+/** The name of a file on the web, for use in a sentence. */
 export function nameOf(text: string): string {
   return addressOf(text)?.pathname.split("/").pop() || text;
 }

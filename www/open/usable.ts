@@ -6,14 +6,17 @@ import { colorChoices } from "../view/colors.ts";
 
 const NO_SURFACE = "It is known of samples, and of PLY and OBJ meshes that are shown whole.";
 
-/** Settings of the cloud before, or of the address, may not suit this cloud. `asked`: then a sentence says so. */
+/**
+ * The color if it suits this cloud, else the cloud's own colors. A color of the last cloud or of the address may not
+ * suit this cloud. `asked`: then a sentence says so.
+ */
 export function usableColor(color: string, cloud: Cloud, asked: boolean): { color: string; notes: string[] } {
   if (colorChoices(cloud).some(({ value }) => value === color)) return { color, notes: [] };
   const notes = asked ? [`It has nothing called “${color}” to be colored by, so it has its usual colors.`] : [];
   return { color: OWN_COLORS, notes };
 }
 
-/** As above. The surface of some clouds is not known, so nothing can be compared with it. */
+/** The comparison if it suits this cloud. If the cloud's surface is not known, nothing can be compared with it. */
 export function usableAgainst(
   against: Against,
   surface: KnownSurface | string,
@@ -26,7 +29,10 @@ export function usableAgainst(
   };
 }
 
-/** The surface that the cloud was taken from. The faces of the user's own mesh are read again when they are needed. */
+/**
+ * The surface that the cloud was taken from, or a sentence if it is not known. The faces of the user's own mesh are
+ * read again when they are needed.
+ */
 export function surfaceOf(request: LoadRequest, sample: Sample | null, isMesh = false): KnownSurface | string {
   if (isMesh && request.kind === "file") return { file: request.file };
   if (isMesh && request.kind === "url") return { file: request.url };

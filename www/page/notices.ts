@@ -3,11 +3,11 @@ import { LoadProblem } from "../loaders/index.ts";
 import type { Message, MessageAction } from "../panel/message.ts";
 import type { Status } from "./status.ts";
 
-/** Says what goes wrong: an error in the status and the message, a note about an answer in the message alone. */
+/** Shows problems. An error is shown in the status and the message. A note about an answer is in the message alone. */
 export class Notices {
   readonly #status: Status;
   readonly #message: Message;
-  /** The note that is shown. It goes with the first answer that has none. */
+  /** The note that is shown. It is taken away by the first answer without a note. */
   #note: string | null = null;
 
   constructor(status: Status, message: Message) {
@@ -15,20 +15,20 @@ export class Notices {
     this.#message = message;
   }
 
-  /** An error; until the user dismisses it or opens another cloud. */
+  /** Shows an error until the user dismisses it or opens another cloud. */
   error(sentence: string, actions: MessageAction[] = []): void {
     this.#status.error(sentence);
     this.#message.show(sentence, actions);
   }
 
-  /** A view was refused. The next answer takes the sentence away. */
+  /** Says that a view was refused. The next answer takes the sentence away. */
   refuseView(error: unknown): void {
     const sentence = sentenceOf(error, "The visible points could not be found");
     this.error(sentence);
     this.#note = sentence;
   }
 
-  /** The note of an answer; `null` if it has none. */
+  /** Shows the note of an answer. `null`: the answer has no note. */
   tell(note: string | null): void {
     if (note !== null && note !== this.#note) this.#message.show(note);
     if (note === null && this.#note !== null) this.#message.hide();
@@ -36,7 +36,7 @@ export class Notices {
   }
 }
 
-/** `what`: says what could not be done, if the error itself does not say it. */
+/** The error as a sentence. `what`: the thing that could not be done, if the error itself does not say it. */
 export function sentenceOf(error: unknown, what: string): string {
   return error instanceof LoadProblem ? error.message : `${what}: ${plain(error)}.`;
 }

@@ -22,7 +22,7 @@ export interface Source extends Wish {
   name: CloudName | null;
   /** Sentences that the user has to read about it. */
   notes: string[];
-  /** Why the cloud that was asked for could not be opened, if this one is in its place. */
+  /** The reason why the cloud that was asked for could not be opened, if this cloud replaces it. */
   insteadOf?: string;
 }
 
@@ -40,9 +40,9 @@ interface Parts {
 
 /** Opens one cloud after another. The cloud on screen stays until the next one has its first answer. */
 export class Opening {
-  /** The words for the cloud on screen. */
+  /** The name of the cloud on screen, for use in a sentence. */
   shownName = "";
-  /** The view that was asked for; it stays in the address although it is the first one. */
+  /** The view that was asked for. It stays in the address although it is the first view. */
   askedView: AskedView | null = null;
   readonly #parts: Parts;
   /** The sample that is shown if the first cloud cannot be opened. */

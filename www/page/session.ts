@@ -19,7 +19,7 @@ import { wire } from "./wiring.ts";
 /** Makes the parts of the page, wires them, and opens the cloud that the address asks for. */
 export function startSession(wishes: Wishes, status: Status, message: Message): void {
   const settings = { ...USUAL_SETTINGS, ...wishes.settings };
-  // Places belong to a cloud, and come with it.
+  // Places in space belong to a cloud, and are set with the cloud.
   const store = new Store({ ...settings, freeze: null, lights: [] });
   const viewer = new Viewer(byId("view", HTMLCanvasElement), store, wishes.embed);
   const panel = new Panel(viewer, store, settings);

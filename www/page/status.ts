@@ -4,13 +4,13 @@ import { byId } from "../controls/dom.ts";
 import { sentenceOf } from "../view/sentence.ts";
 import type { Inversion } from "../settings/settings.ts";
 
-/** Milliseconds between two changes of the sentence, and before a sentence that stays is announced. */
+/** Milliseconds between two changes of the sentence. A sentence that stays for this time is announced. */
 const CALM = 800;
 const SETTLED = 1000;
 
 /**
- * The #status line. Its data-attributes change at once and in full precision, its sentence calmly and rounded. Screen
- * readers hear a new sentence when the movement that changes it has stopped.
+ * The #status line. Its data-attributes change at once and have full precision. Its sentence changes less often and has
+ * rounded numbers. Screen readers hear a new sentence when the movement that changes it has stopped.
  */
 export class Status {
   readonly #element: HTMLElement;
@@ -20,14 +20,14 @@ export class Status {
   #announcing: ReturnType<typeof setTimeout> | undefined;
   #refilters = 0;
   #last: (TimedView & { total: number }) | null = null;
-  /** Answers to questions before this moment do not end a "loading" or an "error". */
+  /** Answers to questions from before this moment do not end a "loading" or an "error". */
   #since = Infinity;
 
   constructor(element: HTMLElement) {
     this.#element = element;
   }
 
-  /** Until `loaded` or `error`; answers about the cloud that is still on screen do not change it. */
+  /** Shows "loading" until `loaded` or `error`. Answers about the cloud that is still on screen do not change it. */
   loading(sentence: string): void {
     this.#since = Infinity;
     this.#element.dataset["state"] = "loading";
@@ -40,7 +40,7 @@ export class Status {
     this.#interrupt();
   }
 
-  /** The attributes of the cloud on screen stay. The answer to its next question makes it "ready" again. */
+  /** Shows an error. The attributes of the cloud on screen stay. The answer to the next question is "ready" again. */
   error(sentence: string): void {
     this.#since = performance.now();
     this.#element.dataset["state"] = "error";
@@ -54,7 +54,7 @@ export class Status {
     this.#element.dataset["busy"] = busy ? "1" : "0";
   }
 
-  /** All attributes are those of this one answer. */
+  /** Sets all attributes from this one answer. */
   answer(answer: TimedView, total: number, frozen: boolean): void {
     const { question, visibility, triangles, asked, milliseconds } = answer;
     this.#refilters++;
@@ -78,7 +78,7 @@ export class Status {
     this.describe(frozen);
   }
 
-  /** The number of lights. */
+  /** Sets the number of lights. */
   lit(lights: number): void {
     if (lights > 0) this.#element.dataset["lights"] = String(lights);
     else delete this.#element.dataset["lights"];

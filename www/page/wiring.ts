@@ -20,7 +20,7 @@ interface Parts {
   notices: Notices;
 }
 
-/** Who hears of what: the viewer draws and asks, the other parts follow. */
+/** Connects the parts of the page: the viewer draws and asks, and the other parts follow it. */
 export function wire({ viewer, store, panel, address, workshop, handles, status, message, notices }: Parts): void {
   viewer.onFrame = () => {
     handles.place();

@@ -4,12 +4,12 @@ import { colorChoices, type Legend } from "../view/colors.ts";
 import { byId } from "../controls/dom.ts";
 
 export interface ColorControl {
-  /** Offers what the attributes of a cloud can color. */
+  /** Offers the attributes by which a cloud can be colored. */
   offer: (cloud: Cloud) => void;
   explain: (legend: Legend | null) => void;
 }
 
-/** The choice of colors, and a legend of what they mean. */
+/** The choice of colors, and a legend that explains them. */
 export function bindColor(store: Store): ColorControl {
   const select = byId("color", HTMLSelectElement);
   const legend = byId("legend");

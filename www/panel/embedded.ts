@@ -1,7 +1,7 @@
 import { readable } from "../settings/address.ts";
 import { byId } from "../controls/dom.ts";
 
-/** In a frame of another page: the picture alone, and a link to the whole page as it is now. */
+/** For a frame in another page: shows the picture alone, and a link to the whole page in its present state. */
 export function showEmbedded(): void {
   document.body.classList.add("embedded");
   const link = byId("whole-page", HTMLAnchorElement);

@@ -7,7 +7,7 @@ export interface FileActions {
   refuse: (sentence: string) => void;
 }
 
-/** A file chosen by the button or dropped anywhere on the page. */
+/** Calls `open` for a file that is chosen by the button or dropped anywhere on the page. */
 export function onFile({ open, refuse }: FileActions): void {
   const input = byId("file", HTMLInputElement);
   byId("open").addEventListener("click", () => {
@@ -15,7 +15,7 @@ export function onFile({ open, refuse }: FileActions): void {
   });
   input.addEventListener("change", () => {
     const file = input.files?.[0];
-    // Empty again, so that choosing the same file is a change.
+    // The input is emptied, so that choosing the same file again is a change.
     if (file) open(file, []);
     input.value = "";
   });
@@ -26,7 +26,7 @@ export function onFile({ open, refuse }: FileActions): void {
     hint.hidden = false;
   });
   document.addEventListener("dragleave", (event) => {
-    // Without a related target the pointer has left the window, and not only an element.
+    // Without a related target, the pointer has left the whole window.
     if (event.relatedTarget === null) hint.hidden = true;
   });
   document.addEventListener("drop", (event) => {

@@ -1,6 +1,6 @@
 import { byId } from "../controls/dom.ts";
 
-/** The button for the whole screen, if the browser has one. The returned function does the same. */
+/** The button for full screen, if the browser supports it. The returned function does the same as the button. */
 export function bindFullScreen(): () => void {
   const button = byId("full-screen", HTMLButtonElement);
   if (!document.fullscreenEnabled) return () => undefined;

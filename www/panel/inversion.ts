@@ -10,14 +10,14 @@ import { SETTINGS } from "../settings/table.ts";
 const AUTOMATIC_C = 0.07;
 
 /**
- * The kind of flip and the parameter of each kind, which is automatic until its slider is moved. The returned function
- * shows the parameter that an answer was found with.
+ * Binds the kind of flip and the parameter of each kind. A parameter is automatic until its slider is moved. The
+ * returned function shows the parameter that an answer was found with.
  */
 export function bindInversion(store: Store): (resolved: Inversion) => void {
   const kind = new Segmented("inversion", (text) => {
     store.change({ inversion: SETTINGS.inversion.parse(text)! });
   });
-  // Both sliders go over many powers of ten: of c, and of γ − 1.
+  // The sliders have a logarithmic scale: c and γ − 1 go over many powers of ten.
   const scale = new Slider(
     "scale",
     (at) => `${digits(10 ** at)} spacings`,

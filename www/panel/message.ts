@@ -6,7 +6,7 @@ export interface MessageAction {
   run: () => void;
 }
 
-/** A sentence over the cloud, with buttons for what can be done. Screen readers hear the same sentence from #status. */
+/** A sentence over the cloud, with buttons for possible actions. Screen readers hear the same sentence from #status. */
 export class Message {
   readonly #box = byId("message");
   readonly #text = this.#box.querySelector("p")!;
@@ -29,7 +29,7 @@ export class Message {
     this.#box.hidden = true;
   }
 
-  /** The focus must not vanish with the button. */
+  /** Hides the message. The focus must not vanish with the button. */
   #dismiss(): void {
     if (this.#box.contains(document.activeElement)) byId("view").focus();
     this.hide();

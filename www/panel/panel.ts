@@ -23,7 +23,7 @@ export class Panel {
   readonly #followInversion: (resolved: Inversion) => void;
   readonly #followSurface: (answer: ViewAnswer) => void;
   readonly #color: ColorControl;
-  /** A reset goes back to these. */
+  /** The settings that a reset goes back to. */
   usual: Pick<Settings, "fieldOfView"> = USUAL_SETTINGS;
 
   /** `opened`: the settings whose sections are open from the beginning. */
@@ -50,7 +50,7 @@ export class Panel {
     });
   }
 
-  /** For a cloud that is about to be shown. */
+  /** Prepares the panel for a cloud that is about to be shown. */
   prepare(cloud: Cloud): void {
     this.#color.offer(cloud);
   }
@@ -60,7 +60,7 @@ export class Panel {
     this.#radius.follow(answer);
     this.#followSurface(answer);
     const { inversion } = answer.visibility;
-    // The page asks for one inversion; several looks have none to show.
+    // The page asks for one inversion. An answer from several looks has no inversion to show.
     if (inversion === "spherical" || !("looks" in inversion)) this.#followInversion(inversion);
   }
 

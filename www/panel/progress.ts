@@ -1,6 +1,6 @@
 import { byId } from "../controls/dom.ts";
 
-/** The bar along the top of the cloud while one is loading, and the button that stops it. */
+/** The bar along the top of the picture while a cloud is being loaded, and the button that stops the loading. */
 export class Progress {
   readonly #bar = byId("progress", HTMLProgressElement);
   readonly #cancel = byId("cancel", HTMLButtonElement);
@@ -9,7 +9,7 @@ export class Progress {
     this.#cancel.addEventListener("click", onCancel);
   }
 
-  /** `null`: it is loading, but the progress is not known. */
+  /** Shows the progress. `null`: a cloud is being loaded, but the progress is not known. */
   show(fraction: number | null): void {
     this.#bar.hidden = this.#cancel.hidden = false;
     if (fraction === null) this.#bar.removeAttribute("value");

@@ -1,7 +1,7 @@
 import { SAMPLES, type Sample, sampleNamed } from "../samples/samples.ts";
 import { byId, nextFrame } from "../controls/dom.ts";
 
-/** In CSS pixels; made twice as large by tests/browser/thumbnails.ts. */
+/** The size in CSS pixels. tests/browser/thumbnails.ts makes the pictures twice as large. */
 const THUMBNAIL = { width: 84, height: 56 };
 
 /** Small pictures of some samples, the list of all, and under it the source of the current cloud. */
@@ -55,7 +55,7 @@ export class SamplePicker {
     this.#select.value = this.#shown ?? "";
   }
 
-  /** Loads the pictures after the first cloud, so that they do not slow that one down. */
+  /** Loads the pictures after the first cloud, so that they do not slow its loading down. */
   async #showPictures(): Promise<void> {
     await nextFrame();
     for (const button of this.#thumbnails.querySelectorAll("button")) {

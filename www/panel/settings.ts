@@ -9,7 +9,7 @@ import type { SettingName } from "../settings/table.ts";
 const CHOICES = ["hidden", "viewpoints", "denoise", "vote", "show", "up", "theme"] as const;
 const SLIDING = ["edge", "soft", "ambient", "smoothing", "size", "fieldOfView"] as const;
 
-/** Settings that change when the user changes another one: another way up makes a frozen view meaningless. */
+/** Settings that change together with another one. With another direction up, a frozen view has no meaning. */
 const TOGETHER: Partial<Record<SettingName, Partial<Settings>>> = { up: { freeze: null } };
 
 /** Binds the controls that index.html marks with the name of their setting. */

@@ -8,7 +8,7 @@ const NOTES: Record<Viewpoints, string> = {
   two: "Points that at least two see: it and four places around it at 5 % of the distance.",
 };
 
-/** Explains the choice of viewpoints, and takes it away while the surface is shown. */
+/** Explains the choice of viewpoints. Hides this choice while the surface is shown. */
 export function explainViewpoints(store: Store): void {
   const group = byId("viewpoints", HTMLFieldSetElement);
   const note = byId("viewpoints-note");

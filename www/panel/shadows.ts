@@ -4,7 +4,7 @@ import { MOST_LIGHTS } from "../settings/limits.ts";
 import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 
-/** The list of lights. As soon as there is a light there are shadows. */
+/** The list of lights. Shadows are shown as soon as there is a light. */
 export function bindShadows(store: Store, viewer: Viewer): void {
   const add = byId("add-light", HTMLButtonElement);
   const list = byId("lights-list");

@@ -2,7 +2,7 @@ import { byId } from "../controls/dom.ts";
 import type { Store } from "../settings/store.ts";
 import { type Theme, type ThemeName, THEMES } from "../view/theme.ts";
 
-/** Gives the chosen theme, or the system's, to the page, to its marks and, by `apply`, to the canvas. */
+/** Applies the chosen theme, or the theme of the system, to the page, its marks and the canvas (by `apply`). */
 export function bindTheme(store: Store, apply: (theme: Theme) => void): void {
   const system = matchMedia("(prefers-color-scheme: light)");
   let shown: ThemeName | null = null;
@@ -12,9 +12,9 @@ export function bindTheme(store: Store, apply: (theme: Theme) => void): void {
     if (name === shown) return;
     shown = name;
     document.documentElement.dataset["theme"] = name;
-    // The exported picture has this element's style alone.
+    // An exported picture takes its style from this element alone.
     document.querySelector<SVGElement>("#marks")!.dataset["theme"] = name;
-    // The browser's own bars have the color of the panel, which they lie beside.
+    // The browser's own bars lie beside the panel, so they have its color.
     const panel = getComputedStyle(byId("panel")).backgroundColor;
     document.querySelector<HTMLMetaElement>('meta[name="theme-color"]')!.content = panel;
     apply(THEMES[name]);

@@ -26,7 +26,7 @@ export class Area {
     }
   }
 
-  /** Only for places in the box. */
+  /** Whether a place is inside the line. Works only for places in the box. */
   holds(x: number, y: number): boolean {
     const parts = this.#rows[this.#rowOf(y)];
     if (!parts) return false;

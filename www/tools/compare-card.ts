@@ -54,7 +54,7 @@ export class CompareCard {
     this.#stop.addEventListener("click", onStop);
   }
 
-  /** `null`: nothing is compared. */
+  /** Shows the card of a comparison. `null`: nothing is compared. */
   show(surface: KnownSurface | string | null): void {
     this.#card.hidden = surface === null;
     if (surface === null) return;
@@ -69,14 +69,14 @@ export class CompareCard {
     if (splat !== "auto") this.#splat.value = splat;
   }
 
-  /** A comparison with all points: there is nothing to count. */
+  /** Shows a comparison with all points, which has no figures. */
   showAll(): void {
     this.#tracing.hidden = true;
     this.#fill([], 0, 0);
     this.#result.textContent = "";
   }
 
-  /** `null` as long as nothing is known; then all points are on the left. */
+  /** Returns `null` as long as there is no result. Until then, all points are on the left. */
   showPicture({ result, problem }: AgainstPicture): Sides | null {
     this.#tracing.hidden = true;
     if (problem !== null || !result) {
@@ -105,7 +105,7 @@ export class CompareCard {
     return { left: `Z-buffer: ${number.format(picture.visible)}`, right: `HPR: ${number.format(onlyOurs)}` };
   }
 
-  /** Also `null` as long as nothing is known. */
+  /** Returns `null`, too, as long as there is no result. */
   showSurface({ result, problem, progress, stopped }: AgainstSurface, total: number): Sides | null {
     this.#tracing.hidden = (progress === null && !stopped) || problem !== null || result !== null;
     this.#progress.hidden = stopped;

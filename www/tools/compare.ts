@@ -15,8 +15,9 @@ const STEPS = [-0.02, 0.02, -0.02, 0.02, -0.1, 0.1, -1, 1];
 const number = new Intl.NumberFormat("en-US");
 
 /**
- * The line that divides the picture: the reference is to its left, our answer to its right. As an introduction to the
- * page it is there from the beginning, with all points to its left and without its card, until the camera first moves.
+ * The line that divides the picture: the reference is to its left, our answer is to its right. It is also an
+ * introduction to the page. Then it is there at the start, with all points to its left and without its card, until the
+ * camera first moves.
  */
 export class Compare {
   readonly #viewer: Viewer;
@@ -26,7 +27,7 @@ export class Compare {
   readonly #card: CompareCard;
   /** `null` for a comparison with all points. */
   #reference: AgainstPicture | AgainstSurface | null = null;
-  /** Whether it is there only as an introduction, until the camera moves. */
+  /** Whether the line is there only as an introduction, until the camera moves. */
   introducing: boolean;
 
   constructor(viewer: Viewer, store: Store, introduce: boolean) {
@@ -56,14 +57,14 @@ export class Compare {
     this.#store.change({ compare: this.#store.current.compare === null ? FIRST : null });
   }
 
-  /** Another cloud or another comparison is about to come. */
+  /** Drops the reference: another cloud or another comparison is about to come. */
   drop(): void {
     this.#reference?.dispose();
     this.#reference = null;
     this.#viewer.showParts(null);
   }
 
-  /** Writes again what is on both sides. */
+  /** Updates the words on both sides. */
   follow(): void {
     const { compare } = this.#store.current;
     const idle = compare === null || this.#viewer.cloud === null;

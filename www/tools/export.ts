@@ -8,7 +8,7 @@ import type { Bench, Tool } from "./tool.ts";
 export interface ExportActions {
   /** The name of the cloud. */
   name: () => string;
-  /** The page as it is now, for others to open; `null` if no address can open it. */
+  /** An address that opens the page in its present state. `null` if no address can do that. */
   link: () => string | null;
 }
 
@@ -127,7 +127,7 @@ export class Export implements Tool {
   }
 }
 
-/** A list in pieces. */
+/** Yields a list as text, in pieces. */
 function* joined(indices: Uint32Array, separator: string, text: (index: number) => string): Generator<string> {
   for (let from = 0; from < indices.length; from += BATCH) {
     yield (from > 0 ? separator : "") + Array.from(indices.subarray(from, from + BATCH), text).join(separator);

@@ -1,11 +1,11 @@
-/** Points written in one go: less work than a frame takes. */
+/** The number of points that are written together. This takes less time than a frame. */
 export const BATCH = 8192;
 
-/** Joins pieces to a file that the browser saves. Between the pieces the page goes on drawing. */
+/** Joins pieces into a file that the browser saves. Between the pieces, the page continues to draw. */
 export async function save(name: string, parts: Iterable<BlobPart>): Promise<void> {
   const done: Blob[] = [];
   for (const part of parts) {
-    // Each piece by itself: text is encoded here, and encoding megabytes at once would stop the page.
+    // Each piece is its own Blob: text is encoded here, and encoding megabytes at once would stop the page.
     done.push(new Blob([part]));
     await new Promise((resolve) => setTimeout(resolve));
   }
@@ -19,7 +19,7 @@ export async function save(name: string, parts: Iterable<BlobPart>): Promise<voi
   }, 60_000);
 }
 
-/** `false` if the browser does not let the page copy: without a secure connection, or if the user forbids it. */
+/** Copies a text. Returns `false` if the browser refuses: the connection is not secure, or the user forbids it. */
 export async function copy(text: string): Promise<boolean> {
   try {
     await navigator.clipboard.writeText(text);

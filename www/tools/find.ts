@@ -10,13 +10,13 @@ export interface Spot {
   tolerance: number;
 }
 
-/** A point that lies this many tolerances behind the nearest one belongs to another surface. */
+/** A point belongs to another surface if it lies more than this many tolerances behind the nearest point. */
 const LAYER = 4;
 
 /**
- * Finds the point that the user means at a spot. Among the points within the tolerance, only those on the surface
- * nearest to the camera count, and the one nearest to the spot is taken. If there is no point, points count that are
- * drawn so large that they cover the spot.
+ * Finds the point that the user means at a spot. Of the points within the tolerance, only the points on the surface
+ * nearest to the camera count. The one nearest to the spot is taken. If there is no point within the tolerance, points
+ * that cover the spot because they are drawn large count as well.
  */
 export function pointAt(viewer: Viewer, { x, y, tolerance }: Spot, through: boolean): number | null {
   const { pointWidth, pixelRatio } = viewer.stage;
@@ -28,7 +28,7 @@ export function pointAt(viewer: Viewer, { x, y, tolerance }: Spot, through: bool
   );
 }
 
-/** Among points whose distance from (x, y) is at most `allowed`, which is at most `most`. */
+/** Finds the nearest point at a distance of at most `allowed` from (x, y). `allowed` is never more than `most`. */
 function nearestAt(
   viewer: Viewer,
   x: number,
@@ -40,7 +40,7 @@ function nearestAt(
   const found: { index: number; off: number; ahead: number }[] = [];
   let behind = Infinity;
   const at = projectionOf(viewer);
-  // A little more than the circle: points on its rim are decided below.
+  // The box is a little larger than the circle. Points near the rim are decided below.
   const reach = most + 1;
   at.each({ left: x - reach, right: x + reach, top: y - reach, bottom: y + reach }, among, (index) => {
     const off = Math.hypot(at.x - x, at.y - y);

@@ -7,7 +7,7 @@ const SVG = "http://www.w3.org/2000/svg";
 /** The distances of a text from its point, and from the edge of the picture. */
 const ASIDE = 14;
 const EDGE = 6;
-/** The width that is kept for an ellipsis. */
+/** The width that is kept free for an ellipsis. */
 const DOTS = 14;
 
 /** A mark over the picture, fastened to points of the cloud. */
@@ -18,7 +18,7 @@ export interface Mark {
 interface Fastened {
   element: SVGGElement;
   anchors: readonly number[];
-  /** While an anchor is hidden the mark is hidden too; other marks are drawn faintly. */
+  /** Whether the mark is hidden while one of its anchors is hidden. Other marks are drawn faintly then. */
   hides: boolean;
   place: (ends: { x: number; y: number }[]) => void;
 }
@@ -98,7 +98,7 @@ export class Marks {
     }
   }
 
-  /** Other points are visible, or there are other marks. */
+  /** Called when other points are visible, or when there are other marks. */
   invalidate(): void {
     this.#placed = "";
     this.place();
@@ -146,9 +146,9 @@ function withText(text: string): SVGTextElement {
 class Fitted {
   readonly element: SVGTextElement;
   readonly #text: string;
-  /** The lengths of the text's beginnings, by their number of letters. Measuring lays the page out, so it is done once. */
+  /** The length of each beginning of the text, by its number of letters. Measuring is slow, so it is done once. */
   #lengths: number[] | null = null;
-  /** How many letters are shown, with an ellipsis if that is not all. */
+  /** The number of letters that are shown. An ellipsis follows if there are more. */
   #kept: number;
 
   constructor(text: string) {
@@ -157,7 +157,7 @@ class Fitted {
     this.#kept = text.length;
   }
 
-  /** Puts the text to the right of a place (1), or to the left (-1) if there is more room and the right has too little. */
+  /** Puts the text to the right of a place (1). If there is too little room, but more on the left: to the left (-1). */
   fit(x: number, width: number): 1 | -1 {
     this.#lengths ??= this.#measured();
     const whole = this.#lengths.length - 1;

@@ -4,7 +4,7 @@ import type { Mark } from "./marks.ts";
 import { NO_POINT } from "./pick.ts";
 import type { Bench, Tool } from "./tool.ts";
 
-/** The distance between two clicked points, in the file's units. There may be many. */
+/** Shows the distance between two clicked points, in the file's units. Many distances can be shown at once. */
 export class Measure implements Tool {
   readonly name = "measure";
   readonly uses = "clicks";
@@ -71,7 +71,7 @@ export class Measure implements Tool {
   }
 }
 
-/** Six digits: no scanner measures more. */
+/** The distance with six digits: no scanner is more precise. */
 function distanceText(distance: number): string {
   return String(Number(distance.toPrecision(6)));
 }

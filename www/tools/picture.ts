@@ -10,7 +10,7 @@ export async function pictureWithMarks(stage: Stage, marks: SVGSVGElement): Prom
   return canvas.convertToBlob({ type: "image/png" });
 }
 
-/** The SVG has its own style; with its size it can stand alone. */
+/** Makes an image of the SVG. It contains its own style. It needs only its size to stand alone. */
 async function imageOf(
   svg: SVGSVGElement,
   { width, height }: { width: number; height: number },

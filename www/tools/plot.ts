@@ -6,7 +6,7 @@ import { MOST_EXPONENT } from "../settings/limits.ts";
 import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 
-/** In the units of the drawing. */
+/** The frame of the plot, in the units of the drawing. */
 const FRAME = { left: 34, right: 272, top: 8, bottom: 92 };
 
 /** The share of visible points against the exponent, for the present view. A click chooses an exponent. */
@@ -24,13 +24,13 @@ export class Plot {
     this.#drawing.addEventListener("click", (event) => {
       const { x } = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.#drawing.getScreenCTM()!.inverse());
       const exponent = ((x - FRAME.left) / (FRAME.right - FRAME.left)) * MOST_EXPONENT;
-      // As fine as the slider.
+      // The steps are as fine as those of the slider.
       const step = Math.round(20 * Math.min(MOST_EXPONENT, Math.max(0, exponent))) / 20;
       if (store.current.inversion === "spherical") store.change({ radius: { exponent: step } });
     });
   }
 
-  /** Another cloud is shown. */
+  /** Clears the plot, because another cloud is shown. */
   clear(): void {
     const { inquiry, cloud } = this.#viewer.scene;
     this.#curve = new Curve(inquiry, cloud.radius);

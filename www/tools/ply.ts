@@ -8,7 +8,7 @@ export interface Field {
 
 export interface PlyContent {
   positions: Float32Array | Float64Array;
-  /** Three bytes a point. */
+  /** Three bytes for each point. */
   colors: Uint8Array | null;
   fields: readonly Field[];
   /** The points to be written. */
@@ -64,7 +64,7 @@ const KIND_OF = new Map<unknown, Kind>([
 
 const TAKEN = ["x", "y", "z", "red", "green", "blue"];
 
-/** A binary PLY file in pieces. Every number is as wide as in the cloud, so that nothing is lost. */
+/** Yields a binary PLY file in pieces. Every number has the same type as in the cloud, so that nothing is lost. */
 export function* plyParts({ positions, colors, fields, indices, comments }: PlyContent): Generator<BlobPart> {
   const columns: { name: string; kind: Kind; valueOf: (index: number) => number }[] = [];
   const add = (name: string, values: Field["values"], valueOf: (index: number) => number) => {
@@ -105,7 +105,7 @@ export function* plyParts({ positions, colors, fields, indices, comments }: PlyC
   }
 }
 
-/** The name of a property is one word, and no two names are the same. */
+/** Gives each property a name that is one word. No two names are the same. */
 function named(fields: readonly Field[]): [string, Field["values"]][] {
   const used = new Set(TAKEN);
   return fields.map(({ name, values }) => {

@@ -2,15 +2,15 @@ import type { Spot } from "./find.ts";
 
 /** A press that moves less than this, in pixels, is a click. */
 const STILL = 5;
-/** The largest distance of a point from a click. Fingers are wide. */
+/** The largest distance of a point from a click. It is larger for touch, since fingers are wide. */
 export const TOLERANCE = 8;
 const TOUCH_TOLERANCE = 16;
 
-/** Calls `click` for a click on the canvas, and not for a drag, which turns the camera. */
+/** Calls `click` for a click on the canvas. A drag is not a click: it turns the camera. */
 export function onClick(canvas: HTMLElement, click: (spot: Spot) => void): void {
   let pressed: PointerEvent | null = null;
   canvas.addEventListener("pointerdown", (event) => {
-    // With a second finger it is no click.
+    // A press with a second finger is not a click.
     pressed = event.isPrimary && event.button === 0 ? event : null;
   });
   canvas.addEventListener("pointerup", (event) => {
@@ -45,7 +45,7 @@ export function onDrag(
     const { left, top } = canvas.getBoundingClientRect();
     return { x: event.clientX - left, y: event.clientY - top };
   };
-  // In the capture phase: before the orbit controls get the event.
+  // In the capture phase, this handler gets the event before the orbit controls.
   canvas.addEventListener(
     "pointerdown",
     (event) => {

@@ -1,6 +1,6 @@
 import { Matrix4, type PerspectiveCamera } from "three";
 
-/** In CSS pixels from the picture's left and top. */
+/** A box in CSS pixels from the picture's left and top. */
 export interface Box {
   left: number;
   right: number;
@@ -8,7 +8,7 @@ export interface Box {
   bottom: number;
 }
 
-/** Where points of the cloud are in the picture: in CSS pixels from its left and top. */
+/** Computes the places of points in the picture, in CSS pixels from its left and top. */
 export class Projection {
   x = 0;
   y = 0;
@@ -29,7 +29,7 @@ export class Projection {
     this.#pixels = (camera.projectionMatrix.elements[5] * height) / 2;
   }
 
-  /** Goes to a point; `false` if it is behind the camera or out of the picture. */
+  /** Goes to a point. Returns `false` if the point is behind the camera or out of the picture. */
   to(index: number): boolean {
     const m = this.#matrix;
     const x = this.#local[3 * index]!;
@@ -42,13 +42,14 @@ export class Projection {
     return this.x >= 0 && this.y >= 0 && this.x <= this.#width && this.y <= this.#height;
   }
 
-  /** Goes to each of the points, or of all points, that is in the picture and in a box of it. */
+  /** Goes to each of these points (`null`: of all points) that is in the picture and in this box. */
   each(box: Box, indices: Uint32Array | null, visit: (index: number) => void): void {
     const local = this.#local;
     const width = this.#width;
     const height = this.#height;
     const [a, b, , d, e, f, , h, i, j, , l, m, n, , p] = this.#matrix;
-    // In shares of the picture from its middle, times the distance ahead: points elsewhere need no division.
+    // The box is in shares of the picture from its middle. It is multiplied by the distance ahead for each point, so
+    // that points outside it need no division.
     const [left, right] = [Math.max(-1, (2 * box.left) / width - 1), Math.min(1, (2 * box.right) / width - 1)];
     const [top, bottom] = [Math.min(1, 1 - (2 * box.top) / height), Math.max(-1, 1 - (2 * box.bottom) / height)];
     const count = indices ? indices.length : local.length / 3;
@@ -70,7 +71,7 @@ export class Projection {
     }
   }
 
-  /** The length of a number of pixels at the point's distance. */
+  /** The length in the cloud that covers this number of pixels at the point's distance. */
   lengthOf(pixels: number): number {
     return (pixels * this.ahead) / this.#pixels;
   }

@@ -49,7 +49,7 @@ export class Select implements Tool {
     });
   }
 
-  /** Ascending. */
+  /** The indices of the selected points, ascending. */
   get indices(): Uint32Array {
     return this.#chosen;
   }
@@ -96,7 +96,7 @@ function box(a: Place, b: Place): Place[] {
   return [a, { x: b.x, y: a.y }, b, { x: a.x, y: b.y }];
 }
 
-/** The indices and the result are ascending. */
+/** Joins two lists of indices. Both lists and the result are ascending. */
 function joined(a: Uint32Array, b: Uint32Array): Uint32Array {
   const all = new Uint32Array(a.length + b.length);
   let count = 0;

@@ -2,7 +2,7 @@ import type { Viewer } from "../view/viewer.ts";
 import type { Spot } from "./find.ts";
 import type { Marks } from "./marks.ts";
 
-/** Shared by all tools. */
+/** The things that all tools share. */
 export interface Bench {
   viewer: Viewer;
   marks: Marks;
@@ -13,16 +13,16 @@ export interface Bench {
 /** One tool of the bar. Its button is #tool-NAME, its words and controls are in #NAME-card. */
 export interface Tool {
   readonly name: "pick" | "measure" | "select" | "label" | "export";
-  /** The tool takes clicks on the canvas, or drags, or neither. */
+  /** Whether the tool uses clicks on the canvas, drags, or neither. */
   readonly uses: "clicks" | "drags" | "nothing";
-  /** A click, or Enter for the middle of the picture. */
+  /** Called at a click, and for the middle of the picture when Enter is pressed. */
   click?(spot: Spot): void;
-  /** Gives up a step that has been begun; `false` if there is none. */
+  /** Gives up a step that has been begun. Returns `false` if there is no such step. */
   cancel?(): boolean;
-  /** The tool is put away: a step that has been begun is given up, finished ones stay. */
+  /** Called when the tool is put away. A step that has been begun is given up. Finished steps stay. */
   leave?(): void;
-  /** The card is about to be shown. */
+  /** Called when the card is about to be shown. */
   open?(): void;
-  /** Forgets everything: another cloud is shown. */
+  /** Forgets everything, because another cloud is shown. */
   clear?(): void;
 }

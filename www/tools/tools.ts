@@ -13,7 +13,7 @@ import { onClick, TOLERANCE } from "./pointer.ts";
 import { Select } from "./select.ts";
 import type { Bench, Tool } from "./tool.ts";
 
-/** The bar over the cloud. At most one of its tools is active. This tool receives the clicks or the drags. */
+/** The bar over the cloud. At most one of its tools is active. The active tool receives the clicks or the drags. */
 export class Tools {
   readonly #tools: Tool[];
   readonly #marks: Marks;

@@ -6,7 +6,7 @@ import type { ExportActions } from "./export.ts";
 import type { Plot } from "./plot.ts";
 import type { Tools } from "./tools.ts";
 
-/** The tools over the cloud, and the plot. They are loaded after the first cloud, which does not wait for them. */
+/** The tools over the cloud, and the plot. They are loaded after the first cloud, so that it does not wait for them. */
 export class Workshop {
   readonly #load: () => Promise<{ tools: Tools; plot: Plot }>;
   readonly #viewer: Viewer;
@@ -30,12 +30,12 @@ export class Workshop {
     return this.#here ? this.#here.tools.introducing : this.#introduce;
   }
 
-  /** Another cloud is about to be shown. */
+  /** Called when another cloud is about to be shown. */
   clear(): void {
     this.#here?.tools.clear();
   }
 
-  /** A cloud is shown. Rejects if the tools cannot be loaded. */
+  /** Called when a cloud is shown. Rejects if the tools cannot be loaded. */
   async begin(): Promise<void> {
     if (this.#here) {
       this.#here.plot.clear();
