@@ -1,4 +1,4 @@
-//! Noise handling: before a view, points move to the plane of their neighbors; after it,
+//! Noise handling. Before a view, points move to the plane of their neighbors. After the view,
 //! neighbors vote.
 
 use alloc::boxed::Box;
@@ -21,11 +21,12 @@ const FIFTHS: usize = 2;
 const MOST_KEPT: usize = 64;
 
 impl PointCloud {
-    /// The cloud that [`Options::denoise`] asks, for many views: every point is projected on the
-    /// least-squares plane of itself and its `k` nearest other points. Indices stay. Equal points
-    /// count once. Where there are fewer than `k` distinct other points, all of them count.
+    /// The denoised cloud, for many views. [`Options::denoise`] asks the same cloud. Every point is
+    /// projected on the least-squares plane of itself and its `k` nearest other points. Indices
+    /// stay. Equal points count once. Where there are fewer than `k` distinct other points, all of
+    /// them count.
     ///
-    /// Takes O(n (log n + k²)), some microseconds a point.
+    /// Takes O(n (log n + k²)) time, some microseconds a point.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] unless 1 ≤ `k` < the number of present points;
@@ -40,8 +41,9 @@ impl PointCloud {
 
     /// Prepares the cloud for views with the same `sample`, `denoise` and `vote`. It keeps the
     /// sampled or the denoised points and the neighbors that vote (up to 64 a point, 4 bytes
-    /// each), until points are appended or removed. Answers are the same as without; a view no
-    /// longer sorts out the sample, nor searches neighbors, which takes some microseconds a point.
+    /// each), until points are appended or removed. Answers are the same as without preparation.
+    /// A view then need not choose the sample or search neighbors. This saves some microseconds a
+    /// point.
     ///
     /// # Errors
     /// [`Error::OutOfRange`] as for the view; [`Error::OutOfMemory`]. After an error the cloud
@@ -57,7 +59,7 @@ impl PointCloud {
                 .as_ref()
                 .is_none_or(|&(kept, _)| kept != k)
             {
-                // The old one goes first: there may be no memory for two.
+                // The old cloud is freed first: there may be no memory for two.
                 self.kept.denoised = None;
                 self.kept.denoised = Some((k, Box::new(self.denoised(k)?)));
             }
@@ -81,7 +83,7 @@ impl PointCloud {
         }
     }
 
-    /// Asks the denoised cloud where `options` say so, else this one.
+    /// Asks the denoised cloud if `options` say so, otherwise this cloud.
     pub(crate) fn after_denoising<T>(
         &self,
         options: &Options,
@@ -90,7 +92,7 @@ impl PointCloud {
         let mut options = *options;
         let mut made = None;
         let cloud = self.kept_or_denoised(options.denoise.take(), &mut made)?;
-        // A single call, because the compiler copies the query for each.
+        // There is a single call, because the compiler copies the query for each call.
         query(cloud, &options)
     }
 
@@ -136,7 +138,7 @@ impl PointCloud {
         Ok(Voters { k, each, others })
     }
 
-    /// Refuses more neighbors than there are other points.
+    /// Refuses a number of neighbors that is larger than the number of other points.
     pub(crate) fn check_neighbors(&self, option: &'static str, k: usize) -> Result<(), Error> {
         let most = self.sequence.present().saturating_sub(1);
         in_range(option, k as f64, 1.0, most as f64)?;

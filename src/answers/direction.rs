@@ -1,8 +1,8 @@
 //! Orthographic views: the viewpoint recedes to infinity against a direction.
 //!
 //! Let the viewpoint C be at distance r, with R = a·r², and let z be the depth along the
-//! direction. Every sphere around C then tends to a paraboloid: but for a common motion, and
-//! to first order, the flipped points lie at depth −(z + a·(x² + y²)). So in the limit the
+//! direction. Every sphere around C then tends to a paraboloid. To first order, and except for
+//! a common motion, the flipped points lie at depth −(z + a·(x² + y²)). So in the limit the
 //! visible points are the lower boundary of conv{(x, y, z + a·(x² + y²))}. The inversion
 //! exp(c/d) has the same limit, with a = 1/(2c).
 
@@ -20,18 +20,18 @@ use crate::view::options::{Exponential, Inversion, Options, Radius};
 use crate::view::radius::{self, ChosenRadius};
 use crate::view::resolved::resolved_inversion;
 
-/// a·s of [`Radius::Auto`], whose R is 5·r²/s.
+/// The product a·s for [`Radius::Auto`], whose R is 5·r²/s.
 const SPACINGS: f64 = 5.0;
 
 impl PointCloud {
     /// Which points are visible along `direction`, the direction in which an orthographic camera
-    /// looks? The answer is the limit of viewpoints ever farther back. The length of `direction`
-    /// has no meaning.
+    /// looks? The answer is the limit for viewpoints farther and farther back. The length of
+    /// `direction` has no meaning.
     ///
-    /// R grows as a·r² with the distance r. For [`Radius::Auto`] a is 5/s, s being the cloud's
-    /// spacing; for [`Inversion::Exponential`] it is 1/(2c). For a radius or an exponent a is
+    /// R grows as a·r² with the distance r. For [`Radius::Auto`] a is 5/s, where s is the cloud's
+    /// spacing. For [`Inversion::Exponential`] a is 1/(2c). For a given radius or exponent a is
     /// R/r², measured from the viewpoint that lies one diagonal of the bounding box before the
-    /// centroid. The radius and exponent of the answer are those of this viewpoint.
+    /// centroid. The radius and exponent of the answer belong to this viewpoint.
     ///
     /// Exact for (x, y, z + a·(x² + y²)) as rounded to `f64`. Coordinates are relative to a center
     /// near the middle of the bounding box, in units of a power of two near its size, along the
@@ -85,7 +85,7 @@ impl PointCloud {
         Ok((self.voted(visible, options)?, chosen, inversion))
     }
 
-    /// a, and the radius that belongs to it one diagonal of the box before the centroid.
+    /// Returns a, and its radius for the viewpoint one diagonal of the box before the centroid.
     fn bend(
         &self,
         ahead: DVec3,
@@ -113,7 +113,7 @@ impl PointCloud {
         }
         let diagonal = self.bounds.diagonal();
         if statistics.count == 0 {
-            // There is nothing to measure, but what is refused elsewhere is refused here, too.
+            // There is nothing to measure. Options that other clouds refuse are refused here, too.
             let chosen = match choice {
                 Radius::Auto => ChosenRadius::unit(0.0),
                 _ => radius::given(choice, 0.0)?,
@@ -176,7 +176,8 @@ struct Lift {
 
 impl Lift {
     fn new(bounds: &Bounds, ahead: DVec3, bend: f64) -> Self {
-        /// With a larger bend only the lift would count; products are still in range.
+        /// The largest bend. With a larger one only the lift would count. Products are still in
+        /// range.
         const MAX_BEND: f64 = 1e50;
         let across = ahead.cross(DVec3::AXES[ahead.abs().min_position()]);
         let right = across / square_root(across.dot(across));

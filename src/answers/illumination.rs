@@ -1,5 +1,5 @@
-//! Shadows (paper §5): a light lights the points that it sees; brightness is then softened
-//! over neighbors. Diffuse and ambient light only; light passes through holes.
+//! Shadows (paper §5): a light lights the points that it sees. Brightness is then softened
+//! over neighbors. There is only diffuse and ambient light. Light passes through holes.
 
 use alloc::vec::Vec;
 
@@ -10,7 +10,7 @@ use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::point_cloud::PointCloud;
 use crate::view::options::Options;
 
-/// How many neighbors a point has where there is no mesh.
+/// The number of neighbors of a point where there is no mesh.
 const NEIGHBORS: usize = 6;
 /// The largest number of rounds; more change little and take long.
 const MOST_ROUNDS: f64 = 1000.0;
@@ -18,7 +18,7 @@ const MOST_ROUNDS: f64 = 1000.0;
 /// How light is spread and softened.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Lighting<'a> {
-    /// A mesh of the points, as indices into the cloud: shadows are softened along its edges.
+    /// A mesh of the points, as indices into the cloud. Shadows are softened along its edges.
     /// Without a mesh they are softened over the 6 nearest points.
     pub triangles: Option<&'a [[u32; 3]]>,
     /// How many times every point takes the mean of itself and its neighbors: 1 by default, at
@@ -41,7 +41,7 @@ impl Default for Lighting<'_> {
 impl PointCloud {
     /// The brightness of every index, from 0 to 1, under point `lights`: ambient +
     /// (1 − ambient)·(lights that see the point ÷ lights), then softened. Indices that
-    /// were skipped or removed are not lit. Without lights all is ambient.
+    /// were skipped or removed are not lit. Without lights every point has the ambient brightness.
     ///
     /// ```
     /// use hidden_point_removal::{Lighting, Options, PointCloud};

@@ -1,4 +1,4 @@
-//! One answer for a cloud in parts, from the answers of the parts.
+//! Makes one answer for a cloud in parts from the answers of the parts.
 
 use alloc::vec::Vec;
 
@@ -13,13 +13,13 @@ use crate::view::options::{Exponential, Inversion, Options, Radius};
 ///
 /// A point that its own part hides is hidden in the whole cloud. A hidden point hides only
 /// points that visible points hide too. So with one viewpoint and one radius,
-/// visible(A ∪ B) = visible(visible(A) ∪ visible(B)), exactly. Each tile can be asked where it
-/// is; only its visible points are brought together.
+/// visible(A ∪ B) = visible(visible(A) ∪ visible(B)), exactly. Each part can be asked where it
+/// is stored. Only its visible points are brought together.
 ///
-/// A part is a list of positions and a list of as many ids, the caller's own numbers. It holds
-/// at least the points that are visible in that part from `viewpoint` with the radius of
-/// `options`. Equal positions share one answer, also across parts. Returns the ids of the
-/// visible points, ascending, each once.
+/// A part is a list of positions and a list of ids, one id for each position. The caller
+/// chooses the ids. A part holds at least the points that are visible in that part from
+/// `viewpoint` with the radius of `options`. Equal positions share one answer, also across
+/// parts. Returns the ids of the visible points, ascending, each once.
 ///
 /// ```
 /// use hidden_point_removal::{Options, PointCloud, merge_visible};
@@ -62,7 +62,7 @@ pub fn merge_visible<P: Position>(
     )
 }
 
-/// The same for `parts` parts, all in the same precision.
+/// The same as [`merge_visible`], for parts in the same precision.
 pub(crate) fn merge<'a>(
     parts: usize,
     part: &dyn Fn(usize) -> (Given<'a>, &'a [u32]),
@@ -70,7 +70,7 @@ pub(crate) fn merge<'a>(
     options: &Options,
 ) -> Result<Vec<u32>, Error> {
     options.refuse_looks("merging")?;
-    // Any other choice would depend on the points that are left.
+    // Any other radius would depend on the points that are left in the parts.
     let resolved = match options.inversion {
         Inversion::Spherical | Inversion::Power(_) => {
             matches!(options.radius, Radius::Absolute(_))

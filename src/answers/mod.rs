@@ -1,5 +1,6 @@
-//! What can be asked of a cloud: from one viewpoint, one after another, divided among
-//! threads, from several, along a direction, in parts, as a surface, as light, with noise.
+//! All questions to a cloud. A view can be from one viewpoint, from one after another, from
+//! several at once, along a direction, or divided among threads. A cloud can be in parts or
+//! noisy. The answer can also be a surface or light.
 
 pub(crate) mod denoise;
 pub(crate) mod direction;

@@ -1,4 +1,4 @@
-//! Many views of one cloud, each starting from the last.
+//! Many views of one cloud. Each view starts from the last one.
 
 use crate::answers::visibility::Visibility;
 use crate::base::error::Error;
@@ -61,7 +61,7 @@ impl Observer<'_> {
         self.memory.moved()
     }
 
-    /// Forgets the last view: the next one starts anew. The memory stays reserved.
+    /// Forgets the last view. The next view starts with a new hull. The memory stays reserved.
     pub fn forget(&mut self) {
         self.memory.forget();
     }

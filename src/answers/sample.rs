@@ -10,7 +10,7 @@ use crate::cloud::point_cloud::PointCloud;
 use crate::view::options::Options;
 
 impl PointCloud {
-    /// Asks the cloud of `count` sampled points alone.
+    /// Asks a cloud that holds the `count` sampled points alone.
     pub(crate) fn after_sampling<T>(
         &self,
         count: usize,
@@ -56,7 +56,7 @@ impl PointCloud {
         }
         let kept = self.kept.sampled.as_ref();
         if kept.is_none_or(|&(kept, _)| kept != count) {
-            // The old one goes first: there may be no memory for two.
+            // The old cloud is freed first: there may be no memory for two.
             self.kept.sampled = None;
             self.kept.sampled = Some((count, Box::new(self.sampled(count)?)));
         }
@@ -68,7 +68,8 @@ impl PointCloud {
         self.sequence.points.len() <= count
     }
 
-    /// The cloud of `count` of the distinct points, fewer than there are. Indices stay.
+    /// The cloud of `count` of the distinct points. `count` is less than their number. Indices
+    /// stay.
     #[inline(never)]
     fn sampled(&self, count: usize) -> Result<Self, OutOfMemory> {
         let places = even_places(self.sequence.points.len(), count)?;
@@ -76,8 +77,9 @@ impl PointCloud {
     }
 }
 
-/// `count` of the places below `all`, ascending: the first ones in bit-reversed order. Every
-/// beginning of this order is spread evenly, and a smaller sample is part of a larger one.
+/// The first `count` places below `all` in bit-reversed order. They are returned ascending.
+/// Every beginning of the bit-reversed order is spread evenly. So a smaller sample is part of
+/// a larger one.
 fn even_places(all: usize, count: usize) -> Result<Vec<u32>, OutOfMemory> {
     let unused = (all as u32).saturating_sub(1).leading_zeros();
     let mut is_chosen: Vec<bool> = Vec::new();
@@ -114,7 +116,7 @@ mod tests {
         let places = even_places(100_000, 3000).unwrap();
         let gaps = places.windows(2).map(|pair| pair[1] - pair[0]);
         let (least, most) = (gaps.clone().min().unwrap(), gaps.max().unwrap());
-        // 2^17 ÷ 2^12 and twice that.
+        // The steps are 2^17 ÷ 2^12 and twice that.
         assert_eq!((least, most), (32, 64));
     }
 }

@@ -1,5 +1,5 @@
-//! A view divided among several threads or workers. Each answers for its own points, without
-//! the others.
+//! A view divided among several threads or workers. Each thread answers for its own points.
+//! It does not need the others.
 
 use glam::DVec3;
 
@@ -21,9 +21,9 @@ impl PointCloud {
     /// visible point is in the answer of exactly one sector, so all sectors together are exactly
     /// the whole answer.
     ///
-    /// For several threads, or several processes with the same points: one sector each. Sectors
-    /// take about equal time, each a little more than its share of the whole. Clouds below
-    /// 200,000 points gain little.
+    /// Give one sector to each of several threads, or of several processes with the same points.
+    /// Sectors take about equal time. Each takes a little more than its share of the whole. Clouds
+    /// below 200,000 points gain little.
     ///
     /// ```
     /// use hidden_point_removal::{Error, Options, PointCloud, Sector};
@@ -65,8 +65,8 @@ impl PointCloud {
         sector: Sector,
     ) -> Result<Visibility, Error> {
         memory.see_sample(options.sample);
-        // With a vote or denoising, a point's answer needs those of its neighbors. Drafts and
-        // samples take little time. The first sector answers for all.
+        // With a vote or denoising, the answer of a point needs the answers of its neighbors.
+        // Drafts and samples take little time. In all these cases the first sector answers for all.
         let is_one_hull = !options.asks_for_looks() && options.is_exact();
         if sector.count > 1 && is_one_hull && options.denoise.is_none() && options.vote.is_none() {
             let view = self.view(viewpoint, options)?;
@@ -141,8 +141,8 @@ impl PointCloud {
     }
 }
 
-/// Whether bounds of flipped points are known and tell anything: not where squares over- or underflow,
-/// nor where 2R − d keeps too few digits of d.
+/// Whether bounds of flipped points are known and useful. They are not useful where squares
+/// overflow or underflow, nor where 2R − d keeps too few digits of d.
 fn is_divisible(view: &View) -> bool {
     view.inversion == Inversion::Spherical
         && (1e-30..1e30).contains(&view.chosen.radius)

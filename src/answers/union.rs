@@ -16,7 +16,8 @@ use crate::view::resolved::resolved_inversion;
 
 impl PointCloud {
     /// Which points are visible from at least one of `viewpoints`? Each view chooses its own R by
-    /// `options`. The answer holds the largest R, and the number of hulls that all choices took.
+    /// `options`. The answer holds the largest R. It also holds the number of hulls that all
+    /// choices took.
     /// Without viewpoints nothing is visible.
     ///
     /// A union over a small ring ([`ring_of_viewpoints`]) finds points at silhouettes that one

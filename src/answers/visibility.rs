@@ -43,7 +43,7 @@ impl Visibility {
         }
     }
 
-    /// The same as the answer to a question with `options`.
+    /// Marks this as the answer to a question with `options`: a draft or a sample is not exact.
     pub(crate) fn to(self, options: &Options) -> Self {
         let exact = self.exact && options.is_exact();
         Self { exact, ..self }
@@ -55,7 +55,7 @@ impl Visibility {
         &self.indices
     }
 
-    /// The visible points' indices, ascending, by value.
+    /// The visible points' indices, ascending, as an owned list.
     #[must_use]
     pub fn into_indices(self) -> Vec<u32> {
         self.indices
@@ -67,9 +67,9 @@ impl Visibility {
         self.indices.len()
     }
 
-    /// The radius R of the flipping sphere, in the cloud's units; 0 where no
-    /// point is away from the viewpoint. With [`Inversion::Power`] the unit S, with
-    /// [`Inversion::Exponential`] and [`Inversion::Looks`] 0.
+    /// The radius R of the flipping sphere, in the cloud's units. It is 0 where all points are
+    /// at the viewpoint. With [`Inversion::Power`] it is the unit S. With
+    /// [`Inversion::Exponential`] and [`Inversion::Looks`] it is 0.
     #[must_use]
     pub fn radius(&self) -> f64 {
         self.chosen.radius
@@ -81,7 +81,7 @@ impl Visibility {
         self.chosen.exponent
     }
 
-    /// How many hulls were spent choosing R, the final one not counted.
+    /// How many hulls the choice of R took. The final hull is not counted.
     #[must_use]
     pub fn evaluations(&self) -> u32 {
         self.chosen.evaluations
@@ -94,29 +94,29 @@ impl Visibility {
         self.inversion
     }
 
-    /// The scale c of each look, from tight to loose, in the cloud's units; empty unless
-    /// asked with [`Inversion::Looks`].
+    /// The scale c of each look, from tight to loose, in the cloud's units. The list is empty
+    /// unless the options ask for [`Inversion::Looks`].
     #[must_use]
     pub fn looks(&self) -> &[f64] {
         &self.looks
     }
 
-    /// For each index of the cloud how likely it is visible, from 0 to 1; 0 for those
-    /// skipped or removed. Empty unless asked with [`Options::scores`]. A score need not
-    /// be above ½ exactly where the point is visible; with [`Options::vote`] it is that of
-    /// the answer before the vote.
+    /// A score for each index of the cloud: how likely the point is visible, from 0 to 1. It is
+    /// 0 for skipped or removed points. The list is empty unless [`Options::scores`] is set. A
+    /// visible point may have a score below ½, and a hidden point one above ½. With
+    /// [`Options::vote`] the scores belong to the answer before the vote.
     #[must_use]
     pub fn scores(&self) -> &[f32] {
         &self.scores
     }
 
-    /// The scores by value; see [`Visibility::scores`].
+    /// The scores as an owned list; see [`Visibility::scores`].
     #[must_use]
     pub fn into_scores(self) -> Vec<f32> {
         self.scores
     }
 
-    /// Whether this is the final answer to what was asked: false only for drafts
+    /// Whether this is the final answer to the question. It is false only for drafts
     /// ([`Options::draft`]) and samples ([`Options::sample`]).
     #[must_use]
     pub fn exact(&self) -> bool {
@@ -135,19 +135,19 @@ impl Visibility {
 }
 
 impl PointCloud {
-    /// Which points are visible from `viewpoint`, given in the cloud's own
-    /// coordinates? The HPR operator, Algorithm 1 of the paper, exact for the
-    /// flipped points as rounded to `f64`.
+    /// Which points are visible from `viewpoint`, given in the cloud's own coordinates? This is
+    /// the HPR operator, Algorithm 1 of the paper. The answer is exact for the flipped points
+    /// as rounded to `f64`.
     ///
-    /// A point at the viewpoint is visible and hides nothing; of several points
-    /// on one ray only the nearest can be visible; equal points share one answer.
+    /// A point at the viewpoint is visible and hides nothing. If several points are on one ray,
+    /// only the nearest can be visible. Equal points share one answer.
     ///
-    /// With [`Inversion::Looks`] the answer is that of several hulls, each of which decides
-    /// what it is sure of: a tight one hides what lies behind surface, a loose one shows
-    /// what a tight one cannot tell. Equal points still share one answer, and one at the
-    /// viewpoint is visible; but of several points on one ray more than the nearest can be
-    /// visible, where they are within one spacing of each other. `docs/LOOKS.md` has the
-    /// rule, and which clouds it is for.
+    /// With [`Inversion::Looks`] the answer comes from several hulls. Each hull decides only the
+    /// points that it is sure of. A tight hull hides the points behind a surface. A loose hull
+    /// shows points that a tight hull cannot decide. Equal points still share one answer, and a
+    /// point at the viewpoint is visible. But several points on one ray can be visible, if they
+    /// are within one spacing of each other. `docs/LOOKS.md` gives the rule, and the clouds that
+    /// it is for.
     ///
     /// ```
     /// use hidden_point_removal::{Options, PointCloud};
@@ -192,7 +192,7 @@ impl PointCloud {
         self.visible_from_whole(memory, viewpoint, options)
     }
 
-    /// The same of all points.
+    /// The same as `visible_from_with`, but always for all points.
     #[inline(never)]
     fn visible_from_whole(
         &self,
@@ -247,7 +247,7 @@ impl PointCloud {
         Ok(view)
     }
 
-    /// The answer of `count` looks.
+    /// The answer from `count` looks.
     fn seen_by_looks(
         &self,
         memory: &mut hull::Memory,
@@ -321,7 +321,7 @@ impl PointCloud {
     }
 }
 
-/// Fewer indices than one in so many are sorted rather than marked.
+/// If fewer than one index in this many is visible, the indices are sorted, not marked.
 const SPARSE: usize = 32;
 
 /// The caller's indices of the distinct points marked as `visible`, ascending and below `len`.

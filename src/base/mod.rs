@@ -1,5 +1,5 @@
-//! Tools that know nothing of points: the error type, the limit of a cloud's size, memory
-//! that may be refused, square roots without `std`, the one sort.
+//! Tools that do not depend on points: the error type, the limit of a cloud's size, memory
+//! that may be refused, square roots without `std`, and the only sort.
 
 pub(crate) mod allocation;
 pub(crate) mod error;

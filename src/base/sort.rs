@@ -44,7 +44,7 @@ pub(crate) fn sort_keyed(items: &mut [Keyed]) {
         end += *bucket_end;
         *bucket_end = end;
     }
-    // Every item moves once: to the first place of its bucket not yet taken.
+    // Every item moves once: to the first free place of its bucket.
     let mut next = starts;
     for bucket in 0..BUCKETS {
         while next[bucket] < ends[bucket] {
@@ -82,15 +82,16 @@ fn sort_few(items: &mut [Keyed]) {
     }
 }
 
-/// A number in the same order as `x`, which is not -0.
+/// A number for `x` that keeps the order. `x` is not -0.
 pub(crate) fn ordered(x: f64) -> u64 {
     let bits = x.to_bits();
     let sign = 1 << 63;
     if bits & sign == 0 { bits | sign } else { !bits }
 }
 
-/// Sorts indices by `count` numbers each: by number 0, which is their key already, then
-/// items with equal numbers by number 1, and so on. `number(k, index)` is number k of an index.
+/// Sorts indices by `count` numbers each. Number 0 comes first; it is already their key. Items
+/// with equal numbers are then sorted by number 1, and so on. `number(k, index)` is number k of
+/// an index.
 pub(crate) fn sort_by_numbers(
     keyed: &mut [Keyed],
     count: usize,

@@ -29,14 +29,15 @@ pub(crate) struct Sphere {
     pub radius: f64,
 }
 
-/// Level 0 is a sphere for each block, every higher level one for `FANOUT` spheres
-/// of the level below; the last level has at most `FANOUT`. Half a byte a point.
+/// Level 0 holds a sphere for each block. Every higher level holds one sphere for `FANOUT`
+/// spheres of the level below. The last level has at most `FANOUT` spheres. All take half a
+/// byte a point.
 pub(crate) struct Blocks {
     pub levels: Vec<Vec<Sphere>>,
 }
 
 impl Blocks {
-    /// Around `points`, which are in their spatial order.
+    /// The spheres around `points`, which are in their spatial order.
     #[inline(never)]
     pub(crate) fn around(points: &Points) -> Result<Self, OutOfMemory> {
         let point = |index: usize| Sphere {
@@ -55,8 +56,8 @@ impl Blocks {
         Ok(Self { levels })
     }
 
-    /// The largest distance of any of the `points` from `viewpoint`, 0 for an empty cloud:
-    /// the root of the largest rounded v·v, v = p − C. Only blocks that may hold the
+    /// The largest distance of any of the `points` from `viewpoint`, or 0 for an empty cloud. It
+    /// is the root of the largest rounded v·v, where v = p − C. Only blocks that may hold the
     /// farthest point are computed.
     ///
     /// # Errors
@@ -71,7 +72,7 @@ impl Blocks {
             let center = DVec3::from_array(sphere.center) - viewpoint;
             (square_root(center.dot(center)) + sphere.radius) * (1.0 + MARGIN)
         };
-        // The most promising block first, then every one that may hold a farther point.
+        // The most promising block comes first, then every block that may hold a farther point.
         let mut promising = 0;
         let mut farthest_reach = 0.0;
         for (block, sphere) in self.levels[0].iter().enumerate() {

@@ -26,7 +26,7 @@ pub(crate) struct Neighbors<'a> {
 }
 
 impl<'a> Neighbors<'a> {
-    /// For distinct `points` along the Hilbert curve.
+    /// The index of distinct `points`, which are in the order of the Hilbert curve.
     pub(crate) fn new(points: &'a Points) -> Result<Self, OutOfMemory> {
         let mut level: Vec<Bounds> = with_capacity(points.len().div_ceil(LEAF))?;
         for start in (0..points.len()).step_by(LEAF) {
@@ -53,8 +53,8 @@ impl<'a> Neighbors<'a> {
         Ok(Self { points, levels })
     }
 
-    /// Fills `nearest` with the nearest other points of point `query`: as many as it has room
-    /// for, or all of them.
+    /// Fills `nearest` with the nearest other points of point `query`. It takes as many as it has
+    /// room for, or all of them.
     pub(crate) fn find(&self, query: usize, nearest: &mut Nearest) {
         nearest.found.clear();
         // The leaf of the query comes first, then its neighbors, level by level. So a small
@@ -76,7 +76,7 @@ impl<'a> Neighbors<'a> {
 
     fn descend(&self, level: usize, node: usize, query: usize, nearest: &mut Nearest) {
         let bounds = &self.levels[level][node];
-        // A box at exactly the worst distance may hold a tie that wins.
+        // A box at exactly the worst distance may hold a point that wins the tie.
         if bounds.distance_squared(self.points.get(query)) > nearest.worst() {
             return;
         }
@@ -127,7 +127,7 @@ pub(crate) struct Nearest {
 }
 
 impl Nearest {
-    /// With room for `most`, at least one.
+    /// An empty list with room for `most` points, at least one.
     pub(crate) fn with_capacity(most: usize) -> Result<Self, OutOfMemory> {
         let found = with_capacity(most)?;
         Ok(Self { found, most })

@@ -18,7 +18,7 @@ use crate::cloud::statistics::Statistics;
 const SURVEYED: f64 = 0.05;
 const SORTED: f64 = 0.85;
 
-/// What becomes of points with a NaN or infinite coordinate.
+/// The choice about points with a NaN or infinite coordinate.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NonFinite {
     /// The cloud is refused with [`Error::NonFinite`].
@@ -30,9 +30,9 @@ pub enum NonFinite {
 
 /// A point cloud, prepared for visibility queries.
 ///
-/// Building costs one sort, O(n log n); each query reuses it. Memory: 17 bytes
-/// a point for `f32` positions, 29 for `f64`; while points are appended or removed,
-/// twice that.
+/// Building costs one sort, O(n log n). Each query reuses it. A cloud takes 17 bytes a point
+/// for `f32` positions, 29 for `f64`. While points are appended or removed, it takes twice
+/// that.
 ///
 /// Answers and automatic radii depend on the present points alone. A cloud that was
 /// appended to and removed from answers, to the bit, like a new cloud of the same points.
@@ -48,13 +48,13 @@ pub struct PointCloud {
     skipped: usize,
 }
 
-/// What [`PointCloud::prepare_for`] keeps.
+/// The data that [`PointCloud::prepare_for`] keeps.
 #[derive(Default)]
 pub(crate) struct Kept {
     /// The cloud without noise, and the number of neighbors that made its planes.
     pub denoised: Option<(usize, Box<PointCloud>)>,
     pub voters: Option<Voters>,
-    /// With the number of points asked for.
+    /// The cloud of the sampled points, and the number of points that were asked for.
     pub sampled: Option<(usize, Box<PointCloud>)>,
 }
 
@@ -86,7 +86,7 @@ impl PointCloud {
         Self::prepare(P::given(positions), non_finite, &mut |_| ())
     }
 
-    /// Calls `progress` with the share of the work that is done, about.
+    /// Prepares a cloud. Calls `progress` with about the share of the work that is done.
     pub(crate) fn prepare(
         positions: Given,
         non_finite: NonFinite,
@@ -115,8 +115,9 @@ impl PointCloud {
 
     /// Adds points, which take the next indices: all of them, or none and an error.
     ///
-    /// They are sorted and merged into the present order, O(n + m log m) for m new points. Only where they extend the cloud's box beyond a power of two (or
-    /// a multiple of it) is the whole cloud sorted again, as when it is built.
+    /// They are sorted and merged into the present order. This takes O(n + m log m) time for m new
+    /// points. If they extend the cloud's box beyond a power of two (or a multiple of it), the
+    /// whole cloud is sorted again, as when it is built.
     ///
     /// Positions keep their precision: `f64` positions make an `f32` cloud an `f64` one.
     ///
@@ -167,8 +168,8 @@ impl PointCloud {
     /// hide nothing, and their indices are never given again. An index that was
     /// removed before, or skipped, is ignored. Other points at the same place stay.
     ///
-    /// Takes one pass over the cloud. Only where its box shrinks below a power of two is the
-    /// cloud sorted again; see [`PointCloud::append`].
+    /// Takes one pass over the cloud. If its box shrinks below a power of two, the cloud is sorted
+    /// again; see [`PointCloud::append`].
     ///
     /// # Errors
     /// [`Error::IndexOutOfRange`], [`Error::OutOfMemory`]; the cloud is unchanged then.
@@ -198,7 +199,7 @@ impl PointCloud {
         Ok(())
     }
 
-    /// How many points were ever given, skipped and removed ones included. The largest
+    /// How many points were ever given. Skipped and removed points count, too. The largest
     /// index is one less.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -235,7 +236,7 @@ impl PointCloud {
         self.with_sequence(sequence, bounds)
     }
 
-    /// The cloud of the distinct points at these places of the order, which ascend. Indices
+    /// The cloud of the distinct points at these places of the order. The places ascend. Indices
     /// stay.
     #[inline(never)]
     pub(crate) fn of_places(&self, places: &[u32]) -> Result<Self, OutOfMemory> {

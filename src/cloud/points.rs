@@ -167,8 +167,8 @@ impl Points {
     }
 }
 
-/// The place of a new point among the present ones: before `after`. It replaces the points
-/// from `start`: none, or the one point that equals it.
+/// The place of a new point among the present points. The new point comes before `after`. It
+/// replaces the points from `start` up to `after`: none, or the one point that equals it.
 #[derive(Clone, Copy)]
 pub(crate) struct Splice {
     pub start: usize,

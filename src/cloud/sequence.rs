@@ -1,5 +1,5 @@
 //! The distinct points of a cloud in canonical order, each with the caller's indices of it.
-//! The order is made here, merged, thinned and made anew.
+//! The order is made here. It is also merged, thinned and made again here.
 //!
 //! Points follow the Hilbert curve; inside a cell they follow a second curve; coordinates
 //! break ties. So the order depends on the set of points alone. No function changes a
@@ -45,8 +45,8 @@ impl Sequence {
         Ok(Self { points, indices })
     }
 
-    /// Both sequences as one; both follow `curve`. Runs between new points are copied as a
-    /// whole, and only O(log n) keys are computed for each new point.
+    /// Merges two sequences into one. Both follow `curve`. Runs between new points are copied as
+    /// a whole, and only O(log n) keys are computed for each new point.
     #[inline(never)]
     pub(crate) fn merged(&self, new: &Self, curve: &HilbertCurve) -> Result<Self, OutOfMemory> {
         let mut places = with_capacity(new.points.len())?;
@@ -175,7 +175,7 @@ impl Sequence {
         self.indices.of(k)
     }
 
-    /// Where the first point is that does not come before `place`, from `low` on.
+    /// The index of the first point, from `low` on, that does not come before `place`.
     #[inline(never)]
     fn first_not_before(&self, place: &Place, mut low: usize, curve: &HilbertCurve) -> usize {
         let before = |k: usize| curve.place(self.points.get(k)) < *place;

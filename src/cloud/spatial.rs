@@ -1,10 +1,9 @@
 //! The order in which a cloud keeps its points: along a 3D Hilbert curve.
 //!
-//! Neighbors on the curve are neighbors in space, so walks on the hull are
-//! short and memory is read in runs. The order depends on the set of points
-//! alone (ties on the curve are broken by coordinates), never on the order of
-//! the input or on what was appended and removed before, so everything computed
-//! in it is reproducible to the bit.
+//! Neighbors on the curve are neighbors in space. So walks on the hull are short and memory
+//! is read in runs. The order depends on the set of points alone, because coordinates break
+//! ties on the curve. It does not depend on the order of the input, or on earlier changes of
+//! the cloud. So everything that is computed in this order is reproducible to the bit.
 
 use crate::base::real::floor;
 
@@ -52,7 +51,7 @@ impl Bounds {
     /// middle of the box. The point has few bits, so that differences from coordinates of few
     /// bits are exact.
     pub(crate) fn coarse_center(&self) -> ([f64; 3], f64) {
-        // An extent this small is 0: it lies far below the last bit of any coordinate.
+        // An extent below this counts as 0: it lies far below the last bit of any coordinate.
         const NOTHING: f64 = 1.0 / (1u64 << 60) as f64;
         let mut extent = 0.0f64;
         for axis in 0..3 {

@@ -1,5 +1,5 @@
-//! Clouds of other dimensions than three: two as three with z = 0, four and more by linear
-//! programs.
+//! Clouds of other dimensions than three. Two dimensions are treated as three with z = 0. Four
+//! and more dimensions use linear programs.
 
 pub(crate) mod higher;
 pub(crate) mod two;

@@ -15,16 +15,16 @@ use crate::cloud::points::Points;
 
 use crate::flip::kernel::Kernel;
 
-/// The flip around one viewpoint, with one fixed sequence of operations, so
-/// that every platform rounds alike: v = p − C, d = √(vx² + vy² + vz²),
-/// s from d ([`Kernel::factor`]; (2R − d)/d on a sphere), q = v·s.
+/// The flip around one viewpoint. It has one fixed sequence of operations, so that every
+/// platform rounds alike: v = p − C, d = √(vx² + vy² + vz²), s from d
+/// ([`Kernel::factor`]; (2R − d)/d on a sphere), q = v·s.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Flip {
     viewpoint: DVec3,
     kernel: Kernel,
     /// A power of two that brings an extreme |q| near 1; 1 where |q| is not extreme.
     scale: f64,
-    /// No coordinate of a flipped point is larger, but for rounding and `scale`.
+    /// No coordinate of a flipped point is larger, except for rounding and `scale`.
     extent: f64,
 }
 
@@ -61,8 +61,8 @@ impl Flip {
         )
     }
 
-    /// Two numbers. Their quotient is the factor s of a point at `v` from the viewpoint, but for a
-    /// few roundings. It is not finite for a point at the viewpoint.
+    /// Two numbers. Their quotient is the factor s of a point at `v` from the viewpoint, except for
+    /// a few roundings. The quotient is not finite for a point at the viewpoint.
     #[inline]
     pub(crate) fn ratio(&self, v: DVec3) -> (f64, f64) {
         let d = square_root(v.dot(v));
@@ -86,8 +86,8 @@ impl Flip {
         length * self.scale
     }
 
-    /// The same for any kernel; not inlined, to keep the hull's loops small. A point that leaves
-    /// the range of f64 counts as at the viewpoint too.
+    /// The flipped point for any kernel. This is not inlined, to keep the hull's loops small. A
+    /// point that leaves the range of f64 also counts as a point at the viewpoint.
     #[inline(never)]
     fn apply_other(&self, p: [f64; 3]) -> Option<DVec3> {
         let v = DVec3::from_array(p) - self.viewpoint;
@@ -95,13 +95,13 @@ impl Flip {
         q.is_finite().then(|| q * self.scale)
     }
 
-    /// At least twice the largest |q| (which is at most 5/8 of it on a sphere, where
-    /// squares underflow and make d too small), once the flip is
-    /// [`rescaled_for`](Self::rescaled_for) the points.
+    /// A length of at least twice the largest |q|. It holds after the flip is
+    /// [`rescaled_for`](Self::rescaled_for) the points. There is one exception: on a sphere, where
+    /// squares underflow and make d too small, the largest |q| is at most 5/8 of this length.
     pub(crate) fn reach(&self) -> f64 {
         let times = match self.kernel {
             Kernel::Spherical { .. } => 2.0,
-            // |q| is up to 3R there; up to √3 of the largest coordinate here.
+            // On a sphere |q| is up to 3R; here it is up to √3 of the largest coordinate.
             _ => 4.0,
         };
         times * self.extent * self.scale
@@ -111,8 +111,8 @@ impl Flip {
         self.viewpoint
     }
 
-    /// Rescales the flipped cloud by a power of two where it is so large or small
-    /// that floating-point filters would overflow or underflow. Signs do not depend on the scale.
+    /// Rescales the flipped cloud by a power of two, if it is so large or so small that
+    /// floating-point filters would overflow or underflow. Signs do not depend on the scale.
     /// Where the scaling itself would round, it is left out.
     pub(crate) fn rescaled_for(mut self, points: &Points) -> Self {
         const MODERATE: core::ops::Range<f64> = 1e-30..1e30;

@@ -1,6 +1,6 @@
-//! The distance to which a flip moves a point, as a function of its distance d: the factor s
-//! of q = v·s. Each is strictly decreasing in |q| = d·s but for rounding, except
-//! the antipodal one, which is strictly increasing.
+//! The kernels. A kernel gives the distance |q| = d·s to which a flip moves a point at
+//! distance d, and the factor s of q = v·s. Except for rounding, |q| strictly decreases as d
+//! grows. Only with the antipodal kernel it strictly increases.
 //!
 //! pow and exp come from `libm` in every build, so that all of them round alike.
 
@@ -9,7 +9,8 @@
 pub(crate) enum Kernel {
     /// |q| = 2R − d: spherical flipping (paper §3, eq. 1).
     Spherical { radius: f64 },
-    /// |q| = 2R + d: the farthest point of a ray wins, as in a look back along the same rays. Only for choosing R (`radius::search`).
+    /// |q| = 2R + d: the farthest point of a ray wins, as in a look back along the same rays. It is
+    /// used only for choosing R (`radius::search`).
     Antipodal { radius: f64 },
     /// |q| = d·(d/S)^−γ: the paper's other kernel (§3), 1/‖p‖^γ.
     Power { gamma: f64, unit: f64 },
@@ -45,8 +46,8 @@ impl Kernel {
         self.factor(d)
     }
 
-    /// The R of a flip on a sphere, 2.5 R (or 3 R) being the largest |q|; `None`
-    /// where only the points can tell how far they go.
+    /// The R of a flip on a sphere: |q| is at most 2.5 R (or 3 R). `None` for other kernels: their
+    /// largest |q| depends on the points.
     pub(crate) fn radius(&self) -> Option<f64> {
         match *self {
             Self::Spherical { radius } | Self::Antipodal { radius } => Some(radius),

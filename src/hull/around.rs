@@ -1,10 +1,10 @@
-//! Clouds that lie in one plane with the viewpoint, but for rounding: scans of a single
+//! Clouds that lie in one plane with the viewpoint, except for rounding: scans of a single
 //! line, straight wires, walls seen edge-on.
 //!
-//! Their hull is a sliver, thinner than any rounded plane can tell, so that every sign is
-//! computed exactly, and a few vertices have a large part of all faces. In the spatial order
-//! the walks around such a vertex are long. In the order of the directions in the plane each
-//! point is close to the one before.
+//! Their hull is too thin for rounded planes, so every sign is computed exactly. A few
+//! vertices have a large part of all faces. In the spatial order the walks around such a
+//! vertex are long. In the order of the directions in the plane, each point is close to the
+//! one before.
 
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -22,14 +22,15 @@ const THICKNESS: f64 = 1e-9;
 /// Fewer points than this take no time in any order.
 const MIN_POINTS: usize = 128;
 
-/// The plane that holds all points but for rounding, given by two axes of unit length.
+/// The plane that holds all points except for rounding, given by two axes of unit length.
 pub(super) struct Around {
     axes: [DVec3; 2],
 }
 
 impl Around {
-    /// The plane of the first tetrahedron, if its corners are that near to one plane with the
-    /// viewpoint. The last corner is the point farthest from the plane of the others.
+    /// The plane of the first tetrahedron. `None` unless its corners are within [`THICKNESS`] of
+    /// one plane with the viewpoint. The last corner is the point farthest from the plane of the
+    /// others.
     pub(super) fn of(corners: &[(u32, DVec3); 3], flipped: &Flipped) -> Option<Self> {
         if flipped.len() < MIN_POINTS {
             return None;

@@ -7,7 +7,7 @@ use super::incremental::{Hull, ORIGIN};
 use super::topology::{FaceId, HalfEdge};
 use crate::hull::predicates::{Sign, side_of_origin};
 
-/// Of more faces than this only an even sample is checked.
+/// If there are more faces than this, only an even sample is checked.
 const MOST_FACES: usize = 4096;
 /// How many rays are tried: a ray that runs exactly through an edge says nothing.
 const RAYS: usize = 4;
@@ -74,7 +74,7 @@ fn middle(corners: [DVec3; 3]) -> Option<DVec3> {
     (ray.is_finite() && sides(corners, ray) == [Sign::Positive; 3]).then_some(ray)
 }
 
-/// On which side of each edge the ray is; positive is inside.
+/// The side of each edge on which the ray is; positive is inside.
 fn sides([a, b, c]: [DVec3; 3], ray: DVec3) -> [Sign; 3] {
     [(a, b), (b, c), (c, a)].map(|(tail, head)| side_of_origin(tail, head, ray))
 }

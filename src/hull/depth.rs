@@ -1,10 +1,11 @@
-//! A map of directions that says how far K reaches.
+//! A map of directions that shows how far K reaches.
 //!
 //! A cube around the viewpoint holds the directions. On one of its faces a flipped point q is
-//! z·(x, y, 1). A window that contains the cloud's directions (x, y) is cut into cells. K ends at 1/w times (x, y, 1), where w is the largest m·(x, y, 1) of all outer
-//! faces: a maximum of linear functions, so w is convex, and inside a cell it is at most
-//! what its values at the four corners give by interpolation. Hence a point of z·w < 1 is
-//! in K, which goes on beyond it: hidden, now and for every larger K.
+//! z·(x, y, 1). A window that contains the cloud's directions (x, y) is cut into cells. K ends
+//! at 1/w times (x, y, 1), where w is the largest m·(x, y, 1) of all outer faces. As a maximum
+//! of linear functions w is convex. So inside a cell w is at most the interpolation of its
+//! values at the four corners. A point with z·w < 1 is in K, and K goes on beyond it. So the
+//! point is hidden, now and for every larger K.
 
 use alloc::vec::Vec;
 use core::ops::Range;
@@ -18,13 +19,15 @@ use crate::base::allocation::{OutOfMemory, reserve};
 use crate::base::real::square_root;
 use crate::cloud::blocks::{BLOCK, Sphere};
 
-/// Fewer points are located faster than a map is made.
+/// A map is made only for this many points or more. Fewer points are located faster than a
+/// map is made.
 const MIN_POINTS: usize = 2048;
-/// Corners for each point of the cloud, at least and at most.
+/// The least and the largest number of corners for each point of the cloud.
 const CORNERS_PER_POINT: (f64, f64) = (1.0 / 32.0, 0.4);
-/// The share of the cloud's depth that the map may lose, where enough corners allow it.
+/// The share of the cloud's depth that the map may lose. A limited number of corners may
+/// make the loss larger.
 const LOSS: f64 = 0.035;
-/// The step of the sample of points that tells where the cloud is seen.
+/// The step of the sample of points that shows where the cloud is seen.
 const SAMPLE: usize = 64;
 /// Directions nearer than this to a cell's border, in cells, are not looked up. Rounding moves
 /// a direction by far less.
@@ -58,7 +61,7 @@ pub(super) struct DepthMap {
     cells_per_unit: f64,
     /// An upper bound of w at each corner; infinite where w is in doubt.
     heights: Vec<f64>,
-    /// How far K certainly reaches along each corner, and in the cells beside it.
+    /// How far K certainly reaches in the direction of each corner, and in the cells beside it.
     reaches: Vec<f64>,
     /// Where the rounded z·w is below this number, the exact one is below 1.
     limit: f64,
@@ -72,8 +75,8 @@ impl DepthMap {
         self.windows = Default::default();
     }
 
-    /// Makes the map of `hull` for the `wanted` points, about `count` of them; or an empty map
-    /// where a map would not pay.
+    /// Makes the map of `hull` for the `wanted` points. There are about `count` of them. The map
+    /// is empty where it would take more time than it saves.
     #[inline(never)]
     pub(super) fn make(
         &mut self,
@@ -122,7 +125,8 @@ impl DepthMap {
         Ok(())
     }
 
-    /// Marks the heights that are to be found with 0: those where blocks are seen, or all.
+    /// Writes 0 to each height that must be found: where blocks are seen, or everywhere if no
+    /// blocks are known.
     #[inline(never)]
     fn want_corners(&mut self, flipped: &Flipped) {
         if flipped.blocks.is_empty() {
@@ -170,12 +174,12 @@ impl DepthMap {
     #[inline]
     pub(super) fn hides(&self, flipped: &Flipped, index: u32) -> bool {
         let v = flipped.relative(index);
-        // But for roundings, q is v times a positive number.
+        // Except for roundings, q is v times a positive number.
         let (side, x, y, z) = place(v);
         let window = &self.windows[side];
         let x = (x - window.x) * self.cells_per_unit;
         let y = (y - window.y) * self.cells_per_unit;
-        // Out of range becomes 0 or large, NaN becomes 0; both fail below.
+        // A number out of range becomes 0 or large; NaN becomes 0. The checks below refuse both.
         let (column, row) = (x as u32, y as u32);
         let (x, y) = (x - f64::from(column), y - f64::from(row));
         const INNER: f64 = 0.5 - BORDER;
@@ -187,7 +191,7 @@ impl DepthMap {
         if !known {
             return false;
         }
-        // Only where it is known is the product in range.
+        // The product is in range only where the height is known.
         let corners = window.columns + 1;
         let low = window.first + row * corners + column;
         let high = low + corners;
@@ -377,11 +381,10 @@ fn cell_size(extents: &Extents, count: usize) -> Option<f64> {
     (LEAST_CELL..1.0).contains(&cell).then_some(cell)
 }
 
-/// A factor: K reaches at least this much of its reach along the corners in all directions of a
-/// cell. Let D be the
-/// largest distance between the corners as unit vectors, at most `cell`·√2: a convex
-/// combination Σλᵢuᵢ of four has the squared length 1 − ½ΣΣλᵢλⱼ|uᵢ − uⱼ|², and ½ΣΣλᵢλⱼ is at
-/// most ⅜.
+/// A factor f: in all directions of a cell, K reaches at least f times as far as along the
+/// corners. Let D be the largest distance between the corners as unit vectors; it is at most
+/// `cell`·√2. A convex combination Σλᵢuᵢ of the four corners has the squared length
+/// 1 − ½ΣΣλᵢλⱼ|uᵢ − uⱼ|², and ½ΣΣλᵢλⱼ is at most ⅜.
 fn shrink(cell: f64) -> f64 {
     square_root(larger(1.0 - 0.75 * cell * cell, 0.0)) * (1.0 - HEIGHT_ERROR)
 }

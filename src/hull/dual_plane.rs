@@ -1,4 +1,4 @@
-//! The dual plane of a face: one dot product tells the side of a point.
+//! The dual plane of a face: one dot product gives the side of a point.
 
 use glam::DVec3;
 
@@ -12,10 +12,10 @@ use glam::DVec3;
 /// - D: (4√2 + 3)·|u||w||p|, which shifts m·q by 4.4 κ·(m·q);
 /// - the division and the sum m·q − 1: 5·|m||q| + 1 ≤ 2.5 κ + 1.
 ///
-/// At m·q near 1 that is below 10 ε (1 + κ); `error` is twice that. Farther
-/// from the plane the error grows with |m·q|, but by less than 10⁻⁵ of it, so
-/// the sign stays right, also of the difference of two neighbors' m·q while one
-/// of them is between 0 and 1. L is [`Flip::reach`].
+/// Where m·q is near 1, the sum of these errors is below 10 ε (1 + κ). `error` is twice that.
+/// Farther from the plane the error grows with |m·q|, but by less than 10⁻⁵ of |m·q|. So the
+/// sign stays right. The sign of the difference of two neighbors' m·q stays right, too, while
+/// one of them is between 0 and 1. L is [`Flip::reach`].
 ///
 /// [`Flip::reach`]: crate::flip::inversion::Flip::reach
 #[derive(Clone, Copy)]
@@ -44,7 +44,7 @@ impl Plane {
         let volume = n.dot(p);
         let inverse = 1.0 / volume;
         let condition = 0.5 * (u.length_squared() + w.length_squared()) * reach * inverse;
-        // Written so that a NaN is refused too.
+        // The comparisons also refuse a NaN.
         if volume > MIN_VOLUME && volume < f64::MAX && condition < MAX_CONDITION {
             Self {
                 m: n * inverse,

@@ -1,9 +1,9 @@
 //! Signs of sums of determinants of any finite `f64`s, exact over their whole range.
 //!
 //! Kulisch's long accumulator: every product of three `f64`s is an integer multiple of
-//! 2^-3222 below 2^3072, so a fixed-point number of some 6,300 bits holds each exactly,
-//! and sums of a few. In WebAssembly this takes 1 kB; the three operations of a library of big
-//! integers took 26 kB.
+//! 2^-3222 below 2^3072. So a fixed-point number of some 6,300 bits holds each product
+//! exactly, and also sums of a few products. In WebAssembly this takes 1 kB; the three
+//! operations of a library of big integers took 26 kB.
 
 use core::cmp::Ordering;
 
@@ -12,7 +12,8 @@ const LIMB: usize = u64::BITS as usize;
 /// and carries of up to 2^30 products.
 const LIMBS: usize = (3 * 2045 + 159 + 30usize).div_ceil(LIMB);
 
-/// A sum of products. Positive and negative ones are kept apart, so that nothing is subtracted.
+/// A sum of products. Positive and negative products are kept apart, so that nothing is
+/// subtracted.
 pub(crate) struct ExactSum {
     positive: [u64; LIMBS],
     negative: [u64; LIMBS],
@@ -116,8 +117,8 @@ mod tests {
         &a[0] * minor(1, 2) - &a[1] * minor(0, 2) + &a[2] * minor(0, 1)
     }
 
-    /// Sums of determinants of `numbers`, which also cancel, have the signs that big
-    /// integers give them.
+    /// Checks that sums of determinants of `numbers` have the same signs as with big integers.
+    /// Some of these sums cancel.
     fn check(numbers: &[f64]) {
         let mut seed = 1u64;
         let mut pick = || {

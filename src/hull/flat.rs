@@ -53,7 +53,7 @@ fn spanned_axes(a: DVec3, b: DVec3) -> Option<[usize; 2]> {
         .find(|&axes| orient2d(ORIGIN, pick(a, axes), pick(b, axes)) != Sign::Zero)
 }
 
-/// On a line, the farthest flipped point of either side is visible.
+/// Marks the visible points on a line: the farthest flipped point of each side.
 fn mark_on_line(points: &[(DVec3, u32)], visible: &mut [bool]) {
     let Some(&(a, _)) = points.first() else {
         return;
@@ -71,8 +71,8 @@ fn mark_on_line(points: &[(DVec3, u32)], visible: &mut [bool]) {
     }
 }
 
-/// In a plane, the points on those edges of the convex hull of all points and
-/// the origin whose line misses the origin.
+/// Marks the visible points in a plane. K is the convex hull of all points and the origin.
+/// A point is visible if it is on an edge of K whose line misses the origin.
 fn mark_in_plane(
     points: &[(DVec3, u32)],
     [i, j]: [usize; 2],
@@ -85,7 +85,7 @@ fn mark_in_plane(
     let sorted = sorted_places(&places)?;
     let at = |k: u32| places[sorted[k as usize] as usize];
 
-    // One representative of equal points walks the hull.
+    // Only one of several equal points takes part in the hull.
     let mut distinct: Vec<u32> = Vec::new();
     let mut chain: Vec<u32> = Vec::new();
     distinct.try_reserve_exact(sorted.len())?;

@@ -36,7 +36,7 @@ impl Flipped<'_> {
         self.flip.apply(self.position(index))
     }
 
-    /// The same, not inlined: for callers that run rarely.
+    /// The same as `get`, but not inlined: for callers that run rarely.
     #[inline(never)]
     pub(super) fn get_out_of_line(&self, index: u32) -> Option<DVec3> {
         self.get(index)

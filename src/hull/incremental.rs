@@ -1,14 +1,13 @@
 //! The exact hull in space, point by point, with the viewpoint as ghost vertex.
 //!
 //! K = conv({q} ∪ {0}) is star-shaped around the viewpoint, so its outer faces
-//! triangulate directions: a point is hidden once it lies inside the face its
-//! ray pierces, and otherwise sees the faces that it will replace. Faces that
-//! hold the origin ("ghost faces") close the hull where no point is seen. They
-//! vanish when the viewpoint is inside the cloud, so inside and outside are one
-//! algorithm.
+//! triangulate the directions. A point is hidden as soon as it lies inside the face that
+//! its ray pierces. Otherwise it sees the faces that it will replace. Faces that hold the
+//! origin ("ghost faces") close the hull where no point is seen. They vanish when the
+//! viewpoint is inside the cloud. So one algorithm serves viewpoints inside and outside.
 //!
-//! Every decision is a sign: first of a rounded dual plane with a proved bound
-//! of its error (`plane`), then exact (`predicates`).
+//! Every decision is a sign. A rounded dual plane with a proved bound of its error gives the
+//! sign first (`plane`). In doubt, the sign is computed exactly (`predicates`).
 
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -32,7 +31,7 @@ pub(super) struct Hull {
 pub(super) struct Vertices {
     /// Flipped positions; the origin comes first.
     pub positions: Vec<DVec3>,
-    /// Which point of the cloud each one is; unused for the origin.
+    /// The point of the cloud that each vertex is; unused for the origin.
     pub points: Vec<u32>,
     /// Numbers that no face uses any more.
     pub free: Vec<Vertex>,
@@ -48,7 +47,7 @@ impl Vertices {
         reserve(&mut self.points, more)
     }
 
-    /// A number for the point `point`, flipped to `q`.
+    /// Gives a vertex number to the point `point`, which is flipped to `q`.
     pub(super) fn add(&mut self, point: u32, q: DVec3) -> Result<Vertex, OutOfMemory> {
         if let Some(vertex) = self.free.pop() {
             self.positions[vertex as usize] = q;
@@ -108,8 +107,8 @@ impl Vertices {
         !face.data.is_exact_only() || self.turns_outward(face.vertices)
     }
 
-    /// Whether three vertices are counter-clockwise as seen from outside by a ray
-    /// from the origin; exactly.
+    /// Whether three vertices are counter-clockwise, seen from outside towards the origin. The
+    /// answer is exact.
     #[cold]
     pub(super) fn turns_outward(&self, vertices: [Vertex; 3]) -> bool {
         let [a, b, c] = vertices.map(|v| self.at(v));
@@ -119,8 +118,8 @@ impl Vertices {
 
 impl Hull {
     /// Becomes the first tetrahedron: the origin and `corners`, counter-clockwise
-    /// seen from outside. Reserves memory for half of `count` vertices where it can, because
-    /// growing later holds two copies for a moment.
+    /// seen from outside. Reserves memory for half of `count` vertices where it can. A list
+    /// that grows later needs memory for two copies for a moment.
     pub(super) fn start(
         &mut self,
         corners: [(u32, DVec3); 3],
@@ -145,8 +144,8 @@ impl Hull {
         Ok(())
     }
 
-    /// Makes `q`, strictly outside face `start`, a vertex; returns one of its faces
-    /// that is outer. There is one, because the ray of a new vertex ends at it.
+    /// Makes a vertex of `q`, which is strictly outside of face `start`. Returns an outer face
+    /// of this vertex. There is one, because the ray of a new vertex leaves K there.
     pub(super) fn insert(
         &mut self,
         point: u32,
@@ -179,8 +178,8 @@ impl Hull {
             .map(|(id, _)| id)
     }
 
-    /// A vertex is visible when one of its faces has the origin strictly inside;
-    /// on ghost and edge-on faces alone, its ray stays in K beyond it.
+    /// Marks the visible vertices. A vertex is visible when one of its faces is outer. If all
+    /// its faces are ghost or edge-on faces, its ray stays in K beyond it.
     pub(super) fn mark_outer_vertices(&self, visible: &mut [bool]) {
         for (_, face) in self.surface.alive() {
             if self.vertices.is_outer(face) {
@@ -198,12 +197,12 @@ impl Hull {
         face.is_alive() && !face.data.is_exact_only()
     }
 
-    /// How many vertex numbers were ever given; the origin has the first.
+    /// How many vertex numbers were ever given. The origin has the first number.
     pub(super) fn vertex_count(&self) -> usize {
         self.vertices.points.len()
     }
 
-    /// Which point of the cloud a vertex is; not for the origin.
+    /// The point of the cloud that a vertex is. The vertex must not be the origin.
     pub(super) fn point(&self, vertex: Vertex) -> u32 {
         self.vertices.points[vertex as usize]
     }

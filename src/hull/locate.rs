@@ -1,5 +1,5 @@
-//! Walking on the hull: which face does a ray from the viewpoint pierce, and is
-//! a point on it outside?
+//! Walking on the hull: which face does a ray from the viewpoint pierce, and is a point on
+//! this ray outside of the hull?
 
 use glam::DVec3;
 
@@ -22,22 +22,23 @@ pub(super) enum Location {
 }
 
 impl Hull {
-    /// Walks from `hint`, an outer face, towards the face that the ray of `q`
-    /// pierces, by way of outer faces only: beyond a ghost or edge-on face, which
-    /// side of an edge is farther would have no meaning.
+    /// Walks from `hint`, an outer face, towards the face that the ray of `q` pierces. The walk
+    /// goes through outer faces only: beyond a ghost or edge-on face, the comparison of m·q
+    /// would have no meaning.
     ///
-    /// Two neighbors' dual planes agree on their edge, so which of m·q is the
-    /// larger tells on which side of that edge the ray passes, and the largest
-    /// m·q of all belongs to the face it pierces. If that one has q inside, all have.
+    /// The dual planes of two neighbors agree on their common edge. So the ray passes on the
+    /// side of that edge where m·q is larger, and the largest m·q of all belongs to the face
+    /// that the ray pierces. If q is inside of this face, it is inside of all faces.
     ///
-    /// Inside and on the boundary, the face returned is outer, too: the next hint.
+    /// For a point inside or on the boundary, the returned face is outer, too. It can be the
+    /// next hint.
     pub(super) fn locate(&self, q: DVec3, hint: FaceId) -> Location {
         #[cfg(debug_assertions)]
         self.assert_is_outer(hint);
         let mut id = hint;
         let mut height = self.surface.face(id).data.m.dot(q);
         for step in 0..PATIENCE + self.surface.slots() {
-            // The steps between two jumps double, so that every walk comes to its end.
+            // The number of steps between two jumps doubles, so that every walk ends.
             if step >= PATIENCE && step.is_power_of_two() && self.is_sound(id) {
                 id = self.jump(id, q, step);
                 height = self.surface.face(id).data.m.dot(q);
@@ -65,7 +66,7 @@ impl Hull {
                 id = steepest;
                 height = steepest_height;
             } else if height > 0.0 && bound < height - error {
-                // All three neighbors are certainly lower.
+                // m·q is certainly lower for all three neighbors.
                 return self.decide(id, q);
             } else if let Some(twin) = self.crossed_edge(face, q, step) {
                 id = twin.face();
@@ -83,9 +84,9 @@ impl Hull {
         self.search(q, id)
     }
 
-    /// The better of two faces to start a walk at: an outer face, and another number that
-    /// was kept over insertions. It may since be unused, or the number of a face far away,
-    /// of a ghost face or of one seen edge-on, so it is checked first.
+    /// The better of two faces to start a walk at. `hint` is an outer face; `other` is a number
+    /// that was kept over insertions. This number may now be unused. Its face may also be far
+    /// away, a ghost face or a face seen edge-on. So it is checked first.
     #[inline]
     pub(super) fn nearer_hint(&self, q: DVec3, hint: FaceId, other: FaceId) -> FaceId {
         if hint == other || !self.is_sound(other) {
@@ -100,11 +101,12 @@ impl Hull {
     }
 
     /// An upper bound of m·`direction` over the dual planes m of all outer faces, and the face to
-    /// start the next walk at. K contains `direction` divided by this bound. It is infinite where
-    /// it is in doubt, or where K does not reach that way. The length of `direction` is near 1.
+    /// start the next walk at. K contains `direction` divided by this bound. The bound is infinite
+    /// where it is in doubt, or where no outer face lies in this direction. The length of
+    /// `direction` is near 1.
     #[inline(never)]
     pub(super) fn height_along(&self, direction: DVec3, hint: FaceId) -> (FaceId, f64) {
-        // For the roundings of the last line.
+        // A bound of the roundings of the last line.
         const ROUNDING: f64 = 1e-15;
         let mut id = hint;
         let mut face = self.surface.face(id);
@@ -147,9 +149,9 @@ impl Hull {
             })
     }
 
-    /// Exactly, for near-ties: an edge of `face` beyond which the ray of `q` passes.
-    /// Which edge is tried first changes from step to step, or a walk could go
-    /// round in a circle of coplanar faces.
+    /// An edge of `face` beyond which the ray of `q` passes. It is found exactly, for cases where
+    /// two values of m·q are nearly equal. The edge that is tried first changes from step to
+    /// step. Otherwise a walk could go round in a circle of coplanar faces.
     #[cold]
     fn crossed_edge(&self, face: &Face<Plane>, q: DVec3, step: usize) -> Option<HalfEdge> {
         // The high bits of a product with the golden ratio look random.
@@ -160,9 +162,9 @@ impl Hull {
             .map(|edge| face.twins[edge])
     }
 
-    /// A better face than `id` to walk on from, after many steps. Walks are long only around a
-    /// vertex with very many faces. Samples faces so densely that a walk between two of them takes
-    /// about as many steps as there are samples.
+    /// Finds a better face than `id` for the rest of a long walk. Walks are long only around a
+    /// vertex with very many faces. The sample of faces is so dense that a walk between two of
+    /// them takes about as many steps as there are samples.
     #[cold]
     fn jump(&self, id: FaceId, q: DVec3, step: usize) -> FaceId {
         let slots = self.surface.slots();
@@ -190,7 +192,7 @@ impl Hull {
         }
     }
 
-    /// The answer of a rare walk without an end: looks at every face.
+    /// Answers for a walk that does not end, which is rare: looks at every face.
     #[cold]
     fn search(&self, q: DVec3, hint: FaceId) -> Location {
         let mut location = Location::Inside(hint);

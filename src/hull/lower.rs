@@ -4,9 +4,9 @@
 //!          infinitely far above.
 //! OUTPUT   for each point whether it is on the lower boundary of the hull: no point
 //!          of the hull with the same x, y has a smaller w. Exact.
-//! SUMMARY  As `incremental`, whose rays from the viewpoint are vertical lines here:
-//!          the lower boundary, seen along w, is a triangulation of the plane. Walks
-//!          in it cannot go in circles, because it is a regular one (Edelsbrunner: An
+//! SUMMARY  The same method as in `incremental`, but the rays are vertical lines. The
+//!          lower boundary, seen along w, is a triangulation of the plane. Walks in it
+//!          cannot go in circles, because it is a regular triangulation (Edelsbrunner: An
 //!          acyclicity theorem for cell complexes in d dimensions, 1990).
 
 use alloc::vec::Vec;
@@ -22,8 +22,8 @@ use crate::hull::predicates::{Sign, orient2d, side_of_face};
 /// The ghost vertex, infinitely far up.
 const ABOVE: Vertex = 0;
 
-/// Marks the points on the lower boundary among `count`; for a draft also others that are not
-/// above the boundary of one point in eight.
+/// Marks the points on the lower boundary among `count`. For a draft, it marks all points that
+/// are not above the boundary of one point in eight.
 pub(crate) fn mark_lower_boundary(
     count: u32,
     lifted: &dyn Fn(u32) -> DVec3,
@@ -44,8 +44,8 @@ fn turn(a: DVec3, b: DVec3, c: DVec3) -> Sign {
     orient2d([b.x, b.y], [a.x, a.y], [c.x, c.y])
 }
 
-/// Three among every `step`th point that are not above one line, counter-clockwise seen
-/// from below.
+/// Three points from the sample of every `step`th point, counter-clockwise seen from below.
+/// They do not all lie above one line.
 #[inline(never)]
 fn first_triangle(count: u32, step: usize, lifted: &dyn Fn(u32) -> DVec3) -> Option<[u32; 3]> {
     let points = || (0..count).step_by(step).map(|i| (i, lifted(i)));
@@ -78,7 +78,7 @@ fn mark_in_space(
     visible: &mut [bool],
 ) -> Result<(), OutOfMemory> {
     let mut hull = LowerHull::new(corners, lifted)?;
-    // On the boundary now; visible only if that is so at the end.
+    // Points on the boundary now. They are visible only if they are still on it at the end.
     let mut on_boundary: Vec<u32> = Vec::new();
     let mut hint = 0;
     let rounds = order::coarse_rounds().chain((!draft).then_some(order::last_round()));
@@ -97,7 +97,7 @@ fn mark_in_space(
         }
     }
     if draft {
-        // What is above the hull of one point in eight is above that of all.
+        // A point above the hull of one point in eight is above the hull of all points.
         for index in order::last_round().indices(count) {
             let (face, side) = hull.locate(lifted(index), hint);
             visible[index as usize] = side != Sign::Negative;
@@ -125,9 +125,9 @@ struct LowerHull {
 }
 
 struct Vertices {
-    /// Their places; unused for the ghost vertex, which comes first.
+    /// The place of each vertex; unused for the ghost vertex, which comes first.
     positions: Vec<DVec3>,
-    /// Which point of the cloud each one is; unused for the ghost vertex.
+    /// The point of the cloud that each vertex is; unused for the ghost vertex.
     points: Vec<u32>,
 }
 
@@ -172,8 +172,9 @@ impl LowerHull {
         })
     }
 
-    /// From the outer face `hint` to the one that is below or above `q`, and on which
-    /// side of it `q` is; or to an upright face that has `q` outside.
+    /// Walks from the outer face `hint` to the face that is below or above `q`. The walk may also
+    /// end at an upright face that has `q` outside. Returns the face, and the side on which `q`
+    /// is.
     fn locate(&self, q: DVec3, hint: FaceId) -> (FaceId, Sign) {
         let mut id = hint;
         // The edge that was crossed last need not be tried again.
@@ -190,15 +191,16 @@ impl LowerHull {
             };
             id = face.twins[edge].face();
             entered = face.twins[edge].edge();
-            // The plane of a ghost or upright face is the one of this edge, and q is
-            // strictly beyond it.
+            // The plane of a ghost or upright face is the upright plane through this edge,
+            // and q is strictly beyond it.
             if !self.vertices.is_outer(self.surface.face(id)) {
                 return (id, Sign::Positive);
             }
         }
     }
 
-    /// Makes `q`, strictly outside face `start`, a vertex; returns one of its outer faces.
+    /// Makes a vertex of `q`, which is strictly outside of face `start`. Returns an outer face of
+    /// this vertex.
     fn insert(&mut self, point: u32, q: DVec3, start: FaceId) -> Result<FaceId, OutOfMemory> {
         let vertex = self.vertices.positions.len() as Vertex;
         reserve(&mut self.vertices.positions, 1)?;
@@ -215,7 +217,7 @@ impl LowerHull {
     }
 }
 
-/// All points are above one line (or one point): the lower side of a polygon.
+/// Marks the points where all lie above one line or one point. The hull is a polygon then.
 fn mark_upright(
     count: u32,
     lifted: &dyn Fn(u32) -> DVec3,
@@ -224,7 +226,7 @@ fn mark_upright(
     if count == 0 {
         return Ok(());
     }
-    // A coordinate in which points differ that are not above each other.
+    // Points that are not above each other differ in this coordinate.
     let first = lifted(0);
     let by_x = (0..count).any(|i| lifted(i).x != first.x);
     let mut places: Vec<[f64; 2]> = with_capacity(count as usize)?;
@@ -236,7 +238,7 @@ fn mark_upright(
     }));
     let sorted = sorted_places(&places)?;
     let at = |k: u32| places[sorted[k as usize] as usize];
-    // Of equal first coordinates the lowest point alone can be on the lower side.
+    // Among points with equal first coordinates, only the lowest can be on the lower side.
     let count = sorted.len() as u32;
     let is_lowest = |&k: &u32| k == 0 || at(k - 1)[0] != at(k)[0];
     let mut chain: Vec<u32> = with_capacity(sorted.len())?;

@@ -15,7 +15,7 @@ use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, push};
 use crate::flip::inversion::Flip;
 
-/// The last view's hull, and room for the next one's. What it holds never changes
+/// The last view's hull, and room for the hull of the next view. Its content never changes
 /// an answer, as long as it is only used for one sequence of points.
 #[derive(Default)]
 pub(crate) struct Memory {
@@ -26,11 +26,11 @@ pub(crate) struct Memory {
     pub(super) visible: Vec<bool>,
     /// The face near which each point was located last: the start of its next walk.
     witnesses: Vec<FaceId>,
-    /// Whether `hull` is that of the last view.
+    /// Whether `hull` is the hull of the last view.
     pub(super) holds_hull: bool,
     /// Whether the last view started from the view before it.
     pub(super) moved: bool,
-    /// How much of the last hull may change before it is made anew rather than mended.
+    /// How much of the last hull may change before a new hull is made instead of mending it.
     patience: Patience,
     /// The flip of the last draft, if `hull` is its hull and `depth` its map. The next view may go
     /// on from there.
@@ -55,13 +55,15 @@ impl Memory {
         &self.witnesses
     }
 
-    /// The next views, until this memory forgets, are from the same viewpoint at other scales.
+    /// Expects the next views to be from the same viewpoint at other scales, until this memory
+    /// forgets.
     pub(crate) fn expect_other_scales(&mut self) {
         self.patience = Patience::GREAT;
     }
 
-    /// The next view is of a sample of `count` points, or of all. Forgets the last view if it was
-    /// of other points.
+    /// Prepares for a view of a sample of points, or of all points. `sample` is the number of
+    /// sampled points; it is `None` for all points. Forgets the last view if it was of other
+    /// points.
     pub(crate) fn see_sample(&mut self, sample: Option<usize>) {
         if self.sample != sample {
             self.forget();
@@ -69,7 +71,8 @@ impl Memory {
         }
     }
 
-    /// No later view starts by moving the last hull. A view may still go on from a draft.
+    /// Ensures that no later view starts by moving the last hull. A view may still go on from a
+    /// draft.
     pub(crate) fn forget_moves(&mut self) {
         self.holds_hull = false;
     }
@@ -92,8 +95,8 @@ impl Memory {
         Ok(())
     }
 
-    /// The last view's hull becomes that of the same vertices in this one, which are
-    /// then marked as visible, if that is faster than starting anew.
+    /// Moves the last view's hull to this view, if that is faster than a new hull. The vertices
+    /// of the moved hull are marked as visible. Returns whether the hull was moved.
     pub(super) fn move_hull(&mut self, flipped: &Flipped) -> Result<bool, OutOfMemory> {
         let moved =
             self.hull
@@ -123,14 +126,14 @@ impl Memory {
         Ok(())
     }
 
-    /// Maps the hull of the coarse rounds, which has its shape.
+    /// Makes the depth map of the hull of the coarse rounds. It has about its final shape.
     #[inline(never)]
     pub(super) fn make_map(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
         self.depth
             .make(&self.hull, flipped, flipped.len(), &|_| true)
     }
 
-    /// The points of the last round.
+    /// Adds the points of the last round.
     #[inline(never)]
     pub(super) fn add_last_round(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
         let Some(mut hint) = self.hull.outer_face() else {
@@ -151,8 +154,8 @@ impl Memory {
         Ok(())
     }
 
-    /// Every point, to a hull that was just started, of a cloud in one plane with the viewpoint
-    /// but for rounding.
+    /// Adds every point to a hull that was just started. Except for roundings, the cloud lies in
+    /// one plane with the viewpoint.
     #[inline(never)]
     pub(super) fn add_around(
         &mut self,
@@ -178,7 +181,8 @@ impl Memory {
         Ok(())
     }
 
-    /// Every point that is no vertex, to a hull that has mostly the right ones.
+    /// Adds every point that is no vertex to a moved hull. Most of its vertices are right
+    /// already.
     pub(super) fn add_to_moved_hull(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
         self.on_boundary.clear();
         self.depth
@@ -198,8 +202,8 @@ impl Memory {
         Ok(())
     }
 
-    /// Locates a point, from the better of two hints, and makes it a vertex if it is
-    /// outside; returns a face near it.
+    /// Locates a point from the better of two hints. Makes it a vertex if it is outside. Returns
+    /// a face near it.
     #[inline(never)]
     fn add(
         &mut self,
@@ -222,7 +226,7 @@ impl Memory {
         })
     }
 
-    /// Reads the complete hull, which the next view may start from.
+    /// Reads the complete hull. The next view may start from it.
     pub(super) fn finish(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
         #[cfg(debug_assertions)]
         self.hull.assert_is_hull();
@@ -230,8 +234,9 @@ impl Memory {
         self.mark_boundary(flipped)
     }
 
-    /// Marks what is on the hull's boundary of the points that were added. A point that was
-    /// found exactly on it is visible only if it still is; one at the viewpoint is in any case.
+    /// Marks the added points that are on the hull's boundary. A point that was found exactly on
+    /// the boundary is visible only if it is still there at the end. A point at the viewpoint is
+    /// always visible.
     #[inline(never)]
     pub(super) fn mark_boundary(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
         self.hull.mark_outer_vertices(&mut self.visible);

@@ -2,15 +2,15 @@
 //!
 //! INPUT    the last view's hull; the flip of the new view.
 //! OUTPUT   the exact hull, in the new view, of points that were vertices of the last
-//!          hull, and a list of these points; or the verdict that starting anew is faster.
+//!          hull, and a list of these points; or the verdict that a new hull is faster.
 //! SUMMARY  From a viewpoint close by, most faces are the same. So the vertices
-//!          are flipped anew and every face and edge is looked at. Faces that the
-//!          motion turned over are unfolded; edges that became reflex are flipped;
-//!          a vertex that stands in the way is taken out, to be located again like
-//!          any other point. A surface whose faces all turn outward, whose edges
-//!          are all convex and which covers one direction once is the hull, however
-//!          it was found. So nothing here can make an answer wrong: in doubt, the view
-//!          starts anew.
+//!          are flipped again and every face and edge is looked at. Faces that the
+//!          motion turned over are unfolded. Edges that became reflex are flipped.
+//!          A vertex that stands in the way is taken out, and located again later like
+//!          any other point. A surface is the hull if all faces turn outward, all edges
+//!          are convex and one direction is covered once. It does not matter how the
+//!          surface was found. So nothing here can make an answer wrong: in doubt, the
+//!          view starts with a new hull.
 
 use glam::DVec3;
 
@@ -22,13 +22,13 @@ use super::topology::{FaceId, HalfEdge, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::hull::predicates::{Sign, side_of_origin};
 
-/// How much of a hull may change before starting anew is faster than mending it.
+/// How much of a hull may change before a new hull is faster than mending the old one.
 #[derive(Clone, Copy)]
 pub(super) struct Patience {
-    /// Starting anew is faster where more than one face in this many has turned over.
+    /// A new hull is faster where more than one face in this many has turned over.
     few_turned: usize,
-    /// Starting anew is faster where more than one edge in this many has become reflex: in hulls of
-    /// few faces, and in hulls of very many.
+    /// A new hull is faster where more than one edge in this many has become reflex. The first
+    /// number is for hulls of few faces, the second for hulls of very many faces.
     few_reflex: usize,
 }
 
@@ -52,7 +52,7 @@ impl Patience {
     };
 }
 
-/// How many faces of the last hull are looked at to tell whether the views are close.
+/// How many faces of the last hull are looked at, to find out whether the views are close.
 const SAMPLE: usize = 512;
 /// A surface of more faces than this does not fit into the caches. Mending it then pays
 /// only where fewer edges have become reflex.
@@ -66,8 +66,8 @@ const FEWEST_FLIPS: usize = 64;
 const SPARE_EFFORT: usize = 1000;
 
 impl Hull {
-    /// Becomes the hull of its vertices as `flipped` now; false where the hull must
-    /// be started anew (what it is then has no meaning).
+    /// Becomes the hull of its vertices as `flipped` now. Returns false where a new hull must be
+    /// started; the old hull is unusable then.
     pub(super) fn move_to(
         &mut self,
         flipped: &Flipped,
@@ -95,8 +95,8 @@ impl Hull {
         }
         repair.effort = self.surface.slots() + SPARE_EFFORT;
         let mut flips_left = self.surface.slots() / FACES_PER_FLIP + FEWEST_FLIPS;
-        // What its neighbors prevent for one face is tried again when they are mended,
-        // in the end with more force.
+        // The neighbors of a face may prevent its repair. Then it is tried again after they are
+        // mended, in the end with more force.
         let mut force = false;
         while !repair.turned.is_empty() {
             let before = repair.turned.len();
@@ -127,8 +127,8 @@ impl Hull {
         self.settle(repair, is_vertex)
     }
 
-    /// Whether, in a sample, few faces turned over and few edges became reflex.
-    /// (With roundings: this only decides which way is faster.)
+    /// Whether, in a sample, few faces turned over and few edges became reflex. This is
+    /// computed with roundings, because it only decides which way is faster.
     fn looks_alike(&self, flipped: &Flipped, patience: Patience) -> bool {
         let slots = self.surface.slots();
         let at = |vertex: Vertex| flipped.get_out_of_line(self.vertices.points[vertex as usize]);
@@ -156,7 +156,7 @@ impl Hull {
         turned * patience.few_turned <= faces && reflex * few_reflex <= 3 * faces
     }
 
-    /// Each face's plane in the new view; lists turned faces and reflex edges.
+    /// Computes each face's plane in the new view. Lists turned faces and reflex edges.
     fn renew_planes(&mut self, repair: &mut Repair) -> Result<(), OutOfMemory> {
         repair.turned.clear();
         repair.suspects.clear();
@@ -167,8 +167,8 @@ impl Hull {
             }
             face.data = self.vertices.plane(face.vertices);
             let face = *face;
-            // All three neighbors at once, and each edge from both sides: a branch
-            // that goes either way at random costs more.
+            // All three neighbors are computed, so each edge is looked at from both sides. An
+            // unpredictable branch would cost more.
             let heights = face.twins.map(|twin| {
                 let across = self.surface.face(twin.face());
                 let apex = across.vertices[(twin.edge() + 2) % 3];
@@ -201,8 +201,8 @@ impl Hull {
     /// no face has.
     fn settle(&mut self, repair: &mut Repair, is_vertex: &mut [bool]) -> Result<bool, OutOfMemory> {
         let ray = self.vertices.inner;
-        // On which sides of two planes through the ray a vertex is: a face that is all
-        // on one side of either is not pierced. Roundings are far below the margin.
+        // The flags of a vertex hold its sides of two planes through the ray. A face that lies on
+        // one side of one of these planes is not pierced. Roundings are far below the margin.
         let margin = self.vertices.reach * 1e-12;
         let Some(axis) = ray.try_normalize() else {
             return Ok(false);

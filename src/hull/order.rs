@@ -28,13 +28,12 @@ impl Round {
     }
 }
 
-/// Rounds that sample the spatial order ever more densely: every 4096th point
-/// first, then every 512th not yet given, and so on, until each came once.
+/// All rounds except the last. Rounds sample the spatial order more and more densely: every
+/// 4096th point first, then every 512th point that is not yet given, and so on, until each
+/// point came once. Without the last round, one point in eight is given.
 ///
-/// The early rounds give the hull its shape with few points; inside a round
-/// neighbors in space follow each other, so each is found near the last one.
-///
-/// These are all rounds but the last: one point in eight.
+/// The early rounds give the hull its shape with few points. Inside a round, neighbors in
+/// space follow each other. So each point is found near the one before.
 pub(super) fn coarse_rounds() -> impl Iterator<Item = Round> + Clone {
     const STRIDES: [u32; 4] = [4096, 512, 64, COARSE];
     (0..STRIDES.len()).map(|round| Round {

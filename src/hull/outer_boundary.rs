@@ -1,4 +1,5 @@
-//! Which points are on the outer boundary: the view is moved, started anew, divided or flat.
+//! Finds the points on the outer boundary. There are four ways: the last hull is moved, a new
+//! hull is started, the view is divided, or all points are in one plane with the viewpoint.
 
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -14,8 +15,8 @@ use crate::cloud::blocks::Sphere;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
 
-/// Finds out which of `points`, flipped by `flip`, are visible: [`Memory::visible`]. In a divided
-/// view only the sector's own points are marked.
+/// Finds the visible points among `points`, flipped by `flip`. [`Memory::visible`] then holds
+/// them. In a divided view only the sector's own points are marked.
 #[inline(never)]
 pub(crate) fn mark_visible(
     points: &Points,
@@ -72,7 +73,7 @@ pub(crate) fn mark_visible(
     keep_own(division, memory)
 }
 
-/// Of a divided view that was answered as a whole, only the sector's own points stay marked.
+/// Leaves only the sector's own points marked, in a divided view that was answered as a whole.
 fn keep_own(division: Option<Division>, memory: &mut Memory) -> Result<(), OutOfMemory> {
     if let Some(division) = division {
         division.keep_own(&mut memory.visible);
@@ -80,8 +81,8 @@ fn keep_own(division: Option<Division>, memory: &mut Memory) -> Result<(), OutOf
     Ok(())
 }
 
-/// Marks a certain superset of the visible points, from the hull of one point in eight. The
-/// same view asked with [`mark_visible`] next goes on from there.
+/// Marks all visible points and some hidden ones, from the hull of one point in eight. If the
+/// same view is asked with [`mark_visible`] next, it goes on from this hull.
 #[inline(never)]
 pub(crate) fn mark_draft(
     points: &Points,
@@ -121,7 +122,8 @@ pub(crate) fn mark_draft(
     Ok(())
 }
 
-/// Three points to start a hull in space from, unless all is in one plane with the viewpoint.
+/// Three points that start a hull in space. `None` if all points are in one plane with the
+/// viewpoint.
 #[inline(never)]
 fn seed(flipped: &Flipped) -> Option<[(u32, DVec3); 3]> {
     if flipped.flip.keeps_in_plane(flipped.points) {
@@ -131,15 +133,16 @@ fn seed(flipped: &Flipped) -> Option<[(u32, DVec3); 3]> {
         .or_else(|| first_tetrahedron(flipped, 1))
 }
 
-/// Which of `points` are visible, for a single view.
+/// Whether each of `points` is visible, for a single view.
 pub(crate) fn visible_once(points: &Points, flip: &Flip) -> Result<Vec<bool>, OutOfMemory> {
     let mut memory = Memory::default();
     mark_visible(points, &[], flip, None, &mut memory)?;
     Ok(memory.visible)
 }
 
-/// The same, and the outer faces of the hull as triangles of points, counter-clockwise
-/// seen from the viewpoint; none where all is in one plane with the viewpoint.
+/// The same as [`visible_once`], and the outer faces of the hull as triangles of points,
+/// counter-clockwise seen from the viewpoint. There are no triangles where all points are in
+/// one plane with the viewpoint.
 pub(crate) fn triangulate_visible(
     points: &Points,
     flip: &Flip,
@@ -159,9 +162,9 @@ pub(crate) fn triangulate_visible(
     Ok((memory.visible, triangles))
 }
 
-/// Three among every `step`th point that span space with the origin, of a large
-/// determinant, in the order that makes it positive; `None` if those lie in one plane
-/// with the origin.
+/// Three points that span space with the origin, from the sample of every `step`th point.
+/// Their determinant is large, and their order makes it positive. `None` if the sample lies
+/// in one plane with the origin.
 #[inline(never)]
 fn first_tetrahedron(flipped: &Flipped, step: usize) -> Option<[(u32, DVec3); 3]> {
     let points = || {
@@ -176,8 +179,8 @@ fn first_tetrahedron(flipped: &Flipped, step: usize) -> Option<[(u32, DVec3); 3]
         let third = largest(points(), |q| normal.dot(q).abs())?;
         counter_clockwise(first, second, third)
     };
-    // In doubt (or where the products overflow): exactly, the first point off the
-    // line through `first`, then the first off their plane.
+    // In doubt, or where the products overflow, the search is exact. It takes the first point
+    // that is not on the line through `first`, then the first point that is not in their plane.
     let certain = || {
         let second = points().find(|&(_, q)| !flat::collinear_with_origin(first.1, q))?;
         points().find_map(|third| counter_clockwise(first, second, third))
@@ -185,7 +188,7 @@ fn first_tetrahedron(flipped: &Flipped, step: usize) -> Option<[(u32, DVec3); 3]
     likely().or_else(certain)
 }
 
-/// The three in the order that is counter-clockwise seen from outside, unless
+/// The three points in the order that is counter-clockwise seen from outside. `None` if
 /// they lie in one plane with the origin.
 fn counter_clockwise(
     a: (u32, DVec3),

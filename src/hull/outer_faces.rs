@@ -1,5 +1,5 @@
-//! What a complete hull tells besides who is visible: its outer faces as triangles of
-//! points, its edges, and the face by which the ray of any point leaves it.
+//! A complete hull gives more than the visible points: its outer faces as triangles of
+//! points, its edges, and the face through which the ray of any point leaves the hull.
 
 use alloc::vec::Vec;
 
@@ -16,16 +16,16 @@ use crate::flip::inversion::Flip;
 pub(crate) struct OuterFaces<'a> {
     hull: &'a Hull,
     flipped: Flipped<'a>,
-    /// Near which face each point was last seen.
+    /// The face near which each point was located last.
     witnesses: &'a [FaceId],
     /// Any outer face.
     first: FaceId,
 }
 
 impl Memory {
-    /// The outer faces of the hull of `points` as `flip` moves them, which was found last.
-    /// Points that are exactly on a face cut it. `None` where there is no hull, because
-    /// all is in one plane with the viewpoint.
+    /// The outer faces of the hull that was found last: the hull of `points` as `flip` moves
+    /// them. Points that are exactly on a face cut it. `None` where there is no hull, because
+    /// all points are in one plane with the viewpoint.
     pub(crate) fn outer_faces<'a>(
         &'a mut self,
         points: &'a Points,
@@ -59,7 +59,7 @@ impl OuterFaces<'_> {
             let [a, b, c] = corners.map(|vertex| hull.point(vertex));
             let twins = hull.surface.face(id).twins;
             let ends = [[a, b], [b, c], [c, a]];
-            // Of two outer faces the one with the lower number tells their edge.
+            // An edge between two outer faces is listed by the face with the lower number.
             let is_told = move |edge: &usize| {
                 let other = twins[*edge].face();
                 id < other || !hull.is_outer(other)
@@ -68,8 +68,8 @@ impl OuterFaces<'_> {
         })
     }
 
-    /// What stays known of them when the hull is gone: the triangles, and for each
-    /// `wanted` point by which its ray leaves the hull.
+    /// A copy that can be used after the hull is gone. It holds the triangles, and for each
+    /// `wanted` point the triangle through which its ray leaves the hull.
     pub(crate) fn snapshot(&self, wanted: &dyn Fn(usize) -> bool) -> Result<Snapshot, OutOfMemory> {
         let mut triangles = filled(self.hull.surface.slots(), [Snapshot::NONE; 3])?;
         let mut under = filled(self.flipped.len(), Snapshot::NONE)?;
@@ -106,10 +106,11 @@ impl OuterFaces<'_> {
 
 /// The outer faces of a hull that may be gone.
 pub(crate) struct Snapshot {
-    /// Their corners as points, by the number of the face; `NONE` for other numbers.
+    /// The corners of each outer face as points, by the number of the face; `NONE` for other
+    /// numbers.
     triangles: Vec<[u32; 3]>,
-    /// For each point a number of `triangles`, or `VERTEX`, or `NONE` for points at the
-    /// viewpoint and those not wanted.
+    /// For each point an index into `triangles`, or `VERTEX`. It is `NONE` for points at the
+    /// viewpoint and for points that are not wanted.
     under: Vec<u32>,
 }
 
@@ -117,7 +118,7 @@ pub(crate) struct Snapshot {
 pub(crate) enum Exit {
     /// At the point itself, which is a vertex.
     Vertex,
-    /// By the triangle of these points.
+    /// Through the triangle of these points.
     Triangle([u32; 3]),
     /// The point is at the viewpoint.
     Nowhere,
@@ -132,7 +133,7 @@ impl Snapshot {
         triangles.filter(|corners| corners[0] != Self::NONE)
     }
 
-    /// Of a point that was wanted.
+    /// The exit of a point that was wanted.
     pub(crate) fn exit(&self, point: usize) -> Exit {
         match self.under[point] {
             Self::VERTEX => Exit::Vertex,
@@ -143,8 +144,8 @@ impl Snapshot {
 }
 
 impl Hull {
-    /// Makes points that are exactly on an outer face vertices; not those that fall
-    /// together with one.
+    /// Makes vertices of the points that are exactly on an outer face. A point that coincides
+    /// with a vertex is left out.
     pub(super) fn cut_by(
         &mut self,
         on_boundary: &[u32],

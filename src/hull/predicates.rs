@@ -1,5 +1,5 @@
-//! Exact signs: of a rounded determinant where its error bound leaves no doubt, else of an
-//! exact sum.
+//! Exact signs. The sign of a rounded determinant is taken where its error bound leaves no
+//! doubt. Otherwise the sign of an exact sum is taken.
 //!
 //! Signs are defined from the viewer's side. The viewer stands at the origin, and
 //! a face (a, b, c) of the hull is counter-clockwise seen from outside.
@@ -38,20 +38,20 @@ impl Sign {
     }
 }
 
-/// Which side of the plane through the face (a, b, c) `q` is on: positive
-/// outside (the side from which a, b, c are counter-clockwise), zero on it.
+/// The side of the plane through the face (a, b, c) on which `q` is. Positive is outside:
+/// the side from which a, b, c are counter-clockwise. Zero is on the plane.
 #[inline(never)]
 pub(crate) fn side_of_face(a: DVec3, b: DVec3, c: DVec3, q: DVec3) -> Sign {
     let moderate = [a, b, c, q].iter().all(|p| is_moderate(&p.to_array()));
-    // det(c − q, b − q, a − q) is positive when q is below the plane of (c, b, a),
-    // which is our outside.
+    // det(c − q, b − q, a − q) is positive when q is below the plane of (c, b, a). This is
+    // the outside of (a, b, c).
     rounded_determinant(c - q, b - q, a - q, moderate)
         .unwrap_or_else(|| exact_side_of_face(a, b, c, q))
 }
 
-/// The sign of det(a, b, c): positive when a, b, c are clockwise seen from the
-/// origin (so that the face (a, b, c) turns its inner side to the viewer), zero
-/// when the three lie in one plane with the origin.
+/// The sign of det(a, b, c). It is positive when a, b, c are clockwise seen from the
+/// origin. Then the face (a, b, c) turns its inner side to the viewer. It is zero when the
+/// three lie in one plane with the origin.
 #[inline(never)]
 pub(crate) fn side_of_origin(a: DVec3, b: DVec3, c: DVec3) -> Sign {
     let moderate = [a, b, c].iter().all(|p| is_moderate(&p.to_array()));
@@ -110,7 +110,7 @@ fn is_moderate(coordinates: &[f64]) -> bool {
     })
 }
 
-/// The sign of det(c − q, b − q, a − q), of which no difference is rounded.
+/// The sign of det(c − q, b − q, a − q). No difference is rounded.
 fn exact_side_of_face(a: DVec3, b: DVec3, c: DVec3, q: DVec3) -> Sign {
     let [a, b, c, q] = [a, b, c, q].map(|p| p.to_array());
     let minus_q = q.map(|x| -x);
@@ -144,7 +144,7 @@ mod tests {
             z ^ z >> 31
         }
 
-        /// Small integers and their near misses, so that signs are often in doubt.
+        /// Small integers and numbers very close to them, so that signs are often in doubt.
         fn coordinate(&mut self) -> f64 {
             let whole = (self.next() % 7) as f64 - 3.0;
             match self.next() % 16 {

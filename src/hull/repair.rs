@@ -1,5 +1,5 @@
-//! Making a surface of triangles the hull of its vertices again, face by face and
-//! edge by edge, after they moved.
+//! The repair of a surface of triangles after its vertices moved. The repair goes face by
+//! face and edge by edge, until the surface is the hull of its vertices again.
 
 use alloc::vec::Vec;
 
@@ -19,19 +19,19 @@ pub(super) struct Repair {
     pub suspects: Vec<HalfEdge>,
     /// Faces that the motion turned over.
     pub turned: Vec<FaceId>,
-    /// What may still be spent on taking out vertices, in squares of their degrees.
+    /// The effort that is left for taking out vertices, in squares of their degrees.
     pub effort: usize,
     rim: Vec<Rim>,
     star: Vec<FaceId>,
     ring: Vec<Rim>,
     ears: Vec<usize>,
-    /// For each vertex, flags of `Hull::settle`.
+    /// Flags of each vertex, for `Hull::settle`.
     pub sides: Vec<u8>,
 }
 
 impl Hull {
-    /// Mends a face that turned over: mostly one vertex crossed the opposite edge
-    /// and came to lie over the neighbor, where flipping that edge mends it.
+    /// Mends a face that turned over. Mostly one vertex crossed the opposite edge and now
+    /// lies over the neighbor. Then flipping that edge mends the face.
     ///
     /// With `force`, vertices next to the face may be taken out, too.
     pub(super) fn unfold(
@@ -48,7 +48,7 @@ impl Hull {
             let [[c, _, d], _] = self.surface.flipped(edge);
             self.can_flip(edge) && !self.surface.are_joined(c, d, id)
         };
-        // Not by way of a ghost face if it can be helped: those fit too often.
+        // A flip that makes a ghost face is the last choice, because a ghost face fits too often.
         let is_inner = |&edge: &HalfEdge| {
             let [first, second] = self.surface.flipped(edge);
             !first.contains(&ORIGIN) && !second.contains(&ORIGIN)
@@ -124,8 +124,8 @@ impl Hull {
         self.vertices.side(face, self.vertices.at(apex)) == Sign::Positive
     }
 
-    /// Flips a reflex edge; where that would turn a face over, an end of the edge
-    /// is below the others and is taken out.
+    /// Flips a reflex edge. Where the flip would turn a face over, one end of the edge lies
+    /// below the other vertices. That end is taken out instead.
     pub(super) fn make_convex(
         &mut self,
         edge: HalfEdge,
@@ -160,7 +160,7 @@ impl Hull {
         c != d && faces.into_iter().all(|face| self.vertices.may_face(face))
     }
 
-    /// Takes `vertex`, one of `face`, out of the surface and fills the hole by ears.
+    /// Takes `vertex`, a corner of `face`, out of the surface and fills the hole by ears.
     fn take_out(
         &mut self,
         vertex: Vertex,
@@ -184,7 +184,7 @@ impl Hull {
             return Ok(false);
         };
         repair.effort = rest;
-        // First the plan, so that nothing has changed if there is none.
+        // The plan is made first. If there is no plan, nothing has changed.
         repair.ring.clear();
         reserve(&mut repair.ring, repair.rim.len())?;
         repair.ring.extend_from_slice(&repair.rim);
@@ -209,15 +209,16 @@ impl Hull {
         Ok(true)
     }
 
-    /// Where on a ring of vertices (the tails of `ring`) an ear can be cut off: a triangle
-    /// of three successive ones that turns outward and holds no other of the ring.
-    /// Where there is none, and the ring opens to the ghost faces, a ghost face.
+    /// Finds a place on a ring of vertices (the tails of `ring`) where an ear can be cut off.
+    /// An ear is a triangle of three successive vertices that turns outward and holds no other
+    /// vertex of the ring. If there is no ear and the ring holds the origin, a ghost face may
+    /// be cut off instead.
     fn ear(&self, ring: &[Rim]) -> Option<usize> {
         let corners = |ear: usize| [0, 1, 2].map(|i| ring[(ear + i) % ring.len()].tail);
         if ring.len() == 3 {
             return self.vertices.may_face(corners(0)).then_some(0);
         }
-        // Where two vertices are joined already, a second edge would be wrong.
+        // A second edge between two vertices that are already joined would be wrong.
         let is_new = |ear: usize| {
             let [tail, _, head] = corners(ear);
             !self
@@ -245,13 +246,14 @@ impl Hull {
 }
 
 impl Vertices {
-    /// Whether a face does not turn outward, or a ghost face not away from `inner`.
+    /// Whether a face does not turn outward. A ghost face is asked whether it does not turn
+    /// away from `inner`.
     #[inline]
     pub(super) fn is_turned(&self, face: &Face<Plane>) -> bool {
         face.data.is_exact_only() && !self.turns_right(face.vertices)
     }
 
-    /// Whether a face of these corners would turn as it should.
+    /// Whether a face with these corners would turn the right way.
     #[inline(never)]
     fn may_face(&self, corners: [Vertex; 3]) -> bool {
         !self.plane(corners).is_exact_only() || self.turns_right(corners)
@@ -276,7 +278,7 @@ impl Vertices {
 }
 
 impl Repair {
-    /// All edges of a face are to be looked at again.
+    /// Lists all edges of a face, to be looked at again.
     fn suspect(&mut self, face: FaceId) -> Result<(), OutOfMemory> {
         reserve(&mut self.suspects, 3)?;
         self.suspects

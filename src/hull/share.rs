@@ -1,35 +1,36 @@
-//! One sector's share of the hull: which of its own points are visible in the whole
-//! cloud, by a hull of far fewer points.
+//! One sector's share of the hull. It decides which of the sector's own points are visible
+//! in the whole cloud, with a hull of far fewer points.
 //!
-//! The hull is of the sector's own points, those near its seams and a sample of all
-//! others, which the rest, the *far* points, can only enlarge. So
+//! This hull holds the sector's own points, the points near its seams and a sample of all
+//! others. The points left out are the *far* points. They can only enlarge the hull. So
 //!
-//! - what it hides is hidden;
-//! - a vertex of an outer face that no far point lies above is visible: the plane
-//!   of that face supports all of K, with the origin strictly on its inner side.
+//! - a point that this hull hides is hidden;
+//! - if no far point lies above an outer face, the vertices of this face are visible: its
+//!   plane supports all of K, with the origin strictly on its inner side.
 //!
-//! That no point of a block lies above a face is mostly known from a bound of m·q
-//! over all of its directions. Blocks of which it is not known enter the hull, until
-//! every point is hidden or has such a face; in the end that may be all of them.
+//! A bound of m·q over all directions of a block mostly shows that no point of the block
+//! lies above a face. A block for which the bound does not show it enters the hull. This
+//! goes on until every own point is hidden or has such a face. In the worst case all
+//! blocks enter.
 //!
-//! An insertion puts new faces under the numbers of those that it replaces, and a new
-//! face may be a ghost face or seen edge-on, which tells nothing about what is visible:
-//! its corners may be hidden, and no walk may start at it. So three statements hold
-//! here, although face numbers are kept while blocks enter:
+//! An insertion gives new faces the numbers of the faces that it replaces. A new face may be
+//! a ghost face, or a face seen edge-on. Such a face does not show which points are
+//! visible: its corners may be hidden, and no walk may start at it. Face numbers are kept
+//! while blocks enter. Three statements hold all the same:
 //!
 //! - *Every hint is an outer face.* The first one is the face of the first tetrahedron.
-//!   A walk starts at an outer face, goes by way of outer faces, and returns an outer
-//!   one, as an insertion does. `settle_vertices` starts walks at faces that it kept.
-//!   It asks `is_open` immediately before, which is true of outer faces only.
-//! - *Every face that marks is outer*, for the same reason: `is_open` is asked about its
-//!   number, and no insertion comes between the answer and the mark.
-//! - *Every outer face with a vertex to be decided is in `open`*, so that none is left
-//!   out. At first the list is made of all faces. From then on outer faces only arise in
+//!   A walk starts at an outer face, goes through outer faces only, and returns an outer
+//!   face. An insertion returns an outer face, too. `settle_vertices` starts walks at faces
+//!   that it kept. It asks `is_open` immediately before, which is true of outer faces only.
+//! - *Every face whose vertices are marked is outer*, for the same reason: `is_open` is
+//!   asked about its number, and no insertion comes between the answer and the mark.
+//! - *Every outer face with an undecided vertex is in `open`*, so that no face is left
+//!   out. At first the list holds all faces. After that, new outer faces come only from
 //!   the fan of an insertion, and the whole fan enters the list. A number leaves the
-//!   list only when its face marks or is not open. Such a face stays not open until it
-//!   is replaced, because a marked vertex stays marked and a face does not turn. When the
-//!   list is empty, a vertex that is not marked has no outer face: its ray stays in K
-//!   beyond it.
+//!   list only when the vertices of its face are marked, or when its face is not open. Such
+//!   a face cannot become open before it is replaced, because a marked vertex stays marked
+//!   and a face does not turn. When the list is empty, a vertex that is not marked has no
+//!   outer face: its ray stays in K beyond it.
 
 use alloc::vec::Vec;
 
@@ -42,11 +43,12 @@ use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::cloud::blocks::BLOCK;
 use crate::hull::division::{Division, Role};
 
-/// Of the spatial order, every point whose place is a multiple of this is in the sample of the far ones.
+/// The step of the sample of the far points: a point is in it if its place in the spatial
+/// order is a multiple of this number.
 const SAMPLE: u32 = 512;
 
-/// Marks those of the sector's own points that are visible. The memory's hull is the
-/// first tetrahedron.
+/// Marks the visible points among the sector's own points. At the start, the memory's hull
+/// is the first tetrahedron.
 pub(super) fn mark_visible(
     memory: &mut Memory,
     flipped: &Flipped,
@@ -109,7 +111,8 @@ struct Share<'a> {
     visible: &'a mut [bool],
     /// An outer face.
     hint: FaceId,
-    /// Own vertices not marked yet; empty until the hull is of all near points.
+    /// Whether a vertex is an own point that is not marked yet. The list is empty until all
+    /// near points are in the hull.
     open_vertices: Vec<bool>,
     /// Own points found exactly on the boundary when they were added.
     on_boundary: Vec<u32>,
@@ -138,7 +141,7 @@ impl Share<'_> {
         Ok(matches!(location, Location::Outside(_)))
     }
 
-    /// Whether a number is that of an outer face with own vertices not marked yet.
+    /// Whether this is the number of an outer face that has own vertices not marked yet.
     #[inline]
     fn is_open(&self, face: FaceId) -> bool {
         let is_open = |&v: &Vertex| self.open_vertices[v as usize];
@@ -146,7 +149,8 @@ impl Share<'_> {
         corners.is_some_and(|corners| corners.iter().any(is_open)) && self.hull.is_outer(face)
     }
 
-    /// Own vertices of `face`, an outer one that no far point lies above, are visible.
+    /// Marks the own vertices of `face` as visible. `face` is an outer face, and no far point
+    /// lies above it.
     fn mark(&mut self, face: FaceId) {
         #[cfg(debug_assertions)]
         self.hull.assert_is_outer(face);
@@ -177,7 +181,7 @@ impl Share<'_> {
                 }
             }
         }
-        // Every open face is in `open`; some numbers there may be of other faces.
+        // Every open face is in `open`. The list may also hold numbers of other faces.
         let mut failed: Vec<(FaceId, u32)> = Vec::new();
         while !open.is_empty() {
             failed.clear();
@@ -193,7 +197,7 @@ impl Share<'_> {
             }
             open.clear();
             for &(face, block) in &failed {
-                // Not if a block that entered before has replaced it.
+                // A block that entered before may have replaced the face.
                 if self.is_open(face) {
                     push(&mut open, face)?;
                     self.hint = face;

@@ -1,5 +1,5 @@
-//! A closed triangulated surface as indices. This file knows no coordinates:
-//! what a face carries besides its indices is the caller's business.
+//! A closed triangulated surface as indices. This file uses no coordinates. The caller
+//! decides which data a face carries besides its indices.
 
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use alloc::vec::Vec;
@@ -46,8 +46,8 @@ impl HalfEdge {
     }
 }
 
-/// One triangle: vertices counter-clockwise seen from outside, and across each
-/// edge the half-edge that runs the other way.
+/// One triangle: its vertices, counter-clockwise seen from outside, and the twin of each
+/// edge. The twin is the half-edge across the edge that runs the other way.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Face<T> {
     pub vertices: [Vertex; 3],
@@ -61,13 +61,13 @@ impl<T> Face<T> {
         self.vertices[0] != NONE
     }
 
-    /// The vertices, the tail of `edge` first.
+    /// The vertices, beginning with the tail of `edge`.
     pub(crate) fn vertices_from(&self, edge: usize) -> [Vertex; 3] {
         let [a, b, c] = self.vertices;
         [[a, b, c], [b, c, a], [c, a, b]][edge]
     }
 
-    /// The twins, that of `edge` first.
+    /// The twins, beginning with the twin of `edge`.
     pub(crate) fn twins_from(&self, edge: usize) -> [HalfEdge; 3] {
         let [a, b, c] = self.twins;
         [[a, b, c], [b, c, a], [c, a, b]][edge]
@@ -130,7 +130,7 @@ impl<T: Copy> Surface<T> {
         Ok(())
     }
 
-    /// Makes room for `faces` faces, if it can be had; the surface can grow without.
+    /// Makes room for `faces` faces if there is enough memory. The surface can also grow later.
     pub(crate) fn reserve(&mut self, faces: usize) {
         let more = faces.saturating_sub(self.faces.len());
         let _ = self.faces.try_reserve_exact(more);
@@ -161,11 +161,12 @@ impl<T: Copy> Surface<T> {
         (0..).zip(&self.faces).filter(|(_, face)| face.is_alive())
     }
 
-    /// Opens a cavity, to be filled: the faces around `start` for which `conflicts` holds.
+    /// Opens a cavity of the faces around `start` for which `conflicts` holds. The caller then
+    /// fills it.
     ///
-    /// They must form a disk that holds `start`, and are
-    /// crossed depth-first and counter-clockwise, so that the horizon's edges
-    /// come out in cyclic order: each starts where the last one ended.
+    /// These faces must form a disk that holds `start`. They are visited depth-first and
+    /// counter-clockwise. So the horizon's edges come out in cyclic order: each edge starts
+    /// where the last one ended.
     pub(crate) fn find_cavity(
         &mut self,
         start: FaceId,
@@ -178,8 +179,8 @@ impl<T: Copy> Surface<T> {
         let [e0, e1, e2] = [0, 1, 2].map(|edge| HalfEdge::new(start, edge));
         self.crossings.extend([e2, e1, e0]);
         while let Some(crossing) = self.crossings.pop() {
-            // Faces of the cavity are dead from when they are entered, but keep
-            // their other indices, which are needed until the fan is built.
+            // A face of the cavity is dead as soon as it is entered. It keeps its other
+            // indices, which are needed until the fan is built.
             let from = &self.faces[crossing.face() as usize];
             let twin = from.twins[crossing.edge()];
             let across = &self.faces[twin.face() as usize];
@@ -191,7 +192,7 @@ impl<T: Copy> Surface<T> {
                 self.crossings.push(twin.next().next());
                 self.crossings.push(twin.next());
             } else {
-                // The edge as the face across sees it runs the other way.
+                // In the face across, the edge runs the other way.
                 let edge = twin.edge();
                 let tail = across.vertices[(edge + 1) % 3];
                 let head = across.vertices[edge];
@@ -218,7 +219,8 @@ impl<T: Copy> Surface<T> {
         Ok(())
     }
 
-    /// Opens a cavity of face `id` alone or, where there is an `edge`, of the two at it.
+    /// Opens a cavity of face `id` alone. If an `edge` is given, the cavity holds the two faces
+    /// at this edge.
     pub(crate) fn open_at(
         &mut self,
         id: FaceId,
@@ -239,7 +241,7 @@ impl<T: Copy> Surface<T> {
         self.enter(id)
     }
 
-    /// Adds edges, seen from inside, to the horizon.
+    /// Adds edges to the horizon. They are given as seen from inside the cavity.
     fn add_to_horizon<const COUNT: usize>(
         &mut self,
         edges: [HalfEdge; COUNT],
@@ -259,9 +261,9 @@ impl<T: Copy> Surface<T> {
         Ok(())
     }
 
-    /// Replaces the faces of the cavity by a fan from the new vertex `apex` to their
-    /// horizon, which [`Surface::fan`] then lists: in the cavity's own slots, then in free
-    /// ones, then in new ones.
+    /// Replaces the faces of the cavity by a fan from the new vertex `apex` to the horizon.
+    /// [`Surface::fan`] then lists the new faces. They take the cavity's own slots first, then
+    /// free slots, then new slots.
     pub(crate) fn fill_cavity(
         &mut self,
         apex: Vertex,
@@ -299,15 +301,14 @@ impl<T: Copy> Surface<T> {
             };
             self.faces[outside.face() as usize].twins[outside.edge()] = HalfEdge::new(slot, 0);
         }
-        // Vertices vanished with the cavity: fewer faces are needed than were there.
+        // Some vertices vanished with the cavity, so there are fewer faces than before.
         let spare = self.cavity.len() - count;
         reserve(&mut self.free, spare)?;
         self.free.extend(self.cavity.drain(count..));
         Ok(())
     }
 
-    /// The two triangles that flipping `edge` would make of its two, first the one
-    /// that holds the edge's tail.
+    /// The two triangles that a flip of `edge` would make. The first one holds the edge's tail.
     pub(crate) fn flipped(&self, edge: HalfEdge) -> [[Vertex; 3]; 2] {
         let [a, b, c] = self.face(edge.face()).vertices_from(edge.edge());
         let twin = self.face(edge.face()).twins[edge.edge()];
@@ -315,9 +316,10 @@ impl<T: Copy> Surface<T> {
         [[c, a, d], [d, b, c]]
     }
 
-    /// Replaces an edge by the other diagonal of its two triangles: the first of
-    /// [`Surface::flipped`] takes the slot of the edge's face, the second that of
-    /// its twin's. Their common edge is the last of both. Their data stay as they were.
+    /// Replaces an edge by the other diagonal of its two triangles. The first triangle of
+    /// [`Surface::flipped`] takes the slot of the edge's face, the second one the slot of the
+    /// twin's face. The common edge is the last edge of both. The data of both slots stay as
+    /// they were.
     pub(crate) fn flip(&mut self, edge: HalfEdge) {
         let [first, second] = self.flipped(edge);
         let slot = edge.face();
@@ -331,8 +333,8 @@ impl<T: Copy> Surface<T> {
         self.put(other, second, [db, bc, HalfEdge::new(slot, 2)]);
     }
 
-    /// The faces around vertex `hub`, counter-clockwise from `start`, which is one of
-    /// them: for each its number, the edge opposite to the hub, and what is outside.
+    /// The faces around vertex `hub`, counter-clockwise from `start`, which is one of them.
+    /// Returns the number of each face, and its edge opposite to the hub as an edge of a hole.
     pub(crate) fn around(
         &self,
         hub: Vertex,
@@ -360,10 +362,10 @@ impl<T: Copy> Surface<T> {
         self.around(hub, start).any(|(_, rim)| rim.tail == other)
     }
 
-    /// Cuts an ear off the hole with this `rim`: a triangle of rim edge `ear` and the
-    /// next, put into the dead slot `slot`. The rim closes behind it. Where the hole
-    /// is that triangle, it is filled and the rim's last edge is left as it was. The
-    /// slot's data stay as they were.
+    /// Cuts an ear off the hole with this `rim`. The ear is the triangle of rim edge `ear` and
+    /// the next rim edge. It is put into the dead slot `slot`, and the rim closes behind it. If
+    /// the hole is only that triangle, the hole is filled and the rim's last edge is left as it
+    /// was. The slot's data stay as they were.
     pub(crate) fn cut_ear(&mut self, rim: &mut Vec<Rim>, ear: usize, slot: FaceId) {
         let next = (ear + 1) % rim.len();
         let (first, second) = (rim[ear], rim[next]);
@@ -371,7 +373,7 @@ impl<T: Copy> Surface<T> {
         let closing = if rim.len() == 3 {
             rim[(ear + 2) % 3].outside
         } else {
-            // Not linked yet: whoever takes this rim edge will.
+            // This edge is not linked yet. The face that takes this rim edge links it.
             HalfEdge::new(slot, 2)
         };
         self.put(slot, vertices, [first.outside, second.outside, closing]);
@@ -383,7 +385,7 @@ impl<T: Copy> Surface<T> {
         rim.remove(next);
     }
 
-    /// Takes a face's slot out of the surface, for faces to come.
+    /// Takes a face's slot out of the surface. Later faces may use it.
     pub(crate) fn free(&mut self, slot: FaceId) -> Result<(), OutOfMemory> {
         reserve(&mut self.free, 1)?;
         self.faces[slot as usize].vertices[0] = NONE;

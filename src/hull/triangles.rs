@@ -12,8 +12,8 @@ use crate::hull::predicates::{Sign, side_of_origin};
 
 impl Hull {
     /// The outer faces, counter-clockwise seen from the viewpoint, every vertex set
-    /// once. Points that are exactly on a face, `on_boundary`, cut it; those that fall
-    /// together with a vertex have no triangle.
+    /// once. The points of `on_boundary` are exactly on a face, and cut it. A point that
+    /// coincides with a vertex has no triangle.
     pub(super) fn outer_triangles(
         &mut self,
         on_boundary: &[u32],
@@ -34,8 +34,8 @@ impl Hull {
         Ok(triangles)
     }
 
-    /// Cuts the outer face that `q` is exactly on, and where `q` is on an edge, the face
-    /// across, too; returns an outer face near `q`.
+    /// Cuts the outer face that `q` is exactly on. If `q` is on an edge, the face across is cut,
+    /// too. Returns an outer face near `q`.
     pub(super) fn cut(&mut self, point: u32, q: DVec3, id: FaceId) -> Result<FaceId, OutOfMemory> {
         let face = self.surface.face(id);
         let mut edges = (0..3).filter(|&edge| self.is_on_edge(face, edge, q));

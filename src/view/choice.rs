@@ -15,7 +15,7 @@ use crate::view::options::Radius;
 use crate::view::radius::{ChosenRadius, automatic, from_radius, given};
 use crate::view::search::{self, Seen};
 
-/// Tells which distinct points are visible from a place, flipped by a kernel.
+/// Computes which distinct points are visible from a place, flipped by a kernel.
 type Seeing<'a> = dyn Fn(&[f64], Kernel) -> Result<Vec<bool>, Error> + 'a;
 
 /// A cloud of any dimension, as far as a choice of R needs to know it.

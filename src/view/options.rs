@@ -9,14 +9,15 @@ pub enum Radius {
     /// farthest distance.
     #[default]
     Auto,
-    /// By antipodal search around the closed form of [`Radius::Auto`], with six hulls. Looking
-    /// back along the same rays should show exactly the hidden points; R is chosen so.
+    /// By antipodal search around the closed form of [`Radius::Auto`], with six hulls. A look
+    /// back along the same rays should show exactly the hidden points. The search takes the R
+    /// that comes nearest to this.
     Search,
     /// By the paper's own rule (§4), with about 40 hulls. C′ is the mirror image of the
     /// viewpoint C in the cloud's centroid. The rule takes the R for which the most points are
-    /// seen by exactly one of C and C′, the smallest of several. In perspective this R is
-    /// mostly far too large; the rule is offered for comparison. At the centroid it is
-    /// [`Radius::Auto`].
+    /// seen by exactly one of C and C′. If several R are equally good, it takes the smallest.
+    /// In perspective this R is mostly far too large; the rule is offered for comparison. At
+    /// the centroid it is [`Radius::Auto`].
     Opposite,
     /// R itself, in the cloud's units; at least the farthest distance.
     Absolute(f64),
@@ -51,10 +52,11 @@ pub enum Inversion {
     /// The smaller c is, the more points are visible. On a surface that faces the viewer it
     /// acts like R = d²/2c.
     Exponential(Exponential),
-    /// 2 or 3 looks: exact hulls of exp(c/d) with c from large to small in the cloud's
-    /// spacing, each of which decides only what it is sure of. Truer than one hull, but
-    /// no longer the operator of the paper: see [`PointCloud::visible_from`]. R has no
-    /// meaning for it, so the radius must be [`Radius::Auto`].
+    /// 2 or 3 looks: exact hulls of exp(c/d), with c from large to small in units of the
+    /// cloud's spacing. Each look decides only the points that it is sure of. The answer has
+    /// fewer errors than that of one hull, but it is not the operator of the paper: see
+    /// [`PointCloud::visible_from`]. R has no meaning here, so the radius must be
+    /// [`Radius::Auto`].
     ///
     /// [`PointCloud::visible_from`]: crate::PointCloud::visible_from
     Looks(usize),
@@ -80,26 +82,28 @@ pub struct Options {
     pub inversion: Inversion,
     /// For noisy clouds. Before the view, each point is projected on the least-squares plane of
     /// itself and its k nearest other points. Indices and the cloud's positions stay. Each
-    /// query computes this anew; for several queries, ask
+    /// query computes this again; for several queries, ask
     /// [`PointCloud::denoised`](crate::PointCloud::denoised) once.
     pub denoise: Option<usize>,
-    /// For noisy clouds. After the view, a point is visible when more than 0.4 of itself and its
-    /// k nearest other points are.
+    /// For noisy clouds. A point counts as visible if, after the view, more than 0.4 of itself and
+    /// its k nearest other points are visible.
     pub vote: Option<usize>,
-    /// How sure the answer is, too: [`Visibility::scores`](crate::Visibility::scores).
-    /// With [`Inversion::Looks`] and one viewpoint only.
+    /// Whether the answer also holds scores, which show how sure it is:
+    /// [`Visibility::scores`](crate::Visibility::scores). Scores need [`Inversion::Looks`] and a
+    /// single viewpoint.
     pub scores: bool,
-    /// An early answer: contains all that is visible, with the same radius, and some of what
-    /// is hidden. What it leaves out is hidden for certain. Takes about half of the time;
-    /// from an [`Observer`](crate::Observer) the same view without `draft` goes on from it.
-    /// Not with [`Radius::Search`] or [`Radius::Opposite`], whose choice takes longer, nor
-    /// where the whole hull is needed ([`Error::NoDraft`]).
+    /// Whether to give an early answer. It contains all visible points, with the same radius,
+    /// and some hidden points. Points that it leaves out are certainly hidden. It takes about
+    /// half of the time. With an [`Observer`](crate::Observer), the same view without `draft`
+    /// goes on from it. [`Radius::Search`] and [`Radius::Opposite`] allow no draft, because
+    /// their choice takes longer. There is also no draft where the whole hull is needed
+    /// ([`Error::NoDraft`]).
     pub draft: bool,
-    /// Only an even sample of so many points takes part: the answer is that of a cloud of the
-    /// sampled points alone, its own spacing and farthest distance included. Of equal points
-    /// all are sampled or none. The sample depends on the set of points alone; a smaller one
-    /// is part of a larger one. Chosen anew for each query, unless the cloud is
-    /// [prepared](crate::PointCloud::prepare_for) for it.
+    /// The number of points that take part, as an even sample. The answer is the same as that of
+    /// a cloud of the sampled points alone, with its own spacing and farthest distance. Equal
+    /// points are all sampled, or none of them. The sample depends on the set of points alone. A
+    /// smaller sample is part of a larger one. Each query chooses the sample again, unless the
+    /// cloud is [prepared](crate::PointCloud::prepare_for) for it.
     pub sample: Option<usize>,
 }
 
@@ -109,7 +113,7 @@ impl Options {
         !self.draft && self.sample.is_none()
     }
 
-    /// Refuses a draft of what `option` asks for.
+    /// Refuses a draft of the answer that `option` asks for.
     pub(crate) fn refuse_draft(&self, option: &'static str) -> Result<(), Error> {
         if self.draft {
             return Err(Error::NoDraft { option });
@@ -135,8 +139,8 @@ impl Options {
         matches!(self.inversion, Inversion::Looks(_))
     }
 
-    /// Refuses looks for what is asked of one hull: `other`, as the JavaScript package
-    /// calls it.
+    /// Refuses looks for a question that needs one hull. `other` is this question, as the
+    /// JavaScript package calls it.
     pub(crate) fn refuse_looks(&self, other: &'static str) -> Result<(), Error> {
         if self.asks_for_looks() {
             return Err(Error::LooksWith { other });

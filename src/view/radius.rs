@@ -13,7 +13,7 @@ pub struct ChosenRadius {
     pub radius: f64,
     /// log₁₀(R ÷ farthest distance), the paper's parameter; 0 where the farthest distance is 0.
     pub exponent: f64,
-    /// How many hulls were spent choosing R.
+    /// How many hulls the choice of R took.
     pub evaluations: u32,
 }
 
@@ -27,7 +27,7 @@ impl ChosenRadius {
         }
     }
 
-    /// The larger radius of two views, with the hulls that both spent.
+    /// The larger radius of two views, with the number of hulls of both choices.
     pub(crate) fn joined(self, other: Self) -> Self {
         let larger = if other.radius > self.radius {
             other

@@ -14,7 +14,7 @@ use crate::view::radius::{self, ChosenRadius};
 /// times the error of the best R of each view.
 const SPACINGS_IN_SCALE: f64 = 0.07;
 
-/// A view that can be computed: options became numbers.
+/// A view that is ready to be computed: its options are numbers.
 pub(crate) struct View {
     pub flip: Flip,
     pub chosen: ChosenRadius,
@@ -23,8 +23,7 @@ pub(crate) struct View {
 }
 
 impl PointCloud {
-    /// Refuses options that every viewpoint would be refused with. For queries without any
-    /// viewpoint.
+    /// Refuses options that are refused for every viewpoint. Queries without a viewpoint use it.
     pub(crate) fn check_options(&self, options: &Options) -> Result<(), Error> {
         if let Some(k) = options.vote {
             self.check_neighbors("vote", k)?;
@@ -112,7 +111,7 @@ pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inve
     match options.inversion {
         Inversion::Spherical => Ok(Inversion::Spherical),
         Inversion::Power(power) => {
-            // Written so that a NaN is refused too.
+            // The comparison also refuses a NaN.
             if !(power > 1.0 && power <= 16.0) {
                 return Err(Error::PowerInvalid { power });
             }
@@ -132,10 +131,10 @@ pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inve
     }
 }
 
-/// What looks are no answer to.
+/// The name of a question that looks cannot answer.
 const ONE_HULL: &str = "a question about one hull";
 
-/// How many looks are asked for, if any; refused in excluded company.
+/// How many looks are asked for, if any. Refuses looks together with options that exclude them.
 pub(crate) fn looks(options: &Options) -> Result<Option<usize>, Error> {
     match options.inversion {
         Inversion::Looks(count) => {
@@ -154,7 +153,7 @@ pub(crate) fn looks(options: &Options) -> Result<Option<usize>, Error> {
     }
 }
 
-/// Where there is no spacing, any scale gives the same answer.
+/// The scale as a number. Where there is no spacing, any scale gives the same answer.
 fn resolved_scale(scale: Exponential, spacing: f64) -> Result<f64, Error> {
     match scale {
         Exponential::Auto if spacing > 0.0 => {

@@ -100,8 +100,8 @@ const FINE: [f64; 3] = [0.25, 0.125, 0.0625];
 /// descends a gradient; here the optimum is bracketed, because the objective is a step
 /// function.
 ///
-/// `least` is the farthest distance from either. `look` counts the points that C and C′ see
-/// with some radius. `None` where no radius is possible.
+/// `least` is the larger of the farthest distances from C and from C′. `look` counts the points
+/// that C and C′ see with some radius. Returns `None` where no radius is possible.
 pub(crate) fn opposite(
     least: f64,
     farthest: f64,

@@ -22,8 +22,7 @@ struct Answer {
     radius: f64,
     exponent: f64,
     evaluations: f64,
-    /// c of the exponential inversion or of each look, which may have been chosen;
-    /// otherwise 0.
+    /// The scale c of the exponential inversion or of each look, given or chosen; otherwise 0.
     scales: [f64; 3],
 }
 

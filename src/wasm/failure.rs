@@ -17,7 +17,7 @@ pub(super) struct Failure {
 }
 
 impl Failure {
-    /// The number belongs to no cloud, or no longer does.
+    /// The number does not belong to a cloud, or its cloud was freed.
     pub(super) const DISPOSED: Self = Self {
         code: "disposed",
         problem: "disposed",

@@ -1,8 +1,9 @@
 //! The JavaScript bindings: check, copy in, call, copy out, map errors.
 //!
 //! Clouds stay in wasm, and JavaScript holds a number for each. So a number from an instance
-//! that was given up can never free memory of the next instance. Typed arrays arrive as JavaScript objects, never as `&[f32]`: the glue
-//! would copy those before any code here runs, and trap where memory is refused.
+//! that was given up can never free memory of the next instance. Typed arrays arrive as
+//! JavaScript objects, never as `&[f32]`. The glue would copy a `&[f32]` before any code here
+//! runs, and trap where memory is refused.
 
 mod answer;
 mod cloud_options;

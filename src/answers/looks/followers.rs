@@ -6,7 +6,7 @@ use super::look::{Verdict, Verdicts};
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::cloud::neighbors::{Nearest, Neighbors};
 
-/// How many nearest points are asked.
+/// How many of the nearest points are asked.
 const VOTERS: usize = 16;
 /// How many of them must be decided at least.
 const DECIDED: usize = 2;

@@ -17,7 +17,7 @@ const BEHIND: f64 = 1.0;
 /// A hull vertex counts as visible only if c is at least this many local spacings of the vertices
 /// beside it. A hull that is too loose for its samples has vertices behind the surface.
 const RING: f64 = 0.02;
-/// The score of a point that surface hides or not, by its depth in local spacings:
+/// The score of a point whose ray crosses surface, by its depth in local spacings:
 /// [`SURE`] / (1 + exp((depth − [`HALF`]) / [`SOFT`])).
 const SURE: f64 = 0.97;
 const HALF: f64 = 1.2;
@@ -28,7 +28,7 @@ const UNKNOWN: f64 = 0.2;
 /// The settings of one look.
 pub(super) struct Look {
     pub flip: Flip,
-    /// Its c.
+    /// The scale c of its hull.
     scale: f64,
     /// The score of its vertices.
     score: f64,
@@ -47,8 +47,8 @@ impl Look {
 /// The result of one look.
 pub(super) enum Outcome {
     Hull(Snapshot),
-    /// All is in one plane with the viewpoint: there are no triangles. For each point
-    /// whether it is visible there.
+    /// All points are in one plane with the viewpoint, so there are no triangles. The list
+    /// holds for each point whether it is visible.
     Flat(Vec<bool>),
 }
 
@@ -90,7 +90,7 @@ pub(super) struct Verdicts<'a> {
     /// The local spacing of every point.
     spacing: &'a [f64],
     pub of: Vec<Verdict>,
-    /// Empty where nobody asked.
+    /// Empty unless scores are asked for.
     scores: Vec<f32>,
     /// Room for a look.
     rings: Vec<Ring>,
@@ -204,7 +204,7 @@ impl<'a> Verdicts<'a> {
         // Where the plane crosses the ray, in units of the point's distance.
         let crossing = normal.dot(a) / normal.dot(ray);
         let depth = (1.0 - crossing) * distance / size;
-        // Not a number where the triangle is seen edge-on: then it hides.
+        // This is NaN where the triangle is seen edge-on. Then the triangle hides the point.
         let exponent = ((depth - HALF) / SOFT).clamp(-50.0, 50.0);
         self.decide(
             point,
@@ -221,7 +221,7 @@ impl<'a> Verdicts<'a> {
         DVec3::from_array(self.points.get(point)) - self.viewpoint
     }
 
-    /// The answer; what is still undecided is hidden.
+    /// The answer. A point that is still undecided is hidden.
     pub(super) fn finish(self) -> Result<Seen, OutOfMemory> {
         let mut visible = filled(self.of.len(), false)?;
         for (visible, verdict) in visible.iter_mut().zip(&self.of) {

@@ -1,14 +1,14 @@
-//! Two or three looks at one cloud: exact hulls of exp(c/d) from tight to loose, each of
-//! which decides only the points that it is sure of.
+//! Two or three looks at one cloud. Looks are exact hulls of exp(c/d), from tight to loose.
+//! Each look decides only the points that it is sure of.
 //!
-//! INPUT    distinct points, a viewpoint, how many looks.
+//! INPUT    distinct points, a viewpoint, the number of looks.
 //! OUTPUT   for each point whether it is visible, and a score if asked for.
 //! SUMMARY  A tight hull (a large c) closes the gaps between samples of a surface, but
 //!          also bridges gaps that are no surface. A loose hull (a small c) follows the
-//!          samples. So a look lets a triangle of its hull hide points only where its
-//!          corners, back in their places, are as near to each other as samples are
-//!          (`look`). The loosest hull tells how near samples are (`spacing`). A point that
-//!          no look decides follows its neighbors (`followers`).
+//!          samples. So a triangle of a hull may hide points only if its corners, back in
+//!          their places, are as near to each other as samples are (`look`). The loosest
+//!          hull shows how near samples are (`spacing`). A point that no look decides
+//!          follows its neighbors (`followers`).
 
 mod followers;
 mod look;
@@ -23,13 +23,13 @@ use crate::hull::{self, Memory};
 use followers::follow;
 use look::{Look, Outcome, Seen, Verdicts};
 
-/// c of each look in the cloud's spacing, from tight to loose. Two looks leave out the
-/// middle one. The error is flat around them: twice or half of any changes it little.
+/// The scale c of each look as a share of the cloud's spacing, from tight to loose. Two looks
+/// leave out the middle one. Twice or half of any of these values changes the error little.
 const SHARES: [f64; 3] = [0.28, 0.07, 0.02];
 /// The score of a hull vertex, by look.
 const SCORES: [f64; 3] = [0.97, 0.94, 0.8];
 
-/// The c of each of `count` looks at a cloud of this spacing; 0 for those beyond.
+/// The c of each of `count` looks at a cloud of this spacing. The remaining numbers are 0.
 pub(crate) fn scales(count: usize, spacing: f64) -> [f64; 3] {
     // Without a spacing there is one point at most, and any scale gives the same answer.
     let spacing = if spacing > 0.0 { spacing } else { 1.0 };
@@ -41,14 +41,14 @@ pub(crate) fn scales(count: usize, spacing: f64) -> [f64; 3] {
     scales
 }
 
-/// Which of the three looks is number `number` of `count`.
+/// The place, among the three looks, of look `number` of `count`.
 fn place(count: usize, number: usize) -> usize {
     if count == 2 { 2 * number } else { number }
 }
 
 impl PointCloud {
-    /// Looks `count` times from `viewpoint`, which is checked here, in the room of
-    /// `memory`.
+    /// Looks `count` times from `viewpoint`. The viewpoint is checked here. The hulls are built in
+    /// the room of `memory`.
     pub(crate) fn look_again(
         &self,
         memory: &mut Memory,
@@ -67,17 +67,17 @@ impl PointCloud {
             let score = SCORES[place(count, number)];
             Look::new(viewpoint, scales[number], score)
         };
-        // The first hull is made anew: which triangles a hull has where points are on one
-        // sphere must not depend on what was asked before.
+        // The first hull is always a new one. Where points are on one sphere, several choices of
+        // triangles are right. The choice must not depend on earlier questions.
         memory.forget();
         let first = looks(0);
         hull::mark_visible(points, blocks, &first.flip, None, memory)?;
         let tight = Outcome::of(memory, points, &first.flip, &|_| true)?;
-        // From one look to the next few points change: each hull becomes the next.
+        // From one look to the next only a few points change. So each hull is moved to the next.
         memory.expect_other_scales();
 
-        // The loosest hull comes second, because it tells the spacing by which the first
-        // is judged. What that decides needs no other.
+        // The loosest hull comes second, because it gives the spacing by which the first is
+        // judged. A point that the first hull decides needs no other hull.
         let last = looks(count - 1);
         hull::mark_visible(points, blocks, &last.flip, None, memory)?;
         let spacing = {

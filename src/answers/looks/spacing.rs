@@ -1,5 +1,5 @@
-//! How near each other the samples of a surface are, told by the edges of a hull: no
-//! search for neighbors, and none of the points behind the surface count.
+//! The distance between neighboring samples of a surface, measured by the edges of a hull. It
+//! needs no search for neighbors, and the points behind the surface do not count.
 
 use alloc::vec::Vec;
 
@@ -10,14 +10,14 @@ use crate::cloud::neighbors::distance_squared;
 use crate::cloud::points::Points;
 use crate::hull::OuterFaces;
 
-/// How many shortest edges of a vertex count.
+/// The number of edges of a vertex that count: its shortest ones.
 const EDGES: usize = 3;
 /// Their mean times this factor is the mean distance to the nearest points, on scanned surfaces.
 const SHARE: f64 = 0.9;
 
-/// The local spacing of every point: [`SHARE`] × the mean of its three shortest edges in
-/// the hull, and for points that are not on it the median of these. Where there is no
-/// hull, the cloud's own spacing.
+/// The local spacing of every point. For a point on the hull, it is [`SHARE`] × the mean of its
+/// three shortest edges in the hull. For other points, it is the median of these spacings.
+/// Where there is no hull, it is the cloud's own spacing.
 pub(super) fn local(
     points: &Points,
     faces: Option<&OuterFaces>,

@@ -182,7 +182,7 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// `direction` = the shares of the basis that make up `point`.
+    /// Sets `direction` to the shares of the basis that make up `point`.
     fn aim(&mut self, point: usize) {
         let place = self.at(point);
         let rows = self.inverse.chunks_exact(self.rank);

@@ -52,7 +52,7 @@ impl Rows {
         self.starts.len()
     }
 
-    /// Distinct point `point`, counted by coordinates.
+    /// The coordinates of distinct point `point`, in the order by coordinates.
     pub(super) fn at(&self, point: usize) -> &[f64] {
         self.row(self.order[self.starts[point] as usize])
     }

@@ -5,7 +5,7 @@ use glam::DVec3;
 use crate::base::real::square_root;
 use crate::cloud::blocks::Sphere;
 
-/// A bound of the error of all roundings in a bound, relative to its largest term.
+/// A limit of the error of all roundings in a bound, relative to the bound's largest term.
 pub(super) const MARGIN: f64 = 1e-12;
 
 /// Bounds of a group of flipped points: their directions lie within an angle around `axis`, and
@@ -20,11 +20,12 @@ pub(super) struct Cone {
 }
 
 impl Cone {
-    /// Of the points in `sphere`, seen from `viewpoint` and flipped at R = `diameter`/2.
+    /// The cone of the points in `sphere`, seen from `viewpoint` and flipped with
+    /// R = `diameter`/2.
     pub(super) fn of(sphere: &Sphere, viewpoint: DVec3, diameter: f64) -> Self {
         let v = DVec3::from_array(sphere.center) - viewpoint;
         let distance = square_root(v.dot(v));
-        // Squares must not have underflowed. Written so that a NaN is refused, too.
+        // Squares must not have underflowed. The comparison also refuses a NaN.
         if distance > 1e-100 && sphere.radius < 0.5 * distance {
             let sin = sphere.radius / distance;
             Self {
@@ -47,11 +48,11 @@ impl Cone {
         self.sin == 1.0
     }
 
-    /// At least the largest m·q, for m of this `length`.
+    /// An upper bound of m·q. `length` is the length of m.
     pub(super) fn bound(&self, m: DVec3, length: f64) -> f64 {
         let along = m.dot(self.axis);
         let across = positive_root(length * length - along * along);
-        // The largest of m·u in the cone: |m| if it holds the direction of m.
+        // The largest m·u in the cone. It is |m| if the cone holds the direction of m.
         let largest = if self.is_everywhere() || along * self.sin >= across * self.cos {
             length
         } else {
@@ -60,7 +61,7 @@ impl Cone {
         (largest + MARGIN * length) * self.reach
     }
 
-    /// At most the least n·u in the cone, for a unit vector n.
+    /// A lower bound of n·u in the cone, for a unit vector n.
     pub(super) fn least(&self, n: DVec3) -> f64 {
         let along = n.dot(self.axis);
         let across = positive_root(1.0 - along * along);
@@ -71,7 +72,7 @@ impl Cone {
     }
 }
 
-/// √x, 0 for what rounding made negative.
+/// √x, or 0 where rounding made x negative.
 pub(super) fn positive_root(x: f64) -> f64 {
     if x > 0.0 { square_root(x) } else { 0.0 }
 }

@@ -50,8 +50,8 @@ impl Fan {
             angles: Vec::new(),
             clearance: 0.0,
         };
-        // Each with the work that its block stands for. Sorted by their bits, which for
-        // numbers from 0 on are in their order.
+        // Each angle comes with the work that its block stands for. The angles are sorted by
+        // their bits. For numbers that are not negative, this is the order of the numbers.
         let mut angles: Vec<(u64, u32)> = with_capacity(SAMPLES)?;
         let work = |&seen: &bool| if seen { SEEN } else { 1 };
         angles.extend(
@@ -69,7 +69,7 @@ impl Fan {
         fan.clearance = BAND * sines / angles.len().max(1) as f64;
         fan.angles.try_reserve_exact(count)?;
         if count == 2 {
-            // One plane, so that each side is at most a half of all directions.
+            // The first seam is one plane, so that each side is at most a half of all directions.
             let first = halving(&angles);
             fan.angles.extend([first, first + 2.0]);
         } else {
@@ -102,7 +102,7 @@ impl Fan {
     pub(super) fn sector_of(&self, u: DVec3) -> usize {
         let angle = self.angle(u);
         let passed = self.angles.iter().filter(|&&seam| seam <= angle).count();
-        // Before the first seam it is the last sector.
+        // A direction before the first seam belongs to the last sector.
         (passed + self.angles.len() - 1) % self.angles.len()
     }
 
@@ -124,13 +124,14 @@ impl Fan {
     }
 }
 
-/// How far beyond a seam points are far, in mean radii of the blocks as seen.
+/// The width of the band beyond a seam, in mean radii of the blocks as seen. Points beyond
+/// the band are far.
 const BAND: f64 = 1.0;
 /// The work of a visible point; the work of a hidden one is 1.
 const SEEN: u32 = 4;
 
-/// The angle below 2 for which half of the work is less than 2 above it. `angles` are
-/// ascending, with the work up to each.
+/// The angle a below 2 for which half of the work lies between a and a + 2. `angles` are
+/// ascending, each with the work up to it.
 fn halving(angles: &[(u64, u32)]) -> f64 {
     let until = |end: f64| {
         let count = angles.partition_point(|&(bits, _)| f64::from_bits(bits) < end);

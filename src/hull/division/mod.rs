@@ -1,11 +1,12 @@
 //! One view divided among several workers: by the direction in which points are seen.
 //!
-//! INPUT    a cloud's blocks, a viewpoint and a radius; which sector of how many.
+//! INPUT    a cloud's blocks, a viewpoint and a radius; the number of the sector, and the
+//!          number of all sectors.
 //! OUTPUT   for each block, whether it is the sector's own, near it or far from it,
 //!          the same in every worker; and bounds of m·q over the far blocks.
 //! SUMMARY  The directions are cut by half-planes that meet in a line through the
-//!          viewpoint, and every block belongs to the sector of its center. Any
-//!          division is right (see `hull::share`); this one has short seams.
+//!          viewpoint. Every block belongs to the sector of its center. Any division gives
+//!          the right answer (see `hull::share`). This division has short seams.
 
 mod cone;
 mod fan;
@@ -21,7 +22,8 @@ use crate::cloud::blocks::{BLOCK, Blocks, FANOUT};
 
 /// One of several sectors that a view is divided into.
 ///
-/// Each can be asked in a thread of its own, and needs nothing of the others; see [`PointCloud::visible_in_sector`](crate::PointCloud::visible_in_sector).
+/// Each sector can be asked in a thread of its own. It needs nothing from the others. See
+/// [`PointCloud::visible_in_sector`](crate::PointCloud::visible_in_sector).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sector {
     pub(crate) number: u32,
@@ -56,13 +58,14 @@ pub(crate) enum Role {
 
 /// How one sector sees the cloud.
 pub(crate) struct Division {
-    /// One for each block.
+    /// The role of each block.
     pub roles: Vec<Role>,
     /// The cones of the blocks and of the nodes above them.
     levels: Vec<Vec<Cone>>,
     /// How many blocks below each node are far.
     far: Vec<Vec<u32>>,
-    /// Every far direction u has n·u ≥ `clearance` for one of these n.
+    /// The normals n of the two seams. Every far direction u has n·u ≥ `clearance` for one of
+    /// them.
     seams: [DVec3; 2],
     clearance: f64,
     /// √(1 − clearance²)
@@ -82,7 +85,7 @@ impl Division {
             .map(|block| (block * BLOCK) as u32)
     }
 
-    /// `ahead` is a place in the cloud's middle; `seen` are the visible ones of the sample.
+    /// `ahead` is a place in the cloud's middle; `seen` are the visible points of the sample.
     pub(crate) fn new(
         blocks: &Blocks,
         viewpoint: DVec3,
@@ -160,7 +163,7 @@ impl Division {
         Ok(())
     }
 
-    /// Whether point `index` of the spatial order is this sector's to decide.
+    /// Whether this sector decides about point `index` of the spatial order.
     #[inline]
     pub(crate) fn owns(&self, index: u32) -> bool {
         self.roles[index as usize / BLOCK] == Role::Own
@@ -181,7 +184,7 @@ impl Division {
         }
     }
 
-    /// At least the largest m·q of all far points, at the price of a few products.
+    /// An upper bound of m·q over all far points. It takes a few products only.
     #[inline]
     pub(crate) fn bound_of_all(&self, m: DVec3) -> f64 {
         let squared = m.dot(m);
@@ -206,8 +209,8 @@ impl Division {
         (largest + MARGIN * length) * self.reach
     }
 
-    /// Of the far blocks in which m·q may not be below `limit`, the one that m·q may be
-    /// largest in; `None` if it is below in all.
+    /// The far block in which m·q may be largest. `None` if m·q is below `limit` in all far
+    /// blocks.
     #[inline(never)]
     pub(crate) fn most_in_the_way(
         &self,
@@ -240,7 +243,7 @@ impl Division {
         Ok(most)
     }
 
-    /// The points of a far block have been put into the hull.
+    /// Notes that the points of a far block have been put into the hull.
     pub(crate) fn enter(&mut self, block: u32) {
         self.roles[block as usize] = Role::Entered;
         for (level, far) in self.far.iter_mut().enumerate() {
