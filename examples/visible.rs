@@ -1,8 +1,8 @@
 //! Writes the visible points of a raw cloud to a file that other programs can read:
 //! `cargo run --release --example visible -- FILE X,Y,Z EXPONENT OUT`
 //!
-//! FILE holds little-endian `f32` x y z; OUT receives the visible points' indices,
-//! ascending, as little-endian `u32`. Prints the radius.
+//! FILE holds little-endian `f32` x y z. OUT receives the indices of the visible points,
+//! ascending, as little-endian `u32`. The program prints the radius.
 
 use std::error::Error;
 

@@ -1,7 +1,7 @@
-//! Scanned clouds: the Stanford dragon at its four resolutions and the bunny, from
-//! outside and inside, against certificates: a supporting plane for every checked
-//! visible point, an enclosing triangle for every hidden one (see
-//! `core/common/certify.rs`). No stored counts, no other hull.
+//! Answers on scanned clouds: the Stanford dragon at its four resolutions and the bunny, from
+//! outside and inside. They are compared with certificates: a supporting plane for every
+//! checked visible point, an enclosing triangle for every checked hidden point (see
+//! `core/common/certify.rs`). The test uses no stored counts and no other hull.
 #![cfg(not(target_arch = "wasm32"))]
 
 use std::collections::BTreeSet;
@@ -18,8 +18,8 @@ use common::flip::flip;
 use common::rng::Rng;
 use scans::{bunny, dragon};
 
-/// Checks `samples` visible and as many hidden points, and whatever lies within
-/// rounding of the faces that prove them.
+/// Checks `samples` visible points and as many hidden points. Also checks every point that is
+/// on one of the proving faces up to rounding.
 fn check(points: &[[f32; 3]], samples: usize) {
     let cloud = PointCloud::new(points).expect("an acceptable cloud");
     let wide: Vec<[f64; 3]> = points.iter().map(|p| p.map(f64::from)).collect();
@@ -58,7 +58,8 @@ fn check_view(title: &str, q: &[[f64; 3]], mask: &[u8], samples: usize) {
     let certifier = Certifier::new(q);
     let mut rng = Rng::new(q.len() as u64);
     let (mut visible, mut hidden) = (BTreeSet::new(), BTreeSet::new());
-    // Neighbors in the file are neighbors in the scan: the borders of what is seen.
+    // Neighbors in the file are neighbors in the scan. If only one of them is visible, they are at
+    // the border of the visible part.
     for _ in 0..q.len() * 20 {
         let i = rng.below(q.len() - 1);
         let border = mask[i] != mask[i + 1];

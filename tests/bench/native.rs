@@ -1,9 +1,9 @@
 //! Times the native build: `bench_native FILE f32|f64 < TASKS`
 //!
-//! FILE holds raw little-endian x y z. Each line of TASKS asks at one exponent,
-//! `EXPONENT RUNS x y z`. Paths follow, `/ x y z x y z …`: a viewpoint that is not timed,
-//! and then the viewpoints of the motion. Each line is answered by one line of JSON, the
-//! `Outcome` of measure.ts, which explains the measurements.
+//! FILE holds raw little-endian x y z. Each line of TASKS is a question with one exponent,
+//! `EXPONENT RUNS x y z`. In the same line, paths may follow, `/ x y z x y z …`: a viewpoint
+//! that is not timed, and then the viewpoints of the motion. The answer to each line is one line
+//! of JSON, the `Outcome` of measure.ts. That file explains the measurements.
 
 use std::collections::HashMap;
 use std::fmt::Write;

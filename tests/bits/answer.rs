@@ -39,7 +39,7 @@ impl fmt::Display for Answer {
     }
 }
 
-/// Takes the parts of an answer: several views, a mesh, brightness.
+/// Collects the parts of an answer: several views, a mesh, brightness.
 pub struct Collector {
     digest: Digest,
     count: usize,
@@ -82,7 +82,7 @@ impl Collector {
         self.list(triangles.iter().flatten().map(|&i| u64::from(i)));
     }
 
-    /// The brightness of every point; those that are lit at all add to the count.
+    /// The brightness of every point. Each point that gets any light adds to the count.
     pub fn brightness(&mut self, brightness: &[f32]) {
         self.count += brightness.iter().filter(|&&x| x > 0.0).count();
         self.floats(brightness);

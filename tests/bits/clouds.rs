@@ -1,4 +1,5 @@
-//! Clouds beside the scenes of the core's tests: thin, of all magnitudes, large.
+//! More clouds than the scenes of the core's tests: thin clouds, clouds of all magnitudes, and
+//! large clouds.
 
 use hidden_point_removal::PointCloud;
 
@@ -34,7 +35,8 @@ impl Subject {
     }
 }
 
-/// Straight, flat or on one ray but for rounding, seen from beside and from within.
+/// Clouds that are straight, flat or on one ray except for rounding, seen from beside and from
+/// within.
 pub fn thin() -> Vec<(String, Subject)> {
     let start = [0.3, -0.7, 1.1];
     let place = |t: f64, s: f64| {
@@ -48,7 +50,7 @@ pub fn thin() -> Vec<(String, Subject)> {
     let plane: Points = plane.collect();
     let ray = (0..200).map(|_| [1.7, 0.9, -2.3].map(|x| x * rng.between(1.0, 11.0)));
     let ray: Points = ray.collect();
-    // A survey of level ground, to millimeters, in map coordinates.
+    // A survey of level ground in map coordinates, rounded to millimeters.
     let ground = (0..400).map(|_| {
         let millimeters = |x: f64| (x * 1000.0).round() / 1000.0;
         let [x, y] = [0.0, 0.0].map(|_| millimeters(rng.between(0.0, 100.0)));

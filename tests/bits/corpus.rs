@@ -1,8 +1,8 @@
-//! The same questions on every platform: `cargo run --profile quick --example bits_corpus`.
+//! Asks the same questions on every platform: `cargo run --profile quick --example bits_corpus`.
 //!
-//! Prints one line a case, `name digest count radius`: a digest of the whole answer, how many
-//! points are visible (or lit), and the bits of the radius (`-` where the answer has none). The
-//! last line is a digest of all. `npm run bits` compares the lines of many platforms.
+//! Prints one line for each case, `name digest count radius`: a digest of the whole answer, how
+//! many points are visible (or lit), and the bits of the radius (`-` if the answer has none). The
+//! last line is a digest of all cases. `npm run bits` compares the lines of many platforms.
 //!
 //! Every point and viewpoint comes from exactly rounded arithmetic, so that all platforms ask
 //! the same. Dimensions 4 and higher are left out: their answers are only promised to within

@@ -20,14 +20,14 @@ pub fn exponential() -> Options {
     with_kernel(Inversion::Exponential(Exponential::Auto))
 }
 
-/// A scale of its own: a third of the distance to some point.
+/// An exponential inversion with a given scale: a third of the distance to some point.
 pub fn exponential_of(subject: &Subject) -> Options {
     let distance = distance(subject.target(), subject.viewpoint);
     let scale = if distance > 0.0 { distance / 3.0 } else { 0.3 };
     with_kernel(Inversion::Exponential(Exponential::Scale(scale)))
 }
 
-/// With scores.
+/// Options for several looks, with scores.
 pub fn looks(count: usize) -> Options {
     Options {
         scores: true,

@@ -1,4 +1,4 @@
-//! All that a cloud can be asked.
+//! All questions that a cloud can be asked.
 
 use hidden_point_removal::{
     Inversion, Lighting, NonFinite, Options, PointCloud, PointCloud2d, Radius, Sector, Visibility,
@@ -48,7 +48,7 @@ pub const QUESTIONS: &[Question] = &[
     ("plane", plane),
 ];
 
-/// Those that take the most different ways through the code.
+/// The questions whose ways through the code differ most.
 pub const LARGE: &[Question] = &[
     ("auto", |s| view(s, &Options::default())),
     ("exponent_3", |s| view(s, &Options::with_exponent(3.0))),
@@ -122,7 +122,7 @@ fn sectors(subject: &Subject, counts: &[u32]) -> Answer {
     answer.finish()
 }
 
-/// Three parts, of which one point in eight is in two.
+/// Three parts of the cloud. One point in eight is in two parts.
 fn merge(subject: &Subject) -> Answer {
     let radius = expected(subject.cloud.auto_radius(subject.viewpoint, Radius::Auto)).radius;
     let mut rng = Rng::new(8);
@@ -146,7 +146,7 @@ fn merge(subject: &Subject) -> Answer {
     answer.finish()
 }
 
-/// Views that follow each other, most of them found from the last.
+/// Views that follow each other. Most of them start from the view before.
 fn walk(subject: &Subject) -> Answer {
     let mut answer = Collector::new();
     let mut observer = subject.cloud.observer();

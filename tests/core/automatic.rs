@@ -162,7 +162,7 @@ fn it_is_the_farthest_distance_where_there_is_no_spacing() {
 
 #[test]
 fn an_overflow_is_clamped() {
-    // The distances fit into a float; their squares divided by the spacing do not.
+    // The distances fit into an `f64`; their squares divided by the spacing do not.
     let mut points = vec![[1e150, 0.0, 0.0], [0.0, 1e150, 0.0], [0.0, 0.0, 1e150]];
     points.extend([[1e-200, 0.0, 0.0], [0.0, 1e-200, 0.0]]);
     let (radius, exponent) = automatic(&points, [-1e153, 0.0, 0.0]);

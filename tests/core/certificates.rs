@@ -1,5 +1,5 @@
-//! The crate against exact certificates on clouds that are too large for the
-//! oracle; and the certificates against the oracle.
+//! Compares the crate with exact certificates on clouds that are too large for the oracle.
+//! Also compares the certificates with the oracle.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -7,7 +7,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 use crate::common::scenes::{KINDS, Scene};
 use crate::common::{ask, indices_of, oracle, proved};
 
-/// Every point of the scene: the crate's answer and the proved one.
+/// Compares the crate's answer with the proved answer, for every point of the scene.
 fn check(name: &str, seed: u64, scene: &Scene) {
     let answer = ask(&scene.points, scene.viewpoint, &scene.options);
     let expected = proved(&scene.points, scene.viewpoint, answer.radius());

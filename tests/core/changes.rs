@@ -13,7 +13,7 @@ use crate::common::shapes;
 const NAN: f64 = f64::NAN;
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
 
-/// A cloud, and the point of every index that was ever given.
+/// A cloud, and the point that belongs to each index that the cloud ever gave out.
 struct Changed {
     cloud: PointCloud,
     present: Vec<Option<[f64; 3]>>,
@@ -65,7 +65,7 @@ impl Changed {
         }
     }
 
-    /// Some of the indices ever given, sometimes with one of them twice.
+    /// Some of the indices that the cloud ever gave out, sometimes with one of them twice.
     fn some_indices(&self, rng: &mut Rng) -> Vec<u32> {
         let count = rng.below(self.present.len() / 2 + 1);
         (0..count)

@@ -94,7 +94,7 @@ fn the_farther_of_two_points_on_one_ray_is_hidden() {
 
 #[test]
 fn points_whose_flips_round_together_share_one_answer() {
-    // 2R − d has lost every digit that told these two apart.
+    // The rounded 2R − d is the same for the first two points.
     let points = [
         [0.0, 0.0, 1.0],
         [0.0, 0.0, 2.0],
@@ -111,8 +111,8 @@ fn points_whose_flips_round_together_share_one_answer() {
 
 #[test]
 fn points_on_a_facet_or_an_edge_are_visible() {
-    // Equal distances keep the lattice when R is that distance: q = v. Six points
-    // of x = 2 make one facet; the others close the solid around the viewpoint.
+    // All points have the distance 3. With R = 3, q = v, so the flipped points stay on the
+    // lattice. Points with x = 2 make one facet; the others close the solid around the viewpoint.
     let mut points = Vec::new();
     for [a, b, c] in [[1.0, 2.0, 2.0], [2.0, 1.0, 2.0], [2.0, 2.0, 1.0]] {
         for signs in 0..8 {
@@ -126,7 +126,8 @@ fn points_on_a_facet_or_an_edge_are_visible() {
 
 #[test]
 fn points_in_the_middle_of_an_edge_and_a_facet_are_visible() {
-    // Flipped with R = 3: (3,±3,±3) the corners, (3,0,3) mid-edge, (3,0,0) mid-face.
+    // Flipped with R = 3: (3,±3,±3) are the corners of a facet, (3,0,3) is the middle of an
+    // edge, and (3,0,0) is the middle of the facet.
     let targets: [[f64; 3]; 7] = [
         [3.0, 3.0, 3.0],
         [3.0, 3.0, -3.0],
@@ -167,7 +168,7 @@ fn a_distance_that_vanishes_in_f64_counts_as_at_the_viewpoint() {
         seen(&points, [0.0; 3], &Options::with_exponent(1.0)),
         [0, 1]
     );
-    // d > 0, but (2R − d)/d overflows: the same.
+    // d > 0, but (2R − d)/d overflows. The point counts as at the viewpoint, too.
     let points = [[1e-150, 0.0, 0.0], [1e150, 0.0, 0.0], [1e149, 0.0, 0.0]];
     assert!(flip(points[0], [0.0; 3], 1e160).is_none());
     assert_eq!(

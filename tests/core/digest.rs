@@ -45,7 +45,7 @@ fn answers_and_radii_are_the_same_bits_everywhere() {
     assert_eq!(digest.0, EXPECTED, "got {:#x}", digest.0);
 }
 
-/// The same for operations that need more than a square root, or that make a choice.
+/// The digest of operations that need more than a square root, or that make a choice.
 const EXPECTED_OF_THE_REST: u64 = 0xfde9_4d0a_eae9_f485;
 
 #[test]

@@ -1,5 +1,5 @@
-//! Orthographic views: the lower boundary of the lifted points, and the limit of
-//! viewpoints that recede.
+//! Orthographic views. They are compared with the lower boundary of the lifted points, and
+//! with views from viewpoints that move farther and farther away.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -53,7 +53,7 @@ fn integers_along_the_axes_are_answered_by_the_definition() {
     for case in 0..400 {
         let half = rng.integer(1, 4);
         let n = rng.below(14);
-        // Whole planes, lines and columns, too.
+        // Some clouds lie in one plane, line or column.
         let flat = rng.below(8);
         let points: Vec<[f64; 3]> = (0..n)
             .map(|_| {
@@ -136,7 +136,7 @@ fn automatic_bend(points: &[[f64; 3]]) -> f64 {
         let viewpoint = [0.0, 0.0, z];
         cloud.auto_radius(viewpoint, Radius::Auto).unwrap().radius
     };
-    // The second difference of 5/s·(z² + …).
+    // R is 5/s·(z² + …). Its second difference over z gives 5/s.
     (radius(1e3) - 2.0 * radius(0.0) + radius(-1e3)) / 2e6
 }
 

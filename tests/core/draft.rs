@@ -1,5 +1,5 @@
-//! Drafts: certain supersets, the same ones whatever was asked before, and exact answers that
-//! go on from them.
+//! Drafts. A draft is a certain superset of the visible points. It does not depend on earlier
+//! questions. An exact answer can go on from it.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -14,7 +14,7 @@ use crate::common::scenes::{EXTREME, KINDS};
 use crate::common::shapes::{self, Points};
 use crate::common::walk::Walk;
 
-/// Enough for a map of directions.
+/// Enough points for a map of directions.
 const MANY: usize = 6000;
 
 fn drafted(options: Options) -> Options {
@@ -120,7 +120,7 @@ fn what_was_asked_before_changes_no_draft() {
     for step in 0..60 {
         walk.step(&mut rng);
         if rng.chance(3) {
-            // A moved view, or a draft that nothing goes on from.
+            // A moved view, or a draft without an exact answer after it.
             let options = Options {
                 draft: rng.chance(2),
                 ..walk.options
@@ -219,8 +219,8 @@ fn sampled(count: usize) -> Options {
     }
 }
 
-/// Which indices a sample of `count` takes: all of them are visible at a viewpoint inside a
-/// sphere.
+/// The indices that a sample of `count` points takes. The cloud must be a sphere: from a
+/// viewpoint inside it, all sampled points are visible.
 fn sample_of(cloud: &PointCloud, count: usize) -> Vec<u32> {
     let options = Options {
         radius: Radius::Exponent(9.0),
@@ -264,7 +264,7 @@ fn smaller_samples_are_part_of_larger_ones_in_any_order_of_the_points() {
 #[test]
 fn a_sample_answers_as_a_cloud_of_its_points() {
     let mut rng = Rng::new(8);
-    // The sphere tells which indices are sampled, in the order of the same cloud.
+    // Seen from inside the sphere, every sampled point is visible. So the answer is the sample.
     let points = shapes::sphere(&mut rng, 5000);
     let mut cloud = PointCloud::new(&points).expect("an acceptable cloud");
     let taken = sample_of(&cloud, 700);

@@ -36,7 +36,7 @@ fn a_point_one_rounding_error_inside_a_side_through_the_viewpoint() {
     check(&points, 18.708286933869708, &[1, 2, 3, 5]);
 }
 
-/// Half of space, with several points and the viewpoint in its border plane.
+/// Points of a half-space. The viewpoint and several points are in its border plane.
 #[test]
 fn a_point_in_the_border_plane_of_half_a_space() {
     let points = [
@@ -103,8 +103,9 @@ fn walls(n: usize) -> Points {
         .collect()
 }
 
-/// The fault: a face seen edge-on marked its corners, and walks started at it, because each
-/// sector kept numbers of faces while points entered its hull. The viewpoint is in a wall.
+/// The fault: each sector kept the numbers of faces while points entered its hull. So a face
+/// seen edge-on marked its corners as visible, and walks started at such a face. The viewpoint
+/// is in a wall.
 #[test]
 fn divided_views_of_a_room_from_a_place_in_a_wall() {
     let cloud = PointCloud::new(&walls(3000)).unwrap();

@@ -85,13 +85,14 @@ fn lemma_4_2_from_some_radius_on_all_that_is_nearest_is_visible() {
     }
 }
 
-/// Whether the middle of a piece of curve, at (0, r) from the viewpoint, is visible. Its
-/// tangent meets the ray at the angle ψ; for k > 0 it bends towards the viewer.
+/// Whether the middle of a piece of curve, at (0, r) from the viewpoint, is visible. The
+/// tangent of the curve meets the ray at the angle ψ. For k > 0 the curve bends towards the
+/// viewer.
 fn middle_is_visible(r: f64, psi: f64, k: f64, options: &Options) -> bool {
     let h = 1e-3 * r;
     let (sin, cos) = libm::sincos(psi);
     let along = |u: f64| {
-        // Along the tangent (sin ψ, cos ψ), and off it to the viewer's side.
+        // u along the tangent (sin ψ, cos ψ), and v off the tangent, on the viewer's side.
         let v = 0.5 * k * u * u;
         [u * sin + v * cos, r + u * cos - v * sin]
     };
@@ -111,9 +112,9 @@ fn lemma_4_3_pits_are_seen_up_to_the_permissible_curvature() {
                 let seen = |k: f64| middle_is_visible(r, psi, k, &options);
                 let title = format!("r = {r}, R = {radius}, ψ = {psi}, k = {bound}");
                 assert!(seen(0.98 * bound) && !seen(1.02 * bound), "{title}");
-                // Flat, and bending away.
+                // A flat curve, and curves that bend away from the viewer.
                 assert!(seen(0.0) && seen(-1.0 / r) && seen(-100.0 / r), "{title}");
-                // The same in terms of ψ.
+                // The same bound in terms of ψ.
                 let cot = libm::cos(psi) / libm::sin(psi);
                 let same = 2.0 * radius / (r * r)
                     * libm::pow(libm::sin(psi), 3.0)
@@ -126,7 +127,8 @@ fn lemma_4_3_pits_are_seen_up_to_the_permissible_curvature() {
 
 #[test]
 fn the_permissible_curvature_has_no_limits_of_size() {
-    // Far from the viewer's direction, and for R much larger than r, it is tan β ÷ R.
+    // If β is not near 0 and R is much larger than r, the permissible curvature is
+    // |tan β| ÷ R.
     for beta in [0.5, 1.0, 2.5] {
         for (radius, r) in [
             (1e200, 1.0),
@@ -179,7 +181,7 @@ fn the_bound_on_the_radius_hides_the_bottom_between_two_samples() {
             [-spacing, far - thickness],
         ];
         let seen = |radius: f64| planar(&points, &Options::with_radius(radius))[0] == 1;
-        // To first order in d/r and ρ/r.
+        // The bound holds to first order in d/r and ρ/r.
         let slack = 3.0 * thickness / far + 1e-3;
         assert!(!seen(bound * (1.0 - slack)) && seen(bound * (1.0 + slack)));
     }
@@ -189,9 +191,9 @@ fn the_bound_on_the_radius_hides_the_bottom_between_two_samples() {
 struct Circles {
     circles: Vec<([f64; 2], f64)>,
     sample: Vec<[f64; 2]>,
-    /// Truly visible places, densely.
+    /// A dense sample of the truly visible places.
     visible: Vec<[f64; 2]>,
-    /// The distance of the nearest place.
+    /// The distance from the origin to the nearest place.
     nearest: f64,
 }
 
@@ -269,7 +271,7 @@ fn theorem_4_4_what_is_marked_is_nearly_visible() {
                     if rho < 0.5 * circles.nearest * (ratio * (1.0 - 0.25 * ratio)).sqrt() {
                         let k = 2.0 * radius - (2.0 * radius - r) / cos;
                         let epsilon = rho + libm::hypot(r - k * cos, k * sin);
-                        // The visible places are known to a fraction of ρ only.
+                        // The places are a sample. So this distance errs by a fraction of ρ.
                         let away = circles.distance_to_visible(p);
                         assert!(away <= epsilon + 0.05 * rho, "{away} > {epsilon} at {p:?}");
                         checked += 1;
@@ -321,7 +323,7 @@ fn theorem_4_5_a_radius_for_a_wanted_epsilon() {
 #[test]
 fn the_formulas_have_their_special_cases_and_limits() {
     let close = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-12;
-    // The paper's form, at values where its differences keep their digits.
+    // The paper's formula, at values where its differences lose no digits.
     for (radius, r, beta) in [(30.0, 10.0, 0.7), (5.0, 4.9, 1.4), (12.0, 1.0, 2.5)] {
         let (sin, cos) = libm::sincos(beta);
         let cot2 = cos * cos / (sin * sin);

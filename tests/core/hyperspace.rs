@@ -62,7 +62,7 @@ fn clouds_in_a_subspace_are_answered_as_in_three_dimensions() {
                     (0..dimension).map(along).collect()
                 };
                 let rows: Vec<_> = scene.points.iter().map(|&p| place(p)).collect();
-                // With this radius the distances keep more digits than rounding loses.
+                // With this radius, the flips keep enough digits of the distances.
                 let options = Options::with_exponent(1.5);
                 let flat = ask(&scene.points, scene.viewpoint, &options);
                 let answer = asked(dimension, &rows, &place(scene.viewpoint), &options);

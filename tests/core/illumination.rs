@@ -1,4 +1,4 @@
-//! Shadows: which lights see a point, softened over its neighbors.
+//! Shadows: the lights that see each point, smoothed over its neighbors.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -89,7 +89,7 @@ fn without_a_mesh_light_is_averaged_with_the_six_nearest() {
             })
             .collect();
     }
-    // One round by default.
+    // By default, one round of smoothing.
     let usual = lit(&points, &LIGHTS, &Lighting::default());
     let once = lit(
         &points,
@@ -110,7 +110,7 @@ fn with_a_mesh_light_is_averaged_along_its_edges() {
         .reconstruct(LIGHTS[0], &Options::default(), None)
         .unwrap();
     let mut triangles = mesh.triangles;
-    // Given twice, turned round, or collapsed: the edges are the same.
+    // A triangle given again with the other orientation, and a degenerate triangle, add no edge.
     let [a, b, c] = triangles[0];
     triangles.extend([[b, a, c], [a, a, b]]);
     let mut beside = vec![BTreeSet::new(); 400];

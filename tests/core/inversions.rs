@@ -111,7 +111,7 @@ fn the_automatic_scale_belongs_to_the_cloud() {
     let near = ask(&points, FRONT, &options);
     let far = ask(&points, [90.0, 20.0, 7.0], &options);
     assert_eq!(near.inversion(), far.inversion());
-    // Neither the order of the input nor duplicates matter to the last bit.
+    // Neither the order of the input nor duplicates change a bit.
     let copies: Vec<_> = points[..200].to_vec();
     points.extend(copies);
     rng.shuffle(&mut points);

@@ -1,4 +1,5 @@
-//! Several looks: the rule's promises, each degenerate case, what must not change it.
+//! Several looks: the promises of the rule, each degenerate case, and changes of the input that
+//! must not change the answer.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -91,7 +92,7 @@ fn neither_order_nor_duplicates_nor_changes_nor_earlier_views_change_a_bit() {
             assert_eq!(scores[0].to_bits(), scores[1].to_bits(), "{title}, {then}");
         }
 
-        // Every point twice, the copies appended; then others that go again.
+        // Every point twice, by appending copies. Then other points are appended and removed.
         let mut cloud = PointCloud::new(&points).unwrap();
         cloud.append(&points).unwrap();
         let strangers: Vec<[f64; 3]> = (0..20).map(|_| rng.in_ball()).collect();
@@ -156,7 +157,7 @@ fn plate_before_wall() -> (Vec<[f64; 3]>, Vec<bool>) {
                 0.05 * (f64::from(i) + jitter()),
                 0.05 * (f64::from(j) + jitter()),
             ];
-            // The plate is half of the way: its shadow is twice as large.
+            // The plate is half way to the wall, so its shadow on the wall is twice as large.
             points.push([at[0], at[1], -5.0]);
             truth.push(at[0].abs().max(at[1].abs()) > 1.0);
             if i.abs() <= 10 && j.abs() <= 10 {
@@ -212,7 +213,7 @@ fn scores_rise_with_the_answer() {
         mean(true),
         mean(false)
     );
-    // They are asked for, not always there, and change no label.
+    // Scores are computed only on request, and they change no label.
     let without = Options::with_inversion(Inversion::Looks(3));
     let plain = ask(&points, FRONT, &without);
     assert!(plain.scores().is_empty());
@@ -228,19 +229,19 @@ fn degenerate_clouds_answer_as_documented() {
     let origin = [0.0; 3];
     assert_eq!(seen(&[], FRONT), (vec![], vec![]));
     assert_eq!(seen(&[origin], FRONT), (vec![0], vec![0.97]));
-    // At the viewpoint: visible, certainly, and no part of the hull.
+    // A point at the viewpoint: certainly visible, and no part of the hull.
     assert_eq!(seen(&[FRONT], FRONT), (vec![0], vec![1.0]));
     assert_eq!(seen(&[FRONT, origin], FRONT), (vec![0, 1], vec![1.0, 0.97]));
-    // On one ray: in a line with the viewpoint the nearest alone.
+    // Points on one ray, and so in one line with the viewpoint: only the nearest is visible.
     let ray = [[0.0, 0.0, 1.0], [0.0, 0.0, 2.0], origin];
     assert_eq!(seen(&ray, FRONT), (vec![1], vec![0.2, 0.97, 0.2]));
-    // On both sides of it, both.
+    // Points on both sides of the viewpoint: both are visible.
     assert_eq!(seen(&[[0.0, 0.0, 6.0], origin], FRONT).0, [0, 1]);
-    // Two and three points apart.
+    // Two and three separate points.
     let triangle = [origin, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     assert_eq!(seen(&triangle[..2], FRONT), (vec![0, 1], vec![0.97; 2]));
     assert_eq!(seen(&triangle, FRONT), (vec![0, 1, 2], vec![0.97; 3]));
-    // Equal points: together.
+    // Equal points share one answer.
     let equal = [
         triangle[0],
         triangle[1],
@@ -250,10 +251,10 @@ fn degenerate_clouds_answer_as_documented() {
     ];
     assert_eq!(seen(&equal, FRONT), (vec![0, 1, 2, 3, 4], vec![0.97; 5]));
     assert_eq!(seen(&[origin; 4], FRONT), (vec![0, 1, 2, 3], vec![0.97; 4]));
-    // Behind a triangle: hidden if it lies deeper than a spacing, whatever its ray.
+    // A point behind a triangle, deeper than a spacing: hidden.
     let with = |p| [triangle[0], triangle[1], triangle[2], p];
     assert_eq!(seen(&with([0.2, 0.2, -3.0]), FRONT).0, [0, 1, 2]);
-    // Within one: visible, though the operator hides it.
+    // Within one spacing: visible, although the operator hides it.
     let near = with([0.3, 0.3, -0.01]);
     assert_eq!(seen(&near, FRONT).0, [0, 1, 2, 3]);
 }
@@ -450,9 +451,9 @@ fn what_needs_one_hull_refuses_looks() {
     );
 }
 
-/// FNV-1a over the indices and scores of every kind of scene: natively and in WebAssembly. It
-/// changes with the scenes, with the canonical order, and with the order in which points enter the
-/// hull: where flipped points lie in one plane, that chooses its triangles.
+/// FNV-1a over the indices and scores of every kind of scene. It is the same natively and in
+/// WebAssembly. It changes with the scenes, with the canonical order, and with the order in which
+/// points enter the hull. Where flipped points lie in one plane, this order chooses the triangles.
 const EXPECTED: u64 = 0x2d43_cf26_a814_40ab;
 
 #[test]

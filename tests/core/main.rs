@@ -1,4 +1,4 @@
-//! The core against its definition: the same tests run natively
+//! Compares the core with its definition. The same tests run natively
 //! (`cargo test --release --test core`) and, compiled to WebAssembly, under Node.
 
 mod common;

@@ -42,7 +42,7 @@ fn divide(rng: &mut Rng, points: &[[f64; 3]], count: usize) -> Vec<Part<[f64; 3]
     parts
 }
 
-/// The points of a part that are visible in it, and a few that need not be.
+/// The points of a part that are visible in it, and sometimes a few other points.
 fn seen_in(
     rng: &mut Rng,
     (positions, ids): &Part<[f64; 3]>,

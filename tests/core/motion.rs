@@ -1,5 +1,5 @@
 //! Views that start from the last view. After any earlier views, the answer equals the
-//! answer of a view that starts anew, to the bit.
+//! answer of a cold view to the bit.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -139,7 +139,7 @@ fn small_steps_start_from_the_last_view() {
             warm += usize::from(observer.moved());
             walk.viewpoint = walk.near(&mut rng, 1e-4);
         }
-        // Points in one plane or on one line turn over by rounding alone.
+        // The faces of points in one plane or on one line may turn over by rounding alone.
         let ordinary = !title.contains("lattice") && !title.contains("edge-on");
         assert!(!ordinary || warm >= 18, "{title}: {warm} of 20");
     }

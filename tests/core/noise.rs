@@ -1,4 +1,4 @@
-//! Denoising before a view, votes after it.
+//! Denoising before a view, and votes after it.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -25,7 +25,8 @@ fn denoising(k: usize) -> Options {
     }
 }
 
-/// The distinct points, nearest to `p` first, ties by coordinates, p itself at the head.
+/// The distinct points, sorted by their distance from `p`, and by coordinates if distances are
+/// equal. p itself comes first.
 fn by_distance(points: &[[f64; 3]], p: [f64; 3]) -> Vec<[f64; 3]> {
     let squared = |q: [f64; 3]| {
         let v: [f64; 3] = core::array::from_fn(|i| p[i] - q[i]);
@@ -173,7 +174,7 @@ fn a_prepared_cloud_answers_like_one_made_anew() {
             match round {
                 0 => cloud.append(&points[600..]).unwrap(),
                 1 => cloud.remove(&[3, 77, 650]).unwrap(),
-                // One of two equal points: every position stays, but the indices change.
+                // Removes one of two equal points: all positions stay, but the indices change.
                 _ => {
                     cloud.append(&points[5..6]).unwrap();
                     cloud.prepare_for(&denoising(9)).unwrap();
@@ -182,7 +183,7 @@ fn a_prepared_cloud_answers_like_one_made_anew() {
             }
         }
     }
-    // A refusal changes no answer.
+    // A refused call changes no later answer.
     assert!(keeping.prepare_for(&denoising(10_000)).is_err());
     let kept = keeping.visible_from(FRONT, &denoising(9)).unwrap();
     assert_eq!(kept, plain.visible_from(FRONT, &denoising(9)).unwrap());

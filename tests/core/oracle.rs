@@ -1,5 +1,5 @@
 //! The crate compared with the naive oracle, on thousands of small and mostly degenerate
-//! scenes. And the oracle compared with answers that are obvious by eye.
+//! scenes. Also, the oracle compared with answers that are obvious by eye.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -50,15 +50,15 @@ fn the_oracle_knows_points_on_one_ray() {
 
 #[test]
 fn the_oracle_knows_edges_in_a_plane_with_the_viewpoint() {
-    // On the edge from (2,0) to (0,2); below it; beyond it.
+    // A point on the edge from (2,0) to (0,2), a point below it, and a point beyond it.
     let edge = [[2.0, 0.0, 0.0], [0.0, 2.0, 0.0]];
     let with = |x, y| enumerate([edge[0], edge[1], [x, y, 0.0]]);
     assert_eq!(with(1.0, 1.0), [true, true, true]);
     assert_eq!(with(1.0, 0.75), [true, true, false]);
     assert_eq!(with(1.0, 1.25), [true, true, true]);
-    // Pointing away: K is thinner than a ray there, so the ray leaves at once.
+    // The ray points away from the edge. It leaves K right at the point.
     assert_eq!(with(-0.25, -0.25), [true, true, true]);
-    // On the side of K that the viewpoint lies on: hidden behind the corner.
+    // The point is on the side of K that contains the viewpoint: the corner hides it.
     assert_eq!(with(1.5, 0.0), [true, true, false]);
 }
 

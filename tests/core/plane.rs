@@ -75,7 +75,7 @@ fn the_near_side_of_a_circle_is_visible() {
             answer.len()
         );
     }
-    // From inside all of it.
+    // From inside, all points are visible.
     assert_eq!(seen(&points, [0.2, 0.1], &Options::default()).len(), 4000);
 }
 

@@ -78,7 +78,7 @@ fn every_visible_point_is_a_corner() {
             }
             let radius = mesh.visibility.radius();
             let of = |i: u32| flip(scene.points[i as usize], scene.viewpoint, radius);
-            // Flips that fall together share a corner; at the viewpoint there is none.
+            // Points whose flips are equal share a corner. A point at the viewpoint has no corner.
             let key = |i: u32| of(i).map(|q| q.map(|x| (x + 0.0).to_bits()));
             let corners: BTreeSet<_> = mesh.triangles.iter().flatten().map(|&i| key(i)).collect();
             let mut visible = mesh.visibility.indices().iter();
@@ -92,7 +92,8 @@ fn every_visible_point_is_a_corner() {
 
 #[test]
 fn points_on_edges_and_facets_are_corners() {
-    // Flipped with R = 3: corners, the middle of an edge and of a facet, and inside it.
+    // Flipped with R = 3: corners, the middle of an edge, the middle of a facet, and another
+    // point inside the facet.
     let targets: [[f64; 3]; 8] = [
         [3.0, 3.0, 3.0],
         [3.0, 3.0, -3.0],

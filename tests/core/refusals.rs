@@ -141,7 +141,7 @@ fn distances_and_radii_beyond_the_range_are_refused() {
         Options::default(),
     );
     assert_eq!(error.code(), "radius");
-    // Twice the radius does.
+    // Twice the radius overflows.
     for options in [
         Options::with_radius(f64::MAX),
         Options::with_exponent(308.0),

@@ -1,4 +1,4 @@
-//! R by search: the antipodal search and the paper's rule.
+//! The choice of R by a search: the antipodal search and the paper's rule.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -68,7 +68,8 @@ fn the_antipodal_search_stays_near_the_closed_form_and_finds_dense_shells() {
             assert!(near(search, auto) < 0.2501, "{search} against {auto}");
         }
     }
-    // From inside a single shell every ray holds one point: the closed form stays.
+    // Seen from inside a single shell, every ray holds one point. The search then returns the R of
+    // the closed form.
     let shell = shapes::sphere(&mut rng, 2000);
     let auto = chosen(&shell, [0.1; 3], Radius::Auto);
     let search = chosen(&shell, [0.1; 3], Radius::Search);
@@ -98,7 +99,7 @@ fn the_papers_rule_makes_points_seen_by_one_side_most() {
 
 #[test]
 fn ties_take_the_smallest_radius() {
-    // Either side sees one of two points, from the smallest radius on.
+    // Already with the smallest radius, each side sees one of the two points.
     let points = [[0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
     let chosen = chosen(&points, [0.0, 0.0, 5.0], Radius::Opposite);
     assert_eq!((chosen.radius, chosen.exponent), (6.0, 0.0));

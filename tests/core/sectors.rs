@@ -1,4 +1,4 @@
-//! A view divided among sectors: each visible point in one sector's answer, no other.
+//! A view divided among sectors: each visible point is in the answer of exactly one sector.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -9,7 +9,7 @@ use crate::common::rng::Rng;
 use crate::common::scenes::{EXTREME, KINDS};
 use crate::common::{sectors, shapes, structured};
 
-/// Panics where sectors and the whole differ; returns how many points each sector
+/// Panics if the sectors and the whole view differ. Returns how many points each sector
 /// answered for.
 fn compare(
     cloud: &PointCloud,
@@ -59,7 +59,7 @@ fn extreme_numbers_are_answered_too() {
     }
 }
 
-/// Short for `tests/fuzz/sectors.rs`.
+/// A short form of `tests/fuzz/sectors.rs`.
 #[test]
 fn viewpoints_in_planes_and_on_lines_of_points_divide_too() {
     let mut rng = Rng::new(12);
@@ -76,7 +76,7 @@ fn viewpoints_in_planes_and_on_lines_of_points_divide_too() {
     }
 }
 
-/// Where digits are lost, the first sector answers for all.
+/// If the flip loses too many digits, the first sector answers for all points.
 #[test]
 fn large_exponents_are_not_divided() {
     let points = shapes::bumpy(&mut Rng::new(13), 4000);

@@ -1,5 +1,5 @@
-//! What all other tests missed: found by changing the code in one place at a time, and by looking
-//! which lines no test reaches.
+//! Tests for faults that all other tests missed. These gaps were found by changing the code in
+//! one place at a time, and by listing the lines that no test reaches.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -9,8 +9,8 @@ use hidden_point_removal::{Error, MAX_POINTS, Options, PointCloud, PointCloud2d,
 use crate::common::rng::Rng;
 use crate::common::{ask, sectors, shapes};
 
-/// Five points that all vote on each other, two or three of them visible: those at the front of
-/// the ray along x, and the ones on rays of their own. More than two fifths must be visible.
+/// Five points that all vote on each other. Two or three of them are visible: the nearest point on
+/// the ray along x, and the points on rays of their own. More than two fifths must be visible.
 #[test]
 fn two_of_five_votes_are_not_enough() {
     let options = Options {

@@ -13,7 +13,7 @@ const START: [f64; 3] = [0.3, -0.7, 1.1];
 const ALONG: [f64; 3] = [1.7, 0.9, -2.3];
 const ACROSS: [f64; 3] = [0.4, 1.3, 0.2];
 
-/// START + t·ALONG + s·ACROSS, each coordinate rounded.
+/// START + t·ALONG + s·ACROSS. Each coordinate is rounded.
 fn place(t: f64, s: f64) -> [f64; 3] {
     core::array::from_fn(|i| START[i] + t * ALONG[i] + s * ACROSS[i])
 }

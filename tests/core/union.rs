@@ -1,4 +1,4 @@
-//! Several viewpoints, one answer.
+//! One answer for several viewpoints.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -159,7 +159,7 @@ fn rings_are_even_and_across_the_view() {
             assert!((distance(place, next) - side.abs()).abs() < 1e-12 * reach);
         }
     }
-    // Of any size.
+    // Rings of any size.
     for size in [1e-160, 1e150, 1e300] {
         let ring = ring_of_viewpoints([0.0; 3], [size, size, 0.0], 4, 0.05).unwrap();
         let radius = distance(ring[0].map(|x| x / size), [0.0; 3]);

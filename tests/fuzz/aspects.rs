@@ -16,7 +16,7 @@ pub enum Aspect {
     Merged,
     /// Points appended in parts, others removed in between.
     Changed,
-    /// A cloud of two dimensions, if the view is flat.
+    /// The same view as a cloud of two dimensions, if it is flat.
     Planar,
     /// Several viewpoints at once.
     Union,
@@ -203,7 +203,7 @@ fn union(scene: &Scene, visible: &[bool], rng: &mut Rng) -> Option<(Vec<u32>, Ve
 /// A point is visible if more than two fifths of the point and its nearest distinct neighbors are.
 fn voted(scene: &Scene, visible: &[bool], rng: &mut Rng) -> Option<(Vec<u32>, Vec<u32>)> {
     let points = &scene.points;
-    // Squared distances must tell them apart.
+    // Squared distances must tell points apart, so clouds with tiny coordinates are left out.
     let squared = |p: [f64; 3], q: [f64; 3]| {
         let v: [f64; 3] = core::array::from_fn(|i| p[i] - q[i]);
         v[0] * v[0] + v[1] * v[1] + v[2] * v[2]

@@ -1,9 +1,10 @@
-//! Drafts against exact answers:
+//! Compares drafts with exact answers:
 //! `cargo run --profile fuzz --example fuzz_drafts -- --minutes 5 [--seed N]`
 //!
 //! Viewpoints walk around, in and through clouds of every kind, with every inversion. Each
-//! view is asked as a draft, then exactly, going on from it, and compared with answers of
-//! nothing but the view. The last line says how many were tried and how many were wrong.
+//! view is asked as a draft first. Then the exact answer goes on from the draft. Both are
+//! compared with answers that start from nothing. The last line says how many views were tried
+//! and how many were wrong.
 
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
@@ -18,7 +19,7 @@ use common::scenes::KINDS;
 use common::shapes::{self, Points};
 use common::walk::Walk;
 
-/// Views of one cloud.
+/// The number of views of one cloud.
 const WALK: usize = 12;
 
 fn main() {
@@ -66,14 +67,14 @@ fn argument(name: &str) -> Option<String> {
     std::env::args().skip_while(|arg| arg != name).nth(1)
 }
 
-/// A cloud, mostly large enough for a map of directions, and where to look at it from.
+/// A cloud and a viewpoint. The cloud is mostly large enough for a map of directions.
 fn subject(rng: &mut Rng) -> (&'static str, Points, [f64; 3]) {
     let n = match rng.below(4) {
         0 => rng.below(2100),
         _ => 2100 + rng.below(8000),
     };
     if rng.chance(4) {
-        // In the plane of a wall, or of two.
+        // The viewpoint is in the plane of one wall, of two walls, or of none.
         let points = shapes::room(rng, n);
         let mut viewpoint = rng.in_ball().map(|x| x * 6.0);
         viewpoint[0] = rng.pick(&[4.0, -4.0, viewpoint[0]]);
@@ -81,7 +82,7 @@ fn subject(rng: &mut Rng) -> (&'static str, Points, [f64; 3]) {
         return ("room", points, viewpoint);
     }
     if rng.chance(6) {
-        // From ever farther away.
+        // The viewpoint is far away, at distances of all magnitudes.
         let far = 10f64.powf(rng.between(0.5, 10.0));
         let viewpoint = rng.direction().map(|x| x * far);
         return ("bumpy from far", shapes::bumpy(rng, n), viewpoint);

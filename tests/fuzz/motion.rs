@@ -1,9 +1,9 @@
-//! Moving viewpoints. Each answer is compared with the answer of a view that starts anew:
+//! Moving viewpoints. Each answer is compared with a cold answer, which starts from nothing:
 //! `cargo run --profile fuzz --example fuzz_motion -- --minutes 5 [--seed N]`
 //!
-//! Walks around, in and through small clouds of every kind under every inversion. One
-//! cold answer in eight is compared with the definition, too. Then walks through scanned
-//! and generated clouds of up to 437,645 points. Steps are of all sizes, along axes and
+//! The viewpoint walks around, in and through small clouds of every kind, under every inversion.
+//! One cold answer in eight is compared with the definition, too. Then the viewpoint walks through
+//! scanned and generated clouds of up to 437,645 points. Steps are of all sizes, along axes and
 //! between places in the planes of points. `run` explains the output. "Warm" views started
 //! from the view before.
 

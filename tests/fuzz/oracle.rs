@@ -1,4 +1,4 @@
-//! Small clouds against the definition:
+//! Compares answers for small clouds with the definition:
 //! `cargo run --profile fuzz --example fuzz_oracle -- --minutes 5 [--seed N] [--kind TEXT]`
 //!
 //! Mostly degenerate clouds of every kind under every inversion. Each cloud is asked for its
@@ -120,10 +120,10 @@ fn resolved(scene: &Scene) -> Options {
 
 /// The question that a scene was asked.
 enum Asked {
-    /// It was refused, rightly.
+    /// The scene was refused, and rightly so.
     Nothing,
     Visible,
-    /// It was also asked for an aspect.
+    /// The scene was also asked for an aspect.
     More,
 }
 

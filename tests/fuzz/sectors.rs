@@ -2,7 +2,7 @@
 //! `cargo run --profile fuzz --example fuzz_sectors -- --minutes 5 [--seed N]`
 //!
 //! Rooms, lattices, planes and lines, from viewpoints that lie in them, in 2 to 64
-//! sectors, single and double precision. For small clouds the whole view is also compared
+//! sectors, in single and double precision. For small clouds the whole view is also compared
 //! with the definition. `run` explains the output.
 
 use hidden_point_removal::PointCloud;
@@ -75,7 +75,7 @@ fn cloud_of(scene: &Scene, in_single: bool) -> PointCloud {
     cloud.expect("an acceptable cloud")
 }
 
-/// Whether the view is answered or refused; the error is the difference.
+/// Returns whether the view was answered (`true`) or refused. The error describes a difference.
 fn check(cloud: &PointCloud, scene: &Scene, count: u32) -> Result<bool, String> {
     let Scene {
         points,

@@ -2,7 +2,7 @@
 
 use super::common::scenes::Scene;
 
-/// Removes runs of points, shorter and shorter, while the scene stays wrong.
+/// Removes runs of points as long as the scene stays wrong. The runs get shorter and shorter.
 pub fn shrink(mut scene: Scene, is_wrong: impl Fn(&Scene) -> bool) -> Scene {
     let mut run = scene.points.len() / 2;
     while run > 0 {

@@ -13,7 +13,7 @@ pub struct Subject {
     pub cloud: PointCloud,
 }
 
-/// One of twelve clouds. It is made anew, so that only one is in memory.
+/// One of twelve clouds. Each call builds its cloud again, so that only one is in memory.
 pub fn any(rng: &mut Rng) -> Subject {
     let makers: [fn() -> Subject; 12] = [
         || scan("dragon", &scans::dragon("dragon_vrip")),
@@ -54,7 +54,7 @@ fn generated(name: &'static str, shape: fn(&mut Rng) -> Points) -> Subject {
     }
 }
 
-/// A surface in map coordinates, to millimeters, much denser to one side.
+/// A surface in map coordinates, rounded to millimeters, much denser on one side.
 fn georeferenced(rng: &mut Rng) -> Points {
     let place = [523_000.0, 4_657_000.0, 120.0];
     let points = shapes::bumpy(rng, 40_000).into_iter();
@@ -70,7 +70,7 @@ fn lattice(_: &mut Rng) -> Points {
         .collect()
 }
 
-/// Heights over a regular grid, some missing.
+/// Heights over a regular grid. Some heights are missing.
 fn terrain(rng: &mut Rng) -> Points {
     let mut points = Points::new();
     for i in 0..20_000 {

@@ -1,5 +1,5 @@
-//! Proofs for clouds of any size: a supporting plane for a visible point, an
-//! enclosing triangle for a hidden one.
+//! Proofs for clouds of any size: a supporting plane proves that a point is visible, an
+//! enclosing triangle proves that it is hidden.
 //!
 //! For one q, look for the face through which its ray leaves K. Hold three points
 //! A, B, C whose cone contains q. While some point x lies beyond their plane,
@@ -7,8 +7,9 @@
 //! moves outward along the ray. At the end either
 //!   q lies strictly inside the plane: λq is in the triangle ABC for some λ > 1,
 //!   so q is hidden, or
-//!   q lies on the plane and no point beyond: no λq with λ > 1 is in K, visible.
-//! (The exchange is the simplex method for: least Σ cⱼ with Σ cⱼqⱼ = q, cⱼ ≥ 0.)
+//!   q lies on the plane and no point lies beyond the plane: no λq with λ > 1 is in K,
+//!   so q is visible.
+//! (The exchange is the simplex method. It finds the least Σ cⱼ with Σ cⱼqⱼ = q and cⱼ ≥ 0.)
 //! Every sign that counts is exact, so each verdict is a proof.
 //!
 //! q may lie on the border of a cone. So it is moved by ε·a + ε²·b with an
@@ -27,7 +28,7 @@ pub struct Certifier {
 #[derive(Clone, Copy, Debug)]
 pub struct Verdict {
     pub visible: bool,
-    /// The triangle that proves it, as indices into the points.
+    /// The triangle that proves the verdict, as indices into the points.
     pub face: [usize; 3],
 }
 
@@ -64,7 +65,7 @@ impl Certifier {
             .first_triple(p)
             .expect("points that were made to span space");
         let mut face = start;
-        // Each step gains strictly, so every face is new. Real clouds need some ten steps.
+        // Each step gains strictly, so every face is new. Real clouds need about ten steps.
         for _ in 0..10_000 {
             if self.side(face, p) > 0.0 {
                 return Verdict {
@@ -83,8 +84,8 @@ impl Certifier {
         panic!("no end in sight for point {p}");
     }
 
-    /// Points within rounding of the plane of `face`. An inexact hull would get these
-    /// points wrong.
+    /// The points that are on the plane of `face` up to rounding. An inexact hull would get
+    /// these points wrong.
     pub fn near_ties(&self, face: [usize; 3]) -> Vec<usize> {
         let m = self.dual(face);
         (0..self.q.len())
@@ -105,8 +106,8 @@ impl Certifier {
     }
 
     /// p and two other points, counterclockwise seen from outside. `None` if and only
-    /// if all points lie in one plane with the origin. The best choice by `f64` comes
-    /// first; exact signs decide.
+    /// if all points lie in one plane with the origin. The choice that looks best in `f64`
+    /// is tried first; exact signs decide.
     fn first_triple(&self, p: usize) -> Option<[usize; 3]> {
         let q = &self.q;
         let origin = coord([0.0; 3]);

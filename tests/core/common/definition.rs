@@ -2,14 +2,15 @@
 
 use super::{oracle, proved_flipped};
 
-/// Up to this number of points, answers are compared with the enumeration. It takes any range.
+/// Up to this number of points, answers are compared with the enumeration. The enumeration
+/// takes coordinates of any range.
 const FEW: usize = 9;
 /// Ratios of coordinates beyond which expansion arithmetic is not exact.
 const WIDE: f64 = 1e50;
 
 /// Visible or not, for each flipped point; `None` stands for a point at the viewpoint.
 ///
-/// By certificates if they can decide, else by enumeration, which takes n⁴ steps.
+/// Certificates decide if they can. Otherwise the enumeration decides, which takes n⁴ steps.
 pub fn visible(flipped: &[Option<[f64; 3]>]) -> Vec<bool> {
     if has_certificates(flipped) {
         proved_flipped(flipped)
@@ -18,7 +19,7 @@ pub fn visible(flipped: &[Option<[f64; 3]>]) -> Vec<bool> {
     }
 }
 
-/// The same by the other method, if it applies. The two methods are independent.
+/// The same answer by the other method, if it applies. The two methods are independent.
 pub fn visible_otherwise(flipped: &[Option<[f64; 3]>]) -> Option<Vec<bool>> {
     (flipped.len() <= FEW && has_certificates(flipped)).then(|| oracle::visible_flipped(flipped))
 }

@@ -25,7 +25,7 @@ pub const DEGENERATE: &[Kind] = &[
         seen_from_origin(points, Options::with_radius(radius))
     }),
     Kind::new("powers of two, exactly flipped by a power", |rng, n| {
-        // d/S is a power of two, and so is s for a whole power.
+        // d/S is a power of two. If the exponent is an integer, s is a power of two, too.
         let points = vectors(rng, n, &THREE, &[1.0, 2.0, 4.0, 8.0]);
         let options = Options {
             radius: Radius::Absolute(rng.pick(&[24.0, 48.0, 3072.0])),
@@ -95,7 +95,7 @@ pub const DEGENERATE: &[Kind] = &[
         with_any_options(rng, points, [0.0; 3])
     }),
     Kind::new("flipped to few places", |rng, n| {
-        // 2R − d keeps few or no digits of d.
+        // The rounded 2R − d keeps few or no digits of d.
         let points = shapes::grid(rng, n);
         let radius = rng.pick(&[1e14, 1e15, 1e16, 1e17, 1e30]);
         seen_from_origin(points, Options::with_radius(radius))
@@ -148,7 +148,7 @@ fn vectors(rng: &mut Rng, n: usize, of: &[[f64; 3]], times: &[f64]) -> Points {
         rng.shuffle(&mut p);
         let times = rng.pick(times);
         let mut p = p.map(|x| if rng.chance(2) { -x * times } else { x * times });
-        // All around, half of space, an octant: the viewpoint is inside or on the border.
+        // All directions, a half-space, or an octant: the viewpoint is inside or on the border.
         match part {
             0 => {}
             1 => p[2] = p[2].abs(),

@@ -1,9 +1,9 @@
-//! What must hold of drafts: checked here for one view.
+//! Checks for one view that its draft keeps the promises of drafts.
 
 use hidden_point_removal::{Observer, Options, PointCloud, Visibility};
 
-/// What is wrong with the draft of a view, as an observer sees it, and with the exact answer
-/// that goes on from it, if anything is.
+/// Asks an observer for the draft of a view, and then for the exact answer that goes on from the
+/// draft. Returns the first fault of either, if there is one.
 pub fn fault(
     cloud: &PointCloud,
     observer: &mut Observer,

@@ -3,7 +3,7 @@
 
 use hidden_point_removal::{Exponential, Inversion, Visibility};
 
-/// `v = p − C` and its length, left to right.
+/// `v = p − C` and its length. The sum of the squares is computed from left to right.
 fn relative(p: [f64; 3], viewpoint: [f64; 3]) -> ([f64; 3], f64) {
     let x = p[0] - viewpoint[0];
     let y = p[1] - viewpoint[1];
@@ -26,7 +26,7 @@ pub fn farthest(points: &[[f64; 3]], viewpoint: [f64; 3]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// q, or `None` for a point at the viewpoint: it is visible and hides nothing.
+/// q, or `None` for a point at the viewpoint. Such a point is visible and hides nothing.
 pub fn flip(p: [f64; 3], viewpoint: [f64; 3], radius: f64) -> Option<[f64; 3]> {
     let (v, d) = relative(p, viewpoint);
     if d == 0.0 {

@@ -1,10 +1,10 @@
 //! The naive oracle for views along a direction: the lower boundary, in exact integers.
 
-/// Hidden when one, two or three points (as a point, a segment or a triangle) have
-/// something strictly below with the same x, y.
+/// A point is hidden if one, two or three points span a point, a segment or a triangle that
+/// passes strictly below it at the same x and y.
 pub fn visible(points: &[[i64; 3]]) -> Vec<bool> {
     let n = points.len();
-    // By Carathéodory a triangle is enough, degenerate ones included.
+    // By Carathéodory's theorem, triangles are enough, if degenerate triangles count.
     let hidden = |p: [i64; 3]| {
         (0..n)
             .any(|i| (0..=i).any(|j| (0..=j).any(|k| above(p, [points[i], points[j], points[k]]))))

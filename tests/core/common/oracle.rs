@@ -1,14 +1,14 @@
 //! The naive oracle: the definition of visibility for a handful of points, by
 //! enumeration in exact integers.
 //!
-//! Why it is the definition. λq ∈ K for some λ > 1 says that q = Σ cⱼqⱼ with
-//! cⱼ ≥ 0 and Σ cⱼ < 1 (divide the convex combination, whose share of the origin
-//! is left out, by λ). For the other direction, take λ = 1/Σ cⱼ, or any λ if q = 0.
-//! To find the least Σ cⱼ is a linear program with a bounded optimum, so a basic
-//! solution attains it: the qⱼ with cⱼ ≠ 0 are linearly independent, so there are at
-//! most three. So q is hidden exactly when q = 0 or when
+//! Why this is the definition: λq ∈ K for some λ > 1 if and only if q = Σ cⱼqⱼ with
+//! cⱼ ≥ 0 and Σ cⱼ < 1. (For one direction, divide the convex combination by λ and leave
+//! out the share of the origin. For the other direction, take λ = 1/Σ cⱼ, or any λ if
+//! q = 0.) Finding the least Σ cⱼ is a linear program with a bounded optimum, so a basic
+//! solution attains it. In a basic solution, the qⱼ with cⱼ ≠ 0 are linearly independent,
+//! so there are at most three. So q is hidden exactly when q = 0 or when
 //!   one qⱼ, or two or three linearly independent qⱼ, give q with Σ cⱼ < 1.
-//! The proof assumes no rank: planes, lines and single points need no other case.
+//! The proof assumes no rank. So planes, lines and single points need no case of their own.
 
 use num_bigint::{BigInt, Sign};
 
@@ -83,7 +83,7 @@ pub fn hidden(q: &[Vector]) -> Vec<bool> {
         .collect()
 }
 
-/// The same vectors times one power of two, which changes no answer.
+/// All vectors times the same power of two. This changes no answer.
 pub fn integers(q: &[[f64; 3]]) -> Vec<Vector> {
     let parts = q.iter().flatten().map(|&x| decode(x));
     let least = parts

@@ -1,5 +1,5 @@
-//! Seeded random numbers, the same on every platform: splitmix64, and only exactly
-//! rounded arithmetic after it.
+//! Seeded random numbers, the same on every platform: splitmix64, followed only by exactly
+//! rounded arithmetic.
 
 pub struct Rng(u64);
 
@@ -16,12 +16,12 @@ impl Rng {
         z ^ (z >> 31)
     }
 
-    /// Below `n`. The bias does not matter here.
+    /// An integer below `n`. The bias does not matter here.
     pub fn below(&mut self, n: usize) -> usize {
         (self.bits() % n as u64) as usize
     }
 
-    /// In `low..=high`.
+    /// An integer in `low..=high`.
     pub fn integer(&mut self, low: i32, high: i32) -> i32 {
         low + self.below((high - low + 1) as usize) as i32
     }
@@ -34,7 +34,7 @@ impl Rng {
         items[self.below(items.len())]
     }
 
-    /// In [0, 1).
+    /// A number in [0, 1).
     pub fn unit(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1u64 << 53) as f64
     }
@@ -43,7 +43,7 @@ impl Rng {
         low + (high - low) * self.unit()
     }
 
-    /// Uniform in the unit ball, but not so near its center that it cannot be normalized.
+    /// Uniform in the unit ball, except for points too near the center to be normalized.
     pub fn in_ball(&mut self) -> [f64; 3] {
         loop {
             let p = core::array::from_fn(|_| self.between(-1.0, 1.0));

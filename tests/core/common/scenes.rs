@@ -113,7 +113,7 @@ kinds! {
     };
 }
 
-/// Kinds for small clouds only: numbers at the end of the range.
+/// Kinds for small clouds only: numbers at the ends of the range of `f64`.
 pub const EXTREME: &[Kind] = &[
     Kind {
         name: "denormal",
@@ -203,7 +203,7 @@ fn with_any_radius(rng: &mut Rng, points: Points, viewpoint: [f64; 3]) -> Scene 
         0 => Radius::Auto,
         1 if farthest > 0.0 => Radius::Absolute(farthest),
         2 if farthest > 0.0 => Radius::Absolute(farthest * rng.between(1.0, 4.0)),
-        // 2R − d keeps few or no digits of d: many flipped points on one sphere.
+        // The rounded 2R − d keeps few or no digits of d, so many flipped points lie on one sphere.
         3 if farthest > 0.0 && rng.chance(3) => Radius::Absolute(farthest * 1e15),
         _ => Radius::Exponent(rng.pick(&exponents)),
     };

@@ -103,8 +103,9 @@ pub fn pythagorean(rng: &mut Rng, n: usize) -> Points {
 pub const AIMED_RADIUS: f64 = 3.0;
 
 /// Points whose flipped points are exactly small integers, seen from the origin with
-/// `AIMED_RADIUS`: on the surface of a cube, in it, on rays, planes and edges. `part`
-/// restricts the integers. `slack` of the points stay one rounding error off.
+/// `AIMED_RADIUS`. They lie on the surface of a cube, in it, on rays, planes and edges.
+/// `part` restricts the integers. If `slack` > 0, one point in `slack`
+/// may be one rounding error off.
 pub fn aimed(rng: &mut Rng, n: usize, slack: usize, part: fn([i32; 3]) -> bool) -> Points {
     many(n, || {
         let q = loop {

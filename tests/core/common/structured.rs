@@ -42,7 +42,7 @@ fn in_box(rng: &mut Rng) -> [f64; 3] {
     BOX.map(|side| side * rng.unit())
 }
 
-/// To the nearest multiple of `unit`, a power of two.
+/// Rounds to the nearest multiple of `unit`, a power of two.
 fn rounded(p: [f64; 3], unit: f64) -> [f64; 3] {
     p.map(|x| (x / unit).round() * unit)
 }
@@ -132,7 +132,7 @@ fn steps(rng: &mut Rng, n: usize) -> Points {
     })
 }
 
-/// Whole heights over a regular grid: flat parts, steps, lines.
+/// Heights in whole numbers over a regular grid: flat parts, steps, lines.
 fn terrain(rng: &mut Rng, n: usize) -> Points {
     let side = n.isqrt().max(1);
     let fold = 2 + rng.below(5);

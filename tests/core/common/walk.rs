@@ -80,18 +80,18 @@ impl<'a> Walk<'a> {
         core::array::from_fn(|i| self.viewpoint[i] + direction[i] * distance * part)
     }
 
-    /// Any place within this many times the cloud's size.
+    /// Any place whose distance from the center is at most `sizes` times the cloud's size.
     pub fn place(&self, rng: &mut Rng, sizes: f64) -> [f64; 3] {
         let p = rng.in_ball();
         core::array::from_fn(|i| self.center[i] + p[i] * sizes * self.size)
     }
 
-    /// Ordinary, tiny and huge ones.
+    /// Ordinary, tiny and huge radii.
     fn any_radius(&self, rng: &mut Rng) -> Radius {
         let exponents = [0.0, 0.1, 0.5, 1.0, 2.0, 2.5, 3.0, 4.0, 7.0, 14.0];
         match rng.below(8) {
             0..4 => Radius::Auto,
-            // Soon too small, when the viewpoint is farther away.
+            // Too small as soon as the viewpoint is farther away.
             4 => Radius::Absolute(self.farthest() * rng.between(1.0, 30.0)),
             _ => Radius::Exponent(rng.pick(&exponents)),
         }
