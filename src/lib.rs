@@ -42,6 +42,7 @@ mod view;
 #[cfg(feature = "wasm")]
 mod wasm;
 
+pub use answers::horizon::Horizon;
 pub use answers::illumination::Lighting;
 pub use answers::merge::merge_visible;
 pub use answers::observer::Observer;

@@ -69,28 +69,7 @@ pub(crate) fn merge<'a>(
     viewpoint: [f64; 3],
     options: &Options,
 ) -> Result<Vec<u32>, Error> {
-    options.refuse_looks("merging")?;
-    // Any other radius would depend on the points that are left in the parts.
-    let resolved = match options.inversion {
-        Inversion::Spherical | Inversion::Power(_) => {
-            matches!(options.radius, Radius::Absolute(_))
-        }
-        Inversion::Exponential(scale) => scale != Exponential::Auto,
-        Inversion::Looks(_) => false,
-    };
-    if !resolved {
-        return Err(Error::MergeRadius);
-    }
-    // The neighbors of a point in a part are not its neighbors in the cloud.
-    let asked = [
-        ("denoise", options.denoise.is_some()),
-        ("vote", options.vote.is_some()),
-        ("draft", options.draft),
-        ("sample", options.sample.is_some()),
-    ];
-    if let Some((option, _)) = asked.into_iter().find(|&(_, is_asked)| is_asked) {
-        return Err(Error::MergeNeighbors { option });
-    }
+    check_mergeable(options)?;
     let mut count = 0usize;
     for number in 0..parts {
         let (positions, ids) = part(number);
@@ -133,4 +112,32 @@ pub(crate) fn merge<'a>(
     ids.clear();
     ids.extend(seen.iter().map(|&(id, _)| id as u32));
     Ok(ids)
+}
+
+/// Refuses options for which the answer of the parts would not be the answer of the whole.
+#[inline(never)]
+pub(crate) fn check_mergeable(options: &Options) -> Result<(), Error> {
+    options.refuse_looks("merging")?;
+    // Any other radius would depend on the points that are left in the parts.
+    let resolved = match options.inversion {
+        Inversion::Spherical | Inversion::Power(_) => {
+            matches!(options.radius, Radius::Absolute(_))
+        }
+        Inversion::Exponential(scale) => scale != Exponential::Auto,
+        Inversion::Looks(_) => false,
+    };
+    if !resolved {
+        return Err(Error::MergeRadius);
+    }
+    // The neighbors of a point in a part are not its neighbors in the cloud.
+    let asked = [
+        ("denoise", options.denoise.is_some()),
+        ("vote", options.vote.is_some()),
+        ("draft", options.draft),
+        ("sample", options.sample.is_some()),
+    ];
+    if let Some((option, _)) = asked.into_iter().find(|&(_, is_asked)| is_asked) {
+        return Err(Error::MergeNeighbors { option });
+    }
+    Ok(())
 }

@@ -4,6 +4,7 @@
 
 pub(crate) mod denoise;
 pub(crate) mod direction;
+pub(crate) mod horizon;
 pub(crate) mod illumination;
 pub(crate) mod looks;
 pub(crate) mod merge;

@@ -108,6 +108,8 @@ pub enum Error {
         /// The option, as the JavaScript package calls it.
         option: &'static str,
     },
+    /// A box has a minimum above its maximum, or a coordinate that is not finite.
+    BoundsInvalid,
     /// There is no draft of this.
     NoDraft {
         /// The option or method, as the JavaScript package calls it.
@@ -177,6 +179,7 @@ impl Error {
             | Self::LooksWith { .. }
             | Self::ScoresWithoutLooks
             | Self::ScoresWith { .. }
+            | Self::BoundsInvalid
             | Self::NoDraft { .. }
             | Self::Dimension { .. }
             | Self::IndexOutOfRange { .. }
@@ -226,6 +229,10 @@ impl fmt::Display for Error {
             Self::NoLimit { option } => write!(
                 f,
                 "{option} cannot be used for a direction: it has no limit far away"
+            ),
+            Self::BoundsInvalid => write!(
+                f,
+                "a box must be [min, max], where no coordinate of min is above that of max"
             ),
             Self::NoDraft { option } => write!(f, "draft cannot be combined with {option}"),
             Self::RadiusInvalid { radius } => {

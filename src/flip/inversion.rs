@@ -86,6 +86,13 @@ impl Flip {
         length * self.scale
     }
 
+    /// An upper bound of the factor s of all points at least `distance` from the viewpoint, roundings
+    /// included.
+    pub(crate) fn most_factor(&self, distance: f64) -> f64 {
+        const ROUNDING: f64 = 1e-12;
+        self.kernel.factor(distance) * (1.0 + ROUNDING) * self.scale
+    }
+
     /// The flipped point for any kernel. This is not inlined, to keep the hull's loops small. A
     /// point that leaves the range of f64 also counts as a point at the viewpoint.
     #[inline(never)]
@@ -105,6 +112,11 @@ impl Flip {
             _ => 4.0,
         };
         times * self.extent * self.scale
+    }
+
+    /// The flipped point before it was scaled.
+    pub(crate) fn undo_scale(&self, q: DVec3) -> DVec3 {
+        q / self.scale
     }
 
     pub(crate) fn viewpoint(&self) -> DVec3 {

@@ -13,6 +13,7 @@ pub(crate) mod division;
 mod around;
 #[cfg(debug_assertions)]
 mod assertions;
+mod boxes;
 mod chain;
 mod depth;
 mod dual_plane;
@@ -20,6 +21,7 @@ mod exact_sum;
 mod flat;
 mod flipped;
 mod incremental;
+mod kept;
 mod locate;
 mod lower;
 mod memory;
@@ -33,6 +35,8 @@ mod share;
 mod topology;
 mod triangles;
 
+pub(crate) use boxes::hides_box;
+pub(crate) use kept::KeptHull;
 pub(crate) use lower::mark_lower_boundary;
 pub(crate) use memory::Memory;
 pub(crate) use outer_boundary::{mark_draft, mark_visible, triangulate_visible, visible_once};

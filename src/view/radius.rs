@@ -1,7 +1,9 @@
 //! A radius R of the flipping sphere: checked, or by the closed form (paper §4).
 
 use crate::base::error::Error;
+use crate::base::real::square_root;
 use crate::cloud::neighbors::distance_squared;
+use crate::cloud::points::Given;
 use crate::cloud::statistics::Statistics;
 use crate::view::options::Radius;
 
@@ -39,6 +41,21 @@ impl ChosenRadius {
             ..larger
         }
     }
+}
+
+/// Checks a choice of R for points that are not in a cloud.
+pub(crate) fn check_reach(choice: Radius, viewpoint: [f64; 3], points: Given) -> Result<(), Error> {
+    let mut largest = 0.0f64;
+    for p in points.iter() {
+        largest = largest.max(distance_squared(p, viewpoint));
+    }
+    let farthest = square_root(largest);
+    if !farthest.is_finite() {
+        let radius = None;
+        return Err(Error::RadiusOverflow { radius, farthest });
+    }
+    given(choice, farthest)?;
+    Ok(())
 }
 
 /// The largest R the flip accepts: 2R·(1 + rounding) must not overflow.

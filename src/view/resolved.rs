@@ -35,9 +35,7 @@ impl PointCloud {
     }
 
     pub(crate) fn view(&self, viewpoint: [f64; 3], options: &Options) -> Result<View, Error> {
-        if viewpoint.iter().any(|x| !x.is_finite()) {
-            return Err(Error::Viewpoint { viewpoint });
-        }
+        check_viewpoint(viewpoint)?;
         let spacing = self.statistics.spacing;
         let inversion = resolved_inversion(options, spacing)?;
         let points = &self.sequence.points;
@@ -84,6 +82,23 @@ pub(crate) fn resolved_kernel(
         }
         Inversion::Looks(_) => return Err(Error::LooksWith { other: ONE_HULL }),
     })
+}
+
+/// The flip of a view whose radius and inversion are numbers, before its points are known.
+#[inline(never)]
+pub(crate) fn numbered_flip(viewpoint: [f64; 3], options: &Options) -> Result<Flip, Error> {
+    check_viewpoint(viewpoint)?;
+    let inversion = resolved_inversion(options, 0.0)?;
+    let radius = |choice| radius::given(choice, 0.0);
+    let (kernel, _) = resolved_kernel(inversion, options.radius, 0.0, &radius)?;
+    Ok(Flip::new(viewpoint, kernel))
+}
+
+fn check_viewpoint(viewpoint: [f64; 3]) -> Result<(), Error> {
+    if viewpoint.iter().any(|x| !x.is_finite()) {
+        return Err(Error::Viewpoint { viewpoint });
+    }
+    Ok(())
 }
 
 /// Refuses options that are refused even where all points are at the viewpoint.

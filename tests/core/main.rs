@@ -12,6 +12,7 @@ mod direction;
 mod draft;
 mod fixtures;
 mod guarantees;
+mod horizon;
 mod hyperspace;
 mod illumination;
 mod invariance;

@@ -1,0 +1,232 @@
+//! Horizons: what a part of a cloud hides from other points and from boxes.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{
+    Error, Exponential, Horizon, Inversion, Options, PointCloud, Radius, merge_visible,
+};
+
+use crate::common::flip::farthest;
+use crate::common::rng::Rng;
+use crate::common::scenes::Scene;
+use crate::common::shapes;
+use crate::common::structured;
+
+/// Options with numbers only, for points up to the distance of the farthest point.
+fn numbered(rng: &mut Rng, scene: &Scene) -> Option<Options> {
+    let farthest = farthest(&scene.points, scene.viewpoint);
+    if farthest == 0.0 || farthest > 1e150 {
+        return None;
+    }
+    Some(match rng.below(6) {
+        0 => Options::with_radius(farthest),
+        1 => Options::with_radius(2.0 * farthest),
+        2 => Options::with_radius(1000.0 * farthest),
+        3 => Options {
+            radius: Radius::Absolute(farthest),
+            ..Options::with_inversion(Inversion::Power(2.0))
+        },
+        4 => Options::with_inversion(Inversion::Exponential(Exponential::Scale(0.3 * farthest))),
+        _ => Options::with_inversion(Inversion::Exponential(Exponential::Scale(1e-3 * farthest))),
+    })
+}
+
+/// Whether the last point of `points` is visible among them.
+fn sees_last(points: &[[f64; 3]], viewpoint: [f64; 3], options: &Options) -> bool {
+    let cloud = PointCloud::new(points).unwrap();
+    let visible = cloud.visible_from(viewpoint, options).unwrap();
+    visible.indices().last() == Some(&(points.len() as u32 - 1))
+}
+
+#[test]
+fn screens_exactly_as_if_each_point_was_added() {
+    for seed in 0..40 {
+        for &kind in structured::SHAPES {
+            let mut rng = Rng::new(seed);
+            let scene = structured::scene(&mut rng, kind, 24);
+            let Some(options) = numbered(&mut rng, &scene) else {
+                continue;
+            };
+            let (points, viewpoint) = (&scene.points, scene.viewpoint);
+            let taken = rng.below(points.len() + 1);
+            let (own, others) = points.split_at(taken);
+            let mut horizon = Horizon::new(viewpoint, &options).unwrap();
+            let cut = rng.below(own.len() + 1);
+            horizon.add(&own[..cut]).unwrap();
+            horizon.add(&own[cut..]).unwrap();
+            let screened = horizon.screen(others).unwrap();
+            for (index, &point) in (0..).zip(others) {
+                let mut all = own.to_vec();
+                all.push(point);
+                assert_eq!(
+                    screened.contains(&index),
+                    sees_last(&all, viewpoint, &options),
+                    "{} with seed {seed}, {point:?} after {own:?} from {viewpoint:?}, {options:?}",
+                    kind.0
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn screening_before_a_merge_changes_no_answer() {
+    let mut rng = Rng::new(3);
+    let points = shapes::room(&mut rng, 3000);
+    for viewpoint in [[0.3, 0.2, 1.2], [4.0, 0.0, 1.5], [9.0, 2.0, 4.0]] {
+        let options = Options::with_radius(300.0);
+        let whole = PointCloud::new(&points).unwrap();
+        let whole = whole.visible_from(viewpoint, &options).unwrap();
+        let sample: Vec<_> = points.iter().step_by(50).copied().collect();
+        let mut horizon = Horizon::new(viewpoint, &options).unwrap();
+        horizon.add(&sample).unwrap();
+        let ids = horizon.screen(&points).unwrap();
+        assert!(ids.len() < points.len(), "the sample hides something");
+        let kept: Vec<_> = ids.iter().map(|&id| points[id as usize]).collect();
+        let merged = merge_visible(&[(&kept[..], &ids[..])], viewpoint, &options).unwrap();
+        assert_eq!(merged, whole.indices());
+    }
+}
+
+#[test]
+fn the_visible_points_alone_hide_as_much() {
+    let mut rng = Rng::new(4);
+    let points = shapes::bumpy(&mut rng, 2000);
+    let options = Options::with_inversion(Inversion::Exponential(Exponential::Scale(0.01)));
+    let viewpoint = [2.0, 1.0, 0.5];
+    let mut horizon = Horizon::new(viewpoint, &options).unwrap();
+    horizon.add(&points[..500]).unwrap();
+    let mut sent = Horizon::new(viewpoint, &options).unwrap();
+    sent.add(&horizon.visible()).unwrap();
+    assert!(sent.visible().len() < 500);
+    assert_eq!(sent.visible(), horizon.visible());
+    let screened = horizon.screen(&points).unwrap();
+    assert_eq!(sent.screen(&points).unwrap(), screened);
+}
+
+#[test]
+fn a_hidden_box_holds_no_visible_point() {
+    let mut proved = 0;
+    let mut provable = 0;
+    for seed in 0..30 {
+        let mut rng = Rng::new(seed);
+        let points = if seed % 2 == 0 {
+            shapes::room(&mut rng, 4000)
+        } else {
+            shapes::bumpy(&mut rng, 4000)
+        };
+        let viewpoint = [rng.between(-3.0, 3.0), rng.between(-2.0, 2.0), 1.0];
+        let scene = Scene {
+            points,
+            viewpoint,
+            options: Options::default(),
+        };
+        // Boxes reach beyond the points.
+        let far = 30.0;
+        let options = match seed % 3 {
+            0 => Options::with_radius(far),
+            1 => Options::with_inversion(Inversion::Exponential(Exponential::Scale(0.02))),
+            _ => Options::with_radius(10.0 * far),
+        };
+        let mut horizon = Horizon::new(viewpoint, &options).unwrap();
+        horizon.add(&scene.points).unwrap();
+        for _ in 0..40 {
+            let point = rng.pick(&scene.points);
+            let out: [f64; 3] = core::array::from_fn(|axis| {
+                point[axis] + (point[axis] - viewpoint[axis]) * rng.between(0.0, 2.0)
+            });
+            let size = rng.pick(&[1e-3, 0.05, 0.3, 1.0]);
+            let edges: [f64; 3] = core::array::from_fn(|_| size * rng.unit());
+            let max: [f64; 3] = core::array::from_fn(|axis| out[axis] + edges[axis]);
+            let samples: Vec<[f64; 3]> = (0..500)
+                .map(|_| {
+                    // Corners, edges and sides hold more than their share.
+                    core::array::from_fn(|axis| {
+                        out[axis] + edges[axis] * rng.between(-0.3, 1.3).clamp(0.0, 1.0)
+                    })
+                })
+                .filter(|p: &[f64; 3]| (0..3).all(|axis| p[axis] <= max[axis]))
+                .collect();
+            let seen = horizon.screen(&samples).unwrap();
+            let hides = horizon.hides_box(out, max).unwrap();
+            assert!(
+                !hides || seen.is_empty(),
+                "seed {seed}: {out:?} to {max:?} from {viewpoint:?}"
+            );
+            proved += usize::from(hides);
+            provable += usize::from(seen.is_empty());
+        }
+    }
+    assert!(provable > 300, "{provable} boxes are hidden");
+    assert!(
+        10 * proved > 9 * provable,
+        "{proved} of {provable} hidden boxes are proved"
+    );
+}
+
+#[test]
+fn boxes_beside_the_viewpoint_are_never_hidden() {
+    let mut rng = Rng::new(5);
+    let points = shapes::sphere(&mut rng, 2000);
+    let viewpoint = [0.1, 0.0, 0.0];
+    let mut horizon = Horizon::new(viewpoint, &Options::with_radius(100.0)).unwrap();
+    assert!(
+        !horizon.hides_box([5.0; 3], [6.0; 3]).unwrap(),
+        "nothing hides"
+    );
+    horizon.add(&points).unwrap();
+    assert!(horizon.hides_box([5.0; 3], [6.0; 3]).unwrap());
+    assert!(
+        !horizon.hides_box([-9.0; 3], [9.0; 3]).unwrap(),
+        "it holds the viewpoint"
+    );
+    assert!(!horizon.hides_box([0.1; 3], [0.1; 3]).unwrap());
+    assert!(!horizon.hides_box(viewpoint, viewpoint).unwrap());
+    assert!(
+        !horizon.hides_box(viewpoint, [9.0; 3]).unwrap(),
+        "the viewpoint is a corner"
+    );
+    assert!(
+        !horizon.hides_box([5.0; 3], [99.0; 3]).unwrap(),
+        "a corner is beyond the radius"
+    );
+}
+
+#[test]
+fn refusals_name_the_cause_and_change_nothing() {
+    let options = Options::with_radius(3.0);
+    let new = |viewpoint, options: &Options| Horizon::new(viewpoint, options).map(|_| ());
+    assert_eq!(new([0.0; 3], &Options::default()), Err(Error::MergeRadius));
+    assert!(matches!(
+        new([f64::NAN; 3], &options),
+        Err(Error::Viewpoint { .. })
+    ));
+    let mut horizon = Horizon::new([0.0; 3], &options).unwrap();
+    horizon
+        .add(&[[1.0, 0.2, 0.2], [0.2, 1.0, 0.2], [0.2, 0.2, 1.0]])
+        .unwrap();
+    let hidden = [[1.5, 1.5, 1.5]];
+    assert_eq!(horizon.screen(&hidden), Ok(vec![]));
+    let far = [[0.0, 0.0, 4.0]];
+    let too_small = Error::RadiusTooSmall {
+        radius: 3.0,
+        farthest: 4.0,
+    };
+    assert_eq!(horizon.add(&far), Err(too_small));
+    assert_eq!(horizon.screen(&far), Err(too_small));
+    let bad = [[0.0; 3], [f64::INFINITY; 3]];
+    let non_finite = Error::NonFinite { count: 1, first: 1 };
+    assert_eq!(horizon.add(&bad), Err(non_finite));
+    assert_eq!(horizon.screen(&bad), Err(non_finite));
+    assert_eq!(
+        horizon.hides_box([1.0; 3], [0.0; 3]),
+        Err(Error::BoundsInvalid)
+    );
+    assert_eq!(
+        horizon.hides_box([f64::NAN; 3], [1.0; 3]),
+        Err(Error::BoundsInvalid)
+    );
+    assert_eq!(horizon.screen(&hidden), Ok(vec![]));
+    assert_eq!(horizon.visible().len(), 3);
+}
