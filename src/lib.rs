@@ -53,6 +53,7 @@ pub use base::error::Error;
 pub use base::limit::MAX_POINTS;
 pub use cloud::point_cloud::{NonFinite, PointCloud};
 pub use cloud::points::Position;
+pub use cloud::selection::Within;
 pub use dimensions::higher::{MAX_DIMENSION, PointCloudNd};
 pub use dimensions::two::PointCloud2d;
 pub use hull::division::Sector;

@@ -49,15 +49,19 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::Direction`] for a direction that is zero or not finite;
-    /// [`Error::NoLimit`] for [`Inversion::Power`], [`Radius::Search`] and
-    /// [`Radius::Opposite`]; the others of [`PointCloud::visible_from`].
+    /// [`Error::NoLimit`] for [`Inversion::Power`], [`Radius::Search`], [`Radius::Opposite`] and
+    /// a distance in [`Options::within`]; the others of [`PointCloud::visible_from`].
     pub fn visible_from_direction(
         &self,
         direction: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        if let Some(count) = options.sample {
-            let seen = self.after_sampling(count, options, &mut |cloud, options| {
+        if options.chooses_for_each() {
+            let option = "within distance";
+            return Err(Error::NoLimit { option });
+        }
+        if options.chooses() {
+            let seen = self.on_chosen(None, options, &mut |cloud, options| {
                 cloud.visible_from_direction(direction, options)
             })?;
             return Ok(seen.to(options));

@@ -68,8 +68,8 @@ impl PointCloud {
         lighting: &Lighting,
     ) -> Result<Vec<f32>, Error> {
         options.refuse_draft("illuminate")?;
-        if let Some(count) = options.sample {
-            return self.after_sampling(count, options, &mut |cloud, options| {
+        if options.chooses_for_all() {
+            return self.on_chosen(None, options, &mut |cloud, options| {
                 cloud.illuminate(lights, options, lighting)
             });
         }
@@ -83,7 +83,8 @@ impl PointCloud {
         }
 
         let mut brightness = filled(len, 0.0)?;
-        self.after_denoising(options, |cloud, options| {
+        // One closure behind a pointer: the compiler would copy it for each call.
+        let shine: &mut dyn FnMut(&Self, &Options) -> Result<(), Error> = &mut |cloud, options| {
             if lights.is_empty() {
                 cloud.check_options(options)?;
             }
@@ -94,7 +95,13 @@ impl PointCloud {
                 }
             }
             Ok(())
-        })?;
+        };
+        if options.chooses_for_each() {
+            // Noise is handled after the points near each light are chosen.
+            shine(self, options)?;
+        } else {
+            self.after_denoising(options, |cloud, options| shine(cloud, options))?;
+        }
         let share = (1.0 - ambient) / (lights.len().max(1) as f64);
         for light in &mut brightness {
             *light = ambient + share * *light;

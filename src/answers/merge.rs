@@ -135,6 +135,7 @@ pub(crate) fn check_mergeable(options: &Options) -> Result<(), Error> {
         ("vote", options.vote.is_some()),
         ("draft", options.draft),
         ("sample", options.sample.is_some()),
+        ("within", options.within.is_some()),
     ];
     if let Some((option, _)) = asked.into_iter().find(|&(_, is_asked)| is_asked) {
         return Err(Error::MergeNeighbors { option });

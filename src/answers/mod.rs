@@ -1,6 +1,6 @@
 //! All questions to a cloud. A view can be from one viewpoint, from one after another, from
 //! several at once, along a direction, or divided among threads. A cloud can be in parts or
-//! noisy. The answer can also be a surface or light.
+//! noisy, and only a part of it may take part. The answer can also be a surface or light.
 
 pub(crate) mod denoise;
 pub(crate) mod direction;
@@ -9,6 +9,7 @@ pub(crate) mod illumination;
 pub(crate) mod looks;
 pub(crate) mod merge;
 pub(crate) mod observer;
+pub(crate) mod part;
 pub(crate) mod reconstruct;
 pub(crate) mod sample;
 pub(crate) mod sector;

@@ -60,8 +60,8 @@ impl PointCloud {
         max_edge: Option<f64>,
     ) -> Result<Reconstruction, Error> {
         options.refuse_draft("reconstruct")?;
-        if let Some(count) = options.sample {
-            let seen = self.after_sampling(count, options, &mut |cloud, options| {
+        if options.chooses() {
+            let seen = self.on_chosen(Some(viewpoint), options, &mut |cloud, options| {
                 cloud.reconstruct(viewpoint, options, max_edge)
             })?;
             let visibility = seen.visibility.to(options);

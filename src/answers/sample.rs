@@ -10,24 +10,9 @@ use crate::cloud::point_cloud::PointCloud;
 use crate::view::options::Options;
 
 impl PointCloud {
-    /// Asks a cloud that holds the `count` sampled points alone.
-    pub(crate) fn after_sampling<T>(
-        &self,
-        count: usize,
-        options: &Options,
-        query: &mut dyn FnMut(&Self, &Options) -> Result<T, Error>,
-    ) -> Result<T, Error> {
-        let mut made = None;
-        let cloud = self.kept_or_sampled(count, options, &mut made)?;
-        let options = Options {
-            sample: None,
-            ..*options
-        };
-        query(cloud, &options)
-    }
-
+    /// The cloud that holds the `count` sampled points alone, kept or `made`.
     #[inline(never)]
-    fn kept_or_sampled<'a>(
+    pub(crate) fn kept_or_sampled<'a>(
         &'a self,
         count: usize,
         options: &Options,
@@ -52,7 +37,7 @@ impl PointCloud {
             ..*options
         };
         if self.holds_at_most(count) {
-            return self.prepare_for(&options);
+            return self.prepare_view(None, &options);
         }
         let kept = self.kept.sampled.as_ref();
         if kept.is_none_or(|&(kept, _)| kept != count) {
@@ -61,7 +46,7 @@ impl PointCloud {
             self.kept.sampled = Some((count, Box::new(self.sampled(count)?)));
         }
         let sampled = self.kept.sampled.as_mut();
-        sampled.map_or(Ok(()), |(_, cloud)| cloud.prepare_for(&options))
+        sampled.map_or(Ok(()), |(_, cloud)| cloud.prepare_view(None, &options))
     }
 
     fn holds_at_most(&self, count: usize) -> bool {

@@ -64,7 +64,22 @@ impl PointCloud {
         options: &Options,
         sector: Sector,
     ) -> Result<Visibility, Error> {
-        memory.see_sample(options.sample);
+        memory.see(options.selection(viewpoint));
+        self.sector_of_chosen(memory, viewpoint, options, sector)
+    }
+
+    fn sector_of_chosen(
+        &self,
+        memory: &mut Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+        sector: Sector,
+    ) -> Result<Visibility, Error> {
+        if options.within.is_some() {
+            return self.on_chosen(Some(viewpoint), options, &mut |cloud, options| {
+                cloud.sector_of_chosen(memory, viewpoint, options, sector)
+            });
+        }
         // With a vote or denoising, the answer of a point needs the answers of its neighbors.
         // Drafts and samples take little time. In all these cases the first sector answers for all.
         let is_one_hull = !options.asks_for_looks() && options.is_exact();
@@ -80,7 +95,7 @@ impl PointCloud {
             }
         }
         if sector.number == 0 {
-            self.visible_from_with(memory, viewpoint, options)
+            self.visible_from_chosen(memory, viewpoint, options)
         } else {
             self.nothing(viewpoint, options)
         }
@@ -88,8 +103,8 @@ impl PointCloud {
 
     /// The answer in which nothing is visible.
     fn nothing(&self, viewpoint: [f64; 3], options: &Options) -> Result<Visibility, Error> {
-        if let Some(count) = options.sample {
-            let seen = self.after_sampling(count, options, &mut |cloud, options| {
+        if options.chooses() {
+            let seen = self.on_chosen(Some(viewpoint), options, &mut |cloud, options| {
                 cloud.nothing(viewpoint, options)
             })?;
             return Ok(seen.to(options));

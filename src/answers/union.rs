@@ -16,7 +16,8 @@ use crate::view::resolved::resolved_inversion;
 
 impl PointCloud {
     /// Which points are visible from at least one of `viewpoints`? Each view chooses its own R by
-    /// `options`. The answer holds the largest R. It also holds the number of hulls that all
+    /// `options`. The answer holds the largest R, and the largest c where a distance in
+    /// [`Options::within`] gives each view its own. It also holds the number of hulls that all
     /// choices took.
     /// Without viewpoints nothing is visible.
     ///
@@ -31,15 +32,7 @@ impl PointCloud {
         viewpoints: &[[f64; 3]],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        if let Some(count) = options.sample {
-            let seen = self.after_sampling(count, options, &mut |cloud, options| {
-                cloud.visible_from_any(viewpoints, options)
-            })?;
-            return Ok(seen.to(options));
-        }
-        self.after_denoising(options, |cloud, options| {
-            cloud.visible_from_several(1, viewpoints, options)
-        })
+        self.visible_from_several(1, viewpoints, options)
     }
 
     /// Which points are visible from at least `k` of `viewpoints`? Otherwise as
@@ -69,15 +62,7 @@ impl PointCloud {
         options: &Options,
     ) -> Result<Visibility, Error> {
         in_range("k", k as f64, 1.0, viewpoints.len() as f64)?;
-        if let Some(count) = options.sample {
-            let seen = self.after_sampling(count, options, &mut |cloud, options| {
-                cloud.visible_from_at_least(k, viewpoints, options)
-            })?;
-            return Ok(seen.to(options));
-        }
-        self.after_denoising(options, |cloud, options| {
-            cloud.visible_from_several(k, viewpoints, options)
-        })
+        self.visible_from_several(k, viewpoints, options)
     }
 
     fn visible_from_several(
@@ -86,11 +71,59 @@ impl PointCloud {
         viewpoints: &[[f64; 3]],
         options: &Options,
     ) -> Result<Visibility, Error> {
+        if options.chooses_for_all() {
+            let seen = self.on_chosen(None, options, &mut |cloud, options| {
+                cloud.visible_from_several(k, viewpoints, options)
+            })?;
+            return Ok(seen.to(options));
+        }
         if options.scores {
             return Err(Error::ScoresWith {
                 other: "several viewpoints",
             });
         }
+        if options.chooses_for_each() && !viewpoints.is_empty() {
+            return self.visible_from_parts(k, viewpoints, options);
+        }
+        self.after_denoising(options, |cloud, options| {
+            cloud.visible_from_whole_several(k, viewpoints, options)
+        })
+    }
+
+    /// The same, where each viewpoint sees another part of the cloud.
+    fn visible_from_parts(
+        &self,
+        k: usize,
+        viewpoints: &[[f64; 3]],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        let mut views: Vec<u32> = filled(self.len(), 0)?;
+        let mut last: Option<Visibility> = None;
+        for &viewpoint in viewpoints {
+            let seen = self.visible_from(viewpoint, options)?;
+            for &index in seen.indices() {
+                views[index as usize] += 1;
+            }
+            last = Some(match last {
+                Some(last) => seen.joined(last),
+                None => seen,
+            });
+        }
+        let is_seen = |&index: &u32| views[index as usize] as usize >= k;
+        let mut indices: Vec<u32> = with_capacity(self.len())?;
+        indices.extend((0..self.len() as u32).filter(is_seen));
+        let len = self.len();
+        let nothing =
+            || Visibility::new(Vec::new(), len, ChosenRadius::unit(0.0), options.inversion);
+        Ok(last.unwrap_or_else(nothing).with_indices(indices))
+    }
+
+    fn visible_from_whole_several(
+        &self,
+        k: usize,
+        viewpoints: &[[f64; 3]],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
         let inversion = match options.inversion {
             Inversion::Looks(_) => options.inversion,
             _ => resolved_inversion(options, self.statistics.spacing)?,

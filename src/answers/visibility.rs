@@ -8,7 +8,7 @@ use crate::base::error::Error;
 use crate::base::sort::sort_keyed;
 use crate::cloud::point_cloud::PointCloud;
 use crate::hull;
-use crate::view::options::{Inversion, Options, Radius};
+use crate::view::options::{Exponential, Inversion, Options, Radius};
 use crate::view::radius::ChosenRadius;
 use crate::view::resolved::{View, looks};
 
@@ -47,6 +47,30 @@ impl Visibility {
     pub(crate) fn to(self, options: &Options) -> Self {
         let exact = self.exact && options.is_exact();
         Self { exact, ..self }
+    }
+
+    /// This answer with the larger radius and scale of two views, and with the number of hulls of
+    /// both choices.
+    pub(crate) fn joined(mut self, other: Self) -> Self {
+        self.chosen = self.chosen.joined(other.chosen);
+        if other.scale() > self.scale() {
+            self.inversion = other.inversion;
+            self.looks = other.looks;
+        }
+        self
+    }
+
+    /// This answer for other visible points.
+    pub(crate) fn with_indices(self, indices: Vec<u32>) -> Self {
+        Self { indices, ..self }
+    }
+
+    /// The largest scale c of its hulls; 0 where there is none.
+    fn scale(&self) -> f64 {
+        match self.inversion {
+            Inversion::Exponential(Exponential::Scale(scale)) => scale,
+            _ => self.looks.first().copied().unwrap_or(0.0),
+        }
     }
 
     /// The visible points' indices in the cloud, ascending.
@@ -166,6 +190,7 @@ impl PointCloud {
     /// unless 1 ≤ k < the number of present points for [`Options::denoise`] and
     /// [`Options::vote`], and for a number of looks that is not 2 or 3;
     /// [`Error::LooksWith`] for looks with a choice of R; [`Error::ScoresWithoutLooks`];
+    /// [`Error::BoundsInvalid`];
     /// [`Error::OutOfMemory`].
     pub fn visible_from(
         &self,
@@ -182,10 +207,20 @@ impl PointCloud {
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        memory.see_sample(options.sample);
-        if let Some(count) = options.sample {
-            let seen = self.after_sampling(count, options, &mut |cloud, options| {
-                cloud.visible_from_whole(memory, viewpoint, options)
+        memory.see(options.selection(viewpoint));
+        self.visible_from_chosen(memory, viewpoint, options)
+    }
+
+    /// The same as `visible_from_with`, for a memory that has seen the selection.
+    pub(crate) fn visible_from_chosen(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        if options.chooses() {
+            let seen = self.on_chosen(Some(viewpoint), options, &mut |cloud, options| {
+                cloud.visible_from_chosen(memory, viewpoint, options)
             })?;
             return Ok(seen.to(options));
         }

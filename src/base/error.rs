@@ -108,8 +108,15 @@ pub enum Error {
         /// The option, as the JavaScript package calls it.
         option: &'static str,
     },
-    /// A box has a minimum above its maximum, or a coordinate that is not finite.
+    /// A box has a minimum above its maximum, or a coordinate that is NaN (or, for a horizon, infinite).
     BoundsInvalid,
+    /// A mask does not have one element for each index of the cloud.
+    MaskLength {
+        /// How many elements it has.
+        given: usize,
+        /// How many indices the cloud has given out.
+        len: usize,
+    },
     /// There is no draft of this.
     NoDraft {
         /// The option or method, as the JavaScript package calls it.
@@ -180,6 +187,7 @@ impl Error {
             | Self::ScoresWithoutLooks
             | Self::ScoresWith { .. }
             | Self::BoundsInvalid
+            | Self::MaskLength { .. }
             | Self::NoDraft { .. }
             | Self::Dimension { .. }
             | Self::IndexOutOfRange { .. }
@@ -233,6 +241,10 @@ impl fmt::Display for Error {
             Self::BoundsInvalid => write!(
                 f,
                 "a box must be [min, max], where no coordinate of min is above that of max"
+            ),
+            Self::MaskLength { given, len } => write!(
+                f,
+                "within mask must have one element for each of {len} indices, got {given}"
             ),
             Self::NoDraft { option } => write!(f, "draft cannot be combined with {option}"),
             Self::RadiusInvalid { radius } => {

@@ -1,10 +1,12 @@
 //! Everything about the points that does not depend on a viewpoint: positions as given, the
-//! canonical order along a Hilbert curve, nearest neighbors, statistics, spheres around blocks.
+//! canonical order along a Hilbert curve, nearest neighbors, statistics, spheres around blocks,
+//! choices of points.
 
 pub(crate) mod blocks;
 pub(crate) mod neighbors;
 pub(crate) mod point_cloud;
 pub(crate) mod points;
+pub(crate) mod selection;
 pub(crate) mod sequence;
 pub(crate) mod spatial;
 pub(crate) mod statistics;

@@ -9,6 +9,7 @@ use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::error::Error;
 use crate::cloud::blocks::Blocks;
 use crate::cloud::points::{Given, Position, checked_len, is_finite};
+use crate::cloud::selection::Selection;
 use crate::cloud::sequence::Sequence;
 use crate::cloud::spatial::{Bounds, HilbertCurve};
 use crate::cloud::statistics::Statistics;
@@ -56,6 +57,11 @@ pub(crate) struct Kept {
     pub voters: Option<Voters>,
     /// The cloud of the sampled points, and the number of points that were asked for.
     pub sampled: Option<(usize, Box<PointCloud>)>,
+    /// The cloud of the points within a box, or within a distance from a viewpoint.
+    pub within: Option<(Selection, Box<PointCloud>)>,
+    /// The cloud of the points that a mask marks, with one byte for each index.
+    #[cfg(feature = "wasm")]
+    pub masked: Option<(Vec<u8>, Box<PointCloud>)>,
 }
 
 /// The `each` nearest other points of every point: `k` of them, or fewer in a small cloud.
@@ -238,9 +244,13 @@ impl PointCloud {
 
     /// The cloud of the distinct points at these places of the order. The places ascend. Indices
     /// stay.
-    #[inline(never)]
     pub(crate) fn of_places(&self, places: &[u32]) -> Result<Self, OutOfMemory> {
-        let sequence = self.sequence.selected(places)?;
+        self.of_sequence(self.sequence.selected(places)?)
+    }
+
+    /// The cloud of a part of the sequence. Indices stay.
+    #[inline(never)]
+    pub(crate) fn of_sequence(&self, sequence: Sequence) -> Result<Self, OutOfMemory> {
         let mut bounds = Bounds::EMPTY;
         sequence.points.iter().for_each(|p| bounds.include(p));
         let curve = HilbertCurve::new(&bounds);

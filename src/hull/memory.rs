@@ -13,6 +13,7 @@ use super::order;
 use super::repair::Repair;
 use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, push};
+use crate::cloud::selection::Selection;
 use crate::flip::inversion::Flip;
 
 /// The last view's hull, and room for the hull of the next view. Its content never changes
@@ -35,8 +36,8 @@ pub(crate) struct Memory {
     /// The flip of the last draft, if `hull` is its hull and `depth` its map. The next view may go
     /// on from there.
     pub(super) drafted: Option<Flip>,
-    /// The number of sampled points in the last view; `None` where all took part.
-    sample: Option<usize>,
+    /// The choice of points in the last view.
+    selection: Selection,
 }
 
 impl Memory {
@@ -61,13 +62,11 @@ impl Memory {
         self.patience = Patience::GREAT;
     }
 
-    /// Prepares for a view of a sample of points, or of all points. `sample` is the number of
-    /// sampled points; it is `None` for all points. Forgets the last view if it was of other
-    /// points.
-    pub(crate) fn see_sample(&mut self, sample: Option<usize>) {
-        if self.sample != sample {
+    /// Prepares for a view of these points. Forgets the last view if it was of other points.
+    pub(crate) fn see(&mut self, selection: Selection) {
+        if self.selection != selection {
             self.forget();
-            self.sample = sample;
+            self.selection = selection;
         }
     }
 

@@ -1,6 +1,7 @@
 //! The options of one view.
 
 use crate::base::error::Error;
+use crate::cloud::selection::{Selection, Within};
 
 /// How the radius R of the flipping sphere is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -105,6 +106,13 @@ pub struct Options {
     /// smaller sample is part of a larger one. Each query chooses the sample again, unless the
     /// cloud is [prepared](crate::PointCloud::prepare_for) for it.
     pub sample: Option<usize>,
+    /// Only these points take part: those near the viewpoint, or in a box. The answer is the same
+    /// as that of a cloud of these points alone, with its own spacing and farthest distance. It is
+    /// followed before all other options. Where there are several viewpoints or lights, each has
+    /// its own points. A mask chooses points by index: [`PointCloud::masked`].
+    ///
+    /// [`PointCloud::masked`]: crate::PointCloud::masked
+    pub within: Option<Within>,
 }
 
 impl Options {
@@ -148,9 +156,38 @@ impl Options {
         Ok(())
     }
 
-    /// Refuses drafts and samples, in a dimension that has none.
+    /// Whether only a part of the points takes part in a view from a viewpoint.
+    pub(crate) fn chooses(&self) -> bool {
+        self.within.is_some() || self.sample.is_some()
+    }
+
+    /// Whether only a part of the points takes part in every view, whatever the viewpoint is.
+    pub(crate) fn chooses_for_all(&self) -> bool {
+        let within = self.within.unwrap_or_default();
+        within.bounds.is_some() || within.distance.is_none() && self.chooses()
+    }
+
+    /// Whether each viewpoint has its own part of the points.
+    pub(crate) fn chooses_for_each(&self) -> bool {
+        self.within.is_some_and(|within| within.distance.is_some())
+    }
+
+    /// What decides which points take part in a view from `viewpoint`.
+    pub(crate) fn selection(&self, viewpoint: [f64; 3]) -> Selection {
+        Selection {
+            within: self.within,
+            viewpoint: Some(viewpoint).filter(|_| self.chooses_for_each()),
+            sample: self.sample,
+        }
+    }
+
+    /// Refuses drafts and choices of points, in a dimension that has none.
     pub(crate) fn check_whole(&self, dimension: usize) -> Result<(), Error> {
-        let asked = [("draft", self.draft), ("sample", self.sample.is_some())];
+        let asked = [
+            ("draft", self.draft),
+            ("sample", self.sample.is_some()),
+            ("within", self.within.is_some()),
+        ];
         match asked.into_iter().find(|(_, is_asked)| *is_asked) {
             Some((option, _)) => Err(Error::Dimension { option, dimension }),
             None => Ok(()),

@@ -25,6 +25,9 @@ pub(crate) struct View {
 impl PointCloud {
     /// Refuses options that are refused for every viewpoint. Queries without a viewpoint use it.
     pub(crate) fn check_options(&self, options: &Options) -> Result<(), Error> {
+        if let Some(within) = options.within {
+            within.check()?;
+        }
         if let Some(k) = options.vote {
             self.check_neighbors("vote", k)?;
         }
@@ -94,7 +97,7 @@ pub(crate) fn numbered_flip(viewpoint: [f64; 3], options: &Options) -> Result<Fl
     Ok(Flip::new(viewpoint, kernel))
 }
 
-fn check_viewpoint(viewpoint: [f64; 3]) -> Result<(), Error> {
+pub(crate) fn check_viewpoint(viewpoint: [f64; 3]) -> Result<(), Error> {
     if viewpoint.iter().any(|x| !x.is_finite()) {
         return Err(Error::Viewpoint { viewpoint });
     }

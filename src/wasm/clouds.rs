@@ -1,14 +1,18 @@
 //! The clouds, each with the number that JavaScript holds, and the hull of the last view.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 use core::cell::RefCell;
 use std::thread_local;
 
+use js_sys::Uint8Array;
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::failure::Failure;
 use super::objects::to_js;
+use super::options::ViewOptions;
+use super::transfer::copy_in_bytes;
 use crate::base::allocation::push;
 use crate::hull::Memory;
 use crate::{Error, Options, PointCloud, PointCloudNd};
@@ -20,7 +24,7 @@ thread_local! {
 
 /// A cloud of three dimensions (or two, with z = 0), or of more.
 pub(super) enum Cloud {
-    Space(PointCloud),
+    Space(Box<PointCloud>),
     Hyper(PointCloudNd),
 }
 
@@ -28,6 +32,8 @@ pub(super) enum Cloud {
 /// many clouds take no more memory.
 struct LastView {
     handle: u32,
+    /// Whether only masked points took part.
+    masked: bool,
     memory: Memory,
 }
 
@@ -97,31 +103,56 @@ pub(super) fn with_cloud<T>(
     })
 }
 
-/// Asks a cloud for a view. Neighbors for noise handling and the sample are kept for the next
-/// view, where there is memory.
+/// Asks a cloud for a view, or the part of it that a mask leaves. The part, the sample and
+/// neighbors for noise handling are kept for the next view, where there is memory. `viewpoint`
+/// is the one viewpoint of the view, if there is one.
 pub(super) fn with_view<T>(
     handle: u32,
+    viewpoint: Option<[f64; 3]>,
+    choices: &ViewOptions,
     options: &Options,
     query: impl FnOnce(&PointCloud) -> Result<T, Error>,
 ) -> Result<T, Failure> {
-    if options
-        .denoise
-        .or(options.vote)
-        .or(options.sample)
-        .is_some()
-    {
-        prepare(handle, options)?;
+    let mask = choices.mask();
+    let neighbors = options.denoise.or(options.vote);
+    if mask.is_some() || options.within.is_some() || neighbors.or(options.sample).is_some() {
+        prepare(handle, viewpoint, mask.as_ref(), options)?;
     }
-    with_cloud(handle, query)
+    with_cloud(handle, |cloud| query(part(cloud, mask.is_some())))
+}
+
+/// The cloud, or the part of it that the last mask left.
+fn part(cloud: &PointCloud, is_masked: bool) -> &PointCloud {
+    match &cloud.kept.masked {
+        Some((_, part)) if is_masked => part,
+        _ => cloud,
+    }
 }
 
 #[inline(never)]
-fn prepare(handle: u32, options: &Options) -> Result<(), Failure> {
+fn prepare(
+    handle: u32,
+    viewpoint: Option<[f64; 3]>,
+    mask: Option<&Uint8Array>,
+    options: &Options,
+) -> Result<(), Failure> {
     CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {
-        Some(Some(Cloud::Space(cloud))) => match cloud.prepare_for(options) {
-            Ok(()) | Err(Error::OutOfMemory) => Ok(()),
-            Err(refused) => Err(Failure::from(refused)),
-        },
+        Some(Some(Cloud::Space(cloud))) => {
+            if let Some(mask) = mask {
+                let is_new = copy_in_bytes(mask).and_then(|mask| cloud.keep_masked(mask))?;
+                if is_new {
+                    forget(handle);
+                }
+            }
+            let cloud = match &mut cloud.kept.masked {
+                Some((_, part)) if mask.is_some() => part,
+                _ => cloud,
+            };
+            match cloud.prepare_view(viewpoint, options) {
+                Ok(()) | Err(Error::OutOfMemory) => Ok(()),
+                Err(refused) => Err(Failure::from(refused)),
+            }
+        }
         _ => Err(Failure::DISPOSED),
     })
 }
@@ -136,16 +167,18 @@ pub(super) fn with_hyper<T>(
     })
 }
 
-/// Runs `view` with the memory of the last view; a view of another cloud is forgotten first.
-pub(super) fn with_memory<T>(handle: u32, view: impl FnOnce(&mut Memory) -> T) -> T {
+/// Runs `view` with the memory of the last view; a view of another cloud, or of other points of
+/// it, is forgotten first.
+pub(super) fn with_memory<T>(handle: u32, masked: bool, view: impl FnOnce(&mut Memory) -> T) -> T {
     LAST_VIEW.with_borrow_mut(|last| {
         let last = last.get_or_insert_with(|| LastView {
             handle,
+            masked,
             memory: Memory::default(),
         });
-        if last.handle != handle {
+        if (last.handle, last.masked) != (handle, masked) {
             last.memory.forget();
-            last.handle = handle;
+            (last.handle, last.masked) = (handle, masked);
         }
         view(&mut last.memory)
     })

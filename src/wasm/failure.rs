@@ -93,6 +93,8 @@ impl From<Error> for Failure {
                 named = other;
                 ("scoresWith", [0.0; 3])
             }
+            Error::BoundsInvalid => ("boundsInvalid", [0.0; 3]),
+            Error::MaskLength { given, len } => ("maskLength", [given as f64, len as f64, 0.0]),
             Error::NoLimit { option } => {
                 named = option;
                 ("noLimit", [0.0; 3])

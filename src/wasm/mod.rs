@@ -50,6 +50,9 @@ interface ViewOptions {
   scores: boolean;
   draft: boolean;
   sample: number;
+  /** The distance, and the lowest and highest coordinates. Infinity stands for none. */
+  within?: Float64Array | undefined;
+  mask?: Uint8Array | undefined;
   /** Makes room for so many indices of an answer. */
   memory: (length: number) => Uint32Array<ArrayBuffer>;
 }

@@ -1,9 +1,9 @@
 //! Options of a view. JavaScript has checked their types; the crate checks their ranges.
 
-use js_sys::Uint32Array;
+use js_sys::{Float64Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use crate::{Exponential, Inversion, Options, Radius};
+use crate::{Exponential, Inversion, Options, Radius, Within};
 
 #[wasm_bindgen]
 extern "C" {
@@ -29,6 +29,11 @@ extern "C" {
     fn draft(this: &ViewOptions) -> bool;
     #[wasm_bindgen(method, getter)]
     fn sample(this: &ViewOptions) -> f64;
+    /// The distance and the box of the option `within`, seven numbers. Infinity stands for none.
+    #[wasm_bindgen(method, getter)]
+    fn within(this: &ViewOptions) -> Option<Float64Array>;
+    #[wasm_bindgen(method, getter)]
+    pub(super) fn mask(this: &ViewOptions) -> Option<Uint8Array>;
     /// JavaScript makes the arrays of an answer. It can reuse memory, and a refused allocation
     /// there is an error rather than a trap.
     #[wasm_bindgen(method, catch)]
@@ -53,6 +58,17 @@ impl ViewOptions {
             scores: self.scores(),
             draft: self.draft(),
             sample: number(self.sample()),
+            within: self.within().map(|given| {
+                let mut numbers = [0.0; 7];
+                given.copy_to(&mut numbers);
+                let [distance, a, b, c, d, e, f] = numbers;
+                let bounds = [[a, b, c], [d, e, f]];
+                let is_bounded = bounds != [[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]];
+                Within {
+                    distance: Some(distance).filter(|distance| *distance != f64::INFINITY),
+                    bounds: Some(bounds).filter(|_| is_bounded),
+                }
+            }),
         }
     }
 

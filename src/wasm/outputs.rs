@@ -20,7 +20,7 @@ pub fn reconstruct(
     max_edge: Option<f64>,
 ) -> Result<JsValue, JsValue> {
     let view = options.read();
-    let mesh = with_view(handle, &view, |cloud| {
+    let mesh = with_view(handle, Some([x, y, z]), options, &view, |cloud| {
         cloud.reconstruct([x, y, z], &view, max_edge)
     })?;
     Ok(answer(&mesh.visibility, &mesh.triangles, options)?)
@@ -38,8 +38,8 @@ pub fn illuminate(
     ambient: f64,
     target: &Float32Array,
 ) -> Result<(), JsValue> {
-    let options = options.read();
-    let brightness = with_view(handle, &options, |cloud| {
+    let view = options.read();
+    let brightness = with_view(handle, None, options, &view, |cloud| {
         let lights = triples(lights)?;
         let triangles = triangles.as_ref().map(corners).transpose()?;
         let lighting = Lighting {
@@ -47,7 +47,7 @@ pub fn illuminate(
             smoothing: smoothing as usize,
             ambient,
         };
-        cloud.illuminate(&lights, &options, &lighting)
+        cloud.illuminate(&lights, &view, &lighting)
     })?;
     target.copy_from(&brightness);
     Ok(())

@@ -1,5 +1,7 @@
 //! Clouds in space, and answers merged from those of their parts.
 
+use alloc::boxed::Box;
+
 use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
@@ -92,7 +94,7 @@ fn create_cloud(
     };
     created(positions.and_then(|positions| {
         let cloud = PointCloud::prepare(positions.as_given(), non_finite, &mut progress)?;
-        Ok(Cloud::Space(cloud))
+        Ok(Cloud::Space(Box::new(cloud)))
     }))
 }
 

@@ -3,7 +3,7 @@
 
 use alloc::vec::Vec;
 
-use js_sys::{Float32Array, Float64Array, Uint32Array};
+use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
 
 use super::options::ViewOptions;
 use crate::Error;
@@ -41,6 +41,13 @@ pub(super) fn numbers(numbers: &Float64Array) -> Result<Vec<f64>, Error> {
 pub(super) fn copy_in_integers(integers: &Uint32Array) -> Result<Vec<u32>, Error> {
     let mut own = zeros(integers.length())?;
     integers.copy_to(&mut own);
+    Ok(own)
+}
+
+#[inline(never)]
+pub(super) fn copy_in_bytes(bytes: &Uint8Array) -> Result<Vec<u8>, Error> {
+    let mut own = zeros(bytes.length())?;
+    bytes.copy_to(&mut own);
     Ok(own)
 }
 

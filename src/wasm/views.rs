@@ -35,8 +35,9 @@ pub fn visible_in_sector(
 ) -> Result<JsValue, JsValue> {
     let sector = Sector::new(number, count).unwrap_or(Sector::WHOLE);
     let view = options.read();
-    let seen = with_view(handle, &view, |cloud| {
-        with_memory(handle, |memory| {
+    let masked = options.mask().is_some();
+    let seen = with_view(handle, Some([x, y, z]), options, &view, |cloud| {
+        with_memory(handle, masked, |memory| {
             cloud.visible_in_sector_with(memory, [x, y, z], &view, sector)
         })
     });
@@ -53,7 +54,7 @@ pub fn visible_from_several(
     options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
     let view = options.read();
-    let seen = with_view(handle, &view, |cloud| {
+    let seen = with_view(handle, None, options, &view, |cloud| {
         let viewpoints = triples(viewpoints)?;
         // "Any of no viewpoints" is an empty answer; "one of no viewpoints" is refused.
         if viewpoints.is_empty() {
@@ -75,7 +76,7 @@ pub fn visible_from_direction(
     options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
     let view = options.read();
-    let seen = with_view(handle, &view, |cloud| {
+    let seen = with_view(handle, None, options, &view, |cloud| {
         cloud.visible_from_direction([x, y, z], &view)
     });
     answered(seen, options)

@@ -31,3 +31,4 @@ mod sectors;
 mod survivors;
 mod thin;
 mod union;
+mod within;

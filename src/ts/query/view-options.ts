@@ -1,6 +1,7 @@
 import { describe, HprError } from "../base/errors.js";
 import { flag, givenOptions, integer, number } from "./options.js";
 import { MOST_POINTS } from "./positions.js";
+import { ALL_POINTS, type Within, type WithinSettings, withinSettings } from "./within.js";
 
 /** How the radius R is chosen if it is not given. */
 export type RadiusRule = "auto" | "search" | "opposite";
@@ -80,10 +81,17 @@ export interface VisibilityOptions {
    * sample depends only on the set of points. A smaller sample is part of a larger one.
    */
   sample?: number | undefined;
+  /**
+   * Only these points take part. The answer is the same as for a cloud of only these points, with that
+   * cloud's spacing and farthest distance. This choice comes before all other options. If there are
+   * several viewpoints or lights, `distance` gives each of them its own points. A direction allows no
+   * `distance`. Needs a cloud of dimension 2 or 3.
+   */
+  within?: Within | undefined;
 }
 
 /** {@link VisibilityOptions}, checked for type, as the core reads them (src/wasm/options.rs). */
-export interface ViewSettings {
+export interface ViewSettings extends WithinSettings {
   /** A number of {@link Rule}. */
   rule: number;
   /** R or the exponent, if one is given. */
@@ -114,6 +122,7 @@ export const VIEW_OPTIONS = [
   "scores",
   "draft",
   "sample",
+  "within",
 ] as const;
 
 /** Reads the options and checks their types. The core checks the ranges, since it knows the distances. */
@@ -126,6 +135,7 @@ export function viewSettings(given: Record<string, unknown>, dimension: number):
     scores: wantsScores(given),
     draft: wantsDraft(given, dimension),
     sample: sampled(given, dimension),
+    ...withinSettings(given["within"], dimension),
   };
 }
 
@@ -144,6 +154,7 @@ export function ruleSettings(rule: unknown): ViewSettings {
     scores: false,
     draft: false,
     sample: 0,
+    ...ALL_POINTS,
   };
 }
 

@@ -1,0 +1,82 @@
+import { describe, HprError } from "../base/errors.js";
+import { allocating } from "../base/memory.js";
+import { plainView, typedArrayType } from "../base/typed-arrays.js";
+import { givenOptions, number } from "./options.js";
+
+/**
+ * Which points take part in a view. A point must meet all of the given conditions. The other points
+ * are not visible and hide nothing.
+ */
+export interface Within {
+  /** The points at most this far from the viewpoint, in the cloud's units. At least 0. */
+  distance?: number | undefined;
+  /** The points in this box, its faces included: `[min, max]`, each with as many numbers as a point. */
+  box?: readonly [min: ArrayLike<number>, max: ArrayLike<number>] | undefined;
+  /** The points whose byte is not 0. There is one byte for each index of the cloud. */
+  mask?: Uint8Array | undefined;
+}
+
+/** {@link Within}, checked for type, as the core reads it. */
+export interface WithinSettings {
+  /** The distance, and the lowest and the highest coordinates. Infinity stands for none. */
+  within: Float64Array<ArrayBuffer> | undefined;
+  mask: Uint8Array<ArrayBuffer> | undefined;
+}
+
+export const ALL_POINTS: WithinSettings = { within: undefined, mask: undefined };
+
+/** Reads the option `within`. The core checks the ranges. */
+export function withinSettings(within: unknown, dimension: number): WithinSettings {
+  if (within === undefined) {
+    return ALL_POINTS;
+  }
+  if (dimension > 3) {
+    throw new HprError("option", `within needs a cloud of dimension 3, not ${dimension}`);
+  }
+  const given = named(within);
+  const distance = number(given, "distance");
+  const { box, mask } = given;
+  return {
+    within: distance === undefined && box === undefined ? undefined : numbers(distance, box, dimension),
+    mask: mask === undefined ? undefined : readMask(mask),
+  };
+}
+
+/** The given conditions. Errors name the option. */
+function named(within: unknown): Record<string, unknown> {
+  try {
+    return givenOptions(within, ["distance", "box", "mask"]);
+  } catch (cause) {
+    throw cause instanceof HprError ? new HprError(cause.code, `within: ${cause.message}`, { cause }) : cause;
+  }
+}
+
+function numbers(distance: number | undefined, box: unknown, dimension: number): Float64Array<ArrayBuffer> {
+  const { min, max } = box === undefined ? { min: [], max: [] } : readBox(box, dimension);
+  // A missing coordinate, also the z of a plane, has no limit.
+  const fill = (corner: number[], limit: number) => [0, 1, 2].map((axis) => corner[axis] ?? limit);
+  return Float64Array.of(distance ?? Infinity, ...fill(min, -Infinity), ...fill(max, Infinity));
+}
+
+function readBox(box: unknown, dimension: number): { min: number[]; max: number[] } {
+  const corners = isList(box) && box.length === 2 ? [box[0], box[1]] : [];
+  const lists = corners.map((corner) => (isList(corner) ? Array.from(corner) : []));
+  const [min, max] = lists.map((list) => list.filter((x) => typeof x === "number"));
+  if (min?.length !== dimension || max?.length !== dimension || lists.some((list) => list.length !== dimension)) {
+    throw new HprError("option", `within box must be [min, max], each with ${dimension} numbers, got ${describe(box)}`);
+  }
+  return { min, max };
+}
+
+function isList(value: unknown): value is ArrayLike<unknown> {
+  return typeof value === "object" && value !== null && "length" in value;
+}
+
+/** A copy, so that later changes do not concern a request that waits. The core checks the length. */
+function readMask(mask: unknown): Uint8Array<ArrayBuffer> {
+  const bytes = typedArrayType(mask) === "Uint8Array" ? plainView(mask as Uint8Array, Uint8Array) : undefined;
+  if (bytes === undefined) {
+    throw new HprError("option", `within mask must be a Uint8Array, not transferred away, got ${describe(mask)}`);
+  }
+  return allocating(`a mask of ${bytes.length} bytes`, () => bytes.slice());
+}

@@ -1,0 +1,434 @@
+//! Only the points within a distance, a box or a mask take part: the answers are, to the bit,
+//! those of a cloud of these points alone.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{
+    Error, Exponential, Inversion, Lighting, Options, PointCloud, PointCloud2d, PointCloudNd,
+    Radius, Sector, Visibility, Within, merge_visible,
+};
+
+use crate::common::rng::Rng;
+use crate::common::scenes::{EXTREME, KINDS, Scene};
+use crate::common::shapes;
+
+const EVERYWHERE: [[f64; 3]; 2] = [[f64::NEG_INFINITY; 3], [f64::INFINITY; 3]];
+
+fn only(within: Within, options: &Options) -> Options {
+    Options {
+        within: Some(within),
+        ..*options
+    }
+}
+
+/// The indices of the points that take part, by the definition.
+fn chosen(points: &[[f64; 3]], within: &Within, viewpoint: Option<[f64; 3]>) -> Vec<u32> {
+    let holds = |p: [f64; 3]| {
+        let near = match (within.distance, viewpoint) {
+            (Some(distance), Some(c)) => {
+                let v = [p[0] - c[0], p[1] - c[1], p[2] - c[2]];
+                (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt() <= distance
+            }
+            _ => true,
+        };
+        let [min, max] = within.bounds.unwrap_or(EVERYWHERE);
+        near && (0..3).all(|axis| (min[axis]..=max[axis]).contains(&p[axis]))
+    };
+    let all = (0u32..).zip(points);
+    all.filter_map(|(index, &p)| holds(p).then_some(index))
+        .collect()
+}
+
+/// Some choice that leaves about half of the points.
+fn some_choice(rng: &mut Rng, scene: &Scene) -> Within {
+    let points = &scene.points;
+    if points.is_empty() {
+        return Within::default();
+    }
+    let [a, b] = [rng.pick(points), rng.pick(points)];
+    let v: [f64; 3] = core::array::from_fn(|i| a[i] - scene.viewpoint[i]);
+    let distance = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+    let axis = rng.below(3);
+    let mut bounds = EVERYWHERE;
+    (bounds[0][axis], bounds[1][axis]) = (a[axis].min(b[axis]), a[axis].max(b[axis]));
+    match rng.below(3) {
+        0 => Within {
+            distance: Some(distance),
+            bounds: None,
+        },
+        1 => Within {
+            distance: None,
+            bounds: Some(bounds),
+        },
+        _ => Within {
+            distance: Some(distance),
+            bounds: Some(bounds),
+        },
+    }
+}
+
+type Facts = (Vec<u32>, [u64; 2], u32, Inversion, bool);
+
+fn facts(answer: Result<Visibility, Error>, indices: Option<&[u32]>) -> Result<Facts, Error> {
+    let answer = answer?;
+    let seen = answer.indices().iter();
+    Ok((
+        seen.map(|&k| indices.map_or(k, |indices| indices[k as usize]))
+            .collect(),
+        [answer.radius().to_bits(), answer.exponent().to_bits()],
+        answer.evaluations(),
+        answer.inversion(),
+        answer.exact(),
+    ))
+}
+
+fn alone(points: &[[f64; 3]], indices: &[u32]) -> PointCloud {
+    let points: Vec<_> = indices.iter().map(|&i| points[i as usize]).collect();
+    PointCloud::new(&points).unwrap()
+}
+
+#[test]
+fn scenes_of_every_kind_answer_as_the_chosen_points_alone() {
+    for (number, kind) in KINDS.iter().chain(EXTREME).enumerate() {
+        for (seed, n) in [0, 1, 2, 5, 40, 300].into_iter().enumerate() {
+            let scene = kind.scene((10 * number + seed) as u64, n);
+            let mut rng = Rng::new((100 * number + seed) as u64);
+            for _ in 0..4 {
+                let within = some_choice(&mut rng, &scene);
+                let indices = chosen(&scene.points, &within, Some(scene.viewpoint));
+                let expected = alone(&scene.points, &indices);
+                let mut cloud = PointCloud::new(&scene.points).unwrap();
+                let options = only(within, &scene.options);
+                let name = kind.name;
+                for prepared in [false, true] {
+                    if prepared {
+                        cloud.prepare_for(&options).unwrap();
+                    }
+                    assert_eq!(
+                        facts(cloud.visible_from(scene.viewpoint, &options), None),
+                        facts(
+                            expected.visible_from(scene.viewpoint, &scene.options),
+                            Some(&indices)
+                        ),
+                        "{name}, {n} points, {within:?}"
+                    );
+                }
+                let mut mask = vec![false; n];
+                indices.iter().for_each(|&i| mask[i as usize] = true);
+                mask.resize(scene.points.len(), false);
+                assert_eq!(
+                    facts(
+                        cloud
+                            .masked(&mask)
+                            .unwrap()
+                            .visible_from(scene.viewpoint, &scene.options),
+                        None
+                    ),
+                    facts(
+                        expected.visible_from(scene.viewpoint, &scene.options),
+                        Some(&indices)
+                    ),
+                    "{name}, {n} points, masked"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn every_question_follows_a_choice() {
+    let mut rng = Rng::new(1);
+    let points = shapes::bumpy(&mut rng, 900);
+    let cloud = PointCloud::new(&points).unwrap();
+    let viewpoint = [0.4, 0.3, 2.5];
+    let bounds = Some([[-0.6, -2.0, -0.7], [2.0, 0.8, 2.0]]);
+    let exponential = Inversion::Exponential(Exponential::Auto);
+    let looks = Options::with_inversion(Inversion::Looks(3));
+    let all = [
+        Options::default(),
+        Options::with_exponent(2.0),
+        Options::with_inversion(exponential),
+        Options {
+            scores: true,
+            ..looks
+        },
+        Options {
+            denoise: Some(6),
+            vote: Some(4),
+            ..Options::default()
+        },
+        Options {
+            sample: Some(150),
+            ..Options::default()
+        },
+        Options {
+            draft: true,
+            ..Options::default()
+        },
+        Options {
+            radius: Radius::Search,
+            ..Options::default()
+        },
+        Options {
+            radius: Radius::Opposite,
+            ..Options::default()
+        },
+    ];
+    for distance in [None, Some(2.9)] {
+        let within = Within { distance, bounds };
+        let indices = chosen(&points, &within, Some(viewpoint));
+        assert!((300..700).contains(&indices.len()));
+        let expected = alone(&points, &indices);
+        let mapped = Some(&indices[..]);
+        for plain in all {
+            let options = only(within, &plain);
+            let found = cloud.visible_from(viewpoint, &options);
+            let alone = expected.visible_from(viewpoint, &plain);
+            if let (Ok(found), Ok(alone)) = (&found, &alone) {
+                assert_eq!(found.looks(), alone.looks());
+                assert_eq!(found.scores().len(), if plain.scores { 900 } else { 0 });
+                let scores = found.scores().iter().enumerate();
+                let own = scores.filter(|(i, _)| indices.contains(&(*i as u32)));
+                assert!(own.map(|(_, score)| score).eq(alone.scores()));
+            }
+            assert_eq!(facts(found, None), facts(alone, mapped), "{options:?}");
+            // From several viewpoints, and in an observer.
+            let mut observer = cloud.observer();
+            for z in [2.5, 2.4, 2.3] {
+                let place = [0.4, 0.3, z];
+                let near = chosen(&points, &within, Some(place));
+                let part = self::alone(&points, &near);
+                let single = facts(part.visible_from(place, &plain), Some(&near));
+                assert_eq!(facts(observer.visible_from(place, &options), None), single);
+                let mut sectors = Vec::new();
+                for number in 0..3 {
+                    let sector = Sector::new(number, 3).unwrap();
+                    let seen = cloud.visible_in_sector(place, &options, sector);
+                    sectors.extend(seen.unwrap().into_indices());
+                }
+                sectors.sort_unstable();
+                assert_eq!(sectors, single.unwrap().0);
+            }
+        }
+        for plain in [Options::default(), all[2], all[4], all[5]] {
+            let options = only(within, &plain);
+            let mesh = cloud.reconstruct(viewpoint, &options, None).unwrap();
+            let other = expected.reconstruct(viewpoint, &plain, None).unwrap();
+            let corners = other.triangles.iter();
+            let corners = corners.map(|corners| corners.map(|k| indices[k as usize]));
+            assert_eq!(mesh.triangles, corners.collect::<Vec<_>>());
+            let seen = facts(Ok(mesh.visibility), None);
+            assert_eq!(seen, facts(Ok(other.visibility), mapped));
+        }
+    }
+}
+
+#[test]
+fn several_viewpoints_and_lights_each_have_their_own_points() {
+    let mut rng = Rng::new(2);
+    let points = shapes::bumpy(&mut rng, 500);
+    let cloud = PointCloud::new(&points).unwrap();
+    let places = [[0.4, 0.3, 2.5], [-2.0, 0.5, 0.1], [0.0, 0.1, 0.2]];
+    let within = Within {
+        distance: Some(2.2),
+        bounds: Some([[-0.9; 3], [0.9; 3]]),
+    };
+    for plain in [
+        Options::default(),
+        Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
+        Options {
+            denoise: Some(5),
+            sample: Some(120),
+            ..Options::default()
+        },
+    ] {
+        let options = only(within, &plain);
+        let mut views = vec![0; points.len()];
+        let mut largest = 0.0f64;
+        for place in places {
+            let near = chosen(&points, &within, Some(place));
+            let seen = alone(&points, &near).visible_from(place, &plain).unwrap();
+            largest = largest.max(seen.radius());
+            for &k in seen.indices() {
+                views[near[k as usize] as usize] += 1;
+            }
+        }
+        for k in 1..=3 {
+            let seen = cloud.visible_from_at_least(k, &places, &options).unwrap();
+            let expected = (0u32..).zip(&views).filter(|(_, views)| **views >= k);
+            assert_eq!(
+                seen.indices(),
+                expected.map(|(index, _)| index).collect::<Vec<_>>()
+            );
+            assert_eq!(seen.radius(), largest);
+            assert_eq!(seen.exact(), plain.sample.is_none());
+        }
+        let any = cloud.visible_from_any(&places, &options).unwrap();
+        let one = cloud.visible_from_at_least(1, &places, &options).unwrap();
+        assert_eq!(any, one);
+        let lighting = Lighting {
+            smoothing: 0,
+            ..Lighting::default()
+        };
+        let light = cloud.illuminate(&places, &options, &lighting).unwrap();
+        let expected = views.iter().map(|&views| (views as f64 / 3.0) as f32);
+        assert_eq!(light, expected.collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn light_and_directions_follow_a_box() {
+    let mut rng = Rng::new(3);
+    let points = shapes::bumpy(&mut rng, 500);
+    let cloud = PointCloud::new(&points).unwrap();
+    let within = Within {
+        distance: None,
+        bounds: Some([[-2.0, -2.0, 0.1], [2.0, 0.5, 2.0]]),
+    };
+    let indices = chosen(&points, &within, None);
+    let part = alone(&points, &indices);
+    let options = only(within, &Options::default());
+    let ahead = [0.1, 0.2, -1.0];
+    assert_eq!(
+        facts(cloud.visible_from_direction(ahead, &options), None),
+        facts(
+            part.visible_from_direction(ahead, &Options::default()),
+            Some(&indices)
+        )
+    );
+    let lights = [[0.0, 0.0, 3.0], [3.0, 0.0, 1.0]];
+    let lighting = Lighting::default();
+    let light = cloud.illuminate(&lights, &options, &lighting).unwrap();
+    let expected = part.illuminate(&lights, &Options::default(), &lighting);
+    let own: Vec<_> = indices.iter().map(|&i| light[i as usize]).collect();
+    assert_eq!(own, expected.unwrap());
+}
+
+#[test]
+fn duplicates_may_be_masked_one_by_one() {
+    let points = [[0.0, 0.0, 1.0], [0.0, 0.0, 1.0], [0.0, 0.0, 2.0]];
+    let cloud = PointCloud::new(&points).unwrap();
+    let seen = |mask: [bool; 3]| {
+        let part = cloud.masked(&mask).unwrap();
+        assert_eq!(part.len(), 3);
+        let seen = part.visible_from([0.0, 0.0, 5.0], &Options::default());
+        seen.unwrap().into_indices()
+    };
+    assert_eq!(seen([true, true, false]), [0, 1]);
+    assert_eq!(seen([false, true, false]), [1]);
+    assert_eq!(seen([true, false, true]), [2]);
+    assert!(seen([false; 3]).is_empty());
+}
+
+#[test]
+fn a_kept_part_follows_changes_of_the_cloud() {
+    let mut rng = Rng::new(4);
+    let mut points = shapes::ball(&mut rng, 200);
+    let mut cloud = PointCloud::new(&points).unwrap();
+    let within = Within {
+        distance: None,
+        bounds: Some([[-0.5; 3], [0.5; 3]]),
+    };
+    let options = only(within, &Options::default());
+    cloud.prepare_for(&options).unwrap();
+    let more = shapes::ball(&mut rng, 50);
+    cloud.append(&more).unwrap();
+    points.extend(more);
+    let indices = chosen(&points, &within, None);
+    let viewpoint = [0.1, 0.2, 1.5];
+    assert_eq!(
+        facts(cloud.visible_from(viewpoint, &options), None),
+        facts(
+            alone(&points, &indices).visible_from(viewpoint, &Options::default()),
+            Some(&indices)
+        )
+    );
+}
+
+#[test]
+fn choices_that_make_no_sense_are_refused() {
+    let cloud = PointCloud::new(&[[0.0, 0.0, 1.0], [0.0, 1.0, 1.0], [1.0, 0.0, 1.0]]).unwrap();
+    let distance = |distance| Within {
+        distance: Some(distance),
+        bounds: None,
+    };
+    let bounds = |min, max| Within {
+        distance: None,
+        bounds: Some([min, max]),
+    };
+    let far = [0.0, 0.0, 5.0];
+    let nan = f64::NAN;
+    for bad in [-1.0, nan, f64::NEG_INFINITY] {
+        let options = only(distance(bad), &Options::default());
+        let refusal = cloud.visible_from(far, &options).unwrap_err();
+        assert_eq!(refusal.code(), "option");
+        assert!(refusal.to_string().contains("within distance"));
+        assert!(cloud.visible_from_any(&[], &options).is_err());
+        let dark = cloud.illuminate(&[], &options, &Lighting::default());
+        assert!(dark.is_err());
+    }
+    for (min, max) in [
+        ([1.0; 3], [0.0; 3]),
+        ([nan; 3], [0.0; 3]),
+        ([0.0; 3], [nan; 3]),
+    ] {
+        let options = only(bounds(min, max), &Options::default());
+        for refusal in [
+            cloud.visible_from(far, &options),
+            cloud.visible_from_direction(far, &options),
+            cloud.visible_from_any(&[], &options),
+        ] {
+            assert_eq!(refusal.unwrap_err(), Error::BoundsInvalid);
+        }
+        assert!(
+            cloud
+                .visible_from(far, &options)
+                .unwrap_err()
+                .to_string()
+                .contains("box")
+        );
+    }
+    let near = only(distance(4.5), &Options::default());
+    let refusal = cloud.visible_from_direction(far, &near).unwrap_err();
+    assert_eq!(refusal.code(), "option");
+    assert!(refusal.to_string().contains("within distance"));
+    let refusal = cloud.visible_from([nan, 0.0, 0.0], &near).unwrap_err();
+    assert_eq!(refusal.code(), "viewpoint");
+    let refusal = cloud.masked(&[true]).unwrap_err();
+    assert_eq!(refusal, Error::MaskLength { given: 1, len: 3 });
+    assert_eq!(refusal.code(), "option");
+    assert!(refusal.to_string().contains("each of 3 indices, got 1"));
+    let part: (&[[f64; 3]], &[u32]) = (&[], &[]);
+    let options = only(distance(9.0), &Options::with_radius(10.0));
+    assert_eq!(
+        merge_visible(&[part], far, &options).unwrap_err().code(),
+        "option"
+    );
+    let four = PointCloudNd::new(4, &[0.0; 8]).unwrap();
+    let refusal = four.visible_from(&[1.0; 4], &near).unwrap_err();
+    assert_eq!(refusal.code(), "option");
+    // A radius need only reach the points that take part.
+    let small = only(distance(4.5), &Options::with_radius(4.5));
+    assert_eq!(
+        cloud.visible_from(far, &small).unwrap().indices(),
+        [0, 1, 2]
+    );
+    let empty = only(distance(0.5), &Options::default());
+    let nothing = cloud.visible_from(far, &empty).unwrap();
+    assert_eq!((nothing.count(), nothing.radius()), (0, 0.0));
+}
+
+#[test]
+fn a_cloud_in_a_plane_follows_a_choice() {
+    let cloud = PointCloud2d::new(&[[0.0, 1.0], [0.0, 2.0], [3.0, 0.0]]).unwrap();
+    let within = Within {
+        distance: Some(3.5),
+        bounds: Some([[-1.0, -1.0, 0.0], [1.0, 5.0, 0.0]]),
+    };
+    let options = only(within, &Options::default());
+    let seen = |y: f64| cloud.visible_from([0.0, y], &options).unwrap();
+    assert_eq!(seen(5.0).indices(), [1]);
+    assert_eq!(seen(-2.0).indices(), [0]);
+    assert_eq!(seen(-9.0).count(), 0);
+}
