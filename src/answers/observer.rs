@@ -55,6 +55,23 @@ impl Observer<'_> {
             .visible_from_with(&mut self.memory, viewpoint, options)
     }
 
+    /// Goes on from a draft in slices, so that a viewer can give an exact view up when its camera
+    /// moves. If the last view was a draft ([`Options::draft`]) of this view, this adds about
+    /// `budget` points to the draft's hull. Returns whether [`Observer::visible_from`] would have
+    /// no point left to add. The answer is the same, to the bit, with slices and without.
+    ///
+    /// # Errors
+    /// As [`PointCloud::visible_from`].
+    pub fn go_on(
+        &mut self,
+        viewpoint: [f64; 3],
+        options: &Options,
+        budget: usize,
+    ) -> Result<bool, Error> {
+        self.cloud
+            .go_on_with(&mut self.memory, viewpoint, options, budget)
+    }
+
     /// Whether the last view started from the view before it.
     #[must_use]
     pub fn moved(&self) -> bool {

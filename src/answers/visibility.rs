@@ -255,6 +255,26 @@ impl PointCloud {
         Ok(seen.to(options))
     }
 
+    /// Goes on from a draft of the same view, if `memory` holds one, with about `budget` points.
+    /// Returns whether [`PointCloud::visible_from_with`] would have no point left to add.
+    pub(crate) fn go_on_with(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+        budget: usize,
+    ) -> Result<bool, Error> {
+        let is_one_hull = !options.asks_for_looks() && !options.draft;
+        if !is_one_hull || options.chooses() || options.denoise.is_some() {
+            return Ok(true);
+        }
+        memory.see(options.selection(viewpoint));
+        let view = self.view(viewpoint, options)?;
+        let points = &self.sequence.points;
+        let blocks = &self.blocks.levels[0];
+        Ok(hull::go_on(points, blocks, &view.flip, memory, budget)?)
+    }
+
     /// Marks the visible points in `memory`, and returns the resolved view. It neither denoises
     /// points nor counts votes.
     fn look(

@@ -36,6 +36,8 @@ pub(crate) struct Memory {
     /// The flip of the last draft, if `hull` is its hull and `depth` its map. The next view may go
     /// on from there.
     pub(super) drafted: Option<Flip>,
+    /// How many runs of the last round are in `hull` already.
+    pub(super) runs_added: usize,
     /// The choice of points in the last view.
     selection: Selection,
 }
@@ -132,17 +134,36 @@ impl Memory {
             .make(&self.hull, flipped, flipped.len(), &|_| true)
     }
 
-    /// Adds the points of the last round.
+    /// Forgets the map if the flip is slow: the map would flip most points of the last round once
+    /// more, which takes longer than to locate them.
+    pub(super) fn forget_slow_map(&mut self, flip: &Flip) {
+        if !flip.is_fast() {
+            self.depth.clear();
+        }
+    }
+
+    /// Adds the points of the last round. Stops after about `budget` points. Returns whether all
+    /// are added.
     #[inline(never)]
-    pub(super) fn add_last_round(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
+    pub(super) fn add_last_round(
+        &mut self,
+        flipped: &Flipped,
+        mut budget: usize,
+    ) -> Result<bool, OutOfMemory> {
         let Some(mut hint) = self.hull.outer_face() else {
-            return Ok(());
+            return Ok(true);
         };
-        for run in order::runs(flipped.len() as u32) {
+        for run in order::runs(flipped.len() as u32).skip(self.runs_added) {
+            if budget == 0 {
+                return Ok(false);
+            }
+            self.runs_added += 1;
             if self.depth.hides_run(flipped, &run) {
                 self.witnesses[run.start as usize..run.end as usize].fill(hint);
+                budget -= 1;
                 continue;
             }
+            budget = budget.saturating_sub(run.len());
             for index in order::last_round().indices_in(run) {
                 if !self.depth.hides(flipped, index) {
                     hint = self.add(index, flipped, [hint, hint])?;
@@ -150,7 +171,7 @@ impl Memory {
                 self.witnesses[index as usize] = hint;
             }
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Adds every point to a hull that was just started. Except for roundings, the cloud lies in
@@ -173,6 +194,7 @@ impl Memory {
     }
 
     fn start_witnesses(&mut self, count: usize) -> Result<(), OutOfMemory> {
+        self.runs_added = 0;
         self.on_boundary.clear();
         self.witnesses.clear();
         self.witnesses.try_reserve_exact(count)?;

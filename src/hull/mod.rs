@@ -39,5 +39,7 @@ pub(crate) use boxes::hides_box;
 pub(crate) use kept::KeptHull;
 pub(crate) use lower::mark_lower_boundary;
 pub(crate) use memory::Memory;
-pub(crate) use outer_boundary::{mark_draft, mark_visible, triangulate_visible, visible_once};
+pub(crate) use outer_boundary::{
+    go_on, mark_draft, mark_visible, triangulate_visible, visible_once,
+};
 pub(crate) use outer_faces::{Exit, OuterFaces, Snapshot};

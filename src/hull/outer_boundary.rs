@@ -34,10 +34,8 @@ pub(crate) fn mark_visible(
     let drafted = memory.drafted.take();
     if division.is_none() && drafted == Some(*flip) {
         memory.moved = false;
-        if !flip.is_fast() {
-            memory.depth.clear();
-        }
-        memory.add_last_round(&flipped)?;
+        memory.forget_slow_map(flip);
+        memory.add_last_round(&flipped, usize::MAX)?;
         return memory.finish(&flipped);
     }
     let held = core::mem::take(&mut memory.holds_hull);
@@ -63,11 +61,9 @@ pub(crate) fn mark_visible(
         memory.add_coarse_rounds(&flipped)?;
         if flip.is_fast() {
             memory.make_map(&flipped)?;
-        } else {
-            // The map would flip most points once more, which takes longer than to locate them.
-            memory.depth.clear();
         }
-        memory.add_last_round(&flipped)?;
+        memory.forget_slow_map(flip);
+        memory.add_last_round(&flipped, usize::MAX)?;
     }
     memory.finish(&flipped)?;
     keep_own(division, memory)
@@ -95,7 +91,7 @@ pub(crate) fn mark_draft(
         flip: flip.rescaled_for(points),
         blocks,
     };
-    if memory.drafted != Some(*flip) {
+    if memory.drafted != Some(*flip) || memory.runs_added > 0 {
         memory.forget();
         let Some(corners) = seed(&flipped) else {
             return mark_visible(points, blocks, flip, None, memory);
@@ -120,6 +116,32 @@ pub(crate) fn mark_draft(
         }
     }
     Ok(())
+}
+
+/// Goes on with the hull of a draft, if the last view was a draft with this flip: adds about
+/// `budget` points to it. Returns whether [`mark_visible`] will find no point left to add.
+#[inline(never)]
+pub(crate) fn go_on(
+    points: &Points,
+    blocks: &[Sphere],
+    flip: &Flip,
+    memory: &mut Memory,
+    budget: usize,
+) -> Result<bool, OutOfMemory> {
+    if memory.drafted != Some(*flip) {
+        return Ok(true);
+    }
+    let flipped = Flipped {
+        points,
+        flip: flip.rescaled_for(points),
+        blocks,
+    };
+    memory.forget_slow_map(flip);
+    let added = memory.add_last_round(&flipped, budget);
+    if added.is_err() {
+        memory.forget();
+    }
+    added
 }
 
 /// Three points that start a hull in space. `None` if all points are in one plane with the

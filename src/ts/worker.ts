@@ -6,6 +6,9 @@ export type { NumberArray } from "./base/typed-arrays.js";
 export type { IlluminationOptions, ReconstructionOptions } from "./query/queries.js";
 export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
 export type { Reconstruction, Visibility } from "./cloud/visibility.js";
+export type { FollowOptions } from "./query/follow-options.js";
+export type { AnswerKind } from "./follow/gaze.js";
+export { type StreamedAnswer, ViewStream, type ViewStreamOptions } from "./worker/view-stream.js";
 export {
   type RequestOptions,
   WorkerPointCloud,

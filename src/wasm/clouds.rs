@@ -170,18 +170,21 @@ pub(super) fn with_hyper<T>(
 /// Runs `view` with the memory of the last view; a view of another cloud, or of other points of
 /// it, is forgotten first.
 pub(super) fn with_memory<T>(handle: u32, masked: bool, view: impl FnOnce(&mut Memory) -> T) -> T {
-    LAST_VIEW.with_borrow_mut(|last| {
-        let last = last.get_or_insert_with(|| LastView {
-            handle,
-            masked,
-            memory: Memory::default(),
-        });
-        if (last.handle, last.masked) != (handle, masked) {
-            last.memory.forget();
-            (last.handle, last.masked) = (handle, masked);
-        }
-        view(&mut last.memory)
-    })
+    LAST_VIEW.with_borrow_mut(|last| view(memory_for(last, handle, masked)))
+}
+
+#[inline(never)]
+fn memory_for(last: &mut Option<LastView>, handle: u32, masked: bool) -> &mut Memory {
+    let last = last.get_or_insert_with(|| LastView {
+        handle,
+        masked,
+        memory: Memory::default(),
+    });
+    if (last.handle, last.masked) != (handle, masked) {
+        last.memory.forget();
+        (last.handle, last.masked) = (handle, masked);
+    }
+    &mut last.memory
 }
 
 /// Frees the memory of the cloud's last view.

@@ -22,6 +22,29 @@ pub fn visible_from(
     visible_in_sector(handle, x, y, z, options, 0, 1)
 }
 
+/// Goes on from the draft of a view, if the last view was that draft, with about `budget` points.
+/// Returns whether `visibleFrom` would have no point left to add.
+#[wasm_bindgen(js_name = goOn)]
+pub fn go_on(
+    handle: u32,
+    x: f64,
+    y: f64,
+    z: f64,
+    options: &ViewOptions,
+    budget: u32,
+) -> Result<bool, JsValue> {
+    if options.mask().is_some() {
+        return Ok(true);
+    }
+    let view = options.read();
+    let done = with_cloud(handle, |cloud| {
+        with_memory(handle, false, |memory| {
+            cloud.go_on_with(memory, [x, y, z], &view, budget as usize)
+        })
+    });
+    Ok(done?)
+}
+
 /// Which points of sector `number` of `count` are visible from (x, y, z)?
 #[wasm_bindgen(js_name = visibleInSector, unchecked_return_type = "Answer")]
 pub fn visible_in_sector(

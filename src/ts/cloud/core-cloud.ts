@@ -2,10 +2,13 @@ import type { Answers } from "../query/answers.js";
 import { HprError } from "../base/errors.js";
 import type { Instance } from "../instance/instance.js";
 import type { CloudSettings, CloudSize } from "../query/options.js";
-import { perform } from "./perform.js";
+import { coreOptions, perform } from "./perform.js";
 import { packed, readIndices, readPositions } from "../query/positions.js";
 import type { Query, QueryKind } from "../query/queries.js";
 import { Spares } from "./spares.js";
+
+/** The number of points in a slice of a view. A slice takes some 5 to 10 ms. */
+const SLICE = 40_000;
 
 /**
  * A cloud in the memory of the wasm. Its queries were read and checked before, maybe in another
@@ -60,6 +63,21 @@ export class CoreCloud {
     const { dimension } = this.#settings;
     const { length } = this.#size;
     return perform({ instance: this.#instance, handle, dimension, length, spares: this.#spares }, query);
+  }
+
+  /**
+   * Goes on from the draft of a view, if the last question was this draft. Computes one slice, which
+   * takes some milliseconds. Returns whether nothing is left to compute before `ask`.
+   *
+   * @throws HprError as the methods of `PointCloud`.
+   */
+  goOn({ viewpoint, settings }: Query<"visibleFrom">): boolean {
+    const handle = this.#requireHandle();
+    if (this.dimension > 3) {
+      return true;
+    }
+    const [x, y, z] = viewpoint as [number, number, number];
+    return this.#instance.call((bindings) => bindings.goOn(handle, x, y, z, coreOptions(settings), SLICE));
   }
 
   /** @throws HprError as `PointCloud.append`. */

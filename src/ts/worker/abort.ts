@@ -42,7 +42,7 @@ const waiting = new WeakMap<AbortSignal, Waiting>();
  * Acts when the signal aborts, or now if it has aborted already. The returned function stops the
  * waiting.
  */
-function whenAborted(signal: AbortSignal, act: () => void): () => void {
+export function whenAborted(signal: AbortSignal, act: () => void): () => void {
   let entry = waiting.get(signal);
   if (entry === undefined) {
     const acts = new Set<() => void>();

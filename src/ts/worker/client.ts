@@ -14,6 +14,7 @@ import {
   pick,
   type PointCloudOptions,
 } from "../query/options.js";
+import type { Place } from "../query/place.js";
 import { isFloatArray, type Positions, readIndices, readPositions } from "../query/positions.js";
 import {
   directionQuery,
@@ -34,6 +35,7 @@ import { type Reconstruction, ReconstructionAnswer, type Visibility, VisibilityA
 import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
 import { type Progress, readProgress } from "./progress.js";
 import { RequestQueue } from "./request-queue.js";
+import { ViewStream, type ViewStreamOptions } from "./view-stream.js";
 import { defaultWorkers, readWorkers } from "./workers.js";
 
 /** How a cloud is sent to its worker. */
@@ -208,6 +210,19 @@ export class WorkerPointCloud {
       directionQuery(dimension, direction, given),
     );
     return new VisibilityAnswer(answer);
+  }
+
+  /**
+   * Follows a viewpoint that moves: the stream gives drafts, then exact answers. See {@link ViewStream}.
+   *
+   * @throws HprError `option`, `disposed`.
+   */
+  follow(options?: ViewStreamOptions): ViewStream {
+    this.#queue.requireOpen();
+    const { dimension } = this.#settings;
+    const ask = ({ from, isDirection }: Place, asked: WorkerVisibilityOptions) =>
+      isDirection ? this.visibleFromDirection(from, asked) : this.visibleFrom(from.slice(0, dimension), asked);
+    return new ViewStream({ dimension, size: () => this.#size, ask }, options);
   }
 
   /**

@@ -22,10 +22,16 @@ export type Request =
   | { kind: "remove"; indices: Uint32Array }
   | { kind: "forget" }
   /**
-   * `spare` is memory for the answer's indices, if there is some. With `listing`, the indices of
-   * hidden points follow those of the visible ones (see `hidden.ts`).
+   * Gives up the view that is being computed, if it can be given up. This has no reply of its own.
+   * It is the only letter that may come before the reply to the request before.
    */
-  | (Query & { spare?: ArrayBuffer | undefined; listing?: boolean });
+  | { kind: "abandon" }
+  /**
+   * `spare` is memory for the answer's indices, if there is some. With `listing`, the indices of
+   * hidden points follow those of the visible ones (see `hidden.ts`). With `sliced`, a view that
+   * goes on from a draft is computed in slices, so that it can be given up.
+   */
+  | (Query & { spare?: ArrayBuffer | undefined; listing?: boolean; sliced?: boolean });
 
 /** The value of a reply, by the kind of its request. */
 export interface Replies extends Answers {
@@ -33,6 +39,7 @@ export interface Replies extends Answers {
   append: CloudSize;
   remove: CloudSize;
   forget: object;
+  abandon: object;
 }
 
 type KindWithIndices = { [Kind in keyof Replies]: Replies[Kind] extends Found ? Kind : never }[keyof Replies];
@@ -45,7 +52,8 @@ export const WITH_INDICES: Readonly<Record<KindWithIndices, true>> = {
   reconstruct: true,
 };
 
-export type Reply<Value = unknown> = { value: Value } | { error: { code: HprErrorCode; message: string } };
+export type Reply<Value = unknown> =
+  { value: Value } | { error: { code: HprErrorCode; message: string } } | { abandoned: true };
 
 /** A request or a reply, with the cloud that it is about: several clouds may share a worker. */
 export interface Letter<Content = unknown> {

@@ -2,7 +2,7 @@ import type { Answers } from "../query/answers.js";
 import { HprError } from "../base/errors.js";
 import type { Query, QueryKind } from "../query/queries.js";
 import { Spares } from "../cloud/spares.js";
-import { abortError, BY_SIGNAL } from "./abort.js";
+import { abortError, BY_SIGNAL, whenAborted } from "./abort.js";
 import { isListing } from "./listing.js";
 import { isProgress, READY, type Replies, type Reply, type Request, WITH_INDICES } from "./protocol.js";
 import { Team } from "./team.js";
@@ -24,6 +24,8 @@ interface Pending extends AskOptions {
   request: Request;
   resolve: (value: unknown) => void;
   reject: (reason: Error) => void;
+  /** Stops the waiting for an abort. */
+  forget?: () => void;
 }
 
 /**
@@ -95,6 +97,7 @@ export class RequestQueue implements ThreadEvents {
     this.#closed = reason;
     this.#spares.clear();
     const pending = this.#running === undefined ? this.#waiting : [this.#running, ...this.#waiting];
+    this.#running?.forget?.();
     this.#running = undefined;
     this.#waiting = [];
     for (const { reject } of pending) {
@@ -135,6 +138,11 @@ export class RequestQueue implements ThreadEvents {
   #settle(reply: Reply): void {
     const request = this.#running;
     this.#running = undefined;
+    request?.forget?.();
+    if ("abandoned" in reply) {
+      request?.reject(abortError(BY_SIGNAL));
+      return;
+    }
     if ("value" in reply) {
       request?.resolve(reply.value);
       return;
@@ -158,12 +166,20 @@ export class RequestQueue implements ThreadEvents {
     this.#running = next;
     this.#team.setBusy(next !== undefined);
     if (next !== undefined) {
-      const { request, owner } = next;
+      const { request, owner, signal } = next;
       this.#team.post(
         request.kind in WITH_INDICES
-          ? ({ ...request, spare: this.#spares.take(), listing: isListing(owner) } as Request)
+          ? ({
+              ...request,
+              spare: this.#spares.take(),
+              listing: isListing(owner),
+              sliced: signal !== undefined,
+            } as Request)
           : request,
       );
+      if (signal !== undefined) {
+        next.forget = whenAborted(signal, () => this.#team?.abandon());
+      }
     }
   }
 

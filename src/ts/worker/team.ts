@@ -1,4 +1,5 @@
 import { allocating } from "../base/memory.js";
+import type { Query } from "../query/queries.js";
 import { failedReply, isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
 import { Sectors } from "./sectors.js";
 import { joinThread } from "./shared-thread.js";
@@ -16,6 +17,8 @@ export class Team {
   #starting = 0;
   readonly #sectors = new Sectors();
   #asked: Request | undefined;
+  /** The view that the last request asked for as a draft. The first member may go on from it. */
+  #drafted: string | undefined;
   /** The answers by member. A member that was not asked, or has not answered yet, has none. */
   #replies: (Reply | undefined)[] = [];
   #missing = 0;
@@ -63,7 +66,9 @@ export class Team {
    */
   post(request: Request): void {
     let copies: { request: Request; transfer: ArrayBuffer[] }[];
-    const asked = isForAll(request) ? this.#members : this.#members.slice(0, 1);
+    const isDivided = isForAll(request) && !this.#goesOn(request);
+    const asked = isDivided ? this.#members : this.#members.slice(0, 1);
+    this.#drafted = isDraft(request) ? viewOf(request) : undefined;
     try {
       copies = asked.map((_, number) => copyFor(request, number, asked.length, this.#sectors));
     } catch (thrown) {
@@ -81,6 +86,11 @@ export class Team {
       const { request, transfer } = copies[number]!;
       thread.post(request, transfer);
     });
+  }
+
+  /** Gives up the view that is being computed, if it goes on from a draft. Its reply says so. */
+  abandon(): void {
+    this.#members[0]?.post({ kind: "abandon" } satisfies Request, []);
   }
 
   /** While the team is busy, Node's process does not end. */
@@ -129,8 +139,23 @@ export class Team {
     }
   }
 
+  /**
+   * Whether the first member alone should go on from its draft of the same view. A draft is a third
+   * of the work. So this is as fast as two members that start from nothing.
+   */
+  #goesOn(request: Request): boolean {
+    if (this.#members.length > 2 || request.kind !== "visibleFrom" || request.settings.mask !== undefined) {
+      return false;
+    }
+    return this.#drafted === viewOf(request);
+  }
+
   #combined(): Reply {
     const replies = this.#replies as Reply[];
+    if (replies.length === 1) {
+      this.#asked = undefined;
+      return replies[0]!;
+    }
     const failures = replies.filter((reply) => "error" in reply);
     const values = replies.flatMap((reply) => ("value" in reply ? [reply.value] : []));
     const lost = failures.find(({ error }) => error.code === "internal") ?? failures[0];
@@ -179,6 +204,15 @@ function isForAll(request: Request): boolean {
   }
 }
 
+function isDraft(request: Request): request is Query<"visibleFrom"> {
+  return request.kind === "visibleFrom" && request.settings.draft && request.settings.mask === undefined;
+}
+
+/** The same text for a view and for its draft. */
+function viewOf({ viewpoint, settings }: Query<"visibleFrom">): string {
+  return JSON.stringify([viewpoint, { ...settings, draft: false }]);
+}
+
 /** The request to one member: with its own arrays, and with its sector of a view. */
 function copyFor(
   request: Request,
@@ -197,11 +231,15 @@ function copyFor(
       return { request: { ...request, indices }, transfer: [indices.buffer as ArrayBuffer] };
     }
     case "forget":
+    case "abandon":
       return { request, transfer: [] };
     case "visibleFrom":
       if (count > 1) {
         const spare = sectors.spareFor(number);
-        return { request: { ...request, sector: { number, count }, spare }, transfer: listed(spare) };
+        return {
+          request: { ...request, sector: { number, count }, spare, sliced: false },
+          transfer: listed(spare),
+        };
       }
       return { request, transfer: listed(request.spare) };
     default:

@@ -3,7 +3,9 @@ import { withHidden } from "../cloud/hidden.js";
 import { requireInstance } from "../instance/instance.js";
 import { importNodeModule } from "../base/node.js";
 import { initSync } from "../instance/start.js";
+import type { Query } from "../query/queries.js";
 import { failedReply, type Letter, type Progress, READY, type Replies, type Reply, type Request } from "./protocol.js";
+import { nextTask } from "./next-task.js";
 
 type Post = (message: unknown, transfer: ArrayBuffer[]) => void;
 
@@ -33,6 +35,8 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
     throw new Error(`${request.kind} came before create`);
   }
   switch (request.kind) {
+    case "abandon":
+      return {};
     case "append":
       cloud.append(request.positions);
       return cloud.size;
@@ -47,6 +51,49 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
       }
       return found;
     }
+  }
+}
+
+/** The views that are computed in slices, by the number of their cloud. */
+const sliced = new Map<number, { isAbandoned: boolean }>();
+
+function receive(letter: Letter<Request>, post: Post): void {
+  const { cloud, content: request } = letter;
+  if (request.kind === "abandon") {
+    const view = sliced.get(cloud);
+    if (view !== undefined) view.isAbandoned = true;
+  } else if (request.kind === "visibleFrom" && request.sliced === true) {
+    void serveInSlices(cloud, request, post);
+  } else {
+    serve(letter, post);
+  }
+}
+
+/** Between two slices, other requests are served, and this one may be given up. */
+async function serveInSlices(cloud: number, request: Query<"visibleFrom">, post: Post): Promise<void> {
+  const view = { isAbandoned: false };
+  sliced.set(cloud, view);
+  while (!isComplete(clouds.get(cloud), request)) {
+    await nextTask();
+    if (view.isAbandoned) {
+      break;
+    }
+  }
+  sliced.delete(cloud);
+  if (view.isAbandoned) {
+    post({ cloud, content: { abandoned: true } satisfies Reply } satisfies Letter, []);
+  } else {
+    serve({ cloud, content: request }, post);
+  }
+}
+
+/** Computes one slice. Returns whether only the answer is left to ask for. */
+function isComplete(cloud: CoreCloud | undefined, request: Query<"visibleFrom">): boolean {
+  try {
+    return cloud === undefined || cloud.goOn(request);
+  } catch {
+    // The answer is the same error.
+    return true;
   }
 }
 
@@ -73,7 +120,7 @@ async function serveNode(): Promise<void> {
   const { parentPort } = await importNodeModule<typeof import("node:worker_threads")>("node:worker_threads");
   const post: Post = (message, transfer) => parentPort?.postMessage(message, transfer);
   parentPort?.on("message", (letter: Letter<Request>) => {
-    serve(letter, post);
+    receive(letter, post);
   });
   post(READY, []);
 }
@@ -84,7 +131,7 @@ if (scope.postMessage === undefined) {
 } else {
   const post: Post = scope.postMessage.bind(globalThis);
   addEventListener("message", (event: MessageEvent<Letter<Request>>) => {
-    serve(event.data, post);
+    receive(event.data, post);
   });
   post(READY, []);
 }

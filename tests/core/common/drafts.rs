@@ -1,6 +1,6 @@
 //! Checks for one view that its draft keeps the promises of drafts.
 
-use hidden_point_removal::{Observer, Options, PointCloud, Visibility};
+use hidden_point_removal::{Error, Observer, Options, PointCloud, Visibility};
 
 /// Asks an observer for the draft of a view, and then for the exact answer that goes on from the
 /// draft. Returns the first fault of either, if there is one.
@@ -44,6 +44,11 @@ pub fn fault(
         let again = again.map(|seen| seen.count());
         return Some(format!("drafts of {} and {again:?}", draft.count()));
     }
+    let sliced = in_slices(observer, viewpoint, options, &draft, 1 + cloud.len() / 3);
+    if sliced.as_ref() != Ok(&cold) {
+        let sliced = sliced.map(|seen| seen.count());
+        return Some(format!("{} cold, in slices {sliced:?}", cold.count()));
+    }
     let mask = draft.mask();
     let lost = |&&index: &&u32| mask[index as usize] == 0;
     let lost: Vec<&u32> = cold.indices().iter().filter(lost).collect();
@@ -54,6 +59,30 @@ pub fn fault(
             lost.len()
         )
     })
+}
+
+/// The exact answer, which goes on from a draft in slices of about `budget` points. In between,
+/// the draft is asked again, and must be the same.
+fn in_slices(
+    observer: &mut Observer,
+    viewpoint: [f64; 3],
+    options: &Options,
+    draft: &Visibility,
+    budget: usize,
+) -> Result<Visibility, Error> {
+    let asked = Options {
+        draft: true,
+        ..*options
+    };
+    observer.visible_from(viewpoint, &asked)?;
+    observer.go_on(viewpoint, options, budget)?;
+    assert_eq!(&observer.visible_from(viewpoint, &asked)?, draft);
+    let mut slices = 0;
+    while !observer.go_on(viewpoint, options, budget)? {
+        slices += 1;
+        assert!(slices < 10, "the slices do not end");
+    }
+    observer.visible_from(viewpoint, options)
 }
 
 fn resolved(seen: &Visibility) -> (u64, u64, u32, String) {

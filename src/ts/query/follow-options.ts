@@ -1,0 +1,103 @@
+import { describe, HprError } from "../base/errors.js";
+import type { AnswerKind, Stage } from "../follow/gaze.js";
+import { givenOptions } from "./options.js";
+import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "./view-options.js";
+
+/** How answers follow a viewpoint that moves. */
+export interface FollowOptions {
+  /**
+   * Asked when the viewpoint has been at rest for 100 ms. These are the options of a view, as if no
+   * others were given, for example `{ looks: 3 }`. Default: nothing more is asked.
+   */
+  settle?: VisibilityOptions | undefined;
+  /**
+   * What stands in while the answer for the present viewpoint is computed:
+   *
+   * - `"draft"`, the default: the newest draft. It is certain that the points that a draft leaves out
+   *   are hidden from the draft's viewpoint. No draft is asked of clouds with fewer than 10,000
+   *   points, because their answer comes within a frame.
+   * - `"keep"`: the last answer. No drafts are asked.
+   * - `"all"`: all points. No drafts are asked.
+   *
+   * Views with `looks`, `radius: "search"` or `"opposite"` have no draft of their own. The draft of the
+   * automatic radius stands in for them.
+   */
+  stale?: "draft" | "all" | "keep" | undefined;
+  /**
+   * How far the viewpoint must move for a new answer, as a share of the cloud's spacing. For an
+   * orthographic view, the direction must turn by this number of milliradians. Shorter moves cannot
+   * be seen. At least 0. Default 0.001.
+   */
+  moveThreshold?: number | undefined;
+}
+
+/** {@link FollowOptions}, checked and complete. */
+export interface FollowSettings {
+  stages: readonly Stage<VisibilityOptions>[];
+  stale: "draft" | "all" | "keep";
+  moveThreshold: number;
+}
+
+export const FOLLOW_OPTIONS = ["settle", "stale", "moveThreshold"] as const;
+
+/** Below this number of points, no drafts are asked. */
+const DRAFTED_FROM = 10_000;
+
+/** `view` are the options of the view itself, which were checked already. */
+export function followSettings(given: Record<string, unknown>, view: VisibilityOptions): FollowSettings {
+  const { settle, stale = "draft", moveThreshold = 0.001 } = given;
+  if (stale !== "draft" && stale !== "all" && stale !== "keep") {
+    throw new HprError("option", `stale must be "draft", "all" or "keep", got ${describe(stale)}`);
+  }
+  if (typeof moveThreshold !== "number" || !(moveThreshold >= 0 && moveThreshold < Infinity)) {
+    throw new HprError(
+      "option",
+      `moveThreshold must be a finite number and at least 0, got ${describe(moveThreshold)}`,
+    );
+  }
+  const stages = [stageOf(view)];
+  if (stale === "draft" && !isQuick(view)) {
+    stages.unshift(stageOf(draftOf(view)));
+  }
+  if (settle !== undefined) {
+    stages.push({ ...stageOf(readSettle(settle)), atRest: true });
+  }
+  return { stages, stale, moveThreshold };
+}
+
+/** The stages for a cloud with this number of points. */
+export function stagesFor({ stages }: FollowSettings, points: number): readonly Stage<VisibilityOptions>[] {
+  return points < DRAFTED_FROM && stages.length > 1 && stages[0]!.kind === "draft" ? stages.slice(1) : stages;
+}
+
+function readSettle(settle: unknown): VisibilityOptions {
+  try {
+    const given = givenOptions(settle, VIEW_OPTIONS);
+    viewSettings(given, 3);
+    return given;
+  } catch (cause) {
+    throw cause instanceof HprError ? new HprError(cause.code, `settle: ${cause.message}`, { cause }) : cause;
+  }
+}
+
+function stageOf(options: VisibilityOptions): Stage<VisibilityOptions> {
+  const kind: AnswerKind = options.draft === true ? "draft" : options.looks === undefined ? "operator" : "looks";
+  return { kind, options, atRest: false };
+}
+
+/** Whether a view takes less time than its draft would. */
+function isQuick({ draft, sample }: VisibilityOptions): boolean {
+  return draft === true || sample !== undefined;
+}
+
+/** The options of a draft. Where the view itself has none, it is a draft of the automatic radius. */
+function draftOf(view: VisibilityOptions): VisibilityOptions {
+  const { radius } = view;
+  return {
+    ...view,
+    looks: undefined,
+    scores: undefined,
+    radius: radius === "search" || radius === "opposite" ? undefined : radius,
+    draft: true,
+  };
+}

@@ -1,0 +1,18 @@
+/** The viewpoint of a view, or the direction that it looks along. */
+export interface Place {
+  readonly from: readonly number[];
+  readonly isDirection: boolean;
+}
+
+/** How far a direction of length 1 may turn for a `moveThreshold` of 1. */
+const TURN = 1e-3;
+
+/** Whether an answer for `a` need not be asked again for `b`. NaN is equal to NaN, so that it is refused only once. */
+export function isNear(a: Place, b: Place, moveThreshold: number, spacing: number): boolean {
+  if (a.isDirection !== b.isDirection || a.from.length !== b.from.length) {
+    return false;
+  }
+  const share = a.isDirection ? TURN * Math.hypot(...a.from) : spacing;
+  const farthest = Number.isFinite(share) ? moveThreshold * share : 0;
+  return a.from.every((x, axis) => Math.abs(x - b.from[axis]!) <= farthest || Object.is(x, b.from[axis]));
+}

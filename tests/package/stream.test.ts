@@ -1,0 +1,285 @@
+// The stream of answers for a viewpoint that moves: `follow` of the worker client.
+import type { StreamedAnswer, WorkerPointCloud as Cloud } from "hidden-point-removal/worker";
+import { afterEach, beforeAll, describe, expect, it } from "vitest";
+
+import { bumpySphere, readyPackage } from "./support";
+
+const { HprError, PointCloud, WorkerPointCloud } = await readyPackage();
+
+const many = bumpySphere(5, 60_000);
+const few = bumpySphere(6, 3000);
+const local = new PointCloud(many);
+const clouds: Cloud[] = [];
+let cloud: Cloud;
+
+async function cloudOf(positions: Float32Array, options = {}): Promise<Cloud> {
+  const created = await WorkerPointCloud.create(positions, options);
+  clouds.push(created);
+  return created;
+}
+
+beforeAll(async () => {
+  cloud = await cloudOf(many);
+  clouds.length = 0;
+});
+
+afterEach(async () => {
+  await Promise.all(clouds.splice(0).map((one) => one.dispose()));
+});
+
+/** A stream, all of its answers, and its errors. */
+function follow(options: object = {}, of = cloud) {
+  const answers: StreamedAnswer[] = [];
+  const errors: Error[] = [];
+  const stream = of.follow({
+    ...options,
+    onAnswer: (answer: StreamedAnswer) => answers.push(answer),
+    onError: (error: Error) => errors.push(error),
+  });
+  return { stream, answers, errors, kinds: () => answers.map(({ answer }) => answer) };
+}
+
+const settled = (stream: { isSettled: boolean }) => expect.poll(() => stream.isSettled, { interval: 2 }).toBe(true);
+const at = (angle: number) => [5 * Math.sin(angle), 1, 5 * Math.cos(angle)];
+const isPart = (part: Uint32Array, whole: Uint32Array) => {
+  const all = new Set(whole);
+  return part.every((index) => all.has(index));
+};
+
+describe("a stream", () => {
+  it("gives a draft, the exact answer, and at rest the answer that `settle` asks for", async () => {
+    const { stream, answers, kinds, errors } = follow({ exponent: 3, settle: { looks: 3, scores: true } });
+    expect([stream.last, stream.visible, stream.isCurrent]).toEqual([null, null, false]);
+    const begun = performance.now();
+    stream.look(at(0));
+    await settled(stream);
+    expect(performance.now() - begun).toBeGreaterThanOrEqual(100);
+    expect(kinds()).toEqual(["draft", "operator", "looks"]);
+    const [draft, exact, looks] = answers.map(({ visibility }) => visibility) as [never, never, never];
+    expect(exact).toEqual(local.visibleFrom(at(0), { exponent: 3 }));
+    expect(draft).toEqual(local.visibleFrom(at(0), { exponent: 3, draft: true }));
+    expect(looks).toEqual(local.visibleFrom(at(0), { looks: 3, scores: true }));
+    expect(answers[0]).toMatchObject({ viewpoint: at(0), direction: null, isCurrent: true });
+    expect(stream.last).toBe(answers[2]);
+    expect(stream.visible).toBe(answers[2]!.visibility.indices);
+    stream.look(at(0));
+    await settled(stream);
+    expect([kinds().length, errors]).toEqual([3, []]);
+    stream.dispose();
+  });
+
+  it("gives only drafts in motion, and the exact answer of the last view", async () => {
+    const { stream, answers } = follow();
+    let angle = 0;
+    // A new view comes before each answer, as with a camera that moves in each frame.
+    for (; angle < 1; angle += 0.01) {
+      stream.look(at(angle));
+      await new Promise((next) => setTimeout(next, 1));
+    }
+    await settled(stream);
+    const exact = answers.filter(({ answer }) => answer === "operator");
+    const drafts = answers.filter(({ answer }) => answer === "draft");
+    expect(drafts.length).toBeGreaterThan(1);
+    expect(exact.at(-1)!.viewpoint).toEqual(stream.last!.viewpoint);
+    expect(stream.last!.visibility.indices).toEqual(local.visibleFrom(stream.last!.viewpoint!).indices);
+    for (const { visibility, viewpoint } of drafts.slice(0, 5)) {
+      expect(isPart(local.visibleFrom(viewpoint!).indices, visibility.indices)).toBe(true);
+    }
+    expect(answers.map(({ isCurrent }) => isCurrent).lastIndexOf(false)).toBeLessThan(answers.length - 1);
+    stream.dispose();
+  });
+
+  it("gives the newest answer to an iterator, and ends it", async () => {
+    const stream = cloud.follow();
+    stream.look(at(2));
+    const seen: string[] = [];
+    for await (const { answer, visibility } of stream) {
+      seen.push(answer);
+      expect(visibility.count).toBeGreaterThan(0);
+      if (answer === "operator") stream.dispose();
+    }
+    expect(seen.at(-1)).toBe("operator");
+    stream.dispose();
+  });
+
+  it("asks no draft of a small cloud, nor with `stale` other than draft", async () => {
+    const small = await cloudOf(few);
+    for (const [of, stale] of [
+      [small, "draft"],
+      [cloud, "keep"],
+      [cloud, "all"],
+    ] as const) {
+      const { stream, kinds } = follow({ stale }, of);
+      stream.look(at(1));
+      await settled(stream);
+      expect(kinds()).toEqual(["operator"]);
+      stream.look(at(1.5));
+      expect(stream.isCurrent).toBe(false);
+      expect(stream.visible === null).toBe(stale === "all");
+      await settled(stream);
+      expect(stream.visible).not.toBe(null);
+      stream.dispose();
+    }
+  });
+
+  it("lets the draft of the automatic radius stand in for views without a draft", async () => {
+    for (const [options, kind] of [
+      [{ looks: 2 }, "looks"],
+      [{ radius: "search" }, "operator"],
+    ] as const) {
+      const { stream, answers, kinds } = follow(options);
+      stream.look(at(3));
+      await settled(stream);
+      expect(kinds()).toEqual(["draft", kind]);
+      expect(answers[0]!.visibility).toEqual(local.visibleFrom(at(3), { draft: true }));
+      expect(answers[1]!.visibility).toEqual(local.visibleFrom(at(3), options));
+      stream.dispose();
+    }
+  });
+
+  it("asks nothing for moves that are too short to be seen", async () => {
+    const share = cloud.spacing;
+    const asked = async (options: object, move: number) => {
+      const { stream, answers } = follow(options);
+      stream.look([0, 0, 5]);
+      await settled(stream);
+      const before = answers.length;
+      stream.look([move, 0, 5]);
+      await settled(stream);
+      stream.dispose();
+      return answers.length > before;
+    };
+    expect(await asked({}, 0.0009 * share)).toBe(false);
+    expect(await asked({}, 0.002 * share)).toBe(true);
+    expect(await asked({ moveThreshold: 0 }, 1e-12)).toBe(true);
+    expect(await asked({ moveThreshold: 0.5 }, 0.4 * share)).toBe(false);
+    const { stream, answers } = follow();
+    stream.lookAlong([0, 0, -1]);
+    await settled(stream);
+    stream.lookAlong([5e-7, 0, -1]);
+    await settled(stream);
+    expect(answers.map(({ answer }) => answer)).toEqual(["draft", "operator"]);
+    expect(answers[1]!).toMatchObject({ viewpoint: null, direction: [0, 0, -1] });
+    expect(answers[1]!.visibility).toEqual(local.visibleFromDirection([0, 0, -1]));
+    stream.dispose();
+  });
+
+  it("asks again after the cloud has changed", async () => {
+    const changing = await cloudOf(few);
+    const { stream, answers } = follow({}, changing);
+    stream.look([0, 0, 5]);
+    await settled(stream);
+    await changing.append([0, 0, 4]);
+    stream.look([0, 0, 5]);
+    await settled(stream);
+    expect(answers).toHaveLength(2);
+    expect(answers[1]!.visibility.indices.at(-1)).toBe(3000);
+    stream.dispose();
+  });
+
+  it("tells of a refusal once, and goes on", async () => {
+    const { stream, answers, errors } = follow({ radius: 5, settle: {} });
+    for (const far of [50, 60]) {
+      stream.look([0, 0, far]);
+      await settled(stream);
+    }
+    expect(errors).toEqual([expect.objectContaining({ name: "HprError", code: "radius" })]);
+    stream.look([0, 0, 2]);
+    await settled(stream);
+    expect(answers.map(({ answer }) => answer)).toEqual(["draft", "operator", "operator"]);
+    stream.dispose();
+
+    const awaited = cloud.follow({ radius: 5 });
+    awaited.look([0, 0, 50]);
+    await expect(awaited[Symbol.asyncIterator]().next()).rejects.toMatchObject({ code: "radius" });
+    awaited.dispose();
+  });
+
+  it("refuses bad options and viewpoints", () => {
+    for (const [options, words] of [
+      [{ settle: 3 }, "plain object"],
+      [{ settle: { looks: 4 } }, "settle: looks"],
+      [{ settle: { looks: 3, exponent: 2 } }, "settle: looks and exponent"],
+      [{ settle: { stale: "all" } }, "settle: unknown option"],
+      [{ stale: "none" }, "stale must be"],
+      [{ moveThreshold: -1 }, "moveThreshold must be"],
+      [{ moveThreshold: NaN }, "moveThreshold must be"],
+      [{ onAnswer: 7 }, "onAnswer must be"],
+      [{ latest: true }, "unknown option"],
+    ] as const) {
+      expect(() => cloud.follow(options as object)).toThrow(
+        expect.objectContaining({ code: "option", message: expect.stringContaining(words) as string }),
+      );
+    }
+    const stream = cloud.follow();
+    expect(() => {
+      stream.look([1, 2]);
+    }).toThrow(HprError);
+    stream.dispose();
+  });
+
+  it("ends quietly with its cloud", async () => {
+    const gone = await cloudOf(few);
+    const { stream, errors } = follow({}, gone);
+    stream.look([0, 0, 5]);
+    await gone.dispose();
+    stream.look([0, 1, 5]);
+    await expect.poll(() => stream.isSettled).toBe(true);
+    expect(errors).toEqual([]);
+    expect(() => gone.follow()).toThrow(expect.objectContaining({ code: "disposed" }));
+  });
+
+  it("serves two cameras of one cloud, each with its own answers", async () => {
+    const [left, right] = [follow(), follow({ exponent: 2 })];
+    for (let step = 0; step < 5; step++) {
+      left.stream.look(at(step / 10));
+      right.stream.look(at(3 + step / 10));
+      await new Promise((next) => setTimeout(next, 5));
+    }
+    await Promise.all([settled(left.stream), settled(right.stream)]);
+    expect(left.stream.last!.visibility).toEqual(local.visibleFrom(at(0.4)));
+    expect(right.stream.last!.visibility).toEqual(local.visibleFrom(at(3.4), { exponent: 2 }));
+    left.stream.dispose();
+    right.stream.dispose();
+  });
+});
+
+describe("an exact answer that goes on from a draft", () => {
+  it.each([1, 2, 3])("is given up when its signal aborts, with %i workers", async (workers) => {
+    const one = await cloudOf(many, { workers });
+    await one.visibleFrom(at(0), { draft: true });
+    const controller = new AbortController();
+    const exact = one.visibleFrom(at(0), { signal: controller.signal });
+    await Promise.resolve();
+    controller.abort();
+    await expect(exact).rejects.toMatchObject({ name: "AbortError" });
+    // The draft that comes next does not depend on what was given up.
+    const again = await one.visibleFrom(at(0), { draft: true });
+    expect(again).toEqual(local.visibleFrom(at(0), { draft: true }));
+    expect(await one.visibleFrom(at(0), { signal: new AbortController().signal })).toEqual(local.visibleFrom(at(0)));
+  });
+
+  it("lets other clouds of the shared worker be answered in between", async () => {
+    const [large, small] = await Promise.all([
+      cloudOf(bumpySphere(1, 400_000), { shared: true }),
+      cloudOf(few, { shared: true }),
+    ]);
+    await large.visibleFrom(at(0), { draft: true });
+    const order: string[] = [];
+    const { signal } = new AbortController();
+    await Promise.all([
+      large.visibleFrom(at(0), { signal }).then(() => order.push("large")),
+      small.visibleFrom(at(0)).then(() => order.push("small")),
+    ]);
+    expect(order).toEqual(["small", "large"]);
+  });
+
+  it("is answered all the same if its cloud's thread forgets the draft", async () => {
+    const one = await cloudOf(many);
+    await one.visibleFrom(at(0), { draft: true });
+    await one.visibleFrom(at(1), { draft: true, sample: 500 });
+    const { signal } = new AbortController();
+    expect(await one.visibleFrom(at(0), { signal })).toEqual(local.visibleFrom(at(0)));
+    expect(await one.visibleFrom(at(0), { signal, vote: 3 })).toEqual(local.visibleFrom(at(0), { vote: 3 }));
+  });
+});
