@@ -178,7 +178,10 @@ export class RequestQueue implements ThreadEvents {
           : request,
       );
       if (signal !== undefined) {
-        next.forget = whenAborted(signal, () => this.#team?.abandon());
+        next.forget = whenAborted(signal, () => {
+          next.forget?.();
+          this.#team?.abandon();
+        });
       }
     }
   }
