@@ -44,7 +44,7 @@ mod wasm;
 
 pub use answers::horizon::Horizon;
 pub use answers::illumination::Lighting;
-pub use answers::merge::merge_visible;
+pub use answers::merge::{merge_visible, merge_visible_u64};
 pub use answers::observer::Observer;
 pub use answers::reconstruct::Reconstruction;
 pub use answers::union::ring_of_viewpoints;

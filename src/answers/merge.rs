@@ -54,21 +54,76 @@ pub fn merge_visible<P: Position>(
     viewpoint: [f64; 3],
     options: &Options,
 ) -> Result<Vec<u32>, Error> {
-    merge(
-        parts.len(),
-        &|part| (P::given(parts[part].0), parts[part].1),
-        viewpoint,
-        options,
-    )
+    let part = |part| {
+        let (positions, ids): (&[P], _) = parts[part];
+        (P::given(positions), Ids::Short(ids))
+    };
+    merge(parts.len(), &part, viewpoint, options)
 }
 
-/// The same as [`merge_visible`], for parts in the same precision.
+/// The same as [`merge_visible`], with ids beyond 2³².
+///
+/// # Errors
+/// As [`merge_visible`].
+pub fn merge_visible_u64<P: Position>(
+    parts: &[(&[P], &[u64])],
+    viewpoint: [f64; 3],
+    options: &Options,
+) -> Result<Vec<u64>, Error> {
+    let part = |part| {
+        let (positions, ids): (&[P], _) = parts[part];
+        (P::given(positions), Ids::Long(ids))
+    };
+    let seen = merge_keyed(parts.len(), &part, viewpoint, options)?;
+    let mut ids = with_capacity(seen.len())?;
+    ids.extend(seen.iter().map(|&(id, _)| id));
+    Ok(ids)
+}
+
+/// The ids of the points of a part.
+#[derive(Clone, Copy)]
+pub(crate) enum Ids<'a> {
+    Short(&'a [u32]),
+    Long(&'a [u64]),
+}
+
+impl Ids<'_> {
+    fn len(self) -> usize {
+        match self {
+            Self::Short(ids) => ids.len(),
+            Self::Long(ids) => ids.len(),
+        }
+    }
+
+    fn get(self, index: usize) -> u64 {
+        match self {
+            Self::Short(ids) => u64::from(ids[index]),
+            Self::Long(ids) => ids[index],
+        }
+    }
+}
+
+/// The same as [`merge_visible`], for parts in the same precision. The ids are short.
 pub(crate) fn merge<'a>(
     parts: usize,
-    part: &dyn Fn(usize) -> (Given<'a>, &'a [u32]),
+    part: &dyn Fn(usize) -> (Given<'a>, Ids<'a>),
     viewpoint: [f64; 3],
     options: &Options,
 ) -> Result<Vec<u32>, Error> {
+    let seen = merge_keyed(parts, part, viewpoint, options)?;
+    let mut ids = with_capacity(seen.len())?;
+    ids.extend(seen.iter().map(|&(id, _)| id as u32));
+    Ok(ids)
+}
+
+/// The ids of the visible points, ascending, each once and with the number of a point.
+#[inline(never)]
+fn merge_keyed<'a>(
+    parts: usize,
+    part: &dyn Fn(usize) -> (Given<'a>, Ids<'a>),
+    viewpoint: [f64; 3],
+    options: &Options,
+) -> Result<Vec<(u64, u32)>, Error> {
     check_mergeable(options)?;
     let mut count = 0usize;
     for number in 0..parts {
@@ -96,22 +151,23 @@ pub(crate) fn merge<'a>(
     let cloud = PointCloud::prepare(positions.as_given(), NonFinite::Error, &mut |_| ())?;
     drop(positions);
     let visible = cloud.visible_from(viewpoint, options)?;
+    drop(cloud);
 
-    let mut ids: Vec<u32> = with_capacity(count)?;
-    (0..parts).for_each(|number| ids.extend(part(number).1));
     let mut seen = with_capacity(visible.count())?;
-    seen.extend(
-        visible
-            .indices()
-            .iter()
-            .map(|&k| (u64::from(ids[k as usize]), k)),
-    );
+    let (mut number, mut start) = (0, 0);
+    for &k in visible.indices() {
+        let mut ids = part(number).1;
+        while k as usize - start >= ids.len() {
+            start += ids.len();
+            number += 1;
+            ids = part(number).1;
+        }
+        seen.push((ids.get(k as usize - start), k));
+    }
     drop(visible);
     sort_keyed(&mut seen);
     seen.dedup_by_key(|&mut (id, _)| id);
-    ids.clear();
-    ids.extend(seen.iter().map(|&(id, _)| id as u32));
-    Ok(ids)
+    Ok(seen)
 }
 
 /// Refuses options for which the answer of the parts would not be the answer of the whole.

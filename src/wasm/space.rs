@@ -10,7 +10,7 @@ use super::clouds::{Cloud, change_any, created, resized};
 use super::failure::Failure;
 use super::options::ViewOptions;
 use super::transfer::{copy_in_integers, copy_out, doubles, singles};
-use crate::answers::merge::merge;
+use crate::answers::merge::{Ids, merge};
 use crate::cloud::points::Points;
 use crate::{Error, PointCloud};
 
@@ -115,7 +115,7 @@ fn merge_visible(
     let view = options.read();
     let merged = positions.and_then(|positions| {
         let ids = copy_in_integers(ids)?;
-        let part = |_| (positions.as_given(), &ids[..]);
+        let part = |_| (positions.as_given(), Ids::Short(&ids));
         let seen = merge(1, &part, viewpoint, &view)?;
         copy_out(&seen, options)
     });

@@ -3,7 +3,9 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use hidden_point_removal::{Error, Options, PointCloud, Position, Radius, merge_visible};
+use hidden_point_removal::{
+    Error, Options, PointCloud, Position, Radius, merge_visible, merge_visible_u64,
+};
 
 use crate::common::ask;
 use crate::common::rng::Rng;
@@ -171,4 +173,24 @@ fn what_cannot_be_merged_is_refused() {
         let error = merge::<[f64; 3]>(&[], FRONT, &Options::with_radius(bad)).unwrap_err();
         assert_eq!(error.code(), "radius");
     }
+}
+
+#[test]
+fn ids_beyond_32_bits_come_back_ascending_and_once() {
+    let mut rng = Rng::new(11);
+    let points = shapes::bumpy(&mut rng, 600);
+    let options = Options::with_radius(80.0);
+    let whole = ask(&points, FRONT, &options);
+    let id = |index: usize| (1u64 << 40) * (index as u64 % 5) + index as u64;
+    let mut expected: Vec<u64> = whole.indices().iter().map(|&k| id(k as usize)).collect();
+    expected.sort_unstable();
+    let ids: Vec<u64> = (0..points.len()).map(id).collect();
+    let (front, back) = (&points[..250], &points[200..]);
+    // 50 points are in both parts. One part is empty.
+    let parts = [(front, &ids[..250]), (&[], &[]), (back, &ids[200..])];
+    let merged = merge_visible_u64(&parts, FRONT, &options).unwrap();
+    assert_eq!(merged, expected);
+    let missing = [(front, &ids[..249])];
+    let refused = merge_visible_u64(&missing, FRONT, &options);
+    assert!(matches!(refused, Err(Error::IdsLength { part: 0, .. })));
 }
