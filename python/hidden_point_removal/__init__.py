@@ -1,0 +1,28 @@
+"""Which points of a point cloud can be seen from a viewpoint?
+
+Exact hidden-point removal: the HPR operator of S. Katz, A. Tal and R. Basri, "Direct Visibility of Point Sets",
+ACM Transactions on Graphics 26(3), 2007. No surface, no normals, no screen: points are flipped on a sphere around the
+viewpoint, and those on the convex hull of the flipped cloud and the viewpoint are visible.
+
+    >>> import numpy as np
+    >>> from hidden_point_removal import PointCloud
+    >>> cloud = PointCloud(np.array([[0.0, 0.0, 1.0], [0.0, 0.0, 2.0]]))
+    >>> cloud.visible_from([0.0, 0.0, 5.0]).indices
+    array([1], dtype=uint32)
+"""
+
+from __future__ import annotations
+
+from ._native import Horizon, HprError, PointCloud, Visibility, merge_visible
+
+__all__ = ["Horizon", "HprError", "PointCloud", "Visibility", "hidden_point_removal", "merge_visible"]
+__version__ = "0.1.0"
+
+
+def hidden_point_removal(points, camera_location, radius):
+    """The indices of the visible points, ascending: uint32.
+
+    The arguments are those of Open3D's method of the same name. `points` has the shape (n, 3), `radius` is the
+    radius of the flipping sphere in the units of the points. It is at least the distance of the farthest point.
+    """
+    return PointCloud(points).visible_from(camera_location, radius=radius).indices

@@ -1,0 +1,140 @@
+from collections.abc import Iterable, Sequence
+from typing import Literal, TypedDict
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from typing_extensions import NotRequired, Unpack
+
+Rule = Literal["auto", "search", "opposite"]
+Inversion = Literal["spherical"] | dict[str, float | str]
+
+class Options(TypedDict):
+    """The options of a view. An option that is None counts as left out."""
+
+    radius: NotRequired[float | Rule | None]
+    """R of the flipping sphere in the cloud's units, or the rule that chooses it. Default "auto"."""
+    exponent: NotRequired[float | None]
+    """R = farthest distance * 10**exponent, the paper's parameter. Excludes `radius`."""
+    inversion: NotRequired[Inversion | None]
+    """ "spherical", {"power": number} or {"exponential": number or "auto"}."""
+    looks: NotRequired[Literal[2, 3] | None]
+    """Two or three hulls, each trusted where it is sure. Excludes radius, exponent, inversion and draft."""
+    scores: NotRequired[bool | None]
+    """With `looks` only: the answer then has a score for each index."""
+    denoise: NotRequired[int | None]
+    """Each point is projected on the plane of its k nearest points before the view."""
+    vote: NotRequired[int | None]
+    """A point is visible if more than 0.4 of itself and its k nearest points are."""
+    draft: NotRequired[bool | None]
+    """An early answer. It contains all visible points, and some hidden ones."""
+    sample: NotRequired[int | None]
+    """Only an even sample of about this many points takes part."""
+
+class MergeOptions(TypedDict):
+    radius: NotRequired[float | None]
+    inversion: NotRequired[Inversion | None]
+
+class HprError(ValueError):
+    """Bad input."""
+
+    code: Literal["positions-length", "positions-type", "non-finite", "viewpoint", "radius", "option", "too-large"]
+
+class Visibility:
+    """Which points are visible."""
+
+    @property
+    def indices(self) -> NDArray[np.uint32]:
+        """The indices of the visible points, ascending."""
+    @property
+    def scores(self) -> NDArray[np.float32] | None:
+        """A score from 0 to 1 for each index, if it was asked for."""
+    @property
+    def count(self) -> int: ...
+    @property
+    def radius(self) -> float:
+        """R of the flipping sphere; 0 where the inversion has none."""
+    @property
+    def exponent(self) -> float: ...
+    @property
+    def evaluations(self) -> int:
+        """How many hulls the choice of R took."""
+    @property
+    def exact(self) -> bool:
+        """False only for drafts and samples."""
+    @property
+    def inversion(self) -> str | dict[str, float | list[float]]:
+        """The inversion that was used, with numbers only."""
+    def mask(self) -> NDArray[np.bool_]:
+        """One truth value for each index: True where the point is visible."""
+    def __len__(self) -> int: ...
+
+class PointCloud:
+    """A point cloud, prepared for visibility queries.
+
+    `positions` has the shape (n, 3), in any units. Arrays of float32 and float64 are read without a copy. Other
+    numbers are converted to float64. With `non_finite="skip"`, points that are not finite keep their index and are
+    never visible.
+    """
+
+    def __init__(self, positions: ArrayLike, non_finite: Literal["error", "skip"] = "error") -> None: ...
+    def __len__(self) -> int: ...
+    @property
+    def skipped(self) -> int:
+        """How many points were left out because they are not finite."""
+    @property
+    def spacing(self) -> float:
+        """The mean distance of a point to its 6 nearest points."""
+    def visible_from(self, viewpoint: ArrayLike, **options: Unpack[Options]) -> Visibility:
+        """The points that can be seen from a viewpoint (paper, section 3, algorithm 1)."""
+    def visible_from_direction(self, direction: ArrayLike, **options: Unpack[Options]) -> Visibility:
+        """The points that can be seen along a direction, from infinitely far away."""
+    def visible_from_any(self, viewpoints: Iterable[ArrayLike], **options: Unpack[Options]) -> Visibility:
+        """The points that at least one viewpoint sees."""
+    def visible_from_at_least(
+        self, k: int, viewpoints: Iterable[ArrayLike], **options: Unpack[Options]
+    ) -> Visibility:
+        """The points that at least `k` of the viewpoints see."""
+    def auto_radius(self, viewpoint: ArrayLike, rule: Rule = "auto") -> tuple[float, float, int]:
+        """(radius, exponent, evaluations) as the rule chooses them."""
+    def reconstruct(
+        self, viewpoint: ArrayLike, max_edge: float | None = None, **options: Unpack[Options]
+    ) -> tuple[Visibility, NDArray[np.uint32]]:
+        """The visible points, and the triangles between them: (m, 3), counter-clockwise seen from the viewpoint."""
+    def illuminate(
+        self,
+        lights: Iterable[ArrayLike],
+        triangles: ArrayLike | None = None,
+        smoothing: int = 1,
+        ambient: float = 0.0,
+        **options: Unpack[Options],
+    ) -> NDArray[np.float32]:
+        """The brightness of each index, from 0 to 1."""
+    def append(self, positions: ArrayLike) -> None:
+        """Adds points, which take the next indices."""
+    def remove(self, indices: ArrayLike) -> None:
+        """Removes points. Their indices are never given again."""
+
+class Horizon:
+    """The hull of some points of a cloud, as seen from one viewpoint. What it hides is hidden in the whole cloud.
+
+    The radius or the inversion is a number, the same for the whole cloud.
+    """
+
+    def __init__(self, viewpoint: ArrayLike, **options: Unpack[MergeOptions]) -> None: ...
+    def add(self, positions: ArrayLike) -> None:
+        """Adds points."""
+    def screen(self, positions: ArrayLike) -> NDArray[np.uint32]:
+        """The numbers of the points that the horizon does not hide, ascending."""
+    def hides_box(self, min: ArrayLike, max: ArrayLike) -> bool:
+        """Whether every point in a box is certainly hidden."""
+    def visible(self) -> NDArray[np.float64]:
+        """The points that were added and are visible among them: (m, 3)."""
+
+def merge_visible(
+    parts: Sequence[tuple[ArrayLike, ArrayLike]], viewpoint: ArrayLike, **options: Unpack[MergeOptions]
+) -> NDArray[np.uint64]:
+    """The ids of the points that are visible in a whole cloud, ascending.
+
+    Each part is (positions, ids): the visible points of one part of the cloud, with the caller's number of each.
+    The answer is exact: visible(A + B) = visible(visible(A) + visible(B)).
+    """

@@ -1,0 +1,112 @@
+//! NumPy arrays as the core reads them, without a copy where the memory allows it.
+
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+
+use crate::failure::problem;
+
+/// Positions: (n, 3), in single or double precision, row after row in memory.
+#[derive(FromPyObject)]
+pub enum Positions<'py> {
+    Single(PyReadonlyArray2<'py, f32>),
+    Double(PyReadonlyArray2<'py, f64>),
+}
+
+/// Points of one precision.
+#[derive(Clone, Copy)]
+pub enum Points<'a> {
+    Single(&'a [[f32; 3]]),
+    Double(&'a [[f64; 3]]),
+}
+
+impl<'py> Positions<'py> {
+    /// Reads an argument. Arrays of other numbers, or with gaps in memory, are converted.
+    pub fn read(argument: &Bound<'py, PyAny>, name: &str) -> PyResult<Self> {
+        let py = argument.py();
+        let wrong = |message: &str| problem(py, "positions-type", format!("{name} {message}"));
+        let numpy = py.import("numpy")?;
+        let array = numpy
+            .call_method1("asarray", (argument,))
+            .map_err(|_| wrong("must be an array of numbers"))?;
+        let kind: String = array.getattr("dtype")?.getattr("kind")?.extract()?;
+        if !["f", "i", "u"].contains(&kind.as_str()) {
+            // An empty list has no numbers, and no type either.
+            return Err(wrong("must be real numbers"));
+        }
+        let shape: Vec<usize> = array.getattr("shape")?.extract()?;
+        let array = match shape[..] {
+            [_, 3] => array,
+            [0] => array.call_method1("reshape", ((0, 3),))?,
+            _ => {
+                let message = format!("{name} must have the shape (n, 3), got {shape:?}");
+                return Err(problem(py, "positions-length", message));
+            }
+        };
+        let item: usize = array.getattr("dtype")?.getattr("itemsize")?.extract()?;
+        let wanted = if kind == "f" && item == 4 {
+            "float32"
+        } else {
+            "float64"
+        };
+        let array = numpy.call_method1("ascontiguousarray", (array, wanted))?;
+        array.extract()
+    }
+
+    pub fn points(&self) -> Points<'_> {
+        match self {
+            Self::Single(array) => Points::Single(rows(array.as_slice().unwrap_or(&[]))),
+            Self::Double(array) => Points::Double(rows(array.as_slice().unwrap_or(&[]))),
+        }
+    }
+}
+
+/// Each three numbers as a row.
+fn rows<T: bytemuck::Pod>(numbers: &[T]) -> &[[T; 3]] {
+    bytemuck::cast_slice(numbers)
+}
+
+/// Three finite or infinite numbers; the core checks whether they are finite.
+pub fn place(argument: &Bound<'_, PyAny>, name: &str) -> PyResult<[f64; 3]> {
+    argument
+        .extract::<Vec<f64>>()
+        .ok()
+        .and_then(|numbers| numbers.try_into().ok())
+        .ok_or_else(|| {
+            problem(
+                argument.py(),
+                "viewpoint",
+                format!("{name} must be 3 numbers"),
+            )
+        })
+}
+
+/// Several places.
+pub fn places(argument: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<[f64; 3]>> {
+    let wrong = |_| {
+        problem(
+            argument.py(),
+            "viewpoint",
+            format!("{name} must be a list of 3 numbers each"),
+        )
+    };
+    let list = argument.try_iter().map_err(wrong)?;
+    list.enumerate()
+        .map(|(number, entry)| place(&entry?, &format!("{name}[{number}]")))
+        .collect()
+}
+
+/// Indices as the core reads them. Numbers out of range are refused.
+pub fn indices(argument: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<u32>> {
+    let py = argument.py();
+    let wrong = |_| {
+        let message = format!("{name} must be integers from 0 to {}", u32::MAX);
+        problem(py, "option", message)
+    };
+    if let Ok(array) = argument.extract::<PyReadonlyArray1<'_, u32>>() {
+        return Ok(array.as_array().to_vec());
+    }
+    let list = argument
+        .call_method0("tolist")
+        .unwrap_or_else(|_| argument.clone());
+    list.extract::<Vec<u32>>().map_err(wrong)
+}

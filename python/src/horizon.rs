@@ -1,0 +1,81 @@
+//! The hull of a part of a cloud, which screens the rest.
+
+use hidden_point_removal as core;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{Points, Positions, place};
+use crate::failure::{problem, refused};
+use crate::options;
+
+/// The hull of some points of a cloud, as seen from one viewpoint.
+#[pyclass(module = "hidden_point_removal")]
+pub struct Horizon {
+    horizon: core::Horizon,
+}
+
+#[pymethods]
+impl Horizon {
+    #[new]
+    #[pyo3(signature = (viewpoint, **options))]
+    fn new(
+        py: Python<'_>,
+        viewpoint: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Self> {
+        let viewpoint = place(viewpoint, "viewpoint")?;
+        let options = options::read(py, options)?;
+        let horizon =
+            core::Horizon::new(viewpoint, &options).map_err(|error| refused(py, error))?;
+        Ok(Self { horizon })
+    }
+
+    fn add(&mut self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<()> {
+        let positions = Positions::read(positions, "positions")?;
+        let points = positions.points();
+        let horizon = &mut self.horizon;
+        py.detach(|| match points {
+            Points::Single(points) => horizon.add(points),
+            Points::Double(points) => horizon.add(points),
+        })
+        .map_err(|error| refused(py, error))
+    }
+
+    fn screen<'py>(
+        &self,
+        py: Python<'py>,
+        positions: &Bound<'py, PyAny>,
+    ) -> PyResult<Bound<'py, PyArray1<u32>>> {
+        let positions = Positions::read(positions, "positions")?;
+        let points = positions.points();
+        let horizon = &self.horizon;
+        let left = py.detach(|| match points {
+            Points::Single(points) => horizon.screen(points),
+            Points::Double(points) => horizon.screen(points),
+        });
+        Ok(left.map_err(|error| refused(py, error))?.into_pyarray(py))
+    }
+
+    fn hides_box(
+        &self,
+        py: Python<'_>,
+        min: &Bound<'_, PyAny>,
+        max: &Bound<'_, PyAny>,
+    ) -> PyResult<bool> {
+        let corner = |argument, name| {
+            place(argument, name)
+                .map_err(|error| problem(py, "option", error.value(py).to_string()))
+        };
+        let (min, max) = (corner(min, "min")?, corner(max, "max")?);
+        let horizon = &self.horizon;
+        py.detach(|| horizon.hides_box(min, max))
+            .map_err(|error| refused(py, error))
+    }
+
+    fn visible<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let points = self.horizon.visible().map_err(|error| refused(py, error))?;
+        let count = points.len();
+        points.into_flattened().into_pyarray(py).reshape([count, 3])
+    }
+}

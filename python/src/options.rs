@@ -1,0 +1,162 @@
+//! Keyword arguments as options of a view.
+
+use hidden_point_removal::{Exponential, Inversion, Options, Radius};
+use pyo3::prelude::*;
+use pyo3::types::{PyBool, PyDict};
+
+use crate::failure::option;
+
+const NAMES: [&str; 9] = [
+    "radius",
+    "exponent",
+    "inversion",
+    "looks",
+    "scores",
+    "denoise",
+    "vote",
+    "draft",
+    "sample",
+];
+
+/// Reads the options of a view. Options that are `None` count as left out.
+pub fn read(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Options> {
+    let mut options = Options::default();
+    let Some(given) = given else {
+        return Ok(options);
+    };
+    let mut has_radius = false;
+    let mut has_inversion = false;
+    for (name, value) in given.iter() {
+        let name: String = name.extract()?;
+        if !NAMES.contains(&name.as_str()) {
+            let known = NAMES.join(", ");
+            return Err(option(
+                py,
+                format!("unknown option {name}; the options are {known}"),
+            ));
+        }
+        if value.is_none() {
+            continue;
+        }
+        match name.as_str() {
+            "radius" | "exponent" => {
+                if std::mem::replace(&mut has_radius, true) {
+                    return Err(option(py, "radius and exponent exclude each other".into()));
+                }
+                options.radius = radius(py, &name, &value)?;
+            }
+            "inversion" | "looks" => {
+                if std::mem::replace(&mut has_inversion, true) {
+                    return Err(option(py, "inversion and looks exclude each other".into()));
+                }
+                options.inversion = if name == "looks" {
+                    Inversion::Looks(count(py, &name, &value)?)
+                } else {
+                    inversion(py, &value)?
+                };
+            }
+            "denoise" => options.denoise = Some(count(py, &name, &value)?),
+            "vote" => options.vote = Some(count(py, &name, &value)?),
+            "sample" => options.sample = Some(count(py, &name, &value)?),
+            "scores" => options.scores = truth(py, &name, &value)?,
+            _ => options.draft = truth(py, &name, &value)?,
+        }
+    }
+    Ok(options)
+}
+
+/// A rule for the radius, or a number.
+pub fn radius(py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<Radius> {
+    let words = [
+        ("auto", Radius::Auto),
+        ("search", Radius::Search),
+        ("opposite", Radius::Opposite),
+    ];
+    if name == "radius" {
+        if let Ok(word) = value.extract::<String>() {
+            if let Some((_, rule)) = words.iter().find(|(known, _)| *known == word) {
+                return Ok(*rule);
+            }
+        }
+    }
+    match number(value) {
+        Some(number) if name == "radius" => Ok(Radius::Absolute(number)),
+        Some(number) => Ok(Radius::Exponent(number)),
+        None => {
+            let words = if name == "radius" {
+                r#" or "auto", "search" or "opposite""#
+            } else {
+                ""
+            };
+            Err(option(
+                py,
+                format!("{name} must be a number{words}, got {}", shown(value)),
+            ))
+        }
+    }
+}
+
+fn inversion(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<Inversion> {
+    if value
+        .extract::<String>()
+        .is_ok_and(|word| word == "spherical")
+    {
+        return Ok(Inversion::Spherical);
+    }
+    if let Ok(entries) = value.cast::<PyDict>() {
+        if entries.len() == 1 {
+            if let Some(power) = entries.get_item("power")?.as_ref().and_then(number) {
+                return Ok(Inversion::Power(power));
+            }
+            if let Some(scale) = entries.get_item("exponential")? {
+                if scale.extract::<String>().is_ok_and(|word| word == "auto") {
+                    return Ok(Inversion::Exponential(Exponential::Auto));
+                }
+                if let Some(scale) = number(&scale) {
+                    return Ok(Inversion::Exponential(Exponential::Scale(scale)));
+                }
+            }
+        }
+    }
+    let message = format!(
+        r#"inversion must be "spherical", {{"power": number}} or {{"exponential": number or "auto"}}, got {}"#,
+        shown(value)
+    );
+    Err(option(py, message))
+}
+
+/// A number; a truth value is none.
+pub fn number(value: &Bound<'_, PyAny>) -> Option<f64> {
+    (!value.is_instance_of::<PyBool>())
+        .then(|| value.extract().ok())
+        .flatten()
+}
+
+/// A number of things, at least 1.
+pub fn count(py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<usize> {
+    let number = (!value.is_instance_of::<PyBool>()).then(|| value.extract::<usize>().ok());
+    match number.flatten() {
+        Some(count) if count > 0 => Ok(count),
+        _ => Err(option(
+            py,
+            format!("{name} must be a positive integer, got {}", shown(value)),
+        )),
+    }
+}
+
+fn truth(py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool> {
+    value.extract().map_err(|_| {
+        option(
+            py,
+            format!("{name} must be True or False, got {}", shown(value)),
+        )
+    })
+}
+
+/// A short text of a value, for messages.
+fn shown(value: &Bound<'_, PyAny>) -> String {
+    let text = value
+        .repr()
+        .map_or_else(|_| "?".into(), |text| text.to_string());
+    text.chars().take(60).collect()
+}

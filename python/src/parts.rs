@@ -1,0 +1,82 @@
+//! One answer from the answers of parts.
+
+use hidden_point_removal::{Options, merge_visible_u64};
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{Points, Positions, place};
+use crate::failure::{option, refused};
+use crate::options;
+
+/// The ids of the points that are visible in the whole cloud.
+#[pyfunction]
+#[pyo3(signature = (parts, viewpoint, **options))]
+pub fn merge_visible<'py>(
+    py: Python<'py>,
+    parts: Vec<(Bound<'py, PyAny>, Bound<'py, PyAny>)>,
+    viewpoint: &Bound<'py, PyAny>,
+    options: Option<&Bound<'py, PyDict>>,
+) -> PyResult<Bound<'py, PyArray1<u64>>> {
+    let viewpoint = place(viewpoint, "viewpoint")?;
+    let options = options::read(py, options)?;
+    let mut positions = Vec::with_capacity(parts.len());
+    let mut ids = Vec::with_capacity(parts.len());
+    for (number, (own, numbers)) in parts.iter().enumerate() {
+        positions.push(Positions::read(own, &format!("parts[{number}]"))?);
+        ids.push(read_ids(numbers, number)?);
+    }
+    let points: Vec<Points<'_>> = positions.iter().map(Positions::points).collect();
+    let merged = py.detach(|| merge(&points, &ids, viewpoint, &options));
+    Ok(merged.map_err(|error| refused(py, error))?.into_pyarray(py))
+}
+
+fn read_ids(argument: &Bound<'_, PyAny>, number: usize) -> PyResult<Vec<u64>> {
+    let py = argument.py();
+    if let Ok(array) = argument.extract::<PyReadonlyArray1<'_, u64>>() {
+        return Ok(array.as_array().to_vec());
+    }
+    let list = argument
+        .call_method0("tolist")
+        .unwrap_or_else(|_| argument.clone());
+    list.extract::<Vec<u64>>().map_err(|_| {
+        option(
+            py,
+            format!("the ids of parts[{number}] must be integers from 0 to 2**64 - 1"),
+        )
+    })
+}
+
+fn merge(
+    points: &[Points<'_>],
+    ids: &[Vec<u64>],
+    viewpoint: [f64; 3],
+    options: &Options,
+) -> Result<Vec<u64>, hidden_point_removal::Error> {
+    type Part<'a, T> = (&'a [[T; 3]], &'a [u64]);
+    let singles: Option<Vec<Part<'_, f32>>> = points
+        .iter()
+        .zip(ids)
+        .map(|(points, ids)| match *points {
+            Points::Single(points) => Some((points, &ids[..])),
+            Points::Double(_) => None,
+        })
+        .collect();
+    if let Some(parts) = singles {
+        return merge_visible_u64(&parts, viewpoint, options);
+    }
+    // A part in double precision makes all of them double.
+    let wide: Vec<Vec<[f64; 3]>> = points
+        .iter()
+        .map(|points| match *points {
+            Points::Single(points) => points.iter().map(|p| p.map(f64::from)).collect(),
+            Points::Double(points) => points.to_vec(),
+        })
+        .collect();
+    let parts: Vec<Part<'_, f64>> = wide
+        .iter()
+        .zip(ids)
+        .map(|(points, ids)| (&points[..], &ids[..]))
+        .collect();
+    merge_visible_u64(&parts, viewpoint, options)
+}

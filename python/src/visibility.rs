@@ -1,0 +1,96 @@
+//! An answer.
+
+use hidden_point_removal as core;
+use hidden_point_removal::{Exponential, Inversion};
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// Which points are visible.
+#[pyclass(frozen, module = "hidden_point_removal")]
+pub struct Visibility {
+    /// The indices of the visible points, ascending: uint32.
+    #[pyo3(get)]
+    indices: Py<PyArray1<u32>>,
+    /// A score from 0 to 1 for each index: float32. None unless it was asked for.
+    #[pyo3(get)]
+    scores: Option<Py<PyArray1<f32>>>,
+    /// R of the flipping sphere; 0 where the inversion has none.
+    #[pyo3(get)]
+    radius: f64,
+    /// log10(R / farthest distance); 0 where the inversion has none.
+    #[pyo3(get)]
+    exponent: f64,
+    /// How many hulls the choice of R took.
+    #[pyo3(get)]
+    evaluations: u32,
+    /// False only for drafts and samples.
+    #[pyo3(get)]
+    exact: bool,
+    inversion: Inversion,
+    looks: Vec<f64>,
+    mask: Vec<u8>,
+}
+
+impl Visibility {
+    pub fn new(py: Python<'_>, seen: core::Visibility) -> Self {
+        let scores = seen.scores();
+        let scores = (!scores.is_empty()).then(|| scores.to_vec().into_pyarray(py).unbind());
+        Self {
+            scores,
+            radius: seen.radius(),
+            exponent: seen.exponent(),
+            evaluations: seen.evaluations(),
+            exact: seen.exact(),
+            inversion: seen.inversion(),
+            looks: seen.looks().to_vec(),
+            mask: seen.mask(),
+            indices: seen.into_indices().into_pyarray(py).unbind(),
+        }
+    }
+}
+
+#[pymethods]
+impl Visibility {
+    /// How many points are visible.
+    #[getter]
+    fn count(&self, py: Python<'_>) -> PyResult<usize> {
+        self.indices.bind(py).len()
+    }
+
+    /// The inversion that was used, with numbers only.
+    #[getter]
+    fn inversion<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+        let named = |name: &str, value: Bound<'py, PyAny>| {
+            let entries = PyDict::new(py);
+            entries.set_item(name, value)?;
+            Ok(entries.into_any())
+        };
+        match self.inversion {
+            Inversion::Power(power) => named("power", power.into_pyobject(py)?.into_any()),
+            Inversion::Exponential(Exponential::Scale(scale)) => {
+                named("exponential", scale.into_pyobject(py)?.into_any())
+            }
+            Inversion::Looks(_) => named("looks", self.looks.clone().into_pyobject(py)?),
+            _ => Ok("spherical".into_pyobject(py)?.into_any()),
+        }
+    }
+
+    /// One truth value for each index: True where the point is visible.
+    fn mask<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
+        let mask: Vec<bool> = self.mask.iter().map(|&byte| byte == 1).collect();
+        mask.into_pyarray(py)
+    }
+
+    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
+        self.count(py)
+    }
+
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let (count, all) = (self.count(py)?, self.mask.len());
+        Ok(format!(
+            "Visibility({count} of {all} points, radius={})",
+            self.radius
+        ))
+    }
+}

@@ -1,0 +1,199 @@
+"""The Python package gives the crate's answers, and refuses what the crate refuses."""
+
+import threading
+
+import numpy as np
+import pytest
+
+import hidden_point_removal as hpr
+from hidden_point_removal import Horizon, HprError, PointCloud, merge_visible
+
+
+def bumpy(count, seed=1, dtype=np.float64):
+    random = np.random.default_rng(seed)
+    direction = random.normal(size=(count, 3))
+    direction /= np.linalg.norm(direction, axis=1)[:, None]
+    x, y, z = direction.T
+    return (direction * (1 + 1.5 * x * y * z)[:, None]).astype(dtype)
+
+
+VIEWPOINT = [0.0, 0.5, 4.0]
+
+
+def test_one_ray_and_the_shape_of_an_answer():
+    cloud = PointCloud([[0.0, 0.0, 1.0], [0.0, 0.0, 2.0]])
+    seen = cloud.visible_from([0, 0, 5])
+    assert seen.indices.dtype == np.uint32
+    assert seen.indices.tolist() == [1]
+    assert seen.mask().tolist() == [False, True]
+    assert (seen.count, len(seen), len(cloud)) == (1, 1, 2)
+    assert seen.inversion == "spherical" and seen.exact and seen.scores is None
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_the_answer_does_not_depend_on_the_layout(dtype):
+    points = bumpy(3000, dtype=dtype)
+    expected = PointCloud(points).visible_from(VIEWPOINT).indices
+    padded = np.zeros((3000, 7), dtype)
+    padded[:, 2:5] = points
+    for other in (np.asfortranarray(points), padded[:, 2:5], points.tolist() if dtype == np.float64 else points):
+        assert np.array_equal(PointCloud(other).visible_from(VIEWPOINT).indices, expected)
+    assert np.array_equal(
+        hpr.hidden_point_removal(points, VIEWPOINT, 400.0),
+        PointCloud(points).visible_from(VIEWPOINT, radius=400.0).indices,
+    )
+
+
+def test_integers_are_read_as_doubles():
+    points = np.array([[0, 0, 1], [0, 0, 2], [3, 0, 0]], np.int16)
+    assert PointCloud(points).visible_from([0, 0, 5]).indices.tolist() == [1, 2]
+
+
+def test_a_radius_by_an_exponent():
+    points = bumpy(2000)
+    cloud = PointCloud(points)
+    by_exponent = cloud.visible_from(VIEWPOINT, exponent=3)
+    farthest = np.sqrt(((points - VIEWPOINT) ** 2).sum(axis=1)).max()
+    assert by_exponent.radius == pytest.approx(farthest * 1000)
+    by_radius = cloud.visible_from(VIEWPOINT, radius=by_exponent.radius)
+    assert np.array_equal(by_radius.indices, by_exponent.indices)
+    assert cloud.auto_radius(VIEWPOINT)[0] == cloud.visible_from(VIEWPOINT).radius
+
+
+def test_every_question():
+    points = bumpy(1500)
+    cloud = PointCloud(points)
+    one = cloud.visible_from(VIEWPOINT)
+    other = cloud.visible_from([4, 0, 0])
+    both = cloud.visible_from_any([VIEWPOINT, [4, 0, 0]])
+    assert np.array_equal(both.indices, np.union1d(one.indices, other.indices))
+    twice = cloud.visible_from_at_least(2, [VIEWPOINT, [4, 0, 0]])
+    assert np.array_equal(twice.indices, np.intersect1d(one.indices, other.indices))
+    assert 0 < cloud.visible_from_direction([0, 0, -1]).count < 1500
+    seen, triangles = cloud.reconstruct(VIEWPOINT)
+    assert triangles.shape[1] == 3 and set(triangles.ravel()) <= set(seen.indices.tolist())
+    light = cloud.illuminate([VIEWPOINT], smoothing=0)
+    assert np.array_equal(np.flatnonzero(light), one.indices)
+    smooth = cloud.illuminate([VIEWPOINT], triangles=triangles, ambient=0.25)
+    assert smooth.dtype == np.float32 and smooth.min() == 0.25
+    looks = cloud.visible_from(VIEWPOINT, looks=3, scores=True)
+    assert looks.scores.shape == (1500,) and len(looks.inversion["looks"]) == 3
+    draft = cloud.visible_from(VIEWPOINT, draft=True)
+    assert not draft.exact and set(one.indices.tolist()) <= set(draft.indices.tolist())
+    exponential = cloud.visible_from(VIEWPOINT, inversion={"exponential": "auto"})
+    again = cloud.visible_from(VIEWPOINT, inversion=exponential.inversion)
+    assert np.array_equal(again.indices, exponential.indices)
+
+
+def test_points_come_and_go():
+    points = bumpy(900)
+    cloud = PointCloud(points[:500])
+    cloud.append(points[500:])
+    cloud.remove(np.arange(100))
+    cloud.remove([100])
+    rest = PointCloud(points[101:]).visible_from(VIEWPOINT)
+    assert np.array_equal(cloud.visible_from(VIEWPOINT).indices, rest.indices + 101)
+    assert len(cloud) == 900
+
+
+def test_skipped_points():
+    points = bumpy(300)
+    points[7, 1] = np.nan
+    cloud = PointCloud(points, non_finite="skip")
+    assert cloud.skipped == 1
+    assert 7 not in cloud.visible_from(VIEWPOINT).indices
+
+
+def test_parts_and_horizons_give_the_answer_of_the_whole():
+    points = bumpy(6000, dtype=np.float32)
+    options = {"inversion": {"exponential": 0.004}}
+    whole = PointCloud(points).visible_from(VIEWPOINT, **options).indices
+    horizon = Horizon(VIEWPOINT, **options)
+    horizon.add(points[::10])
+    assert len(horizon.visible()) < 600
+    parts = []
+    for start in range(0, 6000, 1500):
+        tile = points[start : start + 1500]
+        left = horizon.screen(tile)
+        assert len(left) < 1500
+        parts.append((tile[left], left.astype(np.uint64) + np.uint64(2**40 + start)))
+    merged = merge_visible(parts, VIEWPOINT, **options)
+    assert merged.dtype == np.uint64
+    assert np.array_equal(merged, whole.astype(np.uint64) + np.uint64(2**40))
+
+
+def test_boxes_are_proved_hidden():
+    horizon = Horizon(VIEWPOINT, radius=400)
+    assert not horizon.hides_box([-0.1, -0.1, -3], [0.1, 0.1, -2])
+    horizon.add(bumpy(6000))
+    assert horizon.hides_box([-0.1, -0.1, -3], [0.1, 0.1, -2])
+    assert not horizon.hides_box([-9, -9, -9], [9, 9, 9])
+
+
+@pytest.mark.parametrize(
+    ("code", "call"),
+    [
+        ("positions-length", lambda: PointCloud(np.zeros((4, 2)))),
+        ("positions-length", lambda: PointCloud(np.zeros(3))),
+        ("positions-type", lambda: PointCloud("points")),
+        ("positions-type", lambda: PointCloud(np.zeros((2, 3), complex))),
+        ("positions-type", lambda: PointCloud(np.zeros((2, 3), bool))),
+        ("non-finite", lambda: PointCloud([[0, 0, np.inf]])),
+        ("option", lambda: PointCloud([[0, 0, 1]], non_finite="maybe")),
+        ("viewpoint", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0])),
+        ("viewpoint", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, np.nan])),
+        ("viewpoint", lambda: PointCloud([[0, 0, 1]]).visible_from(None)),
+        ("viewpoint", lambda: PointCloud([[0, 0, 1]]).visible_from_any([[0, 0, 1], [0, 0]])),
+        ("viewpoint", lambda: PointCloud([[0, 0, 1]]).visible_from_any(7)),
+        ("radius", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], radius=1.0)),
+        ("radius", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], radius=-1)),
+        ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], radius="best")),
+        ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], radius=True)),
+        ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], colour=1)),
+        ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], radius=9, exponent=2)),
+        ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], looks=4)),
+        ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], scores=True)),
+        ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], inversion={"power": 1})),
+        ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], inversion="round")),
+        ("option", lambda: PointCloud([[0, 0, 1]]).visible_from([0, 0, 5], denoise=1.5)),
+        ("option", lambda: PointCloud([[0, 0, 1]]).remove([1])),
+        ("option", lambda: PointCloud([[0, 0, 1]]).remove([-1])),
+        ("option", lambda: PointCloud([[0, 0, 1]]).illuminate([[0, 0, 5]], triangles=[[0, 0, 1]])),
+        ("option", lambda: merge_visible([([[0, 0, 1]], [0])], [0, 0, 5])),
+        ("option", lambda: merge_visible([([[0, 0, 1]], [-1])], [0, 0, 5], radius=9)),
+        ("positions-length", lambda: merge_visible([([[0, 0, 1]], [0, 1])], [0, 0, 5], radius=9)),
+        ("option", lambda: Horizon([0, 0, 5])),
+        ("option", lambda: Horizon([0, 0, 5], radius=9).hides_box([1, 0, 0], [0, 1, 1])),
+    ],
+)
+def test_bad_input_is_refused_with_a_code(code, call):
+    with pytest.raises(HprError) as refused:
+        call()
+    assert refused.value.code == code, str(refused.value)
+    assert isinstance(refused.value, ValueError)
+
+
+def test_none_leaves_an_option_out():
+    cloud = PointCloud(bumpy(200))
+    plain = cloud.visible_from(VIEWPOINT)
+    assert np.array_equal(cloud.visible_from(VIEWPOINT, radius=None, looks=None).indices, plain.indices)
+
+
+def test_threads_run_at_the_same_time():
+    cloud = PointCloud(bumpy(60_000))
+    expected = cloud.visible_from(VIEWPOINT).indices
+    answers = [None] * 4
+    ticks = 0
+
+    def ask(number):
+        answers[number] = cloud.visible_from(VIEWPOINT).indices
+
+    threads = [threading.Thread(target=ask, args=(number,)) for number in range(4)]
+    for thread in threads:
+        thread.start()
+    while any(thread.is_alive() for thread in threads):
+        ticks += 1
+    for thread in threads:
+        thread.join()
+    assert all(np.array_equal(answer, expected) for answer in answers)
+    assert ticks > 0, "the lock was held all the time"
