@@ -86,13 +86,6 @@ impl Flip {
         length * self.scale
     }
 
-    /// An upper bound of the factor s of all points at least `distance` from the viewpoint, roundings
-    /// included.
-    pub(crate) fn most_factor(&self, distance: f64) -> f64 {
-        const ROUNDING: f64 = 1e-12;
-        self.kernel.factor(distance) * (1.0 + ROUNDING) * self.scale
-    }
-
     /// The flipped point for any kernel. This is not inlined, to keep the hull's loops small. A
     /// point that leaves the range of f64 also counts as a point at the viewpoint.
     #[inline(never)]

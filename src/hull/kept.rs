@@ -91,9 +91,9 @@ impl KeptHull {
         Some(self.covers(scaled, hint))
     }
 
-    /// An upper bound of the factor of all points at least `distance` from the viewpoint.
-    pub(super) fn most_factor(&self, distance: f64) -> f64 {
-        self.flip.most_factor(distance)
+    /// An upper bound of the length of all flipped points at least `distance` from the viewpoint.
+    pub(super) fn most_beyond(&self, distance: f64) -> f64 {
+        self.flip.most_beyond(distance)
     }
 
     /// Whether K goes on beyond `q` in its direction. `q` is flipped, and scaled as the hull is.

@@ -123,7 +123,7 @@ fn a_hidden_box_holds_no_visible_point() {
             options: Options::default(),
         };
         // Boxes reach beyond the points.
-        let far = 30.0;
+        let far = 60.0;
         let options = match seed % 3 {
             0 => Options::with_radius(far),
             1 => Options::with_inversion(Inversion::Exponential(Exponential::Scale(0.02))),
@@ -136,7 +136,7 @@ fn a_hidden_box_holds_no_visible_point() {
             let out: [f64; 3] = core::array::from_fn(|axis| {
                 point[axis] + (point[axis] - viewpoint[axis]) * rng.between(0.0, 2.0)
             });
-            let size = rng.pick(&[1e-3, 0.05, 0.3, 1.0]);
+            let size = rng.pick(&[1e-3, 0.05, 0.3, 1.0, 5.0]);
             let edges: [f64; 3] = core::array::from_fn(|_| size * rng.unit());
             let max: [f64; 3] = core::array::from_fn(|axis| out[axis] + edges[axis]);
             let samples: Vec<[f64; 3]> = (0..500)
