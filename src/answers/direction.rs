@@ -20,16 +20,13 @@ use crate::view::options::{Exponential, Inversion, Options, Radius};
 use crate::view::radius::{self, ChosenRadius};
 use crate::view::resolved::resolved_inversion;
 
-/// The product a·s for [`Radius::Auto`], whose R is 5·r²/s.
-const SPACINGS: f64 = 5.0;
-
 impl PointCloud {
     /// Which points are visible along `direction`, the direction in which an orthographic camera
     /// looks? The answer is the limit for viewpoints farther and farther back. The length of
     /// `direction` has no meaning.
     ///
-    /// R grows as a·r² with the distance r. For [`Radius::Auto`] a is 5/s, where s is the cloud's
-    /// spacing. For [`Inversion::Exponential`] a is 1/(2c). For a given radius or exponent a is
+    /// R grows as a·r² with the distance r. For [`Radius::Auto`] a is 5.5/g, where g is the gap of
+    /// [`Radius::Auto`]. For [`Inversion::Exponential`] a is 1/(2c). For a given radius or exponent a is
     /// R/r², measured from the viewpoint that lies one diagonal of the bounding box before the
     /// centroid. The radius and exponent of the answer belong to this viewpoint.
     ///
@@ -97,7 +94,7 @@ impl PointCloud {
         inversion: Inversion,
     ) -> Result<(f64, ChosenRadius), Error> {
         let statistics = &self.statistics;
-        let spacing = statistics.spacing;
+        let gap = statistics.gap;
         let scale = match inversion {
             Inversion::Spherical => None,
             Inversion::Exponential(Exponential::Scale(scale)) => Some(scale),
@@ -130,12 +127,8 @@ impl PointCloud {
             .blocks
             .farthest_distance(&self.sequence.points, viewpoint)?;
         if let Radius::Auto = choice {
-            // Without a spacing any bend gives the same answer.
-            let bend = if spacing > 0.0 {
-                SPACINGS / spacing
-            } else {
-                1.0
-            };
+            // Without a gap any bend gives the same answer.
+            let bend = if gap > 0.0 { radius::FACTOR / gap } else { 1.0 };
             let radius = bend * diagonal * diagonal;
             return Ok((bend, radius::bounded(radius, farthest)));
         }

@@ -1,6 +1,6 @@
 //! Everything about the points that does not depend on a viewpoint: positions as given, the
-//! canonical order along a Hilbert curve, nearest neighbors, statistics, spheres around blocks,
-//! choices of points.
+//! canonical order along a Hilbert curve, nearest neighbors, statistics, the sampling of the
+//! surface, spheres around blocks, choices of points.
 
 pub(crate) mod blocks;
 pub(crate) mod neighbors;
@@ -10,3 +10,4 @@ pub(crate) mod selection;
 pub(crate) mod sequence;
 pub(crate) mod spatial;
 pub(crate) mod statistics;
+pub(crate) mod surface;

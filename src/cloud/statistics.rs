@@ -1,13 +1,16 @@
-//! View-independent statistics of a cloud: centroid, spread and spacing.
+//! View-independent statistics of a cloud: its centroid, its spacing, and its surface.
 //!
 //! All sums run over the distinct points in their canonical order (see
 //! `spatial`), so permuting or duplicating the input changes no bit.
 
-use crate::base::allocation::OutOfMemory;
+use alloc::vec::Vec;
+
+use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::square_root;
-use crate::cloud::neighbors::{Nearest, Neighbors, distance_squared};
+use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
+use crate::cloud::surface;
 
 /// The spacing of a point is its mean distance from this many nearest points.
 const NEIGHBORS: usize = 6;
@@ -21,20 +24,25 @@ pub(crate) struct Statistics {
     pub count: usize,
     /// Mean of the distinct points.
     pub centroid: [f64; 3],
-    /// Mean squared distance from the centroid.
-    pub variance: f64,
     /// Mean distance to the 6 nearest other points (to all others where there
     /// are fewer), averaged over an even sample; 0 below two points.
     pub spacing: f64,
+    /// The gap of the sampled spacings, see [`surface::gap`]; 0 below two points.
+    pub gap: f64,
+    /// The mean place of the surface: the sampled points, weighted by the area for which each
+    /// stands.
+    pub middle: [f64; 3],
+    /// Mean squared distance of the surface from its middle.
+    pub variance: f64,
 }
 
 impl Statistics {
     /// Measures `points`: distinct, finite, along the Hilbert curve.
     pub(crate) fn measure(points: &Points, bounds: &Bounds) -> Result<Self, OutOfMemory> {
-        if points.len() == 0 {
+        let n = points.len();
+        if n == 0 {
             return Ok(Self::default());
         }
-        let count = points.len() as f64;
         // Sums relative to a corner of the box keep the detail of georeferenced clouds.
         let corner = bounds.min;
         let mut sum = [0.0; 3];
@@ -43,38 +51,50 @@ impl Statistics {
                 sum[axis] += p[axis] - corner[axis];
             }
         }
-        let centroid: [f64; 3] = core::array::from_fn(|axis| corner[axis] + sum[axis] / count);
-        let mut squares = 0.0;
-        for p in points.iter() {
-            squares += distance_squared(p, centroid);
-        }
+        let centroid = core::array::from_fn(|axis| corner[axis] + sum[axis] / n as f64);
+        let spacings = sampled_spacings(points)?;
+        let spacing = surface::mean(&spacings);
+        let spacings = surface::cut_off(spacings)?;
+        let gap = surface::gap(&spacings);
+        let areas = surface::into_areas(spacings);
+        let axes: [[f64; 2]; 3] = core::array::from_fn(|axis| {
+            surface::moments(&areas, &|sample| {
+                points.get(place(sample, areas.len(), n))[axis]
+            })
+        });
         Ok(Self {
-            count: points.len(),
+            count: n,
             centroid,
-            variance: squares / count,
-            spacing: mean_spacing(points)?,
+            spacing,
+            gap,
+            middle: axes.map(|[mean, _]| mean),
+            variance: axes.iter().map(|[_, variance]| variance).sum(),
         })
     }
 }
 
-fn mean_spacing(points: &Points) -> Result<f64, OutOfMemory> {
+/// The mean distances of sampled points from their nearest other points. Empty below two points.
+fn sampled_spacings(points: &Points) -> Result<Vec<f64>, OutOfMemory> {
     let n = points.len();
     if n < 2 {
-        return Ok(0.0);
+        return Ok(Vec::new());
     }
     let neighbors = Neighbors::new(points)?;
     let mut nearest = Nearest::with_capacity(NEIGHBORS)?;
-    let samples = n.min(SAMPLES);
-    let mut sum = 0.0;
-    for sample in 0..samples {
-        // The middle of each of `samples` even runs of the curve.
-        let index = ((2 * sample as u64 + 1) * n as u64 / (2 * samples as u64)) as usize;
-        neighbors.find(index, &mut nearest);
+    let mut spacings = filled(n.min(SAMPLES), 0.0)?;
+    let samples = spacings.len();
+    for (sample, spacing) in spacings.iter_mut().enumerate() {
+        neighbors.find(place(sample, samples, n), &mut nearest);
         let mut distances = 0.0;
         for neighbor in nearest.found() {
             distances += square_root(neighbor.squared);
         }
-        sum += distances / nearest.found().len() as f64;
+        *spacing = distances / nearest.found().len() as f64;
     }
-    Ok(sum / samples as f64)
+    Ok(spacings)
+}
+
+/// The point in the middle of even run number `sample` of the curve.
+fn place(sample: usize, samples: usize, n: usize) -> usize {
+    ((2 * sample as u64 + 1) * n as u64 / (2 * samples as u64)) as usize
 }

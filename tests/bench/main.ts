@@ -39,7 +39,7 @@ try {
   if (options.sections.has("linear")) tables.push(await timeSizes(localEngines()));
   if (options.sections.has("adapter")) tables.push(await timeAdapter(), await timeNodes(), await measureGarbage());
   if (options.sections.has("memory")) tables.push(measureMemory());
-  if (options.sections.has("fidelity")) tables.push(...fidelityTables(console.error));
+  if (options.sections.has("fidelity")) tables.push(...(await fidelityTables(console.error)));
 } finally {
   await browser?.close();
 }

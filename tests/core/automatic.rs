@@ -1,4 +1,4 @@
-//! The automatic radius: R = 5·r²/s, never below the farthest distance.
+//! The automatic radius: R = 5.5·r²/g, never below the farthest distance.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
@@ -25,31 +25,40 @@ fn distinct(points: &[[f64; 3]]) -> Vec<[f64; 3]> {
     points
 }
 
-/// The mean distance to the 6 nearest other points, by comparing all pairs.
-fn spacing(points: &[[f64; 3]]) -> f64 {
-    let mut sum = 0.0;
-    for (i, &p) in points.iter().enumerate() {
+/// Of each point: the mean distance to the 6 nearest other points, by comparing all pairs.
+fn spacings(points: &[[f64; 3]]) -> Vec<f64> {
+    let of = |(i, &p): (usize, &[f64; 3])| {
         let others = points.iter().enumerate().filter(|&(j, _)| j != i);
         let mut distances: Vec<f64> = others.map(|(_, &q)| distance(p, q)).collect();
         distances.sort_by(f64::total_cmp);
         distances.truncate(6);
-        sum += distances.iter().sum::<f64>() / distances.len() as f64;
-    }
-    sum / points.len() as f64
+        distances.iter().sum::<f64>() / distances.len() as f64
+    };
+    points.iter().enumerate().map(of).collect()
 }
 
-/// 5·r²/s from scratch, r the root-mean-square distance of the distinct points.
+fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
+    let count = values.len() as f64;
+    values.sum::<f64>() / count
+}
+
+/// 5.5·r²/g from scratch. The longest spacings count as the one at 98 %.
 fn expected(points: &[[f64; 3]], viewpoint: [f64; 3]) -> f64 {
     let points = distinct(points);
     let farthest = farthest(&points, viewpoint);
     if points.len() < 2 {
         return farthest;
     }
-    let squares = points
-        .iter()
-        .map(|&p| distance(p, viewpoint).powi(2))
-        .sum::<f64>();
-    (5.0 * squares / points.len() as f64 / spacing(&points)).max(farthest)
+    let mut spacings = spacings(&points);
+    let mut sorted = spacings.clone();
+    sorted.sort_by(f64::total_cmp);
+    let longest = sorted[98 * sorted.len() / 100];
+    spacings.iter_mut().for_each(|s| *s = s.min(longest));
+    let power = |k: i32| mean(spacings.iter().map(|s| s.powi(k)));
+    let gap = power(3) / power(1).powi(2);
+    let weighted = points.iter().zip(&spacings);
+    let squares = weighted.map(|(&p, s)| s * s * distance(p, viewpoint).powi(2));
+    (5.5 * mean(squares) / power(2) / gap).max(farthest)
 }
 
 #[test]
@@ -62,7 +71,7 @@ fn the_cloud_gives_its_spacing() {
             let expected = if points.len() < 2 {
                 0.0
             } else {
-                spacing(&points)
+                mean(spacings(&points).into_iter())
             };
             let off = (cloud.spacing() - expected).abs();
             assert!(off <= 1e-9 * expected, "{}: {off}", kind.name);
@@ -71,7 +80,7 @@ fn the_cloud_gives_its_spacing() {
 }
 
 #[test]
-fn it_is_five_times_the_mean_square_distance_over_the_spacing() {
+fn it_is_the_closed_form_of_distances_and_spacings() {
     for kind in KINDS.iter().filter(|kind| !kind.name.contains("scaled")) {
         for (seed, n) in [(1, 2), (2, 3), (3, 7), (4, 8), (5, 60), (6, 500)] {
             let scene = kind.scene(seed, n);
@@ -118,6 +127,44 @@ fn samples_of_larger_clouds_are_accurate_in_every_order_of_the_points() {
 }
 
 #[test]
+fn a_few_stray_points_do_not_matter() {
+    let mut points = shapes::bumpy(&mut Rng::new(13), 1900);
+    let viewpoint = [0.0, 2.0, 1.0];
+    let (before, _) = automatic(&points, viewpoint);
+    for i in 0..19 {
+        let turn = f64::from(i);
+        points.push([turn.cos(), turn.sin(), turn / 10.0].map(|x| 3.0 * x));
+    }
+    let (after, _) = automatic(&points, viewpoint);
+    // Their spacings are about thirty times as long as the others. The cubes would decide.
+    let off = after / before;
+    assert!((0.75..1.25).contains(&off), "{off}");
+}
+
+#[test]
+fn the_sparse_part_of_a_surface_decides() {
+    // Two squares side by side: the left one has 15 by 15 points, the right one 40 by 40.
+    let square = |count: usize, left: f64| {
+        let along = move |i: usize| (i as f64 + 0.5) / count as f64;
+        let place = move |i| [left + along(i % count), along(i / count), 0.0];
+        (0..count * count).map(place)
+    };
+    let sparse: Vec<_> = square(15, 0.0).collect();
+    let both: Vec<_> = square(15, 0.0).chain(square(40, 1.0)).collect();
+    let viewpoint = [1.0, 0.5, 50.0];
+    let (alone, _) = automatic(&sparse, viewpoint);
+    let (together, _) = automatic(&both, viewpoint);
+    assert!(
+        (0.8..1.25).contains(&(together / alone)),
+        "{together}, alone {alone}"
+    );
+    // With the mean spacing of all points it is almost twice as large.
+    let squares = mean(both.iter().map(|&p| distance(p, viewpoint).powi(2)));
+    let by_mean = 5.5 * squares / mean(spacings(&both).into_iter());
+    assert!(by_mean > 1.8 * together, "{by_mean}, {together}");
+}
+
+#[test]
 fn it_is_the_default_and_the_answer_reports_the_chosen_radius() {
     for kind in KINDS {
         let scene = kind.scene(21, 50);
@@ -156,7 +203,7 @@ fn it_is_the_farthest_distance_where_there_is_no_spacing() {
     // One point at the viewpoint and one far from it: two distinct points.
     assert_eq!(
         automatic(&[[0.0; 3], viewpoint], viewpoint),
-        (7.5, 2.5f64.log10())
+        (8.25, 2.75f64.log10())
     );
 }
 

@@ -144,7 +144,7 @@ fn long_edges_are_dropped() {
             .collect();
         assert_eq!(with(Some(limit)), expected);
     }
-    // 5 spacings, as the automatic radius knows the spacing: R = 5·r²/s.
+    // The default is 5 spacings.
     let usual = with(None);
     let limit = usual.iter().map(longest).fold(0.0, f64::max);
     let kept = all.iter().filter(|t| longest(t) <= limit).count();

@@ -4,7 +4,8 @@ import { AGAINST_NOISE, AUTOMATIC, METHODS } from "./methods.js";
 import { type Score, score } from "./score.js";
 import { lidarTables } from "./lidar-tables.js";
 import { scoreTables } from "./score-tables.js";
-import { generated, type Labelled, noisy, scanned } from "./truth.js";
+import { generated, type Labelled, noisy, scanned, unevenly } from "./truth.js";
+import { HALVES } from "./uneven.js";
 
 const EXPLAINED =
   "False positives (FP: said to be visible, and are not), false negatives (FN) and their total in % of all points, means over " +
@@ -13,15 +14,27 @@ const NOISE = 0.005;
 const NOISE_SEED = 5;
 
 /** The scanned clouds together and each alone, noise, then the generated clouds. Without HPR_SHARED, only the generated clouds. */
-export function fidelityTables(say: (message: string) => void): Table[] {
+export async function fidelityTables(say: (message: string) => void): Promise<Table[]> {
   const scans = [...scanned()];
+  const halves: Table[] = [];
+  for (const half of HALVES) {
+    say(`Making surfaces that are sampled unevenly, ${half}…`);
+    halves.push(...compared(`Unevenly sampled surfaces, ${half}`, await collected(unevenly(half)), say));
+  }
   return [
     ...compared("Scanned surfaces", scans, say),
     ...againstNoise(scans, say),
     ...compared("Generated surfaces", [...generated()], say),
+    ...halves,
     ...lidarTables(say),
     ...scoreTables(scans, say),
   ];
+}
+
+async function collected<T>(items: AsyncIterable<T>): Promise<T[]> {
+  const all: T[] = [];
+  for await (const item of items) all.push(item);
+  return all;
 }
 
 function compared(title: string, clouds: Labelled[], say: (message: string) => void): Table[] {

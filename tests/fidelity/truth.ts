@@ -8,8 +8,9 @@ import { bunny36k, type Cloud, dragon, sharedFile } from "../bench/clouds.js";
 import { direction, seeded } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";
 import { bounds } from "../bench/views.js";
-import { type MeshPoints, RayTracer } from "./rays.js";
+import { dragonMesh, type MeshPoints, RayTracer } from "./rays.js";
 import { bumpySphere, room, scatter, torus } from "./shapes.js";
+import { decimated, type Half, HALVES, uneven } from "./uneven.js";
 
 export interface Labelled {
   name: string;
@@ -92,6 +93,14 @@ export function* generated(): Generator<Labelled> {
   const furnished = room();
   for (const count of [20_000, 100_000])
     yield traced("room, from inside", furnished, scatter(furnished, count, 15), INSIDE);
+}
+
+/** Surfaces that are sampled unevenly. */
+export async function* unevenly(half: Half): AsyncGenerator<Labelled> {
+  for (const { name, mesh, points } of uneven(half)) yield fromOutside(name, mesh, points ?? mesh);
+  const [file, share] = half === HALVES[0] ? (["dragon_res3", 0.3] as const) : (["dragon_res2", 0.12] as const);
+  const { name, mesh } = await decimated(file, dragonMesh(file), share);
+  yield fromOutside(name, mesh, mesh);
 }
 
 /** A viewpoint between the furniture, in meters. */

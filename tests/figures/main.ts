@@ -39,14 +39,14 @@ if (unknown !== undefined) {
 }
 await init();
 await draw(names.filter((name) => name in MAKERS));
-if (names.includes(FIDELITY)) measureFidelity();
+if (names.includes(FIDELITY)) await measureFidelity();
 if (names.includes(ACCESSIBILITY))
   await withStudio(async (studio) => {
     write("../../docs/ACCESSIBILITY.md", await accessibilityText(studio));
   });
 
-function measureFidelity(): void {
-  const text = fidelityText(console.error);
+async function measureFidelity(): Promise<void> {
+  const text = await fidelityText(console.error);
   if (text === undefined)
     console.error("FIDELITY.md is left as it is. `npm run bench -- --fidelity` scores what is there.");
   else write("FIDELITY.md", text);

@@ -57,9 +57,7 @@ describe("an inversion", () => {
     const visible = cloud.visibleFrom(farAway, { inversion: { exponential: "auto" } });
     expect(visible).toMatchObject({ radius: 0, exponent: 0, evaluations: 0 });
     const { exponential } = visible.inversion as { exponential: number };
-    // The automatic R is 5·r²/s. Here r² is the mean square of the distances, and s is the spacing.
-    const meanSquare = sphere.reduce((sum, x, i) => sum + (i % 3 === 2 ? x - 5 : x) ** 2, 0) / 2000;
-    expect(exponential).toBeCloseTo((0.07 * 5 * meanSquare) / cloud.autoRadius(farAway).radius, 8);
+    expect(exponential).toBe(0.07 * cloud.spacing);
     expect(cloud.visibleFrom([0.1, -3, 1], { inversion: { exponential: "auto" } }).inversion).toEqual({ exponential });
     const given = cloud.visibleFrom(farAway, { inversion: { exponential } });
     expect(given).toEqual(visible);

@@ -105,7 +105,7 @@ impl PointCloudNd {
     /// there are fewer than two.
     #[must_use]
     pub fn spacing(&self) -> f64 {
-        self.rows.spacing
+        self.rows.measures.spacing
     }
 
     /// The number of coordinates of a point.
@@ -216,7 +216,7 @@ impl PointCloudNd {
     fn check_options(&self, options: &Options) -> Result<Inversion, Error> {
         options.check_dimension(self.rows.dimension)?;
         options.check_whole(self.rows.dimension)?;
-        resolved_inversion(options, self.rows.spacing)
+        resolved_inversion(options, self.rows.measures.spacing)
     }
 
     fn resolve_radius(
@@ -225,12 +225,13 @@ impl PointCloudNd {
         viewpoint: &[f64],
         farthest: f64,
     ) -> Result<ChosenRadius, Error> {
-        let r_squared = squared(viewpoint, &self.rows.centroid) + self.rows.variance;
+        let measures = &self.rows.measures;
+        let r_squared = squared(viewpoint, &measures.middle) + measures.variance;
         let count = self.rows.distinct();
-        let automatic = radius::closed_form(count, r_squared, self.rows.spacing, farthest);
+        let automatic = radius::closed_form(count, r_squared, measures.gap, farthest);
         let sight = Sight {
             viewpoint,
-            centroid: &self.rows.centroid,
+            centroid: &measures.centroid,
             automatic,
             farthest,
             reach: &|place| self.farthest(place).unwrap_or(f64::INFINITY),

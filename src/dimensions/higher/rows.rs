@@ -9,6 +9,7 @@ use crate::base::real::square_root;
 use crate::base::sort::{ordered, sort_by_numbers};
 use crate::cloud::point_cloud::NonFinite;
 use crate::cloud::points::checked_len;
+use crate::cloud::surface;
 
 /// The spacing of a point is its mean distance from `NEIGHBORS` points; it is measured at
 /// `SAMPLES` points.
@@ -23,9 +24,19 @@ pub(super) struct Rows {
     /// The present indices sorted by coordinates, and where each distinct point starts.
     order: Vec<u32>,
     starts: Vec<u32>,
+    pub measures: Measures,
+}
+
+/// What the automatic radius is computed from, as in [`Statistics`].
+///
+/// [`Statistics`]: crate::cloud::statistics::Statistics
+#[derive(Default)]
+pub(super) struct Measures {
     pub centroid: Vec<f64>,
-    pub variance: f64,
     pub spacing: f64,
+    pub gap: f64,
+    pub middle: Vec<f64>,
+    pub variance: f64,
 }
 
 impl Rows {
@@ -36,9 +47,7 @@ impl Rows {
             present: Vec::new(),
             order: Vec::new(),
             starts: Vec::new(),
-            centroid: Vec::new(),
-            variance: 0.0,
-            spacing: 0.0,
+            measures: Measures::default(),
         }
     }
 
@@ -132,38 +141,53 @@ impl Rows {
                 starts.push(k as u32);
             }
         }
-        // Nothing below can fail.
-        self.centroid = filled(self.dimension, 0.0)?;
-        (self.order, self.starts) = (order, starts);
-        self.measure();
-        Ok(())
+        let order = core::mem::replace(&mut self.order, order);
+        let starts = core::mem::replace(&mut self.starts, starts);
+        match self.measure() {
+            Ok(measures) => {
+                self.measures = measures;
+                Ok(())
+            }
+            Err(error) => {
+                (self.order, self.starts) = (order, starts);
+                Err(error)
+            }
+        }
     }
 
-    fn measure(&mut self) {
-        (self.variance, self.spacing) = (0.0, 0.0);
+    fn measure(&self) -> Result<Measures, OutOfMemory> {
         let count = self.starts.len();
+        let mut measures = Measures {
+            centroid: filled(self.dimension, 0.0)?,
+            middle: filled(self.dimension, 0.0)?,
+            ..Measures::default()
+        };
         if count == 0 {
-            return;
+            return Ok(measures);
         }
         for axis in 0..self.dimension {
             // Coordinates relative to one point keep the detail of clouds far away.
             let origin = self.at(0)[axis];
             let sum: f64 = (0..count).map(|k| self.at(k)[axis] - origin).sum();
-            self.centroid[axis] = origin + sum / count as f64;
+            measures.centroid[axis] = origin + sum / count as f64;
         }
-        let squares: f64 = (0..count)
-            .map(|k| squared(self.at(k), &self.centroid))
-            .sum();
-        self.variance = squares / count as f64;
-        let samples = count.min(SAMPLES);
         if count < 2 {
-            return;
+            return Ok(measures);
         }
-        let mut sum = 0.0;
-        for sample in 0..samples {
-            sum += self.spacing_at((2 * sample + 1) * count / (2 * samples));
+        let samples = count.min(SAMPLES);
+        let place = |sample| (2 * sample + 1) * count / (2 * samples);
+        let mut spacings = with_capacity(samples)?;
+        spacings.extend((0..samples).map(|sample| self.spacing_at(place(sample))));
+        measures.spacing = surface::mean(&spacings);
+        let spacings = surface::cut_off(spacings)?;
+        measures.gap = surface::gap(&spacings);
+        let areas = surface::into_areas(spacings);
+        for axis in 0..self.dimension {
+            let [mean, variance] = surface::moments(&areas, &|sample| self.at(place(sample))[axis]);
+            measures.middle[axis] = mean;
+            measures.variance += variance;
         }
-        self.spacing = sum / samples as f64;
+        Ok(measures)
     }
 
     /// The mean distance of a distinct point from its nearest other points.

@@ -1,0 +1,81 @@
+//! How a surface is sampled, from the spacings of a few of its points.
+//!
+//! A point with spacing s stands for a piece of surface whose area grows as s². So a mean over the
+//! points tells of the dense places, and a mean with weights s² tells of the surface.
+
+use alloc::vec::Vec;
+
+use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::base::sort::sort_keyed;
+
+/// The percentile of the spacings at which longer ones are cut off. Otherwise a few stray points
+/// far from the surface would decide.
+const PERCENTILE: usize = 98;
+
+/// The mean of the spacings; 0 where there are none.
+pub(crate) fn mean(spacings: &[f64]) -> f64 {
+    spacings.iter().sum::<f64>() / spacings.len().max(1) as f64
+}
+
+/// Cuts off the longest spacings.
+pub(crate) fn cut_off(mut spacings: Vec<f64>) -> Result<Vec<f64>, OutOfMemory> {
+    // The bits of numbers that are not negative are in their order.
+    let mut sorted: Vec<(u64, u32)> = with_capacity(spacings.len())?;
+    sorted.extend(spacings.iter().map(|spacing| (spacing.to_bits(), 0)));
+    sort_keyed(&mut sorted);
+    if let Some(&(bits, _)) = sorted.get(spacings.len() * PERCENTILE / 100) {
+        for spacing in &mut spacings {
+            *spacing = spacing.min(f64::from_bits(bits));
+        }
+    }
+    Ok(spacings)
+}
+
+/// The gap: the mean of s³ ÷ the square of the mean of s. It is the spacing if all points have the
+/// same one. Where sampling is uneven, it is longer, because holes between sparse points let the
+/// points behind shine through: it is the mean spacing over the surface × the mean of s² ÷ the
+/// square of the mean of s. 0 where there are no spacings, or where they are 0.
+pub(crate) fn gap(spacings: &[f64]) -> f64 {
+    // In units of the mean, so that no power overflows.
+    let unit = mean(spacings);
+    let mut cubes = 0.0;
+    for spacing in spacings {
+        let share = spacing / unit;
+        cubes += share * share * share;
+    }
+    if unit > 0.0 {
+        unit * (cubes / spacings.len() as f64)
+    } else {
+        0.0
+    }
+}
+
+/// Turns spacings into the areas for which their points stand, in some unit.
+pub(crate) fn into_areas(mut spacings: Vec<f64>) -> Vec<f64> {
+    let unit = mean(&spacings);
+    for spacing in &mut spacings {
+        let share = *spacing / unit;
+        *spacing = share * share;
+    }
+    spacings
+}
+
+/// The mean and the variance of numbers with these weights; 0 where there are no weights.
+pub(crate) fn moments(weights: &[f64], number: &dyn Fn(usize) -> f64) -> [f64; 2] {
+    if weights.is_empty() {
+        return [0.0, 0.0];
+    }
+    // Sums relative to one of the numbers keep the detail of georeferenced clouds.
+    let origin = number(0);
+    let [mut total, mut sum, mut squares] = [0.0; 3];
+    for (i, weight) in weights.iter().enumerate() {
+        total += weight;
+        sum += weight * (number(i) - origin);
+    }
+    let mean = origin + sum / total;
+    for (i, weight) in weights.iter().enumerate() {
+        let off = number(i) - mean;
+        squares += weight * (off * off);
+    }
+    [mean, squares / total]
+}
