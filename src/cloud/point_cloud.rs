@@ -225,8 +225,11 @@ impl PointCloud {
     }
 
     /// The mean distance of a point from its 6 nearest other points, in the cloud's units. The
-    /// automatic rules depend on it. It is measured at up to 2048 distinct points, and is 0
-    /// where there are fewer than two.
+    /// automatic scales of [`Inversion::Exponential`] and [`Inversion::Looks`] are shares of it. It is
+    /// measured at up to 2048 distinct points, and is 0 where there are fewer than two.
+    ///
+    /// [`Inversion::Exponential`]: crate::Inversion::Exponential
+    /// [`Inversion::Looks`]: crate::Inversion::Looks
     #[must_use]
     pub fn spacing(&self) -> f64 {
         self.statistics.spacing

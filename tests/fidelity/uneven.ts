@@ -28,11 +28,10 @@ export interface Sampled {
   points?: MeshPoints;
 }
 
-/** The shapes that took part in the choice of the automatic radius, and others that did not. */
-export const HALVES = ["seen by the choice of R", "not seen by it"] as const;
+/** Two sets of other shapes, proportions and seeds: one to choose rules on, and one to report them on. */
+export const HALVES = ["first half", "second half"] as const;
 export type Half = (typeof HALVES)[number];
 
-/** The two halves differ in shapes, proportions and seeds. */
 export function* uneven(half: Half): Generator<Sampled> {
   const chosen = half === HALVES[0];
   yield { name: "plate with holes", mesh: plate(chosen ? 5 : 8, chosen ? 96 : 60, chosen ? 1 : 2) };

@@ -101,8 +101,8 @@ impl PointCloudNd {
     }
 
     /// The mean distance of a point from its 6 nearest other points, in the cloud's units. The
-    /// automatic rules depend on it. It is measured at up to 512 distinct points, and is 0 where
-    /// there are fewer than two.
+    /// automatic scale of the exponential inversion is a share of it. It is measured at up to 512
+    /// distinct points, and is 0 where there are fewer than two.
     #[must_use]
     pub fn spacing(&self) -> f64 {
         self.rows.measures.spacing

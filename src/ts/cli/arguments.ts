@@ -12,7 +12,7 @@ Writes those points of a file that can be seen from a viewpoint.
   --from X,Y,Z       the viewpoint, in the coordinates of the file
   -o, --output OUT   the file to write, in the format of IN; - is standard output
   --exponent E       R is the farthest distance times 10^E (0 or more); the larger, the
-                     more points; auto, the default, derives it from the points' spacing
+                     more points; auto, the default, derives it from the points' gaps
   --columns X,Y,Z    which columns of IN are x, y and z: their names or numbers from 1
   -h, --help         shows this
   --version          shows the version

@@ -68,8 +68,9 @@ export class PointCloud {
 
   /**
    * The mean distance of a point to its 6 nearest neighbors, in the cloud's units. The automatic
-   * rules use it. It is measured at 2048 distinct points (512 above three dimensions), or at all
-   * points if there are fewer. It is 0 for fewer than two points.
+   * scales c of `exponential` and `looks` are shares of it. It is measured at 2048 distinct points
+   * (512 above three dimensions), or at all points if there are fewer. It is 0 for fewer than two
+   * points.
    */
   get spacing(): number {
     return this.#core.size.spacing;
@@ -96,7 +97,7 @@ export class PointCloud {
    * are exactly those on the lower boundary of the convex hull of all (x, y, z + a·(x² + y²)). Here z
    * is the depth along the direction.
    *
-   * By default, a is 5 ÷ the cloud's spacing. With `inversion: { exponential: c }`, a is 1/(2c). For a
+   * By default, a is 5.5/g, as the automatic R is 5.5·r²/g. With `inversion: { exponential: c }`, a is 1/(2c). For a
    * given `radius` or `exponent`, a is R/d². Here d is the diagonal of the bounding box, and R is
    * measured from the viewpoint that lies at the distance d before the centroid. The answer's `radius`
    * is R for that viewpoint. `"search"`, `"opposite"` and `power` have no limit and are refused
