@@ -14,7 +14,9 @@ const PERCENTILE: usize = 98;
 
 /// The mean of the spacings; 0 where there are none.
 pub(crate) fn mean(spacings: &[f64]) -> f64 {
-    spacings.iter().sum::<f64>() / spacings.len().max(1) as f64
+    // Not `sum`, which is -0 where there is nothing.
+    let total = spacings.iter().fold(0.0, |total, spacing| total + spacing);
+    total / spacings.len().max(1) as f64
 }
 
 /// Cuts off the longest spacings.
