@@ -1,0 +1,109 @@
+"""hidden-point-removal tiles FOLDER --from cameras.csv -o OUTPUT: visibility for clouds in tiles."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import sys
+from pathlib import Path
+
+from . import HprError
+
+
+def main(arguments=None):
+    parser = argparse.ArgumentParser(prog="hidden-point-removal", description=__doc__)
+    commands = parser.add_subparsers(required=True, metavar="COMMAND")
+    tiles = commands.add_parser("tiles", help="which points of all tiles in a folder are visible?")
+    tiles.add_argument("folder", type=Path, help="a folder of .laz, .las, .parquet or .npy files")
+    tiles.add_argument("--from", dest="viewpoints", type=Path, required=True,
+                       help="a CSV file with the columns x, y, z, one viewpoint a line")
+    tiles.add_argument("-o", "--output", type=Path, required=True, help="the folder of the answer")
+    tiles.add_argument("--radius", type=float, help="R of the flipping sphere in the units of the tiles")
+    tiles.add_argument("--exponential", type=float, help="the scale c of the exponential inversion")
+    tiles.add_argument("--share", type=float, default=0.02, help="the share of the points in the horizon")
+    tiles.add_argument("--workers", type=int, default=1, help="processes on this machine (needs Dask)")
+    tiles.add_argument("--scheduler", help="the address of a Dask scheduler")
+    tiles.add_argument("--laz", action="store_true", help="also copy each tile with a dimension `visible`")
+    chosen = parser.parse_args(arguments)
+    try:
+        run(chosen)
+    except (HprError, OSError, ImportError, ValueError) as error:
+        sys.exit(f"hidden-point-removal: {error}")
+    except KeyboardInterrupt:
+        sys.exit(130)
+
+
+def run(chosen):
+    from .distributed import visible_from_tiles, write_laz, write_parquet
+    from .distributed.tiles import read_tile, tiles_in
+
+    tiles = tiles_in(chosen.folder)
+    viewpoints = read_viewpoints(chosen.viewpoints)
+    options = {"radius": chosen.radius}
+    if chosen.exponential is not None:
+        options["inversion"] = {"exponential": chosen.exponential}
+    with _client(chosen) as client:
+        answers = visible_from_tiles(
+            tiles, viewpoints, client=client, share=chosen.share, progress=_say, **options
+        )
+    chosen.output.mkdir(parents=True, exist_ok=True)
+    write_parquet(chosen.output / "visible.parquet", answers)
+    report = {
+        "tiles": [tile.name for tile in tiles],
+        "viewpoints": viewpoints,
+        "options": answers.options,
+        "visible": [len(answer) for answer in answers],
+        "skipped_tiles": answers.skipped,
+        "survivors": answers.survivors,
+    }
+    (chosen.output / "report.json").write_text(json.dumps(report, indent=2) + "\n")
+    if chosen.laz:
+        first = 0
+        for tile in tiles:
+            if tile.name.lower().endswith((".laz", ".las")):
+                write_laz(tile, chosen.output / tile.name.replace(".copc.laz", ".laz"), first, answers)
+            first += len(read_tile(tile))
+    for number, count in enumerate(report["visible"]):
+        print(f"viewpoint {number}: {count} points visible, {answers.skipped[number]} of {len(tiles)} tiles skipped")
+
+
+def read_viewpoints(path):
+    """The rows of a CSV file with the columns x, y, z, or of three columns without names."""
+    with open(path, newline="") as file:
+        rows = [row for row in csv.reader(file) if any(cell.strip() for cell in row)]
+    names = [cell.strip().lower() for cell in rows[0]] if rows else []
+    columns = [0, 1, 2]
+    if {"x", "y", "z"} <= set(names):
+        columns = [names.index(axis) for axis in "xyz"]
+        rows = rows[1:]
+    places = []
+    for line, row in enumerate(rows, 1):
+        try:
+            places.append([float(row[column]) for column in columns])
+        except (ValueError, IndexError):
+            raise ValueError(f"{path}: row {line} has no three numbers: {', '.join(row)}") from None
+    if not places:
+        raise ValueError(f"{path} holds no viewpoints")
+    return places
+
+
+def _client(chosen):
+    from contextlib import nullcontext
+
+    if chosen.scheduler is None and chosen.workers <= 1:
+        return nullcontext()
+    from dask.distributed import Client
+
+    if chosen.scheduler is not None:
+        return Client(chosen.scheduler)
+    return Client(n_workers=chosen.workers, threads_per_worker=1, dashboard_address=None)
+
+
+def _say(stage, done, every):
+    end = "\n" if done == every else "\r"
+    print(f"{stage}: {done} of {every}", end=end, file=sys.stderr, flush=True)
+
+
+if __name__ == "__main__":
+    main()
