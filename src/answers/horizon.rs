@@ -151,9 +151,13 @@ impl Horizon {
 
     /// The points that were added and are not hidden by others of them. A horizon of these points
     /// hides the same as this one. So only they have to be sent to other machines.
-    #[must_use]
-    pub fn visible(&self) -> Vec<[f64; 3]> {
-        self.visible.iter().collect()
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn visible(&self) -> Result<Vec<[f64; 3]>, Error> {
+        let mut points = with_capacity(self.visible.len())?;
+        points.extend(self.visible.iter());
+        Ok(points)
     }
 }
 
