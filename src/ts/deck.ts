@@ -1,3 +1,5 @@
-export { VisiblePointCloudLayer, type VisiblePointCloudLayerProps } from "./deck/layer.js";
+export { VisiblePointCloudLayer, type VisibleAnswer, type VisiblePointCloudLayerProps } from "./deck/layer.js";
 export { HprError, type HprErrorCode } from "./base/errors.js";
 export type { Inversion, RadiusRule, VisibilityOptions } from "./query/view-options.js";
+export type { AnswerKind } from "./follow/gaze.js";
+export type { FollowOptions } from "./query/follow-options.js";

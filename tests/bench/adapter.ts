@@ -107,7 +107,7 @@ function applyingMs(points: Points, visible: Uint32Array<ArrayBuffer>, dim: bool
   const times: number[] = [];
   for (let i = 0; i < ANSWERS; i++) {
     const start = performance.now();
-    drawn.setVisible(indices, dim);
+    drawn.setVisible(undefined, indices, dim);
     drawn.show();
     times.push(performance.now() - start);
   }

@@ -3,7 +3,10 @@ import { DataFilterExtension } from "@deck.gl/extensions";
 import { PointCloudLayer, type PointCloudLayerProps } from "@deck.gl/layers";
 
 import { HprError } from "../base/errors.js";
-import type { VisibilityOptions } from "../query/view-options.js";
+import type { AnswerKind } from "../follow/gaze.js";
+import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings } from "../query/follow-options.js";
+import { givenOptions, pick } from "../query/options.js";
+import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { isBinary, positionsOf } from "./data.js";
 import { Sight } from "./sight.js";
@@ -16,22 +19,39 @@ export type VisiblePointCloudLayerProps<DataT = unknown> = PointCloudLayerProps<
    * without `modelMatrix` and without `coordinateOrigin`.
    */
   viewpoint?: readonly [number, number, number] | null;
-  /** How each view is computed. */
-  visibility?: VisibilityOptions;
-  /** A new answer is drawn. */
-  onVisible?: ((answer: { count: number; milliseconds: number }) => void) | null;
+  /** How each view is computed, and how answers follow the viewpoint. */
+  visibility?: VisibilityOptions & FollowOptions;
+  /**
+   * A new answer is drawn. `answer` says what it is: a draft comes before the exact answer. `visible`
+   * holds the indices of the points that are drawn; later answers use its memory again.
+   */
+  onVisible?: ((answer: VisibleAnswer) => void) | null;
 };
+
+/** What `onVisible` is told. */
+export interface VisibleAnswer {
+  /** The number of points that are drawn. */
+  count: number;
+  /** The time that the answer took. */
+  milliseconds: number;
+  /** What the answer is. */
+  answer: AnswerKind;
+  /** The indices of the points that are drawn, ascending. */
+  visible: Uint32Array;
+}
 
 interface Own {
   viewpoint: readonly number[] | null;
-  visibility: VisibilityOptions;
-  onVisible: ((answer: { count: number; milliseconds: number }) => void) | null;
+  visibility: VisibilityOptions & FollowOptions;
+  onVisible: ((answer: VisibleAnswer) => void) | null;
   getPosition: unknown;
 }
 
 // This is not an interface, since an interface has no index signature.
 type State = {
   sight: Sight;
+  /** The property `visibility`, and its content. */
+  read: { given: unknown; text: string; settings: FollowSettings } | undefined;
   /**
    * One number for each point: 1 if it is visible, 0 if it is hidden. Undefined before the first
    * answer. Later answers overwrite the array.
@@ -80,14 +100,14 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
   /** @internal */
   override initializeState(): void {
     const sight = new Sight({
-      answer: (answer, milliseconds) => {
-        (this.getCurrentLayer() as this | null)?.applyAnswer(answer, milliseconds);
+      answer: (answer, kind, milliseconds) => {
+        (this.getCurrentLayer() as this | null)?.applyAnswer(answer, kind, milliseconds);
       },
       error: (error) => {
         this.getCurrentLayer()?.raiseError(error, "");
       },
     });
-    this.setState({ sight, mask: undefined, version: 0, data: undefined });
+    this.setState({ sight, read: undefined, mask: undefined, version: 0, data: undefined });
   }
 
   /** Returns true for each change, also if only the camera has moved. @internal */
@@ -108,7 +128,11 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       }
       const seen =
         viewpoint === null ? eyeOf(this.context.viewport, this.props) : { from: viewpoint, isDirection: false };
-      sight.want({ ...seen, options: visibility });
+      const settings = this.#settingsOf(visibility);
+      const isNew = sight.want(seen, settings);
+      if (isNew && settings.stale === "all" && this.state.mask !== undefined) {
+        this.setState({ mask: undefined, data: undefined });
+      }
     } catch (error) {
       this.raiseError(error as Error, "");
     }
@@ -139,8 +163,20 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     } as never);
   }
 
+  /** Options with the same content are read once. */
+  #settingsOf(visibility: Own["visibility"]): FollowSettings {
+    let { read } = this.state;
+    if (read?.given !== visibility) {
+      const text = JSON.stringify(visibility);
+      const given = givenOptions(visibility, VIEW_OPTIONS, FOLLOW_OPTIONS);
+      const settings = read?.text === text ? read.settings : followSettings(given, pick(given, VIEW_OPTIONS));
+      this.state.read = read = { given: visibility, text, settings };
+    }
+    return read.settings;
+  }
+
   /** @internal */
-  applyAnswer(answer: Visibility, milliseconds: number): void {
+  applyAnswer(answer: Visibility, kind: AnswerKind, milliseconds: number): void {
     const { sight, version } = this.state;
     let { mask } = this.state;
     if (mask?.length !== sight.length) {
@@ -153,7 +189,12 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       ? { ...data, attributes: { ...data.attributes, getFilterValue: { value: mask, size: 1 } } }
       : undefined;
     this.setState({ mask, version: version + 1, data: withMask });
-    (this.props as unknown as Own).onVisible?.({ count: answer.count, milliseconds });
+    (this.props as unknown as Own).onVisible?.({
+      count: answer.count,
+      milliseconds,
+      answer: kind,
+      visible: answer.indices,
+    });
   }
 }
 

@@ -1,20 +1,16 @@
 import { Follower, type Round } from "../follow/follower.js";
-import { Newest } from "../follow/newest.js";
+import { type AnswerKind, Gaze, type Turn } from "../follow/gaze.js";
 import type { RecoveryTimes } from "../follow/recovery.js";
+import { turnRound } from "../follow/turn-round.js";
+import { type FollowSettings, stagesFor } from "../query/follow-options.js";
+import { isNear, type Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { WorkerPointCloud } from "../worker/client.js";
 
-/** The viewpoint of a layer, or the direction that it is seen along. */
-export interface View {
-  from: readonly number[];
-  isDirection: boolean;
-  options: VisibilityOptions;
-}
-
 interface Listener {
   /** After this call, the answer's memory is reused. */
-  answer: (answer: Visibility, milliseconds: number) => void;
+  answer: (answer: Visibility, kind: AnswerKind, milliseconds: number) => void;
   error: (error: Error) => void;
 }
 
@@ -26,7 +22,10 @@ const ONCE: RecoveryTimes = { delays: [0], pause: Infinity, longPause: Infinity 
 /** A layer's cloud, in the worker that all layers share. */
 export class Sight {
   readonly #tell: Listener;
-  readonly #views = new Newest<View>((a, b) => JSON.stringify(a) === JSON.stringify(b));
+  readonly #gaze = new Gaze<VisibilityOptions>([], () => this.#follower?.follow());
+  #place: Place | undefined;
+  #turn: Turn | undefined;
+  #settings: FollowSettings | undefined;
   #follower: Follower | undefined;
   #cloud: WorkerPointCloud | undefined;
   /** Reads the positions. Undefined after it was called. */
@@ -66,12 +65,35 @@ export class Sight {
     this.#follower.follow();
   }
 
-  want(view: View): void {
-    this.#views.want(view);
+  /** Whether the last answer belongs to the present view. */
+  get isCurrent(): boolean {
+    return this.#turn?.isCurrent() ?? false;
+  }
+
+  /** Answers are wanted for this view. Returns whether it is new. */
+  want(place: Place, settings: FollowSettings): boolean {
+    const isSame =
+      this.#place !== undefined &&
+      this.#settings === settings &&
+      isNear(this.#place, place, settings.moveThreshold, this.#cloud?.spacing ?? 0);
+    if (!isSame) {
+      this.#place = place;
+      this.#settings = settings;
+      this.#begin();
+    }
     this.#follower?.follow();
+    return !isSame;
+  }
+
+  #begin(): void {
+    if (this.#settings !== undefined) {
+      this.#gaze.stages = stagesFor(this.#settings, this.length);
+      this.#gaze.moved();
+    }
   }
 
   dispose(): void {
+    this.#gaze.stop();
     this.#follower?.stop();
     this.#follower = undefined;
     this.#dropCloud();
@@ -81,39 +103,46 @@ export class Sight {
     if (this.#unread !== undefined) {
       return this.#preparing(this.#unread);
     }
-    return this.#cloud !== undefined && this.#views.isNew ? this.#viewing(this.#cloud) : undefined;
+    const [cloud, place] = [this.#cloud, this.#place];
+    const isDue = cloud !== undefined && place !== undefined && this.#gaze.due !== undefined;
+    return isDue ? this.#viewing(cloud, place) : undefined;
   }
 
   #preparing(read: ReadPositions): Round<WorkerPointCloud> {
     return {
       ask: () => {
         this.#unread = undefined;
-        this.#views.forget();
         return WorkerPointCloud.create(read(), { shared: true });
       },
       use: (cloud) => {
         this.#cloud = cloud;
+        this.#begin();
         return undefined;
       },
       leave: (cloud) => void cloud.dispose(),
     };
   }
 
-  #viewing(cloud: WorkerPointCloud): Round<Visibility> {
+  #viewing(cloud: WorkerPointCloud, { from, isDirection }: Place): Round<Visibility> {
     const begun = performance.now();
-    return {
-      ask: () => {
-        const { from, isDirection, options } = this.#views.take();
-        return isDirection ? cloud.visibleFromDirection(from, options) : cloud.visibleFrom(from, options);
+    return turnRound(
+      this.#gaze,
+      ({ options, signal }) => {
+        const asked = { ...options, signal };
+        return isDirection ? cloud.visibleFromDirection(from, asked) : cloud.visibleFrom(from, asked);
       },
-      use: (answer) => {
+      (answer, turn) => {
         this.#follower?.answered();
+        if (this.#settings?.stale === "all" && !turn.isCurrent()) {
+          return undefined;
+        }
+        this.#turn = turn;
         return () => {
-          this.#tell.answer(answer, performance.now() - begun);
+          this.#tell.answer(answer, turn.kind, performance.now() - begun);
           cloud.recycle(answer);
         };
       },
-    };
+    );
   }
 
   #dropCloud(): void {

@@ -63,6 +63,11 @@ export class Gaze<Options = unknown> {
     return undefined;
   }
 
+  /** Whether the first question was asked. */
+  get isBegun(): boolean {
+    return this.#next > 0;
+  }
+
   /** Whether all questions were asked. The answer to the last one may be on its way. */
   get isComplete(): boolean {
     return this.#next >= this.#turns.length;
@@ -93,13 +98,6 @@ export class Gaze<Options = unknown> {
   refused(turn: Turn<Options>): void {
     if (turn.isCurrent()) {
       this.#next = this.#turns.length;
-    }
-  }
-
-  /** The present view is asked about from the start, as after a move. */
-  again(): void {
-    if (this.#moves > 0) {
-      this.moved();
     }
   }
 

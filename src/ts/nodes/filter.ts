@@ -2,9 +2,11 @@ import type { Camera, Object3D, Points } from "three";
 
 import { describe, HprError } from "../base/errors.js";
 import { Follower, type Round } from "../follow/follower.js";
-import { type Box, extentOf } from "../three/box.js";
-import { Eye, requireUniformScale } from "../three/eye.js";
+import type { AnswerKind } from "../follow/gaze.js";
+import { turnRound } from "../follow/turn-round.js";
+import { requireUniformScale } from "../three/eye.js";
 import { Reporter } from "../three/reporter.js";
+import { type Watch, Watches } from "../three/watch.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { Gathered } from "./gathered.js";
 import type { Refused } from "./node.js";
@@ -15,7 +17,7 @@ import { type HiddenPointNodesFilterOptions, type NodesSettings, readNodesOption
 export interface HiddenPointNodesFilterEvents {
   /**
    * A new answer is drawn. `count` is the number of visible points. `nodes` is the number of nodes
-   * in the cloud. Either `viewpoint` or `direction` is null. `radius` is 0 if the inversion has none.
+   * in the cloud. `answer` says what the answer is: a draft comes before the exact one. Either `viewpoint` or `direction` is null. `radius` is 0 if the inversion has none.
    * The viewpoint, the direction and the radius are in the root's space.
    */
   change: {
@@ -25,6 +27,8 @@ export interface HiddenPointNodesFilterEvents {
     viewpoint: number[] | null;
     direction: number[] | null;
     radius: number;
+    answer: AnswerKind;
+    camera: Camera;
   };
   /**
    * A node (`points`) or a view (`points` is null) is refused. For a node, this comes only once
@@ -32,13 +36,6 @@ export interface HiddenPointNodesFilterEvents {
    * listener, the error is an unhandled rejection.
    */
   error: { error: Error; points: Points | null };
-}
-
-/** An answer, and the viewpoint or the direction that it belongs to. */
-interface Asked {
-  answer: Visibility;
-  viewpoint: number[] | null;
-  direction: number[] | null;
 }
 
 /**
@@ -60,18 +57,19 @@ interface Asked {
  *
  * Nodes may move with the root freely. If they move within the root, they are read again. The
  * options mean the same as in a `HiddenPointFilter`, but for the cloud of all nodes. Orthographic
- * cameras are handled as in that filter, too.
+ * cameras and several cameras are handled as in that filter, too.
  */
 export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvents> {
   /**
    * While true, the filter asks about no new view, even if the camera moves. An answer that is on
-   * its way is still drawn. All points of new nodes are drawn.
+   * its way is still drawn, and so are better answers for the same view. The option `pending` says how
+   * new nodes are drawn.
    */
   frozen = false;
 
   readonly #root: Object3D;
   readonly #settings: NodesSettings;
-  readonly #eye = new Eye();
+  readonly #watches: Watches;
   readonly #nodes: NodeSet;
   readonly #gathered: Gathered;
   readonly #follower = new Follower({
@@ -91,6 +89,10 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
   #askedVersion: number | undefined;
   /** Whether the cloud was lost with its worker and must be made again. */
   #isDropped = false;
+  /** Whether the cloud could not be made. It is made again when a camera moves or the nodes change. */
+  #isFailed = false;
+  /** Whether a camera or the nodes have changed since the cloud was lost. */
+  #isMoved = false;
   #visible = 0;
   #disposed = false;
   /** The errors that listeners have not received yet. They are sent last, because listeners may throw. */
@@ -113,6 +115,15 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     this.#settings = readNodesOptions(options);
     this.#nodes = new NodeSet(root, this.#settings, this.#refuseNode);
     this.#gathered = new Gathered(this.#settings);
+    this.#watches = new Watches(
+      this.#settings,
+      () => {
+        this.#follower.follow();
+      },
+      (watch) => {
+        this.#nodes.drop(watch);
+      },
+    );
     requireUniformScale(root);
   }
 
@@ -125,6 +136,21 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     this.#nodes.enabled = enabled;
   }
 
+  /** The indices of each node's points that are drawn, without the dimmed ones: copies. */
+  get visible(): Map<Points, Uint32Array> {
+    return this.#nodes.drawn;
+  }
+
+  /** What is drawn for the camera of the last `update`. Null before the first answer. */
+  get answer(): AnswerKind | null {
+    return this.#watches.last?.answer ?? null;
+  }
+
+  /** Whether the answer that is drawn belongs to the present view of the camera of the last `update`. */
+  get isCurrent(): boolean {
+    return this.#watches.last?.isCurrent ?? false;
+  }
+
   /** The number of visible points of all nodes, in the last answer. */
   get visibleCount(): number {
     return this.#visible;
@@ -135,7 +161,11 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
    * of the last `update`, unless these were refused.
    */
   get settled(): boolean {
-    return !this.#follower.isWaiting && (this.#follower.isLost || !this.#wantsAnswer());
+    if (this.#follower.isWaiting || this.#follower.isLost) {
+      return !this.#follower.isWaiting;
+    }
+    const isIdle = this.frozen || !this.enabled || this.#disposed || this.#gathered.isEmpty;
+    return !this.#wantsAnswer() && (isIdle || this.#watches.isComplete);
   }
 
   /**
@@ -151,13 +181,25 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
       if (!this.enabled || this.frozen) {
         return;
       }
-      this.#eye.look(this.#root, camera);
+      const watch = this.#watches.of(camera);
+      this.#nodes.select(watch);
+      if (this.#watches.look(watch, this.#root)) {
+        this.#isMoved = true;
+        if (this.#isFailed) {
+          this.#isFailed = false;
+          this.#askedVersion = undefined;
+        }
+      }
       this.#nodes.takeUp();
+      if (this.#settings.stale === "all" && !watch.isCurrent && watch.drawn !== undefined) {
+        this.#nodes.setStale(watch);
+        watch.drawn = undefined;
+      }
     } catch (error) {
       this.#follower.refuse(error);
       return;
     }
-    this.#follower.wish(this.#wantsAnswer());
+    this.#follower.wish(this.#isMoved || this.#isChanged);
     this.#tell();
   }
 
@@ -168,13 +210,22 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     }
     this.#disposed = true;
     this.#follower.stop();
+    this.#watches.stop();
     this.#nodes.dispose();
     this.#gathered.close();
   }
 
+  /** Whether the nodes are not those of the last question. */
+  get #isChanged(): boolean {
+    return this.#askedVersion !== this.#nodes.version;
+  }
+
   #wantsAnswer(): boolean {
-    const isNew = this.#eye.isNew || this.#askedVersion !== this.#nodes.version;
-    return isNew && this.enabled && !this.frozen && !this.#disposed;
+    if (!this.enabled || this.#disposed) {
+      return false;
+    }
+    const isViewDue = !this.#gathered.isEmpty && this.#watches.due(this.frozen) !== undefined;
+    return isViewDue || (this.#isChanged && !this.frozen);
   }
 
   #next(): Round | undefined {
@@ -182,63 +233,84 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
       this.#isDropped = false;
       this.#askedVersion = undefined;
     }
-    return this.#wantsAnswer() ? this.#viewing() : undefined;
+    if (!this.#wantsAnswer()) {
+      return undefined;
+    }
+    return this.#isChanged && !this.frozen ? this.#gathering() : this.#viewing(this.#watches.due(this.frozen)!);
   }
 
-  /** Updates the cloud, asks it about the newest view, and draws the answer. */
-  #viewing(): Round<Asked | undefined> {
-    const begun = performance.now();
+  /** Updates the cloud. After that, all cameras ask again. */
+  #gathering(): Round<void> {
     const gathered = this.#gathered;
     return {
-      ask: () => this.#ask(),
-      use: (asked) => {
-        if (asked === undefined) {
+      ask: () => {
+        this.#askedVersion = this.#nodes.version;
+        return gathered.follow(this.#nodes.present(), this.#refuseNode);
+      },
+      use: () => {
+        this.#watches.again(gathered.points, gathered.spacing);
+        if (gathered.isEmpty) {
           this.#visible = 0;
-          return () => {
-            this.#tell();
-          };
         }
-        const { answer, viewpoint, direction } = asked;
+        return () => {
+          this.#tell();
+        };
+      },
+      isGivenUp: () => {
+        this.#isFailed = true;
+        return false;
+      },
+    };
+  }
+
+  /** Asks the cloud about a camera's view, and draws the answer. */
+  #viewing(watch: Watch): Round<Visibility> {
+    const begun = performance.now();
+    const gathered = this.#gathered;
+    const { place } = watch.eye;
+    return turnRound(
+      watch.gaze,
+      ({ options, signal }) => gathered.visibleFrom(place, options, signal),
+      (answer, turn) => {
         const { count, radius } = answer;
+        if (this.#settings.stale === "all" && !turn.isCurrent()) {
+          return undefined;
+        }
         for (const [node, own] of gathered.split(answer.indices)) {
           if (this.#nodes.isPresent(node) && node.display.drawn.isSame) {
-            node.display.answer(own);
+            node.display.answer(watch, own);
           }
         }
         gathered.recycle(answer);
         this.#visible = count;
+        watch.drawn = turn;
         this.#follower.answered();
         const milliseconds = performance.now() - begun;
-        const change = { count, nodes: gathered.nodes, milliseconds, viewpoint, direction, radius };
+        const { from, isDirection } = place;
+        const change = {
+          count,
+          nodes: gathered.nodes,
+          milliseconds,
+          viewpoint: isDirection ? null : [...from],
+          direction: isDirection ? [...from] : null,
+          radius,
+          answer: turn.kind,
+          camera: watch.camera,
+        };
         return () => {
           this.#tell();
           this.dispatchEvent({ type: "change", ...change });
         };
       },
-    };
-  }
-
-  /** Updates the cloud and asks it. Returns undefined if no node has a point. */
-  async #ask(): Promise<Asked | undefined> {
-    const gathered = this.#gathered;
-    this.#askedVersion = this.#nodes.version;
-    await gathered.follow(this.#nodes.present(), this.#refuseNode);
-    this.#eye.extent = extentOf(this.#nodes.present().flatMap(({ box }): Box[] => (box === undefined ? [] : [box])));
-    const { isDirection } = this.#eye;
-    const from = this.#eye.ask();
-    if (gathered.isEmpty) {
-      return undefined;
-    }
-    const answer = await gathered.visibleFrom(from, isDirection);
-    return isDirection ? { answer, viewpoint: null, direction: from } : { answer, viewpoint: from, direction: null };
+    );
   }
 
   #lost(isComingBack: boolean): void {
     this.#gathered.drop();
     this.#isDropped = true;
-    if (!isComingBack && this.#eye.isNew) {
+    if (!isComingBack) {
       // Another view may succeed.
-      this.#eye.ask();
+      this.#isMoved = false;
     }
     this.#tell();
   }

@@ -1,7 +1,9 @@
 import { asError, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
-import { type Cloud, prepareCloud } from "../three/cloud.js";
+import { type Cloud, prepareCloud, see } from "../three/cloud.js";
 import type { Visibility } from "../cloud/visibility.js";
+import type { Place } from "../query/place.js";
+import type { VisibilityOptions } from "../query/view-options.js";
 import type { CloudNode, Refused } from "./node.js";
 import type { NodesSettings } from "./options.js";
 
@@ -74,9 +76,17 @@ export class Gathered {
     }
   }
 
-  async visibleFrom(from: readonly number[], isDirection: boolean): Promise<Visibility> {
-    const { view } = this.#settings;
-    return isDirection ? this.#cloud!.visibleFromDirection(from, view) : this.#cloud!.visibleFrom(from, view);
+  /** The number of present points. */
+  get points(): number {
+    return this.#length - this.#removed;
+  }
+
+  get spacing(): number {
+    return this.#cloud?.spacing ?? 0;
+  }
+
+  async visibleFrom(place: Place, options: VisibilityOptions, signal: AbortSignal): Promise<Visibility> {
+    return see(this.#cloud!, place, options, signal);
   }
 
   /** Splits ascending indices of the cloud by node. The result has indices of each node's own points. */

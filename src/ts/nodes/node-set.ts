@@ -19,6 +19,7 @@ export class NodeSet {
    */
   readonly #refusedPoints = new WeakMap<Points, { geometry: unknown; material: unknown }>();
   #enabled = true;
+  #camera: unknown;
   #frame = 0;
   #seen = 0;
   #version = 0;
@@ -44,6 +45,27 @@ export class NodeSet {
   set enabled(enabled: boolean) {
     this.#enabled = enabled;
     for (const { display } of this.#nodes.values()) display.enabled = enabled;
+  }
+
+  /** Draws what this camera sees. */
+  select(camera: unknown): void {
+    this.#camera = camera;
+    for (const { display } of this.#nodes.values()) display.select(camera);
+  }
+
+  /** Draws all points for this camera until its next answer. */
+  setStale(camera: unknown): void {
+    for (const { display } of this.#nodes.values()) display.setStale(camera);
+  }
+
+  /** Forgets the answers for this camera. */
+  drop(camera: unknown): void {
+    for (const { display } of this.#nodes.values()) display.drawn.drop(camera);
+  }
+
+  /** The indices of the points that are drawn, by node. */
+  get drawn(): Map<Points, Uint32Array> {
+    return new Map([...this.#nodes.values()].map(({ points, display }) => [points, display.drawnIndices]));
   }
 
   /** The nodes that are not refused. Some of them may not have been read yet. */
@@ -123,6 +145,7 @@ export class NodeSet {
     try {
       const node = new CloudNode(points, this.#places, this.#settings);
       node.display.enabled = this.#enabled;
+      node.display.select(this.#camera);
       this.#nodes.set(points, node);
       this.#version += 1;
       return node;

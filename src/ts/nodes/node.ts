@@ -2,11 +2,11 @@ import { Matrix4, type Points } from "three";
 
 import { nonFinite } from "../instance/failure.js";
 import { versionOf } from "../three/attribute.js";
-import { type Box, boxOf } from "../three/box.js";
 import { Display } from "../three/display.js";
 import { isFiltered, requireUnfiltered } from "../three/drawn-points.js";
 import type { NodesSettings } from "./options.js";
 import type { Place, Places } from "./place.js";
+import { straysIn } from "./strays.js";
 
 const IDENTITY = new Matrix4();
 
@@ -21,7 +21,6 @@ export class CloudNode {
   seen = -1;
   /** Grows with every change of the node's points. */
   revision = 1;
-  box: Box | undefined;
   readonly #settings: NodesSettings;
   readonly #places: Places;
   readonly #place: Place;
@@ -39,6 +38,7 @@ export class CloudNode {
     this.#settings = settings;
     this.#places = places;
     this.#place = places.of(points);
+    this.display.isPending = settings.hidesPending;
   }
 
   get isRefused(): boolean {
@@ -54,6 +54,9 @@ export class CloudNode {
     this.#isRead = false;
     this.#refused = undefined;
     this.display.leaveOthers();
+    if (this.display.drawn.order === undefined) {
+      this.display.isPending = this.#settings.hidesPending;
+    }
     return true;
   }
 
@@ -67,10 +70,9 @@ export class CloudNode {
     try {
       this.#placeVersion = this.#places.versionOf(this.#place);
       const { numbers } = this.display.drawn.take(this.#matrix);
-      this.box = boxOf(numbers);
-      const { strays, firstStray } = this.box;
-      if (strays > 0 && this.#settings.nonFinite === "error") {
-        throw nonFinite(strays, firstStray);
+      const { count, first } = straysIn(numbers);
+      if (count > 0 && this.#settings.nonFinite === "error") {
+        throw nonFinite(count, first);
       }
       return numbers;
     } catch (error) {

@@ -43,8 +43,15 @@ export const FOLLOW_OPTIONS = ["settle", "stale", "moveThreshold"] as const;
 /** Below this number of points, no drafts are asked. */
 const DRAFTED_FROM = 10_000;
 
-/** `view` are the options of the view itself, which were checked already. */
-export function followSettings(given: Record<string, unknown>, view: VisibilityOptions): FollowSettings {
+/**
+ * `view` are the options of the view itself, which were checked already. Drafts are for answers that
+ * come later: `isLater`.
+ */
+export function followSettings(
+  given: Record<string, unknown>,
+  view: VisibilityOptions,
+  isLater = true,
+): FollowSettings {
   const { settle, stale = "draft", moveThreshold = 0.001 } = given;
   if (stale !== "draft" && stale !== "all" && stale !== "keep") {
     throw new HprError("option", `stale must be "draft", "all" or "keep", got ${describe(stale)}`);
@@ -56,7 +63,7 @@ export function followSettings(given: Record<string, unknown>, view: VisibilityO
     );
   }
   const stages = [stageOf(view)];
-  if (stale === "draft" && !isQuick(view)) {
+  if (stale === "draft" && isLater && !isQuick(view)) {
     stages.unshift(stageOf(draftOf(view)));
   }
   if (settle !== undefined) {

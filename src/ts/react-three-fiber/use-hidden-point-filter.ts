@@ -2,6 +2,7 @@ import { useFrame, useThree } from "@react-three/fiber";
 import { type RefObject, useEffect, useLayoutEffect, useRef, useState } from "react";
 import type { Points } from "three";
 
+import type { AnswerKind } from "../follow/gaze.js";
 import { HiddenPointFilter } from "../three/filter.js";
 import type { HiddenPointFilterOptions } from "../three/options.js";
 
@@ -11,8 +12,11 @@ export interface UseHiddenPointFilterOptions extends HiddenPointFilterOptions {
   frozen?: boolean | undefined;
   /** While false, all points are drawn. Default true. */
   enabled?: boolean | undefined;
-  /** A new answer is drawn. `count` is the number of visible points. `milliseconds` is the time that it took. */
-  onChange?: ((change: { count: number; milliseconds: number }) => void) | undefined;
+  /**
+   * A new answer is drawn. `count` is the number of visible points. `milliseconds` is the time that it
+   * took. `answer` says what it is: a draft comes before the exact answer.
+   */
+  onChange?: ((change: { count: number; milliseconds: number; answer: AnswerKind }) => void) | undefined;
   /** The points or a view are refused. Without this callback, the error is an unhandled rejection. */
   onError?: ((error: Error) => void) | undefined;
 }
@@ -59,9 +63,9 @@ export function useHiddenPointFilter(
       return;
     }
     const created = new HiddenPointFilter(points, settings);
-    created.addEventListener("change", ({ count, milliseconds }) => {
+    created.addEventListener("change", ({ count, milliseconds, answer }) => {
       invalidate();
-      callbacks.current.onChange?.({ count, milliseconds });
+      callbacks.current.onChange?.({ count, milliseconds, answer });
     });
     if (isHeard) {
       created.addEventListener("error", ({ error }) => callbacks.current.onError?.(error));

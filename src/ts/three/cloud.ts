@@ -1,6 +1,9 @@
 import { PointCloud } from "../cloud/cloud.js";
+import type { Visibility } from "../cloud/visibility.js";
 import { runningInstance } from "../instance/instance.js";
 import { init } from "../loader.js";
+import type { Place } from "../query/place.js";
+import type { VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker/client.js";
 import { listHiddenToo } from "../worker/listing.js";
 import type { ReadPositions } from "./attribute.js";
@@ -25,4 +28,15 @@ export function prepareCloud(
   }
   const build = () => new PointCloud(numbers, { nonFinite });
   return runningInstance() === undefined ? init().then(build) : build();
+}
+
+/** Asks either kind of cloud. The signal works only in a worker: elsewhere, the answer comes at once. */
+export function see(
+  cloud: Cloud,
+  { from, isDirection }: Place,
+  options: VisibilityOptions,
+  signal: AbortSignal,
+): Visibility | Promise<Visibility> {
+  const asked = cloud instanceof WorkerPointCloud ? { ...options, signal } : options;
+  return isDirection ? cloud.visibleFromDirection(from, asked) : cloud.visibleFrom(from, asked);
 }

@@ -6,12 +6,15 @@ import { DrawnPoints } from "./drawn-points.js";
 /** Draws either all points or only the visible ones. The hidden points may be drawn, too, but dimmed. */
 export class Display {
   readonly drawn: DrawnPoints;
+  readonly #points: Points;
   readonly #dimmed: DimmedPoints | undefined;
-  #isAnswered = false;
   #enabled = true;
+  /** The layers of the points, while they are not drawn because they wait for their first answer. */
+  #layers: number | undefined;
 
   /** @throws HprError `option` if the material cannot be dimmed. */
   constructor(points: Points, { dim, dimMaterial }: { dim: boolean; dimMaterial: Material | undefined }) {
+    this.#points = points;
     this.#dimmed = dim ? new DimmedPoints(points, dimMaterial) : undefined;
     this.drawn = new DrawnPoints(points, dim);
   }
@@ -26,25 +29,59 @@ export class Display {
     if (enabled) {
       this.#show();
     } else {
+      this.isPending = false;
       this.showAll();
     }
   }
 
   /** How many points are drawn, without the dimmed ones. */
   get count(): number {
-    return this.#isAnswered && this.#enabled ? this.drawn.visible : this.drawn.total;
+    return this.#enabled ? this.drawn.visible : this.drawn.total;
   }
 
   /**
-   * Draws the visible points. `indices` are their ascending indices among the points that `drawn`
-   * has read. With `isListed`, the indices of the hidden points follow in memory already.
+   * Takes up the points that a camera sees, and draws them if the camera is selected. `indices` are
+   * their ascending indices among the points that `drawn` has read. With `isListed`, the indices of
+   * the hidden points follow in memory already.
    *
    * @throws HprError `too-large`, `option`.
    */
-  answer(indices: Uint32Array, isListed = false): void {
-    this.drawn.setVisible(indices, isListed);
-    this.#isAnswered = true;
+  answer(camera: unknown, indices: Uint32Array, isListed = false): void {
+    this.drawn.setVisible(camera, indices, isListed);
+    this.isPending = false;
     this.#show();
+  }
+
+  /** Draws what this camera sees. Called in every frame. */
+  select(camera: unknown): void {
+    const before = this.drawn.order;
+    this.drawn.select(camera);
+    if (this.drawn.order !== before) {
+      this.#show();
+    }
+  }
+
+  /** Draws all points for this camera until its next answer. */
+  setStale(camera: unknown): void {
+    this.drawn.setStale(camera);
+    this.#show();
+  }
+
+  /** The indices of the points that are drawn, without the dimmed ones. */
+  get drawnIndices(): Uint32Array {
+    return this.#layers === undefined ? this.drawn.drawn : new Uint32Array(0);
+  }
+
+  /** While true, nothing is drawn: the points wait for their first answer. */
+  set isPending(isPending: boolean) {
+    const { layers } = this.#points;
+    if (isPending && this.#layers === undefined) {
+      this.#layers = layers.mask;
+      layers.mask = 0;
+    } else if (!isPending && this.#layers !== undefined) {
+      layers.mask = this.#layers;
+      this.#layers = undefined;
+    }
   }
 
   /** Copies the changes of the points since the last frame. Called in every frame. */
@@ -67,9 +104,9 @@ export class Display {
 
   /** Releases the points that were read. */
   leave(): void {
+    this.isPending = false;
     this.showAll();
     this.drawn.release();
-    this.#isAnswered = false;
   }
 
   dispose(): void {
@@ -78,8 +115,13 @@ export class Display {
   }
 
   #show(): void {
-    if (this.#isAnswered && this.#enabled) {
-      this.drawn.show();
+    if (!this.#enabled) {
+      return;
+    }
+    this.drawn.show();
+    if (this.drawn.order === undefined) {
+      this.#dimmed?.hide();
+    } else {
       this.#dimmed?.show(this.drawn);
     }
   }

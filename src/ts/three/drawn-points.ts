@@ -16,6 +16,14 @@ interface Taken {
   count: number;
 }
 
+/** The visible points in the answer for one camera. */
+interface Order {
+  attribute: BufferAttribute;
+  visible: number;
+  /** Whether all points are drawn instead, because the answer is about another view. */
+  isStale: boolean;
+}
+
 /** The geometries that have a filter. A second filter would take the first one's index for the user's own. */
 const taken = new WeakSet<BufferGeometry>();
 
@@ -26,7 +34,8 @@ const taken = new WeakSet<BufferGeometry>();
  *      order   [ visible …… | hidden …… ]     numbers of points, in the user's own order
  *                draw range ──
  *
- * Hidden points are listed only if they are drawn, too (see `dimmed.ts`).
+ * Hidden points are listed only if they are drawn, too (see `dimmed.ts`). Each camera has an order of
+ * its own. The order of the selected camera is drawn.
  */
 export class DrawnPoints {
   readonly #points: Points;
@@ -34,10 +43,11 @@ export class DrawnPoints {
   #taken: Taken | undefined;
   /** The numbers of the points that were drawn without a filter. Undefined if all were drawn, in their order. */
   #ids: Uint32Array | undefined;
-  #order: BufferAttribute | undefined;
+  readonly #orders = new Map<unknown, Order>();
+  #camera: unknown;
   #total = 0;
-  #visible = 0;
-  #shown = false;
+  /** The order that the geometry draws. Undefined while it draws all points. */
+  #shown: Order | undefined;
 
   constructor(points: Points, withHidden: boolean) {
     this.#points = points;
@@ -49,12 +59,45 @@ export class DrawnPoints {
     return this.#total;
   }
 
+  /** How many points the selected camera sees. All points if there is no answer for it. */
   get visible(): number {
-    return this.#visible;
+    return this.#order?.visible ?? this.#total;
   }
 
   get order(): BufferAttribute | undefined {
-    return this.#order;
+    return this.#order?.attribute;
+  }
+
+  /** The numbers of the points that are drawn. */
+  get drawn(): Uint32Array {
+    const order = this.#shown;
+    if (order !== undefined) {
+      return (order.attribute.array as Uint32Array).slice(0, order.visible);
+    }
+    return this.#ids?.slice() ?? Uint32Array.from({ length: this.#total }, (_, i) => i);
+  }
+
+  /** The answers for this camera are drawn from now on. */
+  select(camera: unknown): void {
+    this.#camera = camera;
+  }
+
+  /** Until the next answer for this camera, all points are drawn for it. */
+  setStale(camera: unknown): void {
+    const order = this.#orders.get(camera);
+    if (order !== undefined) {
+      order.isStale = true;
+    }
+  }
+
+  /** Forgets the answer for this camera. */
+  drop(camera: unknown): void {
+    this.#orders.delete(camera);
+  }
+
+  get #order(): Order | undefined {
+    const order = this.#orders.get(this.#camera);
+    return order?.isStale === true ? undefined : order;
   }
 
   /** Whether the geometry still draws the points that were read last. Their positions may have changed. */
@@ -67,10 +110,10 @@ export class DrawnPoints {
     const own = this.#shown;
     return (
       attributes?.["position"] === last.position &&
-      index === (own ? this.#order : last.index) &&
+      index === (own?.attribute ?? last.index) &&
       (last.index === null || last.index.version === last.indexVersion) &&
-      drawRange?.start === (own ? 0 : last.start) &&
-      drawRange.count === (own ? this.#visible : last.count)
+      drawRange?.start === (own === undefined ? last.start : 0) &&
+      drawRange.count === (own?.visible ?? last.count)
     );
   }
 
@@ -116,14 +159,20 @@ export class DrawnPoints {
   }
 
   /**
-   * Notes the visible points. `indices` are their ascending indices among the points that `take`
+   * Notes the points that a camera sees. `indices` are their ascending indices among the points that `take`
    * returned. With `isListed`, the indices of the hidden points follow in memory.
    */
-  setVisible(indices: Uint32Array, isListed = false): void {
-    this.#order ??= allocating(`${this.#total} indices`, () => {
-      return new BufferAttribute(new Uint32Array(this.#total), 1).setUsage(DynamicDrawUsage);
-    });
-    const order = this.#order.array as Uint32Array;
+  setVisible(camera: unknown, indices: Uint32Array, isListed = false): void {
+    const known = this.#orders.get(camera) ?? {
+      attribute: allocating(`${this.#total} indices`, () => {
+        return new BufferAttribute(new Uint32Array(this.#total), 1).setUsage(DynamicDrawUsage);
+      }),
+      visible: 0,
+      isStale: false,
+    };
+    this.#orders.set(camera, known);
+    const { attribute } = known;
+    const order = attribute.array as Uint32Array;
     const all = this.#withHidden;
     order.set(all && isListed ? orderIn(indices as Uint32Array<ArrayBuffer>, order.length) : indices);
     if (all && !isListed) {
@@ -134,36 +183,41 @@ export class DrawnPoints {
       const end = all ? order.length : indices.length;
       for (let i = 0; i < end; i++) order[i] = ids[order[i]!]!;
     }
-    this.#visible = indices.length;
-    this.#order.clearUpdateRanges();
-    this.#order.addUpdateRange(0, all ? this.#total : indices.length);
-    this.#order.needsUpdate = true;
-    if (this.#shown) {
-      this.#taken?.geometry.setDrawRange(0, this.#visible);
+    known.visible = indices.length;
+    known.isStale = false;
+    attribute.clearUpdateRanges();
+    attribute.addUpdateRange(0, all ? this.#total : indices.length);
+    attribute.needsUpdate = true;
+    if (this.#shown === known) {
+      this.#taken?.geometry.setDrawRange(0, known.visible);
     }
   }
 
-  /** Draws the visible points. */
+  /** Draws the points that the selected camera sees: all points if there is no answer for it. */
   show(): void {
-    if (!this.#shown && this.#taken !== undefined && this.#order !== undefined) {
-      this.#shown = true;
-      this.#taken.geometry.setIndex(this.#order);
-      this.#taken.geometry.setDrawRange(0, this.#visible);
+    const order = this.#order;
+    if (order === undefined || this.#taken === undefined) {
+      this.showAll();
+    } else if (this.#shown !== order) {
+      this.#shown = order;
+      this.#taken.geometry.setIndex(order.attribute);
+      this.#taken.geometry.setDrawRange(0, order.visible);
     }
   }
 
   /** Restores the index and the draw range from before the filter, except where others have changed them. */
   showAll(): void {
-    if (!this.#shown) {
+    const shown = this.#shown;
+    if (shown === undefined) {
       return;
     }
-    this.#shown = false;
+    this.#shown = undefined;
     const { geometry, index, start, count } = this.#taken!;
-    if (geometry.index === this.#order) {
+    if (geometry.index === shown.attribute) {
       geometry.setIndex(index);
     }
     const range = geometry.drawRange as BufferGeometry["drawRange"] | undefined;
-    if (range?.start === 0 && range.count === this.#visible) {
+    if (range?.start === 0 && range.count === shown.visible) {
       geometry.setDrawRange(start, count);
     }
   }
@@ -174,8 +228,9 @@ export class DrawnPoints {
     if (this.#taken !== undefined) {
       taken.delete(this.#taken.geometry);
     }
-    this.#taken = this.#ids = this.#order = undefined;
-    this.#total = this.#visible = 0;
+    this.#taken = this.#ids = undefined;
+    this.#orders.clear();
+    this.#total = 0;
   }
 }
 

@@ -1,11 +1,12 @@
 import type { Camera, Object3D } from "three";
 
 import { describe, HprError } from "../base/errors.js";
+import type { Place } from "../query/place.js";
 
 /** How far a matrix may differ from a similarity: rounding to single precision makes such differences. */
 const DISTORTION = 1e-5;
-/** The largest difference of two equal views: a share of the cloud's extent, or of a direction's length. */
-const SAME = 1e-9;
+/** How far a direction of length 1 may turn for a move threshold of 1. */
+const TURN = 1e-3;
 /** The relative rounding error of world coordinates after the product of several matrices. */
 const ROUNDING = 1e-14;
 
@@ -14,10 +15,16 @@ const ROUNDING = 1e-14;
  * points. An answer depends on this. It is read in every frame, so nothing is allocated.
  */
 export class Eye {
-  /** The longest side of the cloud's box. */
-  extent = 0;
+  /** The cloud's spacing. */
+  spacing = 0;
+  readonly #moveThreshold: number;
   readonly #now = { known: false, direction: false, x: 0, y: 0, z: 0, blur: 0 };
-  readonly #asked = { known: false, direction: false, x: 0, y: 0, z: 0 };
+  readonly #noted = { known: false, direction: false, x: 0, y: 0, z: 0 };
+
+  /** `moveThreshold` is the option of that name. */
+  constructor(moveThreshold: number) {
+    this.#moveThreshold = moveThreshold;
+  }
 
   /** @throws HprError `option` for a value that is not a camera, or a scale that is not uniform. */
   look(points: Object3D, camera: Camera): void {
@@ -48,43 +55,45 @@ export class Eye {
       now.x /= length;
       now.y /= length;
       now.z /= length;
-      now.blur = SAME;
+      now.blur = TURN * this.#moveThreshold;
     } else {
       const reach =
         Math.abs(c[12]) + Math.abs(c[13]) + Math.abs(c[14]) + Math.abs(m[12]) + Math.abs(m[13]) + Math.abs(m[14]);
-      now.blur = SAME * this.extent + (ROUNDING * reach) / scale;
+      const blur = this.#moveThreshold * this.spacing + (ROUNDING * reach) / scale;
+      now.blur = Number.isFinite(blur) ? blur : 0;
     }
   }
 
-  /** Whether nobody has asked about the present view yet. */
+  /** Whether a view was noted. */
+  get isKnown(): boolean {
+    return this.#noted.known;
+  }
+
+  /** Whether the present view is not the one that was noted last. */
   get isNew(): boolean {
-    const [now, asked] = [this.#now, this.#asked];
+    const [now, noted] = [this.#now, this.#noted];
     if (!now.known) {
       return false;
     }
     const isSame =
-      asked.known &&
-      asked.direction === now.direction &&
-      isNear(asked.x, now.x, now.blur) &&
-      isNear(asked.y, now.y, now.blur) &&
-      isNear(asked.z, now.z, now.blur);
+      noted.known &&
+      noted.direction === now.direction &&
+      isNear(noted.x, now.x, now.blur) &&
+      isNear(noted.y, now.y, now.blur) &&
+      isNear(noted.z, now.z, now.blur);
     return !isSame;
   }
 
-  get isDirection(): boolean {
-    return this.#now.direction;
-  }
-
-  /** Returns the viewpoint or the direction, and notes that it was asked about. */
-  ask(): [x: number, y: number, z: number] {
+  /** Notes the present view: questions are about it until another one is noted. */
+  note(): void {
     const { direction, x, y, z } = this.#now;
-    Object.assign(this.#asked, { known: true, direction, x, y, z });
-    return [x, y, z];
+    Object.assign(this.#noted, { known: true, direction, x, y, z });
   }
 
-  /** Forgets the last question: it was about another cloud. */
-  forget(): void {
-    this.#asked.known = false;
+  /** The view that was noted. */
+  get place(): Place {
+    const { direction, x, y, z } = this.#noted;
+    return { from: [x, y, z], isDirection: direction };
   }
 }
 
@@ -99,7 +108,7 @@ export function requireUniformScale(points: Object3D): void {
   uniformScale(points.matrixWorld.elements);
 }
 
-function requireCamera(camera: unknown): void {
+export function requireCamera(camera: unknown): void {
   if (typeof camera !== "object" || camera === null || !("isCamera" in camera)) {
     throw new HprError("option", `camera must be a THREE.Camera, got ${describe(camera)}`);
   }

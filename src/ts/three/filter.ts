@@ -2,20 +2,25 @@ import type { Camera, Points } from "three";
 
 import { HprError } from "../base/errors.js";
 import { Follower, type Round } from "../follow/follower.js";
+import type { AnswerKind, Turn } from "../follow/gaze.js";
 import { Readiness } from "../follow/readiness.js";
+import { turnRound } from "../follow/turn-round.js";
 import type { Visibility } from "../cloud/visibility.js";
-import { boxOf, extentOf } from "./box.js";
-import { type Cloud, prepareCloud } from "./cloud.js";
+import { type Cloud, prepareCloud, see } from "./cloud.js";
 import { Display } from "./display.js";
 import { type DrawnPoints, requireUnfiltered } from "./drawn-points.js";
-import { Eye, requireUniformScale } from "./eye.js";
+import { requireUniformScale } from "./eye.js";
 import { type FilterSettings, type HiddenPointFilterOptions, readFilterOptions, requirePoints } from "./options.js";
 import { Reporter } from "./reporter.js";
+import { type Watch, Watches } from "./watch.js";
 
 /** The events of a filter. */
 export interface HiddenPointFilterEvents {
-  /** A new answer is drawn. `count` is the number of visible points. `milliseconds` is the time that it took. */
-  change: { count: number; milliseconds: number };
+  /**
+   * A new answer for a camera. `count` is the number of points that are drawn. `milliseconds` is the
+   * time that it took. `answer` says what it is: a draft comes before the exact answer.
+   */
+  change: { count: number; milliseconds: number; answer: AnswerKind; camera: Camera };
   /**
    * A view or the points were refused. This comes only once until there is an answer again. Without
    * a listener, the error is an unhandled rejection.
@@ -42,6 +47,10 @@ export interface HiddenPointFilterEvents {
  * changing its field of view does not. An orthographic camera sees along a direction
  * (`visibleFromDirection`): only turning it makes a new view.
  *
+ * In motion, the newest draft is drawn. Then comes the exact answer, and at rest the answer of the
+ * option `settle`. Several cameras may look at the points: call `update` with each of them, before its
+ * picture is rendered. Each has its own answers of one cloud.
+ *
  * `update` notices changes and uses the new state: positions with a new version (`needsUpdate =
  * true`), other attributes, indices, draw ranges and geometries.
  *
@@ -50,7 +59,7 @@ export interface HiddenPointFilterEvents {
 export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
   /**
    * While true, the filter asks about no new view, even if the camera moves. An answer that is on
-   * its way is still drawn.
+   * its way is still drawn, and so are better answers for the same view.
    */
   frozen = false;
   readonly #readiness = new Readiness();
@@ -62,8 +71,8 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
 
   readonly #points: Points;
   readonly #settings: FilterSettings;
-  readonly #eye = new Eye();
   readonly #display: Display;
+  readonly #watches: Watches;
   readonly #follower = new Follower({
     next: () => this.#next(),
     refused: (error, again) => {
@@ -76,6 +85,8 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
   #cloud: Cloud | undefined;
   /** Whether the points must be read before anything else. */
   #isStale = true;
+  /** Whether a camera has moved since the cloud was lost. */
+  #isMoved = false;
   #disposed = false;
 
   /**
@@ -91,6 +102,15 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
     requireUnfiltered(points.geometry);
     requireUniformScale(points);
     this.#display = new Display(points, this.#settings);
+    this.#watches = new Watches(
+      this.#settings,
+      () => {
+        this.#follower.follow();
+      },
+      (watch) => {
+        this.#drawn.drop(watch);
+      },
+    );
     try {
       this.#follower.follow(true);
     } catch (error) {
@@ -106,6 +126,24 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
 
   set enabled(enabled: boolean) {
     this.#display.enabled = enabled;
+  }
+
+  /** The indices of the points that are drawn, without the dimmed ones: a copy, in the order of drawing. */
+  get visible(): Uint32Array {
+    return this.#display.drawnIndices;
+  }
+
+  /** What is drawn for the camera of the last `update`. Null before the first answer. */
+  get answer(): AnswerKind | null {
+    return this.#watches.last?.answer ?? null;
+  }
+
+  /**
+   * Whether the answer that is drawn belongs to the present view of the camera of the last `update`. If
+   * not, it belongs to an earlier view.
+   */
+  get isCurrent(): boolean {
+    return this.#watches.last?.isCurrent ?? false;
   }
 
   /** How many points are drawn, without the dimmed ones. Before the first answer, this is all points. */
@@ -127,7 +165,7 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
       if (!this.enabled || this.frozen) {
         return;
       }
-      this.#eye.look(this.#points, camera);
+      this.#look(camera);
     } catch (error) {
       this.#follower.refuse(error);
       return;
@@ -139,7 +177,19 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
     } else if (!isUnchanged) {
       this.#isStale = true;
     }
-    this.#follower.wish(this.#eye.isNew || !isUnchanged);
+    this.#follower.wish(this.#isMoved || !isUnchanged);
+  }
+
+  #look(camera: Camera): void {
+    const watch = this.#watches.of(camera);
+    this.#display.select(watch);
+    if (this.#watches.look(watch, this.#points)) {
+      this.#isMoved = true;
+      if (this.#settings.stale === "all") {
+        this.#display.setStale(watch);
+        watch.drawn = undefined;
+      }
+    }
   }
 
   /**
@@ -152,6 +202,7 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
     }
     this.#disposed = true;
     this.#follower.stop();
+    this.#watches.stop();
     this.#display.dispose();
     this.#dropCloud();
     // The caller of dispose() knows this already, so this is never an unhandled rejection.
@@ -162,11 +213,8 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
     if (this.#isStale) {
       return this.#preparing();
     }
-    return this.#cloud !== undefined && this.#wantsAnswer() ? this.#viewing(this.#cloud) : undefined;
-  }
-
-  #wantsAnswer(): boolean {
-    return this.enabled && !this.frozen && this.#eye.isNew;
+    const watch = this.enabled ? this.#watches.due(this.frozen) : undefined;
+    return this.#cloud !== undefined && watch !== undefined ? this.#viewing(this.#cloud, watch) : undefined;
   }
 
   /** Reads the points as they are now. */
@@ -176,13 +224,11 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
         this.#isStale = false;
         this.#dropCloud();
         this.#display.leaveOthers();
-        const read = this.#drawn.take();
-        this.#eye.extent = extentOf([boxOf(read.numbers)]);
-        this.#eye.forget();
-        return prepareCloud(read, this.#settings);
+        return prepareCloud(this.#drawn.take(), this.#settings);
       },
       use: (cloud) => {
         this.#cloud = cloud;
+        this.#watches.again(cloud.length, cloud.spacing);
         // If `update` is called in the same task, `ready` waits for the answer.
         queueMicrotask(() => {
           if (!this.#follower.isBusy) {
@@ -195,37 +241,42 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
     };
   }
 
-  #viewing(cloud: Cloud): Round<Visibility> {
+  #viewing(cloud: Cloud, watch: Watch): Round<Visibility> {
     const begun = performance.now();
-    return {
-      ask: () => {
-        const { isDirection } = this.#eye;
-        const from = this.#eye.ask();
-        const { view } = this.#settings;
-        return isDirection ? cloud.visibleFromDirection(from, view) : cloud.visibleFrom(from, view);
-      },
-      use: (answer) => {
-        if (!this.#drawn.isSame) {
+    const { place } = watch.eye;
+    return turnRound(
+      watch.gaze,
+      ({ options, signal }) => see(cloud, place, options, signal),
+      (answer, turn) => {
+        const isOutdated = this.#settings.stale === "all" && !turn.isCurrent();
+        if (!this.#drawn.isSame || isOutdated) {
           return undefined;
         }
-        this.#display.answer(answer.indices, this.#settings.inWorker);
+        this.#show(answer, turn, watch);
         cloud.recycle(answer);
-        this.#follower.answered();
-        this.#readiness.resolve();
-        const milliseconds = performance.now() - begun;
+        const change = { count: answer.count, milliseconds: performance.now() - begun, answer: turn.kind };
         return () => {
-          this.dispatchEvent({ type: "change", count: answer.count, milliseconds });
+          this.dispatchEvent({ type: "change", ...change, camera: watch.camera });
         };
       },
-    };
+    );
+  }
+
+  #show(answer: Visibility, turn: Turn, watch: Watch): void {
+    this.#display.answer(watch, answer.indices, this.#settings.inWorker);
+    watch.drawn = turn;
+    this.#follower.answered();
+    if (turn.kind !== "draft") {
+      this.#readiness.resolve();
+    }
   }
 
   #lost(isComingBack: boolean): void {
     this.#dropCloud();
     this.#isStale = true;
-    if (!isComingBack && this.#eye.isNew) {
+    if (!isComingBack) {
       // Another view may succeed.
-      this.#eye.ask();
+      this.#isMoved = false;
     }
   }
 

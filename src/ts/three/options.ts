@@ -1,15 +1,16 @@
 import type { Material, Points } from "three";
 
 import { describe, HprError } from "../base/errors.js";
+import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings } from "../query/follow-options.js";
 import { givenOptions, pick } from "../query/options.js";
 import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "../query/view-options.js";
 
 /** The options of a filter. The options of `VisibilityOptions` set how each view is computed. */
-export interface HiddenPointFilterOptions extends VisibilityOptions {
+export interface HiddenPointFilterOptions extends VisibilityOptions, FollowOptions {
   /**
    * Whether answers are computed in a worker, which all filters of a page share. Until an answer
-   * arrives, the picture stays as it was. With `false`, `update` computes the answer at once and
-   * blocks. Default true.
+   * arrives, the option `stale` says what is drawn. With `false`, `update` computes the answer at once
+   * and blocks, so that no draft is asked. Default true.
    */
   worker?: boolean | undefined;
   /** Hidden points are not drawn (`"hide"`, the default), or are drawn faintly (`"dim"`). */
@@ -27,8 +28,7 @@ export interface HiddenPointFilterOptions extends VisibilityOptions {
 }
 
 /** {@link HiddenPointFilterOptions} with all defaults. The core checks the ranges in `view`. */
-export interface FilterSettings {
-  view: VisibilityOptions;
+export interface FilterSettings extends FollowSettings {
   inWorker: boolean;
   dim: boolean;
   dimMaterial: Material | undefined;
@@ -36,13 +36,20 @@ export interface FilterSettings {
 }
 
 export function readFilterOptions(options: unknown): FilterSettings {
-  const given = givenOptions(options, VIEW_OPTIONS, ["worker", "mode", "dimMaterial", "nonFinite"]);
+  const given = givenOptions(options, VIEW_OPTIONS, FOLLOW_OPTIONS, [
+    "worker",
+    "mode",
+    "dimMaterial",
+    "nonFinite",
+  ]);
   const view = pick(given, VIEW_OPTIONS);
   viewSettings(view, 3);
+  const inWorker = oneOf(given, "worker", [true, false]);
+  const follow = followSettings(given, view, inWorker);
   const dim = oneOf(given, "mode", ["hide", "dim"]) === "dim";
   return {
-    view,
-    inWorker: oneOf(given, "worker", [true, false]),
+    ...follow,
+    inWorker,
     dim,
     dimMaterial: readMaterial(given["dimMaterial"], dim),
     nonFinite: oneOf(given, "nonFinite", ["error", "skip"]),
