@@ -36,12 +36,7 @@ export interface FilterSettings extends FollowSettings {
 }
 
 export function readFilterOptions(options: unknown): FilterSettings {
-  const given = givenOptions(options, VIEW_OPTIONS, FOLLOW_OPTIONS, [
-    "worker",
-    "mode",
-    "dimMaterial",
-    "nonFinite",
-  ]);
+  const given = givenOptions(options, VIEW_OPTIONS, FOLLOW_OPTIONS, ["worker", "mode", "dimMaterial", "nonFinite"]);
   const view = pick(given, VIEW_OPTIONS);
   viewSettings(view, 3);
   const inWorker = oneOf(given, "worker", [true, false]);
