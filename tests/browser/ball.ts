@@ -1,6 +1,6 @@
 import type { BrowserContextOptions, Page } from "playwright-core";
 import { binaryPly, georeferencedBall } from "./clouds.js";
-import { inNode, openReady, served, status, upToDate } from "./support.js";
+import { inNode, openReady, served, upToDate } from "./support.js";
 
 /*
  * The ball of 600 points has UTM coordinates. In f32 they would be wrong by half a meter. The camera looks at the ball
@@ -47,8 +47,8 @@ export async function clickPoint(page: Page, index: number): Promise<void> {
 
 /** The indices of the points that are visible from the page's camera, ascending. */
 export async function visible(page: Page): Promise<number[]> {
-  const { viewpoint } = await status(page);
-  return inNode(positions, (cloud) => [...cloud.visibleFrom(viewpoint).indices]);
+  const { viewpoint } = await upToDate(page);
+  return inNode(positions, (cloud) => [...cloud.visibleFrom(viewpoint, { looks: 3 }).indices]);
 }
 
 /** The points of `among` that are far from all other points of `rivals` in the picture. */

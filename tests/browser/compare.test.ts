@@ -212,7 +212,7 @@ test("compared with the z-buffer: the counts follow its definition, live, and th
       return { x: width / 2 + (x * pixels) / depth, y: height / 2 - (y * pixels) / depth, depth };
     });
     const said = slowly(seen, { width, height, pixels }, splat);
-    const ours = await inNode(ballPositions, (cloud) => cloud.visibleFrom(viewpoint).mask());
+    const ours = await inNode(ballPositions, (cloud) => cloud.visibleFrom(viewpoint, { looks: 3 }).mask());
     const count = (test: (i: number) => boolean) => said.filter((kind, i) => kind !== 2 && test(i)).length;
     return {
       counts: [
@@ -268,7 +268,7 @@ async function bunnyTruth({ viewpoint, radius, total }: Status) {
 }
 
 test("compared with the true surface: false positives and negatives, in color, for each view and setting", async () => {
-  const page = await openReady("?sample=bunny&compare=0.2&against=surface", SMALL);
+  const page = await openReady("?sample=bunny&compare=0.2&against=surface&looks=0", SMALL);
   const first = await upToDate(page);
   const truth = await bunnyTruth(first);
   const shown = await figures(page);

@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 import type { TimedView } from "../../www/ask/inquiry.js";
 import { sentenceOf } from "../../www/view/sentence.js";
+import { addStyle } from "./site.js";
 import {
   answerInNode,
   differentPixels,
@@ -13,7 +14,7 @@ import {
   status,
 } from "./support.js";
 
-const SAMPLE = "?sample=dragon_res3";
+const SAMPLE = "?sample=dragon_res3&looks=0";
 
 test("changing the field of view by slider, wheel or key asks nothing", async () => {
   const page = await openReady(SAMPLE);
@@ -108,7 +109,9 @@ test("a frozen viewpoint stays while the camera flies around, until it is releas
   await freeze.click();
   expect(await freeze.getAttribute("aria-pressed")).toBe("true");
   expect(await freeze.textContent()).toBe("Unfreeze viewpoint");
-  // The mark at the viewpoint is visible only from another place.
+  // The mark at the viewpoint is visible only from another place. Until then, a sign says that the viewpoint is frozen.
+  expect(await page.locator("#sign-frozen").isVisible()).toBe(true);
+  await addStyle(page, "#signs { visibility: hidden }");
   expect(await differentPixels(page, unfrozen, await picture(page))).toBe(0);
   await expect.poll(async () => (await status(page)).sentence).toMatch(/were visible from the frozen viewpoint/);
   const there = await picture(page);

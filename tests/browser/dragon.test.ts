@@ -18,7 +18,9 @@ test("the page opens on the dragon, and every answer while orbiting is the packa
   expect(first.total).toBe(437_645);
   expect(first.visible).toBeGreaterThan(0);
   expect(first.visible).toBeLessThan(first.total);
-  expect(first.sentence).toMatch(/^[\d,]+ of 437,645 points \(\d+\s%\) are visible from here, found in [\d.,]+\sms\.$/);
+  expect(first.sentence).toMatch(
+    /^[\d,]+ of 437,645 points \(\d+\s%\) are visible from here, found by 3 looks in [\d.,]+\sms\.$/,
+  );
   expect(first).toMatchObject(await answerInNode(positions, first));
   // A visitor who has done nothing yet gets the divided picture again at the next visit.
   await page.locator("#divider").waitFor();

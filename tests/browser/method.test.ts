@@ -17,7 +17,7 @@ import {
   upToDate,
 } from "./support.js";
 
-const SAMPLE = "?sample=dragon_res4";
+const SAMPLE = "?sample=dragon_res4&looks=0";
 const positions = dragonPositions("_res4");
 
 /** The package's own answer for the page's viewpoint. */

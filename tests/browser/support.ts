@@ -57,6 +57,8 @@ export async function openPage(
     viewport: { width: 1000, height: 700 },
     deviceScaleFactor: 0.5,
     serviceWorkers: "block",
+    // One answer does not fade into the next one, so that pictures can be compared.
+    reducedMotion: "reduce",
     ...options,
   });
   const page = await context.newPage();
@@ -78,7 +80,7 @@ function reportViolations(): void {
   });
 }
 
-/** Opens the page and waits until its cloud is there. */
+/** Opens the page and waits for the final answer about its cloud. */
 export async function openReady(
   query = "",
   options: BrowserContextOptions = {},
@@ -86,11 +88,13 @@ export async function openReady(
 ): Promise<Page> {
   const page = await openPage(query, options, prepare);
   await reached(page, "ready");
+  await upToDate(page);
   return page;
 }
 
 export interface Status {
   state: string;
+  answer: "draft" | "operator" | "looks";
   total: number;
   visible: number;
   viewpoint: [number, number, number];
@@ -110,11 +114,12 @@ export interface Status {
 
 export async function status(page: Page): Promise<Status> {
   return page.locator("#status").evaluate((element: HTMLElement) => {
-    const { state, viewpoint, show, inversion, ...numbers } = element.dataset;
+    const { state, answer, viewpoint, show, inversion, ...numbers } = element.dataset;
     const values = Object.fromEntries(Object.entries(numbers).map(([name, value]) => [name, Number(value)]));
     return {
       ...values,
       state,
+      answer,
       show,
       inversion,
       viewpoint: viewpoint?.split(",").map(Number),
@@ -144,7 +149,7 @@ export async function refiltered(page: Page, before: Status): Promise<Status> {
   return settled(page);
 }
 
-/** The status after ten frames without a question or an answer. A moving camera would have asked. */
+/** The status after ten frames without a question, an answer or a new sentence. A moving camera would have asked. */
 export async function settled(page: Page): Promise<Status> {
   await page.evaluate(async () => {
     const { dataset } = document.getElementById("status")!;
@@ -152,7 +157,10 @@ export async function settled(page: Page): Promise<Status> {
     let last = dataset["refilters"];
     for (let quiet = 0; quiet < 10;) {
       await frame();
-      quiet = dataset["refilters"] === last && dataset["busy"] === "0" ? quiet + 1 : 0;
+      // The sentence about an answer may come a little later.
+      const count = Number(dataset["visible"]).toLocaleString("en-US");
+      const isSaid = dataset["state"] !== "ready" || document.getElementById("status")!.textContent.startsWith(count);
+      quiet = dataset["refilters"] === last && dataset["busy"] === "0" && isSaid ? quiet + 1 : 0;
       last = dataset["refilters"];
     }
   });
@@ -189,12 +197,13 @@ export async function inNode<T>(positions: Float32Array | Float64Array, ask: (cl
   return answer;
 }
 
-/** The package's answer in Node for the viewpoint that the page reports. */
+/** The package's answer in Node for the viewpoint that the page reports, with as many looks as the page takes. */
 export async function answerInNode(
   positions: Float32Array | Float64Array,
-  { viewpoint }: Status,
-  options: Pick<VisibilityOptions, "radius" | "exponent"> = {},
+  { viewpoint, answer }: Status,
+  given: Pick<VisibilityOptions, "radius" | "exponent"> = {},
 ) {
+  const options = answer === "looks" ? { looks: 3 as const } : given;
   const { count, radius, exponent } = await inNode(positions, (cloud) => cloud.visibleFrom(viewpoint, options));
   return { visible: count, radius, exponent };
 }

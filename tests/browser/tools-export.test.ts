@@ -84,7 +84,7 @@ test("the visible points saved as PLY, JSON and CSV equal the package's, with co
   expect(comments).toEqual([
     `comment Visible points: ${seen.length} of 600`,
     `comment Seen from ${viewpoint.join(" ")}`,
-    `comment Radius ${radius}`,
+    "comment 3 looks",
   ]);
 
   const json = await saved(page, "JSON");
@@ -95,7 +95,7 @@ test("the visible points saved as PLY, JSON and CSV equal the package's, with co
     total: 600,
     viewpoint,
     radius,
-    inversion: "spherical",
+    looks: 3,
     indices: seen,
   });
   const csv = await saved(page, "CSV");

@@ -1,7 +1,7 @@
 import { Rest } from "../../src/ts/follow/rest.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import type { Inquiry } from "./inquiry.ts";
-import { isSameView, methodOf, type ViewQuestion } from "./question.ts";
+import { isSameView, operatorOf, type ViewQuestion } from "./question.ts";
 
 /**
  * The exponents from the least radius to the end of the slider. Every second one comes first, so that the shape shows
@@ -34,7 +34,7 @@ export class Curve {
     const viewpoints = settings.show === "points" ? settings.viewpoints : "one";
     const question: ViewQuestion = {
       viewpoint,
-      method: { ...methodOf(settings), radius: null },
+      method: { ...operatorOf(settings), radius: null },
       shape: { kind: "points", viewpoints },
     };
     if (!this.#question || !isSameView(question, this.#question, this.#size)) {

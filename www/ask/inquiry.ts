@@ -2,27 +2,31 @@ import { Follower, type Round } from "../../src/ts/follow/follower.ts";
 import { Overtaken } from "../../src/ts/follow/overtaken.ts";
 import { Rest } from "../../src/ts/follow/rest.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
+import { Ladder, PAUSE } from "./ladder.ts";
 import { askLight, type LightAnswer } from "./lights.ts";
 import {
+  type AnswerKind,
   isAutomatic,
-  isSlow,
   isSameLight,
   isSamePlace,
   isSameView,
+  isSearched,
+  kindOf,
   type LightQuestion,
   type Method,
-  methodOf,
+  operatorOf,
   quickLight,
-  quickView,
-  shapeOf,
+  stagesOf,
   type ViewQuestion,
+  viewOf,
 } from "./question.ts";
 import { SecondCloud } from "./second-cloud.ts";
 import { askView, type ViewAnswer } from "./views.ts";
 import type { WorkerCloud } from "./worker-cloud.ts";
 
 export interface TimedView extends ViewAnswer {
-  /** Whether this is a quick answer in place of a slower one, because something moves. */
+  kind: AnswerKind;
+  /** Whether the automatic radius replaces one that takes longer, because something moves. */
   quick: boolean;
   /** The time of the question (performance.now), and how long the answer took, without the time of waiting. */
   asked: number;
@@ -31,6 +35,8 @@ export interface TimedView extends ViewAnswer {
 
 /** A viewpoint or a light that has not moved for this number of milliseconds is at rest. */
 const REST = 250;
+/** Looks at a cloud with at least so many points are asked in a second worker: a draft must not wait for them. */
+const LOOKS_ASIDE_FROM = 200_000;
 
 /**
  * Keeps the answers up to date with the viewpoint and the settings: which points are seen, and how they are lit. Each
@@ -47,26 +53,29 @@ export class Inquiry {
   readonly #cloud: WorkerCloud;
   readonly #second: SecondCloud;
   readonly #size: number;
-  readonly #views = new Overtaken<ViewQuestion>((a, b) => isSameView(a, b, this.#size));
+  readonly #ladder: Ladder;
   readonly #lights = new Overtaken<LightQuestion>(isSameLight);
   readonly #viewFollower = new Follower({
-    next: () => (this.#views.isNew ? this.#viewRound() : undefined),
+    next: () => this.#viewRound(),
     refused: (error) => {
-      // A question that was refused also counts as answered.
-      this.#answered.view = this.#views.asked;
+      this.#ladder.refused();
       this.onError(error);
     },
   });
   readonly #lightFollower = new Follower({
     next: () => (this.#lights.isNew ? this.#lightRound() : undefined),
     refused: (error) => {
-      this.#answered.light = this.#lights.asked;
+      this.#litBy = this.#lights.asked;
       this.onError(error);
     },
   });
-  #answered: { view?: ViewQuestion | undefined; light?: LightQuestion | undefined } = {};
+  /** The last question about light that was answered or refused. */
+  #litBy: LightQuestion | undefined;
+  /** The last answer from one hull. */
+  #hull: TimedView | null = null;
   #mesh: Uint32Array | null = null;
   #viewpoint: Viewpoint | null = null;
+  readonly #viewpointPause = new Rest(PAUSE);
   readonly #viewpointRest = new Rest(REST);
   #lamps: Settings["lights"] | null = null;
   readonly #lampsRest = new Rest(REST);
@@ -78,6 +87,7 @@ export class Inquiry {
     this.#cloud = cloud;
     this.#second = new SecondCloud(another);
     this.#size = size;
+    this.#ladder = new Ladder(cloud.points.length, size);
   }
 
   /** Whether the last question still waits for its answer. */
@@ -88,22 +98,24 @@ export class Inquiry {
   /** Returns the first answer. Nothing is shown before it. */
   async first(viewpoint: Viewpoint, settings: Settings): Promise<TimedView> {
     this.#viewpoint = viewpoint;
-    this.#views.want({ viewpoint, method: methodOf(settings), shape: shapeOf(settings) });
-    return this.#ask(this.#cloud, undefined, this.#views.take());
+    this.#ladder.want(viewOf(viewpoint, settings));
+    const due = this.#ladder.next({ isPaused: true, isAtRest: false })!;
+    return this.#ask(this.#cloud, this.#ladder.take(due), due.question);
   }
 
   /** Finds the automatic exponent if the answer does not contain it. Does nothing if a newer question waits. */
   async findAutomatic(): Promise<void> {
-    const question = this.#views.wanted;
+    const question = this.#ladder.wanted;
     if (!question?.method.radius || isAutomatic(question.method)) return;
     const { exponent } = await this.#cloud.points.autoRadius(question.viewpoint);
-    if (question === this.#views.wanted) this.onAutomatic(exponent);
+    if (question === this.#ladder.wanted) this.onAutomatic(exponent);
   }
 
   /** Called every frame and after every change. Does nothing while the questions stay the same. */
   follow(viewpoint: Viewpoint, settings: Settings): void {
     if (!this.#viewpoint || !isSamePlace(viewpoint, this.#viewpoint, this.#size)) {
       this.#viewpoint = viewpoint;
+      this.#viewpointPause.moved();
       this.#viewpointRest.moved();
     }
     if (this.#lamps !== settings.lights) {
@@ -111,19 +123,23 @@ export class Inquiry {
       if (this.#lamps) this.#lampsRest.moved();
       this.#lamps = settings.lights;
     }
-    const moving = !this.#viewpointRest.isReached;
 
-    const view: ViewQuestion = { viewpoint, method: methodOf(settings), shape: shapeOf(settings) };
-    this.#wantView(moving ? quickView(view) : view);
+    this.#ladder.want(viewOf(viewpoint, settings));
+    this.#viewFollower.follow();
     const { lights, soft, ambient, smoothing } = settings;
-    const light: LightQuestion = { lights, soft, ambient, smoothing, method: view.method, mesh: this.#mesh };
-    this.#wantLight(light, moving, !this.#lampsRest.isReached);
+    const light: LightQuestion = { lights, soft, ambient, smoothing, method: operatorOf(settings), mesh: this.#mesh };
+    this.#wantLight(light, !this.#viewpointRest.isReached, !this.#lampsRest.isReached);
 
-    const answered = this.#answered;
-    this.#upToDate =
-      answered.view !== undefined &&
-      isSameView(answered.view, view, this.#size) &&
-      (lights.length === 0 || (answered.light !== undefined && isSameLight(answered.light, light)));
+    const isLit = lights.length === 0 || (this.#litBy !== undefined && isSameLight(this.#litBy, light));
+    this.#upToDate = this.#ladder.isFinal && isLit;
+  }
+
+  /** The answer of one hull for the same view as an answer from looks. `null`: it is not known. */
+  hullFor({ question }: TimedView): TimedView | null {
+    const hull = this.#hull;
+    const isSame =
+      hull !== null && stagesOf(question, false).some((stage) => isSameView(stage, hull.question, this.#size));
+    return isSame ? hull : null;
   }
 
   /** Asks a question that is not for the picture. Questions for the picture go first. */
@@ -146,17 +162,12 @@ export class Inquiry {
     this.#second.dispose();
   }
 
-  #wantView(question: ViewQuestion): void {
-    this.#views.want(question);
-    this.#viewFollower.follow();
-  }
-
   #wantLight(question: LightQuestion, viewMoving: boolean, lightsMoving: boolean): void {
     const last = this.#lights.wanted;
     if (question.lights.length === 0) {
       if (last) this.onLight(null);
       this.#lights.clear();
-      this.#answered.light = undefined;
+      this.#litBy = undefined;
       return;
     }
     // The light of a point does not depend on whether the point is seen. So while the view moves, the last mesh is
@@ -166,52 +177,55 @@ export class Inquiry {
     this.#lightFollower.follow();
   }
 
-  #viewRound(): Round {
-    const question = this.#views.take();
-    const overtaken = this.#views.signal;
+  #viewRound(): Round | undefined {
+    const due = this.#ladder.next({
+      isPaused: this.#viewpointPause.isReached,
+      isAtRest: this.#viewpointRest.isReached,
+    });
+    if (!due) return undefined;
+    const { question } = due;
+    const overtaken = this.#ladder.take(due);
     return {
       ask: async () => {
-        this.onView(await this.#ask(...(await this.#placeFor(question, overtaken)), question));
-        if (question === this.#views.wanted) await this.findAutomatic();
+        const cloud = this.#isAside(question.method) ? await this.#second.ready(overtaken) : this.#cloud;
+        this.onView(await this.#ask(cloud, overtaken, question));
+        if (this.#ladder.isFinal) await this.findAutomatic();
       },
-      use: () => {
-        this.#answered.view = question;
-        return undefined;
-      },
-      isGivenUp: (error) => isGivenUp(error, this.#views),
+      use: () => undefined,
+      isGivenUp,
     };
   }
 
   #lightRound(): Round<LightAnswer> {
     const question = this.#lights.take();
-    const overtaken = this.#lights.signal;
+    // Only a question in the second worker is given up. Any other answer is shown even if the lights have moved on.
+    const aside = isSearched(question.method);
+    const overtaken = aside ? this.#lights.signal : undefined;
     return {
       ask: async () => {
-        const [cloud, signal] = await this.#placeFor(question, overtaken);
-        const answer = await askLight(cloud, question, signal);
+        const cloud = aside ? await this.#second.ready(overtaken) : this.#cloud;
+        const answer = await askLight(cloud, question, overtaken);
         this.#noteFree(cloud);
         return answer;
       },
       use: (answer) => {
         if (this.#lights.wanted) {
           this.onLight(answer);
-          this.#answered.light = question;
+          this.#litBy = question;
         }
         return undefined;
       },
-      isGivenUp: (error) => isGivenUp(error, this.#lights),
+      isGivenUp: (error) => {
+        if (!isGivenUp(error)) return false;
+        this.#lights.forget();
+        return true;
+      },
     };
   }
 
-  /**
-   * Returns the cloud that answers a question, and the signal that cancels the question. Only a slow question has a
-   * signal. The answer to any other question is shown even if the camera has moved on.
-   */
-  async #placeFor(
-    { method }: { method: Method },
-    overtaken: AbortSignal,
-  ): Promise<[WorkerCloud, AbortSignal | undefined]> {
-    return isSlow(method) ? [await this.#second.ready(overtaken), overtaken] : [this.#cloud, undefined];
+  /** Whether a question is for the second worker. */
+  #isAside(method: Method): boolean {
+    return isSearched(method) || (method.looks > 0 && this.#cloud.points.length >= LOOKS_ASIDE_FROM);
   }
 
   /** From now on, the cloud in the foreground can take the next question. */
@@ -225,14 +239,16 @@ export class Inquiry {
     const begun = cloud === this.#cloud ? Math.max(asked, this.#freeSince) : asked;
     this.#noteFree(cloud);
     this.#mesh = answer.triangles;
-    this.#answered.view = question;
-    return { ...answer, quick: question.quick === true, asked, milliseconds: performance.now() - begun };
+    this.#ladder.answered(question);
+    const wanted = this.#ladder.wanted!.method;
+    const quick = isSearched(wanted) && !isSearched(question.method);
+    const view = { ...answer, kind: kindOf(question), quick, asked, milliseconds: performance.now() - begun };
+    if (view.kind === "operator") this.#hull = view;
+    return view;
   }
 }
 
 /** Whether a newer question has cancelled this one. Then this one can be asked again. */
-function isGivenUp(error: unknown, questions: { forget(): void }): boolean {
-  const isAbort = error instanceof DOMException && error.name === "AbortError";
-  if (isAbort) questions.forget();
-  return isAbort;
+function isGivenUp(error: unknown): boolean {
+  return error instanceof DOMException && error.name === "AbortError";
 }

@@ -1,10 +1,20 @@
-import type { Inversion, Radius, Settings, Viewpoint, Viewpoints } from "../settings/settings.ts";
+import {
+  canLook,
+  type Inversion,
+  type Looks,
+  type Radius,
+  type Settings,
+  type Viewpoint,
+  type Viewpoints,
+} from "../settings/settings.ts";
 
 /** How the library decides which points a viewpoint or a light sees. */
 export interface Method {
-  /** Only for the spherical flip; `null` for the others. */
+  /** Only for the spherical flip; `null` for the others, and with looks. */
   radius: Radius | null;
   inversion: Inversion;
+  /** 0: the operator of the paper. */
+  looks: Looks;
   denoise: number;
   vote: number;
 }
@@ -17,9 +27,12 @@ export interface ViewQuestion {
   viewpoint: Viewpoint;
   method: Method;
   shape: Shape;
-  /** A quick question that is asked instead of a slower one. */
-  quick?: boolean;
+  /** Asks for an early answer, which also has some hidden points. */
+  draft?: boolean;
 }
+
+/** The kinds of answers, in the order in which they come for one viewpoint. */
+export type AnswerKind = "draft" | "operator" | "looks";
 
 /** The question of what the lights reach. */
 export interface LightQuestion {
@@ -32,35 +45,61 @@ export interface LightQuestion {
   mesh: Uint32Array | null;
 }
 
-export function methodOf({ radius, inversion, denoise, vote }: Settings): Method {
-  return { radius: inversion === "spherical" ? radius : null, inversion, denoise, vote };
+/** The operator of the paper with these settings. */
+export function operatorOf({ radius, inversion, denoise, vote }: Settings): Method {
+  return { radius: inversion === "spherical" ? radius : null, inversion, looks: 0, denoise, vote };
 }
 
-export function shapeOf({ show, viewpoints, edge }: Settings): Shape {
-  return show === "points" ? { kind: "points", viewpoints } : { kind: "surface", edge };
+/** The question whose answer is final. */
+export function viewOf(viewpoint: Viewpoint, settings: Settings): ViewQuestion {
+  const { show, viewpoints, edge, looks } = settings;
+  const method = operatorOf(settings);
+  if (show === "surface") return { viewpoint, method, shape: { kind: "surface", edge } };
+  const shape: Shape = { kind: "points", viewpoints };
+  return looks > 0 && canLook(settings)
+    ? { viewpoint, method: { ...method, radius: null, looks }, shape }
+    : { viewpoint, method, shape };
+}
+
+export function kindOf({ draft, method }: ViewQuestion): AnswerKind {
+  if (draft) return "draft";
+  return method.looks > 0 ? "looks" : "operator";
+}
+
+/**
+ * The questions that lead to a final answer, each slower and better than the one before:
+ *
+ *     draft ─► one hull ─► looks, or a radius that is searched
+ *
+ * The last of the three is missing if one hull is the final answer. A surface has no draft. `drafts`: whether the cloud
+ * is so large that a draft is worth its time.
+ */
+export function stagesOf(final: ViewQuestion, drafts: boolean): ViewQuestion[] {
+  const operator = isSlow(final.method) ? { ...final, method: quickMethod(final.method) } : final;
+  const first = drafts && final.shape.kind === "points" ? [{ ...operator, draft: true }] : [];
+  return [...first, operator, ...(operator === final ? [] : [final])];
 }
 
 /*
- * The rules that search take 6 and about 40 hulls. While the viewpoint or the lights move, the automatic radius
- * replaces them, and single points replace soft lights. When everything is at rest, the question is asked with the real
- * settings.
+ * The rules that search take 6 and about 40 hulls, looks take three. While the viewpoint or the lights move, the
+ * automatic radius replaces them, and single points replace soft lights.
  */
-
-export function quickView(question: ViewQuestion): ViewQuestion {
-  const method = quickMethod(question.method);
-  return method === question.method ? question : { ...question, method, quick: true };
-}
 
 export function quickLight(question: LightQuestion): LightQuestion {
   return { ...question, soft: 0, method: quickMethod(question.method) };
 }
 
 function quickMethod(method: Method): Method {
-  return isSlow(method) ? { ...method, radius: { rule: "auto" } } : method;
+  return isSlow(method) ? { ...method, radius: { rule: "auto" }, looks: 0 } : method;
+}
+
+/** Whether the answer takes several hulls. */
+export function isSlow(method: Method): boolean {
+  return method.looks > 0 || isSearched(method);
 }
 
 /** Whether the choice of the radius takes many hulls. */
-export function isSlow(method: Method): boolean {
+export function isSearched(method: Method): boolean {
   return method.radius !== null && "rule" in method.radius && !isAutomatic(method);
 }
 
@@ -80,7 +119,11 @@ export function isSamePlace(a: Viewpoint, b: Viewpoint, size: number): boolean {
 }
 
 export function isSameView(a: ViewQuestion, b: ViewQuestion, size: number): boolean {
-  return isSamePlace(a.viewpoint, b.viewpoint, size) && textOf([a.method, a.shape]) === textOf([b.method, b.shape]);
+  return (
+    isSamePlace(a.viewpoint, b.viewpoint, size) &&
+    a.draft === b.draft &&
+    textOf([a.method, a.shape]) === textOf([b.method, b.shape])
+  );
 }
 
 export function isSameLight({ mesh: a, ...rest }: LightQuestion, { mesh: b, ...others }: LightQuestion): boolean {

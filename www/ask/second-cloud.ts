@@ -15,7 +15,7 @@ export class SecondCloud {
   }
 
   /** Rejects with an AbortError if the signal aborts before the cloud is ready. */
-  async ready(signal: AbortSignal): Promise<WorkerCloud> {
+  async ready(signal?: AbortSignal): Promise<WorkerCloud> {
     if (this.#disposed) throw new DOMException("Another cloud is shown.", "AbortError");
     if (!this.#made) {
       this.#made = this.#make();
@@ -24,6 +24,7 @@ export class SecondCloud {
         this.#made = null;
       });
     }
+    if (!signal) return this.#made;
     const aborted = new Promise<never>((_, reject) => {
       signal.addEventListener("abort", () => {
         reject(signal.reason as DOMException);

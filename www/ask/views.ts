@@ -1,7 +1,7 @@
 import { HprError, type Visibility, type VisibilityOptions } from "hidden-point-removal";
 import type { RequestOptions } from "hidden-point-removal/worker";
-import { USUAL_EDGE, type Viewpoint } from "../settings/settings.ts";
-import type { Shape, ViewQuestion } from "./question.ts";
+import { USUAL_EDGE } from "../settings/settings.ts";
+import type { ViewQuestion } from "./question.ts";
 import type { WorkerCloud } from "./worker-cloud.ts";
 
 /** The worker's answer, with its question. */
@@ -19,10 +19,10 @@ const RING = { count: 4, fraction: 0.05 };
 
 /** Finds what a viewpoint sees. If the settings do not suit the cloud or the place, the library's defaults are used. */
 export async function askView(cloud: WorkerCloud, question: ViewQuestion, signal?: AbortSignal): Promise<ViewAnswer> {
-  const { viewpoint, method, shape } = question;
+  const { viewpoint, method } = question;
   const { value, note } = await orUsual(
     () => cloud.options(method, viewpoint),
-    (options) => see(cloud, viewpoint, shape, { ...options, signal }),
+    (options) => see(cloud, question, { ...options, signal }),
   );
   return { question, ...value, note };
 }
@@ -43,10 +43,10 @@ export async function orUsual<T>(
 
 async function see(
   cloud: WorkerCloud,
-  viewpoint: Viewpoint,
-  shape: Shape,
-  options: VisibilityOptions & RequestOptions,
+  { viewpoint, shape, draft }: ViewQuestion,
+  given: VisibilityOptions & RequestOptions,
 ): Promise<Pick<ViewAnswer, "visibility" | "triangles">> {
+  const options = draft ? { ...given, draft } : given;
   if (shape.kind === "surface") {
     const maxEdge =
       shape.edge === USUAL_EDGE ? undefined : shape.edge === Infinity ? Infinity : shape.edge * cloud.points.spacing;

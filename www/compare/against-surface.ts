@@ -114,7 +114,14 @@ export class AgainstSurface {
         // The place is exact: a place that differs in the last bits would be traced again.
         const viewpoint = at.map((value, axis) => value - this.#origin[axis]!) as Viewpoint;
         const current = isSamePlace(question.viewpoint, at, this.#viewer.scene.cloud.radius);
-        return current ? this.#worker.ask({ surface: this.#surface, viewpoint, visible: visibility.indices }) : null;
+        if (!current) return null;
+        const hull = ours.kind === "looks" ? this.#viewer.scene.inquiry.hullFor(ours) : null;
+        return this.#worker.ask({
+          surface: this.#surface,
+          viewpoint,
+          visible: visibility.indices,
+          hull: hull && hull.visibility.indices,
+        });
       },
       use: (truth) => {
         // The truth is not shown if the viewpoint has left the place.

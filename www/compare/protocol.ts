@@ -39,12 +39,22 @@ export interface TruthQuestion {
   surface: KnownSurface;
   viewpoint: [number, number, number];
   visible: Uint32Array;
+  /** The answer of one hull, if ours is another one. */
+  hull: Uint32Array | null;
+}
+
+/** How many points an answer shows although they are hidden, and hides although they are visible. */
+export interface Errors {
+  wrong: number;
+  missed: number;
 }
 
 export interface TruthAnswer {
   parts: Parts;
   /** The number of points that can be seen. */
   visible: number;
+  /** The errors of the one hull, if it was given. */
+  hull: Errors | null;
   /** The time of the rays alone, without the preparation of the cloud. */
   milliseconds: number;
 }

@@ -1,7 +1,7 @@
 import { HIDDEN, partsOf, VISIBLE } from "../view/parts.ts";
 import { oracleFor } from "./oracles.ts";
 import type { KnownSurface } from "../samples/samples.ts";
-import type { TruthAnswer, TruthQuestion } from "./protocol.ts";
+import type { Errors, TruthAnswer, TruthQuestion } from "./protocol.ts";
 import { receive } from "./receive.ts";
 import type { Oracle } from "./tracer.ts";
 
@@ -23,7 +23,7 @@ let traced: Traced | null = null;
 receive(
   async (
     positions,
-    { surface, viewpoint, visible: ours }: TruthQuestion,
+    { surface, viewpoint, visible: ours, hull }: TruthQuestion,
     stopped,
     progress,
   ): Promise<TruthAnswer | null> => {
@@ -31,9 +31,16 @@ receive(
     if (traced?.place !== place) traced = await trace(surface, positions, viewpoint, stopped, progress);
     if (traced === null) return null;
     const { said, milliseconds } = traced;
-    return { parts: partsOf(said, ours), visible: said.reduce((sum, one) => sum + one, 0), milliseconds };
+    const visible = said.reduce((sum, one) => sum + one, 0);
+    return { parts: partsOf(said, ours), visible, hull: hull && errorsOf(said, visible, hull), milliseconds };
   },
 );
+
+function errorsOf(said: Uint8Array, visible: number, shown: Uint32Array): Errors {
+  let right = 0;
+  for (const index of shown) if (said[index] === VISIBLE) right++;
+  return { wrong: shown.length - right, missed: visible - right };
+}
 
 async function trace(
   surface: KnownSurface,

@@ -29,8 +29,17 @@ export interface HiddenPointCloudError extends Error {
 export interface HiddenPointCloudEventMap {
   /** A cloud is there, with its first answer. `notes`: sentences about the file, e.g. that only a share of it is shown. */
   load: CustomEvent<{ total: number; notes: string[] }>;
-  /** Other points are visible; also after `load`. `radius` is 0 if the inversion has none. */
-  change: CustomEvent<{ count: number; viewpoint: Place; radius: number; milliseconds: number }>;
+  /**
+   * Other points are visible; also after `load`. `radius` is 0 if the inversion or the looks have none. While the camera
+   * moves, `answer` is `draft` (it also has hidden points) or `operator`. When it rests, the final answer comes.
+   */
+  change: CustomEvent<{
+    count: number;
+    viewpoint: Place;
+    radius: number;
+    milliseconds: number;
+    answer: "draft" | "operator" | "looks";
+  }>;
   /** The progress of the loading, from 0 to 1; `null` if it is not known. */
   progress: CustomEvent<{ fraction: number | null }>;
   error: CustomEvent<{ error: HiddenPointCloudError }>;
@@ -54,6 +63,8 @@ export interface HiddenPointCloudElement extends HTMLElement {
   exponent: number | null;
   /** How the flipping sphere's radius is chosen, or how large it is in the file's units. */
   radius: RadiusRule | number | null;
+  /** How many looks make the answer when the camera rests; 0 is one hull. Only without the three around it. */
+  looks: 0 | 2 | 3 | null;
   /** `spherical`, `exponential`, `exponential:c` (c in spacings), `power` or `power:γ`. */
   inversion: string | null;
   hiddenPoints: "off" | "dimmed" | "shown";

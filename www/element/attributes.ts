@@ -23,6 +23,7 @@ export const ATTRIBUTES = {
   "skip-non-finite": { property: "flag", ofSource: true },
   exponent: { written: PARAMETERS.exponent, property: "value" },
   radius: { written: SETTINGS.radius, setting: "radius", property: "own" },
+  looks: { written: SETTINGS.looks, setting: "looks", property: "value" },
   inversion: { written: SETTINGS.inversion, setting: "inversion", property: "word" },
   "hidden-points": { written: SETTINGS.hidden, setting: "hidden", property: "value" },
   frozen: { property: "flag" },

@@ -222,13 +222,14 @@ class HiddenPointCloud extends Base implements Own {
   }
 
   #answer(answer: TimedView): void {
-    const { question, visibility, milliseconds } = answer;
+    const { question, kind, visibility, milliseconds } = answer;
     if (this.hasAttribute("announce")) this.#frame.announce(this.#showing!.showing.sentence(answer));
     this.#emit("change", {
       count: visibility.count,
       viewpoint: [...question.viewpoint],
       radius: visibility.radius,
       milliseconds,
+      answer: kind,
     });
   }
 

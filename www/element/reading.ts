@@ -1,5 +1,5 @@
 import { SAMPLES } from "../samples/samples.ts";
-import { type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
+import { canLook, type Settings, USUAL_SETTINGS, withLooks } from "../settings/settings.ts";
 import { refusalOf } from "../settings/table.ts";
 import type { AskedView } from "../view/framing.ts";
 import {
@@ -67,6 +67,8 @@ export function readAttributes(element: Element): Reading {
   if (exponent !== undefined && settings["radius"] !== undefined)
     refuse("radius", "The attributes exponent and radius exclude each other, so exponent is used.");
   if (exponent !== undefined) settings["radius"] = { exponent };
+  if (settings["looks"] && !canLook({ ...USUAL_SETTINGS, ...settings }))
+    refuse("looks", "The attribute looks excludes exponent, radius and inversion, so there is one hull.");
   const [at, target] = [read("viewpoint"), read("target")];
   if (target && !element.hasAttribute("viewpoint"))
     refuse("target", "The attribute target needs a viewpoint to be looked at from, so the usual view is used.");
@@ -75,7 +77,7 @@ export function readAttributes(element: Element): Reading {
     sample,
     limit,
     skipNonFinite: element.hasAttribute("skip-non-finite"),
-    settings,
+    settings: withLooks(settings),
     frozen: element.hasAttribute("frozen"),
     view: at ? { at, target: target ?? null } : null,
     problems,

@@ -23,6 +23,7 @@ export const ATTRIBUTE_WORDS: Record<AttributeName, Words> = {
   },
   exponent: PARAMETER_WORDS.exponent,
   radius: SETTING_WORDS.radius,
+  looks: SETTING_WORDS.looks,
   inversion: SETTING_WORDS.inversion,
   "hidden-points": { is: `${SETTING_WORDS.hidden.is}; follows the key ${keyOf("hidden")}` },
   frozen: {

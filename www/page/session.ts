@@ -3,6 +3,7 @@ import { LightHandles } from "../lights/handles.ts";
 import { onFile } from "../panel/files.ts";
 import type { Message } from "../panel/message.ts";
 import { Panel } from "../panel/panel.ts";
+import { Signs } from "../panel/signs.ts";
 import { sampleNamed } from "../samples/samples.ts";
 import { Address, type CameraPlace } from "../settings/address.ts";
 import type { Wishes } from "../settings/read-address.ts";
@@ -35,7 +36,7 @@ export function startSession(wishes: Wishes, status: Status, message: Message): 
   const workshop: Workshop = new Workshop(viewer, store, actions, location.search === "");
   const parts = { viewer, store, panel, address, workshop, status, message, notices };
   const opening: Opening = new Opening(parts, sampleNamed(wishes.sample));
-  wire({ ...parts, handles });
+  wire({ ...parts, handles, signs: new Signs(store) });
 
   const limit = wishes.points === null ? {} : { limit: wishes.points };
   onFile({

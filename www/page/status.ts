@@ -2,7 +2,6 @@ import { SETTINGS } from "../settings/table.ts";
 import type { TimedView } from "../ask/inquiry.ts";
 import { byId } from "../controls/dom.ts";
 import { sentenceOf } from "../view/sentence.ts";
-import type { Inversion } from "../settings/settings.ts";
 
 /** Milliseconds between two changes of the sentence. A sentence that stays for this time is announced. */
 const CALM = 800;
@@ -56,16 +55,17 @@ export class Status {
 
   /** Sets all attributes from this one answer. */
   answer(answer: TimedView, total: number, frozen: boolean): void {
-    const { question, visibility, triangles, asked, milliseconds } = answer;
+    const { question, kind, visibility, triangles, asked, milliseconds } = answer;
     this.#refilters++;
     Object.assign(this.#element.dataset, {
+      answer: kind,
       total: String(total),
       visible: String(visibility.count),
       viewpoint: String(question.viewpoint),
       radius: String(visibility.radius),
       exponent: String(visibility.exponent),
       evaluations: String(visibility.evaluations),
-      inversion: SETTINGS.inversion.write(visibility.inversion as Inversion),
+      inversion: inversionText(visibility.inversion),
       show: question.shape.kind,
       milliseconds: String(milliseconds),
       refilters: String(this.#refilters),
@@ -109,4 +109,10 @@ export class Status {
       this.#element.textContent = this.#sentence;
     }, CALM);
   }
+}
+
+function inversionText(inversion: TimedView["visibility"]["inversion"]): string {
+  return typeof inversion === "object" && "looks" in inversion
+    ? `looks:${inversion.looks.join()}`
+    : SETTINGS.inversion.write(inversion);
 }

@@ -1,6 +1,7 @@
 import type { LightHandles } from "../lights/handles.ts";
 import type { Message } from "../panel/message.ts";
 import type { Panel } from "../panel/panel.ts";
+import type { Signs } from "../panel/signs.ts";
 import type { Address } from "../settings/address.ts";
 import type { Store } from "../settings/store.ts";
 import type { Workshop } from "../tools/workshop.ts";
@@ -12,6 +13,7 @@ interface Parts {
   viewer: Viewer;
   store: Store;
   panel: Panel;
+  signs: Signs;
   address: Address;
   workshop: Workshop;
   handles: LightHandles;
@@ -21,7 +23,18 @@ interface Parts {
 }
 
 /** Connects the parts of the page: the viewer draws and asks, and the other parts follow it. */
-export function wire({ viewer, store, panel, address, workshop, handles, status, message, notices }: Parts): void {
+export function wire({
+  viewer,
+  store,
+  panel,
+  signs,
+  address,
+  workshop,
+  handles,
+  status,
+  message,
+  notices,
+}: Parts): void {
   viewer.onFrame = () => {
     handles.place();
     workshop.place();
@@ -56,6 +69,7 @@ export function wire({ viewer, store, panel, address, workshop, handles, status,
   };
   viewer.onBusy = (busy) => {
     status.busy(busy);
+    signs.busy(busy);
   };
   viewer.onError = (error) => {
     notices.refuseView(error);

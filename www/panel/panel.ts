@@ -8,6 +8,7 @@ import type { Viewer } from "../view/viewer.ts";
 import { bindColor, type ColorControl } from "./color.ts";
 import { bindFullScreen } from "./full-screen.ts";
 import { bindInversion } from "./inversion.ts";
+import { explainLooks } from "./looks.ts";
 import { RadiusControl } from "./radius.ts";
 import { bindSections } from "./sections.ts";
 import { bindSettings } from "./settings.ts";
@@ -30,6 +31,7 @@ export class Panel {
   constructor(viewer: Viewer, store: Store, opened: Settings) {
     this.#radius = new RadiusControl(store);
     bindSettings(store);
+    explainLooks(store);
     this.#followInversion = bindInversion(store);
     explainViewpoints(store);
     this.#followSurface = explainSurface(store);

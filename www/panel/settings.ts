@@ -6,7 +6,7 @@ import type { Store } from "../settings/store.ts";
 import type { SettingName } from "../settings/table.ts";
 
 /** Settings whose only control is one row of buttons or one slider. The other controls have files of their own. */
-const CHOICES = ["hidden", "viewpoints", "denoise", "vote", "show", "up", "theme"] as const;
+const CHOICES = ["hidden", "looks", "viewpoints", "denoise", "vote", "show", "up", "theme"] as const;
 const SLIDING = ["edge", "soft", "ambient", "smoothing", "size", "fieldOfView"] as const;
 
 /** Settings that change together with another one. With another direction up, a frozen view has no meaning. */

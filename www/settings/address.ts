@@ -1,4 +1,4 @@
-import { rowOf, type Settings, USUAL_SETTINGS, type Viewpoint } from "./settings.ts";
+import { canLook, rowOf, type Settings, USUAL_SETTINGS, type Viewpoint } from "./settings.ts";
 import type { Store } from "./store.ts";
 import { PARAMETERS, type SettingName, SETTINGS } from "./table.ts";
 
@@ -124,6 +124,7 @@ function settingsInAddress(now: Settings, usual: Usual): Record<string, string[]
   for (const name of Object.keys(SETTINGS)) write(name as SettingName);
   texts[SETTINGS.lights.parameter] = now.lights.map(String);
   if ("exponent" in radius) texts[SETTINGS.radius.parameter] = [];
+  if (!canLook(now)) texts[SETTINGS.looks.parameter] = [];
   // The kind of comparison is needed only with a comparison, the width of its points only with the z-buffer.
   if (now.compare === null) texts[SETTINGS.against.parameter] = [];
   if (now.compare === null || now.against !== "zbuffer") texts[SETTINGS.splat.parameter] = [];

@@ -20,6 +20,12 @@ export function oneOf<T extends string>(...words: T[]): Kind<T> {
   };
 }
 
+/** One of several numbers. */
+export function oneNumberOf<T extends number>(...numbers: T[]): Kind<T> {
+  const { values } = oneOf(...numbers.map(String));
+  return { parse: (text) => numbers.find((number) => String(number) === text), write: String, values };
+}
+
 export function between(least: number, most: number, what = "a number"): Kind<number> {
   return {
     parse: (text) => {

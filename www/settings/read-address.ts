@@ -1,6 +1,6 @@
 import { PLACE } from "./kinds.ts";
 import { MOST_LIGHTS } from "./limits.ts";
-import { rowOf, type Settings, type Viewpoint } from "./settings.ts";
+import { canLook, rowOf, type Settings, USUAL_SETTINGS, type Viewpoint, withLooks } from "./settings.ts";
 import { type Parameter, PARAMETERS, refusalOf, type SettingName, SETTINGS } from "./table.ts";
 
 /** What the address of the page asks for. The notes name, in plain words, everything that cannot be used. */
@@ -33,25 +33,32 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
   if (src === "") notes.push(`The address names no file after “src=”, so this is the ${sample}.`);
 
   /** Returns `undefined` if the address does not have the parameter, or if its value cannot be used. */
-  const read = <T>(name: string, row: Parameter<T>): T | undefined => {
+  const read = <T>(name: string, row: Parameter<T>, otherwise: { otherwise?: string } = {}): T | undefined => {
     const text = query.get(name);
     const value = text === null ? undefined : row.parse(text);
     if (text !== null && value === undefined)
-      notes.push(`The ${row.called ?? name} in the address is not ${refusalOf(row)}.`);
+      notes.push(`The ${row.called ?? name} in the address is not ${refusalOf({ ...row, ...otherwise })}.`);
     return value;
   };
 
-  const exponent = read("exponent", PARAMETERS.exponent);
+  // The radius is the other way to say the same.
+  const isRadiusGiven = SETTINGS.radius.parse(query.get("radius") ?? "") !== undefined;
+  const exponent = read("exponent", PARAMETERS.exponent, isRadiusGiven ? { otherwise: "the radius is used" } : {});
   const found: Partial<Record<SettingName, unknown>> = {};
   for (const name of Object.keys(SETTINGS) as SettingName[]) {
     const row = rowOf(name);
     const value = name === "lights" ? undefined : read(row.parameter, row);
     if (value !== undefined) found[name] = value;
   }
-  const settings = found as Partial<Settings>;
+  let settings = found as Partial<Settings>;
   if (settings.radius && exponent !== undefined)
     notes.push("Radius and exponent in the address exclude each other, so the exponent is used.");
   if (exponent !== undefined) settings.radius = { exponent };
+  settings = withLooks(settings);
+  if (settings.looks && !canLook({ ...USUAL_SETTINGS, ...settings }))
+    notes.push(
+      "Looks in the address exclude exponent, radius and inversion, so there is one hull, as these parameters say.",
+    );
   if (query.has("light")) settings.lights = readLights(query.getAll("light"), notes);
 
   return {

@@ -12,6 +12,19 @@ export const USUAL_SETTINGS = Object.fromEntries(
   Object.entries(SETTINGS).map(([name, { usual }]) => [name, usual]),
 ) as unknown as Settings;
 
+/** Whether looks are possible with these settings. Each look has its own flip, so they exclude any other choice of it. */
+export function canLook({ radius, inversion }: Pick<Settings, "radius" | "inversion">): boolean {
+  return "rule" in radius && radius.rule === "auto" && inversion === "spherical";
+}
+
+/** A radius or an inversion that is given asks for the operator of the paper, even if it is the usual one. */
+export function withLooks(given: Partial<Settings>): Partial<Settings> {
+  const asked = given.radius !== undefined || given.inversion !== undefined;
+  return given.looks === undefined && asked && canLook({ ...USUAL_SETTINGS, ...given })
+    ? { ...given, looks: 0 }
+    : given;
+}
+
 /** A row of the table, with the type that its setting has. */
 export function rowOf<Name extends SettingName>(name: Name): Setting<Settings[Name]> {
   return SETTINGS[name] as unknown as Setting<Settings[Name]>;

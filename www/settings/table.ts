@@ -1,5 +1,17 @@
 import type { Up } from "../cloud/cloud.ts";
-import { between, INVERSION, type Kind, NAME, oneOf, orWord, PLACE, POSITIVE, RADIUS, wholeBetween } from "./kinds.ts";
+import {
+  between,
+  INVERSION,
+  type Kind,
+  NAME,
+  oneNumberOf,
+  oneOf,
+  orWord,
+  PLACE,
+  POSITIVE,
+  RADIUS,
+  wholeBetween,
+} from "./kinds.ts";
 import {
   FIELD_OF_VIEW,
   MAX_POINTS,
@@ -10,7 +22,7 @@ import {
   MOST_SPLAT,
   POINT_SIZE,
 } from "./limits.ts";
-import type { Against, HiddenMode, Inversion, Radius, ThemeChoice, Viewpoint, Viewpoints } from "./types.ts";
+import type { Against, HiddenMode, Inversion, Looks, Radius, ThemeChoice, Viewpoint, Viewpoints } from "./types.ts";
 
 /*
  * The one table of settings. The address, the panel, the element's attributes and, with words.ts, the tables in the
@@ -60,6 +72,13 @@ export const SETTINGS = {
     ...RADIUS,
     usual: { rule: "auto" },
     otherwise: "the automatic one is used",
+  }),
+  looks: setting<Looks>({
+    parameter: "looks",
+    ...oneNumberOf<Looks>(0, 2, 3),
+    usual: 3,
+    called: "number of looks",
+    otherwise: "it is 3",
   }),
   inversion: setting<Inversion>({
     parameter: "inversion",

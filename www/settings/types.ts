@@ -10,6 +10,9 @@ export type HiddenMode = "off" | "dimmed" | "shown";
  */
 export type Radius = { rule: "auto" | "search" | "opposite" } | { exponent: number } | { length: number };
 
+/** How many looks make the answer when the camera rests (docs/LOOKS.md). 0: the operator of the paper. */
+export type Looks = 0 | 2 | 3;
+
 /** How points are flipped. The exponential's c is counted in spacings, so that it suits clouds of any size. */
 export type Inversion = "spherical" | { exponential: number | "auto" } | { power: number | "auto" };
 

@@ -22,6 +22,11 @@ export const SETTING_WORDS: Record<SettingName, SettingWords> = {
   radius: {
     is: "the radius of the flipping sphere: a rule, or a length in the file’s units. Excludes `exponent`",
   },
+  looks: {
+    is: "how many looks make the answer when the camera rests; `0` is one hull, as in the paper. Only with the automatic radius and the spherical method",
+    without: "`3`; `0` if `exponent`, `radius` or `inversion` is given",
+    labels: { 0: "One hull", 2: "2 looks", 3: "3 looks" },
+  },
   inversion: {
     is: "how points are flipped; c counts in spacings",
     labels: { spherical: "Spherical", exponential: "Exponential", power: "Power" },

@@ -1,3 +1,4 @@
+import type { TimedView } from "../ask/inquiry.ts";
 import type { AgainstPicture } from "../compare/against-picture.ts";
 import type { AgainstSurface } from "../compare/against-surface.ts";
 import { byId } from "../controls/dom.ts";
@@ -92,17 +93,23 @@ export class CompareCard {
     this.#fill(
       [
         { label: "Z-buffer", count: picture.visible, more: time(picture.milliseconds) },
-        { label: "HPR", count: onlyOurs, more: time(ours.milliseconds) },
+        { label: nameOf(ours), count: onlyOurs, more: time(ours.milliseconds) },
         { label: "Only the z-buffer", color: "var(--only-reference)", count: theirs, more: share(theirs) },
-        { label: "Only HPR", color: "var(--only-ours)", count: mine, more: share(mine) },
+        { label: `Only ${nameOf(ours)}`, color: "var(--only-ours)", count: mine, more: share(mine) },
       ],
       picture.inside,
       picture.milliseconds,
     );
     const beyond = outside - onlyReference;
-    const more = beyond > 0 ? ` Outside the picture, HPR sees ${number.format(beyond)} more.` : "";
+    const more =
+      beyond > 0
+        ? ` Outside the picture, ${nameOf(ours)} ${ours.kind === "looks" ? "see" : "sees"} ${number.format(beyond)} more.`
+        : "";
     this.#result.textContent = `Of the ${number.format(picture.inside)} points in the picture. The z-buffer knows only these.${more}`;
-    return { left: `Z-buffer: ${number.format(picture.visible)}`, right: `HPR: ${number.format(onlyOurs)}` };
+    return {
+      left: `Z-buffer: ${number.format(picture.visible)}`,
+      right: `${nameOf(ours)}: ${number.format(onlyOurs)}`,
+    };
   }
 
   /** Returns `null`, too, as long as there is no result. */
@@ -119,18 +126,22 @@ export class CompareCard {
     const { truth, ours } = result;
     const [both, onlyOurs, onlyReference] = truth.parts.ends;
     const [wrong, missed] = [onlyOurs - both, onlyReference - onlyOurs];
+    const { hull } = truth;
+    const row = (label: string, count: number) => ({ label, count, more: percent(count, total) });
     this.#fill(
       [
         { label: "Rays", count: truth.visible, more: time(truth.milliseconds) },
-        { label: "HPR", count: onlyOurs, more: time(ours.milliseconds) },
-        { label: "Wrongly shown", color: "var(--only-ours)", count: wrong, more: percent(wrong, total) },
-        { label: "Wrongly hidden", color: "var(--only-reference)", count: missed, more: percent(missed, total) },
+        { label: nameOf(ours), count: onlyOurs, more: time(ours.milliseconds) },
+        { ...row("Wrongly shown", wrong), color: "var(--only-ours)" },
+        { ...row("Wrongly hidden", missed), color: "var(--only-reference)" },
+        ...(hull ? [row("One hull, shown", hull.wrong), row("One hull, hidden", hull.missed)] : []),
       ],
       total,
       truth.milliseconds,
     );
-    this.#result.textContent = `Of all ${number.format(total)} points; together ${percent(wrong + missed, total)}.`;
-    return { left: `True: ${number.format(truth.visible)}`, right: `HPR: ${number.format(onlyOurs)}` };
+    const before = hull ? `, with one hull ${percent(hull.wrong + hull.missed, total)}` : "";
+    this.#result.textContent = `Of all ${number.format(total)} points; together ${percent(wrong + missed, total)} are wrong${before}.`;
+    return { left: `True: ${number.format(truth.visible)}`, right: `${nameOf(ours)}: ${number.format(onlyOurs)}` };
   }
 
   #fill(rows: readonly Row[], of: number, milliseconds: number): void {
@@ -142,6 +153,11 @@ export class CompareCard {
       milliseconds: String(milliseconds),
     });
   }
+}
+
+/** The method behind an answer, as in the panel. */
+function nameOf({ kind, question }: TimedView): string {
+  return kind === "looks" ? `${question.method.looks} looks` : "HPR";
 }
 
 function rowOf({ label, color, count, more }: Row): HTMLTableRowElement {

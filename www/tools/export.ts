@@ -61,7 +61,7 @@ export class Export implements Tool {
         .replace(/^-+|-+$/g, "");
       const file = `${stem || "cloud"}-${ending === "png" ? "picture" : this.#what.value}.${ending}`;
       button.disabled = true;
-      void (async () => {
+      const run = async () => {
         try {
           await save(file, await parts());
           this.#output.textContent = `Saved as ${file}.`;
@@ -69,7 +69,8 @@ export class Export implements Tool {
           this.#output.textContent = `Could not be saved: ${error instanceof Error ? error.message : String(error)}.`;
         }
         button.disabled = false;
-      })();
+      };
+      this.#bench.whenFinal(() => void run(), false);
     });
   }
 
@@ -96,6 +97,7 @@ export class Export implements Tool {
       radius: visibility.radius,
       exponent: visibility.exponent,
       inversion: visibility.inversion,
+      looks: question.method.looks,
     };
     yield JSON.stringify(head).slice(0, -1);
     yield ',"indices":[';
@@ -135,5 +137,6 @@ function* joined(indices: Uint32Array, separator: string, text: (index: number) 
 }
 
 function seenFrom({ question, visibility }: TimedView): string[] {
-  return [`Seen from ${question.viewpoint.join(" ")}`, `Radius ${visibility.radius}`];
+  const { looks } = question.method;
+  return [`Seen from ${question.viewpoint.join(" ")}`, looks > 0 ? `${looks} looks` : `Radius ${visibility.radius}`];
 }

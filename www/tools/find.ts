@@ -1,4 +1,4 @@
-import { MOST_PIXELS } from "../view/points.ts";
+import { MOST_PIXELS } from "../view/point-shaders.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { Area } from "./area.ts";
 import { Projection } from "./projection.ts";

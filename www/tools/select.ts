@@ -31,12 +31,14 @@ export class Select implements Tool {
         this.#draw(this.#line(path));
       },
       end: (path, event) => {
-        this.#draw([]);
-        const found =
-          path.length > 1 ? pointsWithin(bench.viewer, this.#line(path), bench.through()) : new Uint32Array();
-        this.#choose(
-          event.shiftKey ? joined(this.#chosen, found) : event.altKey ? without(this.#chosen, found) : found,
-        );
+        bench.whenFinal(() => {
+          this.#draw([]);
+          const found =
+            path.length > 1 ? pointsWithin(bench.viewer, this.#line(path), bench.through()) : new Uint32Array();
+          this.#choose(
+            event.shiftKey ? joined(this.#chosen, found) : event.altKey ? without(this.#chosen, found) : found,
+          );
+        });
       },
     });
     this.#remove.addEventListener("click", () => {
@@ -44,8 +46,10 @@ export class Select implements Tool {
       byId("view").focus();
     });
     byId("select-all").addEventListener("click", () => {
-      const { width, height } = bench.viewer.stage.size;
-      this.#choose(pointsWithin(bench.viewer, box({ x: 0, y: 0 }, { x: width + 1, y: height + 1 }), bench.through()));
+      bench.whenFinal(() => {
+        const { width, height } = bench.viewer.stage.size;
+        this.#choose(pointsWithin(bench.viewer, box({ x: 0, y: 0 }, { x: width + 1, y: height + 1 }), bench.through()));
+      });
     });
   }
 

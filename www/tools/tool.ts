@@ -8,6 +8,8 @@ export interface Bench {
   marks: Marks;
   /** Whether hidden points count as well. */
   through: () => boolean;
+  /** Runs something when the picture is final; see `Patience`. */
+  whenFinal: (run: () => void, here?: boolean) => void;
 }
 
 /** One tool of the bar. Its button is #tool-NAME, its words and controls are in #NAME-card. */

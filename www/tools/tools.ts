@@ -8,24 +8,37 @@ import { bindKeysSheet } from "./keys.ts";
 import { Label } from "./label.ts";
 import { Marks } from "./marks.ts";
 import { Measure } from "./measure.ts";
+import { Patience } from "./patience.ts";
 import { Pick } from "./pick.ts";
+import type { Spot } from "./find.ts";
 import { onClick, TOLERANCE } from "./pointer.ts";
 import { Select } from "./select.ts";
 import type { Bench, Tool } from "./tool.ts";
 
 /** The bar over the cloud. At most one of its tools is active. The active tool receives the clicks or the drags. */
 export class Tools {
+  readonly #viewer: Viewer;
   readonly #tools: Tool[];
   readonly #marks: Marks;
   readonly #stage = byId("stage");
   readonly #canvas = byId("view", HTMLCanvasElement);
   readonly #through = byId("through", HTMLInputElement);
   readonly #compare: Compare;
+  readonly #patience: Patience;
   #active: Tool | null = null;
 
   constructor(viewer: Viewer, store: Store, actions: ExportActions, introduce: boolean) {
+    this.#viewer = viewer;
     this.#marks = new Marks(document.querySelector<SVGSVGElement>("#marks")!, viewer);
-    const bench: Bench = { viewer, marks: this.#marks, through: () => this.#through.checked };
+    this.#patience = new Patience(viewer);
+    const bench: Bench = {
+      viewer,
+      marks: this.#marks,
+      through: () => this.#through.checked,
+      whenFinal: (run, here) => {
+        this.#patience.whenFinal(run, here);
+      },
+    };
     const select: Select = new Select(bench, this.#canvas, () => this.#active === select);
     const exports = new Export(bench, () => select.indices, actions);
     select.onChange = () => {
@@ -38,7 +51,7 @@ export class Tools {
       });
     }
     onClick(this.#canvas, (spot) => {
-      if (viewer.cloud) this.#active?.click?.(spot);
+      this.#click(spot);
     });
     this.#compare = new Compare(viewer, store, introduce);
     bindKeysSheet();
@@ -53,6 +66,7 @@ export class Tools {
 
   /** Called before another cloud is shown. */
   clear(): void {
+    this.#patience.clear();
     for (const tool of this.#tools) tool.clear?.();
     this.#compare.drop();
   }
@@ -65,8 +79,18 @@ export class Tools {
 
   /** Called every frame. */
   place(): void {
+    this.#patience.follow();
     this.#marks.place();
     this.#compare.place();
+  }
+
+  /** Lets the active tool use a click, as soon as it is certain which points are visible. */
+  #click(spot: Spot): void {
+    const tool = this.#active;
+    if (!this.#viewer.cloud || !tool?.click) return;
+    this.#patience.whenFinal(() => {
+      if (tool === this.#active) tool.click!(spot);
+    });
   }
 
   #toggle(tool: Tool): void {
@@ -101,7 +125,7 @@ export class Tools {
         // Otherwise the same press would submit the form that has just got the focus.
         event.preventDefault();
         const { width, height } = viewer.stage.size;
-        this.#active?.click?.({ x: width / 2, y: height / 2, tolerance: TOLERANCE });
+        this.#click({ x: width / 2, y: height / 2, tolerance: TOLERANCE });
       }
     });
     this.#stage.addEventListener("keydown", (event) => {

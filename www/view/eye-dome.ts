@@ -35,13 +35,15 @@ const vertexShader = /* glsl */ `
 `;
 
 const fragmentShader = /* glsl */ `
-  uniform sampler2D colors;
-  uniform highp sampler2D depths;
+  uniform sampler2D colors, allColors;
+  uniform highp sampler2D depths, allDepths;
   uniform vec2 planes;
   uniform vec3 background;
   uniform float reach, strength, softness;
   uniform float opacity;
   uniform bool layer;
+  /* How opaque all points are where the scene is empty, and up to which pixel from the left they are drawn alone. */
+  uniform float behind, alone;
   out vec4 result;
 
   const vec2 AROUND[8] = vec2[8](
@@ -54,16 +56,8 @@ const fragmentShader = /* glsl */ `
     return log2(near * far / (far - depth * (far - near)));
   }
 
-  void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec3 shaded(sampler2D colors, highp sampler2D depths, ivec2 pixel, float depth) {
     ivec2 last = textureSize(depths, 0) - 1;
-    float depth = texelFetch(depths, pixel, 0).r;
-    gl_FragDepth = depth;
-    if (depth >= 1.0) {
-      if (layer) discard;
-      result = vec4(background, 1.0);
-      return;
-    }
     float own = logDistance(depth);
     float soft = min(1.0, exp2(own) / softness);
     float step = reach * max(1.0, ${WIDE.toFixed(1)} / soft);
@@ -74,16 +68,44 @@ const fragmentShader = /* glsl */ `
       if (other < 1.0) sum += max(0.0, own - logDistance(other));
     }
     float shade = exp(-strength * soft * sum / 8.0);
-    result = vec4(texelFetch(colors, pixel, 0).rgb * mix(0.2, 1.0, shade), opacity);
+    return texelFetch(colors, pixel, 0).rgb * mix(0.2, 1.0, shade);
+  }
+
+  void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    bool isAlone = gl_FragCoord.x < alone;
+    float depth = isAlone ? 1.0 : texelFetch(depths, pixel, 0).r;
+    if (depth < 1.0) {
+      gl_FragDepth = depth;
+      result = vec4(shaded(colors, depths, pixel, depth), opacity);
+      return;
+    }
+    if (layer) discard;
+    depth = isAlone || behind > 0.0 ? texelFetch(allDepths, pixel, 0).r : 1.0;
+    gl_FragDepth = depth;
+    vec3 color = background;
+    if (depth < 1.0) color = mix(color, shaded(allColors, allDepths, pixel, depth), isAlone ? 1.0 : behind);
+    result = vec4(color, 1.0);
   }
 `;
+
+/** All points as any viewer shows them, behind the points of an answer. */
+export interface AllPoints {
+  scene: Scene;
+  /** From 0 to 1, where the answer leaves the picture empty. */
+  opacity: number;
+  /** The share of the picture's width, from its left, in which the answer is not drawn. */
+  alone: number;
+}
 
 export class EyeDome {
   /** The width of a point in the scene's units. */
   pointWidth = 1;
   /** Whether the picture is shaded. It is off if something else shows the shape. */
   enabled = true;
-  readonly #target: WebGLRenderTarget;
+  readonly #target = newTarget();
+  /** The picture of all points, if it is needed. */
+  #allTarget: WebGLRenderTarget | null = null;
   readonly #material: ShaderMaterial;
   readonly #screen = new Scene();
   readonly #cover: Mesh;
@@ -92,11 +114,6 @@ export class EyeDome {
   readonly #planes = new Vector2();
 
   constructor() {
-    this.#target = new WebGLRenderTarget(1, 1, {
-      minFilter: NearestFilter,
-      magFilter: NearestFilter,
-      depthTexture: new DepthTexture(1, 1),
-    });
     this.#material = new ShaderMaterial({
       vertexShader,
       fragmentShader,
@@ -105,6 +122,10 @@ export class EyeDome {
       uniforms: {
         colors: { value: this.#target.texture },
         depths: { value: this.#target.depthTexture },
+        allColors: { value: null },
+        allDepths: { value: null },
+        behind: { value: 0 },
+        alone: { value: 0 },
         planes: { value: this.#planes },
         background: { value: new Color() },
         reach: { value: REACH },
@@ -127,8 +148,20 @@ export class EyeDome {
     this.#material.uniforms["background"]!.value = color;
   }
 
-  /** Draws the shaded scene onto the screen, with its depths, so that more can be drawn among the points. */
-  render(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
+  /**
+   * Draws the shaded scene onto the screen, with its depths, so that more can be drawn among the points. Where the scene
+   * is empty, and in the part of the picture that is theirs alone, `all` shows.
+   */
+  render(renderer: WebGLRenderer, scene: Scene, all: AllPoints, camera: PerspectiveCamera): void {
+    const { uniforms } = this.#material;
+    uniforms["behind"]!.value = all.opacity;
+    uniforms["alone"]!.value = all.alone * renderer.getDrawingBufferSize(this.#size).x;
+    if (all.opacity > 0 || all.alone > 0) {
+      this.#allTarget ??= newTarget();
+      uniforms["allColors"]!.value = this.#allTarget.texture;
+      uniforms["allDepths"]!.value = this.#allTarget.depthTexture;
+      this.#drawInto(this.#allTarget, renderer, all.scene, camera);
+    }
     this.#shade(renderer, scene, camera);
     this.#draw(renderer, null);
   }
@@ -142,24 +175,29 @@ export class EyeDome {
   dispose(): void {
     this.#cover.geometry.dispose();
     this.#material.dispose();
-    this.#target.depthTexture?.dispose();
-    this.#target.dispose();
+    for (const target of [this.#target, this.#allTarget]) {
+      target?.depthTexture?.dispose();
+      target?.dispose();
+    }
   }
 
   #shade(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
-    renderer.getDrawingBufferSize(this.#size);
-    if (this.#target.width !== this.#size.x || this.#target.height !== this.#size.y)
-      this.#target.setSize(this.#size.x, this.#size.y);
-    renderer.setRenderTarget(this.#target);
-    renderer.clear();
-    renderer.render(scene, camera);
-    renderer.setRenderTarget(null);
+    this.#drawInto(this.#target, renderer, scene, camera);
     this.#planes.set(camera.near, camera.far);
     this.#material.uniforms["reach"]!.value = REACH * renderer.getPixelRatio();
     this.#material.uniforms["strength"]!.value = this.enabled ? STRENGTH : 0;
     // At this distance a point is as wide as SOFT_FROM pixels. Nearer points are wider in proportion.
     const pixels = (camera.projectionMatrix.elements[5] * this.#size.y) / 2;
     this.#material.uniforms["softness"]!.value = (this.pointWidth * pixels) / SOFT_FROM;
+  }
+
+  #drawInto(target: WebGLRenderTarget, renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
+    const { x: width, y: height } = renderer.getDrawingBufferSize(this.#size);
+    if (target.width !== width || target.height !== height) target.setSize(width, height);
+    renderer.setRenderTarget(target);
+    renderer.clear();
+    renderer.render(scene, camera);
+    renderer.setRenderTarget(null);
   }
 
   /** Draws onto the screen. `layer`: the opacity of a layer over the picture; `null` begins a new picture. */
@@ -171,4 +209,12 @@ export class EyeDome {
     if (layer === null) renderer.clear();
     renderer.render(this.#screen, this.#camera);
   }
+}
+
+function newTarget(): WebGLRenderTarget {
+  return new WebGLRenderTarget(1, 1, {
+    minFilter: NearestFilter,
+    magFilter: NearestFilter,
+    depthTexture: new DepthTexture(1, 1),
+  });
 }

@@ -11,7 +11,9 @@ import {
 import type { Cloud } from "../cloud/cloud.ts";
 import type { Parts } from "./parts.ts";
 import type { HiddenMode } from "../settings/settings.ts";
-import { type CloudAttributes, display, TINT_SHADER } from "./attributes.ts";
+import { type CloudAttributes, display } from "./attributes.ts";
+import { changeOf } from "./difference.ts";
+import { EVERYWHERE, fragmentShader, vertexShader } from "./point-shaders.ts";
 import type { Theme } from "./theme.ts";
 
 /** The share of a hidden point's own color that the theme's color for hidden points covers. */
@@ -20,45 +22,6 @@ const COVERAGE = 0.7;
 /** Hidden points that are drawn through the visible ones: their opacity, and their greatest width in spacings. */
 export const THROUGH_OPACITY: Record<HiddenMode, number> = { off: 0, dimmed: 0.4, shown: 0.85 };
 const THROUGH_WIDTH = 0.45;
-
-/** The greatest width of a point in device pixels. A wider point would cover the view. */
-export const MOST_PIXELS = 160;
-/** A number of device pixels that is wider than any picture. */
-const EVERYWHERE = 1e9;
-
-const vertexShader = /* glsl */ `
-  ${TINT_SHADER}
-  /* The width of a point in the cloud's units, and the length of a unit at distance 1 in pixels. */
-  uniform float width, pixels;
-  /* The least width of a point in pixels: a smaller one flickers. */
-  uniform float least;
-  uniform vec3 cover;
-  uniform float coverage;
-  varying vec3 tint;
-  varying float size;
-
-  void main() {
-    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-    size = clamp(width * pixels / gl_Position.w, least, ${MOST_PIXELS.toFixed(1)});
-    gl_PointSize = size;
-    // Hidden points have no light of their own.
-    tint = chosenOr(coverage > 0.0 ? mix(ownTint(), cover, coverage) : ownTint() * light());
-  }
-`;
-
-const fragmentShader = /* glsl */ `
-  /* It is drawn between these two distances from the left, in pixels. */
-  uniform vec2 between;
-  varying vec3 tint;
-  varying float size;
-
-  void main() {
-    if (gl_FragCoord.x < between.x || gl_FragCoord.x > between.y) discard;
-    // Below three pixels a disc and a square look alike.
-    if (size > 3.0 && length(gl_PointCoord - 0.5) > 0.5) discard;
-    gl_FragColor = vec4(tint, 1.0);
-  }
-`;
 
 type Draw = Points<BufferGeometry, ShaderMaterial>;
 
@@ -69,6 +32,9 @@ type Draw = Points<BufferGeometry, ShaderMaterial>;
  *      index   [ visible …… | hidden …………… ]
  *                solid ────   ghost ───────
  *
+ * While one answer fades into the next one, the visible points that are new are a draw of their own, `coming`. The points
+ * that are no longer visible are `going`, with their own index.
+ *
  * Beside a reference the draws are the parts of `Parts`: points that both see are drawn everywhere, the others on one side.
  */
 export class CloudPoints {
@@ -78,10 +44,18 @@ export class CloudPoints {
   readonly extra: Draw;
   /** The other differences between our answer and the reference. */
   readonly different = new Group();
+  /** The change from the last answer to this one; see `setFade`. */
+  readonly changing = new Group();
+  /** All points, whatever the answer is, as any viewer shows them. */
+  readonly all: Draw;
+  readonly #coming: Draw;
+  readonly #going: Draw;
   /** Points that only the reference shows; a part of `different`. */
   readonly #missing: Draw;
   readonly #order: BufferAttribute;
   readonly #spacing: number;
+  /** The draws of one order, in that order. */
+  readonly #parts: Draw[];
   readonly #draws: Draw[];
   #theme: Theme;
   #dimmed = false;
@@ -101,10 +75,10 @@ export class CloudPoints {
     this.#order.setUsage(DynamicDrawUsage);
     this.#spacing = roughSpacing(cloud);
 
-    const draw = (coverage: number) => {
+    const draw = (coverage: number, order: BufferAttribute | null = this.#order) => {
       const geometry = new BufferGeometry();
       attributes.addTo(geometry);
-      geometry.setIndex(this.#order);
+      geometry.setIndex(order);
       const material = new ShaderMaterial({
         vertexShader,
         fragmentShader,
@@ -116,6 +90,7 @@ export class CloudPoints {
           cover: { value: new Color() },
           coverage: { value: coverage },
           between: { value: new Vector2(0, EVERYWHERE) },
+          share: { value: new Vector2(0, 1) },
         },
       });
       const points = new Points(geometry, material);
@@ -129,7 +104,13 @@ export class CloudPoints {
     const [missing, outside] = [this.#missing, draw(0)];
     this.different.add(missing, outside);
     this.extra.visible = this.different.visible = false;
-    this.#draws = [this.solid, this.extra, missing, outside, this.ghost];
+    this.#parts = [this.solid, this.extra, missing, outside, this.ghost];
+    this.all = draw(0, null);
+    this.#coming = draw(0);
+    this.#going = draw(0, new BufferAttribute(new Uint32Array(), 1));
+    this.changing.add(this.#coming, this.#going);
+    this.changing.visible = false;
+    this.#draws = [...this.#parts, this.all, this.#coming, this.#going];
     for (const each of this.#draws) {
       each.onBeforeRender = (renderer, _scene, camera) => {
         const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
@@ -146,16 +127,43 @@ export class CloudPoints {
     this.show("off", false);
   }
 
-  /** The answer for a viewpoint: ascending indices of the visible points. */
-  setVisible(indices: Uint32Array): void {
+  /**
+   * The answer for a viewpoint: ascending indices of the visible points. `fades`: the picture changes into it bit by
+   * bit, as `setFade` says.
+   */
+  setVisible(indices: Uint32Array, fades = false): void {
+    const before = this.#visible;
     this.#visible = indices;
     this.#order.clearUpdateRanges();
-    (this.#order.array as Uint32Array).set(indices);
+    const order = this.#order.array as Uint32Array;
+    let kept = indices.length;
+    if (fades) {
+      const change = changeOf(before, indices, order);
+      kept = change.kept;
+      this.#coming.geometry.setDrawRange(kept, indices.length - kept);
+      this.#going.geometry.setIndex(new BufferAttribute(change.going, 1));
+    } else {
+      order.set(indices);
+    }
+    this.changing.visible = fades;
+    this.setFade(0);
     this.#upload(0, indices.length);
     this.extra.visible = this.different.visible = false;
     this.#setRanges([indices.length, indices.length, indices.length, indices.length]);
+    this.solid.geometry.setDrawRange(0, kept);
     this.#hiddenListed = false;
     if (this.ghost.visible) this.#listHidden();
+  }
+
+  /** How much of the change from the last answer is done, from 0 to 1: this share of the points has changed already. */
+  setFade(done: number): void {
+    if (!this.changing.visible) return;
+    (this.#coming.material.uniforms["share"]!.value as Vector2).set(0, done);
+    (this.#going.material.uniforms["share"]!.value as Vector2).set(done, 1);
+    if (done < 1) return;
+    this.changing.visible = false;
+    this.#going.geometry.setIndex(new BufferAttribute(new Uint32Array(), 1));
+    this.solid.geometry.setDrawRange(0, this.#visible.length);
   }
 
   #listHidden(): void {
@@ -187,6 +195,7 @@ export class CloudPoints {
     this.#hiddenListed = true;
     this.#fill = fill;
     this.extra.visible = this.different.visible = true;
+    this.changing.visible = false;
     this.#setRanges(ends);
   }
 
@@ -222,7 +231,7 @@ export class CloudPoints {
   #setRanges(ends: readonly number[]): void {
     let from = 0;
     [...ends, this.#order.count].forEach((end, i) => {
-      this.#draws[i]!.geometry.setDrawRange(from, end - from);
+      this.#parts[i]!.geometry.setDrawRange(from, end - from);
       from = end;
     });
   }

@@ -1,6 +1,6 @@
 import { PerspectiveCamera, Scene, Vector2, WebGLRenderer } from "three";
 import { display } from "./attributes.ts";
-import { EyeDome } from "./eye-dome.ts";
+import { type AllPoints, EyeDome } from "./eye-dome.ts";
 import { type Theme, THEMES } from "./theme.ts";
 
 /** The canvas: one camera, the shaded points, points drawn through them, and an overlay among them without shading. */
@@ -8,6 +8,7 @@ export class Stage {
   readonly camera = new PerspectiveCamera(45, 1, 0.01, 100);
   readonly points = new Scene();
   readonly through = new Scene();
+  readonly #all: AllPoints = { scene: new Scene(), opacity: 0, alone: 0 };
   readonly overlay = new Scene();
   /** Called before each frame, even if that frame need not be drawn. */
   onFrame: () => void = () => undefined;
@@ -90,6 +91,19 @@ export class Stage {
     this.invalidate();
   }
 
+  /** The scene of all points; see `setAll`. */
+  get all(): Scene {
+    return this.#all.scene;
+  }
+
+  /** Draws all points where the answer leaves the picture empty, and alone in a share of its width from the left. */
+  setAll(part: Partial<Pick<AllPoints, "opacity" | "alone">>): void {
+    const { opacity, alone } = { ...this.#all, ...part };
+    if (opacity === this.#all.opacity && alone === this.#all.alone) return;
+    Object.assign(this.#all, { opacity, alone });
+    this.invalidate();
+  }
+
   /** The opacity of points that are drawn through the others. */
   setThroughOpacity(opacity: number): void {
     this.#throughOpacity = opacity;
@@ -161,7 +175,7 @@ export class Stage {
     Object.assign(this.camera, clipping(this.camera.position.length(), this.#extent));
     this.camera.updateProjectionMatrix();
 
-    this.#eyeDome.render(this.#renderer, this.points, this.camera);
+    this.#eyeDome.render(this.#renderer, this.points, this.#all, this.camera);
     if (this.through.children.some((child) => child.visible)) {
       this.#eyeDome.renderOver(this.#renderer, this.through, this.camera, this.#throughOpacity);
     }

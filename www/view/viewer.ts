@@ -8,6 +8,7 @@ import type { KnownSurface } from "../samples/samples.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import type { Store } from "../settings/store.ts";
 import { CloudAttributes } from "./attributes.ts";
+import { Change } from "./change.ts";
 import { colorBy, type Legend } from "./colors.ts";
 import { type Home, inFile, inLocal } from "./framing.ts";
 import { ViewpointMarker } from "./marker.ts";
@@ -34,6 +35,7 @@ export interface Opened {
 type Shown = Opened & {
   attributes: CloudAttributes;
   points: CloudPoints;
+  change: Change;
   mesh: Surface;
   /** The direction of the frozen viewpoint. */
   frozen: Quaternion | null;
@@ -60,6 +62,7 @@ export class Viewer {
   #theme = THEMES.dark;
   #lit = false;
   #surfaceShown = false;
+  #isFinal = false;
   /** Whether the picture shows our answer beside a reference. */
   #compared = false;
 
@@ -131,8 +134,8 @@ export class Viewer {
     if (!this.#shown) return;
     this.#shown.inquiry.dispose();
     const { points, mesh } = this.#shown;
-    for (const drawn of [points.solid, points.different, points.extra, points.ghost, mesh.mesh])
-      drawn.removeFromParent();
+    const { solid, different, changing, extra, ghost, all } = points;
+    for (const drawn of [solid, different, changing, extra, ghost, all, mesh.mesh]) drawn.removeFromParent();
     points.dispose();
     mesh.dispose();
     this.#shown = null;
@@ -154,7 +157,8 @@ export class Viewer {
     const attributes = new CloudAttributes(cloud, this.#theme);
     const points = new CloudPoints(cloud, attributes, this.#theme);
     const mesh = new Surface(attributes, this.#theme);
-    this.#shown = { ...opened, attributes, points, mesh, frozen: null };
+    const change = new Change(this.stage, points);
+    this.#shown = { ...opened, attributes, points, change, mesh, frozen: null };
     inquiry.onView = (next) => {
       this.#showAnswer(next);
       this.onAnswer(next, cloud.count);
@@ -173,7 +177,8 @@ export class Viewer {
     };
     this.#lit = false;
     this.onLight(null);
-    this.stage.points.add(points.solid, points.different, mesh.mesh);
+    this.stage.points.add(points.solid, points.different, points.changing, mesh.mesh);
+    this.stage.all.add(points.all);
     this.navigation.setHome(home.pose);
     this.#applyLook(this.#store.current);
     this.#placeMarker(this.#store.current.freeze);
@@ -241,17 +246,27 @@ export class Viewer {
 
   #inquire(): void {
     if (!this.#shown) return;
-    const { inquiry } = this.#shown;
+    const { inquiry, change, cloud } = this.#shown;
     const settings = this.#store.current;
-    inquiry.follow(settings.freeze ?? this.viewpoint, settings);
-    this.onBusy(inquiry.busy);
+    const viewpoint = settings.freeze ?? this.viewpoint;
+    inquiry.follow(viewpoint, settings);
+    // A surface closes the picture itself.
+    change.follow(this.#surfaceShown || isSamePlace(this.#shown.answer.question.viewpoint, viewpoint, cloud.radius));
+    this.#isFinal = !inquiry.busy && change.isOver;
+    this.onBusy(!this.#isFinal);
+  }
+
+  /** Whether the picture is the final answer for the present camera and settings. */
+  get isFinal(): boolean {
+    return this.#isFinal;
   }
 
   #showAnswer(answer: TimedView): void {
-    const { visibility, triangles } = answer;
-    const { points, mesh } = this.#shown!;
+    const { visibility, triangles, question } = answer;
+    const { change, mesh, cloud, answer: before } = this.#shown!;
     this.#shown!.answer = answer;
-    if (!this.#compared) points.setVisible(visibility.indices);
+    const fades = answer !== before && isSamePlace(question.viewpoint, before.question.viewpoint, cloud.radius);
+    if (!this.#compared) change.show(visibility.indices, fades);
     mesh.setTriangles(triangles);
     this.#setShape();
   }
@@ -262,6 +277,7 @@ export class Viewer {
     this.#surfaceShown = answer.triangles !== null && !this.#compared;
     mesh.mesh.visible = this.#surfaceShown;
     points.solid.visible = !this.#surfaceShown;
+    if (this.#surfaceShown) points.changing.visible = false;
     this.#setShading();
   }
 
@@ -290,8 +306,9 @@ export class Viewer {
   #applyLook({ hidden: chosen, freeze, compare, size, fieldOfView }: Settings): void {
     const { points } = this.#shown!;
     const frozen = freeze !== null;
-    const hidden = compare === null ? chosen : this.#compared ? "off" : "shown";
+    const hidden = compare === null ? chosen : "off";
     points.show(hidden, frozen, compare ?? 1);
+    this.stage.setAll({ alone: compare === null || this.#compared ? 0 : compare });
     (frozen ? this.stage.points : this.stage.through).add(points.ghost, points.extra);
     this.stage.setThroughOpacity(this.#compared ? 1 : THROUGH_OPACITY[hidden]);
     this.stage.setPointWidth(points.setPointSize(size));

@@ -1,0 +1,22 @@
+import { byId } from "../controls/dom.ts";
+import { canLook, type Looks } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
+
+const NOTES: Record<Looks, string> = {
+  0: "The operator of the paper.",
+  2: "Two hulls, each trusted where it is sure: fewer errors at silhouettes. One hull while the camera moves.",
+  3: "Three hulls, each trusted where it is sure: fewer errors at silhouettes. One hull while the camera moves.",
+};
+
+/** Explains the choice of looks, and says when there is none. */
+export function explainLooks(store: Store): void {
+  const group = byId("looks", HTMLFieldSetElement);
+  const note = byId("looks-note");
+  store.follow((now) => {
+    const possible = canLook(now) && now.show === "points";
+    group.disabled = !possible;
+    note.textContent = possible
+      ? NOTES[now.looks]
+      : "Looks need the automatic radius, the spherical method, and points instead of a surface.";
+  });
+}

@@ -1,0 +1,49 @@
+import { TINT_SHADER } from "./attributes.ts";
+
+/** The greatest width of a point in device pixels. A wider point would cover the view. */
+export const MOST_PIXELS = 160;
+/** A number of device pixels that is wider than any picture. */
+export const EVERYWHERE = 1e9;
+
+export const vertexShader = /* glsl */ `
+  ${TINT_SHADER}
+  /* The width of a point in the cloud's units, and the length of a unit at distance 1 in pixels. */
+  uniform float width, pixels;
+  /* The least width of a point in pixels: a smaller one flickers. */
+  uniform float least;
+  uniform vec3 cover;
+  uniform float coverage;
+  /* Of all points, an even share from x to y is drawn. */
+  uniform vec2 share;
+  varying vec3 tint;
+  varying float size;
+
+  void main() {
+    // The golden ratio spreads neighbors in the file evenly over the numbers from 0 to 1.
+    float lot = float((uint(gl_VertexID) * 2654435769u) >> 8u) / 16777216.0;
+    if (lot < share.x || lot >= share.y) {
+      gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+      gl_PointSize = 0.0;
+      return;
+    }
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+    size = clamp(width * pixels / gl_Position.w, least, ${MOST_PIXELS.toFixed(1)});
+    gl_PointSize = size;
+    // Hidden points have no light of their own.
+    tint = chosenOr(coverage > 0.0 ? mix(ownTint(), cover, coverage) : ownTint() * light());
+  }
+`;
+
+export const fragmentShader = /* glsl */ `
+  /* It is drawn between these two distances from the left, in pixels. */
+  uniform vec2 between;
+  varying vec3 tint;
+  varying float size;
+
+  void main() {
+    if (gl_FragCoord.x < between.x || gl_FragCoord.x > between.y) discard;
+    // Below three pixels a disc and a square look alike.
+    if (size > 3.0 && length(gl_PointCoord - 0.5) > 0.5) discard;
+    gl_FragColor = vec4(tint, 1.0);
+  }
+`;
