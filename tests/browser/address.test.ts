@@ -60,7 +60,7 @@ test("?src opens a file from the web", async () => {
   expect(now.total).toBe(700);
   expect(now.viewpoint).toEqual([0, 0, 9]);
   expect(now).toMatchObject(await answerInNode(positions, now));
-  expect(await page.locator("#sample option:checked").textContent()).toBe("ball.ply");
+  expect(await page.locator("#own").textContent()).toBe("ball.ply");
 });
 
 test("a plain sentence names each parameter of the address that cannot be met", async () => {
@@ -90,6 +90,14 @@ test.for([
   const { state, total, visible, viewpoint } = usual;
   expect(await settled(page)).toMatchObject({ state, total, visible, viewpoint });
   expect(await page.locator("#message").textContent()).toMatch(note);
+});
+
+test("if the exponent cannot be used and a radius is given, the radius is used, and the message says so", async () => {
+  const page = await openReady("?sample=dragon_res4&exponent=abc&radius=9");
+  expect(await settled(page)).toMatchObject({ answer: "operator", radius: 9 });
+  expect(await page.locator("#message p").textContent()).toBe(
+    "The exponent in the address is not a number from 0 to 6, so the radius is used.",
+  );
 });
 
 test("a target out of reach is refused with a note, and the address keeps no invalid numbers", async () => {

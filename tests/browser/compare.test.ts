@@ -16,6 +16,7 @@ import { ball, binaryPly, text } from "./clouds.js";
 import { choose } from "./files.js";
 import {
   drag,
+  dragonPositions,
   EVERY_PIXEL,
   inNode,
   middleOf,
@@ -303,6 +304,34 @@ test("compared with the true surface: false positives and negatives, in color, f
   expect(await differentPixels(page, colored, await picture(page))).toBeGreaterThan(300);
 });
 
+test("compared with the true surface, looks stand beside the one hull, with the errors of both", async () => {
+  const page = await openReady("?sample=dragon_res4&compare=0.2&against=surface", SMALL);
+  const now = await upToDate(page);
+  expect(now).toMatchObject({ answer: "looks", radius: 0, exponent: 0, evaluations: 0 });
+  const { counts } = await figures(page);
+  const [looks, hull] = await inNode(dragonPositions("_res4"), (cloud) => [
+    cloud.visibleFrom(now.viewpoint, { looks: 3 }).count,
+    cloud.visibleFrom(now.viewpoint).count,
+  ]);
+  const [truth, ours, wrong, missed, hullWrong, hullMissed] = counts as [
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+  ];
+  expect(ours).toBe(looks);
+  expect(ours - wrong).toBe(truth - missed);
+  expect(hull - hullWrong).toBe(truth - hullMissed);
+  // The reason for looks: fewer errors.
+  expect(wrong + missed).toBeLessThan(hullWrong + hullMissed);
+  expect(await page.locator("#compare-figures tr").nth(1).innerText()).toMatch(/^3 looks\s/);
+  expect(await page.locator("#compare-result").textContent()).toMatch(
+    /together [\d.]+\s% are wrong, with one hull [\d.]+\s%\.$/,
+  );
+});
+
 test("tracing can be stopped and taken up again", async () => {
   const page = await openReady("?sample=dragon_res4", SMALL);
   let release = () => {};
@@ -323,7 +352,7 @@ test("tracing can be stopped and taken up again", async () => {
 
 test("if no surface is known, the choice is disabled and says why", async () => {
   served.set("clouds/ball.ply", binaryPly(ball(300), "float", true));
-  const page = await openReady("?src=clouds/ball.ply&compare=0.5&against=surface", SMALL);
+  const page = await openReady("?src=clouds/ball.ply&compare=0.5&against=surface&looks=0", SMALL);
   expect(await page.locator("#message p").textContent()).toBe(
     "There is no true surface to compare with, so the comparison is with all points. It is known of samples, and of PLY and OBJ meshes that are shown whole.",
   );
@@ -347,7 +376,7 @@ test("if no surface is known, the choice is disabled and says why", async () => 
     ...cells.map((cell) => `f ${cell.map((corner) => corner + 1).join(" ")}`),
   ];
   await choose(page, "own.obj", text(obj.join("\n")));
-  await expect.poll(() => page.locator("#sample option:checked").textContent()).toBe("own.obj");
+  await expect.poll(() => page.locator("#own").textContent()).toBe("own.obj");
   await expect.poll(async () => (await figures(page)).counts).toEqual((await bunnyTruth(await upToDate(page))).counts);
   expect((await figures(page)).of).toBe(samples.of);
 
@@ -387,7 +416,7 @@ test("by keys alone: choose, move the divider, leave; and the card fits its plac
   await page.locator("#divider").focus();
   await page.keyboard.press("ArrowRight");
   // In a window of another shape the camera has another place, so rays are traced again.
-  await expect.poll(() => page.locator("#divider").getAttribute("aria-valuetext")).toMatch(/on the left 44 %, HPR/);
+  await expect.poll(() => page.locator("#divider").getAttribute("aria-valuetext")).toMatch(/on the left 44 %, 3 looks/);
   await tool(page, "Compare").click();
   expect(await page.locator("#compare-card").isVisible()).toBe(false);
 });

@@ -4,7 +4,7 @@ import { blocks, promised } from "../package/snippets.js";
 import { asciiPly, ball } from "./clouds.js";
 import { servePage, type Site } from "./site.js";
 import { element, openStranger, settledState } from "./stranger.js";
-import { inNode, openPage, served } from "./support.js";
+import { inNode, openPage, provoke, reached, served, status } from "./support.js";
 
 const SCAN = "https://example.org/viewer/";
 const [simple, styled, framed] = blocks("docs/EMBED.md", "html");
@@ -105,4 +105,16 @@ test("the keys work in the frame, and the page around still scrolls", async () =
   await expect.poll(viewpoint).not.toBe(zoomed);
   await expect.poll(() => frame.getByRole("status").textContent()).toMatch(/of 900 points/);
   expect(await frame.getByRole("link", { name: "Whole page" }).isVisible()).toBe(true);
+});
+
+test("a frame whose file cannot be opened shows only the error, and no sample instead", async () => {
+  provoke(/404/);
+  const page = await openPage("?src=clouds/missing.ply&embed=1");
+  const { sentence, total } = await reached(page, "error");
+  expect(sentence).toMatch(/missing\.ply could not be downloaded/);
+  expect(await page.locator("#message p").textContent()).toBe(sentence);
+  await page.waitForTimeout(500);
+  expect(total).toBeUndefined();
+  expect(await status(page)).toMatchObject({ state: "error", sentence });
+  expect((await status(page)).total).toBeUndefined();
 });

@@ -37,7 +37,7 @@ export async function openInTurn(
       total: positions.length / 3,
       ...(await answerInNode(positions, now)),
     });
-    expect(await page.locator("#sample option:checked").textContent()).toBe(name);
+    expect(await page.locator("#own").textContent()).toBe(name);
     expect(await page.locator("#message").isVisible(), name).toBe(false);
   }
 }

@@ -290,3 +290,24 @@ test("damaged points are refused, or a message says that they lie outside the bo
     expect(await answered(page, before)).toMatchObject({ state: "ready", total: COUNT });
   }
 });
+
+test("the file chooser offers every ending that the page reads", async () => {
+  const page = await openReady("?sample=bunny");
+  const offered = (await page.locator("#file").getAttribute("accept"))!.split(",");
+  expect(offered).toEqual(
+    expect.arrayContaining([
+      ".las",
+      ".laz",
+      ".ply",
+      ".pcd",
+      ".xyz",
+      ".txt",
+      ".csv",
+      ".pts",
+      ".asc",
+      ".obj",
+      ".gltf",
+      ".glb",
+    ]),
+  );
+});

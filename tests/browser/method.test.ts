@@ -29,7 +29,7 @@ async function expected({ viewpoint }: Status, options: VisibilityOptions) {
 test("the radius follows any of the rules, and by hand it stays fixed", async () => {
   const page = await openReady(SAMPLE);
   for (const rule of ["search", "opposite", "auto"] as const) {
-    const name = { search: "Search", opposite: "Opposite", auto: "Automatic" }[rule];
+    const name = { search: "Best of 6", opposite: "Paper’s rule", auto: "Automatic" }[rule];
     await page.getByRole("button", { name }).click();
     const now = await upToDate(page);
     expect(now).toMatchObject(await expected(now, { radius: rule }));
@@ -89,7 +89,7 @@ test("a radius in the cloud's units is used as it is; if it is too small, a mess
 
 test("exponential flipping has its own parameter and no radius", async () => {
   const page = await openReady(SAMPLE);
-  await unfold(page, "Flip and viewpoints");
+  await unfold(page, "Method and viewpoints");
   await page.getByRole("radio", { name: "Exponential" }).check();
   const now = await upToDate(page);
   const automatic = await inNode(positions, (cloud) =>
@@ -99,7 +99,7 @@ test("exponential flipping has its own parameter and no radius", async () => {
   const { exponential } = automatic.inversion as { exponential: number };
   expect(now.inversion).toBe(`exponential:${exponential}`);
   // Rules that would be refused cannot be chosen.
-  for (const name of ["Search", "By hand"]) expect(await page.getByRole("button", { name }).isDisabled()).toBe(true);
+  for (const name of ["Best of 6", "By hand"]) expect(await page.getByRole("button", { name }).isDisabled()).toBe(true);
   expect(await page.getByLabel("Exponent", { exact: true }).isDisabled()).toBe(true);
 
   // The field holds log₁₀ of c in spacings. The automatic c is 0.07 spacings.
@@ -117,7 +117,7 @@ test("exponential flipping has its own parameter and no radius", async () => {
 test("flipping by a power starts at a value that sees pits as deep as the automatic radius does", async () => {
   const page = await openReady(SAMPLE);
   const { exponent } = await status(page);
-  await unfold(page, "Flip and viewpoints");
+  await unfold(page, "Method and viewpoints");
   await page.getByRole("radio", { name: "Power" }).check();
   const now = await upToDate(page);
   const power = Number(now.inversion.split(":")[1]);
@@ -134,7 +134,7 @@ test("flipping by a power starts at a value that sees pits as deep as the automa
 
 test("several viewpoints give the union, or the points that two of them see", async () => {
   const page = await openReady(SAMPLE);
-  await unfold(page, "Flip and viewpoints");
+  await unfold(page, "Method and viewpoints");
   const one = await status(page);
   const five = (viewpoint: number[]) => [
     viewpoint,

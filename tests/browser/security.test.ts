@@ -107,7 +107,7 @@ test.for([
   const before = await added(page);
   await choose(page, `${name!}.xyz`, POINTS);
   await expect.poll(async () => (await status(page)).total).toBe(60);
-  expect(await page.locator("#sample option:checked").textContent()).toBe(`${name!}.xyz`);
+  expect(await page.locator("#own").textContent()).toBe(`${name!}.xyz`);
   // The message names a file that cannot be read.
   await choose(page, `${name!}.pdf`, Buffer.from("%PDF-1.7\n\u0000"));
   await page.locator("#message").waitFor({ state: "visible" });

@@ -1,6 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { asciiPly } from "./clouds.js";
+import { hold, holdable, release } from "./held.js";
 import {
   brightness,
   differentPixels,
@@ -155,4 +156,16 @@ test("the surface keeps its light while the camera moves, and is lit anew when i
   await page.locator("#view").press("ArrowRight");
   await upToDate(page);
   expect((await brightnessAt(page, 0.6)) / lit).toBeLessThan(0.4);
+});
+
+test("a sign says that a light is being computed", async () => {
+  const page = await openReady("?sample=dragon_res4", {}, holdable);
+  await hold(page);
+  await unfold(page, "Light and shadow");
+  await page.getByRole("button", { name: "Add a light" }).click();
+  await page.locator("#sign-work").waitFor();
+  expect((await status(page)).busy).toBe(1);
+  await release(page);
+  await upToDate(page);
+  expect(await page.locator("#sign-work").isVisible()).toBe(false);
 });

@@ -20,7 +20,7 @@ test("a copied address shows the same cloud, camera and settings again", async (
   await unfold(page, "Light and shadow");
   await page.getByRole("button", { name: "Add a light" }).click();
   await page.getByLabel("Soft edges").fill("0.2");
-  await unfold(page, "Flip and viewpoints");
+  await unfold(page, "Method and viewpoints");
   await page.getByRole("radio", { name: "Exponential" }).check();
   await page.getByRole("radio", { name: "Dimmed" }).check();
   await page.getByLabel("Point size").fill("2");
@@ -54,8 +54,8 @@ test("a copied address shows the same cloud, camera and settings again", async (
 test("the address also restores the rule of the radius, the ring, noise, the frozen viewpoint and the up axis", async () => {
   const page = await openReady("?sample=bunny");
   await page.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).check();
-  await page.getByRole("button", { name: "Search" }).click();
-  await unfold(page, "Flip and viewpoints");
+  await page.getByRole("button", { name: "Best of 6" }).click();
+  await unfold(page, "Method and viewpoints");
   await page.getByRole("radio", { name: "At least 2" }).check();
   await unfold(page, "Noise");
   await page.locator("#denoise").getByRole("radio", { name: "6", exact: true }).check();

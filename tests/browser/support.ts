@@ -170,6 +170,12 @@ export async function settled(page: Page): Promise<Status> {
 /** The status after the picture shows the present settings and camera. */
 export async function upToDate(page: Page): Promise<Status> {
   await page.locator('#status[data-busy="0"]').waitFor({ state: "attached", timeout: 120_000 });
+  // The sentence about the answer may come a little later.
+  await page.waitForFunction(() => {
+    const { dataset, textContent } = document.getElementById("status")!;
+    const count = Number(dataset["visible"]).toLocaleString("en-US");
+    return dataset["busy"] === "0" && (dataset["state"] !== "ready" || textContent.startsWith(count));
+  });
   return status(page);
 }
 

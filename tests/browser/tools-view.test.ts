@@ -31,7 +31,7 @@ async function halves(page: Page, at: number): Promise<[Buffer, Buffer]> {
 }
 
 test("the divider shows all points to its left and visible ones to its right, by mouse and by keys", async () => {
-  const page = await openReady("?sample=dragon_res3");
+  const page = await openReady("?sample=dragon_res3&size=0.4");
   const before = await settled(page);
   const divider = page.getByRole("slider", { name: /^Divider/ });
   expect(await divider.isVisible()).toBe(false);
@@ -99,7 +99,7 @@ test("a message names an invalid divider", async () => {
 });
 
 test("the plot is the visible share of this view at each exponent, and a click chooses one", async () => {
-  const page = await openReady("?sample=dragon_res4");
+  const page = await openReady("?sample=dragon_res4&looks=0");
   const before = await upToDate(page);
   await unfold(page, "Visible share by radius");
   const plot = page.locator("#plot");
@@ -241,6 +241,46 @@ test("?embed=1 has no tools, but both sides of the divider have captions", async
   const note = page.locator("#compare-note span");
   await expect
     .poll(() => note.allTextContents())
-    .toEqual([expect.stringMatching(/^Z-buffer: [\d,]+$/), expect.stringMatching(/^HPR: [\d,]+$/)]);
+    .toEqual([expect.stringMatching(/^Z-buffer: [\d,]+$/), expect.stringMatching(/^3 looks: [\d,]+$/)]);
   for (const side of await note.all()) expect(await side.isVisible()).toBe(true);
+});
+
+test("on a phone, the choices of the comparison stay while another tool is open", async () => {
+  const page = await openReady("?sample=bunny&compare=0.5", PHONE);
+  await tool(page, "Pick").tap();
+  const [choices, card] = await Promise.all([
+    page.locator("#against").boundingBox(),
+    page.locator("#tool-card").boundingBox(),
+  ]);
+  expect(choices!.y).toBeGreaterThanOrEqual(card!.y + card!.height);
+  await page.locator("#against label", { hasText: "Z-buffer" }).tap();
+  await expect.poll(() => page.locator("#compare-note span").first().textContent()).toMatch(/^Z-buffer: /);
+  // The figures come back with the place for them.
+  expect(await page.locator("#compare-figures").isVisible()).toBe(false);
+  await tool(page, "Pick").tap();
+  expect(await page.locator("#compare-figures").isVisible()).toBe(true);
+});
+
+test("a label is measured once, however often the camera moves", async () => {
+  const page = await openBall();
+  await page.evaluate(() => {
+    const counted = globalThis as unknown as { measured: number };
+    counted.measured = 0;
+    // eslint-disable-next-line @typescript-eslint/unbound-method
+    const measure = SVGTextContentElement.prototype.getSubStringLength;
+    SVGTextContentElement.prototype.getSubStringLength = function (from, count) {
+      counted.measured++;
+      return measure.call(this, from, count);
+    };
+  });
+  const measured = () => page.evaluate(() => (globalThis as unknown as { measured: number }).measured);
+  await tool(page, "Label").click();
+  await page.locator("#view").press("Enter");
+  await page.getByLabel("Text of the label").fill("Chimney");
+  await page.keyboard.press("Enter");
+  const first = await measured();
+  expect(first).toBeGreaterThan(0);
+  for (let i = 0; i < 4; i++) await page.locator("#view").press("ArrowLeft");
+  await upToDate(page);
+  expect(await measured()).toBe(first);
 });

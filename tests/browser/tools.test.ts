@@ -227,3 +227,30 @@ test("marks and the selection do not go to the next cloud", async () => {
   expect(await page.locator("#marks .measure").count()).toBe(0);
   expect(await page.locator("#select-result").getAttribute("data-count")).toBe("0");
 });
+
+test("a lasso around nothing says that it has found nothing", async () => {
+  const page = await openBall();
+  const box = (await page.locator("#view").boundingBox())!;
+  await tool(page, "Select").click();
+  await page.locator("#select-shape label", { hasText: "Box" }).click();
+  await dragBox(page, { left: box.x + 5, top: box.y + 5, right: box.x + 40, bottom: box.y + 40 });
+  expect(await page.locator("#select-result").textContent()).toBe("No visible point in it.");
+  await page.getByLabel("Through the surface").check();
+  await dragBox(page, { left: box.x + 5, top: box.y + 5, right: box.x + 40, bottom: box.y + 40 });
+  expect(await page.locator("#select-result").textContent()).toBe("No point in it.");
+});
+
+test("a double click goes to the point: it gets into the middle of the picture, at half its distance", async () => {
+  const page = await openBall();
+  const before = await status(page);
+  const seen = await visible(page);
+  const [index] = await lonely(page, seen, everything);
+  const { x, y } = await place(page, index!);
+  await page.mouse.dblclick(x, y);
+  await expect.poll(() => new URL(page.url()).searchParams.get("target")).not.toBe(MIDDLE.join());
+  const now = await upToDate(page);
+  const target = new URL(page.url()).searchParams.get("target")!.split(",").map(Number);
+  const far = (a: readonly number[], b: readonly number[]) => Math.hypot(...a.map((value, axis) => value - b[axis]!));
+  expect(far(target, at(index!))).toBeLessThan(1e-3);
+  expect(far(now.viewpoint, at(index!)) / far(before.viewpoint, at(index!))).toBeCloseTo(0.5, 3);
+});

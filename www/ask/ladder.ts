@@ -1,10 +1,10 @@
 import type { Viewpoint } from "../settings/settings.ts";
-import { isSamePlace, isSameView, isSlow, kindOf, stagesOf, type ViewQuestion } from "./question.ts";
+import { isSamePlace, isSameView, isSearched, isSlow, kindOf, stagesOf, type ViewQuestion } from "./question.ts";
 
 /** Below this number of points, one hull takes about as long as a frame, so nobody waits for a draft. */
 const DRAFTS_FROM = 50_000;
 /** After a draft, one hull is asked if the viewpoint has not moved for this number of milliseconds. */
-export const PAUSE = 80;
+export const PAUSE = 40;
 
 /** A question that is due, and whether it is given up as soon as the viewpoint moves on. */
 interface Due {
@@ -91,7 +91,8 @@ export class Ladder {
     if (!last || !this.#isHere(last.viewpoint)) return 0;
     const reached = stages.findIndex((stage) => this.#isSame(stage, last));
     if (reached >= 0) return reached + 1;
-    // Only settings have changed. A draft would show points that the picture no longer has.
+    // Only settings have changed. A draft, or another radius, would show points that the picture no longer has.
+    if (isSearched(this.#wanted!.method)) return stages.length - 1;
     const next = stages.findIndex(({ draft }) => !draft);
     const isKnown = this.#hull !== null && this.#isSame(stages[next]!, this.#hull);
     return isKnown ? Math.min(next + 1, stages.length - 1) : next;

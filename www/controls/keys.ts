@@ -52,6 +52,7 @@ export const SHEET: readonly (readonly [title: string, how: string])[] = [
   ["Orbit", "drag · one finger · {orbit}"],
   ["Pan", "right drag · two fingers · {pan}"],
   ["Zoom", "wheel · pinch · {zoom}"],
+  ["Go to a point", "double click"],
   ["Field of view", "[Alt] + wheel · {lens}"],
   ["Freeze viewpoint", "{freeze}"],
   ["Hidden points", "{hidden}"],

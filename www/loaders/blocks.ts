@@ -8,6 +8,8 @@ export interface Reading {
   limit: number;
   /** The progress from 0 to 1. */
   onProgress: (fraction: number) => void;
+  /** Takes points that have been read, measured from the first one. */
+  onPoints?: (points: Float32Array) => void;
 }
 
 export const BLOCK = 1 << 24;

@@ -1,6 +1,7 @@
 import type { LoadedCloud, Values } from "../cloud/cloud.ts";
 import type { NumberType } from "../../src/ts/formats/numbers.js";
 import { attributesOf } from "./attributes.ts";
+import type { Reading } from "./blocks.ts";
 import { newValues } from "./numbers.ts";
 
 /** A file's values besides positions. Columns with the names red, green and blue become the colors. */
@@ -10,6 +11,10 @@ export interface Column {
 }
 
 const FIRST_CAPACITY = 65_536;
+/** Points are shown while they are read: the first ones, then so many at a time, but not more than the last number. */
+const FIRST_SHOWN = 10_000;
+const NEXT_SHOWN = 150_000;
+const MOST_SHOWN = 4_000_000;
 const number = new Intl.NumberFormat("en-US");
 
 /**
@@ -28,10 +33,20 @@ export class CloudBuilder {
   #step = 1;
   #capacity: number;
   readonly #limit: number;
+  readonly #onPoints: ((points: Float32Array) => void) | undefined;
+  /** How many points have been handed on, and the number at which the next ones are. */
+  #shown = 0;
+  #showAt = FIRST_SHOWN;
   readonly #columns: readonly Column[];
 
-  constructor(precision: "float32" | "float64", columns: readonly Column[], limit: number, expected: number | null) {
+  constructor(
+    precision: "float32" | "float64",
+    columns: readonly Column[],
+    { limit, onPoints }: Pick<Reading, "limit" | "onPoints">,
+    expected: number | null,
+  ) {
     this.#limit = limit;
+    this.#onPoints = onPoints;
     this.#columns = columns;
     if (expected !== null) this.#step = Math.max(1, Math.ceil(expected / limit));
     this.#capacity = Math.min(FIRST_CAPACITY, limit);
@@ -54,6 +69,7 @@ export class CloudBuilder {
     this.#positions[3 * at] = x;
     this.#positions[3 * at + 1] = y;
     this.#positions[3 * at + 2] = z;
+    if (this.#kept >= this.#showAt) this.#show();
     return at;
   }
 
@@ -72,6 +88,17 @@ export class CloudBuilder {
     return { positions, ...attributesOf(columns), notes };
   }
 
+  /** Hands on the points since the last time. Differences are taken in f64, so that f32 holds them. */
+  #show(): void {
+    this.#showAt = this.#kept + NEXT_SHOWN;
+    if (!this.#onPoints || this.#kept > MOST_SHOWN) return;
+    const points = new Float32Array(3 * (this.#kept - this.#shown));
+    const from = 3 * this.#shown;
+    for (let i = 0; i < points.length; i++) points[i] = this.#positions[from + i]! - this.#positions[i % 3]!;
+    this.#shown = this.#kept;
+    this.#onPoints(points);
+  }
+
   #grow(): void {
     this.#capacity = Math.min(2 * this.#capacity, this.#limit);
     this.#positions = grown(this.#positions, 3 * this.#capacity);
@@ -81,6 +108,7 @@ export class CloudBuilder {
   #halve(): void {
     this.#step *= 2;
     this.#kept = Math.ceil(this.#kept / 2);
+    [this.#shown, this.#showAt] = [this.#kept, this.#kept + NEXT_SHOWN];
     for (let i = 0; i < this.#kept; i++) {
       this.#positions.copyWithin(3 * i, 6 * i, 6 * i + 3);
       for (const values of this.values) values[i] = values[2 * i]!;

@@ -44,7 +44,7 @@ interface Placed {
  * the address `base`. If it is null, other files cannot be loaded.
  */
 export async function readGltf(reading: Reading, base: string | null): Promise<LoadedCloud> {
-  const { name, blob, limit } = reading;
+  const { name, blob } = reading;
   checkByteLength(name, blob.size);
   const data = await bytes(name, blob, 0, blob.size);
   checkUse(name, jsonOf(name, data), base);
@@ -57,7 +57,7 @@ export async function readGltf(reading: Reading, base: string | null): Promise<L
     ...(colored ? ["red", "green", "blue"].map((column): Column => ({ name: column, type: "uint8" })) : []),
     ...extras,
   ];
-  const builder = new CloudBuilder("float64", columns, limit, total);
+  const builder = new CloudBuilder("float64", columns, reading, total);
   const first = colored ? 3 : 0;
   const point = new Vector3();
   const shown = { r: 0, g: 0, b: 0 };

@@ -8,12 +8,13 @@ export type { LoadRequest } from "./protocol.ts";
 
 /**
  * Loads a cloud in its own worker. So a large file does not block the page, and its memory is freed when the worker
- * ends.
+ * ends. `onPoints`: takes the points that have been read so far; see `LoadReply`.
  */
 export function loadCloud(
   request: LoadRequest,
   signal: AbortSignal,
   onProgress: (step: string, fraction: number | null) => void,
+  onPoints: (points: Float32Array) => void = () => undefined,
 ): Promise<PreparedCloud> {
   const { worker, end } = startWorker();
   return new Promise<PreparedCloud>((resolve, reject) => {
@@ -22,6 +23,7 @@ export function loadCloud(
     });
     worker.onmessage = ({ data: reply }: MessageEvent<LoadReply>) => {
       if (reply.kind === "progress") onProgress(reply.step, reply.fraction);
+      else if (reply.kind === "points") onPoints(reply.points);
       else if (reply.kind === "cloud") resolve(reply.prepared);
       else reject(new LoadProblem(reply.sentence, reply.nonFinite));
     };

@@ -8,11 +8,11 @@ import { LoadProblem } from "./problem.ts";
 
 /** The vertices of an OBJ file (“v x y z”, in some files with a color after them). Its faces are optional. */
 export async function readObj(reading: Reading, encoding: string): Promise<LoadedCloud> {
-  const { name, limit } = reading;
+  const { name } = reading;
   const builder = new CloudBuilder(
     "float64",
     ["red", "green", "blue"].map((column) => ({ name: column, type: "float32" })),
-    limit,
+    reading,
     null,
   );
   let faces = false;

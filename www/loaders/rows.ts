@@ -16,10 +16,10 @@ export interface Points {
   others: readonly (Column & { field: number })[];
 }
 
-export function builderFor({ limit }: Reading, { group, axes, others }: Points): CloudBuilder {
+export function builderFor(reading: Reading, { group, axes, others }: Points): CloudBuilder {
   // If the type of a field is a four-byte float, it is read as such, even if a text has more digits.
   const single = fitSingle(axes.map((axis) => group.fields[axis]!.type));
-  return new CloudBuilder(single ? "float32" : "float64", others, limit, group.count);
+  return new CloudBuilder(single ? "float32" : "float64", others, reading, group.count);
 }
 
 /** Reads rows in text. `start` is the place of the first line, `firstNumber` its number. */

@@ -1,6 +1,7 @@
 /// <reference lib="webworker" />
 import { type LoadedCloud, prepareCloud } from "../cloud/cloud.ts";
 import { makeSample } from "../samples/generators.ts";
+import { ArrivingPoints } from "./arriving.ts";
 import { download, downloadRanges } from "./download.ts";
 import { MAX_POINTS } from "../settings/limits.ts";
 import { checkedCloud } from "./limits.ts";
@@ -23,6 +24,10 @@ const progress = (step: string, fraction: number | null) => {
   if (step === last.step && now < last.at + EVERY) return;
   last = { step, at: now };
   post({ kind: "progress", step, fraction });
+};
+
+const onPoints = (points: Float32Array) => {
+  post({ kind: "points", points }, [points.buffer]);
 };
 
 self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
@@ -56,7 +61,11 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
     return makeSample(request.shape);
   }
   if (request.kind === "sample") {
-    const data = await (await download(name, request.url, downloading, NOT_KEPT)).arrayBuffer();
+    const arriving = new ArrivingPoints(onPoints);
+    const blob = await download(name, request.url, downloading, NOT_KEPT, (part) => {
+      arriving.take(part);
+    });
+    const data = await blob.arrayBuffer();
     // Some servers answer with a page if they do not have the file.
     if (data.byteLength % 12 !== 0)
       throw new LoadProblem(`${name} could not be downloaded: the server sent something else.`);
@@ -75,7 +84,7 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
     const remote = await downloadRanges(name, request.url, downloading);
     if ("read" in remote) {
       const { readCopc } = await import("./las/copc.ts");
-      return check(await readCopc({ name, limit, onProgress: downloading }, remote.read));
+      return check(await readCopc({ name, limit, onProgress: downloading, onPoints }, remote.read));
     }
     blob = remote.blob;
   } else {
@@ -87,6 +96,9 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
     progress("Reading", fraction);
   };
   return check(
-    await readFile({ name, blob, limit, onProgress }, request.kind === "url" ? new URL(".", request.url).href : null),
+    await readFile(
+      { name, blob, limit, onProgress, onPoints },
+      request.kind === "url" ? new URL(".", request.url).href : null,
+    ),
   );
 }

@@ -29,7 +29,7 @@ export async function readXyz(reading: Reading, encoding: string): Promise<Loade
       if (builder === undefined) {
         others = otherColumns(rows.layout!, sample(some.slice(i, i + LOOK_AT), rows.layout!));
         const columns = others.map((other) => ({ name: other.name, type: "float32" as const }));
-        builder = new CloudBuilder("float64", columns, reading.limit, null);
+        builder = new CloudBuilder("float64", columns, reading, null);
       }
       if (!builder.takes()) continue;
       const at = builder.put(...point.position);

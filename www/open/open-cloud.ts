@@ -1,3 +1,4 @@
+import { init } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 import { Inquiry } from "../ask/inquiry.ts";
 import { WorkerCloud } from "../ask/worker-cloud.ts";
@@ -7,6 +8,7 @@ import type { Sample } from "../samples/samples.ts";
 import type { Settings } from "../settings/settings.ts";
 import { type AskedView, findHome, type Home, inReachOnly } from "../view/framing.ts";
 import type { Opened } from "../view/viewer.ts";
+import type { Previewed } from "../view/waiting-room.ts";
 import { surfaceOf, usableAgainst, usableColor } from "./usable.ts";
 import { usualLook } from "./usual.ts";
 
@@ -31,6 +33,8 @@ export interface Place {
   shared: boolean;
   signal: AbortSignal;
   onProgress: (step: string, fraction: number | null) => void;
+  /** Shows points of the file while it is being read, and then all of its points until the first answer is there. */
+  preview?: { points: (points: Float32Array, up: Up) => void; cloud: (shown: Previewed) => void };
 }
 
 /** A cloud that can be shown, and everything that changes with it. */
@@ -59,10 +63,19 @@ export async function openCloud(
   place: Place,
 ): Promise<Ready> {
   const { signal, onProgress } = place;
-  const { cloud, positions, copy, ...loaded } = await loadCloud(request, signal, (step, fraction) => {
-    onProgress(`${step} ${request.name}.`, fraction);
-  });
-  onProgress(`Finding the visible points of ${request.name}.`, null);
+  // The WebAssembly is downloaded beside the cloud. If that fails, the error is reported when the cloud needs it.
+  init().catch(() => undefined);
+  const { cloud, positions, copy, ...loaded } = await loadCloud(
+    request,
+    signal,
+    (step, fraction) => {
+      onProgress(sentence(step, request.name, fraction), fraction);
+    },
+    (points) => {
+      const up = wished.up ?? usualLook(sample, request.name, 0, undefined).up;
+      if (!signal.aborted) place.preview?.points(points, up);
+    },
+  );
   const usual = usualLook(sample, request.name, cloud.count, loaded.taken?.up);
   const { view, places, notes: farNotes } = inReachOnly(cloud, wanted, wished, place.asked);
   const own: Partial<Settings> = {
@@ -95,13 +108,18 @@ export async function openCloud(
     return findHome(cloud, upward, sameUp ? sample : null, sameUp ? (asked ?? taken) : null, lens);
   };
   const home = homeFrom(view)(up);
+  place.preview?.cloud({ cloud, home, look: { ...usual, ...wished } });
 
   // The worker takes the copy. The page keeps the file's own coordinates for the tools.
   const worker = await WorkerPointCloud.create(copy, {
     signal,
     transfer: true,
     shared: place.shared && cloud.count < SHARED_BELOW,
+    onProgress: (fraction) => {
+      onProgress(sentence("Preparing", request.name, fraction), fraction);
+    },
   });
+  onProgress(`Finding the visible points of ${request.name}.`, null);
   const another = async () => new WorkerCloud(await WorkerPointCloud.create(positions, { workers: 1 }), cloud.center);
   const inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), another, cloud.radius);
   try {
@@ -121,6 +139,10 @@ export async function openCloud(
     inquiry.dispose();
     throw error;
   }
+}
+
+function sentence(step: string, name: string, fraction: number | null): string {
+  return `${step} ${name}${fraction === null ? "" : `: ${Math.floor(100 * fraction)}\u00a0%`}.`;
 }
 
 /** A radius in the units of one cloud has no meaning for the next cloud. Then the automatic radius is used. */

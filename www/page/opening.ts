@@ -2,7 +2,7 @@ import { LoadProblem } from "../loaders/index.ts";
 import { keepForOffline } from "../offline/keep.ts";
 import { openCloud, type Wish } from "../open/open-cloud.ts";
 import { requestForAddress, requestForSample } from "../open/source.ts";
-import { FirstLoad } from "../panel/first-load.ts";
+import { LoadingSign } from "../panel/loading-sign.ts";
 import type { Message } from "../panel/message.ts";
 import type { Panel } from "../panel/panel.ts";
 import { Progress } from "../panel/progress.ts";
@@ -45,10 +45,9 @@ export class Opening {
   /** The view that was asked for. It stays in the address although it is the first view. */
   askedView: AskedView | null = null;
   readonly #parts: Parts;
-  /** The sample that is shown if the first cloud cannot be opened. */
-  readonly #usual: Sample;
+  readonly #usual: Sample | null;
   readonly #picker: SamplePicker;
-  readonly #firstLoad = new FirstLoad();
+  readonly #loadingSign = new LoadingSign();
   readonly #progress = new Progress(() => {
     this.#stop();
   });
@@ -56,7 +55,8 @@ export class Opening {
   /** The cloud that is being loaded. */
   #source: Source | null = null;
 
-  constructor(parts: Parts, usual: Sample) {
+  /** `usual`: the sample that replaces a first cloud that cannot be opened. `null`: only the error is shown. */
+  constructor(parts: Parts, usual: Sample | null) {
     this.#parts = parts;
     this.#usual = usual;
     this.#picker = new SamplePicker((sample) => {
@@ -84,7 +84,8 @@ export class Opening {
   }
 
   #begin(source: Source): void {
-    const { message } = this.#parts;
+    const { message, viewer } = this.#parts;
+    viewer.endPreview();
     if (source.notes.length > 0) message.show(source.notes.join(" "));
     // The sentence about the cloud that could not be opened stays until the user does something else.
     else if (source.insteadOf === undefined) message.hide();
@@ -94,7 +95,7 @@ export class Opening {
 
   #say(sentence: string, { insteadOf }: Source): void {
     if (insteadOf === undefined) this.#parts.status.loading(sentence);
-    this.#firstLoad.say(sentence);
+    this.#loadingSign.say(sentence);
   }
 
   async #show(source: Source, signal: AbortSignal): Promise<void> {
@@ -109,6 +110,14 @@ export class Opening {
       onProgress: (step, fraction) => {
         this.#say(step, source);
         this.#progress.show(fraction);
+      },
+      preview: {
+        points: (points, up) => {
+          viewer.preview(points, up);
+        },
+        cloud: (previewed) => {
+          viewer.previewCloud(previewed);
+        },
       },
     });
     const more = [...ready.refusals, ...ready.notes];
@@ -126,7 +135,6 @@ export class Opening {
     });
     panel.usual = ready.usual;
     address.begin(insteadOf === undefined ? name : null, ready.usual);
-    this.#firstLoad.hide();
     if (insteadOf !== undefined) status.error(insteadOf);
     keepForOffline(request.kind === "sample" ? request.url : null);
     if (sample) this.#picker.showSample(sample);
@@ -136,6 +144,8 @@ export class Opening {
   #end(): void {
     this.#source = null;
     this.#progress.hide();
+    this.#loadingSign.hide();
+    this.#parts.viewer.endPreview();
   }
 
   /** Gives up the cloud that is being loaded; the one on screen stays. */
@@ -154,10 +164,9 @@ export class Opening {
     notices.error(sentence, again ? [{ label: "Load without them", run: () => void this.open(again) }] : []);
     this.#picker.restore();
     address.giveUp();
-    // The page does not stay empty.
-    if (viewer.cloud === null && source.sample !== this.#usual)
+    // The page does not stay empty, but a frame in another page shows what was asked for or nothing.
+    if (viewer.cloud === null && this.#usual && source.sample !== this.#usual)
       void this.open({ ...fromSample(this.#usual), insteadOf: sentence });
-    else this.#firstLoad.hide();
   }
 }
 

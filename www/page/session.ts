@@ -35,7 +35,7 @@ export function startSession(wishes: Wishes, status: Status, message: Message): 
   // A visitor whose address asks for nothing sees the introduction.
   const workshop: Workshop = new Workshop(viewer, store, actions, location.search === "");
   const parts = { viewer, store, panel, address, workshop, status, message, notices };
-  const opening: Opening = new Opening(parts, sampleNamed(wishes.sample));
+  const opening: Opening = new Opening(parts, wishes.embed ? null : sampleNamed(wishes.sample));
   wire({ ...parts, handles, signs: new Signs(store) });
 
   const limit = wishes.points === null ? {} : { limit: wishes.points };
@@ -51,6 +51,7 @@ export function startSession(wishes: Wishes, status: Status, message: Message): 
 
 /** The camera's place for the address. `null` at the first view, unless the address asked for that view. */
 function cameraPlace(viewer: Viewer, asked: AskedView | null): CameraPlace | null {
+  if (!viewer.cloud) return null;
   if (viewer.isHome && viewer.isTargetHome) return asked && { view: asked.at, target: asked.target };
   return { view: viewer.viewpoint, target: viewer.target };
 }

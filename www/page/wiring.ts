@@ -40,7 +40,8 @@ export function wire({
     workshop.place();
   };
   viewer.stage.onCamera = () => {
-    address.touch();
+    // While another cloud is being read, the camera is not where the address says.
+    if (viewer.cloud) address.touch();
   };
   viewer.stage.onLost = () => {
     message.show(

@@ -9,8 +9,8 @@ type Choice = "auto" | "search" | "opposite" | "hand";
 
 const NOTES: Record<Choice, string> = {
   auto: "",
-  search: "Looking back along the same rays: 6 hulls, when the view rests.",
-  opposite: "The paper’s own rule, from the opposite side: some 40 hulls, when the view rests.",
+  search: "The best of 6 hulls, by looking back along the same rays. When the view rests.",
+  opposite: "The paper’s rule, from the opposite side: about 40 hulls. When the view rests.",
   hand: "Exponent: log₁₀ of radius ÷ farthest distance. The mark is the automatic one.",
 };
 
@@ -39,7 +39,7 @@ export class RadiusControl {
       const choice = choiceOf(store);
       for (const button of buttons) button.setAttribute("aria-pressed", String(button.value === choice));
       group.disabled = inversion !== "spherical";
-      note.textContent = inversion === "spherical" ? NOTES[choice] : "Only the spherical flip has a radius.";
+      note.textContent = inversion === "spherical" ? NOTES[choice] : "Only the spherical method has a radius.";
       note.hidden = note.textContent === "";
       if ("exponent" in radius) this.#slider.value = radius.exponent;
     });

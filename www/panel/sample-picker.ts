@@ -9,6 +9,8 @@ export class SamplePicker {
   readonly #select = byId("sample", HTMLSelectElement);
   readonly #credit = byId("credit");
   readonly #thumbnails = byId("thumbnails");
+  /** The name of the user's own file. */
+  readonly #own = byId("own");
   /** The value of the entry that is on screen. */
   #shown: string | null = null;
 
@@ -22,7 +24,7 @@ export class SamplePicker {
       ),
     );
     this.#select.addEventListener("change", () => {
-      // The empty value is the entry of the user's own file, which is on screen already.
+      // The empty value stands for the user's own file, which is on screen already.
       if (this.#select.value !== "") onPick(sampleNamed(this.#select.value));
     });
   }
@@ -43,7 +45,11 @@ export class SamplePicker {
   showOwn(name: string): void {
     void this.#showPictures();
     this.#removeOwn();
-    this.#select.prepend(new Option(name, "", true, true));
+    const none = new Option("Choose a sample", "", true, true);
+    none.hidden = true;
+    this.#select.prepend(none);
+    this.#own.textContent = name;
+    this.#own.hidden = false;
     this.#shown = "";
     this.#mark(null);
     this.#credit.textContent = "";
@@ -71,6 +77,8 @@ export class SamplePicker {
   }
 
   #removeOwn(): void {
+    this.#own.hidden = true;
+    this.#own.textContent = "";
     this.#select.querySelector('option[value=""]')?.remove();
   }
 }

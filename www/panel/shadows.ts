@@ -26,7 +26,7 @@ export function bindShadows(store: Store, viewer: Viewer): void {
     item.append(
       name,
       button("To camera", `To camera: light ${i + 1}; arrow keys move it`, () => {
-        store.change({ lights: store.current.lights.with(i, viewer.viewpoint) });
+        if (viewer.cloud) store.change({ lights: store.current.lights.with(i, viewer.viewpoint) });
       }),
       button("Remove", `Remove light ${i + 1}`, () => {
         remove(i);

@@ -47,11 +47,13 @@ export class Plot {
       this.#curve.follow(current.freeze ?? this.#viewer.viewpoint, current, () => {
         this.#draw();
       });
-    else this.#note.textContent = "Only the spherical flip has a radius.";
+    else this.#note.textContent = "Only the spherical method has a radius.";
   }
 
   /** Shows the radius that an answer was found with. */
   answer({ question, visibility }: TimedView): void {
+    // Looks have no radius. The place of the one hull before them stays.
+    if (question.method.looks > 0) return;
     place(this.#drawing, "now", visibility.exponent);
     if (isAutomatic(question.method)) this.markAutomatic(visibility.exponent);
   }

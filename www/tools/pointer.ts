@@ -22,13 +22,14 @@ export function onClick(canvas: HTMLElement, click: (spot: Spot) => void): void 
       Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > STILL
     )
       return;
-    const { left, top } = canvas.getBoundingClientRect();
-    click({
-      x: event.clientX - left,
-      y: event.clientY - top,
-      tolerance: event.pointerType === "touch" ? TOUCH_TOLERANCE : TOLERANCE,
-    });
+    click(spotOf(canvas, event, event.pointerType === "touch" ? TOUCH_TOLERANCE : TOLERANCE));
   });
+}
+
+/** The place of an event in the picture. */
+export function spotOf(canvas: HTMLElement, { clientX, clientY }: MouseEvent, tolerance = TOLERANCE): Spot {
+  const { left, top } = canvas.getBoundingClientRect();
+  return { x: clientX - left, y: clientY - top, tolerance };
 }
 
 /** While `wanted`, drags on the canvas do not move the camera: the handlers get the path of each drag instead. */

@@ -1,3 +1,4 @@
+import { Vector3 } from "three";
 import { byId } from "../controls/dom.ts";
 import { type Action, isKeyOf, pressed } from "../controls/keys.ts";
 import type { Store } from "../settings/store.ts";
@@ -10,8 +11,8 @@ import { Marks } from "./marks.ts";
 import { Measure } from "./measure.ts";
 import { Patience } from "./patience.ts";
 import { Pick } from "./pick.ts";
-import type { Spot } from "./find.ts";
-import { onClick, TOLERANCE } from "./pointer.ts";
+import { pointAt, type Spot } from "./find.ts";
+import { onClick, spotOf, TOLERANCE } from "./pointer.ts";
 import { Select } from "./select.ts";
 import type { Bench, Tool } from "./tool.ts";
 
@@ -53,6 +54,9 @@ export class Tools {
     onClick(this.#canvas, (spot) => {
       this.#click(spot);
     });
+    this.#canvas.addEventListener("dblclick", (event) => {
+      this.#goTo(spotOf(this.#canvas, event));
+    });
     this.#compare = new Compare(viewer, store, introduce);
     bindKeysSheet();
     byId("tools").hidden = false;
@@ -91,6 +95,14 @@ export class Tools {
     this.#patience.whenFinal(() => {
       if (tool === this.#active) tool.click!(spot);
     });
+  }
+
+  /** Flies to the point at a spot. While a tool uses the clicks, a double click is two of them. */
+  #goTo(spot: Spot): void {
+    const { cloud, navigation } = this.#viewer;
+    if (!cloud || this.#active?.uses === "clicks") return;
+    const index = pointAt(this.#viewer, spot, false);
+    if (index !== null) navigation.goTo(new Vector3().fromArray(cloud.local, 3 * index));
   }
 
   #toggle(tool: Tool): void {

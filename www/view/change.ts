@@ -14,14 +14,16 @@ export class Change {
   readonly #points: CloudPoints;
   readonly #calm = matchMedia("(prefers-reduced-motion: reduce)");
   #fadesSince = -Infinity;
-  #fits = true;
+  #fits: boolean;
   #fitsSince = -Infinity;
   #faded = 1;
   #isOver = true;
 
-  constructor(stage: Stage, points: CloudPoints) {
+  /** `previewed`: all points are on the screen already. They fade, so that the first answer is left. */
+  constructor(stage: Stage, points: CloudPoints, previewed: boolean) {
     this.#stage = stage;
     this.#points = points;
+    this.#fits = !previewed;
   }
 
   /** Whether the picture shows nothing but the last answer. */

@@ -44,6 +44,8 @@ const fragmentShader = /* glsl */ `
   uniform bool layer;
   /* How opaque all points are where the scene is empty, and up to which pixel from the left they are drawn alone. */
   uniform float behind, alone;
+  /* The distance in pixels of the first neighbors that a gap is looked for between. */
+  uniform float gap;
   out vec4 result;
 
   const vec2 AROUND[8] = vec2[8](
@@ -71,10 +73,40 @@ const fragmentShader = /* glsl */ `
     return texelFetch(colors, pixel, 0).rgb * mix(0.2, 1.0, shade);
   }
 
+  /*
+   * An empty pixel between two points of the scene is a gap in a surface, or the seam behind a silhouette. It gets the
+   * place of the farther one of the two. Returns the pixel itself if it is not such a gap.
+   */
+  ivec2 acrossGap(ivec2 pixel) {
+    ivec2 last = textureSize(depths, 0) - 1;
+    ivec2 best = pixel;
+    float farthest = 0.0;
+    for (int i = 0; i < 4; i++) {
+      vec2 ends = vec2(1.0);
+      ivec2 places[2] = ivec2[2](pixel, pixel);
+      for (int side = 0; side < 2; side++) {
+        for (float away = 1.0; away <= 2.0 && ends[side] == 1.0; away++) {
+          places[side] = clamp(pixel + ivec2(round((side == 0 ? gap : -gap) * away * AROUND[i])), ivec2(0), last);
+          ends[side] = texelFetch(depths, places[side], 0).r;
+        }
+      }
+      if (max(ends.x, ends.y) == 1.0) continue;
+      float farther = max(ends.x, ends.y);
+      if (farther <= farthest) continue;
+      farthest = farther;
+      best = places[ends.x > ends.y ? 0 : 1];
+    }
+    return best;
+  }
+
   void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     bool isAlone = gl_FragCoord.x < alone;
     float depth = isAlone ? 1.0 : texelFetch(depths, pixel, 0).r;
+    if (depth >= 1.0 && !isAlone && !layer) {
+      pixel = acrossGap(pixel);
+      depth = texelFetch(depths, pixel, 0).r;
+    }
     if (depth < 1.0) {
       gl_FragDepth = depth;
       result = vec4(shaded(colors, depths, pixel, depth), opacity);
@@ -126,6 +158,7 @@ export class EyeDome {
         allDepths: { value: null },
         behind: { value: 0 },
         alone: { value: 0 },
+        gap: { value: 1 },
         planes: { value: this.#planes },
         background: { value: new Color() },
         reach: { value: REACH },
@@ -185,6 +218,7 @@ export class EyeDome {
     this.#drawInto(this.#target, renderer, scene, camera);
     this.#planes.set(camera.near, camera.far);
     this.#material.uniforms["reach"]!.value = REACH * renderer.getPixelRatio();
+    this.#material.uniforms["gap"]!.value = Math.max(1, renderer.getPixelRatio());
     this.#material.uniforms["strength"]!.value = this.enabled ? STRENGTH : 0;
     // At this distance a point is as wide as SOFT_FROM pixels. Nearer points are wider in proportion.
     const pixels = (camera.projectionMatrix.elements[5] * this.#size.y) / 2;

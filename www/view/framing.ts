@@ -44,7 +44,7 @@ export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: Aske
   if (sample?.eye) return at(sample.eye.at, inLocal(cloud, sample.eye.target));
 
   const from = new Vector3(...(sample?.direction ?? FROM[up])).normalize();
-  const local = from.clone().multiplyScalar(1.03 * fittingDistance(cloud, from, upward, lens));
+  const local = from.clone().multiplyScalar(1.07 * fittingDistance(cloud, from, upward, lens));
   return {
     pose: { at: local, target: new Vector3(), up: upward },
     viewpoint: inFile(cloud, local),
@@ -104,16 +104,18 @@ export function inFile(cloud: Cloud, local: Vector3): Viewpoint {
   return [local.x + cloud.center[0], local.y + cloud.center[1], local.z + cloud.center[2]];
 }
 
-/** The least distance along `from` at which all corners of the bounding box are in the picture. */
-function fittingDistance({ size, radius }: Cloud, from: Vector3, up: Vector3, { fov, aspect }: Lens): number {
+/** The number of points by which a cloud is framed. With fewer of them, a thin part may be missed. */
+const FRAMED = 100_000;
+
+/** The least distance along `from` at which the points are in the picture. Of a large cloud, an even share is looked at. */
+function fittingDistance({ local, count, radius }: Cloud, from: Vector3, up: Vector3, { fov, aspect }: Lens): number {
   const tangent = Math.tan((fov * Math.PI) / 360);
   const right = up.clone().cross(from).normalize();
   const above = from.clone().cross(right);
+  const point = new Vector3();
   let distance = 0.1 * radius;
-  for (let corner = 0; corner < 8; corner++) {
-    const point = new Vector3(
-      ...(size.map((length, axis) => ((corner >> axis) & 1 ? length : -length) / 2) as Viewpoint),
-    );
+  for (let i = 0; i < count; i += Math.ceil(count / FRAMED)) {
+    point.fromArray(local, 3 * i);
     const sideways = Math.max(Math.abs(point.dot(right)) / aspect, Math.abs(point.dot(above))) / tangent;
     distance = Math.max(distance, point.dot(from) + sideways);
   }

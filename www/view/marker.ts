@@ -1,5 +1,27 @@
-import { CameraHelper, Color, type Object3D, PerspectiveCamera, type Quaternion, Vector3 } from "three";
+import {
+  CameraHelper,
+  type LineBasicMaterial,
+  type Object3D,
+  PerspectiveCamera,
+  type Quaternion,
+  ShaderMaterial,
+  Vector3,
+} from "three";
+import { display } from "./attributes.ts";
 import type { Theme } from "./theme.ts";
+
+const vertexShader = /* glsl */ `
+  void main() {
+    gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+  }
+`;
+
+const fragmentShader = /* glsl */ `
+  uniform vec3 color;
+  void main() {
+    gl_FragColor = vec4(color, 1.0);
+  }
+`;
 
 /** Marks the frozen viewpoint: a small camera in the accent color. Its size is a fixed share of the cloud's. */
 export class ViewpointMarker {
@@ -7,7 +29,8 @@ export class ViewpointMarker {
   #helper: CameraHelper | null = null;
   readonly #at = new Vector3();
   #size = 0;
-  #color = new Color();
+  // The page has no shaders of three.js's own materials (build/three-plugin.ts).
+  readonly #material = new ShaderMaterial({ vertexShader, fragmentShader, uniforms: { color: { value: null } } });
 
   constructor(parent: Object3D) {
     this.#parent = parent;
@@ -22,14 +45,14 @@ export class ViewpointMarker {
     this.#at.copy(at);
     this.#size = size;
     this.#helper = new CameraHelper(standing);
+    (this.#helper.material as LineBasicMaterial).dispose();
+    this.#helper.material = this.#material;
     this.#helper.visible = false;
-    this.#paint();
     this.#parent.add(this.#helper);
   }
 
   setTheme({ accent }: Theme): void {
-    this.#color = new Color(accent);
-    this.#paint();
+    this.#material.uniforms["color"]!.value = display(accent);
   }
 
   /** From inside the marker one would see nothing but its lines, so it is hidden there. */
@@ -41,10 +64,5 @@ export class ViewpointMarker {
     this.#helper?.removeFromParent();
     this.#helper?.dispose();
     this.#helper = null;
-  }
-
-  #paint(): void {
-    const color = this.#color;
-    this.#helper?.setColors(color, color, color, color, color);
   }
 }

@@ -20,6 +20,7 @@ export class Navigation {
   /** Whether the wheel and one finger scroll the page around, as long as the picture does not have the focus. */
   readonly #polite: boolean;
   #controls: OrbitControls;
+  #flight: Flight | null = null;
 
   constructor(camera: PerspectiveCamera, canvas: HTMLCanvasElement, polite: boolean) {
     this.#camera = camera;
@@ -42,6 +43,11 @@ export class Navigation {
       },
       { capture: true, passive: false },
     );
+    // The user's own move ends a flight.
+    for (const move of ["pointerdown", "wheel", "keydown"])
+      canvas.addEventListener(move, () => {
+        this.#flight = null;
+      });
     for (const change of ["focus", "blur"])
       canvas.addEventListener(change, () => {
         this.#shareTouch();
@@ -54,7 +60,38 @@ export class Navigation {
   }
 
   dispose(): void {
+    this.#flight = null;
     this.#controls.dispose();
+  }
+
+  /** Flies to a place: it gets into the middle of the picture, at half its distance. The direction stays. */
+  goTo(place: Vector3): void {
+    const { target } = this.#controls;
+    const distance = this.#camera.position.distanceTo(place) / 2;
+    const back = this.#camera.position.clone().sub(target).setLength(distance);
+    const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    const flight: Flight = {
+      from: { at: this.#camera.position.clone(), target: target.clone() },
+      to: { at: place.clone().add(back), target: place.clone() },
+      begun: performance.now() - (calm ? FLIGHT : 0),
+    };
+    this.#flight = flight;
+    const step = () => {
+      if (this.#flight === flight && this.#fly(flight)) requestAnimationFrame(step);
+    };
+    step();
+  }
+
+  /** One step of a flight. Returns whether there is a next one. */
+  #fly({ from, to, begun }: Flight): boolean {
+    const share = Math.min(1, (performance.now() - begun) / FLIGHT);
+    // It begins and ends slowly.
+    const done = share * share * (3 - 2 * share);
+    this.#camera.position.lerpVectors(from.at, to.at, done);
+    this.#controls.target.lerpVectors(from.target, to.target, done);
+    this.#controls.update();
+    this.onMove();
+    return share < 1;
   }
 
   /** The place that the camera looks at. */
@@ -64,6 +101,7 @@ export class Navigation {
 
   /** OrbitControls read the camera's up only when they are made, so each first view gets new ones. */
   #place({ at, target, up }: Pose): OrbitControls {
+    this.#flight = null;
     this.#camera.up.copy(up);
     this.#camera.position.copy(at);
     const controls = new OrbitControls(this.#camera, this.#canvas);
@@ -114,6 +152,15 @@ export class Navigation {
     else this.#controls.rotateUp(sign * ORBIT_STEP);
   }
 }
+
+interface Flight {
+  from: Omit<Pose, "up">;
+  to: Omit<Pose, "up">;
+  begun: number;
+}
+
+/** The number of milliseconds of a flight. */
+const FLIGHT = 300;
 
 /** The steps for each press of a key: radians, a share of the distance, pixels, and a factor of the field of view. */
 const ORBIT_STEP = Math.PI / 36;

@@ -17,6 +17,7 @@ import { CloudPoints, THROUGH_OPACITY } from "./points.ts";
 import { Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
 import { type Theme, THEMES } from "./theme.ts";
+import { type Previewed, WaitingRoom } from "./waiting-room.ts";
 
 /** A cloud that is ready to be shown, with the first answer about it. */
 export interface Opened {
@@ -59,6 +60,7 @@ export class Viewer {
   readonly #store: Store;
   readonly #marker: ViewpointMarker;
   #shown: Shown | null = null;
+  readonly #waiting: WaitingRoom<Shown>;
   #theme = THEMES.dark;
   #lit = false;
   #surfaceShown = false;
@@ -72,6 +74,7 @@ export class Viewer {
     this.stage = new Stage(canvas);
     this.navigation = new Navigation(this.stage.camera, canvas, polite);
     this.#marker = new ViewpointMarker(this.stage.overlay);
+    this.#waiting = new WaitingRoom(this.stage, this.navigation);
     this.stage.onFrame = () => {
       this.#marker.follow(this.stage.camera);
       this.#inquire();
@@ -129,8 +132,39 @@ export class Viewer {
     return target.lengthSq() === 0 ? null : inFile(this.#shown!.cloud, target);
   }
 
+  /** Shows points of a file that is being read, instead of the cloud. `endPreview` brings the cloud back. */
+  preview(points: Float32Array, up: Up): void {
+    this.#leave();
+    this.#waiting.addPoints(points, this.#theme, up);
+  }
+
+  /** Shows all points of a cloud, until `show` shows it with its first answer. */
+  previewCloud(previewed: Previewed): void {
+    this.#leave();
+    this.#waiting.showCloud(previewed, this.#theme);
+  }
+
+  /** Brings the cloud back that was there before the preview. */
+  endPreview(): void {
+    if (!this.#waiting.isOpen) return;
+    this.#shown = this.#waiting.left;
+    this.#waiting.end(true);
+    this.stage.setExtent(this.#shown?.cloud.radius ?? 1);
+    if (!this.#shown) return;
+    this.#applyLook(this.#store.current);
+    this.#placeMarker(this.#store.current.freeze);
+    this.#inquire();
+  }
+
+  #leave(): void {
+    this.#waiting.open(this.#shown);
+    this.#shown = null;
+  }
+
   /** Removes the cloud, so that the settings for the next one can be made. */
   clear(): void {
+    if (this.#waiting.isOpen) this.#shown = this.#waiting.left;
+    this.#waiting.end(false);
     if (!this.#shown) return;
     this.#shown.inquiry.dispose();
     const { points, mesh } = this.#shown;
@@ -157,7 +191,7 @@ export class Viewer {
     const attributes = new CloudAttributes(cloud, this.#theme);
     const points = new CloudPoints(cloud, attributes, this.#theme);
     const mesh = new Surface(attributes, this.#theme);
-    const change = new Change(this.stage, points);
+    const change = new Change(this.stage, points, this.#waiting.hasShown(home));
     this.#shown = { ...opened, attributes, points, change, mesh, frozen: null };
     inquiry.onView = (next) => {
       this.#showAnswer(next);
@@ -179,7 +213,8 @@ export class Viewer {
     this.onLight(null);
     this.stage.points.add(points.solid, points.different, points.changing, mesh.mesh);
     this.stage.all.add(points.all);
-    this.navigation.setHome(home.pose);
+    // In a preview the camera is there already, and the user may have moved it on.
+    if (!this.#waiting.hasShown(home)) this.navigation.setHome(home.pose);
     this.#applyLook(this.#store.current);
     this.#placeMarker(this.#store.current.freeze);
     this.#setUp(this.#store.current.up);

@@ -25,16 +25,14 @@ const number = new Intl.NumberFormat("en-US");
  * coarsest on, whole ones as long as the limit allows. So the shown points are spread evenly. If the first level alone
  * is beyond the limit, its points are thinned evenly.
  */
-export async function readCopc(
-  { name, limit, onProgress }: Pick<Reading, "name" | "limit" | "onProgress">,
-  read: ReadRange,
-): Promise<LoadedCloud> {
+export async function readCopc(reading: Omit<Reading, "blob">, read: ReadRange): Promise<LoadedCloud> {
+  const { name, limit, onProgress } = reading;
   const header = parseHeader(name, (await read(0, HEAD)).slice().buffer);
   checkFormat(name, header);
   if (header.count === 0) throw new LoadProblem(`${name} holds no points.`);
   const { nodes, points } = await chooseNodes(name, read, limit, header.count);
   const perf = await startLazPerf(name);
-  const taker = new RecordTaker(header, limit, points);
+  const taker = new RecordTaker(header, reading, points);
 
   const asked: Promise<Uint8Array>[] = [];
   const ask = (i: number) => {

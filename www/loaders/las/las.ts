@@ -12,14 +12,14 @@ const BATCH = 50_000;
 
 /** Reads a LAS or LAZ file. A file with an octree (COPC) is read node by node. */
 export async function readLas(reading: Reading): Promise<LoadedCloud> {
-  const { name, blob, limit } = reading;
+  const { name, blob } = reading;
   const header = await readHeader(name, blob);
   if (header.count === 0) throw new LoadProblem(`${name} holds no points.`);
   if (header.isCopc) {
     const { readCopc } = await import("./copc.ts");
     return readCopc(reading, async (from, to) => new Uint8Array(await bytes(name, blob, from, to)));
   }
-  const taker = new RecordTaker(header, limit);
+  const taker = new RecordTaker(header, reading);
   if (header.compressed) {
     await decompress(reading, header, taker);
   } else {

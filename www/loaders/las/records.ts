@@ -1,4 +1,5 @@
 import type { LoadedCloud } from "../../cloud/cloud.ts";
+import type { Reading } from "../blocks.ts";
 import { CloudBuilder } from "../builder.ts";
 import type { LasHeader } from "./header.ts";
 
@@ -18,9 +19,9 @@ export class RecordTaker {
   readonly #builder: CloudBuilder;
   #outside = 0;
 
-  constructor(header: LasHeader, limit: number, expected = header.count) {
+  constructor(header: LasHeader, reading: Pick<Reading, "limit" | "onPoints">, expected = header.count) {
     this.#header = header;
-    this.#builder = new CloudBuilder("float64", header.columns, limit, expected);
+    this.#builder = new CloudBuilder("float64", header.columns, reading, expected);
   }
 
   take(view: DataView, at: number): void {

@@ -1,0 +1,257 @@
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { Ladder } from "../../www/ask/ladder.js";
+import { kindOf, viewOf } from "../../www/ask/question.js";
+import { readAddress } from "../../www/settings/read-address.js";
+import { type Settings, USUAL_SETTINGS, type Viewpoint } from "../../www/settings/settings.js";
+import { changeOf } from "../../www/view/difference.js";
+import { asciiPly, ball } from "./clouds.js";
+import { hold, holdable, release } from "./held.js";
+import {
+  differentPixels,
+  drag,
+  dragonPositions,
+  inNode,
+  openPage,
+  openReady,
+  picture,
+  reached,
+  served,
+  status,
+  upToDate,
+} from "./support.js";
+
+const LARGE = 100_000;
+const RESTED = { isPaused: true, isAtRest: true };
+const PAUSED = { isPaused: true, isAtRest: false };
+const MOVING = { isPaused: false, isAtRest: false };
+
+/** Asks for the next stage, and answers it. Returns what was asked. */
+function climb(ladder: Ladder, when = RESTED): string | null {
+  const due = ladder.next(when);
+  if (!due) return null;
+  ladder.take(due);
+  ladder.answered(due.question);
+  return kindOf(due.question);
+}
+
+function wanted(at: Viewpoint, settings: Partial<Settings> = {}) {
+  return viewOf(at, { ...USUAL_SETTINGS, ...settings });
+}
+
+test("a view is answered by a draft, one hull and looks; while it moves, only by drafts", () => {
+  const ladder = new Ladder(LARGE, 1);
+  ladder.want(wanted([0, 0, 5]));
+  expect([climb(ladder), climb(ladder), climb(ladder), climb(ladder)]).toEqual(["draft", "operator", "looks", null]);
+  expect(ladder.isFinal).toBe(true);
+
+  ladder.want(wanted([0, 1, 5]));
+  expect(ladder.isFinal).toBe(false);
+  expect([climb(ladder, MOVING), climb(ladder, MOVING)]).toEqual(["draft", null]);
+  ladder.want(wanted([0, 2, 5]));
+  expect([climb(ladder, MOVING), climb(ladder, PAUSED), climb(ladder, PAUSED)]).toEqual(["draft", "operator", null]);
+  expect(climb(ladder)).toBe("looks");
+});
+
+test("a small cloud has no drafts, and a surface neither drafts nor looks", () => {
+  const small = new Ladder(1000, 1);
+  small.want(wanted([0, 0, 5]));
+  expect([climb(small, MOVING), climb(small), climb(small)]).toEqual(["operator", "looks", null]);
+  const surface = new Ladder(LARGE, 1);
+  surface.want(wanted([0, 0, 5], { show: "surface" }));
+  expect([climb(surface), climb(surface)]).toEqual(["operator", null]);
+});
+
+test("after a change of settings there is no draft, and nothing known is asked again", () => {
+  const ladder = new Ladder(LARGE, 1);
+  ladder.want(wanted([0, 0, 5]));
+  while (climb(ladder) !== null);
+  ladder.want(wanted([0, 0, 5], { looks: 2 }));
+  expect([climb(ladder), climb(ladder)]).toEqual(["looks", null]);
+  ladder.want(wanted([0, 0, 5], { looks: 0 }));
+  expect([climb(ladder), climb(ladder)]).toEqual(["operator", null]);
+  ladder.want(wanted([0, 0, 5], { radius: { exponent: 2 } }));
+  expect([climb(ladder), climb(ladder)]).toEqual(["operator", null]);
+});
+
+test("a later stage is given up when the view moves on, and the first one never", () => {
+  const ladder = new Ladder(LARGE, 1);
+  ladder.want(wanted([0, 0, 5]));
+  const draft = ladder.next(RESTED)!;
+  expect(ladder.take(draft)).toBeUndefined();
+  ladder.answered(draft.question);
+  const signal = ladder.take(ladder.next(RESTED)!)!;
+  ladder.want(wanted([0, 0, 5]));
+  expect(signal.aborted).toBe(false);
+  ladder.want(wanted([0, 1, 5]));
+  expect(signal.aborted).toBe(true);
+  expect(climb(ladder)).toBe("draft");
+});
+
+test("a refused question is not asked again", () => {
+  const ladder = new Ladder(LARGE, 1);
+  ladder.want(wanted([0, 0, 5]));
+  ladder.take(ladder.next(RESTED)!);
+  ladder.refused();
+  expect(ladder.next(RESTED)).toBeNull();
+});
+
+test.for([
+  ["", 3, []],
+  ["looks=2", 2, []],
+  ["looks=0", 0, []],
+  ["radius=auto", 0, []],
+  ["inversion=spherical", 0, []],
+  ["radius=auto&looks=3", 3, []],
+  ["looks=1", 3, [/number of looks in the address is not 0, 2 or 3, so it is 3/]],
+  ["looks=3&exponent=2", 3, [/Looks in the address exclude exponent/]],
+] as const)("?%s", ([query, looks, notes]) => {
+  const wishes = readAddress(query, ["bunny"]);
+  const settings = { ...USUAL_SETTINGS, ...wishes.settings };
+  expect(settings.looks).toBe(looks);
+  expect(wishes.notes).toEqual(notes.map((note) => expect.stringMatching(note) as string));
+  const hasLooks = looks > 0 && !query.includes("exponent");
+  expect(kindOf(viewOf([0, 0, 5], settings))).toBe(hasLooks ? "looks" : "operator");
+});
+
+test("points that stay, come and go are told apart", () => {
+  const order = new Uint32Array(9);
+  const { kept, going } = changeOf(Uint32Array.of(1, 2, 5, 8), Uint32Array.of(0, 2, 3, 8, 9), order);
+  expect([...order.subarray(0, kept)]).toEqual([2, 8]);
+  expect([...order.subarray(kept, 5)].sort((a, b) => a - b)).toEqual([0, 3, 9]);
+  expect([...going]).toEqual([1, 5]);
+});
+
+interface Seen {
+  answer: string;
+  visible: number;
+  viewpoint: string;
+  busy: string;
+  state: string;
+}
+
+test("in the page: drafts while the camera moves, one hull, then looks; each with all of its own attributes", async () => {
+  const page = await openReady("?sample=dragon_res2");
+  const seen = await page.evaluateHandle(() => {
+    const list: Seen[] = [];
+    const line = document.getElementById("status")!;
+    new MutationObserver(() => {
+      const { answer, visible, viewpoint, busy, state } = line.dataset as Record<string, string>;
+      list.push({ answer: answer!, visible: Number(visible), viewpoint: viewpoint!, busy: busy!, state: state! });
+    }).observe(line, { attributeFilter: ["data-refilters"] });
+    return list;
+  });
+  await drag(page, 150, 30);
+  const now = await upToDate(page);
+  const answers = await seen.jsonValue();
+  expect(answers[0]!.answer).toBe("draft");
+  expect(answers.slice(-3).map(({ answer }) => answer)).toEqual(["draft", "operator", "looks"]);
+  const [draft, hull, looks] = answers.slice(-3) as [Seen, Seen, Seen];
+  expect([hull.viewpoint, looks.viewpoint]).toEqual([draft.viewpoint, draft.viewpoint]);
+  const positions = dragonPositions("_res2");
+  const counts = await inNode(positions, (cloud) => [
+    cloud.visibleFrom(now.viewpoint, { draft: true }).count,
+    cloud.visibleFrom(now.viewpoint).count,
+    cloud.visibleFrom(now.viewpoint, { looks: 3 }).count,
+  ]);
+  expect([draft.visible, hull.visible, looks.visible]).toEqual(counts);
+  expect(now).toMatchObject({ state: "ready", busy: 0, answer: "looks", visible: counts[2], radius: 0, exponent: 0 });
+  expect(now.inversion).toMatch(/^looks:[\d.e-]+,[\d.e-]+,[\d.e-]+$/);
+  expect(now.sentence).toMatch(/ are visible from here, found by 3 looks in [\d,.]+\sms\.$/);
+});
+
+/** How many pixels of a picture are the dark background. */
+async function empty(page: Page, image: Buffer): Promise<number> {
+  return page.evaluate(async (data) => {
+    const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
+    const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
+    context.drawImage(bitmap, 0, 0);
+    const { data: pixels } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+    let count = 0;
+    for (let i = 0; i < pixels.length; i += 4) {
+      if (Math.abs(pixels[i]! - 20) + Math.abs(pixels[i + 1]! - 22) + Math.abs(pixels[i + 2]! - 26) < 6) count++;
+    }
+    return count;
+  }, image.toString("base64"));
+}
+
+test("while an answer for a new place is awaited, no shadow of the old viewpoint is seen, and a sign says so", async () => {
+  const page = await openReady("?sample=dragon_res2&theme=dark", {}, holdable);
+  expect(await page.locator("#sign-work").isVisible()).toBe(false);
+  await hold(page);
+  for (let i = 0; i < 18; i++) await page.locator("#view").press("ArrowLeft");
+  await page.locator("#view").blur();
+  await page.locator("#sign-work").waitFor();
+  const waiting = await status(page);
+  expect(waiting).toMatchObject({ state: "ready", busy: 1 });
+  const stale = await picture(page);
+  await release(page);
+  await upToDate(page);
+  const final = await picture(page);
+  expect(await page.locator("#sign-work").isVisible()).toBe(false);
+  const [before, after] = [await empty(page, stale), await empty(page, final)];
+  // The camera has turned by 90°: with only the old answer, half of the dragon would be missing.
+  expect(before).toBeLessThan(1.01 * after);
+});
+
+test("the picture is the same whether it has faded or changed at once", async () => {
+  const pictures: Buffer[] = [];
+  let page!: Page;
+  for (const reducedMotion of ["reduce", "no-preference"] as const) {
+    page = await openReady("?sample=dragon_res3&view=0.1,0.2,0.3", { reducedMotion });
+    await page.locator("#view").press("ArrowLeft");
+    await page.locator("#view").blur();
+    await upToDate(page);
+    pictures.push(await picture(page));
+  }
+  expect(await differentPixels(page, pictures[0]!, pictures[1]!)).toBe(0);
+});
+
+test("a click that comes before the final answer waits for it, unless the camera moves on", async () => {
+  const page = await openReady("?sample=dragon_res3", {}, holdable);
+  await page.locator("#tool-pick").click();
+  await hold(page);
+  await page.locator("#view").press("ArrowLeft");
+  await page.locator('#status[data-busy="1"]').waitFor({ state: "attached" });
+  await page.locator("#view").press("Enter");
+  expect(await page.locator("#pick-result").textContent()).toBe("Click a point.");
+  await release(page);
+  await expect.poll(() => page.locator("#pick-result").getAttribute("data-index")).toMatch(/^\d+$/);
+});
+
+test("the points of a file are drawn before the first answer, and its name and the progress are over them", async () => {
+  served.set("clouds/early.ply", asciiPly(ball(40_000)));
+  const page = await openPage("?src=clouds/early.ply&theme=dark", {}, async (fresh) => {
+    await holdable(fresh);
+    await fresh.addInitScript(() => {
+      (globalThis as unknown as { hold: () => void }).hold();
+    });
+  });
+  const sign = page.locator("#loading-sign");
+  await expect.poll(() => sign.textContent()).toMatch(/^Preparing early\.ply: \d+\s%\.$/);
+  const early = await picture(page);
+  expect((await status(page)).state).toBe("loading");
+  const { width, height } = await page.evaluate(() => ({ width: innerWidth, height: innerHeight }));
+  expect(await empty(page, early)).toBeLessThan(0.22 * width * height);
+  await release(page);
+  await reached(page, "ready");
+  await upToDate(page);
+  expect(await sign.isVisible()).toBe(false);
+  expect(await empty(page, await picture(page))).toBeLessThan(0.22 * width * height);
+});
+
+test("a file that cannot be opened leaves the cloud and the camera as they were, although its points were drawn", async () => {
+  const page = await openReady("?sample=bunny");
+  await page.locator("#view").press("ArrowLeft");
+  await page.locator("#view").blur();
+  const before = await upToDate(page);
+  const shown = await picture(page);
+  // The last row is cut.
+  const text = Buffer.from(asciiPly(ball(40_000))).toString("latin1");
+  const broken = Buffer.from(text.slice(0, text.trimEnd().lastIndexOf(" ")), "latin1");
+  await page.locator("#file").setInputFiles({ name: "cut.ply", mimeType: "", buffer: broken });
+  expect((await reached(page, "error")).sentence).toContain("cut.ply");
+  await page.getByRole("button", { name: "Dismiss" }).click();
+  expect(await upToDate(page)).toMatchObject({ viewpoint: before.viewpoint, visible: before.visible });
+  expect(await differentPixels(page, shown, await picture(page))).toBe(0);
+});
