@@ -49,7 +49,8 @@ export class Studio {
   /** A picture of the page's canvas. A message of the page is an error. */
   async shoot(query: Query, size: Size): Promise<Shot> {
     const entries = Object.entries(query).flatMap(([name, value]) => [value].flat().map((one) => [name, String(one)]));
-    const address = `?${new URLSearchParams([...entries, ["embed", "1"]]).toString()}`;
+    // The paper has one hull.
+    const address = `?${new URLSearchParams([...entries, ["looks", "0"], ["embed", "1"]]).toString()}`;
     return this.#withPage(size, async (page) => {
       await page.goto(this.#site.address + address);
       await page

@@ -134,7 +134,7 @@ export class CompareCard {
         { label: nameOf(ours), count: onlyOurs, more: time(ours.milliseconds) },
         { ...row("Wrongly shown", wrong), color: "var(--only-ours)" },
         { ...row("Wrongly hidden", missed), color: "var(--only-reference)" },
-        ...(hull ? [row("One hull, shown", hull.wrong), row("One hull, hidden", hull.missed)] : []),
+        ...(hull ? [row("Wrongly shown, one hull", hull.wrong), row("Wrongly hidden, one hull", hull.missed)] : []),
       ],
       total,
       truth.milliseconds,
