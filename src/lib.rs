@@ -42,6 +42,7 @@ mod view;
 #[cfg(feature = "wasm")]
 mod wasm;
 
+pub use answers::camera::CameraView;
 pub use answers::horizon::Horizon;
 pub use answers::illumination::Lighting;
 pub use answers::merge::{merge_visible, merge_visible_u64};
@@ -57,6 +58,7 @@ pub use cloud::selection::Within;
 pub use dimensions::higher::{MAX_DIMENSION, PointCloudNd};
 pub use dimensions::two::PointCloud2d;
 pub use hull::division::Sector;
+pub use view::camera::{Camera, Convention};
 pub use view::guarantees::{permissible_curvature, radius_bound};
 pub use view::options::{Exponential, Inversion, Options, Radius};
 pub use view::radius::ChosenRadius;

@@ -2,6 +2,7 @@
 //! several at once, along a direction, or divided among threads. A cloud can be in parts or
 //! noisy, and only a part of it may take part. The answer can also be a surface or light.
 
+pub(crate) mod camera;
 pub(crate) mod denoise;
 pub(crate) mod direction;
 pub(crate) mod horizon;
@@ -13,5 +14,6 @@ pub(crate) mod part;
 pub(crate) mod reconstruct;
 pub(crate) mod sample;
 pub(crate) mod sector;
+pub(crate) mod sees;
 pub(crate) mod union;
 pub(crate) mod visibility;

@@ -21,6 +21,13 @@ pub enum Error {
         /// The viewpoint as given.
         viewpoint: [f64; 3],
     },
+    /// A camera has no size, or is not finite, or its matrix is not rigid.
+    Camera {
+        /// What the camera must be.
+        problem: &'static str,
+        /// The number that is wrong. For a matrix that is not rigid, its deviation.
+        value: f64,
+    },
     /// The direction of a view is zero, or holds NaN or an infinity.
     Direction {
         /// The direction as given.
@@ -108,6 +115,11 @@ pub enum Error {
         /// The option, as the JavaScript package calls it.
         option: &'static str,
     },
+    /// A sample was asked for together with a question that has none.
+    SampleWith {
+        /// The question, as the JavaScript package calls it.
+        other: &'static str,
+    },
     /// A box has a minimum above its maximum, or a coordinate that is NaN (or, for a horizon, infinite).
     BoundsInvalid,
     /// A mask does not have one element for each index of the cloud.
@@ -171,9 +183,10 @@ impl Error {
     pub fn code(&self) -> &'static str {
         match self {
             Self::NonFinite { .. } => "non-finite",
-            Self::Viewpoint { .. } | Self::ViewpointDimension { .. } | Self::Direction { .. } => {
-                "viewpoint"
-            }
+            Self::Viewpoint { .. }
+            | Self::Camera { .. }
+            | Self::ViewpointDimension { .. }
+            | Self::Direction { .. } => "viewpoint",
             Self::RadiusInvalid { .. }
             | Self::RadiusTooSmall { .. }
             | Self::RadiusOverflow { .. } => "radius",
@@ -186,6 +199,7 @@ impl Error {
             | Self::LooksWith { .. }
             | Self::ScoresWithoutLooks
             | Self::ScoresWith { .. }
+            | Self::SampleWith { .. }
             | Self::BoundsInvalid
             | Self::MaskLength { .. }
             | Self::NoDraft { .. }
@@ -211,6 +225,9 @@ impl fmt::Display for Error {
             } => {
                 let (x, y, z) = (Number(x), Number(y), Number(z));
                 write!(f, "the viewpoint must be finite, got {x}, {y}, {z}")
+            }
+            Self::Camera { problem, value } => {
+                write!(f, "the camera's {problem}, got {}", Number(value))
             }
             Self::Direction {
                 direction: [x, y, z],
@@ -238,6 +255,7 @@ impl fmt::Display for Error {
                 f,
                 "{option} cannot be used for a direction: it has no limit far away"
             ),
+            Self::SampleWith { other } => write!(f, "sample cannot be combined with {other}"),
             Self::BoundsInvalid => write!(
                 f,
                 "a box must be [min, max], where no coordinate of min is above that of max"

@@ -3,6 +3,7 @@
 //! surface, spheres around blocks, choices of points.
 
 pub(crate) mod blocks;
+pub(crate) mod growth;
 pub(crate) mod neighbors;
 pub(crate) mod point_cloud;
 pub(crate) mod points;

@@ -145,7 +145,8 @@ impl Nearest {
         }
     }
 
-    fn offer(&mut self, new: Neighbor) {
+    /// Adds a point, if it is among the nearest.
+    pub(crate) fn offer(&mut self, new: Neighbor) {
         if self.found.len() == self.most {
             if !new.is_before(&self.found[self.most - 1]) {
                 return;

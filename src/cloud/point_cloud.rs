@@ -154,20 +154,44 @@ impl PointCloud {
         let finite = positions.len() - skipped;
         if finite > 0 {
             bounds.union(&self.bounds);
-            let curve = HilbertCurve::new(&bounds);
-            let new = Sequence::sorted(positions, self.len as u32, finite, &curve)?;
-            let sequence = if self.sequence.points.len() == 0 {
-                new
-            } else if curve == HilbertCurve::new(&self.bounds) {
-                self.sequence.merged(&new, &curve)?
-            } else {
-                self.sequence.resorted(&curve)?.merged(&new, &curve)?
-            };
-            self.replace(sequence, bounds)?;
+            self.replace(self.sequence_with(positions, finite, &bounds)?, bounds)?;
         }
         self.len = len;
         self.skipped += skipped;
         Ok(())
+    }
+
+    /// The cloud with one more, finite point, which takes the next index.
+    pub(crate) fn with_point(&self, place: [f64; 3]) -> Result<Self, Error> {
+        let len = checked_len(self.len + 1)?;
+        let mut bounds = self.bounds;
+        bounds.include(place);
+        let sequence = self.sequence_with(Given::Double(&[place]), 1, &bounds)?;
+        let cloud = self.with_sequence(sequence, bounds)?;
+        Ok(Self { len, ..cloud })
+    }
+
+    /// The present points and those of `positions` that are finite. All are in the box `bounds`.
+    fn sequence_with(
+        &self,
+        positions: Given,
+        finite: usize,
+        bounds: &Bounds,
+    ) -> Result<Sequence, OutOfMemory> {
+        let curve = HilbertCurve::new(bounds);
+        let new = Sequence::sorted(positions, self.len as u32, finite, &curve)?;
+        if self.sequence.points.len() == 0 {
+            Ok(new)
+        } else if curve == HilbertCurve::new(&self.bounds) {
+            self.sequence.merged(&new, &curve)
+        } else {
+            self.sequence.resorted(&curve)?.merged(&new, &curve)
+        }
+    }
+
+    /// The choice about points that are not finite.
+    pub(crate) fn non_finite(&self) -> NonFinite {
+        self.non_finite
     }
 
     /// Removes the points with these indices: they are never visible again and

@@ -175,6 +175,13 @@ impl Sequence {
         self.indices.of(k)
     }
 
+    /// Where a point is in the order, or would be, and whether it is there.
+    pub(crate) fn place_of(&self, point: [f64; 3], curve: &HilbertCurve) -> (usize, bool) {
+        let place = self.first_not_before(&curve.place(point), 0, curve);
+        let is_present = place < self.points.len() && self.points.get(place) == point;
+        (place, is_present)
+    }
+
     /// The index of the first point, from `low` on, that does not come before `place`.
     #[inline(never)]
     fn first_not_before(&self, place: &Place, mut low: usize, curve: &HilbertCurve) -> usize {
@@ -290,6 +297,6 @@ fn sort_along_curve(
 }
 
 /// -0 becomes +0, so that equal points have equal bits.
-fn without_negative_zero(point: [f64; 3]) -> [f64; 3] {
+pub(crate) fn without_negative_zero(point: [f64; 3]) -> [f64; 3] {
     point.map(|x| x + 0.0)
 }

@@ -7,15 +7,15 @@ use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::square_root;
-use crate::cloud::neighbors::{Nearest, Neighbors};
+use crate::cloud::neighbors::{Nearest, Neighbor, Neighbors};
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
 use crate::cloud::surface;
 
 /// The spacing of a point is its mean distance from this many nearest points.
-const NEIGHBORS: usize = 6;
+pub(crate) const NEIGHBORS: usize = 6;
 /// How many points are measured; with more of them the mean hardly changes.
-const SAMPLES: usize = 2048;
+pub(crate) const SAMPLES: usize = 2048;
 
 /// The statistics from which the automatic radius is computed.
 #[derive(Clone, Copy, Debug, Default)]
@@ -52,19 +52,33 @@ impl Statistics {
             }
         }
         let centroid = core::array::from_fn(|axis| corner[axis] + sum[axis] / n as f64);
-        let spacings = sampled_spacings(points)?;
+        let samples = Self::of_samples(sampled_spacings(points)?, &|sample, samples| {
+            points.get(sampled_place(sample, samples, n))
+        })?;
+        Ok(Self {
+            count: n,
+            centroid,
+            ..samples
+        })
+    }
+
+    /// Everything but the count and the centroid, from the spacings of sampled points. `point`
+    /// gives a sampled point by its number and the number of samples.
+    #[inline(never)]
+    pub(crate) fn of_samples(
+        spacings: Vec<f64>,
+        point: &dyn Fn(usize, usize) -> [f64; 3],
+    ) -> Result<Self, OutOfMemory> {
         let spacing = surface::mean(&spacings);
         let spacings = surface::cut_off(spacings)?;
         let gap = surface::gap(&spacings);
         let areas = surface::into_areas(spacings);
         let axes: [[f64; 2]; 3] = core::array::from_fn(|axis| {
-            surface::moments(&areas, &|sample| {
-                points.get(place(sample, areas.len(), n))[axis]
-            })
+            surface::moments(&areas, &|sample| point(sample, areas.len())[axis])
         });
         Ok(Self {
-            count: n,
-            centroid,
+            count: 0,
+            centroid: [0.0; 3],
             spacing,
             gap,
             middle: axes.map(|[mean, _]| mean),
@@ -84,17 +98,33 @@ fn sampled_spacings(points: &Points) -> Result<Vec<f64>, OutOfMemory> {
     let mut spacings = filled(n.min(SAMPLES), 0.0)?;
     let samples = spacings.len();
     for (sample, spacing) in spacings.iter_mut().enumerate() {
-        neighbors.find(place(sample, samples, n), &mut nearest);
-        let mut distances = 0.0;
-        for neighbor in nearest.found() {
-            distances += square_root(neighbor.squared);
-        }
-        *spacing = distances / nearest.found().len() as f64;
+        neighbors.find(sampled_place(sample, samples, n), &mut nearest);
+        *spacing = mean_distance(nearest.found(), None);
     }
     Ok(spacings)
 }
 
 /// The point in the middle of even run number `sample` of the curve.
-fn place(sample: usize, samples: usize, n: usize) -> usize {
+pub(crate) fn sampled_place(sample: usize, samples: usize, n: usize) -> usize {
     ((2 * sample as u64 + 1) * n as u64 / (2 * samples as u64)) as usize
+}
+
+/// The mean distance to the `found` points, nearest first, and to one `added` point, whose squared
+/// distance is given. At most [`NEIGHBORS`] count.
+#[inline(never)]
+pub(crate) fn mean_distance(found: &[Neighbor], added: Option<f64>) -> f64 {
+    let count = (found.len() + usize::from(added.is_some())).min(NEIGHBORS);
+    let added = added.unwrap_or(f64::INFINITY);
+    let mut distances = 0.0;
+    let mut shift = 0;
+    for k in 0..count {
+        let squared = found.get(k - shift).map_or(added, |next| next.squared);
+        if shift == 0 && added < squared {
+            shift = 1;
+            distances += square_root(added);
+        } else {
+            distances += square_root(squared);
+        }
+    }
+    distances / count as f64
 }

@@ -12,6 +12,7 @@ use glam::DVec3;
 
 use super::flat::collinear_with_origin;
 use super::flipped::Flipped;
+use super::incremental::Hull;
 use super::locate::Location;
 use super::memory::Memory;
 use super::outer_boundary::mark_visible;
@@ -89,6 +90,15 @@ impl KeptHull {
             return None;
         }
         Some(self.covers(scaled, hint))
+    }
+
+    /// The hull, if it is one in space.
+    pub(super) fn hull(&self) -> Option<&Hull> {
+        matches!(self.span, Span::Space).then_some(&self.memory.hull)
+    }
+
+    pub(super) fn reach(&self) -> f64 {
+        self.flip.reach()
     }
 
     /// An upper bound of the length of all flipped points at least `distance` from the viewpoint.

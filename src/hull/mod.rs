@@ -27,6 +27,7 @@ mod lower;
 mod memory;
 mod motion;
 mod order;
+mod other_flip;
 mod outer_boundary;
 mod outer_faces;
 mod predicates;

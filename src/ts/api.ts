@@ -15,7 +15,15 @@ export type { PointCloudOptions } from "./query/options.js";
 export type { Positions } from "./query/positions.js";
 export type { NumberArray } from "./base/typed-arrays.js";
 export type { IlluminationOptions, ReconstructionOptions } from "./query/queries.js";
+export type { Camera } from "./query/camera.js";
+export {
+  cameraFromPose,
+  cameraFromThree,
+  type Intrinsics,
+  intrinsicsFromFieldOfView,
+  type PerspectiveCameraLike,
+} from "./query/cameras.js";
 export type { Within } from "./query/within.js";
 export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
 export { initSync } from "./instance/start.js";
-export type { Reconstruction, Visibility } from "./cloud/visibility.js";
+export type { CameraView, Reconstruction, Visibility } from "./cloud/visibility.js";

@@ -1,6 +1,7 @@
 //! A viewpoint and options, checked and resolved to one flip: the radius is given, computed
 //! or searched. The paper's bounds on it stand in `guarantees`.
 
+pub(crate) mod camera;
 pub(crate) mod choice;
 pub(crate) mod guarantees;
 pub(crate) mod options;

@@ -29,7 +29,7 @@ struct Answer {
 /// An answer with the triangles between its points, if it has any.
 pub(super) fn answer(
     visibility: &Visibility,
-    triangles: &[[u32; 3]],
+    triangles: &[u32],
     options: &ViewOptions,
 ) -> Result<JsValue, Failure> {
     let mut scales = [0.0; 3];
@@ -39,7 +39,7 @@ pub(super) fn answer(
     }
     Ok(to_js(&Answer {
         indices: copy_out(visibility.indices(), options)?,
-        triangles: copy_out(triangles.as_flattened(), options)?,
+        triangles: copy_out(triangles, options)?,
         scores: copy_out_singles(visibility.scores(), options)?,
         radius: visibility.radius(),
         exponent: visibility.exponent(),

@@ -93,6 +93,14 @@ impl From<Error> for Failure {
                 named = other;
                 ("scoresWith", [0.0; 3])
             }
+            Error::Camera { problem, value } => {
+                named = problem;
+                ("camera", [value, 0.0, 0.0])
+            }
+            Error::SampleWith { other } => {
+                named = other;
+                ("sampleWith", [0.0; 3])
+            }
             Error::BoundsInvalid => ("boundsInvalid", [0.0; 3]),
             Error::MaskLength { given, len } => ("maskLength", [given as f64, len as f64, 0.0]),
             Error::NoLimit { option } => {

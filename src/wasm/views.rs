@@ -1,14 +1,15 @@
 //! Views from one viewpoint, whole or divided among workers, from several, and along a
 //! direction.
 
-use js_sys::Float64Array;
+use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
 use super::answer::{answered, chosen};
 use super::clouds::{with_cloud, with_memory, with_view};
 use super::options::ViewOptions;
-use super::transfer::triples;
-use crate::Sector;
+use super::transfer::{copy_in_integers, triples};
+use crate::cloud::points::Given;
+use crate::{Camera, Sector};
 
 /// Which points are visible from (x, y, z)?
 #[wasm_bindgen(js_name = visibleFrom, unchecked_return_type = "Answer")]
@@ -65,6 +66,46 @@ pub fn visible_in_sector(
         })
     });
     answered(seen, options)
+}
+
+/// Writes into `target` where a camera shows points: x, y and the depth of each. The depth is 0 for a
+/// point outside of the image. `camera` holds its matrix, fx, fy, cx, cy, width, height, distortion,
+/// near, far, and 1 for OpenGL's axes or 0 for OpenCV's.
+#[wasm_bindgen]
+pub fn project(
+    handle: u32,
+    camera: &Float64Array,
+    indices: &Uint32Array,
+    target: &Float32Array,
+) -> Result<(), JsValue> {
+    let mut numbers = [0.0; 30];
+    camera.copy_to(&mut numbers);
+    let shown = with_cloud(handle, |cloud| {
+        cloud.shown(&Camera::of(&numbers), &copy_in_integers(indices)?)
+    })?;
+    target.copy_from(shown.as_flattened());
+    Ok(())
+}
+
+/// Would points at `positions` be visible from (x, y, z), each added alone? Writes 1 or 0 for each
+/// into `target`.
+#[wasm_bindgen]
+pub fn sees(
+    handle: u32,
+    x: f64,
+    y: f64,
+    z: f64,
+    positions: &Float64Array,
+    options: &ViewOptions,
+    target: &Uint8Array,
+) -> Result<(), JsValue> {
+    let view = options.read();
+    let seen = with_view(handle, Some([x, y, z]), options, &view, |cloud| {
+        let positions = triples(positions)?;
+        cloud.sees_given([x, y, z], Given::Double(&positions), &view)
+    })?;
+    target.copy_from(&seen);
+    Ok(())
 }
 
 /// Which points are visible from at least `k` of the viewpoints? `viewpoints` holds x, y, z of

@@ -4,6 +4,7 @@
 mod common;
 
 mod automatic;
+mod camera;
 mod certificates;
 mod changes;
 mod definition;
@@ -28,6 +29,7 @@ mod reconstruct;
 mod refusals;
 mod search;
 mod sectors;
+mod sees;
 mod survivors;
 mod thin;
 mod union;

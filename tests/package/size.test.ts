@@ -17,9 +17,10 @@ import { wasmBytes } from "./support";
 // After these shares were measured, bindings and cold code lost 6 kB, and two and three
 // looks added 15 kB (6 kB gzipped). Drafts and samples added 14 kB (6 kB gzipped).
 // The choice of points (`within`) added 8 kB (4.2 kB gzipped). Exact views in slices added
-// 2 kB (1.3 kB gzipped).
+// 2 kB (1.3 kB gzipped). `sees` added 20 kB (9 kB gzipped), a third of it the kept hull. Cameras added 7 kB
+// (3 kB gzipped).
 it("the wasm stays small", () => {
   const bytes = wasmBytes();
-  expect(bytes.length).toBeLessThanOrEqual(275_000);
-  expect(gzipSync(bytes, { level: 9 }).length).toBeLessThanOrEqual(120_600);
+  expect(bytes.length).toBeLessThanOrEqual(300_800);
+  expect(gzipSync(bytes, { level: 9 }).length).toBeLessThanOrEqual(131_300);
 });

@@ -5,7 +5,9 @@ import { addDisposeSymbol } from "../base/dispose-symbol.js";
 import { requireInstance } from "../instance/instance.js";
 import { CLOUD_OPTIONS, cloudSettings, givenOptions, pick, type PointCloudOptions } from "../query/options.js";
 import type { Positions } from "../query/positions.js";
+import type { Camera } from "../query/camera.js";
 import {
+  cameraQuery,
   directionQuery,
   ILLUMINATION_OPTIONS,
   type IlluminationOptions,
@@ -14,11 +16,19 @@ import {
   RECONSTRUCTION_OPTIONS,
   type ReconstructionOptions,
   reconstructionQuery,
+  seesQuery,
   severalQuery,
   viewQuery,
 } from "../query/queries.js";
 import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
-import { type Reconstruction, ReconstructionAnswer, type Visibility, VisibilityAnswer } from "./visibility.js";
+import {
+  CameraAnswer,
+  type CameraView,
+  type Reconstruction,
+  ReconstructionAnswer,
+  type Visibility,
+  VisibilityAnswer,
+} from "./visibility.js";
 
 /**
  * A point cloud in the memory of the wasm. It is prepared once, and can then be asked from as many
@@ -137,6 +147,40 @@ export class PointCloud {
     this.#core.requireOpen();
     const given = givenOptions(options, VIEW_OPTIONS);
     return new VisibilityAnswer(this.#core.ask(severalQuery(this.#core.dimension, viewpoints, given, { k })));
+  }
+
+  /**
+   * Finds the points that a real camera sees, and where they are in its image. The answer is that of
+   * `visibleFrom` from the camera's place, without the points outside of the image. These points still
+   * hide others. A point at the camera's place is left out.
+   *
+   * @param camera its place, axes, lens and image; see `cameraFromPose`, `intrinsicsFromFieldOfView` and
+   *   `cameraFromThree`. Needs a cloud of dimension 3.
+   * @throws HprError `viewpoint` for the camera, otherwise as {@link PointCloud.visibleFrom}.
+   */
+  visibleFromCamera(camera: Camera, options?: VisibilityOptions): CameraView {
+    this.#core.requireOpen();
+    const given = givenOptions(options, VIEW_OPTIONS);
+    return new CameraAnswer(this.#core.ask(cameraQuery(this.#core.dimension, camera, given)));
+  }
+
+  /**
+   * Says for positions that are not in the cloud (labels, sensors, targets) whether a point there would
+   * be visible, if it was added to the cloud, alone. The cloud stays as it is. The answer is exactly that
+   * of a cloud with this one point more: an automatic radius is chosen for the cloud with the point.
+   *
+   * @param viewpoint x, y, z in the cloud's units.
+   * @param positions the coordinates of one position after another. The cloud's `dimension`, `stride` and
+   *   `nonFinite` apply. A position outside of `within` is not visible.
+   * @returns one byte for each position: 1 visible, 0 hidden. The array is the caller's own copy.
+   * @throws HprError `positions-type`, `positions-length`, `non-finite`; `radius` for a position beyond a
+   *   given radius; `option` also for `draft`, `sample` and `scores`; otherwise as
+   *   {@link PointCloud.visibleFrom}.
+   */
+  sees(viewpoint: ArrayLike<number>, positions: Positions, options?: VisibilityOptions): Uint8Array {
+    this.#core.requireOpen();
+    const given = givenOptions(options, VIEW_OPTIONS);
+    return this.#core.ask(seesQuery(this.#core.settings, viewpoint, positions, given)).seen;
   }
 
   /**

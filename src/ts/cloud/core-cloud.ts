@@ -47,6 +47,10 @@ export class CoreCloud {
     return this.#settings.dimension;
   }
 
+  get settings(): CloudSettings {
+    return this.#settings;
+  }
+
   get size(): CloudSize {
     return this.#size;
   }

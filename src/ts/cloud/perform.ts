@@ -52,6 +52,32 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     return found(target, settings, answer);
   },
 
+  visibleFromCamera: (target, { camera, settings, sector }) => {
+    const { instance, handle } = target;
+    const place = (indices: Uint32Array) => {
+      const shown = allocating(`${3 * indices.length} numbers`, () => new Float32Array(3 * indices.length));
+      instance.call((bindings) => {
+        bindings.project(handle, camera, indices, shown);
+      });
+      return shown;
+    };
+    // The camera is checked first.
+    place(new Uint32Array(0));
+    const viewpoint = Array.from(camera.subarray(12, 15));
+    const view = { kind: "visibleFrom" as const, viewpoint, settings, divisible: false };
+    const seen = perform(target, sector === undefined ? view : { ...view, sector });
+    return { ...seen, ...inImage(seen.indices, place(seen.indices)) };
+  },
+
+  sees: ({ instance, handle }, { viewpoint, positions, settings }) => {
+    const [x, y, z] = viewpoint as [number, number, number];
+    const seen = allocating(`${positions.length / 3} bytes`, () => new Uint8Array(positions.length / 3));
+    instance.call((bindings) => {
+      bindings.sees(handle, x, y, z, positions, coreOptions(settings), seen);
+    });
+    return { seen };
+  },
+
   autoRadius: ({ instance, handle, dimension }, { viewpoint, settings }) => {
     const [x, y, z] = viewpoint as [number, number, number];
     return instance.call((bindings) =>
@@ -83,6 +109,23 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     return { brightness };
   },
 };
+
+/** The points that are in the image. `shown` holds x, y and the depth of each, which is 0 outside. */
+function inImage(indices: Uint32Array<ArrayBuffer>, shown: Float32Array<ArrayBuffer>) {
+  let count = 0;
+  for (let i = 0; i < indices.length; i++) {
+    if (shown[3 * i + 2]! > 0) {
+      indices[count] = indices[i]!;
+      shown.copyWithin(3 * count, 3 * i, 3 * i + 3);
+      count += 1;
+    }
+  }
+  return allocating(`${count} pixels`, () => ({
+    indices: indices.slice(0, count),
+    pixels: Float32Array.from({ length: 2 * count }, (_, k) => shown[3 * (k >> 1) + (k & 1)]!),
+    depths: Float32Array.from({ length: count }, (_, k) => shown[3 * k + 2]!),
+  }));
+}
 
 /** Asks the core. */
 export function perform<K extends QueryKind>(target: Target, query: Query<K>): Answers[K] {

@@ -57,6 +57,17 @@ export interface Reconstruction extends Visibility {
   readonly triangles: Uint32Array;
 }
 
+/** The visible points in the image of a camera. */
+export interface CameraView extends Visibility {
+  /** Where each visible point is in the image: x and y in pixels. This is the caller's own copy. */
+  readonly pixels: Float32Array;
+  /**
+   * The depth of each visible point along the optical axis, in the cloud's units. This is the caller's
+   * own copy.
+   */
+  readonly depths: Float32Array;
+}
+
 /** The answer to one query. Its numbers are in JavaScript's own memory, independent of the wasm. */
 export class VisibilityAnswer implements Visibility {
   readonly indices: Uint32Array;
@@ -143,6 +154,17 @@ export class ReconstructionAnswer extends VisibilityAnswer implements Reconstruc
   constructor(answer: Answers["reconstruct"]) {
     super(answer);
     this.triangles = answer.triangles;
+  }
+}
+
+export class CameraAnswer extends VisibilityAnswer implements CameraView {
+  readonly pixels: Float32Array;
+  readonly depths: Float32Array;
+
+  constructor(answer: Answers["visibleFromCamera"]) {
+    super(answer);
+    this.pixels = answer.pixels;
+    this.depths = answer.depths;
   }
 }
 

@@ -24,11 +24,20 @@ export interface Found extends ChosenRadius {
   scores?: Float32Array<ArrayBuffer>;
 }
 
+/** The visible points in an image. */
+export interface Photographed extends Found {
+  pixels: Float32Array<ArrayBuffer>;
+  depths: Float32Array<ArrayBuffer>;
+}
+
 /** The answers, by kind of query. */
 export interface Answers {
   visibleFrom: Found;
   visibleFromDirection: Found;
   visibleFromSeveral: Found;
+  visibleFromCamera: Photographed;
+  /** One byte for each position. */
+  sees: { seen: Uint8Array<ArrayBuffer> };
   autoRadius: ChosenRadius;
   reconstruct: Found & { triangles: Uint32Array<ArrayBuffer> };
   illuminate: { brightness: Float32Array<ArrayBuffer> };

@@ -1,9 +1,11 @@
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
-import { integer, number } from "./options.js";
-import { coreDimension, readViewpoint, readViewpoints } from "./positions.js";
+import { readCamera } from "./camera.js";
+import { type CloudSettings, integer, number } from "./options.js";
+import { coreDimension, packed, readPositions, readViewpoint, readViewpoints } from "./positions.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import {
+  requireLow,
   requireSpace,
   ruleSettings,
   VIEW_OPTIONS,
@@ -54,6 +56,15 @@ export interface Questions {
   visibleFromDirection: { direction: number[]; settings: ViewSettings };
   /** Asks for points visible from at least `k` of the viewpoints. These are stored one after another. */
   visibleFromSeveral: { viewpoints: Float64Array<ArrayBuffer>; k: number; settings: ViewSettings };
+  /** `camera` as `readCamera` lists it. */
+  visibleFromCamera: {
+    camera: Float64Array<ArrayBuffer>;
+    settings: ViewSettings;
+    divisible: boolean;
+    sector?: Sector;
+  };
+  /** `positions` have the core's number of coordinates. */
+  sees: { viewpoint: number[]; positions: Float64Array; settings: ViewSettings };
   autoRadius: { viewpoint: number[]; settings: ViewSettings };
   reconstruct: { viewpoint: number[]; settings: ViewSettings; maxEdge: number | undefined };
   illuminate: {
@@ -79,12 +90,37 @@ type GivenOptions = Record<string, unknown>;
 export function viewQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"visibleFrom"> {
   const position = readViewpoint(viewpoint, dimension);
   const settings = viewSettings(given, dimension);
+  return { kind: "visibleFrom", viewpoint: position, settings, divisible: isDivisible(dimension, settings) };
+}
+
+/** Whether a view can be divided into sectors, and gains by it. */
+function isDivisible(dimension: number, settings: ViewSettings): boolean {
   // Votes, moved points and other inversions have no bounds that hold from far away. Drafts and
   // samples are not divided because one worker computes them in little time.
   const { kernel, denoise, vote, draft, sample } = settings;
   const isPlain = kernel === 0 && denoise === 0 && vote === 0 && !draft && sample === 0;
-  const divisible = dimension === 3 && isPlain;
-  return { kind: "visibleFrom", viewpoint: position, settings, divisible };
+  return dimension === 3 && isPlain;
+}
+
+export function cameraQuery(dimension: number, camera: unknown, given: GivenOptions): Query<"visibleFromCamera"> {
+  requireSpace("visibleFromCamera", dimension);
+  const numbers = readCamera(camera);
+  const settings = viewSettings(given, dimension);
+  return { kind: "visibleFromCamera", camera: numbers, settings, divisible: isDivisible(dimension, settings) };
+}
+
+export function seesQuery(
+  { dimension, stride }: CloudSettings,
+  viewpoint: unknown,
+  positions: unknown,
+  given: GivenOptions,
+): Query<"sees"> {
+  requireLow("sees", dimension);
+  const place = readViewpoint(viewpoint, dimension);
+  const settings = viewSettings(given, dimension);
+  const numbers = packed(readPositions(positions, stride), stride, dimension);
+  const own = allocating(`${numbers.length} coordinates`, () => Float64Array.from(numbers));
+  return { kind: "sees", viewpoint: place, positions: own, settings };
 }
 
 export function directionQuery(

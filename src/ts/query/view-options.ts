@@ -291,8 +291,8 @@ function sampled(given: Record<string, unknown>, dimension: number): number {
   return integer(given, "sample", 1, MOST_POINTS) ?? 0;
 }
 
-/** Refuses an option that needs at most three dimensions. The message is the crate's. */
-function requireLow(what: string, dimension: number): void {
+/** Refuses an option or method that needs at most three dimensions. The message is the crate's. */
+export function requireLow(what: string, dimension: number): void {
   if (dimension > 3) {
     requireSpace(what, dimension);
   }

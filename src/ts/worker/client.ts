@@ -16,7 +16,9 @@ import {
 } from "../query/options.js";
 import type { Place } from "../query/place.js";
 import { isFloatArray, type Positions, readIndices, readPositions } from "../query/positions.js";
+import type { Camera } from "../query/camera.js";
 import {
+  cameraQuery,
   directionQuery,
   ILLUMINATION_OPTIONS,
   type IlluminationOptions,
@@ -27,11 +29,19 @@ import {
   RECONSTRUCTION_OPTIONS,
   type ReconstructionOptions,
   reconstructionQuery,
+  seesQuery,
   severalQuery,
   viewQuery,
 } from "../query/queries.js";
 import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
-import { type Reconstruction, ReconstructionAnswer, type Visibility, VisibilityAnswer } from "../cloud/visibility.js";
+import {
+  CameraAnswer,
+  type CameraView,
+  type Reconstruction,
+  ReconstructionAnswer,
+  type Visibility,
+  VisibilityAnswer,
+} from "../cloud/visibility.js";
 import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
 import { type Progress, readProgress } from "./progress.js";
 import { RequestQueue } from "./request-queue.js";
@@ -256,6 +266,36 @@ export class WorkerPointCloud {
       severalQuery(dimension, viewpoints, given, { k }),
     );
     return new VisibilityAnswer(answer);
+  }
+
+  /**
+   * Finds the points that a real camera sees; see `PointCloud.visibleFromCamera`.
+   *
+   * @throws HprError (as a rejection) `viewpoint` for the camera, otherwise the same as
+   *   {@link WorkerPointCloud.visibleFrom}.
+   */
+  async visibleFromCamera(camera: Camera, options?: WorkerVisibilityOptions): Promise<CameraView> {
+    const answer = await this.#ask("visibleFromCamera", options, VIEW_OPTIONS, (dimension, given) =>
+      cameraQuery(dimension, camera, given),
+    );
+    return new CameraAnswer(answer);
+  }
+
+  /**
+   * Says for positions that are not in the cloud whether a point there would be visible; see
+   * `PointCloud.sees`. The positions are copied before this returns.
+   *
+   * @throws HprError (as a rejection) the same as `PointCloud.sees`.
+   */
+  async sees(
+    viewpoint: ArrayLike<number>,
+    positions: Positions,
+    options?: WorkerVisibilityOptions,
+  ): Promise<Uint8Array> {
+    const { seen } = await this.#ask("sees", options, VIEW_OPTIONS, (_, given) =>
+      seesQuery(this.#settings, viewpoint, positions, given),
+    );
+    return seen;
   }
 
   /**

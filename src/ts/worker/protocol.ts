@@ -49,6 +49,7 @@ export const WITH_INDICES: Readonly<Record<KindWithIndices, true>> = {
   visibleFrom: true,
   visibleFromDirection: true,
   visibleFromSeveral: true,
+  visibleFromCamera: true,
   reconstruct: true,
 };
 

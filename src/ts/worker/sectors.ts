@@ -2,7 +2,8 @@ import { allocating } from "../base/memory.js";
 import { roomIn } from "../cloud/spares.js";
 import type { Replies } from "./protocol.js";
 
-type Answer = Replies["visibleFrom"];
+/** The answer for one sector of a view. */
+export type Part = Replies["visibleFrom"] | Replies["visibleFromCamera"];
 
 /**
  * Joins the answers for all sectors of a view into one. Nobody else sees the parts, so the members
@@ -25,8 +26,8 @@ export class Sectors {
    * The indices of all parts, in the order of their sectors. They are written into `spare` if that
    * is large enough.
    */
-  joined(parts: Answer[], spare: ArrayBuffer | undefined): Answer {
-    const [first] = parts as [Answer];
+  joined(parts: Part[], spare: ArrayBuffer | undefined): Part {
+    const [first] = parts as [Part];
     const count = parts.reduce((sum, { indices }) => sum + indices.length, 0);
     const indices = allocating(`${count} indices`, () => {
       const words = Math.ceil(first.length / 32);
@@ -39,9 +40,33 @@ export class Sectors {
       mark(this.#bits, part.indices);
     }
     takeMarked(this.#bits, indices);
+    const joined = { ...first, indices, ...joinedPixels(parts, indices) };
     this.#spares = parts.map((part) => part.indices.buffer);
-    return { ...first, indices };
+    return joined;
   }
+}
+
+/** The pixels and depths of all parts, in the order of the joined indices. */
+function joinedPixels(parts: Part[], indices: Uint32Array): object {
+  const photographs = parts.filter((part) => "pixels" in part);
+  if (photographs.length === 0) {
+    return {};
+  }
+  const { length } = indices;
+  const [pixels, depths] = allocating(`${3 * length} numbers`, () => [
+    new Float32Array(2 * length),
+    new Float32Array(length),
+  ]);
+  // Every index is the next one of exactly one part.
+  const next = photographs.map(() => 0);
+  for (let at = 0; at < length; at++) {
+    const number = photographs.findIndex((part, number) => part.indices[next[number]!] === indices[at]);
+    const { pixels: from, depths: deep } = photographs[number]!;
+    const own = next[number]!++;
+    pixels.set(from.subarray(2 * own, 2 * own + 2), 2 * at);
+    depths[at] = deep[own]!;
+  }
+  return { pixels, depths };
 }
 
 /**

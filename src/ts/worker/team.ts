@@ -1,7 +1,7 @@
 import { allocating } from "../base/memory.js";
 import type { Query } from "../query/queries.js";
-import { failedReply, isProgress, READY, type Replies, type Reply, type Request } from "./protocol.js";
-import { Sectors } from "./sectors.js";
+import { failedReply, isProgress, READY, type Reply, type Request } from "./protocol.js";
+import { type Part, Sectors } from "./sectors.js";
 import { joinThread } from "./shared-thread.js";
 import type { Thread, ThreadEvents } from "./thread.js";
 
@@ -171,8 +171,8 @@ export class Team {
       this.#dismiss((_, number) => "error" in replies[number]!);
     }
     try {
-      const isDivided = asked?.kind === "visibleFrom" && values.length > 1;
-      return { value: isDivided ? this.#sectors.joined(values as Replies["visibleFrom"][], asked.spare) : values[0] };
+      const isView = asked?.kind === "visibleFrom" || asked?.kind === "visibleFromCamera";
+      return { value: isView && values.length > 1 ? this.#sectors.joined(values as Part[], asked.spare) : values[0] };
     } catch (thrown) {
       return failedReply(thrown);
     }
@@ -198,6 +198,7 @@ function isForAll(request: Request): boolean {
     case "remove":
       return true;
     case "visibleFrom":
+    case "visibleFromCamera":
       return request.divisible;
     default:
       return false;
@@ -234,6 +235,7 @@ function copyFor(
     case "abandon":
       return { request, transfer: [] };
     case "visibleFrom":
+    case "visibleFromCamera":
       if (count > 1) {
         const spare = sectors.spareFor(number);
         return {

@@ -1,0 +1,107 @@
+//! What a real camera sees: the view from its place, cut to its image.
+
+use alloc::vec::Vec;
+
+use crate::answers::visibility::Visibility;
+use crate::base::allocation::with_capacity;
+use crate::base::error::Error;
+use crate::cloud::point_cloud::PointCloud;
+use crate::view::camera::Camera;
+use crate::view::options::Options;
+
+/// What a camera sees.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CameraView {
+    /// The visible points in the image.
+    pub visibility: Visibility,
+    /// Where each visible point is in the image, x and y in pixels.
+    pub pixels: Vec<[f32; 2]>,
+    /// The depth of each visible point along the optical axis, in the cloud's units.
+    pub depths: Vec<f32>,
+}
+
+impl PointCloud {
+    /// Which points does a camera see, and where in its image? The answer is that of
+    /// [`PointCloud::visible_from`] from the camera's place, without the points outside of the
+    /// image. These points still hide others. A point at the camera's place is left out.
+    ///
+    /// ```
+    /// use hidden_point_removal::{Camera, Options, PointCloud};
+    ///
+    /// let cloud = PointCloud::new(&[[0.0, 0.0, 4.0], [1.0, 0.0, 4.0], [0.0, 0.0, -4.0]])?;
+    /// let camera = Camera::new(400.0, 400.0, 320.0, 240.0, 640.0, 480.0);
+    /// let seen = cloud.visible_from_camera(&camera, &Options::default())?;
+    /// assert_eq!(seen.visibility.indices(), [0, 1]);
+    /// assert_eq!(seen.pixels, [[320.0, 240.0], [420.0, 240.0]]);
+    /// assert_eq!(seen.depths, [4.0, 4.0]);
+    /// # Ok::<(), hidden_point_removal::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// [`Error::Camera`]; otherwise as [`PointCloud::visible_from`].
+    pub fn visible_from_camera(
+        &self,
+        camera: &Camera,
+        options: &Options,
+    ) -> Result<CameraView, Error> {
+        // The camera is checked first.
+        self.shown(camera, &[])?;
+        let seen = self.visible_from(camera.position(), options)?;
+        let shown = self.shown(camera, seen.indices())?;
+        let inside = || {
+            seen.indices()
+                .iter()
+                .zip(&shown)
+                .filter(|(_, at)| at[2] > 0.0)
+        };
+        let count = inside().count();
+        let mut indices: Vec<u32> = with_capacity(count)?;
+        let mut pixels: Vec<[f32; 2]> = with_capacity(count)?;
+        let mut depths: Vec<f32> = with_capacity(count)?;
+        for (&index, &[u, v, depth]) in inside() {
+            indices.push(index);
+            pixels.push([u, v]);
+            depths.push(depth);
+        }
+        Ok(CameraView {
+            visibility: seen.with_indices(indices),
+            pixels,
+            depths,
+        })
+    }
+
+    /// Where a camera shows the points with these indices: x, y and the depth. The depth is 0 for a
+    /// point outside of the image.
+    #[inline(never)]
+    pub(crate) fn shown(&self, camera: &Camera, indices: &[u32]) -> Result<Vec<[f32; 3]>, Error> {
+        let lens = camera.lens()?;
+        let mut shown: Vec<[f32; 3]> = with_capacity(indices.len())?;
+        if indices.is_empty() {
+            return Ok(shown);
+        }
+        let places = self.places()?;
+        for &index in indices {
+            let place = places[index as usize] as usize;
+            let ([u, v], depth) = lens.project(self.sequence.points.get(place));
+            // A depth that rounds to 0 is still a depth.
+            let depth = if depth > 0.0 {
+                (depth as f32).max(f32::MIN_POSITIVE)
+            } else {
+                0.0
+            };
+            shown.push([below(u, camera.width), below(v, camera.height), depth]);
+        }
+        Ok(shown)
+    }
+}
+
+/// `x` in single precision, still below `end`.
+fn below(x: f64, end: f64) -> f32 {
+    let rounded = x as f32;
+    if f64::from(rounded) < end || rounded == 0.0 {
+        rounded
+    } else {
+        // The number before it: `end` is positive.
+        f32::from_bits(rounded.to_bits() - 1)
+    }
+}

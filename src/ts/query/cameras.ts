@@ -1,0 +1,109 @@
+import { describe, HprError } from "../base/errors.js";
+import type { Camera } from "./camera.js";
+
+/** The lens and the image of a camera: all but its place and its axes. */
+export type Intrinsics = Omit<Camera, "matrix" | "convention">;
+
+/**
+ * A camera from its pose: its place and its orientation in the cloud's space. The quaternion x, y, z, w
+ * turns the camera's axes into the cloud's. It need not have length 1.
+ *
+ * @throws HprError `viewpoint` for a pose that is not of numbers, or a quaternion of length 0.
+ */
+export function cameraFromPose(
+  position: ArrayLike<number>,
+  quaternion: ArrayLike<number>,
+  intrinsics: Intrinsics,
+  convention: Camera["convention"] = "opencv",
+): Camera {
+  const [px, py, pz] = list("position", position, 3) as [number, number, number];
+  const turn = list("quaternion", quaternion, 4);
+  const length = Math.hypot(...turn);
+  if (!(length > 0 && length < Infinity)) {
+    throw new HprError("viewpoint", `the camera's quaternion must be finite and not zero, got ${turn.join(", ")}`);
+  }
+  const [x, y, z, w] = turn.map((number) => number / length) as [number, number, number, number];
+  const matrix = [
+    ...[1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0],
+    ...[2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0],
+    ...[2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0],
+    ...[px, py, pz, 1],
+  ];
+  return { ...intrinsics, matrix, convention };
+}
+
+/**
+ * The lens of a camera with a field of view, without distortion. Pixels are square, and the principal
+ * point is the middle of the image.
+ *
+ * @param degrees the field of view from the upper to the lower border, in degrees, as three.js counts
+ *   it: above 0 and below 180.
+ * @throws HprError `viewpoint` for a field of view or a size that is out of range.
+ */
+export function intrinsicsFromFieldOfView(degrees: number, width: number, height: number): Intrinsics {
+  if (!(degrees > 0 && degrees < 180)) {
+    throw new HprError(
+      "viewpoint",
+      `the field of view must be above 0 and below 180 degrees, got ${describe(degrees)}`,
+    );
+  }
+  checkSize(width, height);
+  const focal = height / 2 / Math.tan((degrees * Math.PI) / 360);
+  return { fx: focal, fy: focal, cx: width / 2, cy: height / 2, width, height };
+}
+
+/** What is read of three's `PerspectiveCamera`. */
+export interface PerspectiveCameraLike {
+  readonly isPerspectiveCamera?: boolean;
+  readonly matrixWorld: { readonly elements: ArrayLike<number> };
+  readonly projectionMatrix: { readonly elements: ArrayLike<number> };
+  readonly near: number;
+  readonly far: number;
+  updateWorldMatrix?(updateParents: boolean, updateChildren: boolean): void;
+}
+
+/**
+ * A camera from a `PerspectiveCamera` of three.js. Zoom, view offset and film offset count. The cloud is
+ * in world coordinates. `width` and `height` are the size of the image in pixels.
+ *
+ * @throws HprError `viewpoint` for another kind of camera, or a size that is out of range.
+ */
+export function cameraFromThree(camera: PerspectiveCameraLike, width: number, height: number): Camera {
+  if ((camera as Partial<PerspectiveCameraLike> | undefined)?.isPerspectiveCamera !== true) {
+    throw new HprError(
+      "viewpoint",
+      `the camera must be a PerspectiveCamera (for others, see visibleFromDirection), got ${describe(camera)}`,
+    );
+  }
+  checkSize(width, height);
+  camera.updateWorldMatrix?.(true, false);
+  const projection = list("projectionMatrix", camera.projectionMatrix.elements, 16);
+  return {
+    matrix: list("matrixWorld", camera.matrixWorld.elements, 16),
+    convention: "opengl",
+    fx: (projection[0]! * width) / 2,
+    fy: (projection[5]! * height) / 2,
+    cx: ((1 - projection[8]!) * width) / 2,
+    cy: ((1 + projection[9]!) * height) / 2,
+    width,
+    height,
+    near: camera.near,
+    far: camera.far,
+  };
+}
+
+function checkSize(width: number, height: number): void {
+  for (const [name, size] of Object.entries({ width, height })) {
+    if (!(size > 0 && size < Infinity)) {
+      throw new HprError("viewpoint", `the camera's ${name} must be finite and positive, got ${describe(size)}`);
+    }
+  }
+}
+
+function list(name: string, values: unknown, count: number): number[] {
+  const numbers = typeof values === "object" && values !== null ? Array.from(values as ArrayLike<unknown>) : [];
+  if (numbers.length !== count || !numbers.every((value) => typeof value === "number")) {
+    throw new HprError("viewpoint", `the camera's ${name} must be ${count} numbers, got ${describe(values)}`);
+  }
+  return numbers;
+}

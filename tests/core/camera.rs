@@ -1,0 +1,224 @@
+//! What a camera sees: the view from its place, cut to its image.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{Camera, Convention, Error, Inversion, Options, PointCloud, Within};
+
+use crate::common::rng::Rng;
+use crate::common::shapes;
+
+/// A camera that looks at the origin from `from`, with axes by `convention`.
+fn camera(rng: &mut Rng, from: [f64; 3], convention: Convention) -> Camera {
+    let unit = |v: [f64; 3]| {
+        let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
+        v.map(|x| x / length)
+    };
+    let cross = |a: [f64; 3], b: [f64; 3]| {
+        [
+            a[1] * b[2] - a[2] * b[1],
+            a[2] * b[0] - a[0] * b[2],
+            a[0] * b[1] - a[1] * b[0],
+        ]
+    };
+    let ahead = unit(from.map(|x| -x));
+    let right = unit(cross(ahead, rng.direction()));
+    let down = cross(ahead, right);
+    let axes = match convention {
+        Convention::OpenCv => [right, down, ahead],
+        Convention::OpenGl => [right, down.map(|x| -x), ahead.map(|x| -x)],
+    };
+    let mut camera = Camera::new(500.0, 510.0, 310.0, 245.0, 640.0, 480.0);
+    camera.convention = convention;
+    for (column, axis) in axes.into_iter().chain([from]).enumerate() {
+        camera.matrix[4 * column..4 * column + 3].copy_from_slice(&axis);
+    }
+    camera
+}
+
+/// The projection in plain numbers, without the crate's code.
+fn projected(camera: &Camera, p: [f64; 3]) -> Option<([f64; 2], f64)> {
+    let m = &camera.matrix;
+    let v: [f64; 3] = core::array::from_fn(|i| p[i] - m[12 + i]);
+    let [x, mut y, mut z] = [0, 4, 8].map(|c| m[c] * v[0] + m[c + 1] * v[1] + m[c + 2] * v[2]);
+    if camera.convention == Convention::OpenGl {
+        (y, z) = (-y, -z);
+    }
+    if z <= 0.0 || z < camera.near || z > camera.far {
+        return None;
+    }
+    let (a, b) = (x / z, y / z);
+    let r2 = a * a + b * b;
+    let [k1, k2, p1, p2, k3] = camera.distortion;
+    // The radial part must grow all the way from the middle.
+    let steps = 2000;
+    let grows = |s: f64| 1.0 + 3.0 * k1 * s + 5.0 * k2 * s * s + 7.0 * k3 * s * s * s > 0.0;
+    if !(0..=steps).all(|step| grows(r2 * f64::from(step) / f64::from(steps))) {
+        return None;
+    }
+    let radial = 1.0 + k1 * r2 + k2 * r2 * r2 + k3 * r2 * r2 * r2;
+    let u = a * radial + 2.0 * p1 * a * b + p2 * (r2 + 2.0 * a * a);
+    let w = b * radial + p1 * (r2 + 2.0 * b * b) + 2.0 * p2 * a * b;
+    let (u, w) = (camera.fx * u + camera.cx, camera.fy * w + camera.cy);
+    let inside = 0.0 <= u && u < camera.width && 0.0 <= w && w < camera.height;
+    inside.then_some(([u, w], z))
+}
+
+#[test]
+fn a_camera_sees_the_view_from_its_place_cut_to_its_image() {
+    let mut rng = Rng::new(1);
+    let points = shapes::bumpy(&mut rng, 3000);
+    let cloud = PointCloud::new(&points).unwrap();
+    let distortions = [
+        [0.0; 5],
+        [0.1, -0.02, 0.001, -0.002, 0.003],
+        // It stops growing within the image.
+        [-1.2, 0.0, 0.0, 0.0, 0.0],
+        [0.3, -2.0, 0.01, 0.0, 0.2],
+    ];
+    let mut total = 0;
+    for (number, distortion) in distortions.into_iter().enumerate() {
+        for convention in [Convention::OpenCv, Convention::OpenGl] {
+            for (from, depth) in [([0.1, 0.2, 2.4], 2.0), ([0.05, 0.1, 0.15], 0.8)] {
+                let mut camera = camera(&mut rng, from, convention);
+                camera.distortion = distortion;
+                if number == 1 {
+                    (camera.near, camera.far) = (0.8 * depth, depth);
+                }
+                for options in [
+                    Options::default(),
+                    Options::with_exponent(3.0),
+                    Options::with_inversion(Inversion::Looks(2)),
+                    Options {
+                        denoise: Some(5),
+                        ..Options::default()
+                    },
+                    Options {
+                        within: Some(Within {
+                            distance: Some(2.2),
+                            bounds: None,
+                        }),
+                        ..Options::default()
+                    },
+                ] {
+                    let seen = cloud.visible_from_camera(&camera, &options).unwrap();
+                    let whole = cloud.visible_from(from, &options).unwrap();
+                    let mut expected = Vec::new();
+                    for &index in whole.indices() {
+                        if let Some((pixel, depth)) = projected(&camera, points[index as usize]) {
+                            let own = seen.pixels[expected.len()];
+                            let error = (0..2).map(|i| (f64::from(own[i]) - pixel[i]).abs());
+                            assert!(error.fold(0.0, f64::max) < 1e-3, "{own:?}, {pixel:?}");
+                            let deep = f64::from(seen.depths[expected.len()]);
+                            assert!((deep - depth).abs() < 1e-6 * depth);
+                            expected.push(index);
+                        }
+                    }
+                    assert_eq!(seen.visibility.indices(), expected);
+                    assert!(expected.len() < whole.count());
+                    total += expected.len();
+                    assert_eq!(seen.pixels.len(), expected.len());
+                    assert_eq!(seen.visibility.radius(), whole.radius());
+                    assert_eq!(seen.visibility.looks(), whole.looks());
+                }
+            }
+        }
+    }
+    assert!(total > 2000, "{total} points");
+}
+
+#[test]
+fn borders_of_the_image_belong_to_it_above_and_on_the_left() {
+    let camera = Camera::new(10.0, 10.0, 5.0, 5.0, 10.0, 10.0);
+    let points = [
+        [-0.5, 0.0, 1.0],
+        [0.5, 0.0, 1.0],
+        [0.0, -0.5, 1.0],
+        [0.0, 0.5, 1.0],
+        [0.25, 0.25, 1.0],
+        [0.0, 0.0, 0.0],
+        [0.0, 0.0, -1.0],
+        // It would round to the width in single precision.
+        [0.5 - 1e-12, 0.125, 1.0],
+    ];
+    let cloud = PointCloud::new(&points).unwrap();
+    let options = Options::with_exponent(9.0);
+    let seen = cloud.visible_from_camera(&camera, &options).unwrap();
+    assert_eq!(seen.visibility.indices(), [0, 2, 4, 7]);
+    assert_eq!(seen.pixels[..3], [[0.0, 5.0], [5.0, 0.0], [7.5, 7.5]]);
+    assert!(seen.pixels[3][0] < 10.0);
+    assert_eq!(seen.depths, [1.0; 4]);
+    let far = Camera {
+        far: 1.0,
+        near: 1.0,
+        ..camera
+    };
+    let seen = cloud.visible_from_camera(&far, &options).unwrap();
+    assert_eq!(seen.visibility.count(), 4);
+    let far = Camera { far: 0.5, ..camera };
+    let seen = cloud.visible_from_camera(&far, &options).unwrap();
+    assert_eq!(seen.visibility.count(), 0);
+}
+
+#[test]
+fn duplicates_and_georeferenced_points_have_their_own_pixels() {
+    let place = [523_000.0, 4_657_000.0, 120.0];
+    let at = |p: [f64; 3]| core::array::from_fn(|i| place[i] + p[i]);
+    let points = [
+        at([1.0, 0.0, 4.0]),
+        at([1.0, 0.0, 4.0]),
+        at([0.0, 2.0, 4.0]),
+    ];
+    let cloud = PointCloud::new(&points).unwrap();
+    let mut camera = Camera::new(100.0, 100.0, 50.0, 50.0, 101.0, 101.0);
+    camera.matrix[12..15].copy_from_slice(&place);
+    let seen = cloud
+        .visible_from_camera(&camera, &Options::default())
+        .unwrap();
+    assert_eq!(seen.visibility.indices(), [0, 1, 2]);
+    assert_eq!(seen.pixels, [[75.0, 50.0], [75.0, 50.0], [50.0, 100.0]]);
+}
+
+#[test]
+fn cameras_that_are_none_are_refused() {
+    let cloud = PointCloud::new(&[[0.0, 0.0, 1.0]]).unwrap();
+    let good = Camera::new(10.0, 10.0, 5.0, 5.0, 10.0, 10.0);
+    let refused = |change: &dyn Fn(&mut Camera)| {
+        let mut camera = good;
+        change(&mut camera);
+        let refusal = cloud.visible_from_camera(&camera, &Options::default());
+        let refusal = refusal.unwrap_err();
+        assert_eq!(refusal.code(), "viewpoint");
+        refusal.to_string()
+    };
+    let nan = f64::NAN;
+    assert!(refused(&|camera| camera.matrix[5] = nan).contains("matrix must be finite, got NaN"));
+    let rigid = "rotation and a translation";
+    assert!(refused(&|camera| camera.matrix[5] = -1.0).contains(rigid));
+    assert!(refused(&|camera| camera.matrix[0] = 1.001).contains(rigid));
+    assert!(refused(&|camera| camera.matrix[4] = 1e-4).contains(rigid));
+    assert!(refused(&|camera| camera.matrix[15] = 2.0).contains(rigid));
+    assert!(refused(&|camera| camera.matrix = [0.0; 16]).contains(rigid));
+    assert!(refused(&|camera| camera.fx = 0.0).contains("fx"));
+    assert!(refused(&|camera| camera.fy = -3.0).contains("fy must be finite and positive, got -3"));
+    assert!(refused(&|camera| camera.width = 0.0).contains("width"));
+    assert!(refused(&|camera| camera.height = f64::INFINITY).contains("height"));
+    assert!(refused(&|camera| camera.cx = nan).contains("cx"));
+    assert!(refused(&|camera| camera.distortion[3] = nan).contains("distortion"));
+    assert!(refused(&|camera| camera.near = -1.0).contains("near"));
+    assert!(refused(&|camera| camera.far = nan).contains("far"));
+    assert!(refused(&|camera| (camera.near, camera.far) = (2.0, 1.0)).contains("far"));
+    let mut nearly = good;
+    nearly.matrix[4] = 5e-6;
+    assert!(
+        cloud
+            .visible_from_camera(&nearly, &Options::default())
+            .is_ok()
+    );
+    let small = cloud.visible_from_camera(&good, &Options::with_radius(0.5));
+    let (radius, farthest) = (0.5, 1.0);
+    assert_eq!(
+        small.unwrap_err(),
+        Error::RadiusTooSmall { radius, farthest }
+    );
+}

@@ -1,0 +1,86 @@
+import { expect, it } from "vitest";
+
+import { bumpySphere, randomNumbers, readyPackage } from "./support";
+
+const { PointCloud, WorkerPointCloud, hiddenPointRemoval } = await readyPackage();
+
+const positions = bumpySphere(5, 1500);
+const from = [0.3, 0.8, 2.5];
+const random = randomNumbers(3);
+/** Some in front of the surface, some behind it, some points of the cloud, and the viewpoint. */
+const places = Float64Array.from({ length: 120 }, (_, i) =>
+  i < 30 ? positions[3 * 7 + i]! : i < 33 ? from[i - 30]! : 2.4 * random() - 1.2,
+);
+
+function byDefinition(options: object): number[] {
+  return Array.from({ length: places.length / 3 }, (_, i) => {
+    const all = [...positions, ...places.subarray(3 * i, 3 * i + 3)];
+    return hiddenPointRemoval(all, from, options).mask().at(-1)!;
+  });
+}
+
+const choices = [
+  {},
+  { exponent: 2 },
+  { radius: 8 },
+  { inversion: { exponential: "auto" as const } },
+  { looks: 2 as const },
+  { vote: 3 },
+  { within: { distance: 2.2 } },
+];
+
+it("the answer is that of a cloud with the one point more", () => {
+  const cloud = new PointCloud(positions);
+  for (const options of choices) {
+    const seen = cloud.sees(from, places, options);
+    expect(seen).toBeInstanceOf(Uint8Array);
+    expect(Array.from(seen)).toEqual(byDefinition(options));
+  }
+  expect(cloud.length).toBe(1500);
+  expect(cloud.sees(from, [])).toEqual(new Uint8Array(0));
+  cloud.dispose();
+});
+
+it("workers give the same answers", async () => {
+  const cloud = new PointCloud(positions);
+  const remote = await WorkerPointCloud.create(positions, { workers: 2 });
+  for (const options of choices) {
+    const own = places.slice();
+    const asked = remote.sees(from, own, options);
+    own.fill(0);
+    expect(await asked).toEqual(cloud.sees(from, places, options));
+  }
+  await remote.dispose();
+  cloud.dispose();
+});
+
+it("dimension, stride and nonFinite of the cloud apply", () => {
+  const flat = new PointCloud([0, 1, 9, 1, 0, 9], { dimension: 2, stride: 3 });
+  expect([...flat.sees([5, 0], [4, 0, 7, -4, 0, 7])]).toEqual([1, 0]);
+  flat.dispose();
+  const skipping = new PointCloud(positions, { nonFinite: "skip" });
+  expect([...skipping.sees(from, [NaN, 0, 0, ...from])]).toEqual([0, 1]);
+  skipping.dispose();
+});
+
+it("questions that make no sense are refused", () => {
+  const cloud = new PointCloud(positions);
+  const bad: [unknown, object, string, RegExp][] = [
+    [[1, 2], {}, "positions-length", /3 numbers/],
+    ["5", {}, "positions-type", /positions/],
+    [[0, 0, NaN], {}, "non-finite", /first at index 0/],
+    [[0, 0, 90], { radius: 8 }, "radius", /smaller than the distance/],
+    [[0, 0, 0], { draft: true }, "option", /draft cannot be combined with sees/],
+    [[0, 0, 0], { sample: 5 }, "option", /sample cannot be combined with sees/],
+    [[0, 0, 0], { looks: 2, scores: true }, "option", /scores cannot be combined with sees/],
+  ];
+  for (const [places, options, code, message] of bad) {
+    const ask = () => cloud.sees(from, places as number[], options);
+    expect(ask).toThrow(expect.objectContaining({ code }));
+    expect(ask).toThrow(message);
+  }
+  const four = new PointCloud(new Float64Array(16), { dimension: 4 });
+  expect(() => four.sees([1, 2, 3, 4], [0, 0, 0, 0])).toThrow(/sees needs a cloud of dimension 3, not 4/);
+  four.dispose();
+  cloud.dispose();
+});
