@@ -43,6 +43,7 @@ mod view;
 mod wasm;
 
 pub use answers::camera::CameraView;
+pub use answers::coverage::{Placement, Placing};
 pub use answers::horizon::Horizon;
 pub use answers::illumination::Lighting;
 pub use answers::merge::{merge_visible, merge_visible_u64};

@@ -3,6 +3,7 @@
 //! noisy, and only a part of it may take part. The answer can also be a surface or light.
 
 pub(crate) mod camera;
+pub(crate) mod coverage;
 pub(crate) mod denoise;
 pub(crate) mod direction;
 pub(crate) mod horizon;

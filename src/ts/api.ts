@@ -23,6 +23,8 @@ export {
   intrinsicsFromFieldOfView,
   type PerspectiveCameraLike,
 } from "./query/cameras.js";
+export type { Placement } from "./query/placement.js";
+export type { CoverageOptions, PlacementOptions } from "./query/surveys.js";
 export type { Within } from "./query/within.js";
 export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
 export { initSync } from "./instance/start.js";

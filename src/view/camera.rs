@@ -214,11 +214,13 @@ impl Lens<'_> {
 /// The first positive zero of a cubic that is 1 at 0, by its coefficients from low to high;
 /// infinite if there is none.
 fn first_zero([a, b, c, d]: [f64; 4]) -> f64 {
+    /// No image reaches that far.
+    const LARGEST: f64 = 1e30;
     let value = |x: f64| a + x * (b + x * (c + x * d));
     let mut low = 0.0;
     // Between its extremes and beyond them the cubic is monotone.
     for end in extremes(b, 2.0 * c, 3.0 * d) {
-        if end > low {
+        if end > low && end < LARGEST {
             if value(end) <= 0.0 {
                 return bisected(low, end, &value);
             }
@@ -226,7 +228,7 @@ fn first_zero([a, b, c, d]: [f64; 4]) -> f64 {
         }
     }
     let mut high = (2.0f64 * low).max(1.0);
-    while high < 1e30 {
+    while high < LARGEST {
         if value(high) <= 0.0 {
             return bisected(low, high, &value);
         }

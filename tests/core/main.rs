@@ -7,6 +7,7 @@ mod automatic;
 mod camera;
 mod certificates;
 mod changes;
+mod coverage;
 mod definition;
 mod digest;
 mod direction;

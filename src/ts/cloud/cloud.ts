@@ -20,6 +20,19 @@ import {
   severalQuery,
   viewQuery,
 } from "../query/queries.js";
+import type { Placement } from "../query/placement.js";
+import {
+  COVERAGE_OPTIONS,
+  type CoverageOptions,
+  CoverageTask,
+  PLACEMENT_OPTIONS,
+  type PlacementOptions,
+  PlacementTask,
+  readListener,
+  readPlacing,
+  readSurvey,
+  type SurveyTask,
+} from "../query/surveys.js";
 import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import {
   CameraAnswer,
@@ -181,6 +194,46 @@ export class PointCloud {
     this.#core.requireOpen();
     const given = givenOptions(options, VIEW_OPTIONS);
     return this.#core.ask(seesQuery(this.#core.settings, viewpoint, positions, given)).seen;
+  }
+
+  /**
+   * Counts how many of the viewpoints see each index. The memory does not grow with the number of
+   * viewpoints.
+   *
+   * @returns one count for each index. The array is the caller's own copy.
+   * @throws HprError `option` also for `draft` and `scores`; otherwise as {@link PointCloud.visibleFrom}.
+   */
+  coverage(viewpoints: readonly ArrayLike<number>[], options?: CoverageOptions): Uint32Array {
+    this.#core.requireOpen();
+    const given = givenOptions(options, COVERAGE_OPTIONS);
+    const survey = readSurvey(this.#core.dimension, viewpoints, given, "coverage");
+    return this.#answered(new CoverageTask(survey, readListener(given))).result(this.length);
+  }
+
+  /**
+   * Chooses viewpoints among candidates: always the one that adds most to what the others see, ties to
+   * the lowest number. The choice ends at `count` viewpoints, when `share` is seen, or when nothing more is
+   * gained. With `count`, it sees at least 1 − 1/e of what the best choice of so many sees.
+   *
+   * @throws HprError `option` also for `draft` and `scores`; otherwise as {@link PointCloud.visibleFrom}.
+   */
+  placeViewpoints(candidates: readonly ArrayLike<number>[], options?: PlacementOptions): Placement {
+    this.#core.requireOpen();
+    const given = givenOptions(options, PLACEMENT_OPTIONS);
+    const survey = readSurvey(this.#core.dimension, candidates, given, "placeViewpoints");
+    return this.#answered(new PlacementTask(survey, readPlacing(given), readListener(given))).result(this.length);
+  }
+
+  /** Asks all views of a task, one after another. */
+  #answered<T extends SurveyTask>(task: T): T {
+    const { settings } = task;
+    for (let next = task.next(0); next !== undefined; next = task.next(0)) {
+      const { number, viewpoint } = next;
+      const found = this.#core.ask({ kind: "visibleFrom", viewpoint, settings, divisible: false });
+      task.take(number, found);
+      this.#core.keepMemory(found.indices.buffer);
+    }
+    return task;
   }
 
   /**

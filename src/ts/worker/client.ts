@@ -33,6 +33,18 @@ import {
   severalQuery,
   viewQuery,
 } from "../query/queries.js";
+import type { Placement } from "../query/placement.js";
+import {
+  COVERAGE_OPTIONS,
+  type CoverageOptions,
+  CoverageTask,
+  PLACEMENT_OPTIONS,
+  type PlacementOptions,
+  PlacementTask,
+  readPlacing,
+  readSurvey,
+  type SurveyTask,
+} from "../query/surveys.js";
 import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import {
   CameraAnswer,
@@ -299,6 +311,39 @@ export class WorkerPointCloud {
   }
 
   /**
+   * Counts how many viewpoints see each index; see `PointCloud.coverage`. The workers share the
+   * viewpoints. If the signal aborts, no further viewpoint is asked.
+   *
+   * @throws HprError (as a rejection) the same as `PointCloud.coverage`.
+   */
+  async coverage(
+    viewpoints: readonly ArrayLike<number>[],
+    options?: CoverageOptions & RequestOptions,
+  ): Promise<Uint32Array> {
+    const task = await this.#survey("coverage", options, COVERAGE_OPTIONS, (dimension, given, progress) => {
+      return new CoverageTask(readSurvey(dimension, viewpoints, given, "coverage"), progress);
+    });
+    return task.result(this.length);
+  }
+
+  /**
+   * Chooses viewpoints among candidates; see `PointCloud.placeViewpoints`. The workers share the
+   * candidates. If the signal aborts, no further candidate is asked.
+   *
+   * @throws HprError (as a rejection) the same as `PointCloud.placeViewpoints`.
+   */
+  async placeViewpoints(
+    candidates: readonly ArrayLike<number>[],
+    options?: PlacementOptions & RequestOptions,
+  ): Promise<Placement> {
+    const task = await this.#survey("placeViewpoints", options, PLACEMENT_OPTIONS, (dimension, given, progress) => {
+      const survey = readSurvey(dimension, candidates, given, "placeViewpoints");
+      return new PlacementTask(survey, readPlacing(given), progress);
+    });
+    return task.result(this.length);
+  }
+
+  /**
    * The radius that a rule chooses for a viewpoint; see `PointCloud.autoRadius`.
    *
    * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.
@@ -386,6 +431,24 @@ export class WorkerPointCloud {
   async dispose(): Promise<void> {
     unreachable.unregister(this);
     await this.#queue.close(new HprError("disposed", "this cloud has been disposed of"));
+  }
+
+  /** Answers all views of a task, as the options of the request say. */
+  async #survey<T extends SurveyTask>(
+    method: string,
+    options: unknown,
+    names: readonly string[],
+    read: (dimension: number, given: Record<string, unknown>, progress: (fraction: number) => void) => T,
+  ): Promise<T> {
+    this.#queue.requireOpen();
+    const given = givenOptions(options, names, REQUEST_OPTIONS);
+    const latest = flag(given, "latest") ? method : undefined;
+    const signal = readSignal(given["signal"]);
+    const progress = readProgress(given["onProgress"]);
+    const task = read(this.#settings.dimension, given, (fraction) => progress?.at(fraction));
+    if (signal !== undefined) task.stopWhen(() => signal.aborted);
+    await untilAborted(signal, this.#queue.ask({ kind: "survey", task }, { latest, signal, owner: this }));
+    return task;
   }
 
   /**

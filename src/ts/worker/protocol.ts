@@ -2,6 +2,7 @@ import type { Answers, Found } from "../query/answers.js";
 import { HprError, type HprErrorCode } from "../base/errors.js";
 import type { CloudSettings, CloudSize } from "../query/options.js";
 import type { Query } from "../query/queries.js";
+import type { SurveyTask } from "../query/surveys.js";
 
 /**
  * The messages between the page and its worker. First, the worker says `"ready"` once. After that,
@@ -26,6 +27,8 @@ export type Request =
    * It is the only letter that may come before the reply to the request before.
    */
   | { kind: "abandon" }
+  /** Asks many views. The team deals them out to its members, so this is never sent to a worker. */
+  | { kind: "survey"; task: SurveyTask }
   /**
    * `spare` is memory for the answer's indices, if there is some. With `listing`, the indices of
    * hidden points follow those of the visible ones (see `hidden.ts`). With `sliced`, a view that
@@ -40,6 +43,7 @@ export interface Replies extends Answers {
   remove: CloudSize;
   forget: object;
   abandon: object;
+  survey: object;
 }
 
 type KindWithIndices = { [Kind in keyof Replies]: Replies[Kind] extends Found ? Kind : never }[keyof Replies];

@@ -1,5 +1,6 @@
 import { allocating } from "../base/memory.js";
 import type { Query } from "../query/queries.js";
+import { Dealing } from "./dealing.js";
 import { failedReply, isProgress, READY, type Reply, type Request } from "./protocol.js";
 import { type Part, Sectors } from "./sectors.js";
 import { joinThread } from "./shared-thread.js";
@@ -24,6 +25,8 @@ export class Team {
   #missing = 0;
   /** The share of the request that is done, by member. */
   #progress: number[] = [];
+  /** The survey that is being answered. */
+  #dealing: Dealing | undefined;
   #over = false;
 
   private constructor(events: ThreadEvents) {
@@ -65,6 +68,18 @@ export class Team {
    * given away.
    */
   post(request: Request): void {
+    if (request.kind === "survey") {
+      this.#drafted = undefined;
+      const dealing = new Dealing(request.task, this.#members, (reply) => {
+        this.#dealing = undefined;
+        this.#events.message(reply);
+      });
+      this.#dealing = dealing;
+      queueMicrotask(() => {
+        dealing.deal();
+      });
+      return;
+    }
     let copies: { request: Request; transfer: ArrayBuffer[] }[];
     const isDivided = isForAll(request) && !this.#goesOn(request);
     const asked = isDivided ? this.#members : this.#members.slice(0, 1);
@@ -115,6 +130,10 @@ export class Team {
       if (this.#starting === 0) {
         this.#events.message(READY);
       }
+      return;
+    }
+    if (this.#dealing !== undefined && from !== undefined) {
+      this.#dealing.reply(from, message as Reply);
       return;
     }
     const number = this.#members.findIndex((thread) => thread === from);
@@ -233,6 +252,7 @@ function copyFor(
     }
     case "forget":
     case "abandon":
+    case "survey":
       return { request, transfer: [] };
     case "visibleFrom":
     case "visibleFromCamera":

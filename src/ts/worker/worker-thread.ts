@@ -36,6 +36,7 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
   }
   switch (request.kind) {
     case "abandon":
+    case "survey":
       return {};
     case "append":
       cloud.append(request.positions);

@@ -1,0 +1,198 @@
+import type { Found } from "./answers.js";
+import { describe, HprError } from "../base/errors.js";
+import { allocating } from "../base/memory.js";
+import { isNumberArray, plainNumbers } from "../base/typed-arrays.js";
+import { integer, number } from "./options.js";
+import { GreedyChoice, type Placement, type PlacementSettings } from "./placement.js";
+import { readViewpoint } from "./positions.js";
+import { VIEW_OPTIONS, type ViewSettings, viewSettings, type VisibilityOptions } from "./view-options.js";
+
+/** How points are counted from many viewpoints. */
+export interface CoverageOptions extends VisibilityOptions {
+  /** Is told the share of the viewpoints that is done: growing numbers, 1 at the end. */
+  onProgress?: ((fraction: number) => void) | undefined;
+}
+
+/** How viewpoints are chosen among candidates. */
+export interface PlacementOptions extends CoverageOptions {
+  /** The largest number of viewpoints to choose: an integer of at least 1. Default: no limit. */
+  count?: number | undefined;
+  /** The choice ends when so much of the weight is seen that some candidate sees: above 0, at most 1. Default 1. */
+  share?: number | undefined;
+  /** How much each index counts: one number of at least 0 for each index. Default 1 each. */
+  weights?: ArrayLike<number> | undefined;
+}
+
+/** Many viewpoints of one cloud, each asked with the same settings. */
+export interface Survey {
+  viewpoints: number[][];
+  settings: ViewSettings;
+}
+
+export const COVERAGE_OPTIONS = [...VIEW_OPTIONS, "onProgress"] as const;
+export const PLACEMENT_OPTIONS = [...COVERAGE_OPTIONS, "count", "share", "weights"] as const;
+
+type GivenOptions = Record<string, unknown>;
+
+/** @param method the name of the method, for messages */
+export function readSurvey(
+  dimension: number,
+  viewpoints: unknown,
+  given: GivenOptions,
+  method: "coverage" | "placeViewpoints",
+): Survey {
+  const name = method === "coverage" ? "viewpoints" : "candidates";
+  if (!Array.isArray(viewpoints)) {
+    throw new HprError(
+      "viewpoint",
+      `${name} must be an array of ${dimension} numbers each, got ${describe(viewpoints)}`,
+    );
+  }
+  const settings = viewSettings(given, dimension);
+  for (const option of ["draft", "scores"] as const) {
+    if (settings[option]) throw new HprError("option", `${option} cannot be combined with ${method}`);
+  }
+  const places = Array.from(viewpoints, (viewpoint: unknown, i) =>
+    readViewpoint(viewpoint, dimension, `viewpoint ${name}[${i}]`),
+  );
+  return { viewpoints: places, settings };
+}
+
+export function readPlacing(given: GivenOptions): PlacementSettings {
+  const share = number(given, "share") ?? 1;
+  if (!(share > 0 && share <= 1)) {
+    throw new HprError("option", `share must be above 0 and at most 1, got ${describe(share)}`);
+  }
+  return {
+    count: integer(given, "count", 1, Number.MAX_SAFE_INTEGER) ?? Infinity,
+    share,
+    weights: given["weights"] === undefined ? undefined : readWeights(given["weights"]),
+  };
+}
+
+/** The option `onProgress`. */
+export function readListener(given: GivenOptions): ((fraction: number) => void) | undefined {
+  const { onProgress } = given;
+  if (onProgress !== undefined && typeof onProgress !== "function") {
+    throw new HprError("option", `onProgress must be a function, got ${describe(onProgress)}`);
+  }
+  return onProgress as ((fraction: number) => void) | undefined;
+}
+
+/** The numbers are copied. Their number is checked when the length of the cloud is known. */
+function readWeights(weights: unknown): Float64Array<ArrayBuffer> {
+  const list = isNumberArray(weights)
+    ? plainNumbers(weights)
+    : Array.isArray(weights)
+      ? (weights as unknown[])
+      : undefined;
+  if (list === undefined) {
+    throw new HprError("option", `weights must be an array of numbers, got ${describe(weights)}`);
+  }
+  const own = allocating(`${list.length} weights`, () => new Float64Array(list.length));
+  for (let i = 0; i < list.length; i++) {
+    const weight = list[i];
+    if (typeof weight !== "number" || !(weight >= 0 && weight < Infinity)) {
+      throw new HprError("option", `weights[${i}] must be finite and at least 0, got ${describe(weight)}`);
+    }
+    own[i] = weight;
+  }
+  return own;
+}
+
+/** Many views of one cloud, whose answers come in any order. */
+export abstract class SurveyTask {
+  readonly settings: ViewSettings;
+  readonly #viewpoints: number[][];
+  #wanted: number[];
+  readonly #progress: ((fraction: number) => void) | undefined;
+  #taken = 0;
+  #isStopped = () => false;
+
+  constructor({ viewpoints, settings }: Survey, progress?: (fraction: number) => void) {
+    this.settings = settings;
+    this.#viewpoints = viewpoints;
+    this.#wanted = [...viewpoints.keys()].reverse();
+    this.#progress = progress;
+  }
+
+  /** Asks nothing more as soon as this is true. */
+  stopWhen(isStopped: () => boolean): void {
+    this.#isStopped = isStopped;
+  }
+
+  /** The next viewpoint, if one is known. `running` views have no answer yet. */
+  next(running: number): { number: number; viewpoint: number[] } | undefined {
+    if (this.#isStopped()) {
+      return undefined;
+    }
+    if (this.#wanted.length === 0 && running === 0) {
+      this.#wanted = this.more();
+    }
+    const number = this.#wanted.pop();
+    return number === undefined ? undefined : { number, viewpoint: this.#viewpoints[number]! };
+  }
+
+  take(number: number, found: Found): void {
+    this.add(number, found);
+    this.#taken += 1;
+    // Views that are asked again do not count.
+    this.#progress?.(Math.min(this.#taken / this.#viewpoints.length, 1));
+  }
+
+  protected get count(): number {
+    return this.#viewpoints.length;
+  }
+
+  /** Takes the answer to one view. */
+  protected abstract add(number: number, found: Found): void;
+
+  /** The viewpoints that are wanted after all others are answered. */
+  protected abstract more(): number[];
+}
+
+export class CoverageTask extends SurveyTask {
+  #counts: Uint32Array<ArrayBuffer> | undefined;
+
+  protected override add(_: number, { indices, length }: Found): void {
+    const counts = (this.#counts ??= newCounts(length));
+    for (const index of indices) counts[index]! += 1;
+  }
+
+  protected override more(): number[] {
+    return [];
+  }
+
+  /** @param length the length of the cloud, for no viewpoints */
+  result(length: number): Uint32Array {
+    return this.#counts ?? newCounts(length);
+  }
+}
+
+function newCounts(length: number): Uint32Array<ArrayBuffer> {
+  return allocating(`${length} counts`, () => new Uint32Array(length));
+}
+
+export class PlacementTask extends SurveyTask {
+  readonly #wanted: PlacementSettings;
+  #choice: GreedyChoice | undefined;
+
+  constructor(survey: Survey, wanted: PlacementSettings, progress?: (fraction: number) => void) {
+    super(survey, progress);
+    this.#wanted = wanted;
+  }
+
+  protected override add(number: number, { indices, length }: Found): void {
+    this.#choice ??= new GreedyChoice(length, this.count, this.#wanted);
+    this.#choice.take(number, indices);
+  }
+
+  protected override more(): number[] {
+    return this.#choice?.wanted() ?? [];
+  }
+
+  /** @param length the length of the cloud, for no candidates */
+  result(length: number): Placement {
+    return (this.#choice ?? new GreedyChoice(length, 0, this.#wanted)).result;
+  }
+}

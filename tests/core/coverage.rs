@@ -1,0 +1,220 @@
+//! Many viewpoints: counts, and the greedy choice against every choice.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{Inversion, Options, Placement, Placing, PointCloud, Within};
+
+use crate::common::rng::Rng;
+use crate::common::shapes;
+
+fn masks(cloud: &PointCloud, places: &[[f64; 3]], options: &Options) -> Vec<Vec<bool>> {
+    let view = |&place: &[f64; 3]| {
+        let mask = cloud.visible_from(place, options).unwrap().mask();
+        mask.iter().map(|&byte| byte == 1).collect()
+    };
+    places.iter().map(view).collect()
+}
+
+fn weight_of(seen: &[bool], weights: &[f64]) -> f64 {
+    let all = seen.iter().zip(weights);
+    all.filter(|(seen, _)| **seen)
+        .map(|(_, weight)| weight)
+        .sum()
+}
+
+/// The greedy choice as the definition has it, without any shortcut.
+fn eager(masks: &[Vec<bool>], weights: &[f64], count: usize) -> (Vec<usize>, Vec<f64>) {
+    let mut seen = vec![false; weights.len()];
+    let (mut chosen, mut gains) = (Vec::new(), Vec::new());
+    while chosen.len() < count {
+        let gain = |mask: &Vec<bool>| {
+            let new: Vec<_> = mask
+                .iter()
+                .zip(&seen)
+                .map(|(new, old)| *new && !old)
+                .collect();
+            weight_of(&new, weights)
+        };
+        let all: Vec<f64> = masks.iter().map(gain).collect();
+        let most = all.iter().copied().fold(0.0, f64::max);
+        if most == 0.0 {
+            break;
+        }
+        let best = all.iter().position(|&gain| gain == most).unwrap();
+        chosen.push(best);
+        gains.push(most);
+        seen.iter_mut()
+            .zip(&masks[best])
+            .for_each(|(seen, new)| *seen |= new);
+    }
+    (chosen, gains)
+}
+
+/// The largest weight that any choice of `count` candidates sees.
+fn best(masks: &[Vec<bool>], weights: &[f64], count: usize) -> f64 {
+    let choices = (0u32..1 << masks.len()).filter(|set| set.count_ones() as usize == count);
+    let seen = choices.map(|set| {
+        let sees = |index: usize| (0..masks.len()).any(|k| set >> k & 1 == 1 && masks[k][index]);
+        let seen: Vec<bool> = (0..weights.len()).map(sees).collect();
+        weight_of(&seen, weights)
+    });
+    seen.fold(0.0, f64::max)
+}
+
+fn scene(seed: u64) -> (PointCloud, Vec<[f64; 3]>, Vec<f64>) {
+    let mut rng = Rng::new(seed);
+    let shape: fn(&mut Rng, usize) -> shapes::Points =
+        rng.pick(&[shapes::bumpy, shapes::room, shapes::ball]);
+    let points = shape(&mut rng, 250);
+    let candidates = (0..9).map(|_| rng.in_ball().map(|x| 2.0 * x)).collect();
+    let weights = points.iter().map(|_| f64::from(rng.integer(0, 4)) * 0.1);
+    let weights = weights.collect();
+    (PointCloud::new(&points).unwrap(), candidates, weights)
+}
+
+#[test]
+fn coverage_counts_the_views() {
+    let (cloud, places, _) = scene(1);
+    let distance = Some(1.5);
+    let bounds = Some([[-0.7; 3], [2.0; 3]]);
+    for options in [
+        Options::default(),
+        Options::with_inversion(Inversion::Looks(2)),
+        Options {
+            denoise: Some(4),
+            vote: Some(3),
+            sample: Some(120),
+            ..Options::default()
+        },
+        Options {
+            within: Some(Within { distance, bounds }),
+            denoise: Some(3),
+            ..Options::default()
+        },
+    ] {
+        let masks = masks(&cloud, &places, &options);
+        let counts = cloud.coverage(&places, &options).unwrap();
+        for (index, count) in counts.into_iter().enumerate() {
+            let views = masks.iter().filter(|mask| mask[index]).count();
+            assert_eq!(count as usize, views, "{options:?}");
+        }
+    }
+    assert_eq!(cloud.coverage(&[], &Options::default()), Ok(vec![0; 250]));
+}
+
+#[test]
+fn the_lazy_choice_is_the_greedy_choice_and_near_the_best() {
+    let options = Options::default();
+    for seed in 0..12 {
+        let (cloud, mut candidates, weights) = scene(seed);
+        // Equal candidates tie: the lowest number wins.
+        candidates.push(candidates[0]);
+        let masks = masks(&cloud, &candidates, &options);
+        for weights in [vec![1.0; 250], weights] {
+            for count in 1..=4 {
+                let placing = Placing {
+                    count: Some(count),
+                    weights: Some(&weights),
+                    ..Placing::default()
+                };
+                let placed = cloud.place_viewpoints(&candidates, &options, &placing);
+                let Placement {
+                    chosen,
+                    gains,
+                    seen,
+                    unseen,
+                } = placed.unwrap();
+                let expected = eager(&masks, &weights, count);
+                assert_eq!((&chosen, &gains), (&expected.0, &expected.1), "seed {seed}");
+                let by_chosen = |&index: &u32| chosen.iter().any(|&k| masks[k][index as usize]);
+                let by_any = |index: &u32| masks.iter().any(|mask| mask[*index as usize]);
+                assert_eq!(seen, (0..250).filter(by_chosen).collect::<Vec<_>>());
+                assert_eq!(unseen, (0..250).filter(|k| !by_any(k)).collect::<Vec<_>>());
+                let got: f64 = gains.iter().sum();
+                let bound = 1.0 - (-1.0f64).exp();
+                assert!(got >= bound * best(&masks, &weights, count) - 1e-9);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_choice_ends_when_enough_is_seen() {
+    let (cloud, candidates, weights) = scene(3);
+    let options = Options::default();
+    let place = |placing: Placing| {
+        cloud
+            .place_viewpoints(&candidates, &options, &placing)
+            .unwrap()
+    };
+    let all = place(Placing::default());
+    assert_eq!(all.seen.len() + all.unseen.len(), 250);
+    let most = all.gains.iter().sum::<f64>();
+    for share in [0.2, 0.5, 0.9, 0.99] {
+        let some = place(Placing {
+            share: Some(share),
+            ..Placing::default()
+        });
+        assert_eq!(some.chosen, all.chosen[..some.chosen.len()]);
+        assert_eq!(some.unseen, all.unseen);
+        assert!(some.seen.len() as f64 >= share * most);
+        let before: f64 = some.gains[..some.gains.len() - 1].iter().sum();
+        assert!(before < share * most);
+    }
+    // Nothing is gained where nothing counts.
+    let nothing = vec![0.0; weights.len()];
+    let none = place(Placing {
+        weights: Some(&nothing),
+        ..Placing::default()
+    });
+    assert!(none.chosen.is_empty() && none.seen.is_empty());
+}
+
+#[test]
+fn questions_that_make_no_sense_are_refused() {
+    let (cloud, candidates, _) = scene(4);
+    let default = Options::default();
+    let short = [1.0];
+    let negative = vec![-1.0; 250];
+    for placing in [
+        Placing {
+            count: Some(0),
+            ..Placing::default()
+        },
+        Placing {
+            share: Some(0.0),
+            ..Placing::default()
+        },
+        Placing {
+            share: Some(f64::NAN),
+            ..Placing::default()
+        },
+        Placing {
+            weights: Some(&short),
+            ..Placing::default()
+        },
+        Placing {
+            weights: Some(&negative),
+            ..Placing::default()
+        },
+    ] {
+        let refusal = cloud.place_viewpoints(&candidates, &default, &placing);
+        assert_eq!(refusal.unwrap_err().code(), "option");
+    }
+    let draft = Options {
+        draft: true,
+        ..default
+    };
+    let scores = Options {
+        scores: true,
+        ..Options::with_inversion(Inversion::Looks(2))
+    };
+    for options in [draft, scores, Options::with_exponent(-1.0)] {
+        assert_eq!(cloud.coverage(&[], &options).unwrap_err().code(), "option");
+        let refusal = cloud.coverage(&candidates, &options).unwrap_err();
+        assert_eq!(refusal.code(), "option");
+    }
+    let refusal = cloud.coverage(&[[f64::NAN; 3]], &default).unwrap_err();
+    assert_eq!(refusal.code(), "viewpoint");
+}
