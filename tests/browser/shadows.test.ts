@@ -82,9 +82,9 @@ test("a soft light has shadows with a soft edge", async () => {
 });
 
 test.for(["points", "surface"])("on the %s, only the lights cause shades", async (show) => {
-  // A light at the camera's place sees all that the camera sees, so everything has full brightness.
-  const headlight = await openWall(`&show=${show}&light=0,0,4&ambient=0`);
-  const bright = await openWall(`&show=${show}&light=9,9,9&ambient=1`);
+  // A light at the camera’s place sees all that one hull sees from there, so everything has full brightness.
+  const headlight = await openWall(`&show=${show}&light=0,0,4&ambient=0&looks=0`);
+  const bright = await openWall(`&show=${show}&light=9,9,9&ambient=1&looks=0`);
   const handle = "#lights { display: none }";
   for (const page of [headlight, bright]) await addStyle(page, handle);
   expect(await differentPixels(headlight, await picture(headlight), await picture(bright))).toBe(0);
