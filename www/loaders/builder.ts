@@ -90,7 +90,8 @@ export class CloudBuilder {
 
   /** Hands on the points since the last time. Differences are taken in f64, so that f32 holds them. */
   #show(): void {
-    this.#showAt = this.#kept + NEXT_SHOWN;
+    // Their number doubles, because every picture of all points so far takes time.
+    this.#showAt = this.#kept + Math.max(NEXT_SHOWN, this.#kept);
     if (!this.#onPoints || this.#kept > MOST_SHOWN) return;
     const points = new Float32Array(3 * (this.#kept - this.#shown));
     const from = 3 * this.#shown;

@@ -7,16 +7,15 @@ const MAX_DOWNLOAD = 4_000_000_000;
 
 /**
  * Downloads a whole file. Reports the progress if the server gives the length. `unreachable`: the reason why the file
- * is not available, if it is known. `onPart` gets the bytes as they arrive.
+ * is not available, if it is known.
  */
 export async function download(
   name: string,
   url: string,
   onProgress: (fraction: number | null) => void,
   unreachable?: string,
-  onPart?: (bytes: Uint8Array) => void,
 ): Promise<Blob> {
-  return receive(name, await ask(name, url, { unreachable }), onProgress, onPart);
+  return receive(name, await ask(name, url, { unreachable }), onProgress);
 }
 
 /**
@@ -76,12 +75,7 @@ async function bodyOf(name: string, response: Response): Promise<Uint8Array> {
   }
 }
 
-async function receive(
-  name: string,
-  response: Response,
-  onProgress: (fraction: number | null) => void,
-  onPart?: (bytes: Uint8Array) => void,
-): Promise<Blob> {
+async function receive(name: string, response: Response, onProgress: (fraction: number | null) => void): Promise<Blob> {
   // With compression, the given length is that of the compressed data. Then the fraction is unknown.
   const compressed = response.headers.get("content-encoding") !== null;
   const total = compressed ? 0 : Number(response.headers.get("content-length") ?? 0);
@@ -94,7 +88,6 @@ async function receive(
   try {
     for (let part = await reader.read(); !part.done; part = await reader.read()) {
       chunks.push(part.value);
-      onPart?.(part.value);
       received += part.value.length;
       checkSize(name, received);
       onProgress(total > 0 ? Math.min(1, received / total) : null);

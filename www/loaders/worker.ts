@@ -1,7 +1,6 @@
 /// <reference lib="webworker" />
 import { type LoadedCloud, prepareCloud } from "../cloud/cloud.ts";
 import { makeSample } from "../samples/generators.ts";
-import { ArrivingPoints } from "./arriving.ts";
 import { download, downloadRanges } from "./download.ts";
 import { MAX_POINTS } from "../settings/limits.ts";
 import { checkedCloud } from "./limits.ts";
@@ -61,10 +60,7 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
     return makeSample(request.shape);
   }
   if (request.kind === "sample") {
-    const arriving = new ArrivingPoints(onPoints);
-    const blob = await download(name, request.url, downloading, NOT_KEPT, (part) => {
-      arriving.take(part);
-    });
+    const blob = await download(name, request.url, downloading, NOT_KEPT);
     const data = await blob.arrayBuffer();
     // Some servers answer with a page if they do not have the file.
     if (data.byteLength % 12 !== 0)

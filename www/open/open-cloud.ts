@@ -56,6 +56,8 @@ export interface Ready {
 
 /** Below this number of points one worker is enough. */
 const SHARED_BELOW = 200_000;
+/** From this number of points on, all points are shown until the first answer is there. */
+const PREVIEWED_FROM = 600_000;
 
 /** Loads a cloud and finds its first answer. Nothing is shown yet, and a failure leaves nothing behind. */
 export async function openCloud(
@@ -65,6 +67,7 @@ export async function openCloud(
   const { signal, onProgress } = place;
   // The WebAssembly is downloaded beside the cloud. If that fails, the error is reported when the cloud needs it.
   init().catch(() => undefined);
+  let isPreviewed = false;
   const { cloud, positions, copy, ...loaded } = await loadCloud(
     request,
     signal,
@@ -73,7 +76,9 @@ export async function openCloud(
     },
     (points) => {
       const up = wished.up ?? usualLook(sample, request.name, 0, undefined).up;
-      if (!signal.aborted) place.preview?.points(points, up);
+      if (signal.aborted) return;
+      isPreviewed = true;
+      place.preview?.points(points, up);
     },
   );
   const usual = usualLook(sample, request.name, cloud.count, loaded.taken?.up);
@@ -108,7 +113,9 @@ export async function openCloud(
     return findHome(cloud, upward, sameUp ? sample : null, sameUp ? (asked ?? taken) : null, lens);
   };
   const home = homeFrom(view)(up);
-  place.preview?.cloud({ cloud, home, look: { ...usual, ...wished } });
+  // The answer for a small cloud comes so soon that a picture of all points would only delay it.
+  if (isPreviewed || cloud.count >= PREVIEWED_FROM)
+    place.preview?.cloud({ cloud, home, look: { ...usual, ...wished } });
 
   // The worker takes the copy. The page keeps the file's own coordinates for the tools.
   const worker = await WorkerPointCloud.create(copy, {

@@ -99,11 +99,23 @@ const fragmentShader = /* glsl */ `
     return best;
   }
 
+  /* A quick test: most empty pixels are background, with no point around. */
+  bool isNearPoints(ivec2 pixel) {
+    ivec2 last = textureSize(depths, 0) - 1;
+    int away = int(round(2.0 * gap));
+    float nearest = 1.0;
+    for (int i = 0; i < 4; i++) {
+      ivec2 there = clamp(pixel + (i < 2 ? ivec2(away * (2 * i - 1), 0) : ivec2(0, away * (2 * i - 5))), ivec2(0), last);
+      nearest = min(nearest, texelFetch(depths, there, 0).r);
+    }
+    return nearest < 1.0;
+  }
+
   void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     bool isAlone = gl_FragCoord.x < alone;
     float depth = isAlone ? 1.0 : texelFetch(depths, pixel, 0).r;
-    if (depth >= 1.0 && !isAlone && !layer) {
+    if (depth >= 1.0 && !isAlone && !layer && behind < 1.0 && isNearPoints(pixel)) {
       pixel = acrossGap(pixel);
       depth = texelFetch(depths, pixel, 0).r;
     }
