@@ -1,6 +1,9 @@
 import { expect, test } from "vitest";
 import { asciiPly, ball, binaryPly, georeferencedBall, meshObj, meshPly, pcd, rows, text, utf16 } from "./clouds.js";
 import { choose, openInTurn } from "./files.js";
+import { pcdCases } from "../files/corpus-pcd.js";
+import { plyCases } from "../files/corpus-ply.js";
+import { tableCases } from "../files/corpus-tables.js";
 import { answered, answerInNode, openReady, status } from "./support.js";
 
 const COUNT = 600;
@@ -213,6 +216,31 @@ test("a file that is no cloud is refused in a plain sentence, and the previous c
     await page.keyboard.press("ArrowLeft");
     expect(await answered(page, after)).toMatchObject({ state: "ready", total: 1839 });
   }
+});
+
+test("one in forty broken files of the corpus is refused on the page, in the corpus's words", async () => {
+  const broken = [...plyCases(), ...pcdCases(), ...tableCases()].filter(
+    ({ columns, expected }) => columns === undefined && typeof expected === "string",
+  );
+  const page = await openReady("?sample=bunny");
+  const errors: string[] = [];
+  page.on("pageerror", (error) => errors.push(error.message));
+  const chosen = broken.filter((_, number) => number % 40 === 0);
+  expect(chosen.length).toBeGreaterThan(10);
+  for (const { name, file, content, expected } of chosen) {
+    const before = await status(page);
+    await choose(page, file, content);
+    await page.locator('#status[data-state="error"]').waitFor();
+    const after = await status(page);
+    expect(after, name).toEqual({ ...before, state: "error", sentence: after.sentence });
+    const said = (expected as string).split("|").some((words) => words !== "" && after.sentence.includes(words));
+    expect(said, `${name}: “${after.sentence}” does not say “${String(expected)}”`).toBe(true);
+    await page.locator("#message").getByRole("button", { name: "Dismiss" }).click();
+    // The cloud is still there and answers.
+    await page.keyboard.press("ArrowLeft");
+    expect(await answered(page, after), name).toMatchObject({ state: "ready", total: 1839 });
+  }
+  expect(errors).toEqual([]);
 });
 
 test("points without a position can be left out", async () => {

@@ -76,6 +76,18 @@ fn viewpoints_in_planes_and_on_lines_of_points_divide_too() {
     }
 }
 
+/// The sector's own point flips exactly on to a face of the sector's hull. A far point hides it,
+/// and only a question about far blocks shows that.
+#[test]
+fn own_points_on_a_face_below_a_far_point_are_hidden() {
+    let scene = structured::scene(&mut Rng::new(319), structured::IN_SQUARE, 2000);
+    let cloud = PointCloud::new(&scene.points).unwrap();
+    for count in [4, 8, 16] {
+        let title = "a point in a square";
+        compare(&cloud, scene.viewpoint, &scene.options, count, title);
+    }
+}
+
 /// If the flip loses too many digits, the first sector answers for all points.
 #[test]
 fn large_exponents_are_not_divided() {

@@ -1,6 +1,8 @@
 //! Clouds of planes, lines and lattices, and viewpoints that lie in them. Such viewpoints
 //! occur in scanned rooms, and they reach the rare branches of the code.
 
+use core::f64::consts::TAU;
+
 use hidden_point_removal::{Exponential, Inversion, Options, Radius};
 
 use super::flip::farthest;
@@ -27,7 +29,11 @@ pub const SHAPES: &[(&str, Shape)] = &[
     ("cube with bumps, after the flip", flipped_cube),
     ("clusters on a cube, after the flip", flipped_clusters),
     ("bumpy", shapes::bumpy),
+    IN_SQUARE,
 ];
+
+/// The kind of [`flipped_square`].
+pub const IN_SQUARE: (&str, Shape) = ("point in a square, after the flip", flipped_square);
 
 /// `n` points in and around a box of about [0, 8] × [0, 6] × [0, 3].
 type Shape = fn(&mut Rng, usize) -> Points;
@@ -234,6 +240,47 @@ fn flipped_clusters(rng: &mut Rng, n: usize) -> Points {
         }
     }
     flipped.into_iter().map(shapes::aim).collect()
+}
+
+/// A point that flips exactly into the middle of a square, with many hidden points behind each of
+/// them, so that the middle and the corners are in blocks of their own. Points far aside rise above
+/// the square, and mostly hide its middle.
+fn flipped_square(rng: &mut Rng, n: usize) -> Points {
+    const HEIGHT: f64 = 4.0;
+    let corners = [[3.0, 0.0], [-3.0, 0.0], [0.0, 3.0], [0.0, -3.0]];
+    let mut centers = vec![[0.0, 0.0, HEIGHT]];
+    centers.extend(corners.map(|[x, y]| [x, y, HEIGHT]));
+    for _ in 0..1 + rng.below(2) {
+        let (around, aside) = (rng.between(0.0, TAU), rng.between(0.65, 0.84));
+        let [x, y] = [around.cos(), around.sin()].map(|x| x * aside.sin());
+        let length = rng.between(5.2, 5.95);
+        centers.push([x, y, aside.cos()].map(|x| x * length));
+    }
+    for _ in 0..rng.below(5) {
+        let [x, y, z] = rng.direction();
+        let length = rng.pick(&[3.05, 4.5, 5.5]);
+        centers.push([x, y, -z.abs()].map(|x| x * length));
+    }
+    let spread = rng.pick(&[0.006, 0.03, 0.09, 0.18]);
+    let turn = rng.below(3);
+    let mut points = Points::new();
+    for center in &centers {
+        let first = shapes::aim(*center);
+        points.push(first);
+        let most = 0.99 * AIMED_RADIUS / norm(first);
+        for _ in 0..rng.below(2 * n / centers.len() + 1) {
+            let times = rng.between(0.7 + 0.3 * most, most);
+            let p = first.map(|x| x * times + spread * rng.between(-0.5, 0.5));
+            let nearer = (0.995 * AIMED_RADIUS / norm(p)).min(1.0);
+            points.push(p.map(|x| x * nearer));
+        }
+    }
+    points.iter_mut().for_each(|p| p.rotate_right(turn));
+    points
+}
+
+fn norm([x, y, z]: [f64; 3]) -> f64 {
+    (x * x + y * y + z * z).sqrt()
 }
 
 /// A viewpoint in a special place relative to the planes, lines and points of a cloud.
