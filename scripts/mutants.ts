@@ -1,69 +1,79 @@
-// npm run mutants -- [--files GLOB]... [--shard K/N] [--quick]: changes one place of the core at a time, by
-// cargo-mutants, and checks that a test fails. Mutants that were tried before are not tried again, so
-// the command can be stopped at any time. Writes tests/mutations/rust.tsv and the table of RUST.md there.
+// npm run mutants -- [--files PATH]... [--shard K/N] [--quick] [--jobs N]: changes one place of the core at a time
+// and checks that a test fails. All mutants are compiled into one program. Mutants that were tried before are not
+// tried again, so the command can be stopped at any time. Writes tests/mutations/rust.tsv and the table of RUST.md.
 import { parseArgs } from "node:util";
 
 import { command } from "./lib/command.js";
 import { Problem } from "./lib/run.js";
+import { inOrder } from "./lib/schedule.js";
 import { setUpLinker } from "./setup/linker.js";
 import { setUpRust } from "./setup/rust.js";
 import { setUpCargoMutants } from "./mutants/install.js";
-import { fileOf, readResults, saveResults, writeTable } from "./mutants/results.js";
-import type { Tests } from "./mutants/try.js";
-import { allTests, checkTests, listMutants, quickTests, tryMutants } from "./mutants/try.js";
-import { copyTree } from "./mutants/tree.js";
-
-/** The number of mutants for one start of cargo-mutants. A small batch loses less at a stop. A large one is faster. */
-const BATCH = 5;
+import type { Mutant } from "./mutants/list.js";
+import { listMutants } from "./mutants/list.js";
+import { buildPrograms } from "./mutants/programs.js";
+import { readResults, saveResults, writeTable } from "./mutants/results.js";
+import { measureTests } from "./mutants/tests.js";
+import { Trial } from "./mutants/try.js";
 
 await command(async () => {
-  const { files, shard, quick } = askedFor(process.argv.slice(3));
+  const { files, shard, quick, jobs } = askedFor(process.argv.slice(3));
   await setUpRust();
   await setUpLinker();
   await setUpCargoMutants();
-  copyTree();
-  const every = await listMutants([], undefined);
-  const chosen = await listMutants(files, shard);
+  const every = await listMutants();
+  const inShard = every.filter((_, index) => index % shard.count === shard.part);
+  // Files are tried in the order in which they are named.
+  const chosen = new Set(files.flatMap((path) => inShard.filter(({ file }) => file.startsWith(path))));
+
   const results = readResults();
-  const tryAll = async (isDue: (name: string) => boolean, tests: Tests) => {
-    const due = chosen.filter(isDue);
-    if (due.length === 0) return;
-    console.log(`${due.length} of ${chosen.length} mutants to try with ${tests.title}`);
-    await checkTests(tests);
-    for (let start = 0; start < due.length; start += BATCH) {
-      const batch = due.slice(start, start + BATCH);
-      for (const [name, result] of await tryMutants(batch, tests)) {
-        results.set(name, result);
-        console.log(`${result.padEnd(8)} ${name}`);
-      }
-      saveResults(results, every);
-    }
-  };
-  // Running all tests is slow, and only few mutants need it. These mutants come last.
-  const isNew = (name: string) => !results.has(name);
-  for (const [pattern, tests] of quickTests) {
-    await tryAll((name) => isNew(name) && pattern.test(fileOf(name)), tests);
-  }
-  if (!quick) await tryAll((name) => results.get(name) === "open", allTests);
+  const { paths, placed, unviable } = await buildPrograms();
+  const numberOf = new Map(every.map((mutant, index) => [mutant, index + 1]));
+  for (const mutant of every) if (unviable.has(numberOf.get(mutant)!)) results.set(mutant.key, "unviable");
+  const isDue = ({ key }: Mutant) => results.get(key) === undefined || (!quick && results.get(key) === "open");
+  const due = [...chosen].filter((mutant) => isDue(mutant) && placed.has(numberOf.get(mutant)!));
+  const tests = due.length === 0 ? [] : await measureTests(paths, quick);
+
+  console.log(`${due.length} of ${chosen.size} mutants to try`);
+  const trial = new Trial(tests);
+  const tries = due.map((mutant) => ({ title: mutant.name, ...mutant }));
+  const numbers = new Map(due.map((mutant) => [mutant.key, numberOf.get(mutant)!]));
+  await inOrder(tries, jobs, async ({ name, file, key }) => {
+    const result = await trial.run(numbers.get(key)!, file, quick);
+    results.set(key, result);
+    console.log(`${result.padEnd(9)} ${name}`);
+    saveResults(results, every);
+  });
+  saveResults(results, every);
   writeTable(results, every);
 });
 
 interface Asked {
+  /** The beginnings of the paths of the files. */
   files: string[];
-  shard: string | undefined;
-  /** Whether mutants that the quick tests miss are left open. */
+  /** Every mutant whose place in the list has this remainder. */
+  shard: { part: number; count: number };
+  /** Whether tests that take more than two seconds are left out. */
   quick: boolean;
+  /** How many mutants are tried at a time. */
+  jobs: number;
 }
 
 function askedFor(args: string[]): Asked {
-  const usage = "npm run mutants -- [--files 'src/hull/*.rs']... [--shard 0/8] [--quick]";
+  const usage = "npm run mutants -- [--files src/hull]... [--shard 0/8] [--quick] [--jobs 2]";
   try {
     const text = { type: "string" } as const;
-    const options = { files: { ...text, multiple: true }, shard: text, quick: { type: "boolean" } } as const;
-    const { files = [], shard, quick = false } = parseArgs({ args, options }).values;
-    const [, part, count] = /^(\d+)\/(\d+)$/.exec(shard ?? "0/1") ?? [];
+    const options = {
+      files: { ...text, multiple: true },
+      shard: text,
+      quick: { type: "boolean" },
+      jobs: text,
+    } as const;
+    const { files = ["src"], shard = "0/1", quick = false, jobs = "1" } = parseArgs({ args, options }).values;
+    const [, part, count] = /^(\d+)\/(\d+)$/.exec(shard) ?? [];
     if (part === undefined || Number(part) >= Number(count)) throw new Error(`--shard ${shard} is no part of a whole.`);
-    return { files, shard, quick };
+    if (!/^[1-9]\d?$/.test(jobs)) throw new Error(`--jobs ${jobs} is no number from 1 to 99.`);
+    return { files, shard: { part: Number(part), count: Number(count) }, quick, jobs: Number(jobs) };
   } catch (error) {
     throw new Problem(`${(error as Error).message}\n${usage}`);
   }

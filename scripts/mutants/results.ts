@@ -2,9 +2,13 @@ import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 
 import { inRoot, root } from "../lib/paths.js";
+import type { Mutant } from "./list.js";
 
-/** The results of a mutant. `open`: the quick tests missed it, and the complete tests have not run yet. */
-export const RESULTS = ["caught", "timeout", "unviable", "missed", "open"] as const;
+/**
+ * The results of a mutant. `unreached`: no test reaches its place. `open`: the quick tests missed it, and the others
+ * have not run yet.
+ */
+export const RESULTS = ["caught", "timeout", "unviable", "missed", "unreached", "open"] as const;
 export type Result = (typeof RESULTS)[number];
 
 const FOLDER = "tests/mutations";
@@ -12,31 +16,29 @@ const FILE = `${FOLDER}/rust.tsv`;
 const REPORT = `${FOLDER}/RUST.md`;
 const [BEGIN, END] = ["<!-- written by npm run mutants -->\n", "<!-- end -->\n"];
 
-/** The file of a mutant, which is named `file:line:column: what`. */
-export function fileOf(name: string): string {
-  return name.slice(0, name.indexOf(":"));
-}
+/** The results by the keys of the mutants. */
+export type Results = Map<string, Result>;
 
-export function readResults(): Map<string, Result> {
+export function readResults(): Results {
   if (!existsSync(inRoot(FILE))) return new Map();
-  const lines = readFileSync(inRoot(FILE), "utf8").matchAll(/^(\w+)\t(.+)$/gm);
-  return new Map(Array.from(lines, ([, result, name]) => [name!, result as Result]));
+  const lines = readFileSync(inRoot(FILE), "utf8").matchAll(/^(\w+)\t.+\t(.+)$/gm);
+  return new Map(Array.from(lines, ([, result, key]) => [key!, result as Result]));
 }
 
 /** Saves the results of the mutants in `every`, in this order. Other mutants belong to older sources. */
-export function saveResults(results: Map<string, Result>, every: string[]): void {
-  const lines = every.flatMap((name) => (results.has(name) ? [`${results.get(name)}\t${name}\n`] : []));
+export function saveResults(results: Results, every: Mutant[]): void {
+  const lines = every.flatMap(({ name, key }) => (results.has(key) ? [`${results.get(key)}\t${name}\t${key}\n`] : []));
   mkdirSync(inRoot(FOLDER), { recursive: true });
   writeFileSync(inRoot(FILE), lines.join(""));
 }
 
 /** Writes the part of the report between its two marks again. The text around it is written by hand. */
-export function writeTable(results: Map<string, Result>, every: string[]): void {
+export function writeTable(results: Results, every: Mutant[]): void {
   const commit = execFileSync("git", ["rev-parse", "--short", "HEAD"], { cwd: root, encoding: "utf8" }).trim();
-  const files = [...new Set(every.map((name) => fileOf(name)))];
-  const row = (title: string, names: string[]) => {
-    const count = (result: Result | undefined) => names.filter((name) => results.get(name) === result).length;
-    return `| ${[title, names.length, ...RESULTS.map(count), count(undefined)].join(" | ")} |`;
+  const files = [...new Set(every.map(({ file }) => file))];
+  const row = (title: string, mutants: Mutant[]) => {
+    const count = (result: Result | undefined) => mutants.filter(({ key }) => results.get(key) === result).length;
+    return `| ${[title, mutants.length, ...RESULTS.map(count), count(undefined)].join(" | ")} |`;
   };
   const table = [
     `| file | mutants | ${RESULTS.join(" | ")} | not tried |`,
@@ -44,7 +46,7 @@ export function writeTable(results: Map<string, Result>, every: string[]): void 
     ...files.map((file) =>
       row(
         `\`${file}\``,
-        every.filter((name) => fileOf(name) === file),
+        every.filter((mutant) => mutant.file === file),
       ),
     ),
     row("all", every),

@@ -9,6 +9,7 @@ const KINDS: [title: string, command: string, results: string][] = [
   ["Mutations of the TypeScript", "by hand and by Stryker", "tests/mutations/TYPESCRIPT.md"],
   ["The same bits on every platform", "npm run bits", "tests/bits/RESULTS.md"],
   ["Re-filters all day", "npm run soak", "tests/soak/RESULTS.md"],
+  ["Large clouds from end to end", "npm run large", "tests/soak/LARGE.md"],
   ["Two clean builds, the same bytes", "npm run reproduce", "tests/release/REPRODUCED.md"],
   ["The minimum Rust", "npm run minimum", "tests/release/MINIMUM.md"],
 ];

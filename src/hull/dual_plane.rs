@@ -60,3 +60,42 @@ impl Plane {
         self.error == f64::INFINITY
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hull::predicates::{Sign, side_of_face};
+
+    /// Faces on a fine lattice: mostly thin ones, whose planes are uncertain.
+    #[test]
+    fn signs_beyond_the_error_are_exact() {
+        let mut state = 5u64;
+        let mut below = |n: u64| {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 33) % n
+        };
+        let mut decided = 0;
+        for round in 0..40_000 {
+            let unit = 2.0f64.powi(-10 - 10 * (round % 4));
+            let mut point = || {
+                let [x, y, z] = [7, 5, 6].map(|n| unit * below(n) as f64);
+                DVec3::new(0.3 + x, 0.7 + y, 0.9 + x - z)
+            };
+            let [a, b, p, q] = core::array::from_fn(|_| point());
+            let plane = Plane::through(a, b, p, 4.0);
+            let height = plane.m.dot(q) - 1.0;
+            if height.abs() > plane.error {
+                let side = if height > 0.0 {
+                    Sign::Positive
+                } else {
+                    Sign::Negative
+                };
+                assert_eq!(side_of_face(a, b, p, q), side, "{a} {b} {p} {q}");
+                decided += 1;
+            }
+        }
+        assert!(decided > 5_000, "only {decided} signs are beyond the error");
+    }
+}

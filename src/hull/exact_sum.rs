@@ -111,6 +111,17 @@ mod tests {
         }
     }
 
+    #[test]
+    fn a_carry_runs_through_many_limbs() {
+        let mut sum = ExactSum::ZERO;
+        let power = |exponent| 2.0f64.powi(exponent);
+        (0..300).for_each(|exponent| sum.add_product(power(exponent), 1.0, 1.0));
+        sum.add_product(-power(300), 1.0, 1.0);
+        assert_eq!(sum.sign(), Ordering::Less);
+        sum.add_product(1.0, 1.0, 1.0);
+        assert_eq!(sum.sign(), Ordering::Equal);
+    }
+
     fn determinant(rows: [[f64; 3]; 3]) -> BigInt {
         let [a, b, c] = rows.map(|row| row.map(integer));
         let minor = |i: usize, j: usize| &b[i] * &c[j] - &b[j] * &c[i];

@@ -199,15 +199,52 @@ mod tests {
         assert!(zeros > 300, "only {zeros} degenerate quadruples met");
     }
 
+    /// Points nearly in one line. Without a bound of the error, rounding gives wrong signs.
     #[test]
-    fn extreme_scales_keep_their_sign() {
+    fn signs_of_nearly_collinear_points_are_exact_at_every_scale() {
+        let mut random = Random(3);
+        for scale in [1.0, 2.0f64.powi(-60), 2.0f64.powi(60)] {
+            for round in 0..3_000 {
+                let [a, b, c] = core::array::from_fn(|_| {
+                    let times = (1 + random.next() % 99) as f64 * scale;
+                    DVec3::new(0.1 * times, 0.3 * times, 0.0)
+                });
+                let row = |p: DVec3| [p.x, p.y, 1.0];
+                let turn = exact_determinant(row(a), row(b), row(c));
+                let flat = |p: DVec3| [p.x, p.y];
+                assert_eq!(orient2d(flat(a), flat(b), flat(c)), turn, "{a} {b} {c}");
+                // The product of c.z is mostly a rounding error. The product of b.z is as small.
+                let tiny = scale * 2.0f64.powi(-50 - (random.next() % 8) as i32);
+                let b_z = if random.next() % 2 == 0 { tiny } else { -tiny };
+                let mut points = [a, DVec3::new(b.x, b.y, b_z), DVec3::new(c.y, -c.x, scale)];
+                points.rotate_left(round % 3);
+                let side = exact_determinant(
+                    points[0].to_array(),
+                    points[1].to_array(),
+                    points[2].to_array(),
+                );
+                let [a, b, c] = points;
+                assert_eq!(side_of_origin(a, b, c), side, "{a} {b} {c}");
+            }
+        }
+    }
+
+    /// At the moderate scales the rounded determinant decides wherever it can.
+    #[test]
+    fn scales_keep_the_sign() {
         let mut random = Random(11);
-        for scale in [2.0f64.powi(-1000), 2.0f64.powi(-400), 2.0f64.powi(900)] {
+        for exponent in [-1000, -400, -150, -60, 60, 150, 900] {
+            let scale = 2.0f64.powi(exponent);
             for _ in 0..2_000 {
                 let [a, b, c, q] = core::array::from_fn(|_| random.point());
-                let at_one = side_of_face(a, b, c, q);
-                let [a, b, c, q] = [a, b, c, q].map(|p| p * scale);
-                assert_eq!(side_of_face(a, b, c, q), at_one, "scale {scale:e}");
+                let signs = |[a, b, c, q]: [DVec3; 4]| {
+                    let flat = |p: DVec3| [p.x, p.y];
+                    let turn = orient2d(flat(a), flat(b), flat(c));
+                    [side_of_face(a, b, c, q), side_of_origin(a, b, c), turn]
+                };
+                let at_one = signs([a, b, c, q]);
+                let scaled = signs([a, b, c, q].map(|p| p * scale));
+                assert_eq!(scaled, at_one, "{a} {b} {c} {q}, scale 2^{exponent}");
             }
         }
     }
