@@ -4,6 +4,7 @@ use crate::answers::visibility::Visibility;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
 use crate::hull::Memory;
+use crate::hull::division::Sector;
 use crate::view::options::Options;
 
 /// Looks at a cloud from one viewpoint after another.
@@ -70,6 +71,20 @@ impl Observer<'_> {
     ) -> Result<bool, Error> {
         self.cloud
             .go_on_with(&mut self.memory, viewpoint, options, budget)
+    }
+
+    /// As [`PointCloud::visible_in_sector`].
+    ///
+    /// # Errors
+    /// As [`PointCloud::visible_from`].
+    pub fn visible_in_sector(
+        &mut self,
+        viewpoint: [f64; 3],
+        options: &Options,
+        sector: Sector,
+    ) -> Result<Visibility, Error> {
+        self.cloud
+            .visible_in_sector_with(&mut self.memory, viewpoint, options, sector)
     }
 
     /// Whether the last view started from the view before it.

@@ -144,11 +144,10 @@ impl PointCloud {
         let mut memory = Memory::default();
         let flip = Flip::new(viewpoint, Kernel::Spherical { radius: coarse });
         hull::mark_visible(&points, &[], &flip, None, &mut memory)?;
-        let ahead = DVec3::from_array(self.statistics.centroid);
         Division::new(
+            &self.sequence.points,
             &self.blocks,
             center,
-            ahead,
             radius,
             memory.visible(),
             sector,
@@ -160,6 +159,6 @@ impl PointCloud {
 /// overflow or underflow, nor where 2R − d keeps too few digits of d.
 fn is_divisible(view: &View) -> bool {
     view.inversion == Inversion::Spherical
-        && (1e-30..1e30).contains(&view.chosen.radius)
+        && (1e-29..1e29).contains(&view.chosen.radius)
         && view.chosen.exponent < 8.0
 }

@@ -5,7 +5,6 @@ use alloc::vec::Vec;
 use crate::answers::looks::{scales, scores_of_indices};
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::error::Error;
-use crate::base::sort::sort_keyed;
 use crate::cloud::point_cloud::PointCloud;
 use crate::hull;
 use crate::view::options::{Exponential, Inversion, Options, Radius};
@@ -376,9 +375,6 @@ impl PointCloud {
     }
 }
 
-/// If fewer than one index in this many is visible, the indices are sorted, not marked.
-const SPARSE: usize = 32;
-
 /// The caller's indices of the distinct points marked as `visible`, ascending and below `len`.
 /// `indices_of` lists the indices of one distinct point.
 pub(crate) fn marked_indices<'a>(
@@ -386,32 +382,30 @@ pub(crate) fn marked_indices<'a>(
     visible: &[bool],
     indices_of: &dyn Fn(usize) -> &'a [u32],
 ) -> Result<Vec<u32>, OutOfMemory> {
-    let places = || (0..visible.len()).filter(|&k| visible[k]);
-    let total: usize = places().map(|k| indices_of(k).len()).sum();
-    if total < len / SPARSE {
-        let mut sorted = with_capacity(total)?;
-        for k in places() {
-            sorted.extend(indices_of(k).iter().map(|&index| (u64::from(index), index)));
-        }
-        sort_keyed(&mut sorted);
-        let mut indices = with_capacity(total)?;
-        indices.extend(sorted.iter().map(|&(_, index)| index));
-        return Ok(indices);
-    }
+    // A bit for each index.
+    let mut marked: Vec<u64> = filled(len.div_ceil(BITS), 0)?;
     let mut count = 0;
-    let mut marked: Vec<bool> = filled(len, false)?;
-    for (k, _) in visible.iter().enumerate().filter(|(_, visible)| **visible) {
-        for &index in indices_of(k) {
-            marked[index as usize] = true;
-            count += 1;
+    for (run, start) in visible.chunks(BITS).zip((0..).step_by(BITS)) {
+        // In most runs of a divided view nothing is visible. This loop has no branch.
+        if !run.iter().fold(false, |any, &visible| any | visible) {
+            continue;
+        }
+        for (k, _) in (start..).zip(run).filter(|(_, visible)| **visible) {
+            for &index in indices_of(k) {
+                marked[index as usize / BITS] |= 1 << (index as usize % BITS);
+                count += 1;
+            }
         }
     }
     let mut indices = with_capacity(count)?;
-    indices.extend(
-        (0..)
-            .zip(&marked)
-            .filter(|(_, marked)| **marked)
-            .map(|(i, _): (u32, _)| i),
-    );
+    for (start, mut bits) in (0..).step_by(BITS).zip(marked) {
+        while bits != 0 {
+            indices.push(start + bits.trailing_zeros());
+            bits &= bits - 1;
+        }
+    }
     Ok(indices)
 }
+
+/// The bits of a number.
+const BITS: usize = u64::BITS as usize;

@@ -29,6 +29,8 @@ const CORNERS_PER_POINT: (f64, f64) = (1.0 / 32.0, 0.4);
 const LOSS: f64 = 0.035;
 /// The step of the sample of points that shows where the cloud is seen.
 const SAMPLE: usize = 64;
+/// The step where points are not wanted: they only decide the size of the cells.
+const COARSE_SAMPLE: usize = 8 * SAMPLE;
 /// Directions nearer than this to a cell's border, in cells, are not looked up. Rounding moves
 /// a direction by far less.
 const BORDER: f64 = 1e-6;
@@ -92,14 +94,15 @@ impl DepthMap {
         let Some(mut face) = hull.outer_face() else {
             return Ok(());
         };
-        let extents = survey(flipped, wanted);
-        let Some(cell) = cell_size(&extents, count) else {
+        // All maps of a view have cells of one size, whatever part of the cloud they are for.
+        let (extents, wanted_sides) = survey(flipped, wanted);
+        let Some(cell) = cell_size(&extents, flipped.len()) else {
             return Ok(());
         };
         self.cells_per_unit = 1.0 / cell;
         self.limit = 1.0;
         let mut corners = 0;
-        for (window, extent) in self.windows.iter_mut().zip(extents.sides) {
+        for (window, extent) in self.windows.iter_mut().zip(wanted_sides) {
             let [[x, y], [right, top]] = extent;
             if x <= right {
                 *window = Window {
@@ -116,7 +119,7 @@ impl DepthMap {
         reserve(&mut self.reaches, corners)?;
         self.heights.resize(corners, f64::INFINITY);
         self.reaches.resize(corners, 0.0);
-        self.want_corners(flipped);
+        self.want_corners(flipped, wanted);
         for side in 0..self.windows.len() {
             if self.windows[side].columns > 0 {
                 face = self.fill_window(side, hull, face);
@@ -125,14 +128,17 @@ impl DepthMap {
         Ok(())
     }
 
-    /// Writes 0 to each height that must be found: where blocks are seen, or everywhere if no
-    /// blocks are known.
+    /// Writes 0 to each height that must be found: where wanted blocks are seen, or everywhere if
+    /// no blocks are known.
     #[inline(never)]
-    fn want_corners(&mut self, flipped: &Flipped) {
+    fn want_corners(&mut self, flipped: &Flipped, wanted: &dyn Fn(u32) -> bool) {
         if flipped.blocks.is_empty() {
             self.heights.fill(0.0);
         }
-        for sphere in flipped.blocks {
+        for (block, sphere) in flipped.blocks.iter().enumerate() {
+            if !wanted((block * BLOCK) as u32) {
+                continue;
+            }
             let Some((side, [left, bottom, right, top])) = self.cells_around(flipped, sphere)
             else {
                 // The sphere contains the viewpoint.
@@ -330,36 +336,50 @@ fn direction(side: usize, x: f64, y: f64) -> DVec3 {
     }
 }
 
+/// Directions on each side of the cube: [[left, bottom], [right, top]].
+type Sides = [[[f64; 2]; 2]; 6];
+
 /// Where a sample of the points is seen.
 struct Extents {
-    /// Directions on each side of the cube: [[left, bottom], [right, top]].
-    sides: [[[f64; 2]; 2]; 6],
+    sides: Sides,
     /// Squares of |q|.
     shortest: f64,
     longest: f64,
 }
 
-fn survey(flipped: &Flipped, wanted: &dyn Fn(u32) -> bool) -> Extents {
+/// The extents of all points, and the sides' extents of the wanted ones.
+fn survey(flipped: &Flipped, wanted: &dyn Fn(u32) -> bool) -> (Extents, Sides) {
+    let nowhere: Sides = [[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; 6];
+    let mut wanted_sides = nowhere;
     let mut extents = Extents {
-        sides: [[[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]]; 6],
+        sides: nowhere,
         shortest: f64::INFINITY,
         longest: 0.0,
     };
-    let sample = (0..flipped.len() as u32).step_by(SAMPLE);
-    for index in sample.filter(|&index| wanted(index)) {
+    for index in (0..flipped.len() as u32).step_by(SAMPLE) {
+        let is_wanted = wanted(index);
+        if !is_wanted && index as usize % COARSE_SAMPLE != 0 {
+            continue;
+        }
         let Some(q) = flipped.get_out_of_line(index) else {
             continue;
         };
         let (side, x, y, _) = place(q);
-        let [[left, bottom], [right, top]] = &mut extents.sides[side];
-        *left = left.min(x);
-        *bottom = bottom.min(y);
-        *right = right.max(x);
-        *top = top.max(y);
+        let include = |sides: &mut Sides| {
+            let [[left, bottom], [right, top]] = &mut sides[side];
+            *left = left.min(x);
+            *bottom = bottom.min(y);
+            *right = right.max(x);
+            *top = top.max(y);
+        };
+        include(&mut extents.sides);
+        if is_wanted {
+            include(&mut wanted_sides);
+        }
         extents.shortest = extents.shortest.min(q.dot(q));
         extents.longest = extents.longest.max(q.dot(q));
     }
-    extents
+    (extents, wanted_sides)
 }
 
 /// The edge of the square cells for a cloud of `count` points, small enough to keep the loss of

@@ -149,6 +149,12 @@ impl Hull {
             })
     }
 
+    /// Whether the ray of `q` passes through an outer face, its border included. The answer is exact.
+    pub(super) fn pierces(&self, id: FaceId, q: DVec3) -> bool {
+        let face = self.surface.face(id);
+        self.vertices.is_outer(face) && (0..3).all(|edge| !self.vertices.is_beyond(face, edge, q))
+    }
+
     /// An edge of `face` beyond which the ray of `q` passes. It is found exactly, for cases where
     /// two values of m·q are nearly equal. The edge that is tried first changes from step to
     /// step. Otherwise a walk could go round in a circle of coplanar faces.

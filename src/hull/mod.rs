@@ -17,6 +17,7 @@ mod boxes;
 mod chain;
 mod depth;
 mod dual_plane;
+mod enclosed;
 mod exact_sum;
 mod flat;
 mod flipped;

@@ -8,15 +8,15 @@
 //! - if no far point lies above an outer face, the vertices of this face are visible: its
 //!   plane supports all of K, with the origin strictly on its inner side.
 //!
-//! A bound of m·q over all directions of a block mostly shows that no point of the block
-//! lies above a face. A block for which the bound does not show it enters the hull. This
-//! goes on until every own point is hidden or has such a face. In the worst case all
-//! blocks enter.
+//! A ring of faces along the seams shows this for nearly all faces at once (`enclosed`). For the
+//! others, the far point that is most in the way of a face enters the hull. This goes on until
+//! every own point is hidden or has a face that no far point lies above. In the worst case all
+//! points enter.
 //!
 //! An insertion gives new faces the numbers of the faces that it replaces. A new face may be
 //! a ghost face, or a face seen edge-on. Such a face does not show which points are
 //! visible: its corners may be hidden, and no walk may start at it. Face numbers are kept
-//! while blocks enter. Three statements hold all the same:
+//! while points enter. Three statements hold all the same:
 //!
 //! - *Every hint is an outer face.* The first one is the face of the first tetrahedron.
 //!   A walk starts at an outer face, goes through outer faces only, and returns an outer
@@ -25,7 +25,7 @@
 //! - *Every face whose vertices are marked is outer*, for the same reason: `is_open` is
 //!   asked about its number, and no insertion comes between the answer and the mark.
 //! - *Every outer face with an undecided vertex is in `open`*, so that no face is left
-//!   out. At first the list holds all faces. After that, new outer faces come only from
+//!   out. At first the list holds all faces that the ring does not enclose. After that, new outer faces come only from
 //!   the fan of an insertion, and the whole fan enters the list. A number leaves the
 //!   list only when the vertices of its face are marked, or when its face is not open. Such
 //!   a face cannot become open before it is replaced, because a marked vertex stays marked
@@ -34,6 +34,7 @@
 
 use alloc::vec::Vec;
 
+use super::depth::DepthMap;
 use super::flipped::Flipped;
 use super::incremental::Hull;
 use super::locate::Location;
@@ -41,7 +42,7 @@ use super::memory::Memory;
 use super::topology::{FaceId, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::cloud::blocks::BLOCK;
-use crate::hull::division::{Division, Role};
+use crate::hull::division::Division;
 
 /// The step of the sample of the far points: a point is in it if its place in the spatial
 /// order is a multiple of this number.
@@ -74,28 +75,16 @@ pub(super) fn mark_visible(
         for index in (0..count).step_by(stride as usize) {
             if given == 0 || index % given != 0 {
                 share.add(index)?;
+                share.division.take(index);
             }
         }
     }
-    for (stride, given) in [(BLOCK, SAMPLE), (8, BLOCK as u32), (1, 8)] {
-        if stride == 1 {
-            // As in a whole view: by now the hull has its shape.
-            let Share { hull, division, .. } = &share;
-            let is_near = |index: u32| division.roles[index as usize / BLOCK] != Role::Far;
-            depth.make(hull, flipped, division.near_points(), &is_near)?;
-        }
-        for block in 0..share.division.roles.len() {
-            if share.division.roles[block] != Role::Far {
-                let start = (block * BLOCK) as u32;
-                for index in (start..count.min(start + BLOCK as u32)).step_by(stride) {
-                    let is_told = stride == 1 && depth.hides(flipped, index);
-                    if index % given != 0 && !is_told {
-                        share.add(index)?;
-                    }
-                }
-            }
-        }
-    }
+    share.add_near(FIRST)?;
+    share.add_near(EIGHTH & !FIRST)?;
+    // As in a whole view: by now the hull has its shape.
+    let wanted = |index: u32| share.division.near(index as usize / BLOCK) != 0;
+    depth.make(share.hull, flipped, share.division.near_points(), &wanted)?;
+    share.add_last_round(depth)?;
     share.settle_vertices()?;
     share.settle_boundary()?;
     #[cfg(debug_assertions)]
@@ -103,22 +92,69 @@ pub(super) fn mark_visible(
     Ok(())
 }
 
-struct Share<'a> {
-    hull: &'a mut Hull,
-    flipped: &'a Flipped<'a>,
-    division: Division,
+/// The first point of each block, and every eighth one.
+const FIRST: u64 = 1;
+const EIGHTH: u64 = 0x0101_0101_0101_0101;
+
+/// The points at these places of a block.
+fn places_of(block: usize, mut places: u64) -> impl Iterator<Item = u32> {
+    core::iter::from_fn(move || {
+        let place = places.trailing_zeros();
+        places &= places.wrapping_sub(1);
+        (place < u64::BITS).then(|| (block * BLOCK) as u32 + place)
+    })
+}
+
+pub(super) struct Share<'a> {
+    pub(super) hull: &'a mut Hull,
+    pub(super) flipped: &'a Flipped<'a>,
+    pub(super) division: Division,
     /// Only own points are marked.
     visible: &'a mut [bool],
     /// An outer face.
-    hint: FaceId,
+    pub(super) hint: FaceId,
     /// Whether a vertex is an own point that is not marked yet. The list is empty until all
     /// near points are in the hull.
-    open_vertices: Vec<bool>,
+    pub(super) open_vertices: Vec<bool>,
     /// Own points found exactly on the boundary when they were added.
     on_boundary: Vec<u32>,
 }
 
 impl Share<'_> {
+    /// Adds the near points at these places of each block. Every place but the first one of a
+    /// block is new: the first one may be in the sample.
+    #[inline(never)]
+    fn add_near(&mut self, places: u64) -> Result<(), OutOfMemory> {
+        for block in 0..self.division.block_count() {
+            for index in places_of(block, self.division.near(block) & places) {
+                if index % SAMPLE != 0 {
+                    self.add(index)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the near points of the last round that the map does not hide.
+    #[inline(never)]
+    fn add_last_round(&mut self, depth: &DepthMap) -> Result<(), OutOfMemory> {
+        let count = self.visible.len() as u32;
+        for block in 0..self.division.block_count() {
+            let places = self.division.near(block) & !EIGHTH;
+            let start = (block * BLOCK) as u32;
+            let run = start..count.min(start + BLOCK as u32);
+            if places == 0 || depth.hides_run(self.flipped, &run) {
+                continue;
+            }
+            for index in places_of(block, places) {
+                if !depth.hides(self.flipped, index) {
+                    self.add(index)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
     /// Adds a point to the hull; returns whether it became a vertex.
     #[inline(never)]
     fn add(&mut self, index: u32) -> Result<bool, OutOfMemory> {
@@ -151,7 +187,7 @@ impl Share<'_> {
 
     /// Marks the own vertices of `face` as visible. `face` is an outer face, and no far point
     /// lies above it.
-    fn mark(&mut self, face: FaceId) {
+    pub(super) fn mark(&mut self, face: FaceId) {
         #[cfg(debug_assertions)]
         self.hull.assert_is_outer(face);
         for vertex in self.hull.corners(face).into_iter().flatten() {
@@ -170,60 +206,36 @@ impl Share<'_> {
         self.open_vertices.push(false);
         self.open_vertices
             .extend((1..count).map(|v| self.division.owns(self.hull.point(v as Vertex))));
-        let mut open: Vec<FaceId> = Vec::new();
-        for face in 0..self.hull.surface.slots() as FaceId {
-            if self.is_open(face) {
-                let (m, limit) = self.hull.support(face);
-                if self.division.bound_of_all(m) < limit {
-                    self.mark(face);
-                } else {
-                    push(&mut open, face)?;
-                }
-            }
-        }
+        let mut open = self.mark_enclosed()?;
         // Every open face is in `open`. The list may also hold numbers of other faces.
-        let mut failed: Vec<(FaceId, u32)> = Vec::new();
-        while !open.is_empty() {
-            failed.clear();
-            reserve(&mut failed, open.len())?;
-            for &face in &open {
-                if self.is_open(face) {
-                    let (m, limit) = self.hull.support(face);
-                    match self.division.most_in_the_way(m, limit)? {
-                        Some(block) => failed.push((face, block)),
-                        None => self.mark(face),
-                    }
-                }
-            }
-            open.clear();
-            for &(face, block) in &failed {
-                // A block that entered before may have replaced the face.
-                if self.is_open(face) {
-                    push(&mut open, face)?;
-                    self.hint = face;
-                    self.enter(block, &mut open)?;
-                }
+        while let Some(face) = open.pop() {
+            while self.is_open(face) {
+                let Some(index) = self.in_the_way(face)? else {
+                    self.mark(face);
+                    break;
+                };
+                self.hint = face;
+                self.enter(index, &mut open)?;
             }
         }
         Ok(())
     }
 
-    /// Adds a far block to the hull, and the numbers of all new faces to `open`.
+    /// The far point that is most in the way of a face; `None` if the face is certainly one of K.
+    pub(super) fn in_the_way(&mut self, face: FaceId) -> Result<Option<u32>, OutOfMemory> {
+        let support = self.hull.support(face);
+        self.division.most_in_the_way(support, self.flipped)
+    }
+
+    /// Adds a far point to the hull, and the numbers of all new faces to `open`.
     #[cold]
-    fn enter(&mut self, block: u32, open: &mut Vec<FaceId>) -> Result<(), OutOfMemory> {
-        if self.division.roles[block as usize] != Role::Far {
-            return Ok(());
-        }
-        self.division.enter(block);
-        let start = block * BLOCK as u32;
-        let count = self.visible.len() as u32;
-        for index in start..count.min(start + BLOCK as u32) {
-            if index % SAMPLE != 0 && self.add(index)? {
-                push(&mut self.open_vertices, false)?;
-                let fan = self.hull.surface.fan();
-                reserve(open, fan.len())?;
-                open.extend_from_slice(fan);
-            }
+    fn enter(&mut self, index: u32, open: &mut Vec<FaceId>) -> Result<(), OutOfMemory> {
+        self.division.take(index);
+        if self.add(index)? {
+            push(&mut self.open_vertices, false)?;
+            let fan = self.hull.surface.fan();
+            reserve(open, fan.len())?;
+            open.extend_from_slice(fan);
         }
         Ok(())
     }
@@ -238,12 +250,11 @@ impl Share<'_> {
             };
             while let Location::Boundary(face) = self.hull.locate(q, self.hint) {
                 self.hint = face;
-                let (m, limit) = self.hull.support(face);
-                let Some(block) = self.division.most_in_the_way(m, limit)? else {
+                let Some(other) = self.in_the_way(face)? else {
                     self.visible[index as usize] = true;
                     break;
                 };
-                self.enter(block, &mut ignored)?;
+                self.enter(other, &mut ignored)?;
                 ignored.clear();
             }
         }

@@ -44,6 +44,43 @@ impl Cone {
         }
     }
 
+    /// The cone of these flipped points.
+    pub(super) fn around(points: &[DVec3]) -> Self {
+        let mut reach = 0.0;
+        let mut sum = DVec3::ZERO;
+        for q in points {
+            let length = square_root(q.dot(*q));
+            sum += *q / length;
+            if length > reach {
+                reach = length;
+            }
+        }
+        reach *= 1.0 + MARGIN;
+        let length = square_root(sum.dot(sum));
+        let axis = sum / length;
+        let least = points.iter().fold(1.0, |least, q| {
+            let cos = axis.dot(*q) / square_root(q.dot(*q));
+            if cos < least { cos } else { least }
+        });
+        // The cosine of 30°; the comparison also refuses a NaN.
+        if length > 0.0 && least > 0.87 {
+            let cos = least - MARGIN;
+            let sin = positive_root(1.0 - cos * cos);
+            return Self {
+                axis,
+                cos,
+                sin,
+                reach,
+            };
+        }
+        Self {
+            axis: DVec3::ZERO,
+            cos: 0.0,
+            sin: 1.0,
+            reach,
+        }
+    }
+
     pub(super) fn is_everywhere(&self) -> bool {
         self.sin == 1.0
     }
@@ -53,7 +90,7 @@ impl Cone {
         let along = m.dot(self.axis);
         let across = positive_root(length * length - along * along);
         // The largest m·u in the cone. It is |m| if the cone holds the direction of m.
-        let largest = if self.is_everywhere() || along * self.sin >= across * self.cos {
+        let largest = if self.sin == 1.0 || along * self.sin >= across * self.cos {
             length
         } else {
             along * self.cos + across * self.sin
@@ -61,14 +98,22 @@ impl Cone {
         (largest + MARGIN * length) * self.reach
     }
 
-    /// A lower bound of n·u in the cone, for a unit vector n.
-    pub(super) fn least(&self, n: DVec3) -> f64 {
-        let along = n.dot(self.axis);
-        let across = positive_root(1.0 - along * along);
-        if self.is_everywhere() || along <= 0.0 {
-            return -1.0;
+    /// The cone of all directions that are in this cone after they turned by an angle up to 30°.
+    pub(super) fn widened(&self, cos: f64, sin: f64) -> Self {
+        if self.is_everywhere() {
+            return *self;
         }
-        along * self.cos - across * self.sin - MARGIN
+        Self {
+            cos: self.cos * cos - self.sin * sin,
+            sin: self.sin * cos + self.cos * sin,
+            ..*self
+        }
+    }
+
+    /// An upper bound of the distance from `axis` to a direction in the cone.
+    pub(super) fn spread(&self) -> f64 {
+        // The angle is below 30° unless the cone is everywhere; 2·sin(15°) < 1.036·sin(30°).
+        1.04 * self.sin + MARGIN
     }
 }
 

@@ -1,24 +1,30 @@
 //! One view divided among several workers: by the direction in which points are seen.
 //!
-//! INPUT    a cloud's blocks, a viewpoint and a radius; the number of the sector, and the
-//!          number of all sectors.
-//! OUTPUT   for each block, whether it is the sector's own, near it or far from it,
-//!          the same in every worker; and bounds of m·q over the far blocks.
-//! SUMMARY  The directions are cut by half-planes that meet in a line through the
-//!          viewpoint. Every block belongs to the sector of its center. Any division gives
-//!          the right answer (see `hull::share`). This division has short seams.
+//! INPUT    a cloud's points and blocks, a viewpoint and a radius; the number of the sector, and
+//!          the number of all sectors.
+//! OUTPUT   for each point, whether it is the sector's own, and whether it is near the sector or
+//!          far from it; and bounds of m·q over the far points.
+//! SUMMARY  The unit vectors of the points' directions are cut in two along an axis, then each
+//!          half again. A sector is a box of them, its *cell*, and owns the points in it. Every
+//!          worker finds the same cells. Any division gives the right answer (see
+//!          `hull::share`). This division has short seams.
 
+mod cell;
 mod cone;
-mod fan;
+mod far;
 
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use self::cone::{Cone, MARGIN, positive_root};
-use self::fan::{Fan, sample_step};
-use crate::base::allocation::{OutOfMemory, filled, reserve, with_capacity};
+use self::cell::{Cell, Item};
+use self::cone::{Cone, MARGIN};
+use self::far::Far;
+use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
-use crate::cloud::blocks::{BLOCK, Blocks, FANOUT};
+use crate::cloud::blocks::{BLOCK, Blocks};
+use crate::cloud::points::Points;
+use crate::hull::flipped::Flipped;
+use crate::hull::locate::larger;
 
 /// One of several sectors that a view is divided into.
 ///
@@ -45,35 +51,33 @@ impl Sector {
     }
 }
 
-/// The role of a block for a sector.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Role {
-    /// The sector decides about its points.
-    Own,
-    /// It belongs to another sector, but it is near the seam or already in the hull.
-    Entered,
-    /// It belongs to another sector and is not in the hull.
-    Far,
-}
-
 /// How one sector sees the cloud.
 pub(crate) struct Division {
-    /// The role of each block.
-    pub roles: Vec<Role>,
-    /// The cones of the blocks and of the nodes above them.
-    levels: Vec<Vec<Cone>>,
-    /// How many blocks below each node are far.
-    far: Vec<Vec<u32>>,
-    /// The normals n of the two seams. Every far direction u has n·u ≥ `clearance` for one of
-    /// them.
-    seams: [DVec3; 2],
+    /// The sector's own points: a bit for each point, a number for each block.
+    own: Vec<u64>,
+    /// The sector's own points, and those near its seams.
+    near: Vec<u64>,
+    far: Far,
+    cell: Cell,
+    /// For each block, no point of it has a larger excess.
+    most_excess: Vec<f64>,
+    /// Every direction in which a far point is seen is farther than this from the cell.
     clearance: f64,
-    /// √(1 − clearance²)
-    edge: f64,
-    /// Whether the two seams differ.
-    is_wedge: bool,
-    /// No far point is flipped farther than this.
-    reach: f64,
+    /// No flipped point is nearer to the origin.
+    nearest: f64,
+}
+
+/// A direction is known better than this.
+const DOUBT: f64 = 1e-9;
+/// The number of sampled blocks that decide how the work is shared.
+const SAMPLES: usize = 1024;
+/// The work of a visible point; the work of a hidden one is 1.
+const SEEN: u32 = 4;
+/// The width of the band of near points around the cell, in mean radii of the blocks as seen.
+const BAND: f64 = 0.4;
+/// The step from one block of the sample to the next.
+fn sample_step(blocks: usize) -> usize {
+    blocks.div_ceil(SAMPLES).max(1)
 }
 
 impl Division {
@@ -85,20 +89,18 @@ impl Division {
             .map(|block| (block * BLOCK) as u32)
     }
 
-    /// `ahead` is a place in the cloud's middle; `seen` are the visible points of the sample.
+    /// `seen` are the visible points of the sample. No point is farther than `radius`.
     pub(crate) fn new(
+        points: &Points,
         blocks: &Blocks,
         viewpoint: DVec3,
-        ahead: DVec3,
         radius: f64,
         seen: &[bool],
         sector: Sector,
     ) -> Result<Self, OutOfMemory> {
         let diameter = 2.0 * radius * (1.0 + MARGIN);
         let mut levels: Vec<Vec<Cone>> = Vec::new();
-        let mut far: Vec<Vec<u32>> = Vec::new();
         levels.try_reserve_exact(blocks.levels.len())?;
-        far.try_reserve_exact(blocks.levels.len())?;
         for spheres in &blocks.levels {
             let mut cones = with_capacity(spheres.len())?;
             cones.extend(
@@ -107,147 +109,159 @@ impl Division {
                     .map(|sphere| Cone::of(sphere, viewpoint, diameter)),
             );
             levels.push(cones);
-            let none = filled(spheres.len(), 0)?;
-            far.push(none);
         }
-        let fan = Fan::new(&levels[0], ahead - viewpoint, seen, sector.count as usize)?;
-        let seams = fan.seams(sector.number as usize);
-        let mut division = Self {
-            roles: Vec::new(),
-            levels,
-            far,
-            seams,
-            clearance: fan.clearance,
-            edge: positive_root(1.0 - fan.clearance * fan.clearance),
-            is_wedge: true,
-            reach: 0.0,
-        };
-        division.assign(&fan, sector)?;
-        Ok(division)
+        let cones = &levels[0];
+        let step = sample_step(cones.len());
+        let mut items = with_capacity(seen.len())?;
+        let mut spreads = 0.0;
+        for (cone, &seen) in cones.iter().step_by(step).zip(seen) {
+            spreads += cone.spread();
+            items.push(Item {
+                direction: cone.axis,
+                work: if seen { SEEN } else { 1 },
+            });
+        }
+        let spread = spreads / items.len().max(1) as f64;
+        let clearance = BAND * spread;
+        let cell = Cell::of(sector, &mut items)?;
+        let mut own = with_capacity(cones.len())?;
+        let mut near = with_capacity(cones.len())?;
+        let mut most_excess = with_capacity(cones.len())?;
+        for (block, cone) in cones.iter().enumerate() {
+            let room = cone.spread();
+            let excess = cell.excess(cone.axis);
+            // All points of most blocks are on one side of every seam.
+            let (is_own, is_near) = if cone.is_everywhere() || excess.abs() <= room + clearance {
+                let start = block * BLOCK;
+                let directions = (start..points.len().min(start + BLOCK))
+                    .map(|index| direction(DVec3::from_array(points.get(index)) - viewpoint));
+                cell.places(directions, clearance)
+            } else if excess < 0.0 {
+                let all = places_in(block, points.len());
+                (all, all)
+            } else {
+                (0, 0)
+            };
+            own.push(is_own);
+            most_excess.push(excess + room);
+            near.push(is_near);
+        }
+        let mut taken = with_capacity(near.len())?;
+        taken.extend_from_slice(&near);
+        Ok(Self {
+            own,
+            far: Far::new(levels, taken, points.len(), spread)?,
+            near,
+            most_excess,
+            cell,
+            clearance,
+            nearest: radius * (1.0 - MARGIN),
+        })
     }
 
-    #[inline(never)]
-    fn assign(&mut self, fan: &Fan, sector: Sector) -> Result<(), OutOfMemory> {
-        let mut beyond = [true; 2];
-        let count = self.levels[0].len();
-        self.roles.try_reserve_exact(count)?;
-        for block in 0..count {
-            let cone = self.levels[0][block];
-            let role = if fan.sector_of(cone.axis) == sector.number as usize {
-                Role::Own
-            } else {
-                let clear = self.seams.map(|n| cone.least(n) >= self.clearance);
-                if clear == [false; 2] {
-                    Role::Entered
-                } else {
-                    beyond[0] &= clear[0];
-                    beyond[1] &= clear[1];
-                    if cone.reach > self.reach {
-                        self.reach = cone.reach;
-                    }
-                    for (level, far) in self.far.iter_mut().enumerate() {
-                        far[block / FANOUT.pow(level as u32)] += 1;
-                    }
-                    Role::Far
-                }
-            };
-            self.roles.push(role);
+    pub(crate) fn block_count(&self) -> usize {
+        self.near.len()
+    }
+
+    /// Which points of a block are in the hull or will be in it.
+    #[inline]
+    pub(crate) fn near(&self, block: usize) -> u64 {
+        self.near[block]
+    }
+
+    /// An upper bound of how far the direction of `q` lies outside of the sector's cell; negative
+    /// inside. `q` is point `index`.
+    #[inline]
+    pub(crate) fn excess(&self, index: u32, q: DVec3) -> f64 {
+        let bound = self.most_excess[index as usize / BLOCK];
+        if bound < -self.clearance {
+            return bound;
         }
-        // Every far block beyond this seam is beyond the other seam too.
-        match beyond {
-            [true, _] => self.seams[1] = self.seams[0],
-            [_, true] => self.seams[0] = self.seams[1],
-            _ => {}
-        }
-        self.is_wedge = self.seams[0] != self.seams[1];
-        Ok(())
+        self.cell.excess(q / square_root(q.dot(q)))
+    }
+
+    /// Whether no far point is seen in the directions of a face. Its corners are flipped points.
+    ///
+    /// Each direction in the face is nearer to a corner than the longest edge, on the unit sphere.
+    /// There, distances are at most those of the flipped points, divided by the length of the
+    /// shortest flipped point.
+    pub(crate) fn is_clear(&self, [a, b, c]: [u32; 3], corners: [DVec3; 3]) -> bool {
+        let [p, q, r] = corners;
+        let excess = larger(
+            self.excess(a, p),
+            larger(self.excess(b, q), self.excess(c, r)),
+        );
+        let [pq, qr, rp] = [p - q, q - r, r - p].map(|edge| edge.dot(edge));
+        let longest = larger(pq, larger(qr, rp));
+        let room = self.clearance - excess - 2.0 * DOUBT;
+        // For longer edges the first statement does not hold.
+        let room = if room < 1.0 { room } else { 1.0 };
+        room > 0.0 && longest < room * room * self.nearest * self.nearest
+    }
+
+    /// A place in each part of the directions where far points may be seen, near the origin. A
+    /// part is what lies beyond one side of the cell, so it is a cap of the sphere of directions.
+    pub(crate) fn outside(&self) -> impl Iterator<Item = DVec3> {
+        let centers = self.cell.caps(self.clearance - DOUBT);
+        let near = 1e-3 * self.nearest;
+        centers.map(move |u| near * u)
     }
 
     /// Whether this sector decides about point `index` of the spatial order.
     #[inline]
     pub(crate) fn owns(&self, index: u32) -> bool {
-        self.roles[index as usize / BLOCK] == Role::Own
+        self.own[index as usize / BLOCK] >> (index as usize % BLOCK) & 1 != 0
+    }
+
+    /// Whether a point is far: not in the hull.
+    #[cfg(debug_assertions)]
+    pub(crate) fn is_far(&self, index: u32) -> bool {
+        !self.far.is_taken(index)
     }
 
     /// About how many points the sector's hull is made of.
     pub(crate) fn near_points(&self) -> usize {
-        let near = self.roles.iter().filter(|&&role| role != Role::Far);
-        near.count() * BLOCK
+        self.near
+            .iter()
+            .map(|near| near.count_ones() as usize)
+            .sum()
     }
 
     /// Leaves only the sector's own points marked.
     pub(crate) fn keep_own(&self, visible: &mut [bool]) {
-        for (points, &role) in visible.chunks_mut(BLOCK).zip(&self.roles) {
-            if role != Role::Own {
-                points.fill(false);
-            }
+        for (index, visible) in (0..).zip(visible) {
+            *visible &= self.owns(index);
         }
     }
 
-    /// An upper bound of m·q over all far points. It takes a few products only.
-    #[inline]
-    pub(crate) fn bound_of_all(&self, m: DVec3) -> f64 {
-        let squared = m.dot(m);
-        let length = square_root(squared);
-        let beyond = |n: DVec3| {
-            let along = m.dot(n);
-            if along >= self.clearance * length {
-                length
-            } else {
-                // In the plane of m and n, at the edge of what is clear of the seam.
-                let across = positive_root(squared - along * along);
-                along * self.clearance + across * self.edge
-            }
-        };
-        let mut largest = beyond(self.seams[0]);
-        if self.is_wedge {
-            let other = beyond(self.seams[1]);
-            if other > largest {
-                largest = other;
-            }
-        }
-        (largest + MARGIN * length) * self.reach
-    }
-
-    /// The far block in which m·q may be largest. `None` if m·q is below `limit` in all far
-    /// blocks.
-    #[inline(never)]
-    pub(crate) fn most_in_the_way(
-        &self,
-        m: DVec3,
-        mut limit: f64,
+    /// The far point with the largest m·q, or `None` if m·q is below `limit` for all far points.
+    pub(in crate::hull) fn most_in_the_way(
+        &mut self,
+        support: (DVec3, f64),
+        flipped: &Flipped,
     ) -> Result<Option<u32>, OutOfMemory> {
-        let length = square_root(m.dot(m));
-        let mut most = None;
-        let top = self.levels.len() - 1;
-        let mut path: Vec<(usize, usize)> = Vec::new();
-        reserve(&mut path, FANOUT * self.levels.len())?;
-        path.extend((0..self.levels[top].len()).map(|node| (top, node)));
-        while let Some((level, node)) = path.pop() {
-            if self.far[level][node] == 0 {
-                continue;
-            }
-            let bound = self.levels[level][node].bound(m, length);
-            if bound < limit {
-                continue;
-            }
-            if level == 0 {
-                most = Some(node as u32);
-                limit = bound;
-            } else {
-                let below = self.levels[level - 1].len();
-                let children = node * FANOUT..below.min((node + 1) * FANOUT);
-                path.extend(children.map(|child| (level - 1, child)));
-            }
-        }
-        Ok(most)
+        self.far.most_in_the_way(support, flipped)
     }
 
-    /// Notes that the points of a far block have been put into the hull.
-    pub(crate) fn enter(&mut self, block: u32) {
-        self.roles[block as usize] = Role::Entered;
-        for (level, far) in self.far.iter_mut().enumerate() {
-            far[block as usize / FANOUT.pow(level as u32)] -= 1;
-        }
+    /// Notes that a point is in the hull.
+    pub(crate) fn take(&mut self, index: u32) {
+        self.far.take(index);
+    }
+}
+
+/// A bit for each point of a block, in a cloud of `count` points.
+fn places_in(block: usize, count: usize) -> u64 {
+    let here = BLOCK.min(count - block * BLOCK);
+    u64::MAX >> (BLOCK - here)
+}
+
+/// The direction of a point at `v` from the viewpoint; zero for a point at the viewpoint.
+fn direction(v: DVec3) -> DVec3 {
+    let distance = square_root(v.dot(v));
+    // Squares must not have underflowed.
+    if distance > 1e-100 {
+        v / distance
+    } else {
+        DVec3::ZERO
     }
 }

@@ -1,0 +1,241 @@
+//! The points that are not in a sector's hull, and bounds of m·q over them.
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use super::cone::Cone;
+use super::places_in;
+use crate::base::allocation::{OutOfMemory, filled, push, reserve};
+use crate::base::real::square_root;
+use crate::cloud::blocks::{BLOCK, FANOUT};
+use crate::hull::flipped::Flipped;
+
+/// A block whose points have not been flipped yet.
+const CLOSED: u32 = u32::MAX;
+
+/// The largest angle between planes that are alike, in spreads of the blocks.
+const TURN: f64 = 0.7;
+
+pub(super) struct Far {
+    /// For each block, a bit for each point that is not far.
+    taken: Vec<u64>,
+    /// The cones of the blocks and of the nodes above them.
+    levels: Vec<Vec<Cone>>,
+    /// How many points below each node are far.
+    counts: Vec<Vec<u32>>,
+    /// The place of each block in `flipped`; `CLOSED` for most.
+    opened: Vec<u32>,
+    /// The x, y and z of the far points of each opened block, flipped; zero for a point that is not far.
+    flipped: Vec<[[f64; BLOCK]; 3]>,
+    /// The nodes that a search has yet to visit.
+    path: Vec<(u32, u32)>,
+    around: Around,
+    /// The cosine and the sine of the largest angle between planes that are alike.
+    turn: (f64, f64),
+}
+
+/// The blocks that can be in the way of similar planes. Neighboring faces are asked about one after
+/// another.
+struct Around {
+    /// The planes are across about this direction.
+    direction: DVec3,
+    /// The planes are farther than this from the origin.
+    limit: f64,
+    blocks: Vec<u32>,
+}
+
+impl Far {
+    /// `taken` tells for each block which of its points are not far. There are `points` points.
+    /// `spread` is the angle of a usual block.
+    pub(super) fn new(
+        levels: Vec<Vec<Cone>>,
+        taken: Vec<u64>,
+        points: usize,
+        spread: f64,
+    ) -> Result<Self, OutOfMemory> {
+        let mut counts: Vec<Vec<u32>> = Vec::new();
+        let sin = (TURN * spread).min(0.5);
+        counts.try_reserve_exact(levels.len())?;
+        for cones in &levels {
+            let mut level = filled(cones.len(), 0)?;
+            match counts.last() {
+                None => {
+                    for (block, count) in level.iter_mut().enumerate() {
+                        *count = (places_in(block, points) & !taken[block]).count_ones();
+                    }
+                }
+                Some(below) => {
+                    for (node, count) in below.iter().enumerate() {
+                        level[node / FANOUT] += count;
+                    }
+                }
+            }
+            counts.push(level);
+        }
+        let mut path = Vec::new();
+        reserve(&mut path, FANOUT * levels.len())?;
+        Ok(Self {
+            opened: filled(taken.len(), CLOSED)?,
+            taken,
+            levels,
+            counts,
+            flipped: Vec::new(),
+            path,
+            around: Around {
+                direction: DVec3::X,
+                limit: f64::INFINITY,
+                blocks: Vec::new(),
+            },
+            turn: (square_root(1.0 - sin * sin), sin),
+        })
+    }
+
+    /// The far point with the largest m·q, or `None` if m·q is below `limit` for all far points.
+    #[inline(never)]
+    pub(super) fn most_in_the_way(
+        &mut self,
+        (m, mut limit): (DVec3, f64),
+        flipped: &Flipped,
+    ) -> Result<Option<u32>, OutOfMemory> {
+        if limit <= 0.0 {
+            // The plane says nothing.
+            return Ok(self.first());
+        }
+        let length = square_root(m.dot(m));
+        let Around {
+            direction,
+            limit: least,
+            ..
+        } = self.around;
+        let is_alike = m.dot(direction) > self.turn.0 * length && limit > least * length;
+        if !is_alike {
+            self.look_around(m, length, limit)?;
+        }
+        let mut most = None;
+        for k in 0..self.around.blocks.len() {
+            let block = self.around.blocks[k] as usize;
+            if self.counts[0][block] == 0 || self.levels[0][block].bound(m, length) < limit {
+                continue;
+            }
+            if self.opened[block] == CLOSED {
+                self.open(block, flipped)?;
+                if self.levels[0][block].bound(m, length) < limit {
+                    continue;
+                }
+            }
+            let [x, y, z] = &self.flipped[self.opened[block] as usize];
+            let height = |place: usize| m.x * x[place] + m.y * y[place] + m.z * z[place];
+            // This loop has no branch.
+            let highest =
+                (0..BLOCK).map(height).fold(
+                    0.0,
+                    |highest, height| {
+                        if height > highest { height } else { highest }
+                    },
+                );
+            if highest >= limit {
+                most = (0..BLOCK)
+                    .find(|&place| height(place) == highest)
+                    .map(|place| (block * BLOCK + place) as u32);
+                limit = highest;
+            }
+        }
+        Ok(most)
+    }
+
+    /// Finds the blocks that can be in the way of this face and of its neighbors.
+    #[inline(never)]
+    fn look_around(&mut self, m: DVec3, length: f64, limit: f64) -> Result<(), OutOfMemory> {
+        let (cos, sin) = self.turn;
+        self.around.direction = m / length;
+        self.around.limit = limit / length * (1.0 - sin * sin);
+        self.around.blocks.clear();
+        let Around {
+            direction, limit, ..
+        } = self.around;
+        let top = self.levels.len() - 1;
+        self.path.clear();
+        self.path
+            .extend((0..self.levels[top].len() as u32).map(|node| (top as u32, node)));
+        while let Some((level, node)) = self.path.pop() {
+            let (level, node) = (level as usize, node as usize);
+            let cone = &self.levels[level][node];
+            if self.counts[level][node] == 0 || cone.widened(cos, sin).bound(direction, 1.0) < limit
+            {
+                continue;
+            }
+            if level == 0 {
+                push(&mut self.around.blocks, node as u32)?;
+                continue;
+            }
+            let below = self.levels[level - 1].len();
+            let children = node * FANOUT..below.min((node + 1) * FANOUT);
+            self.path
+                .extend(children.map(|child| (level as u32 - 1, child as u32)));
+        }
+        Ok(())
+    }
+
+    /// Flips the far points of a block. Their own bounds replace the bounds of the block's sphere.
+    #[inline(never)]
+    fn open(&mut self, block: usize, flipped: &Flipped) -> Result<(), OutOfMemory> {
+        let mut points = [[0.0; BLOCK]; 3];
+        let start = block * BLOCK;
+        let end = flipped.len().min(start + BLOCK);
+        let places = (0..end - start).filter(|place| self.taken[block] >> place & 1 == 0);
+        let far = places.filter_map(|place| {
+            // A point at the viewpoint is in nobody's way.
+            let q = flipped.get_out_of_line((start + place) as u32)?;
+            Some((place, q))
+        });
+        let mut all = [DVec3::ZERO; BLOCK];
+        let mut count = 0;
+        for (place, q) in far {
+            for axis in 0..3 {
+                points[axis][place] = q[axis];
+            }
+            all[count] = q;
+            count += 1;
+        }
+        self.levels[0][block] = Cone::around(&all[..count]);
+        self.opened[block] = self.flipped.len() as u32;
+        reserve(&mut self.flipped, 1)?;
+        self.flipped.push(points);
+        Ok(())
+    }
+
+    /// Any far point.
+    fn first(&self) -> Option<u32> {
+        let top = self.counts.len() - 1;
+        let is_far = |(_, count): &(usize, &u32)| **count > 0;
+        let (mut node, _) = self.counts[top].iter().enumerate().find(is_far)?;
+        for level in self.counts[..top].iter().rev() {
+            let (first, _) = (level.iter().enumerate().skip(node * FANOUT)).find(is_far)?;
+            node = first;
+        }
+        Some((node * BLOCK) as u32 + self.taken[node].trailing_ones())
+    }
+
+    pub(super) fn is_taken(&self, index: u32) -> bool {
+        self.taken[index as usize / BLOCK] >> (index as usize % BLOCK) & 1 != 0
+    }
+
+    /// Notes that a point is in the hull.
+    pub(super) fn take(&mut self, index: u32) {
+        let (block, place) = (index as usize / BLOCK, index as usize % BLOCK);
+        if self.is_taken(index) {
+            return;
+        }
+        self.taken[block] |= 1 << place;
+        if let Some(points) = self.flipped.get_mut(self.opened[block] as usize) {
+            for axis in points {
+                axis[place] = 0.0;
+            }
+        }
+        let mut node = block;
+        for counts in &mut self.counts {
+            counts[node] -= 1;
+            node /= FANOUT;
+        }
+    }
+}
