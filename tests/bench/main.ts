@@ -22,6 +22,7 @@ import { root } from "./paths.js";
 import { measurePage } from "./page/page.js";
 import { peers } from "./peers.js";
 import { markdown, type Table } from "./report.js";
+import { timeSectors } from "./sectors.js";
 import { timeQueries } from "./speed.js";
 import { timeWorkers } from "./workers.js";
 
@@ -36,6 +37,7 @@ try {
   if (options.sections.has("speed")) tables.push(...(await timeQueries(chosenClouds(), enginesWith(browser), others)));
   if (options.sections.has("drafts")) tables.push(timeDrafts());
   if (options.sections.has("workers")) tables.push(...[await timeWorkers()].filter((table) => table !== undefined));
+  if (options.sections.has("sectors")) tables.push(timeSectors());
   if (options.sections.has("linear")) tables.push(await timeSizes(localEngines()));
   if (options.sections.has("adapter")) tables.push(await timeAdapter(), await timeNodes(), await measureGarbage());
   if (options.sections.has("memory")) tables.push(measureMemory());

@@ -10,6 +10,7 @@ WHAT, by default --speed, --drafts and --workers:
                three.js and quickhull3d on the same flipped points
   --drafts     early answers and samples against cold ones
   --workers    two workers against one, on a million points
+  --sectors    the sectors of a view, one after another: what several cores would gain
   --linear     nanoseconds a point from 30,000 to 3 million points
   --adapter    what the adapters for three.js take of the page's own thread, and the memory
                that answers leave behind
@@ -25,7 +26,18 @@ WHAT, by default --speed, --drafts and --workers:
   --json       prints JSON instead of tables
   --write      writes the tables to tests/bench, too: to RESULTS.md, or PAGE.md and SOAK.md`;
 
-const SECTIONS = ["speed", "drafts", "workers", "linear", "adapter", "memory", "page", "soak", "fidelity"] as const;
+const SECTIONS = [
+  "speed",
+  "drafts",
+  "workers",
+  "sectors",
+  "linear",
+  "adapter",
+  "memory",
+  "page",
+  "soak",
+  "fidelity",
+] as const;
 type Section = (typeof SECTIONS)[number];
 /** The sections that "all" leaves out. */
 const ALONE = new Set<Section>(["page", "soak"]);
@@ -45,6 +57,7 @@ export function readOptions(args: string[]): BenchOptions {
     speed: flag,
     drafts: flag,
     workers: flag,
+    sectors: flag,
     linear: flag,
     adapter: flag,
     memory: flag,
