@@ -153,3 +153,56 @@ it("reports when the next worker is lost, too, and stops asking", async () => {
   });
   await reached(({ answers }) => answers.at(-1)!.count === 1);
 });
+
+it("takes the eye of a geospatial camera, in meters and in degrees, with a matrix", async () => {
+  // Enlarged 100 times: discs of 200 m, seen from 500 m above, beside their middle.
+  const shown = async () => {
+    await reached(({ answers, values }) => values().reduce((sum, value) => sum + value, 0) === answers.at(-1)?.count);
+    return inPage(({ values }) => values().flatMap((value, i) => (value === 1 ? [i] : [])));
+  };
+  const expected = await inPage(({ visibleFrom }) => visibleFrom([0.3, -0.5, 5]));
+  await inPage((page) => {
+    page.answers.length = 0;
+    page.lookFrom([11.57, 48.14], [30, -50, 500], {
+      coordinateSystem: "meter-offsets",
+      coordinateOrigin: [11.57, 48.14, 0],
+      modelMatrix: [100, 0, 0, 0, 0, 100, 0, 0, 0, 0, 100, 0, 0, 0, 0, 1] as never,
+    });
+  });
+  await reached(({ answers }) => answers.at(-1)?.answer === "operator");
+  const inMeters = await shown();
+  expect(inMeters.length).toBeLessThan(2400);
+  expect(differences(inMeters, expected)).toBeLessThan(10);
+
+  await inPage((page) => {
+    const { positions } = page;
+    const [east, north] = [100 / (111_194.9 * Math.cos((48.14 * Math.PI) / 180)), 100 / 111_194.9];
+    const degrees = Float64Array.from(positions, (x, i) => {
+      return i % 3 === 0 ? 11.57 + x * east : i % 3 === 1 ? 48.14 + x * north : 100 * x;
+    });
+    page.answers.length = 0;
+    page.lookFrom([11.57, 48.14], [30, -50, 500], {
+      data: { length: degrees.length / 3, attributes: { getPosition: { value: degrees, size: 3 } } } as never,
+      coordinateSystem: "lnglat",
+      modelMatrix: null,
+    });
+  });
+  await reached(({ answers }) => answers.at(-1)?.answer === "operator");
+  expect(differences(await shown(), expected)).toBeLessThan(10);
+  expect(await inPage(({ errors }) => errors)).toEqual([]);
+
+  // Coordinates of deck.gl's own have no place for the camera. The refusal comes once.
+  await inPage((page) => {
+    page.lookFrom([11.57, 48.14], [30, -50, 500], { coordinateSystem: "cartesian" });
+    page.lookFrom([11.57, 48.14], [30, -60, 500], {});
+  });
+  await reached(({ errors }) => errors.length > 0);
+  await inPage(() => new Promise((resolve) => setTimeout(resolve, 300)));
+  expect(await inPage(({ errors }) => errors)).toEqual(["option"]);
+});
+
+/** How many points are in one list only: those on the brink, where the conversion rounds. */
+function differences(a: number[], b: number[]): number {
+  const [inA, inB] = [new Set(a), new Set(b)];
+  return a.filter((i) => !inB.has(i)).length + b.filter((i) => !inA.has(i)).length;
+}

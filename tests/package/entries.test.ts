@@ -36,7 +36,8 @@ it.each([
   ["three.js", 24_850],
   ["react-three-fiber.js", 25_300],
   ["nodes.js", 27_100],
-  ["deck.js", 15_800],
+  // Degrees, meters and matrices cost 950 bytes.
+  ["deck.js", 16_750],
 ])("%s stays below %i bytes, gzipped", async (file, limit) => {
   const size = await sizeOf(file);
   console.log(`${file}: ${size} bytes gzipped, ${size + gzipped(wasmBytes())} with the wasm`);

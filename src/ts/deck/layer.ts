@@ -1,22 +1,26 @@
-import { CompositeLayer, type DefaultProps, type Layer, type UpdateParameters, type Viewport } from "@deck.gl/core";
+import { CompositeLayer, type DefaultProps, type Layer, type UpdateParameters } from "@deck.gl/core";
 import { DataFilterExtension } from "@deck.gl/extensions";
 import { PointCloudLayer, type PointCloudLayerProps } from "@deck.gl/layers";
 
-import { HprError } from "../base/errors.js";
+import { asError } from "../base/errors.js";
 import type { AnswerKind } from "../follow/gaze.js";
 import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings } from "../query/follow-options.js";
 import { givenOptions, pick } from "../query/options.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { isBinary, positionsOf } from "./data.js";
+import { Frame } from "./frame.js";
 import { Sight } from "./sight.js";
 
 /** The properties of a `PointCloudLayer`, and the viewpoint. */
 export type VisiblePointCloudLayerProps<DataT = unknown> = PointCloudLayerProps<DataT> & {
   /**
    * The viewpoint: x, y, z in the data's own coordinates. Default: the place of the view's camera,
-   * or its direction if it is orthographic. The default works only with Cartesian coordinates,
-   * without `modelMatrix` and without `coordinateOrigin`.
+   * or its direction if it is orthographic. The default is refused (`option`) for a globe, for
+   * Cartesian coordinates in a geospatial view, and if `modelMatrix` scales the axes differently.
+   *
+   * Data in degrees (`lnglat`, `lnglat-offsets`) is converted to meters around its middle. A `radius`
+   * and the distances of `within` are then in meters, otherwise in the data's own units.
    */
   viewpoint?: readonly [number, number, number] | null;
   /** How each view is computed, and how answers follow the viewpoint. */
@@ -52,6 +56,10 @@ type State = {
   sight: Sight;
   /** The property `visibility`, and its content. */
   read: { given: unknown; text: string; settings: FollowSettings } | undefined;
+  /** The cloud's coordinates. */
+  frame: Frame | undefined;
+  /** The message of the last refusal. A camera that goes on moving does not report it again. */
+  refusal: string | undefined;
   /**
    * One number for each point: 1 if it is visible, 0 if it is hidden. Undefined before the first
    * answer. Later answers overwrite the array.
@@ -68,6 +76,10 @@ type Update = Pick<UpdateParameters<Layer>, "changeFlags">;
 const NO_OPTIONS: VisibilityOptions = {};
 const filter = new DataFilterExtension({ filterSize: 1 });
 const VISIBLE: [number, number] = [0.5, 1.5];
+/** deck.gl shows a layer this view before the first true one. */
+const NO_VIEW_YET = "DEFAULT-INITIAL-VIEWPORT";
+/** If the page changes its layers and its view at once, the new layers meet the earlier view first. In milliseconds. */
+const LASTING = 200;
 
 /**
  * A deck.gl `PointCloudLayer` that draws only the points that the camera sees. Only these points can
@@ -107,7 +119,15 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
         this.getCurrentLayer()?.raiseError(error, "");
       },
     });
-    this.setState({ sight, read: undefined, mask: undefined, version: 0, data: undefined });
+    this.setState({
+      sight,
+      read: undefined,
+      frame: undefined,
+      refusal: undefined,
+      mask: undefined,
+      version: 0,
+      data: undefined,
+    });
   }
 
   /** Returns true for each change, also if only the camera has moved. @internal */
@@ -117,24 +137,52 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
 
   /** @internal */
   override updateState({ changeFlags }: Update): void {
+    if (this.context.viewport.id === NO_VIEW_YET) {
+      return;
+    }
+    if (changeFlags.dataChanged) {
+      this.state.refusal = undefined;
+    }
+    try {
+      this.#look(changeFlags);
+      this.state.refusal = undefined;
+    } catch (thrown) {
+      this.#refuse(asError(thrown));
+    }
+  }
+
+  /** Draws all points. Reports the refusal once, and only if it lasts. */
+  #refuse(error: Error): void {
+    if (this.state.refusal === error.message) {
+      return;
+    }
+    this.setState({ refusal: error.message, mask: undefined, data: undefined });
+    setTimeout(() => {
+      const layer = this.getCurrentLayer() as this | null;
+      if (layer?.state?.refusal === error.message) {
+        layer?.raiseError(error, "");
+      }
+    }, LASTING);
+  }
+
+  #look({ dataChanged, updateTriggersChanged: triggers }: Update["changeFlags"]): void {
     const { sight } = this.state;
     const { data, getPosition, viewpoint, visibility } = this.props as unknown as Own & { data: unknown };
-    try {
-      const triggers = changeFlags.updateTriggersChanged;
-      const isMoved = typeof triggers === "object" && ("getPosition" in triggers || "all" in triggers);
-      if (changeFlags.dataChanged || isMoved) {
-        this.setState({ mask: undefined, data: undefined });
-        sight.setPositions(() => positionsOf(data, getPosition));
-      }
-      const seen =
-        viewpoint === null ? eyeOf(this.context.viewport, this.props) : { from: viewpoint, isDirection: false };
-      const settings = this.#settingsOf(visibility);
-      const isNew = sight.want(seen, settings);
-      if (isNew && settings.stale === "all" && this.state.mask !== undefined) {
-        this.setState({ mask: undefined, data: undefined });
-      }
-    } catch (error) {
-      this.raiseError(error as Error, "");
+    const { viewport } = this.context;
+    const earlier = this.state.frame;
+    const frame = (this.state.frame = new Frame(viewport, this.props));
+    const isMoved = typeof triggers === "object" && ("getPosition" in triggers || "all" in triggers);
+    if (dataChanged || isMoved || earlier?.key !== frame.key) {
+      this.setState({ mask: undefined, data: undefined });
+      sight.setPositions(() => frame.take(positionsOf(data, getPosition)));
+    } else {
+      frame.goOn(earlier);
+    }
+    const place = viewpoint === null ? frame.seen(viewport) : frame.given(viewpoint);
+    const settings = this.#settingsOf(visibility);
+    const isNew = sight.want(place, settings);
+    if (isNew && settings.stale === "all" && this.state.mask !== undefined) {
+      this.setState({ mask: undefined, data: undefined });
     }
   }
 
@@ -196,18 +244,4 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       visible: answer.indices,
     });
   }
-}
-
-/** Returns the camera's viewpoint or direction. Refuses a camera that does not use the data's coordinates. */
-function eyeOf(viewport: Viewport, props: object): { from: number[]; isDirection: boolean } {
-  const { modelMatrix, coordinateOrigin } = props as { modelMatrix?: unknown; coordinateOrigin?: readonly number[] };
-  const isElsewhere = coordinateOrigin?.some((x) => x !== 0) ?? false;
-  if (viewport.isGeospatial || Boolean(modelMatrix) || isElsewhere) {
-    throw new HprError("option", "viewpoint must be given with geospatial views, modelMatrix or coordinateOrigin");
-  }
-  const [m, projection] = [viewport.viewMatrixInverse, viewport.projectionMatrix];
-  const isDirection = projection[15] !== 0;
-  // The third axis of a camera points backwards.
-  const from = isDirection ? [-m[8]!, -m[9]!, -m[10]!] : [m[12]!, m[13]!, m[14]!];
-  return { from, isDirection };
 }

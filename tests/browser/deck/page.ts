@@ -1,19 +1,22 @@
 // A page with one deck.gl layer. `page` lets the test change it.
-import { Deck, type Layer, OrbitView, type OrbitViewState } from "@deck.gl/core";
+import { Deck, FirstPersonView, type Layer, OrbitView, type OrbitViewState } from "@deck.gl/core";
 import { PointCloud, init } from "hidden-point-removal";
 import { VisiblePointCloudLayer, type VisiblePointCloudLayerProps } from "hidden-point-removal/deck";
 
 type Props = Partial<VisiblePointCloudLayerProps>;
 
 export interface DeckPage {
-  answers: { count: number }[];
+  answers: { count: number; answer: string }[];
   errors: string[];
+  positions: Float32Array;
   /** The camera's place, from the view itself. */
   camera: () => number[];
   layer: () => Layer;
   /** The filter values of the layer with the points. */
   values: () => number[];
   set: (props: Props, viewState?: Partial<OrbitViewState>) => void;
+  /** Looks with a geospatial camera from this place: meters from a longitude and latitude. */
+  lookFrom: (home: [number, number], position: number[], changed: Props) => void;
   visibleFrom: (viewpoint: number[], positions?: number[]) => Promise<number[]>;
   /** How many workers were started. */
   workers: () => number;
@@ -64,6 +67,7 @@ const deck = new Deck({
 const page: DeckPage = {
   answers: [],
   errors: [],
+  positions,
   camera: () => deck.getViewports()[0]!.cameraPosition,
   layer: () => sublayer(),
   values: () => {
@@ -78,6 +82,14 @@ const page: DeckPage = {
     props = { ...props, ...changed };
     viewState = { ...viewState, ...view };
     deck.setProps({ viewState, layers: [layerOf()] });
+  },
+  lookFrom: ([longitude, latitude], position, changed) => {
+    props = { ...props, ...changed };
+    deck.setProps({
+      views: new FirstPersonView({ id: "street" }) as never,
+      viewState: { longitude, latitude, position, bearing: 0, pitch: 0 } as never,
+      layers: [layerOf()],
+    });
   },
   visibleFrom: async (viewpoint, of = [...positions]) => {
     await init();
