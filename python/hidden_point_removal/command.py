@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import csv
 import json
+import shutil
 import sys
 from pathlib import Path
 
@@ -43,11 +44,13 @@ def run(chosen):
     options = {"radius": chosen.radius}
     if chosen.exponential is not None:
         options["inversion"] = {"exponential": chosen.exponential}
+    chosen.output.mkdir(parents=True, exist_ok=True)
+    # What is left of finished tiles. The command goes on from there if it was ended.
+    work = chosen.output / ".work"
     with _client(chosen) as client:
         answers = visible_from_tiles(
-            tiles, viewpoints, client=client, share=chosen.share, progress=_say, **options
+            tiles, viewpoints, client=client, share=chosen.share, work=work, progress=_say, **options
         )
-    chosen.output.mkdir(parents=True, exist_ok=True)
     write_parquet(chosen.output / "visible.parquet", answers)
     report = {
         "tiles": [tile.name for tile in tiles],
@@ -64,6 +67,7 @@ def run(chosen):
             if tile.name.lower().endswith((".laz", ".las")):
                 write_laz(tile, chosen.output / tile.name.replace(".copc.laz", ".laz"), first, answers)
             first += len(read_tile(tile))
+    shutil.rmtree(work, ignore_errors=True)
     for number, count in enumerate(report["visible"]):
         print(f"viewpoint {number}: {count} points visible, {answers.skipped[number]} of {len(tiles)} tiles skipped")
 

@@ -4,6 +4,7 @@ import json
 import os
 import subprocess
 import sys
+import threading
 
 import numpy as np
 import pytest
@@ -11,7 +12,8 @@ import pytest
 pytest.importorskip("scipy", reason="the distributed extra is not installed")
 
 from hidden_point_removal import HprError, PointCloud
-from hidden_point_removal.distributed import kernels, read_tile, visible_from_tiles, write_parquet
+from hidden_point_removal.distributed import kernels, read_tile, statistics, visible_from_tiles, write_parquet
+from hidden_point_removal.distributed.waves import waves_of
 
 
 def town(count, seed=1, offset=(0.0, 0.0, 0.0)):
@@ -152,7 +154,8 @@ def test_files_and_their_cache(tmp_path):
     command = [sys.executable, "-m", "hidden_point_removal.command", "tiles", str(tmp_path), "--from", str(cameras)]
     for output in ("first", "second"):
         subprocess.run([*command, "-o", str(tmp_path / output), "--laz"], check=True, capture_output=True)
-    assert len(os.listdir(tmp_path / ".hpr-manifest")) == 3
+    kept = os.listdir(tmp_path / ".hpr-manifest")
+    assert len(kept) == 4, "three tiles and the spacing"
     first = parquet.read_table(tmp_path / "first" / "visible.parquet")
     assert first.equals(parquet.read_table(tmp_path / "second" / "visible.parquet"))
     report = json.loads((tmp_path / "first" / "report.json").read_text())
@@ -199,11 +202,112 @@ def test_a_cluster_answers_alike(tmp_path):
 
 def test_hashes_do_not_depend_on_the_precision_or_the_sign_of_zero():
     points = np.array([[0.0, 1.5, -2.0], [-0.0, 1.5, -2.0]])
-    assert len(set(kernels.hashes(points).tolist())) == 1
-    assert np.array_equal(kernels.hashes(points.astype(np.float32)), kernels.hashes(points))
+    assert len(set(statistics.hashes(points).tolist())) == 1
+    assert np.array_equal(statistics.hashes(points.astype(np.float32)), statistics.hashes(points))
 
 
 def test_a_parquet_of_no_answers(tmp_path):
     parquet = pytest.importorskip("pyarrow.parquet")
     write_parquet(tmp_path / "none.parquet", [])
     assert parquet.read_table(tmp_path / "none.parquet").num_rows == 0
+
+
+def test_the_spacing_needs_no_sample():
+    points = np.concatenate([town(3000), town(3000)])
+    expected = visible_from_tiles([points], []).options["inversion"]["exponential"]
+    for tiles in (cut(points, "squares"), [points[::2], points[1::2], points[:500]]):
+        assert visible_from_tiles(tiles, [], share=0.001).options["inversion"]["exponential"] == expected
+
+
+def test_waves_hold_each_tile_once_and_the_nearest_first():
+    boxes = [(np.full(3, float(number)), np.full(3, number + 1.0)) for number in range(100)]
+    boxes[7] = None
+    waves = waves_of(boxes, [[0.0, 0.0, 0.0], [101.0, 101.0, 101.0]])
+    assert sorted(tile for wave in waves for tile in wave) == list(range(100))
+    assert waves[0] == [0, 1, 2, 3, 4, 5, 6, 8, *range(92, 100)]
+    assert 7 in waves[-1]
+    assert waves_of([], [[0.0, 0.0, 0.0]]) == []
+    assert waves_of([None, None], []) == [[0, 1]]
+
+
+def test_a_question_goes_on_from_finished_tiles(tmp_path, monkeypatch):
+    paths = []
+    for number, tile in enumerate(cut(town(20_000), "squares")):
+        paths.append(tmp_path / f"{number}.npy")
+        np.save(paths[-1], tile)
+    expected = visible_from_tiles(paths, VIEWPOINTS)
+    work = tmp_path / "work"
+
+    def stop(stage, done, every):
+        if stage == "screen" and done == 10:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        visible_from_tiles(paths, VIEWPOINTS, work=work, progress=stop)
+    kept = sorted(work.glob("*/*.npz"))
+    assert len(kept) == 10
+    # A file that was not written to its end is not trusted.
+    kept[0].write_bytes(kept[0].read_bytes()[:100])
+    reads = []
+    monkeypatch.setattr(kernels, "read_tile", lambda tile: reads.append(tile) or read_tile(tile))
+    again = visible_from_tiles(paths, VIEWPOINTS, work=work)
+    assert len(reads) == len(paths) - 9
+    assert all(np.array_equal(a, b) for a, b in zip(again, expected, strict=True))
+    assert list(work.iterdir()) == []
+    with pytest.raises(HprError) as refused:
+        visible_from_tiles([town(10)], VIEWPOINTS, work=work)
+    assert refused.value.code == "option"
+
+
+def test_what_is_kept_belongs_to_these_tiles(tmp_path):
+    path = tmp_path / "a.npy"
+    np.save(path, town(5000))
+    other = tmp_path / "b.npy"
+    np.save(other, town(100, seed=9))
+
+    def stop(stage, done, every):
+        if stage == "merge":
+            raise KeyboardInterrupt
+
+    def ask(progress=None, **options):
+        return visible_from_tiles([path, other], VIEWPOINTS, work=tmp_path / "work", progress=progress, **options)
+
+    with pytest.raises(KeyboardInterrupt):
+        ask(stop)
+    np.save(other, town(3000, seed=10))
+    for options in ({}, {"radius": 50_000.0}):
+        answers = ask(**options)
+        whole = PointCloud(np.concatenate([np.load(path), np.load(other)]))
+        for viewpoint, answer in zip(VIEWPOINTS, answers, strict=True):
+            assert np.array_equal(answer, whole.visible_from(viewpoint, **answers.options).indices)
+
+
+def test_numpy_numbers_are_options():
+    plain = visible_from_tiles([town(500)], VIEWPOINTS[:1], radius=50_000.0)
+    assert np.array_equal(visible_from_tiles([town(500)], VIEWPOINTS[:1], radius=np.float32(50_000))[0], plain[0])
+    scale = {"exponential": np.float64(0.5)}
+    assert visible_from_tiles([town(500)], np.array(VIEWPOINTS), inversion=scale).options == {
+        "inversion": {"exponential": 0.5}
+    }
+
+
+@pytest.mark.parametrize("dtype", [np.float16, np.int32, np.uint8, np.int64, ">f8", np.longdouble])
+def test_tiles_of_other_numbers(dtype):
+    tile = np.abs(town(400)).astype(dtype)
+    answers = visible_from_tiles([tile, tile[:5]], [[0.5, 0.5, 400.0]])
+    whole = PointCloud(np.concatenate([tile, tile[:5]]).astype(np.float64))
+    assert np.array_equal(answers[0], whole.visible_from([0.5, 0.5, 400.0], **answers.options).indices)
+
+
+def test_a_tile_that_cannot_be_sent_is_refused():
+    distributed = pytest.importorskip("dask.distributed")
+    lock = threading.Lock()
+
+    def tile():
+        with lock:
+            return town(10)
+
+    with distributed.Client(n_workers=1, threads_per_worker=1, dashboard_address=None) as client:
+        with pytest.raises(HprError) as refused:
+            visible_from_tiles([tile], VIEWPOINTS[:1], client=client)
+        assert refused.value.code == "option" and "pickle" in str(refused.value)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from contextlib import contextmanager
 
 from .tiles import refuse
@@ -35,7 +36,12 @@ class Dask:
     def map(self, kernel, calls, stage, progress, keep=False):
         from dask.distributed import as_completed
 
-        futures = [self._client.submit(kernel, *arguments, retries=self.RETRIES, pure=False) for arguments in calls]
+        if not calls:
+            return []
+        try:
+            futures = self._client.map(kernel, *map(list, zip(*calls, strict=True)), retries=self.RETRIES, pure=False)
+        except (TypeError, AttributeError, pickle.PicklingError) as problem:
+            refuse("option", f"the tiles cannot be sent to the workers, because pickle fails: {problem}")
         for number, _ in enumerate(as_completed(futures), 1):
             if progress is not None:
                 progress(stage, number, len(calls))
@@ -44,6 +50,22 @@ class Dask:
 
     def result(self, kept):
         return self._client.gather(kept)
+
+
+#: So many results are put together in one task.
+FAN = 256
+
+
+def tree(engine, kernel, arguments, parts, stage, progress):
+    """Puts parts together with `kernel(*arguments, parts)`, in a tree. The result stays where it was computed.
+
+    So no process holds more than `FAN` parts.
+    """
+    while True:
+        groups = [parts[start : start + FAN] for start in range(0, len(parts), FAN)] or [[]]
+        parts = engine.map(kernel, [(*arguments, group) for group in groups], stage, progress, keep=True)
+        if len(parts) == 1:
+            return parts[0]
 
 
 def _failed(futures):

@@ -1,65 +1,128 @@
-"""The facts of all tiles. For files they are kept beside the data, so that a later question reads less."""
+"""What is known of each tile before its points are asked. For files it is kept beside the data."""
 
 from __future__ import annotations
 
 import hashlib
 import os
+import zipfile
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from . import kernels
+from . import statistics
+from .tiles import name_of, read_tile, refuse
 
 FOLDER = ".hpr-manifest"
-VERSION = 1
+VERSION = 2
 
 
-def cached_facts(engine, tiles, share, cache, progress):
-    """The facts of each tile, from the cache or measured."""
-    paths = [_cache_path(tile, share) if cache else None for tile in tiles]
-    facts = [None if path is None else _load(path) for path in paths]
-    missing = [number for number, fact in enumerate(facts) if fact is None]
-    measured = engine.map(kernels.measure, [(tiles[number], share) for number in missing], "measure", progress)
-    for number, fact in zip(missing, measured, strict=True):
-        facts[number] = fact
-        if paths[number] is not None:
-            _save(paths[number], fact)
-    return facts
+@dataclass(frozen=True)
+class Facts:
+    """What is known of a tile."""
+
+    count: int
+    #: The tight box of its points; None for an empty tile.
+    box: tuple[np.ndarray, np.ndarray] | None
+    #: The points with the smallest hashes, in the order of their hashes: (m, 3), as precise as the tile.
+    sample: np.ndarray
+
+
+def facts(tile, share, cache):
+    """The facts of a tile, from the cache or measured. About `share` of its points become the sample."""
+    path = _cache_path(tile, share) if cache else None
+    known = None if path is None else _load(path)
+    if known is None:
+        known = measure(tile, share)
+        if path is not None:
+            _save(path, known)
+    return known
+
+
+def measure(tile, share):
+    """The facts of a tile, from its points."""
+    positions = read_tile(tile)
+    if len(positions) == 0:
+        return Facts(0, None, positions)
+    finite = np.isfinite(positions).all(axis=1)
+    if not finite.all():
+        bad = np.flatnonzero(~finite)
+        refuse("non-finite", f"{len(bad)} point(s) of {name_of(tile)} are not finite, the first at index {bad[0]}")
+    numbers = statistics.hashes(positions)
+    chosen = np.flatnonzero(numbers <= statistics.bound_of(share))
+    sample = positions[chosen[np.argsort(numbers[chosen], kind="stable")]]
+    box = (positions.min(axis=0).astype(np.float64), positions.max(axis=0).astype(np.float64))
+    return Facts(len(positions), box, sample)
+
+
+def summary(known):
+    """The facts without the sample, which can be large: (count, box, size of the sample)."""
+    return known.count, known.box, len(known.sample)
+
+
+def thinned(known, share):
+    """The part of the sample that is a sample of a smaller share."""
+    within = np.searchsorted(statistics.hashes(known.sample), statistics.bound_of(share), side="right")
+    return known.sample[:within]
+
+
+def identity(tile):
+    """The name, size and time of a file: text that changes with its points. None for other tiles."""
+    if not isinstance(tile, (str, Path)):
+        return None
+    try:
+        status = Path(tile).stat()
+    except OSError:
+        return None
+    return f"{Path(tile).name} {status.st_size} {status.st_mtime_ns}"
+
+
+def digest_of(*texts):
+    return hashlib.sha256("\n".join(texts).encode()).hexdigest()[:24]
 
 
 def _cache_path(tile, share):
     """Where the facts of a file are kept. The name changes with the file's size and time."""
-    if not isinstance(tile, (str, Path)):
+    known = identity(tile)
+    if known is None:
         return None
     path = Path(tile)
-    try:
-        status = path.stat()
-    except OSError:
-        return None
-    key = f"{VERSION} {path.name} {status.st_size} {status.st_mtime_ns} {share} {kernels.QUERIES}"
-    return path.parent / FOLDER / f"{path.name}.{hashlib.sha256(key.encode()).hexdigest()[:16]}.npz"
+    return path.parent / FOLDER / f"{path.name}.{digest_of(str(VERSION), known, repr(share))}.npz"
 
 
 def _load(path):
+    stored = load_arrays(path)
+    if stored is None or not {"count", "low", "high", "sample"} <= set(stored):
+        return None
+    count = int(stored["count"])
+    return Facts(count, (stored["low"], stored["high"]) if count > 0 else None, stored["sample"])
+
+
+def _save(path, known):
+    low, high = known.box if known.box is not None else (np.zeros(3), np.zeros(3))
+    try:
+        path.parent.mkdir(exist_ok=True)
+        save_arrays(path, count=known.count, low=low, high=high, sample=known.sample)
+    except OSError:
+        # A folder without the right to write has no cache.
+        pass
+
+
+def load_arrays(path):
+    """The arrays of a file. None if it is missing or damaged."""
     try:
         with np.load(path, allow_pickle=False) as stored:
-            count = int(stored["count"])
-            box = (stored["low"], stored["high"]) if count > 0 else None
-            return kernels.Facts(count, box, stored["sample"], stored["queries"])
-    except (OSError, ValueError, KeyError, EOFError):
-        # A file that is missing, or was not written to its end, is measured again.
+            return dict(stored)
+    except (OSError, ValueError, KeyError, EOFError, zipfile.BadZipFile):
         return None
 
 
-def _save(path, facts):
+def save_arrays(path, **arrays):
     """Writes a file under another name first, so that it is whole or missing."""
-    low, high = facts.box if facts.box is not None else (np.zeros(3), np.zeros(3))
-    partial = path.with_name(f"{path.name}.{os.getpid()}.part.npz")
+    partial = path.with_name(f"{path.name}.{os.getpid()}.part")
     try:
-        path.parent.mkdir(exist_ok=True)
         with open(partial, "wb") as file:
-            np.savez(file, count=facts.count, low=low, high=high, sample=facts.sample, queries=facts.queries)
+            np.savez(file, **arrays)
         os.replace(partial, path)
-    except OSError:
-        # A folder without the right to write has no cache.
+    finally:
         partial.unlink(missing_ok=True)

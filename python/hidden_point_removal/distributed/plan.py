@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import json
+import shutil
+from pathlib import Path
+
 import numpy as np
 
 from hidden_point_removal import Horizon
 
-from . import kernels
-from .engines import engine_for
-from .manifest import cached_facts
+from . import kernels, manifest, statistics
+from .engines import engine_for, tree
+from .manifest import digest_of, identity
 from .tiles import refuse
+from .waves import waves_of
 
 #: A merge takes parts with about this many points together.
 MERGED_POINTS = 20_000_000
+#: A horizon is made of at most about this many points of the samples, and of as many of each wave of tiles.
+HORIZON_POINTS = 2_000_000
 #: Options that one hull of the whole cloud can answer part by part.
 MERGEABLE = ("radius", "inversion")
 
@@ -23,16 +30,18 @@ class Answers(list):
     `options` are the numbers that were used. The whole cloud asked with them gives the same answer.
     `skipped` is the number of tiles, for each viewpoint, that were not needed because their box is hidden.
     `survivors` is the number of points, for each viewpoint, that were merged.
+    `skipped_tiles` are the numbers of these tiles, for each viewpoint.
     """
 
-    def __init__(self, answers, options, skipped, survivors):
+    def __init__(self, answers, options, skipped_tiles, survivors):
         super().__init__(answers)
         self.options = options
-        self.skipped = skipped
+        self.skipped_tiles = skipped_tiles
+        self.skipped = [len(tiles) for tiles in skipped_tiles]
         self.survivors = survivors
 
 
-def visible_from_tiles(tiles, viewpoints, client=None, *, share=0.02, cache=True, progress=None, **options):
+def visible_from_tiles(tiles, viewpoints, client=None, *, share=0.02, cache=True, work=None, progress=None, **options):
     """The ids of the points of all tiles that are visible from each viewpoint: a list of uint64 arrays, ascending.
 
     The id of a point is its running number over the tiles in the order given. The answers are exactly those of one
@@ -40,68 +49,176 @@ def visible_from_tiles(tiles, viewpoints, client=None, *, share=0.02, cache=True
 
     tiles: arrays of shape (n, 3), functions that return one, or paths of LAS, LAZ, COPC, Parquet or NumPy files.
     client: a `dask.distributed.Client`. Without one, this process does the work.
-    share: the share of the points that makes the horizon.
+    share: the share of the points that is kept in the manifest and makes the first horizon.
     cache: whether the facts of files are kept beside them, in `.hpr-manifest`.
+    work: a folder for the points that are left of finished tiles. The same question asked again after it was ended
+    goes on from there. The tiles must be files. What is kept is deleted when the answers are complete.
     progress: is called with (stage, done, all) after each task.
     options: `radius` or `inversion`, as numbers. Without them the inversion is exponential, and its scale comes from
     the spacing of all tiles. `Answers.options` records it.
 
     Raises `HprError`: `option` for other options, and the codes of `PointCloud` for bad tiles and viewpoints.
     """
-    given = {name: value for name, value in options.items() if value is not None}
+    given = {name: _plain(value) for name, value in options.items() if value is not None}
     for name in given:
         if name not in MERGEABLE:
             refuse("option", f"{name} cannot be combined with tiles; the options are {', '.join(MERGEABLE)}")
     tiles = list(tiles)
     viewpoints = [_place(viewpoint) for viewpoint in viewpoints]
-    if not 0 < share <= 1:
-        refuse("option", f"share must be above 0 and at most 1, got {share}")
+    if isinstance(share, bool) or not isinstance(share, (int, float)) or not 0 < share <= 1:
+        refuse("option", f"share must be above 0 and at most 1, got {share!r}")
+    if work is not None and any(identity(tile) is None for tile in tiles):
+        refuse("option", "work needs tiles in files; arrays and functions cannot be recognized later")
     if given:
         _check(viewpoints, given)
     with engine_for(client) as engine:
-        return _answers(engine, tiles, viewpoints, given, share, cache, progress)
+        return _Question(engine, tiles, share, cache, progress).answers(viewpoints, given, work)
 
 
-def _answers(engine, tiles, viewpoints, options, share, cache, progress):
-    facts = cached_facts(engine, tiles, share, cache, progress)
-    if not options:
-        options = {"inversion": kernels.automatic_inversion(_spacing(engine, tiles, facts, progress))}
-        _check(viewpoints, options)
-    samples = [fact.sample for fact in facts if len(fact.sample) > 0]
-    horizons = engine.map(
-        kernels.horizon_points,
-        [(viewpoint, options, samples) for viewpoint in viewpoints],
-        "horizon",
-        progress,
-        keep=True,
-    )
-    first_ids = np.concatenate([[0], np.cumsum([fact.count for fact in facts])]).tolist()
-    asked = [
-        (tile, first, fact.box, viewpoints, horizons, options)
-        for tile, first, fact in zip(tiles, first_ids, facts, strict=False)
-    ]
-    screened = engine.map(kernels.screen, asked, "screen", progress, keep=True)
-    skipped, survivors, answers = [], [], []
-    sizes = engine.map(_sizes, [(parts,) for parts in screened], "count", None)
-    for number, viewpoint in enumerate(viewpoints):
-        own = [size[number] for size in sizes]
-        skipped.append(sum(is_skipped for _, is_skipped in own))
-        survivors.append(sum(count for count, _ in own))
-        parts = engine.map(_pick, [(parts, number) for parts in screened], "pick", None, keep=True)
-        answers.append(_reduce(engine, parts, [count for count, _ in own], viewpoint, options, progress))
-    return Answers(answers, options, skipped, survivors)
+class _Question:
+    def __init__(self, engine, tiles, share, cache, progress):
+        self._engine = engine
+        self._tiles = tiles
+        self._cache = cache
+        self._progress = progress
+        # The samples stay where they were made. Only counts and boxes come here.
+        self._facts = self._map(manifest.facts, [(tile, share, cache) for tile in tiles], "measure", keep=True)
+        known = self._map(manifest.summary, [(fact,) for fact in self._facts], None)
+        self._boxes = [box for _, box, _ in known]
+        counts = [count for count, _, _ in known]
+        self._first_ids = [0, *np.cumsum(counts, dtype=np.uint64).tolist()]
+        self._sampled = sum(size for _, _, size in known)
+        self._share = share
 
+    def answers(self, viewpoints, options, work):
+        if not options:
+            options = {"inversion": statistics.automatic_inversion(self._spacing())}
+            _check(viewpoints, options)
+        job = None if work is None else self._job(Path(work), viewpoints, options)
+        screened = self._screened(viewpoints, options, job)
+        sizes = self._map(_sizes, [(parts,) for parts in screened], None)
+        skipped = [[tile for tile, own in enumerate(sizes) if own[number][1]] for number in range(len(viewpoints))]
+        survivors = [sum(own[number][0] for own in sizes) for number in range(len(viewpoints))]
+        answers = []
+        for number, viewpoint in enumerate(viewpoints):
+            parts = self._map(_pick, [(parts, number) for parts in screened], None, keep=True)
+            answers.append(self._reduce(parts, [own[number][0] for own in sizes], viewpoint, options))
+        if job is not None:
+            shutil.rmtree(job, ignore_errors=True)
+        return Answers(answers, options, skipped, survivors)
 
-def _reduce(engine, parts, sizes, viewpoint, options, progress):
-    """Merges parts in a tree until one is left."""
-    while len(parts) > 1:
-        groups = _groups(sizes)
-        merged = engine.map(
-            _merge, [([parts[k] for k in group], viewpoint, options) for group in groups], "merge", progress, keep=True
+    def _map(self, kernel, calls, stage, keep=False):
+        return self._engine.map(kernel, calls, stage, self._progress if stage else None, keep=keep)
+
+    def _thinned(self, most):
+        """The samples, thinned to about `most` points together."""
+        share = self._share * min(1.0, most / max(1, self._sampled))
+        return self._map(manifest.thinned, [(fact, share) for fact in self._facts], None, keep=True)
+
+    def _screened(self, viewpoints, options, job):
+        """What is left of each tile, in the order of the tiles: a list of `Part`, one for each viewpoint."""
+        if not viewpoints:
+            return []
+        samples = self._thinned(HORIZON_POINTS)
+        horizons = [
+            tree(self._engine, kernels.horizon_points, (viewpoint, options), samples, "horizon", self._progress)
+            for viewpoint in viewpoints
+        ]
+        waves = waves_of(self._boxes, viewpoints)
+        screened = [None] * len(self._tiles)
+        done = 0
+        for wave in waves:
+            calls = [
+                (
+                    self._tiles[tile],
+                    self._first_ids[tile],
+                    self._boxes[tile],
+                    viewpoints,
+                    horizons,
+                    options,
+                    None if job is None else str(job / f"{tile}.npz"),
+                )
+                for tile in wave
+            ]
+            own = self._engine.map(kernels.screen, calls, "screen", self._from(done), keep=True)
+            for tile, parts in zip(wave, own, strict=True):
+                screened[tile] = parts
+            done += len(wave)
+            if done < len(self._tiles):
+                horizons = self._grown(viewpoints, options, horizons, own)
+        return screened
+
+    def _grown(self, viewpoints, options, horizons, screened):
+        """The horizons together with what a wave of tiles left."""
+        most = max(1, HORIZON_POINTS // len(screened))
+        grown = []
+        for number, viewpoint in enumerate(viewpoints):
+            left = self._map(kernels.some_of, [(parts, number, most) for parts in screened], None, keep=True)
+            given = [horizons[number], *left]
+            grown.append(tree(self._engine, kernels.horizon_points, (viewpoint, options), given, None, None))
+        return grown
+
+    def _from(self, done):
+        """The progress of a wave as progress of all tiles."""
+        if self._progress is None:
+            return None
+        return lambda stage, number, _: self._progress(stage, done + number, len(self._tiles))
+
+    def _reduce(self, parts, sizes, viewpoint, options):
+        """Merges parts in a tree until one is left."""
+        while len(parts) > 1:
+            groups = _groups(sizes)
+            calls = [([parts[k] for k in group], viewpoint, options) for group in groups]
+            parts = self._map(kernels.merge, calls, "merge", keep=True)
+            sizes = self._map(_size, [(part,) for part in parts], None)
+        return self._engine.result(parts[0]).ids if parts else np.empty(0, np.uint64)
+
+    def _spacing(self):
+        queries = self._engine.result(
+            tree(self._engine, statistics.smallest, (), self._thinned(16 * statistics.QUERIES), None, None)
         )
-        sizes = [count for (count, _), in engine.map(_sizes, [([part],) for part in merged], "count", None)]
-        parts = merged
-    return engine.result(parts[0]).ids if parts else np.empty(0, np.uint64)
+        if len(queries) < statistics.QUERIES:
+            # A small cloud: the samples do not hold enough points, and reading it whole is cheap.
+            every = self._map(manifest.measure, [(tile, 1.0) for tile in self._tiles], "spacing", keep=True)
+            samples = self._map(manifest.thinned, [(fact, 1.0) for fact in every], None, keep=True)
+            queries = self._engine.result(tree(self._engine, statistics.smallest, (), samples, None, None))
+        if len(queries) == 0:
+            return 0.0
+        stored = self._spacing_file(queries)
+        known = None if stored is None else manifest.load_arrays(stored)
+        if known is not None and "spacing" in known:
+            return float(known["spacing"])
+        # The samples bound how far the nearest points can be. So most tiles are asked for few queries.
+        sample = tree(self._engine, statistics.joined, (), self._thinned(HORIZON_POINTS), None, None)
+        reach = self._engine.result(self._map(statistics.reaches, [(queries, sample)], None, keep=True)[0])
+        calls = []
+        for tile, box in zip(self._tiles, self._boxes, strict=True):
+            wanted = [] if box is None else statistics.touching(box, queries, reach)
+            if len(wanted) > 0:
+                calls.append((tile, queries, wanted))
+        shares = self._map(kernels.neighbors, calls, "spacing", keep=True)
+        _, found = self._engine.result(tree(self._engine, statistics.nearer, (queries,), shares, None, None))
+        spacing = statistics.spacing(queries, found)
+        if stored is not None:
+            try:
+                manifest.save_arrays(stored, spacing=spacing)
+            except OSError:
+                pass
+        return spacing
+
+    def _spacing_file(self, queries):
+        """Where the spacing is kept, beside the facts of the first tile."""
+        known = [identity(tile) for tile in self._tiles]
+        if not self._cache or not known or None in known:
+            return None
+        folder = Path(self._tiles[0]).parent / manifest.FOLDER
+        name = digest_of(str(manifest.VERSION), *sorted(known), queries.tobytes().hex())
+        return folder / f"spacing.{name}.npz" if folder.is_dir() else None
+
+    def _job(self, work, viewpoints, options):
+        """The folder of this question. What is left of a tile depends on all tiles, viewpoints and options."""
+        files = [f"{Path(tile).resolve()} {identity(tile)}" for tile in self._tiles]
+        return work / digest_of(str(manifest.VERSION), *files, json.dumps([viewpoints, options], sort_keys=True))
 
 
 def _groups(sizes):
@@ -116,25 +233,25 @@ def _groups(sizes):
     return groups
 
 
-def _merge(parts, viewpoint, options):
-    return kernels.merge(parts, viewpoint, options)
-
-
 def _sizes(parts):
     return [(len(part.ids), part.skipped) for part in parts]
+
+
+def _size(part):
+    return len(part.ids)
 
 
 def _pick(parts, number):
     return parts[number]
 
 
-def _spacing(engine, tiles, facts, progress):
-    queries = [fact.queries for fact in facts if len(fact.queries) > 0]
-    if not queries:
-        return 0.0
-    queries = kernels.smallest(np.concatenate(queries), kernels.QUERIES)
-    shares = engine.map(kernels.neighbors, [(tile, queries) for tile in tiles], "spacing", progress)
-    return kernels.spacing(queries, shares)
+def _plain(value):
+    """NumPy numbers as Python's, so that an option can be written as text."""
+    if isinstance(value, np.generic):
+        return value.item()
+    if isinstance(value, dict):
+        return {name: _plain(entry) for name, entry in value.items()}
+    return value
 
 
 def _place(viewpoint):
@@ -147,4 +264,3 @@ def _place(viewpoint):
 def _check(viewpoints, options):
     """Refuses options before any tile is read."""
     Horizon(viewpoints[0] if viewpoints else (0.0, 0.0, 0.0), **options)
-

@@ -39,6 +39,11 @@ def read_tile(tile):
     return np.ascontiguousarray(positions)
 
 
+def name_of(tile):
+    """A tile in a message."""
+    return str(tile) if isinstance(tile, (str, Path)) else "a tile"
+
+
 def _read_file(path):
     name = path.name.lower()
     if name.endswith((".laz", ".las")):
@@ -46,7 +51,8 @@ def _read_file(path):
     if name.endswith(".parquet"):
         return _read_parquet(path)
     if name.endswith(".npy"):
-        return np.load(path, mmap_mode="r", allow_pickle=False)
+        # Not mapped: a file that changes during a view would change the points under it.
+        return np.load(path, allow_pickle=False)
     return refuse("option", f"{path}: tiles must be one of {', '.join(SUFFIXES)}")
 
 

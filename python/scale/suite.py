@@ -1,0 +1,278 @@
+"""Tiles against one piece: python suite.py --points 2000000 [--only NAME ...] [--write]
+
+Compares the answers of `visible_from_tiles` on a Dask cluster with those of one cloud, ends workers and commands in
+the middle, and measures memory and the shares of tiles that are skipped. Ends with status 1 if anything differs.
+`--write` puts the results into RESULTS.md, in the section of this number of points.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import logging
+import os
+import platform
+import re
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+from city import UTM, VIEWPOINTS, city, cut, write
+from killed import Killer, command, kill_when_kept
+
+from hidden_point_removal.distributed import kernels, manifest, read_tile, visible_from_tiles, waves
+
+HERE = Path(__file__).parent
+#: The radius of the flipping sphere, in the units of the city.
+RADIUS = 200_000.0
+WORKERS = 2
+
+CASES = {
+    "LAZ, map coordinates, spatial": ("LAZ", "spatial", np.float64, UTM),
+    "NumPy, float32, random": ("NumPy", "random", np.float32, np.zeros(3)),
+}
+
+
+PARTS = ["spatial", "random", "workers", "command", "costs"]
+
+
+class Report:
+    def __init__(self):
+        self.lines = []
+        self.wrong = 0
+
+    def say(self, line=""):
+        print(line, flush=True)
+        self.lines.append(line)
+
+    def check(self, is_right, what):
+        if not is_right:
+            self.wrong += 1
+            self.say(f"**Wrong**: {what}")
+
+
+def main():
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--points", type=int, default=2_000_000)
+    parser.add_argument("--only", nargs="+", choices=PARTS)
+    parser.add_argument("--write", action="store_true")
+    asked = parser.parse_args()
+    chosen = asked.only or PARTS
+    report = Report()
+    with tempfile.TemporaryDirectory(prefix="hpr-scale-") as folder:
+        folder = Path(folder)
+        for name, (kind, how, dtype, offset) in CASES.items():
+            if how in chosen:
+                compare(report, name, folder / how, asked.points, kind, how, dtype, offset)
+        if "workers" in chosen:
+            kill_workers(report, folder / "workers")
+        if "command" in chosen:
+            kill_command(report, folder / "command")
+        if "costs" in chosen:
+            costs(report, folder / "costs")
+    if asked.write:
+        store(f"{asked.points:,} points", report.lines)
+    print(f"{report.wrong} wrong")
+    sys.exit(report.wrong > 0)
+
+
+def cluster():
+    from dask.distributed import Client
+
+    # A worker that was killed is no news here.
+    settings = {"dashboard_address": None, "memory_limit": 0, "silence_logs": logging.CRITICAL}
+    return Client(n_workers=WORKERS, threads_per_worker=1, **settings)
+
+
+def compare(report, name, folder, count, kind, how, dtype, offset):
+    """The same answers from tiles and from one piece."""
+    tiles = [(tile + offset).astype(dtype) for tile in cut(city(count), how)]
+    paths = write(folder, tiles, kind)
+    total = sum(map(len, tiles))
+    del tiles
+    sizes = np.array([path.stat().st_size for path in paths])
+    viewpoints = [(np.array(at) + offset).tolist() for at in VIEWPOINTS.values()]
+    answers = {}
+    started = time.monotonic()
+    with cluster() as client:
+        answers["exponential"] = visible_from_tiles(paths, viewpoints, client=client)
+        answers["sphere"] = visible_from_tiles(paths, viewpoints, client=client, radius=RADIUS)
+        memory = {"scheduler and client": _peak(), **_peaks(client)}
+    seconds = time.monotonic() - started
+    asked = {name: answer.options for name, answer in answers.items()}
+    whole = ask_whole(folder, paths, viewpoints, asked)
+    report.say(f"### {name}")
+    report.say()
+    report.say(f"{total:,} points in {len(paths)} tiles, {sizes.sum() / 1e6:.1f} MB. Neighboring tiles share points.")
+    report.say()
+    report.say("| viewpoint | inversion | visible | merged | tiles skipped | bytes skipped | differences |")
+    report.say("|---|---|---:|---:|---:|---:|---:|")
+    for inversion, answer in answers.items():
+        for number, at in enumerate(VIEWPOINTS):
+            expected = whole[f"{inversion} {number}"].astype(np.uint64)
+            differences = len(np.setxor1d(answer[number], expected))
+            report.say(
+                f"| {at} | {inversion} | {share(len(answer[number]), total)} | {share(answer.survivors[number], total)} "
+                f"| {share(answer.skipped[number], len(paths))} "
+                f"| {share(sizes[answer.skipped_tiles[number]].sum(), sizes.sum())} | {differences} |"
+            )
+            report.check(differences == 0, f"{name}, {at}, {inversion}: {differences} differences")
+    used, own = asked["exponential"]["inversion"]["exponential"], float(whole["automatic"])
+    off = abs(used / own - 1)
+    report.say()
+    report.say(
+        f"c = {used:.6g} from the tiles, {own:.6g} from one piece ({100 * off:.2f} % off; the whole asked with the "
+        f"recorded c gives the answers above)."
+    )
+    report.check(off < 0.02, f"{name}: c is {100 * off:.2f} % off")
+    shown = ", ".join(f"{process} {value:.0f} MB" for process, value in memory.items())
+    report.say(f"Largest memory: {shown}; one piece {float(whole['memory']):.0f} MB. {seconds:.0f} s for both questions.")
+    report.say()
+    if how == "spatial":
+        without_waves(report, paths, viewpoints, answers)
+
+
+def without_waves(report, paths, viewpoints, answers):
+    """How many tiles the horizon of the samples alone skips."""
+    first, waves.FIRST = waves.FIRST, len(paths)
+    try:
+        street = visible_from_tiles(paths, viewpoints[:1], **answers["exponential"].options)
+    finally:
+        waves.FIRST = first
+    with_waves = visible_from_tiles(paths, viewpoints[:1], **answers["exponential"].options)
+    report.say(
+        f"From the street alone, the horizon of the samples skips {share(street.skipped[0], len(paths))} of the tiles, "
+        f"and the waves of near tiles {share(with_waves.skipped[0], len(paths))}; "
+        f"{street.survivors[0]:,} and {with_waves.survivors[0]:,} points are merged."
+    )
+    report.check(np.array_equal(street[0], with_waves[0]), "the waves change the answer")
+    report.say()
+
+
+def kill_workers(report, folder):
+    """A worker that is killed in any stage changes nothing."""
+    paths = write(folder, [tile + UTM for tile in cut(city(300_000), "spatial")], "NumPy")
+    viewpoints = [(np.array(VIEWPOINTS[at]) + UTM).tolist() for at in ("street", "oblique")]
+    expected = [answer.tobytes() for answer in visible_from_tiles(paths, viewpoints)]
+    report.say("### Workers killed")
+    report.say()
+    for kernel in ("facts", "neighbors", "horizon_points", "screen", "merge"):
+        with cluster() as client:
+            killer = Killer(client, kernel)
+            killer.start()
+            answers = visible_from_tiles(paths, viewpoints, client=client, cache=False)
+            killer.end()
+        same = [answer.tobytes() for answer in answers] == expected
+        report.say(f"- SIGKILL in `{kernel}` ({killer.hit or 'not hit'}): {'the same bytes' if same else 'OTHER BYTES'}")
+        report.check(same and killer.hit is not None, f"killed in {kernel}")
+    report.say()
+
+
+def kill_command(report, folder):
+    """A command that is killed goes on from the finished tiles."""
+    paths = write(folder / "tiles", [tile + UTM for tile in cut(city(300_000), "spatial")], "NumPy")
+    cameras = folder / "cameras.csv"
+    rows = [",".join(map(str, np.array(at) + UTM)) for at in VIEWPOINTS.values()]
+    cameras.write_text("\n".join(["x,y,z", *rows]) + "\n")
+    kept = kill_when_kept(command(folder / "tiles", cameras, folder / "seen"), folder / "seen" / ".work", 40)
+    for output in ("seen", "again"):
+        process = command(folder / "tiles", cameras, folder / output)
+        report.check(process.wait() == 0, "the command failed")
+    same = (folder / "seen/visible.parquet").read_bytes() == (folder / "again/visible.parquet").read_bytes()
+    report.say("### The command killed")
+    report.say()
+    report.say(
+        f"SIGKILL when {kept} of {len(paths)} tiles were finished. The same command then went on from them: "
+        f"{'the same bytes' if same else 'OTHER BYTES'} as a run in one go."
+    )
+    report.check(same and kept >= 40 and not (folder / "seen/.work").exists(), "the command killed")
+    report.say()
+
+
+def costs(report, folder):
+    """The processor time of each kernel for one tile, in one process."""
+    points = city(4_000_000)
+    # A block of 100 m.
+    tile = points[(np.abs(points[:, :2] - [450.0, 450.0]) < 50).all(axis=1)]
+    [path] = write(folder, [tile + UTM], "LAZ")
+    viewpoint = tuple((np.array(VIEWPOINTS["oblique"]) + UTM).tolist())
+    options = {"inversion": {"exponential": 0.1}}
+    queries = manifest.measure(path, 0.02).sample[:32]
+    known = manifest.measure(path, 0.02)
+    horizon = kernels.horizon_points(viewpoint, options, [known.sample])
+    parts = kernels.screen(path, 0, known.box, [viewpoint], [horizon], options)
+    halves = [kernels.Part(half, np.arange(len(half), dtype=np.uint64)) for half in (tile[::2] + UTM, tile[1::2] + UTM)]
+    halves[1] = kernels.Part(halves[1].positions, halves[1].ids + np.uint64(len(tile)))
+    asked = {
+        "read a LAZ tile": lambda: read_tile(path),
+        "`facts`: read, box, hashes, sample": lambda: manifest.measure(path, 0.02),
+        "`neighbors`: read, 32 queries": lambda: kernels.neighbors(path, queries, np.arange(len(queries))),
+        "`screen`: read, horizon, own hull": lambda: kernels.screen(
+            path, 0, known.box, [viewpoint], [horizon], options
+        ),
+        "`merge`": lambda: kernels.merge(halves, viewpoint, options),
+    }
+    report.say("### Processor time of the kernels")
+    report.say()
+    report.say(
+        f"One tile of {len(tile):,} points, {path.stat().st_size / len(tile):.1f} bytes a point in LAZ, seen obliquely; "
+        f"{share(len(parts[0].ids), len(tile))} are left. The horizon has {len(horizon):,} points."
+    )
+    report.say()
+    report.say("| kernel | microseconds a point |")
+    report.say("|---|---:|")
+    for name, kernel in asked.items():
+        times = []
+        for _ in range(3):
+            started = time.process_time()
+            kernel()
+            times.append(time.process_time() - started)
+        report.say(f"| {name} | {1e6 * min(times) / len(tile):.2f} |")
+    report.say()
+
+
+def ask_whole(folder, paths, viewpoints, options):
+    question, answer = folder / "question.json", folder / "answer.npz"
+    question.write_text(json.dumps({"tiles": list(map(str, paths)), "viewpoints": viewpoints, "options": options}))
+    subprocess.run([sys.executable, HERE / "whole.py", question, answer], check=True)
+    with np.load(answer) as stored:
+        return dict(stored)
+
+
+def _peak():
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+
+
+def _peaks(client):
+    return {f"worker {number}": peak for number, peak in enumerate(client.run(_peak).values(), 1)}
+
+
+def share(part, whole):
+    return f"{100 * part / whole:.1f} %"
+
+
+def store(title, lines):
+    """Puts a section into RESULTS.md, in place of an older one of the same title."""
+    path = HERE / "RESULTS.md"
+    text = path.read_text() if path.exists() else HEAD
+    machine = f"Python {platform.python_version()}, NumPy {np.__version__}, {os.cpu_count()} processors, {WORKERS} workers"
+    body = "\n".join([f"## {title}", "", f"Measured on {time.strftime('%Y-%m-%d')} with {machine}.", "", *lines])
+    text = re.sub(rf"## {re.escape(title)}\n.*?(?=\n## |\Z)", "", text, flags=re.DOTALL).rstrip()
+    path.write_text(f"{text}\n\n{body.rstrip()}\n")
+
+
+HEAD = """# Tiles against one piece
+
+Written by `npm run test:scale`. A generated city of 1 km² (`city.py`) is cut into tiles. `visible_from_tiles` asks them
+on a Dask cluster, `whole.py` asks all points in one cloud. "Merged" are the points that are left when every tile is
+screened. Tiles and bytes are skipped for this viewpoint: their box is hidden. Seconds are of a machine at work on other
+things, too.
+"""
+
+if __name__ == "__main__":
+    main()
