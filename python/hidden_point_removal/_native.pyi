@@ -34,6 +34,24 @@ class MergeOptions(TypedDict):
     radius: NotRequired[float | None]
     inversion: NotRequired[Inversion | None]
 
+class Camera(TypedDict):
+    """A pinhole camera: u = fx * x / z + cx, with x to the right, y down and z forward. No shift by half a pixel."""
+
+    matrix: ArrayLike
+    """From the camera's space to the cloud's, rigid: 4 rows of 4, or 16 numbers column by column."""
+    convention: NotRequired[Literal["opencv", "opengl"]]
+    """The axes of the camera's space. Default "opencv"."""
+    fx: float
+    fy: float
+    cx: float
+    cy: float
+    width: float
+    height: float
+    distortion: NotRequired[ArrayLike | None]
+    """OpenCV's k1, k2, p1, p2, k3."""
+    near: NotRequired[float]
+    far: NotRequired[float]
+
 class HprError(ValueError):
     """Bad input."""
 
@@ -48,6 +66,12 @@ class Visibility:
     @property
     def scores(self) -> NDArray[np.float32] | None:
         """A score from 0 to 1 for each index, if it was asked for."""
+    @property
+    def pixels(self) -> NDArray[np.float32] | None:
+        """Where each visible point is in the camera's image: (count, 2). None without a camera."""
+    @property
+    def depths(self) -> NDArray[np.float32] | None:
+        """The depth of each visible point along the optical axis. None without a camera."""
     @property
     def count(self) -> int: ...
     @property
@@ -67,6 +91,22 @@ class Visibility:
     def mask(self) -> NDArray[np.bool_]:
         """One truth value for each index: True where the point is visible."""
     def __len__(self) -> int: ...
+
+class Placement:
+    """Viewpoints that were chosen among candidates."""
+
+    @property
+    def chosen(self) -> list[int]:
+        """The numbers of the chosen candidates, in the order of their choice."""
+    @property
+    def gains(self) -> list[float]:
+        """The weight that each of them adds to those before it."""
+    @property
+    def seen(self) -> NDArray[np.uint32]:
+        """The indices that at least one of them sees, ascending."""
+    @property
+    def unseen(self) -> NDArray[np.uint32]:
+        """The indices that no candidate sees, ascending."""
 
 class PointCloud:
     """A point cloud, prepared for visibility queries.
@@ -94,6 +134,25 @@ class PointCloud:
         self, k: int, viewpoints: Iterable[ArrayLike], **options: Unpack[Options]
     ) -> Visibility:
         """The points that at least `k` of the viewpoints see."""
+    def visible_from_camera(self, camera: Camera, **options: Unpack[Options]) -> Visibility:
+        """The points that a camera sees: `visible_from` its place, cut to its image, with `pixels` and `depths`."""
+    def sees(self, viewpoint: ArrayLike, positions: ArrayLike, **options: Unpack[Options]) -> NDArray[np.bool_]:
+        """For points that are not in the cloud: whether each would be visible if it were added alone."""
+    def coverage(self, viewpoints: Iterable[ArrayLike], **options: Unpack[Options]) -> NDArray[np.uint32]:
+        """How many of the viewpoints see each index."""
+    def place_viewpoints(
+        self,
+        candidates: Iterable[ArrayLike],
+        count: int | None = None,
+        share: float | None = None,
+        weights: ArrayLike | None = None,
+        **options: Unpack[Options],
+    ) -> Placement:
+        """Chooses viewpoints that together see much: always the one that adds most weight, ties to the lowest number.
+
+        At most `count` are chosen, and no more than see `share` of the weight that some candidate sees. `weights` has
+        a number of at least 0 for each index.
+        """
     def auto_radius(self, viewpoint: ArrayLike, rule: Rule = "auto") -> tuple[float, float, int]:
         """(radius, exponent, evaluations) as the rule chooses them."""
     def reconstruct(

@@ -1,8 +1,8 @@
-"""Tiles against one piece: python suite.py --points 2000000 [--only NAME ...] [--write]
+"""Tiles against one piece: python suite.py --points 2000000 [--only PART ...] [--write]
 
 Compares the answers of `visible_from_tiles` on a Dask cluster with those of one cloud, ends workers and commands in
 the middle, and measures memory and the shares of tiles that are skipped. Ends with status 1 if anything differs.
-`--write` puts the results into RESULTS.md, in the section of this number of points.
+`--write` puts each part into its section of RESULTS.md.
 """
 
 from __future__ import annotations
@@ -32,13 +32,12 @@ HERE = Path(__file__).parent
 RADIUS = 200_000.0
 WORKERS = 2
 
+#: The ways to cut the city into tiles: title, files, precision, place.
 CASES = {
-    "LAZ, map coordinates, spatial": ("LAZ", "spatial", np.float64, UTM),
-    "NumPy, float32, random": ("NumPy", "random", np.float32, np.zeros(3)),
+    "spatial": ("Squares of the ground, LAZ, map coordinates", "LAZ", np.float64, UTM),
+    "random": ("Random cut, NumPy files, float32", "NumPy", np.float32, np.zeros(3)),
 }
-
-
-PARTS = ["spatial", "random", "workers", "command", "costs"]
+PARTS = [*CASES, "workers", "command", "costs"]
 
 
 class Report:
@@ -62,23 +61,30 @@ def main():
     parser.add_argument("--only", nargs="+", choices=PARTS)
     parser.add_argument("--write", action="store_true")
     asked = parser.parse_args()
-    chosen = asked.only or PARTS
-    report = Report()
+    wrong = 0
     with tempfile.TemporaryDirectory(prefix="hpr-scale-") as folder:
-        folder = Path(folder)
-        for name, (kind, how, dtype, offset) in CASES.items():
-            if how in chosen:
-                compare(report, name, folder / how, asked.points, kind, how, dtype, offset)
-        if "workers" in chosen:
-            kill_workers(report, folder / "workers")
-        if "command" in chosen:
-            kill_command(report, folder / "command")
-        if "costs" in chosen:
-            costs(report, folder / "costs")
-    if asked.write:
-        store(f"{asked.points:,} points", report.lines)
-    print(f"{report.wrong} wrong")
-    sys.exit(report.wrong > 0)
+        for part in asked.only or PARTS:
+            report = Report()
+            title = run(part, report, Path(folder) / part, asked.points)
+            wrong += report.wrong
+            if asked.write:
+                store(title, report.lines)
+    print(f"{wrong} wrong")
+    sys.exit(wrong > 0)
+
+
+def run(part, report, folder, points):
+    """Runs one part and returns its title."""
+    if part in CASES:
+        name, *rest = CASES[part]
+        title = f"{name}: {points:,} points"
+        print(f"## {title}", flush=True)
+        compare(report, folder, points, part, *rest)
+        return title
+    title, check = OTHERS[part]
+    print(f"## {title}", flush=True)
+    check(report, folder)
+    return title
 
 
 def cluster():
@@ -89,7 +95,7 @@ def cluster():
     return Client(n_workers=WORKERS, threads_per_worker=1, **settings)
 
 
-def compare(report, name, folder, count, kind, how, dtype, offset):
+def compare(report, folder, count, how, kind, dtype, offset):
     """The same answers from tiles and from one piece."""
     tiles = [(tile + offset).astype(dtype) for tile in cut(city(count), how)]
     paths = write(folder, tiles, kind)
@@ -106,8 +112,6 @@ def compare(report, name, folder, count, kind, how, dtype, offset):
     seconds = time.monotonic() - started
     asked = {name: answer.options for name, answer in answers.items()}
     whole = ask_whole(folder, paths, viewpoints, asked)
-    report.say(f"### {name}")
-    report.say()
     report.say(f"{total:,} points in {len(paths)} tiles, {sizes.sum() / 1e6:.1f} MB. Neighboring tiles share points.")
     report.say()
     report.say("| viewpoint | inversion | visible | merged | tiles skipped | bytes skipped | differences |")
@@ -121,7 +125,7 @@ def compare(report, name, folder, count, kind, how, dtype, offset):
                 f"| {share(answer.skipped[number], len(paths))} "
                 f"| {share(sizes[answer.skipped_tiles[number]].sum(), sizes.sum())} | {differences} |"
             )
-            report.check(differences == 0, f"{name}, {at}, {inversion}: {differences} differences")
+            report.check(differences == 0, f"{at}, {inversion}: {differences} differences")
     used, own = asked["exponential"]["inversion"]["exponential"], float(whole["automatic"])
     off = abs(used / own - 1)
     report.say()
@@ -129,7 +133,7 @@ def compare(report, name, folder, count, kind, how, dtype, offset):
         f"c = {used:.6g} from the tiles, {own:.6g} from one piece ({100 * off:.2f} % off; the whole asked with the "
         f"recorded c gives the answers above)."
     )
-    report.check(off < 0.02, f"{name}: c is {100 * off:.2f} % off")
+    report.check(off < 0.02, f"c is {100 * off:.2f} % off")
     shown = ", ".join(f"{process} {value:.0f} MB" for process, value in memory.items())
     report.say(f"Largest memory: {shown}; one piece {float(whole['memory']):.0f} MB. {seconds:.0f} s for both questions.")
     report.say()
@@ -159,8 +163,6 @@ def kill_workers(report, folder):
     paths = write(folder, [tile + UTM for tile in cut(city(300_000), "spatial")], "NumPy")
     viewpoints = [(np.array(VIEWPOINTS[at]) + UTM).tolist() for at in ("street", "oblique")]
     expected = [answer.tobytes() for answer in visible_from_tiles(paths, viewpoints)]
-    report.say("### Workers killed")
-    report.say()
     for kernel in ("facts", "neighbors", "horizon_points", "screen", "merge"):
         with cluster() as client:
             killer = Killer(client, kernel)
@@ -184,8 +186,6 @@ def kill_command(report, folder):
         process = command(folder / "tiles", cameras, folder / output)
         report.check(process.wait() == 0, "the command failed")
     same = (folder / "seen/visible.parquet").read_bytes() == (folder / "again/visible.parquet").read_bytes()
-    report.say("### The command killed")
-    report.say()
     report.say(
         f"SIGKILL when {kept} of {len(paths)} tiles were finished. The same command then went on from them: "
         f"{'the same bytes' if same else 'OTHER BYTES'} as a run in one go."
@@ -217,8 +217,6 @@ def costs(report, folder):
         ),
         "`merge`": lambda: kernels.merge(halves, viewpoint, options),
     }
-    report.say("### Processor time of the kernels")
-    report.say()
     report.say(
         f"One tile of {len(tile):,} points, {path.stat().st_size / len(tile):.1f} bytes a point in LAZ, seen obliquely; "
         f"{share(len(parts[0].ids), len(tile))} are left. The horizon has {len(horizon):,} points."
@@ -265,6 +263,12 @@ def store(title, lines):
     text = re.sub(rf"## {re.escape(title)}\n.*?(?=\n## |\Z)", "", text, flags=re.DOTALL).rstrip()
     path.write_text(f"{text}\n\n{body.rstrip()}\n")
 
+
+OTHERS = {
+    "workers": ("Workers killed", kill_workers),
+    "command": ("The command killed", kill_command),
+    "costs": ("Processor time of the kernels", costs),
+}
 
 HEAD = """# Tiles against one piece
 

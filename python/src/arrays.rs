@@ -110,3 +110,14 @@ pub fn indices(argument: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<u32>> {
         .unwrap_or_else(|_| argument.clone());
     list.extract::<Vec<u32>>().map_err(wrong)
 }
+
+/// Real numbers, one after another.
+pub fn numbers(argument: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<f64>> {
+    let list = argument
+        .call_method0("tolist")
+        .unwrap_or_else(|_| argument.clone());
+    list.extract().map_err(|_| {
+        let message = format!("{name} must be a list of numbers");
+        problem(argument.py(), "option", message)
+    })
+}

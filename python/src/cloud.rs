@@ -1,14 +1,16 @@
 //! The cloud, and what it can be asked.
 
 use hidden_point_removal as core;
-use hidden_point_removal::{Lighting, NonFinite, Options};
+use hidden_point_removal::{Lighting, NonFinite, Options, Placing};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{Points, Positions, indices, place, places};
+use crate::arrays::{Points, Positions, indices, numbers, place, places};
+use crate::camera;
 use crate::failure::{option, refused};
 use crate::options;
+use crate::placement::Placement;
 use crate::visibility::Visibility;
 
 /// A point cloud, prepared for visibility queries.
@@ -130,6 +132,80 @@ impl PointCloud {
         self.view(py, options, |cloud, options| {
             cloud.visible_from_at_least(k, &viewpoints, options)
         })
+    }
+
+    #[pyo3(signature = (camera, **options))]
+    fn visible_from_camera(
+        &self,
+        py: Python<'_>,
+        camera: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Visibility> {
+        let camera = camera::read(py, camera)?;
+        let options = options::read(py, options)?;
+        let view = self.ask(py, |cloud| cloud.visible_from_camera(&camera, &options))?;
+        Visibility::of_camera(py, view)
+    }
+
+    #[pyo3(signature = (viewpoint, positions, **options))]
+    fn sees<'py>(
+        &self,
+        py: Python<'py>,
+        viewpoint: &Bound<'_, PyAny>,
+        positions: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Bound<'py, PyArray1<bool>>> {
+        let viewpoint = place(viewpoint, "viewpoint")?;
+        let options = options::read(py, options)?;
+        let positions = Positions::read(positions, "positions")?;
+        let points = positions.points();
+        let seen = self.ask(py, |cloud| match points {
+            Points::Single(points) => cloud.sees(viewpoint, points, &options),
+            Points::Double(points) => cloud.sees(viewpoint, points, &options),
+        })?;
+        Ok(seen.into_pyarray(py))
+    }
+
+    #[pyo3(signature = (viewpoints, **options))]
+    fn coverage<'py>(
+        &self,
+        py: Python<'py>,
+        viewpoints: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Bound<'py, PyArray1<u32>>> {
+        let viewpoints = places(viewpoints, "viewpoints")?;
+        let options = options::read(py, options)?;
+        let counts = self.ask(py, |cloud| cloud.coverage(&viewpoints, &options))?;
+        Ok(counts.into_pyarray(py))
+    }
+
+    #[pyo3(signature = (candidates, count=None, share=None, weights=None, **options))]
+    fn place_viewpoints(
+        &self,
+        py: Python<'_>,
+        candidates: &Bound<'_, PyAny>,
+        count: Option<&Bound<'_, PyAny>>,
+        share: Option<&Bound<'_, PyAny>>,
+        weights: Option<&Bound<'_, PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Placement> {
+        let candidates = places(candidates, "candidates")?;
+        let options = options::read(py, options)?;
+        let weights = weights.map(|given| numbers(given, "weights")).transpose()?;
+        let wrong = || option(py, "share must be a number".into());
+        let placing = Placing {
+            count: count
+                .map(|given| options::count(py, "count", given))
+                .transpose()?,
+            share: share
+                .map(|given| options::number(given).ok_or_else(wrong))
+                .transpose()?,
+            weights: weights.as_deref(),
+        };
+        let placed = self.ask(py, |cloud| {
+            cloud.place_viewpoints(&candidates, &options, &placing)
+        })?;
+        Ok(Placement::new(py, placed))
     }
 
     #[pyo3(signature = (viewpoint, rule="auto"))]

@@ -1,11 +1,13 @@
 //! The Python module `hidden_point_removal._native`. The package of the same name words the public API.
 
 mod arrays;
+mod camera;
 mod cloud;
 mod failure;
 mod horizon;
 mod options;
 mod parts;
+mod placement;
 mod visibility;
 
 use pyo3::prelude::*;
@@ -15,6 +17,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("HprError", module.py().get_type::<failure::HprError>())?;
     module.add_class::<cloud::PointCloud>()?;
     module.add_class::<horizon::Horizon>()?;
+    module.add_class::<placement::Placement>()?;
     module.add_class::<visibility::Visibility>()?;
     module.add_function(wrap_pyfunction!(parts::merge_visible, module)?)?;
     Ok(())

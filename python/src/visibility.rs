@@ -2,7 +2,7 @@
 
 use hidden_point_removal as core;
 use hidden_point_removal::{Exponential, Inversion};
-use numpy::{IntoPyArray, PyArray1};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -27,6 +27,12 @@ pub struct Visibility {
     /// False only for drafts and samples.
     #[pyo3(get)]
     exact: bool,
+    /// Where each visible point is in the camera's image, x and y: (count, 2), float32. None without a camera.
+    #[pyo3(get)]
+    pixels: Option<Py<PyArray2<f32>>>,
+    /// The depth of each visible point along the optical axis: float32. None without a camera.
+    #[pyo3(get)]
+    depths: Option<Py<PyArray1<f32>>>,
     inversion: Inversion,
     looks: Vec<f64>,
     mask: Vec<u8>,
@@ -46,7 +52,19 @@ impl Visibility {
             looks: seen.looks().to_vec(),
             mask: seen.mask(),
             indices: seen.into_indices().into_pyarray(py).unbind(),
+            pixels: None,
+            depths: None,
         }
+    }
+
+    pub fn of_camera(py: Python<'_>, view: core::CameraView) -> PyResult<Self> {
+        let count = view.pixels.len();
+        let pixels = view.pixels.into_flattened().into_pyarray(py);
+        Ok(Self {
+            pixels: Some(pixels.reshape([count, 2])?.unbind()),
+            depths: Some(view.depths.into_pyarray(py).unbind()),
+            ..Self::new(py, view.visibility)
+        })
     }
 }
 

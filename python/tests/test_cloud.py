@@ -197,3 +197,84 @@ def test_threads_run_at_the_same_time():
         thread.join()
     assert all(np.array_equal(answer, expected) for answer in answers)
     assert ticks > 0, "the lock was held all the time"
+
+
+def camera(**entries):
+    return {"matrix": np.eye(4), "fx": 400, "fy": 400, "cx": 320, "cy": 240, "width": 640, "height": 480, **entries}
+
+
+def test_a_camera_sees_a_part_of_the_view_from_its_place():
+    points = bumpy(4000)
+    turned = np.array([[1.0, 0, 0, 0.2], [0, -1, 0, 0.1], [0, 0, -1, 5], [0, 0, 0, 1]])
+    cloud = PointCloud(points)
+    seen = cloud.visible_from_camera(camera(matrix=turned), exponent=3)
+    local = (points[seen.indices] - turned[:3, 3]) @ turned[:3, :3]
+    assert np.allclose(seen.depths, local[:, 2], rtol=1e-6)
+    assert np.allclose(seen.pixels[:, 0], 400 * local[:, 0] / local[:, 2] + 320, atol=1e-3)
+    assert seen.pixels.dtype == seen.depths.dtype == np.float32 and seen.pixels.shape == (seen.count, 2)
+    every = cloud.visible_from(turned[:3, 3], exponent=3)
+    assert 100 < seen.count < every.count or set(seen.indices) == set(every.indices)
+    assert set(seen.indices.tolist()) <= set(every.indices.tolist())
+    flat = cloud.visible_from_camera(camera(matrix=turned.T.ravel().tolist(), distortion=[0] * 5, far=np.inf), exponent=3)
+    assert np.array_equal(flat.indices, seen.indices)
+    upright = cloud.visible_from_camera(camera(matrix=turned @ np.diag([1, -1, -1, 1]), convention="opengl"), exponent=3)
+    assert np.array_equal(upright.indices, seen.indices)
+    assert every.pixels is None and every.depths is None
+
+
+def test_points_that_are_not_in_the_cloud():
+    points = bumpy(3000)
+    cloud = PointCloud(points[:2990])
+    seen = cloud.sees(VIEWPOINT, points[2990:], radius=400)
+    assert seen.dtype == bool
+    for number, point in enumerate(points[2990:]):
+        alone = PointCloud(np.concatenate([points[:2990], [point]])).visible_from(VIEWPOINT, radius=400)
+        assert seen[number] == (2990 in alone.indices)
+
+
+def test_how_many_viewpoints_see_each_point_and_which_to_choose():
+    cloud = PointCloud(bumpy(1500))
+    places = [VIEWPOINT, [4, 0, 0], VIEWPOINT, [0, 0, -4]]
+    counts = cloud.coverage(places)
+    masks = [cloud.visible_from(place).mask() for place in places]
+    assert counts.dtype == np.uint32 and np.array_equal(counts, np.sum(masks, axis=0))
+    placed = cloud.place_viewpoints(places, count=2)
+    assert len(placed.chosen) == len(placed.gains) == 2 and placed.chosen != [0, 2]
+    assert np.array_equal(placed.seen, np.flatnonzero(np.any([masks[k] for k in placed.chosen], axis=0)))
+    assert np.array_equal(placed.unseen, np.flatnonzero(~np.any(masks, axis=0)))
+    assert placed.gains[0] == max(mask.sum() for mask in masks)
+    heavy = np.zeros(1500)
+    heavy[masks[3]] = 1.0
+    assert cloud.place_viewpoints(places, weights=heavy, share=1.0, radius=None).chosen[0] == 3
+
+
+@pytest.mark.parametrize(
+    ("code", "call"),
+    [
+        ("viewpoint", lambda cloud: cloud.visible_from_camera(7)),
+        ("viewpoint", lambda cloud: cloud.visible_from_camera({})),
+        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(matrix=np.eye(3)))),
+        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(matrix=2 * np.eye(4)))),
+        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(width=0))),
+        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(fx="wide"))),
+        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(fx=np.nan))),
+        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(convention="maya"))),
+        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(distortion=[1, 2]))),
+        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(zoom=2))),
+        ("non-finite", lambda cloud: cloud.sees(VIEWPOINT, [[0, 0, np.nan]])),
+        ("positions-length", lambda cloud: cloud.sees(VIEWPOINT, [[0, 0]])),
+        ("option", lambda cloud: cloud.sees(VIEWPOINT, [[0, 0, 0]], draft=True)),
+        ("option", lambda cloud: cloud.coverage([VIEWPOINT], draft=True)),
+        ("viewpoint", lambda cloud: cloud.coverage([[0, 0]])),
+        ("option", lambda cloud: cloud.place_viewpoints([VIEWPOINT], count=0)),
+        ("option", lambda cloud: cloud.place_viewpoints([VIEWPOINT], share=1.5)),
+        ("option", lambda cloud: cloud.place_viewpoints([VIEWPOINT], share="all")),
+        ("option", lambda cloud: cloud.place_viewpoints([VIEWPOINT], weights=[1.0])),
+        ("option", lambda cloud: cloud.place_viewpoints([VIEWPOINT], weights="heavy")),
+        ("option", lambda cloud: cloud.place_viewpoints([VIEWPOINT], weights=[-1.0, 1.0, 1.0])),
+    ],
+)
+def test_bad_cameras_and_placements_are_refused(code, call):
+    with pytest.raises(HprError) as refused:
+        call(PointCloud([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]]))
+    assert refused.value.code == code, str(refused.value)

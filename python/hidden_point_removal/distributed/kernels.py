@@ -130,7 +130,7 @@ def _keep(path, parts):
 
 
 #: A process keeps horizons of about this many points together. Each point takes some 200 bytes in a hull.
-KEPT_POINTS = 2_000_000
+KEPT_POINTS = 1_000_000
 _horizons: OrderedDict[tuple, tuple[int, Horizon]] = OrderedDict()
 _lock = threading.Lock()
 

@@ -19,7 +19,7 @@ from .waves import waves_of
 #: A merge takes parts with about this many points together.
 MERGED_POINTS = 20_000_000
 #: A horizon is made of at most about this many points of the samples, and of as many of each wave of tiles.
-HORIZON_POINTS = 2_000_000
+HORIZON_POINTS = 250_000
 #: Options that one hull of the whole cloud can answer part by part.
 MERGEABLE = ("radius", "inversion")
 

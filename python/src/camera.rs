@@ -1,0 +1,72 @@
+//! A camera as a dictionary.
+
+use hidden_point_removal::{Camera, Convention};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::numbers;
+use crate::failure::problem;
+use crate::options::number;
+
+const SHAPES: &str =
+    "matrix must hold 16 numbers: 4 rows as an array of shape (4, 4), or flat, column by column";
+
+/// Reads a camera. The core checks its numbers.
+pub fn read(py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Camera> {
+    let wrong = |message: String| problem(py, "viewpoint", format!("camera: {message}"));
+    let entries = given
+        .cast::<PyDict>()
+        .map_err(|_| wrong("must be a dictionary".into()))?;
+    let mut camera = Camera::new(f64::NAN, f64::NAN, f64::NAN, f64::NAN, 0.0, 0.0);
+    let mut has_matrix = false;
+    for (name, value) in entries.iter() {
+        let name: String = name.extract()?;
+        let one = || number(&value).ok_or_else(|| wrong(format!("{name} must be a number")));
+        match name.as_str() {
+            "matrix" => {
+                camera.matrix = matrix(&value).ok_or_else(|| wrong(SHAPES.into()))?;
+                has_matrix = true;
+            }
+            "convention" => {
+                camera.convention = match value.extract::<String>().as_deref() {
+                    Ok("opencv") => Convention::OpenCv,
+                    Ok("opengl") => Convention::OpenGl,
+                    _ => return Err(wrong(r#"convention must be "opencv" or "opengl""#.into())),
+                };
+            }
+            "distortion" if value.is_none() => {}
+            "distortion" => {
+                camera.distortion = numbers(&value, &name)
+                    .ok()
+                    .and_then(|list| list.try_into().ok())
+                    .ok_or_else(|| wrong("distortion must hold k1, k2, p1, p2, k3".into()))?;
+            }
+            "fx" => camera.fx = one()?,
+            "fy" => camera.fy = one()?,
+            "cx" => camera.cx = one()?,
+            "cy" => camera.cy = one()?,
+            "width" => camera.width = one()?,
+            "height" => camera.height = one()?,
+            "near" => camera.near = one()?,
+            "far" => camera.far = one()?,
+            _ => return Err(wrong(format!("unknown entry {name}"))),
+        }
+    }
+    if !has_matrix {
+        return Err(wrong(SHAPES.into()));
+    }
+    Ok(camera)
+}
+
+/// Four rows, or 16 numbers column by column: column by column.
+fn matrix(value: &Bound<'_, PyAny>) -> Option<[f64; 16]> {
+    if let Ok(flat) = numbers(value, "matrix") {
+        return flat.try_into().ok();
+    }
+    let list = value
+        .call_method0("tolist")
+        .unwrap_or_else(|_| value.clone());
+    let rows: Vec<Vec<f64>> = list.extract().ok()?;
+    let is_square = rows.len() == 4 && rows.iter().all(|row| row.len() == 4);
+    is_square.then(|| core::array::from_fn(|at| rows[at % 4][at / 4]))
+}
