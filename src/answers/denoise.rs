@@ -10,6 +10,7 @@ use crate::base::error::{Error, in_range};
 use crate::base::real::square_root;
 use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::point_cloud::{PointCloud, Voters};
+use crate::cloud::points::Points;
 use crate::view::options::Options;
 
 /// A point is voted visible when more than this many fifths of itself and its neighbors are
@@ -34,7 +35,8 @@ impl PointCloud {
     pub fn denoised(&self, k: usize) -> Result<Self, Error> {
         let mut moved: Vec<[f64; 3]> = with_capacity(self.sequence.points.len())?;
         self.for_each_neighborhood("denoise", k, &mut |point, nearest| {
-            moved.push(on_plane(self.sequence.points.get(point), nearest));
+            let points = &self.sequence.points;
+            moved.push(on_plane(points.get(point), nearest, points));
         })?;
         Ok(self.moved(&moved)?)
     }
@@ -186,14 +188,14 @@ fn is_voted(point: usize, others: impl ExactSizeIterator<Item = u32>, visible: &
 }
 
 /// `p` projected on the least-squares plane of itself and `nearest`; `p` where that overflows.
-fn on_plane(p: [f64; 3], nearest: &Nearest) -> [f64; 3] {
+fn on_plane(p: [f64; 3], nearest: &Nearest, points: &Points) -> [f64; 3] {
     let p = DVec3::from_array(p);
     // Coordinates relative to p keep the detail of georeferenced clouds.
     let others = || {
         nearest
             .found()
             .iter()
-            .map(|other| DVec3::from_array(other.place) - p)
+            .map(|other| DVec3::from_array(points.get(other.index as usize)) - p)
     };
     let count = nearest.found().len() as f64 + 1.0;
     let mean = others().fold(DVec3::ZERO, |sum, v| sum + v) / count;
@@ -275,7 +277,7 @@ mod tests {
             let mut nearest = Nearest::with_capacity(48).unwrap();
             neighbors.find(query, &mut nearest);
             // The plane runs through the mean of all 49.
-            let left = on_plane(points[0], &nearest).map(|x| x * length);
+            let left = on_plane(points[0], &nearest, &sorted.points).map(|x| x * length);
             let expected = [-0.5 * tilt, 0.0, 0.5].map(|x| x / 49.0);
             for (a, b) in left.into_iter().zip(expected) {
                 assert!((a - b).abs() < 1e-2 * (1.0 + tilt), "{left:?}");

@@ -86,11 +86,7 @@ impl<'a> Growth<'a> {
                 let mut nearest = Nearest::with_capacity(NEIGHBORS)?;
                 for (index, place) in (0..).zip(points.iter()) {
                     let squared = distance_squared(position, place);
-                    nearest.offer(Neighbor {
-                        squared,
-                        place,
-                        index,
-                    });
+                    nearest.offer(Neighbor { squared, index }, points);
                 }
                 *spacing = mean_distance(nearest.found(), None);
                 continue;

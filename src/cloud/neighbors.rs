@@ -5,6 +5,7 @@
 //! break ties, so that neighbors depend on the set of points alone.
 
 use alloc::vec::Vec;
+use core::ops::Range;
 
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::cloud::points::Points;
@@ -13,6 +14,8 @@ use crate::cloud::spatial::Bounds;
 /// Points in a leaf box, and boxes in a box one level up.
 const LEAF: usize = 16;
 const FANOUT: usize = 8;
+/// The most leaves that are kept for the next query.
+const AROUND: usize = 256;
 
 pub(crate) fn distance_squared(a: [f64; 3], b: [f64; 3]) -> f64 {
     let v = [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
@@ -54,52 +57,108 @@ impl<'a> Neighbors<'a> {
     }
 
     /// Fills `nearest` with the nearest other points of point `query`. It takes as many as it has
-    /// room for, or all of them.
+    /// room for, or all of them. It is fast if the query before was in the same leaf or near it.
     pub(crate) fn find(&self, query: usize, nearest: &mut Nearest) {
-        nearest.found.clear();
-        // The leaf of the query comes first, then its neighbors, level by level. So a small
-        // bound is known before far boxes are looked at.
-        let mut own = query / LEAF;
-        self.scan_leaf(own, query, nearest);
-        for (level, boxes) in self.levels.iter().enumerate() {
-            let is_top = level + 1 == self.levels.len();
-            let first = if is_top { 0 } else { own / FANOUT * FANOUT };
-            let end = if is_top { boxes.len() } else { first + FANOUT };
-            for node in first..end.min(boxes.len()) {
-                if node != own {
-                    self.descend(level, node, query, nearest);
+        let Nearest { best, around } = nearest;
+        best.found.clear();
+        // The points next to the query in the spatial order come first. So a small bound is known
+        // before other boxes are looked at.
+        let own = query / LEAF;
+        let side = self.beside(own);
+        self.scan_leaf(own, query, best);
+        for leaf in side.clone().filter(|&leaf| leaf != own) {
+            self.scan_leaf(leaf, query, best);
+        }
+        if around.leaf != own || best.worst() > around.reach {
+            // Most other queries of this leaf find their neighbors in this reach, too.
+            self.look_around(own, 2.0 * best.worst(), around);
+        }
+        let center = self.points.get(query);
+        if around.is_complete {
+            for &leaf in &around.leaves {
+                // A box at exactly the worst distance may hold a point that wins the tie.
+                if self.levels[0][leaf as usize].distance_squared(center) <= best.worst() {
+                    self.scan_leaf(leaf as usize, query, best);
                 }
             }
-            own /= FANOUT;
+        } else {
+            let top = self.levels.len() - 1;
+            for node in 0..self.levels[top].len() {
+                self.descend(top, node, query, &side, best);
+            }
         }
     }
 
-    fn descend(&self, level: usize, node: usize, query: usize, nearest: &mut Nearest) {
-        let bounds = &self.levels[level][node];
-        // A box at exactly the worst distance may hold a point that wins the tie.
-        if bounds.distance_squared(self.points.get(query)) > nearest.worst() {
+    /// The leaf `own` and the leaves before and after it.
+    fn beside(&self, own: usize) -> Range<usize> {
+        own.saturating_sub(1)..self.levels[0].len().min(own + 2)
+    }
+
+    /// Lists the leaves that are at most the root of `reach` away from the leaf `own`.
+    fn look_around(&self, own: usize, reach: f64, around: &mut Around) {
+        around.leaf = own;
+        around.reach = reach;
+        around.is_complete = true;
+        around.leaves.clear();
+        let top = self.levels.len() - 1;
+        for node in 0..self.levels[top].len() {
+            self.list(top, node, around);
+        }
+    }
+
+    fn list(&self, level: usize, node: usize, around: &mut Around) {
+        let own = &self.levels[0][around.leaf];
+        if !around.is_complete || self.levels[level][node].gap_squared(own) > around.reach {
             return;
         }
-        if level == 0 {
-            return self.scan_leaf(node, query, nearest);
-        }
-        let below = self.levels[level - 1].len();
-        for child in node * FANOUT..((node + 1) * FANOUT).min(below) {
-            self.descend(level - 1, child, query, nearest);
+        if level > 0 {
+            for child in self.children(level, node) {
+                self.list(level - 1, child, around);
+            }
+        } else if !self.beside(around.leaf).contains(&node) {
+            around.is_complete = around.leaves.len() < around.leaves.capacity();
+            if around.is_complete {
+                around.leaves.push(node as u32);
+            }
         }
     }
 
-    fn scan_leaf(&self, leaf: usize, query: usize, nearest: &mut Nearest) {
+    fn children(&self, level: usize, node: usize) -> Range<usize> {
+        node * FANOUT..((node + 1) * FANOUT).min(self.levels[level - 1].len())
+    }
+
+    /// Scans all leaves of a node, except the `known` ones, where they may hold near points.
+    fn descend(
+        &self,
+        level: usize,
+        node: usize,
+        query: usize,
+        known: &Range<usize>,
+        best: &mut Best,
+    ) {
+        let bounds = &self.levels[level][node];
+        if bounds.distance_squared(self.points.get(query)) > best.worst() {
+            return;
+        }
+        if level > 0 {
+            for child in self.children(level, node) {
+                self.descend(level - 1, child, query, known, best);
+            }
+        } else if !known.contains(&node) {
+            self.scan_leaf(node, query, best);
+        }
+    }
+
+    fn scan_leaf(&self, leaf: usize, query: usize, best: &mut Best) {
         let center = self.points.get(query);
         let end = self.points.len().min((leaf + 1) * LEAF);
+        let mut worst = best.worst();
         for index in leaf * LEAF..end {
-            if index != query {
-                let place = self.points.get(index);
-                nearest.offer(Neighbor {
-                    squared: distance_squared(center, place),
-                    place,
-                    index: index as u32,
-                });
+            let squared = distance_squared(center, self.points.get(index));
+            if squared <= worst && index != query {
+                let index = index as u32;
+                best.offer(Neighbor { squared, index }, self.points);
+                worst = best.worst();
             }
         }
     }
@@ -110,33 +169,70 @@ impl<'a> Neighbors<'a> {
 pub(crate) struct Neighbor {
     /// The squared distance.
     pub squared: f64,
-    pub place: [f64; 3],
     pub index: u32,
 }
 
 impl Neighbor {
-    fn is_before(&self, other: &Self) -> bool {
-        (self.squared, self.place) < (other.squared, other.place)
+    /// Whether this point is exactly as far as `other`, and before it by its coordinates.
+    #[inline]
+    fn wins_tie(&self, other: &Self, points: &Points) -> bool {
+        self.squared == other.squared && {
+            let [own, other] = [self, other].map(|point| points.get(point.index as usize));
+            own < other
+        }
     }
 }
 
-/// The nearest points met so far, nearest first, ties by coordinates.
+/// The nearest points of one query, and what is known for the next query.
 pub(crate) struct Nearest {
+    best: Best,
+    around: Around,
+}
+
+/// The nearest points met so far, nearest first, ties by coordinates.
+struct Best {
     found: Vec<Neighbor>,
     most: usize,
+}
+
+/// The leaves around the leaf of the last query.
+struct Around {
+    leaf: usize,
+    /// The square of the largest distance from that leaf.
+    reach: f64,
+    leaves: Vec<u32>,
+    /// Whether there was room for all of them.
+    is_complete: bool,
 }
 
 impl Nearest {
     /// An empty list with room for `most` points, at least one.
     pub(crate) fn with_capacity(most: usize) -> Result<Self, OutOfMemory> {
-        let found = with_capacity(most)?;
-        Ok(Self { found, most })
+        Ok(Self {
+            best: Best {
+                found: with_capacity(most)?,
+                most,
+            },
+            around: Around {
+                leaf: usize::MAX,
+                reach: 0.0,
+                leaves: with_capacity(AROUND)?,
+                is_complete: false,
+            },
+        })
     }
 
     pub(crate) fn found(&self) -> &[Neighbor] {
-        &self.found
+        &self.best.found
     }
 
+    /// Adds one of the `points`, if it is among the nearest.
+    pub(crate) fn offer(&mut self, new: Neighbor, points: &Points) {
+        self.best.offer(new, points);
+    }
+}
+
+impl Best {
     fn worst(&self) -> f64 {
         if self.found.len() < self.most {
             f64::INFINITY
@@ -146,14 +242,19 @@ impl Nearest {
     }
 
     /// Adds a point, if it is among the nearest.
-    pub(crate) fn offer(&mut self, new: Neighbor) {
+    #[inline]
+    fn offer(&mut self, new: Neighbor, points: &Points) {
+        let nearer = |other: &Neighbor| other.squared < new.squared;
+        let mut slot = self.found.partition_point(nearer);
+        while slot < self.found.len() && self.found[slot].wins_tie(&new, points) {
+            slot += 1;
+        }
         if self.found.len() == self.most {
-            if !new.is_before(&self.found[self.most - 1]) {
+            if slot == self.most {
                 return;
             }
             self.found.pop();
         }
-        let slot = self.found.partition_point(|other| other.is_before(&new));
         self.found.insert(slot, new);
     }
 }

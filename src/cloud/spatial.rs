@@ -72,10 +72,16 @@ impl Bounds {
 
     /// Squared distance from `p` to the box, 0 inside.
     pub(crate) fn distance_squared(&self, p: [f64; 3]) -> f64 {
+        self.gap_squared(&Self { min: p, max: p })
+    }
+
+    /// Squared distance between two boxes, 0 where they meet.
+    #[inline]
+    pub(crate) fn gap_squared(&self, other: &Self) -> f64 {
         let mut sum = 0.0;
         for axis in 0..3 {
-            let gap = (self.min[axis] - p[axis])
-                .max(p[axis] - self.max[axis])
+            let gap = (self.min[axis] - other.max[axis])
+                .max(other.min[axis] - self.max[axis])
                 .max(0.0);
             sum += gap * gap;
         }

@@ -61,13 +61,20 @@ impl Flip {
         )
     }
 
-    /// Two numbers. Their quotient is the factor s of a point at `v` from the viewpoint, except for
-    /// a few roundings. The quotient is not finite for a point at the viewpoint.
+    /// Two numbers. Their quotient is at least the factor s of a point at `v` from the viewpoint,
+    /// except for a few roundings, and at most 10⁻⁵ larger. The quotient is not finite for a point
+    /// at the viewpoint.
     #[inline]
     pub(crate) fn ratio(&self, v: DVec3) -> (f64, f64) {
         let d = square_root(v.dot(v));
         match self.kernel {
             Kernel::Spherical { radius } => ((2.0 * radius - d) * self.scale, d),
+            Kernel::Exponential { scale } if d >= 16.0 * scale => {
+                // For x up to 1/16, exp(x) is at most 1 + x + x²/2 + x³/5.
+                let x = scale / d;
+                let length = 1.0 + x * (1.0 + x * (0.5 + x * 0.2));
+                (length * self.scale, d)
+            }
             kernel => (kernel.factor_out_of_line(d) * self.scale, 1.0),
         }
     }
@@ -107,6 +114,12 @@ impl Flip {
         times * self.extent * self.scale
     }
 
+    /// A power of two that moves every point at most `farthest` away along its ray, to a place
+    /// before its flipped one. So no direction is rounded.
+    pub(crate) fn inward(&self, farthest: f64) -> f64 {
+        power_of_two_below(0.5 * self.kernel.factor(farthest) * self.scale)
+    }
+
     /// The flipped point before it was scaled.
     pub(crate) fn undo_scale(&self, q: DVec3) -> DVec3 {
         q / self.scale
@@ -122,6 +135,8 @@ impl Flip {
     pub(crate) fn rescaled_for(mut self, points: &Points) -> Self {
         const MODERATE: core::ops::Range<f64> = 1e-30..1e30;
         match self.kernel {
+            // The extent is known if the flip was rescaled before.
+            _ if self.extent < f64::INFINITY => {}
             Kernel::Exponential { .. } => self.extent = self.length_of_nearest(points),
             Kernel::Power { .. } => self.extent = self.largest_coordinate(points),
             Kernel::Spherical { .. } | Kernel::Antipodal { .. } => {}

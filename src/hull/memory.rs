@@ -53,17 +53,6 @@ impl Memory {
         self.moved
     }
 
-    /// The face near which each point was located last.
-    pub(super) fn witnesses(&self) -> &[FaceId] {
-        &self.witnesses
-    }
-
-    /// Expects the next views to be from the same viewpoint at other scales, until this memory
-    /// forgets.
-    pub(crate) fn expect_other_scales(&mut self) {
-        self.patience = Patience::GREAT;
-    }
-
     /// Prepares for a view of these points. Forgets the last view if it was of other points.
     pub(crate) fn see(&mut self, selection: Selection) {
         if self.selection != selection {

@@ -44,4 +44,5 @@ pub(crate) use memory::Memory;
 pub(crate) use outer_boundary::{
     go_on, mark_draft, mark_visible, triangulate_visible, visible_once,
 };
-pub(crate) use outer_faces::{Exit, OuterFaces, Snapshot};
+pub(crate) use outer_faces::{Exit, OuterFaces};
+pub(crate) use topology::{FaceId, Vertex};

@@ -44,12 +44,6 @@ impl Patience {
         few_turned: 100,
         few_reflex: 45,
     };
-    /// For another scale from the same viewpoint: far more edges become reflex, but most points
-    /// stay near their faces.
-    pub(super) const GREAT: Self = Self {
-        few_turned: 20,
-        few_reflex: 2,
-    };
 }
 
 /// How many faces of the last hull are looked at, to find out whether the views are close.

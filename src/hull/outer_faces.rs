@@ -1,14 +1,12 @@
-//! A complete hull gives more than the visible points: its outer faces as triangles of
-//! points, its edges, and the face through which the ray of any point leaves the hull.
-
-use alloc::vec::Vec;
+//! A complete hull gives more than the visible points: its outer faces as triangles, and the
+//! face through which the ray of any point leaves the hull.
 
 use super::flipped::Flipped;
 use super::incremental::Hull;
 use super::locate::Location;
 use super::memory::Memory;
 use super::topology::{FaceId, Vertex};
-use crate::base::allocation::{OutOfMemory, filled};
+use crate::base::allocation::OutOfMemory;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
 
@@ -16,20 +14,31 @@ use crate::flip::inversion::Flip;
 pub(crate) struct OuterFaces<'a> {
     hull: &'a Hull,
     flipped: Flipped<'a>,
-    /// The face near which each point was located last.
-    witnesses: &'a [FaceId],
-    /// Any outer face.
-    first: FaceId,
+    visible: &'a [bool],
+    /// A factor that moves points along their rays into the hull; a power of two.
+    inward: f64,
+    /// The face by which the last ray left. The next walk starts there.
+    last: FaceId,
+}
+
+/// Where the ray of a point leaves the hull.
+pub(crate) enum Exit {
+    /// Through this outer face.
+    Face(FaceId),
+    /// The point is at the viewpoint.
+    Nowhere,
 }
 
 impl Memory {
     /// The outer faces of the hull that was found last: the hull of `points` as `flip` moves
-    /// them. Points that are exactly on a face cut it. `None` where there is no hull, because
-    /// all points are in one plane with the viewpoint.
+    /// them. Points that are exactly on a face cut it. `farthest` is the largest distance of the
+    /// points from the viewpoint. `None` where there is no hull, because all points are in one
+    /// plane with the viewpoint.
     pub(crate) fn outer_faces<'a>(
         &'a mut self,
         points: &'a Points,
         flip: &Flip,
+        farthest: f64,
     ) -> Result<Option<OuterFaces<'a>>, OutOfMemory> {
         if !self.holds_hull {
             return Ok(None);
@@ -44,101 +53,63 @@ impl Memory {
         let first = self.hull.outer_face();
         Ok(first.map(|first| OuterFaces {
             hull: &self.hull,
+            inward: flip.inward(farthest),
             flipped,
-            witnesses: self.witnesses(),
-            first,
+            visible: &self.visible,
+            last: first,
         }))
     }
 }
 
 impl OuterFaces<'_> {
-    /// The ends of every edge of an outer face, as points, each edge once.
-    pub(crate) fn edges(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
-        let hull = self.hull;
-        self.outer().flat_map(move |(id, corners)| {
-            let [a, b, c] = corners.map(|vertex| hull.point(vertex));
-            let twins = hull.surface.face(id).twins;
-            let ends = [[a, b], [b, c], [c, a]];
-            // An edge between two outer faces is listed by the face with the lower number.
-            let is_told = move |edge: &usize| {
-                let other = twins[*edge].face();
-                id < other || !hull.is_outer(other)
-            };
-            (0..3).filter(is_told).map(move |edge| ends[edge])
-        })
-    }
-
-    /// A copy that can be used after the hull is gone. It holds the triangles, and for each
-    /// `wanted` point the triangle through which its ray leaves the hull.
-    pub(crate) fn snapshot(&self, wanted: &dyn Fn(usize) -> bool) -> Result<Snapshot, OutOfMemory> {
-        let mut triangles = filled(self.hull.surface.slots(), [Snapshot::NONE; 3])?;
-        let mut under = filled(self.flipped.len(), Snapshot::NONE)?;
-        for (id, corners) in self.outer() {
-            let corners = corners.map(|vertex| self.hull.point(vertex));
-            triangles[id as usize] = corners;
-            for point in corners {
-                under[point as usize] = Snapshot::VERTEX;
-            }
-        }
-        let mut last = self.first;
-        for (point, under) in under.iter_mut().enumerate() {
-            if *under == Snapshot::VERTEX || !wanted(point) {
-                continue;
-            }
-            if let Some(q) = self.flipped.get_out_of_line(point as u32) {
-                let hint = self.hull.nearer_hint(q, last, self.witnesses[point]);
-                let (Location::Inside(face) | Location::Boundary(face) | Location::Outside(face)) =
-                    self.hull.locate(q, hint);
-                last = face;
-                *under = face;
-            }
-        }
-        Ok(Snapshot { triangles, under })
-    }
-
-    fn outer(&self) -> impl Iterator<Item = (FaceId, [Vertex; 3])> + '_ {
+    /// Each outer face and its corners.
+    pub(crate) fn all(&self) -> impl Iterator<Item = (FaceId, [Vertex; 3])> + '_ {
         let alive = self.hull.surface.alive();
         alive
             .filter(|(id, _)| self.hull.is_outer(*id))
             .map(|(id, face)| (id, face.vertices))
     }
-}
 
-/// The outer faces of a hull that may be gone.
-pub(crate) struct Snapshot {
-    /// The corners of each outer face as points, by the number of the face; `NONE` for other
-    /// numbers.
-    triangles: Vec<[u32; 3]>,
-    /// For each point an index into `triangles`, or `VERTEX`. It is `NONE` for points at the
-    /// viewpoint and for points that are not wanted.
-    under: Vec<u32>,
-}
-
-/// Where the ray of a point leaves a hull.
-pub(crate) enum Exit {
-    /// At the point itself, which is a vertex.
-    Vertex,
-    /// Through the triangle of these points.
-    Triangle([u32; 3]),
-    /// The point is at the viewpoint.
-    Nowhere,
-}
-
-impl Snapshot {
-    const NONE: u32 = u32::MAX;
-    const VERTEX: u32 = u32::MAX - 1;
-
-    pub(crate) fn triangles(&self) -> impl Iterator<Item = [u32; 3]> + '_ {
-        let triangles = self.triangles.iter().copied();
-        triangles.filter(|corners| corners[0] != Self::NONE)
+    /// The corners of an outer face.
+    pub(crate) fn corners(&self, id: FaceId) -> [Vertex; 3] {
+        self.hull.surface.face(id).vertices
     }
 
-    /// The exit of a point that was wanted.
-    pub(crate) fn exit(&self, point: usize) -> Exit {
-        match self.under[point] {
-            Self::VERTEX => Exit::Vertex,
-            Self::NONE => Exit::Nowhere,
-            face => Exit::Triangle(self.triangles[face as usize]),
+    /// The corners of an outer face as points.
+    pub(crate) fn points_of(&self, id: FaceId) -> [u32; 3] {
+        self.corners(id).map(|vertex| self.hull.point(vertex))
+    }
+
+    /// The point of the cloud that each vertex is, by the vertex's number. Some of the vertices
+    /// may have no outer face. The first number is the viewpoint's, and its point has no meaning.
+    pub(crate) fn points_of_vertices(&self) -> &[u32] {
+        &self.hull.vertices.points
+    }
+
+    /// Where the ray of a point that is no vertex leaves the hull.
+    pub(crate) fn exit(&mut self, point: u32) -> Exit {
+        // Among points that are no vertices, the marked ones are at the viewpoint, or at the same
+        // place as a vertex after the flip.
+        if self.visible[point as usize] && self.flipped.get_out_of_line(point).is_none() {
+            return Exit::Nowhere;
+        }
+        // The point is in the hull. A place before it on its ray is found by the same walk, and no
+        // flip has to be computed.
+        let v = self.flipped.relative(point) * self.inward;
+        match self.hull.locate(v, self.last) {
+            Location::Inside(face) | Location::Boundary(face) => self.last = face,
+            // The flip rounds the direction, and the ray of the unrounded one passes the hull.
+            Location::Outside(_) => self.exit_of_flipped(point),
+        }
+        Exit::Face(self.last)
+    }
+
+    #[cold]
+    fn exit_of_flipped(&mut self, point: u32) {
+        if let Some(q) = self.flipped.get_out_of_line(point) {
+            let (Location::Inside(face) | Location::Boundary(face) | Location::Outside(face)) =
+                self.hull.locate(q, self.last);
+            self.last = face;
         }
     }
 }

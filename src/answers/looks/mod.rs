@@ -6,28 +6,34 @@
 //! SUMMARY  A tight hull (a large c) closes the gaps between samples of a surface, but
 //!          also bridges gaps that are no surface. A loose hull (a small c) follows the
 //!          samples. So a triangle of a hull may hide points only if its corners, back in
-//!          their places, are as near to each other as samples are (`look`). The loosest
-//!          hull shows how near samples are (`spacing`). A point that no look decides
-//!          follows its neighbors (`followers`).
+//!          their places, are as near to each other as samples are (`decide`). The hull's
+//!          edges show how near samples are (`corners`). A later look has only the points
+//!          that are undecided, and the triangles before them (`part`). A point that no
+//!          look decides follows its neighbors (`followers`).
 
+mod corners;
+mod decide;
 mod followers;
 mod look;
-mod spacing;
+mod part;
 
 use alloc::vec::Vec;
 
 use crate::base::allocation::filled;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
+use crate::flip::inversion::Flip;
+use crate::flip::kernel::Kernel;
 use crate::hull::{self, Memory};
 use followers::follow;
-use look::{Look, Outcome, Seen, Verdicts};
+use look::{Look, Seen, Verdicts};
+use part::Part;
 
 /// The scale c of each look as a share of the cloud's spacing, from tight to loose. Two looks
 /// leave out the middle one. Twice or half of any of these values changes the error little.
 const SHARES: [f64; 3] = [0.28, 0.07, 0.02];
-/// The score of a hull vertex, by look.
-const SCORES: [f64; 3] = [0.97, 0.94, 0.8];
+/// The highest score of a hull vertex, by look.
+const SCORES: [f64; 3] = [1.0, 1.0, 0.9];
 
 /// The c of each of `count` looks at a cloud of this spacing. The remaining numbers are 0.
 pub(crate) fn scales(count: usize, spacing: f64) -> [f64; 3] {
@@ -60,41 +66,38 @@ impl PointCloud {
             return Err(Error::Viewpoint { viewpoint });
         }
         let points = &self.sequence.points;
-        let blocks = &self.blocks.levels[0];
-        self.blocks.farthest_distance(points, viewpoint)?;
+        let farthest = self.blocks.farthest_distance(points, viewpoint)?;
         let scales = scales(count, self.statistics.spacing);
-        let looks = |number: usize| {
-            let score = SCORES[place(count, number)];
-            Look::new(viewpoint, scales[number], score)
-        };
-        // The first hull is always a new one. Where points are on one sphere, several choices of
-        // triangles are right. The choice must not depend on earlier questions.
-        memory.forget();
-        let first = looks(0);
-        hull::mark_visible(points, blocks, &first.flip, None, memory)?;
-        let tight = Outcome::of(memory, points, &first.flip, &|_| true)?;
-        // From one look to the next only a few points change. So each hull is moved to the next.
-        memory.expect_other_scales();
-
-        // The loosest hull comes second, because it gives the spacing by which the first is
-        // judged. A point that the first hull decides needs no other hull.
-        let last = looks(count - 1);
-        hull::mark_visible(points, blocks, &last.flip, None, memory)?;
-        let spacing = {
-            let faces = memory.outer_faces(points, &last.flip)?;
-            spacing::local(points, faces.as_ref(), self.statistics.spacing)?
-        };
-        let mut verdicts = Verdicts::new(points, viewpoint, &spacing, with_scores)?;
-        verdicts.take(&first, tight);
-        let loose = Outcome::of(memory, points, &last.flip, &verdicts.open())?;
-        let is_flat = matches!(loose, Outcome::Flat(_));
-        if count == 3 {
-            let middle = looks(1);
-            hull::mark_visible(points, blocks, &middle.flip, None, memory)?;
-            let usual = Outcome::of(memory, points, &middle.flip, &verdicts.open())?;
-            verdicts.take(&middle, usual);
+        let mut verdicts = Verdicts::new(points, with_scores)?;
+        let mut part = Part::All;
+        let mut is_flat = false;
+        for number in 0..count {
+            let (own, blocks) = match &part {
+                Part::All => (points, &self.blocks),
+                Part::Some { points, blocks, .. } => (points, blocks),
+            };
+            let scale = scales[number];
+            let look = Look {
+                flip: Flip::new(viewpoint, Kernel::Exponential { scale }).rescaled_for(own),
+                scale,
+                score: SCORES[place(count, number)],
+                is_last: number + 1 == count,
+            };
+            // Each hull is a new one. Where points are on one sphere, several choices of triangles
+            // are right. The choice must not depend on earlier questions.
+            memory.forget();
+            hull::mark_visible(own, &blocks.levels[0], &look.flip, None, memory)?;
+            let Some(mut faces) = memory.outer_faces(own, &look.flip, farthest)? else {
+                verdicts.take_flat(&look, &part, memory.visible());
+                is_flat |= number == 0;
+                continue;
+            };
+            let left = verdicts.take(&look, &mut faces, &part)?;
+            if look.is_last || !verdicts.are_open() {
+                break;
+            }
+            part = left.part(points, &part)?;
         }
-        verdicts.take(&last, loose);
         memory.forget();
         // In one plane with the viewpoint, neighbors on a ray see different things.
         if !is_flat {
