@@ -25,6 +25,20 @@ pub(super) const ORIGIN: Vertex = 0;
 pub(super) struct Hull {
     pub surface: Surface<Plane>,
     pub vertices: Vertices,
+    /// How its vertices and faces are numbered.
+    pub numbers: Numbers,
+}
+
+/// How the vertices and faces of a hull are numbered.
+#[derive(Clone, Copy, Default, PartialEq, Eq)]
+pub(super) enum Numbers {
+    /// In the order in which they were made.
+    #[default]
+    AsMade,
+    /// The same, in a hull that was moved since. If it moves again, it gets other numbers.
+    Moved,
+    /// Along the order of the points.
+    InOrder,
 }
 
 #[derive(Default)]
@@ -138,6 +152,7 @@ impl Hull {
         for (point, q) in corners {
             vertices.add(point, q)?;
         }
+        self.numbers = Numbers::AsMade;
         self.surface.reserve(count);
         self.surface
             .start(ORIGIN, [1, 2, 3], |corners| vertices.plane(corners))?;

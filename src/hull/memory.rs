@@ -8,13 +8,19 @@ use super::depth::DepthMap;
 use super::flipped::Flipped;
 use super::incremental::Hull;
 use super::locate::Location;
-use super::motion::Patience;
 use super::order;
 use super::repair::Repair;
 use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, push};
 use crate::cloud::selection::Selection;
 use crate::flip::inversion::Flip;
+
+/// A moved hull gets no map of directions if at most one point in this many is hidden. Few points
+/// are located faster than a map is made.
+const FEW_HIDDEN: usize = 2;
+
+/// After so many repairs that failed in a row, the pause before the next one grows no more.
+const MOST_FAILURES: u32 = 5;
 
 /// The last view's hull, and room for the hull of the next view. Its content never changes
 /// an answer, as long as it is only used for one sequence of points.
@@ -31,8 +37,10 @@ pub(crate) struct Memory {
     pub(super) holds_hull: bool,
     /// Whether the last view started from the view before it.
     pub(super) moved: bool,
-    /// How much of the last hull may change before a new hull is made instead of mending it.
-    patience: Patience,
+    /// How many repairs failed in a row, up to a limit.
+    failures: u32,
+    /// How many views that could be moved start with a new hull instead.
+    pause: u32,
     /// The flip of the last draft, if `hull` is its hull and `depth` its map. The next view may go
     /// on from there.
     pub(super) drafted: Option<Flip>,
@@ -70,7 +78,8 @@ impl Memory {
     /// Forgets the last view, but keeps the room.
     pub(crate) fn forget(&mut self) {
         self.holds_hull = false;
-        self.patience = Patience::USUAL;
+        self.failures = 0;
+        self.pause = 0;
         self.drafted = None;
     }
 }
@@ -88,11 +97,26 @@ impl Memory {
     /// Moves the last view's hull to this view, if that is faster than a new hull. The vertices
     /// of the moved hull are marked as visible. Returns whether the hull was moved.
     pub(super) fn move_hull(&mut self, flipped: &Flipped) -> Result<bool, OutOfMemory> {
-        let moved =
-            self.hull
-                .move_to(flipped, &mut self.repair, &mut self.visible, self.patience)?;
-        if !moved {
+        if !self.hull.looks_alike(flipped) {
+            return Ok(false);
+        }
+        // A repair that fails costs much, and the next one is likely to fail, too.
+        if self.pause > 0 {
+            self.pause -= 1;
+            return Ok(false);
+        }
+        let moved = self.hull.move_to(
+            flipped,
+            &mut self.repair,
+            &mut self.visible,
+            &mut self.witnesses,
+        )?;
+        if moved {
+            self.failures = 0;
+        } else {
             self.visible.fill(false);
+            self.failures = MOST_FAILURES.min(self.failures + 1);
+            self.pause = (1 << self.failures) - 1;
         }
         #[cfg(debug_assertions)]
         if moved {
@@ -195,18 +219,28 @@ impl Memory {
     /// already.
     pub(super) fn add_to_moved_hull(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
         self.on_boundary.clear();
-        self.depth
-            .make(&self.hull, flipped, flipped.len(), &|_| true)?;
+        let count = flipped.len();
+        let hidden = (count + 1).saturating_sub(self.hull.vertex_count());
+        if hidden * FEW_HIDDEN > count {
+            self.depth.make(&self.hull, flipped, hidden, &|_| true)?;
+        } else {
+            self.depth.clear();
+        }
         let Some(mut hint) = self.hull.outer_face() else {
             return Ok(());
         };
-        for index in 0..flipped.len() as u32 {
-            if self.visible[index as usize] || self.depth.hides(flipped, index) {
+        for run in order::runs(count as u32) {
+            if self.depth.hides_run(flipped, &run) {
                 continue;
             }
-            let witness = self.witnesses[index as usize];
-            hint = self.add(index, flipped, [hint, witness])?;
-            self.witnesses[index as usize] = hint;
+            for index in run {
+                if self.visible[index as usize] || self.depth.hides(flipped, index) {
+                    continue;
+                }
+                let witness = self.witnesses[index as usize];
+                hint = self.add(index, flipped, [hint, witness])?;
+                self.witnesses[index as usize] = hint;
+            }
         }
         self.visible.fill(false);
         Ok(())

@@ -32,6 +32,7 @@ mod other_flip;
 mod outer_boundary;
 mod outer_faces;
 mod predicates;
+mod renumber;
 mod repair;
 mod share;
 mod topology;

@@ -15,42 +15,22 @@
 use glam::DVec3;
 
 use super::flipped::Flipped;
-use super::incremental::{Hull, ORIGIN, Vertices};
+use super::incremental::{Hull, Numbers, ORIGIN, Vertices};
 use super::locate::larger;
 use super::repair::Repair;
 use super::topology::{FaceId, HalfEdge, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::hull::predicates::{Sign, side_of_origin};
 
-/// How much of a hull may change before a new hull is faster than mending the old one.
-#[derive(Clone, Copy)]
-pub(super) struct Patience {
-    /// A new hull is faster where more than one face in this many has turned over.
-    few_turned: usize,
-    /// A new hull is faster where more than one edge in this many has become reflex. The first
-    /// number is for hulls of few faces, the second for hulls of very many faces.
-    few_reflex: usize,
-}
-
-impl Default for Patience {
-    fn default() -> Self {
-        Self::USUAL
-    }
-}
-
-impl Patience {
-    /// For a viewpoint that moves.
-    pub(super) const USUAL: Self = Self {
-        few_turned: 100,
-        few_reflex: 45,
-    };
-}
-
+/// A new hull is faster than mending the old one where more than one face in this many has turned
+/// over.
+const FEW_TURNED: usize = 60;
+/// A new hull is faster where more than one edge in this many has become reflex.
+const FEW_REFLEX: usize = 25;
 /// How many faces of the last hull are looked at, to find out whether the views are close.
-const SAMPLE: usize = 512;
-/// A surface of more faces than this does not fit into the caches. Mending it then pays
-/// only where fewer edges have become reflex.
-const MANY: usize = 300_000;
+const SAMPLE: usize = 1024;
+/// A repair that made little progress with force so many times is given up.
+const MOST_FORCED: usize = 32;
 /// A repair that flips more than one edge in this many faces is given up.
 const FACES_PER_FLIP: usize = 2;
 /// Edge flips that a repair of even the smallest hull may take.
@@ -60,17 +40,19 @@ const FEWEST_FLIPS: usize = 64;
 const SPARE_EFFORT: usize = 1000;
 
 impl Hull {
-    /// Becomes the hull of its vertices as `flipped` now. Returns false where a new hull must be
-    /// started; the old hull is unusable then.
+    /// Becomes the hull of its vertices as `flipped` now, if it [`looks_alike`](Self::looks_alike).
+    /// Returns false where a new hull must be started; the old hull is unusable then.
     pub(super) fn move_to(
         &mut self,
         flipped: &Flipped,
         repair: &mut Repair,
         is_vertex: &mut [bool],
-        patience: Patience,
+        witnesses: &mut [FaceId],
     ) -> Result<bool, OutOfMemory> {
-        if self.surface.slots() == 0 || !self.looks_alike(flipped, patience) {
-            return Ok(false);
+        // The new numbers pay only for a hull that goes on moving.
+        if self.numbers == Numbers::Moved {
+            self.renumber(flipped.len(), witnesses)?;
+            self.numbers = Numbers::InOrder;
         }
         self.vertices.reach = flipped.reach();
         let points = self.vertices.points.iter().skip(1);
@@ -82,32 +64,31 @@ impl Hull {
         }
         let sum = self.vertices.positions.iter().sum::<DVec3>();
         self.vertices.inner = sum / self.vertices.positions.len() as f64;
-        self.renew_planes(repair)?;
-        // The sample may have missed them.
-        if repair.turned.len() * patience.few_turned > self.surface.slots() {
+        let most_turned = self.surface.slots() / FEW_TURNED;
+        if !self.renew_planes(most_turned, repair)? {
             return Ok(false);
         }
         repair.effort = self.surface.slots() + SPARE_EFFORT;
         let mut flips_left = self.surface.slots() / FACES_PER_FLIP + FEWEST_FLIPS;
         // The neighbors of a face may prevent its repair. Then it is tried again after they are
         // mended, in the end with more force.
-        let mut force = false;
+        let mut forced = 0;
         while !repair.turned.is_empty() {
             let before = repair.turned.len();
             let mut kept = 0;
             for i in 0..before {
                 let face = repair.turned[i];
-                if !self.unfold(face, force, repair)? {
+                if !self.unfold(face, forced > 0, repair)? {
                     repair.turned[kept] = face;
                     kept += 1;
                 }
             }
             repair.turned.truncate(kept);
             if kept > before / 2 {
-                if force {
+                if forced == MOST_FORCED {
                     return Ok(false);
                 }
-                force = true;
+                forced += 1;
             }
         }
         while let Some(edge) = repair.suspects.pop() {
@@ -118,13 +99,19 @@ impl Hull {
                 }
             }
         }
+        if self.numbers == Numbers::AsMade {
+            self.numbers = Numbers::Moved;
+        }
         self.settle(repair, is_vertex)
     }
 
     /// Whether, in a sample, few faces turned over and few edges became reflex. This is
     /// computed with roundings, because it only decides which way is faster.
-    fn looks_alike(&self, flipped: &Flipped, patience: Patience) -> bool {
+    pub(super) fn looks_alike(&self, flipped: &Flipped) -> bool {
         let slots = self.surface.slots();
+        if slots == 0 {
+            return false;
+        }
         let at = |vertex: Vertex| flipped.get_out_of_line(self.vertices.points[vertex as usize]);
         let [mut faces, mut turned, mut reflex] = [0; 3];
         for slot in (0..slots).step_by(slots.div_ceil(SAMPLE)) {
@@ -146,12 +133,16 @@ impl Hull {
                 }
             }
         }
-        let few_reflex = patience.few_reflex * (1 + slots / MANY);
-        turned * patience.few_turned <= faces && reflex * few_reflex <= 3 * faces
+        turned * FEW_TURNED <= faces && reflex * FEW_REFLEX <= 3 * faces
     }
 
-    /// Computes each face's plane in the new view. Lists turned faces and reflex edges.
-    fn renew_planes(&mut self, repair: &mut Repair) -> Result<(), OutOfMemory> {
+    /// Computes each face's plane in the new view. Lists turned faces and reflex edges. Stops and
+    /// returns false if there are more than `most_turned` turned faces: the sample missed them.
+    fn renew_planes(
+        &mut self,
+        most_turned: usize,
+        repair: &mut Repair,
+    ) -> Result<bool, OutOfMemory> {
         repair.turned.clear();
         repair.suspects.clear();
         for slot in 0..self.surface.slots() as FaceId {
@@ -173,6 +164,9 @@ impl Hull {
                 continue;
             }
             if self.vertices.is_turned(&face) {
+                if repair.turned.len() == most_turned {
+                    return Ok(false);
+                }
                 push(&mut repair.turned, slot)?;
                 continue;
             }
@@ -184,7 +178,7 @@ impl Hull {
                 }
             }
         }
-        Ok(())
+        Ok(true)
     }
 
     /// Whether the ray of `inner` pierces exactly one face. With faces that all turn

@@ -85,8 +85,8 @@ pub(crate) struct Rim {
 
 /// A closed triangulated surface whose faces can be replaced.
 pub(crate) struct Surface<T> {
-    faces: Vec<Face<T>>,
-    free: Vec<FaceId>,
+    pub(super) faces: Vec<Face<T>>,
+    pub(super) free: Vec<FaceId>,
     cavity: Vec<FaceId>,
     horizon: Vec<Rim>,
     crossings: Vec<HalfEdge>,
