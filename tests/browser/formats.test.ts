@@ -4,7 +4,7 @@ import { expect, test } from "vitest";
 import { asciiPly, ball, binaryPly, georeferencedBall, pcd, text } from "./clouds.js";
 import { choose, drop, openInTurn } from "./files.js";
 import { glb, gltf, gltfBinary, inMillimeters, las, moved } from "./formats.js";
-import { answered, answerInNode, openReady, reached, served, status } from "./support.js";
+import { answered, answerInNode, openReady, reached, refiltered, served, status } from "./support.js";
 
 const COUNT = 600;
 const near = ball(COUNT);
@@ -259,7 +259,7 @@ test("a broken file is refused in a plain sentence, and the page stays usable", 
     await page.keyboard.press("Escape");
     await page.locator("#view").focus();
     await page.keyboard.press("ArrowLeft");
-    expect(await answered(page, after)).toMatchObject({ state: "ready", total: 1839 });
+    expect(await refiltered(page, after)).toMatchObject({ state: "ready", total: 1839 });
   }
 });
 
