@@ -1,9 +1,9 @@
-import { copyFileSync, mkdirSync, rmSync } from "node:fs";
+import { copyFileSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
 
 import { inRoot } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
-import { EMBEDDED, embedWasm } from "./embed.js";
+import { EMBEDDED, embedWasm, embedWorker } from "./embed.js";
 import { GLUE } from "./wasm.js";
 
 const GENERATED = [...GLUE, ...EMBEDDED];
@@ -12,18 +12,20 @@ const GENERATED = [...GLUE, ...EMBEDDED];
 export async function buildPackage(): Promise<void> {
   const work = {
     name: "package",
-    inputs: ["src/ts", "tsconfig.base.json", "tsconfig.build.json", "package-lock.json"],
+    inputs: ["src/ts", "tsconfig.base.json", "tsconfig.build.json", "package-lock.json", "scripts/build/embed.ts"],
     ignore: EMBEDDED.map((file) => `src/ts/wasm/${file}`),
-    outputs: ["dist/index.js", ...GENERATED.map((file) => `dist/wasm/${file}`)],
+    outputs: ["dist/index.js", "dist/worker-thread.js", ...GENERATED.map((file) => `dist/wasm/${file}`)],
   };
   const result = await unlessUnchanged(work, async () => {
     say("Compiling the npm package…");
     // The folder is emptied first: a module whose source is gone must not stay.
     rmSync(inRoot("dist"), { recursive: true, force: true });
     embedWasm();
+    const worker = await embedWorker();
     await mustRun("tsc", ["-p", "tsconfig.build.json"], "The npm package does not compile");
     mkdirSync(inRoot("dist/wasm"), { recursive: true });
     for (const file of GENERATED) copyFileSync(inRoot("src/ts/wasm", file), inRoot("dist/wasm", file));
+    writeFileSync(inRoot("dist/worker-thread.js"), worker);
   });
   say(`npm package: ${result}`);
 }

@@ -6,6 +6,7 @@ import { inRoot } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
 import { WASM_TARGET } from "../setup/rust.js";
+import { easeGlue } from "./glue.js";
 
 const FAILED = "The WebAssembly module could not be built";
 
@@ -15,7 +16,15 @@ export const GLUE = ["hpr_bg.js", "hpr_bg.d.ts", "hpr_bg.wasm", "hpr_bg.wasm.d.t
 export async function buildWasm(): Promise<void> {
   const work = {
     name: "wasm",
-    inputs: ["Cargo.toml", "Cargo.lock", "src", "tools/wasm", "scripts/build/wasm.ts", "package-lock.json"],
+    inputs: [
+      "Cargo.toml",
+      "Cargo.lock",
+      "src",
+      "tools/wasm",
+      "scripts/build/wasm.ts",
+      "scripts/build/glue.ts",
+      "package-lock.json",
+    ],
     ignore: ["src/ts", "tools/wasm/target"],
     outputs: GLUE.map((file) => `src/ts/wasm/${file}`),
   };
@@ -44,6 +53,7 @@ export async function buildWasm(): Promise<void> {
       const built = file === "hpr_bg.d.ts" ? "hpr.d.ts" : file;
       copyFileSync(inRoot("target/wasm-pack", built), inRoot("src/ts/wasm", file));
     }
+    easeGlue(inRoot("src/ts/wasm/hpr_bg.js"));
   });
   say(`WebAssembly module: ${result}`);
 }

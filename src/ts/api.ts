@@ -2,6 +2,7 @@
 export type { ChosenRadius } from "./query/answers.js";
 export { hiddenPointRemoval, PointCloud } from "./cloud/cloud.js";
 export type { InitInput, SyncInitInput, WasmModule } from "./instance/compile.js";
+export { type Addresses, configure } from "./instance/configure.js";
 export { HprError, type HprErrorCode } from "./base/errors.js";
 export {
   permissibleCurvature,

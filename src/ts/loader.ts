@@ -1,12 +1,14 @@
-import { compile, type InitInput, type WasmModule } from "./instance/compile.js";
+import { compileOwn, type InitInput, type WasmModule } from "./instance/compile.js";
+import { configuredWasm } from "./instance/configure.js";
 import { compiledOnce, initFrom, startedModule } from "./instance/start.js";
 
 // This must be one literal expression: bundlers look for exactly this form. Other tools keep the
 // address unchanged, so this file must stay beside the folder `wasm`.
-const ownFile = compiledOnce(() => compile(new URL("./wasm/hpr_bg.wasm", import.meta.url)));
+const ownFile = compiledOnce(() => compileOwn(() => new URL("./wasm/hpr_bg.wasm", import.meta.url)));
 
 /**
- * Loads the wasm and starts it. Without an argument, it loads the file that comes with the package.
+ * Loads the wasm and starts it. Without an argument, it loads the file that comes with the package,
+ * or what `configure` was given.
  * Does nothing if the wasm is running already. While it is starting, callers with the same argument
  * get the same promise. Callers with another argument wait, and try theirs if the earlier one
  * fails. It may be called again after a failure. After a trap (`internal`), it starts a new
@@ -15,7 +17,7 @@ const ownFile = compiledOnce(() => compile(new URL("./wasm/hpr_bg.wasm", import.
  * @throws HprError (as a rejection) `load` if it cannot be fetched, compiled or started.
  */
 export function init(input?: InitInput): Promise<void> {
-  return initFrom(ownFile, input);
+  return initFrom(configuredWasm() ?? ownFile, input);
 }
 
 /**
@@ -23,5 +25,5 @@ export function init(input?: InitInput): Promise<void> {
  * package's own file.
  */
 export async function moduleForWorker(): Promise<WasmModule> {
-  return (await startedModule()) ?? (await ownFile());
+  return (await startedModule()) ?? (await (configuredWasm() ?? ownFile)());
 }

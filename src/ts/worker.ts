@@ -1,4 +1,5 @@
 export type { ChosenRadius } from "./query/answers.js";
+export { type Addresses, configure } from "./instance/configure.js";
 export { HprError, type HprErrorCode } from "./base/errors.js";
 export type { PointCloudOptions } from "./query/options.js";
 export type { Positions } from "./query/positions.js";

@@ -1,11 +1,13 @@
-import { readdirSync, writeFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { copyFileSync, readdirSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
 import { join } from "node:path";
 import { pathToFileURL } from "node:url";
 import * as esbuild from "esbuild";
 import * as vite from "vite";
 import webpack from "webpack";
 
-import type { Consumer, Visit } from "./consumer";
+import type { Answered, Consumer, Visit } from "./consumer";
 import { installed, project } from "./install";
 import { html, serve, STRICT } from "./serve";
 
@@ -109,19 +111,49 @@ export const bundlers = (visit: Visit): Consumer[] => [
     },
   },
   {
-    name: "esbuild, ./inline, a classic script in a file",
-    further: true,
+    name: "esbuild, exported files, configure",
     version: esbuild.version,
     run: async () => {
-      await buildWithEsbuild({ entryPoints: ["classic.js"], format: "iife", outdir: "built" });
+      await buildWithEsbuild({ entryPoints: ["configured.js"], format: "esm", outdir: "configured" });
+      copyExported(project("esbuild", "configured"));
+      const pages = { "index.html": html('<script type="module" src="configured.js"></script>') };
+      await using site = await serve(project("esbuild", "configured"), { pages });
+      return await visit(`${site.address}index.html`);
+    },
+  },
+  {
+    name: "esbuild, ./inline, one classic script in a file",
+    version: esbuild.version,
+    run: async () => {
+      // The main entry's own address has no meaning in a classic script, and is not used.
+      const logOverride = { "empty-import-meta": "silent" } as const;
+      await buildWithEsbuild({ entryPoints: ["classic.js"], format: "iife", outdir: "built", logOverride });
       writeFileSync(project("esbuild", "built", "classic.html"), html('<script src="classic.js"></script>'));
       return await visit(pathToFileURL(project("esbuild", "built", "classic.html")).href);
+    },
+  },
+  {
+    name: "esbuild, a bundle for Node",
+    version: esbuild.version,
+    run: async () => {
+      await buildWithEsbuild({ entryPoints: ["../node/esm.mjs"], format: "esm", platform: "node", outdir: "server" });
+      return JSON.parse(
+        execFileSync(process.execPath, ["server/esm.js"], { cwd: project("esbuild"), encoding: "utf8" }),
+      ) as Answered;
     },
   },
 ];
 
 /** esbuild does not follow `new URL("…", import.meta.url)`, so the worker's script is an entry of its own. */
 const WORKER = join(installed, "dist/worker/worker-thread.js");
+
+/** Copies the files that a page needs, by the names that the package exports. */
+function copyExported(folder: string): void {
+  const { resolve } = createRequire(project("app", "main.js"));
+  for (const name of ["hpr.wasm", "worker-thread.js"]) {
+    copyFileSync(resolve(`hidden-point-removal/${name}`), join(folder, name));
+  }
+}
 
 async function buildWithVite(outDir: string, base: string, root = "vite"): Promise<void> {
   await vite.build({ ...BARE, root: project(root), base, build: { outDir, target: "es2022" } });

@@ -17,12 +17,15 @@ const DOCUMENTS = [
 ].filter((name) => existsSync(join(root, name)));
 const scratch = scratchFor("documents");
 
-describe.each(["README.md", "docs/API.md"])("JavaScript snippets of %s print what they say", (document) => {
-  test.each(blocks(document, "js").map((code, i) => [i, code] as const))("snippet %i", (i, code) => {
-    expect(promised(code).length).toBeGreaterThan(0);
-    expect(printed(scratch, i, code)).toEqual(promised(code));
-  });
-});
+describe.each(["README.md", "docs/API.md", "docs/BUNDLERS.md"])(
+  "JavaScript snippets of %s print what they say",
+  (document) => {
+    test.each(blocks(document, "js").map((code, i) => [i, code] as const))("snippet %i", (i, code) => {
+      expect(promised(code).length).toBeGreaterThan(0);
+      expect(printed(scratch, i, code)).toEqual(promised(code));
+    });
+  },
+);
 
 test.each(DOCUMENTS)("links of %s lead to files", (document) => {
   const text = readFileSync(join(root, document), "utf8");

@@ -4,10 +4,28 @@ export function hasNodeModules(): boolean {
   return typeof process?.versions?.node === "string";
 }
 
+interface NodeProcess {
+  cwd(): string;
+  getBuiltinModule?: (name: string) => unknown;
+}
+
 /**
- * A built-in module of Node. Bundlers for browsers must leave this import alone, since it never
+ * A built-in module of Node. Bundlers for browsers must leave the import alone, since it never
  * runs there. The variable for the name and the hints make them do so.
  */
 export async function importNodeModule<Module>(name: `node:${string}`): Promise<Module> {
-  return (await import(/* webpackIgnore: true */ /* @vite-ignore */ name)) as Module;
+  // No bundler and no test runner changes this call. Node has it since 20.16.
+  const module = (process as NodeProcess).getBuiltinModule?.(name);
+  return (module ??
+    (await import(/* webpackIgnore: true */ /* turbopackIgnore: true */ /* @vite-ignore */ name))) as Module;
+}
+
+/** The path of a file that this package exports, found from the working directory. */
+export async function installedFile(name: string): Promise<string | undefined> {
+  try {
+    const { createRequire } = await importNodeModule<typeof import("node:module")>("node:module");
+    return createRequire(`${process.cwd()}/`).resolve(`hidden-point-removal/${name}`);
+  } catch {
+    return undefined;
+  }
 }

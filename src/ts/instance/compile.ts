@@ -1,5 +1,5 @@
 import { describe, HprError, typeTag } from "../base/errors.js";
-import { hasNodeModules, importNodeModule } from "../base/node.js";
+import { hasNodeModules, importNodeModule, installedFile } from "../base/node.js";
 
 /**
  * `WebAssembly.Module`, written so that these types also compile if the platform's own types lack
@@ -21,8 +21,11 @@ export type SyncInitInput = ArrayBuffer | ArrayBufferView | WasmModule;
 export type InitInput = string | URL | Response | SyncInitInput;
 
 const WAY_OUT =
-  "Serve hpr_bg.wasm (the package exports it as hidden-point-removal/hpr.wasm) and pass its address to init(), " +
-  "or pass its bytes, or import hidden-point-removal/inline, which carries it along";
+  "Serve hpr_bg.wasm (the package exports it as hidden-point-removal/hpr.wasm) and pass its address to init() or " +
+  "configure({ wasm }), or pass its bytes, or import hidden-point-removal/inline, which carries it along " +
+  "(docs/BUNDLERS.md)";
+/** What a page needs whose security policy forbids WebAssembly. */
+const POLICY = "The page's security policy forbids WebAssembly: add 'wasm-unsafe-eval' to its script-src";
 
 export async function compile(input: InitInput): Promise<WasmModule> {
   const source = nameOf(input);
@@ -39,6 +42,24 @@ export async function compile(input: InitInput): Promise<WasmModule> {
     return await WebAssembly.compile(bytesOf(input));
   } catch (cause) {
     throw loadError(source, cause);
+  }
+}
+
+/**
+ * Compiles the package's own file. On a server, a bundler may have put an address of the site in the place
+ * of the file's. Then the file is taken from the installed package.
+ */
+export async function compileOwn(address: () => URL): Promise<WasmModule> {
+  let own: URL | undefined;
+  try {
+    own = address();
+    return await compile(own);
+  } catch (error) {
+    const file = hasNodeModules() ? await installedFile("hpr.wasm") : undefined;
+    if (file !== undefined) {
+      return compile(file);
+    }
+    throw own === undefined ? loadError("the package's own wasm", error) : error;
   }
 }
 
@@ -62,8 +83,8 @@ async function compileResponse(response: Response): Promise<WebAssembly.Module> 
   return WebAssembly.compile(await response.arrayBuffer());
 }
 
-/** The path of a file, if the address means a file. Undefined for an address to fetch. */
-function fileOf(address: string | URL): string | URL | undefined {
+/** In Node: the path of a file, if the address means a file. Undefined for an address to fetch. */
+export function fileOf(address: string | URL): string | URL | undefined {
   let url: URL;
   try {
     url = new URL(address);
@@ -113,5 +134,6 @@ export function nameOf(input: InitInput): string {
 
 export function loadError(source: string, cause: unknown): HprError {
   const reason = cause instanceof Error ? cause.message : String(cause);
-  return new HprError("load", `could not load ${source}: ${reason}. ${WAY_OUT}.`, { cause });
+  const wayOut = /Content.Security.Policy/i.test(reason) ? POLICY : WAY_OUT;
+  return new HprError("load", `could not load ${source}: ${reason}. ${wayOut}.`, { cause });
 }

@@ -42,7 +42,10 @@ export interface VisibilityOptions {
    *   mostly far too large.
    */
   radius?: number | RadiusRule | undefined;
-  /** R = farthest distance · 10^exponent, the paper's own parameter. It is at least 0. */
+  /**
+   * R = farthest distance · 10^exponent, the paper's own parameter. It is at least 0. Large values such as 99 are
+   * legal but useless: rounding then swallows the distances.
+   */
   exponent?: number | undefined;
   /** How points are flipped. Default `"spherical"`. */
   inversion?: Inversion | ResolvedInversion | undefined;

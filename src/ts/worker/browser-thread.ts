@@ -1,32 +1,70 @@
 import type { Thread, ThreadEvents } from "./thread.js";
 
+/** Where to take the script from; without either, from the package's own file. */
+interface Source {
+  address?: string | URL | undefined;
+  text?: string | undefined;
+}
+
 /** A thread that is a worker of the browser. */
-export function startBrowserWorker(events: ThreadEvents): Thread {
-  const { worker, script, started } = newWorker();
-  worker.onmessage = (event) => {
-    started();
-    events.message(event.data);
+export function startBrowserWorker(events: ThreadEvents, { address, text }: Source): Thread {
+  const ways =
+    text === undefined ? [() => fromScript(address)] : [() => fromText(text, "classic"), () => fromScript(undefined)];
+  let current: NewWorker | undefined;
+  const start = () => {
+    const way = ways.shift()!;
+    try {
+      current = way();
+    } catch (cause) {
+      if (ways.length === 0) throw cause;
+      start();
+      return;
+    }
+    listen(current);
   };
-  worker.onerror = (event) => {
-    started();
-    // The error is reported here, so that the page does not report it again.
-    event.preventDefault();
-    events.died(event.message || `its script${script === undefined ? "" : ` ${script.href}`} could not be loaded`);
+  const listen = ({ worker, script, started }: NewWorker) => {
+    let isRunning = false;
+    worker.onmessage = (event) => {
+      isRunning = true;
+      started();
+      events.message(event.data);
+    };
+    worker.onerror = (event) => {
+      started();
+      // The error is reported here, so that the page does not report it again.
+      event.preventDefault();
+      const cause = event.message || `its script${script === undefined ? "" : ` ${script.href}`} could not be loaded`;
+      if (isRunning || ways.length === 0) {
+        events.died(cause);
+        return;
+      }
+      silence(worker);
+      try {
+        start();
+      } catch (other) {
+        events.died(other);
+      }
+    };
+    worker.onmessageerror = () => {
+      events.died("a message could not be read");
+    };
   };
-  worker.onmessageerror = () => {
-    events.died("a message could not be read");
-  };
+  start();
   return {
     post: (message, transfer) => {
-      worker.postMessage(message, transfer);
+      current?.worker.postMessage(message, transfer);
     },
     setBusy: () => undefined,
     end: () => {
-      worker.onmessage = worker.onerror = worker.onmessageerror = null;
-      worker.terminate();
+      if (current !== undefined) silence(current.worker);
       return Promise.resolve();
     },
   };
+}
+
+function silence(worker: Worker): void {
+  worker.onmessage = worker.onerror = worker.onmessageerror = null;
+  worker.terminate();
 }
 
 /** A worker, and the function to call after its script has been read. */
@@ -40,16 +78,21 @@ interface NewWorker {
  * Browsers do not run a worker whose script comes from another origin, for instance from a CDN. But
  * a script of the page's own origin may import that script.
  */
-function newWorker(): NewWorker {
-  const script = scriptAddress();
-  if (script === undefined || script.origin === location.origin) {
-    return { worker: create(), script, started: () => undefined };
+function fromScript(given: string | URL | undefined): NewWorker {
+  const script = given === undefined ? scriptAddress() : new URL(given, location.href);
+  if (script !== undefined && script.origin !== location.origin) {
+    return { ...fromText(`import ${JSON.stringify(script.href)};`, "module"), script };
   }
-  const source = `import ${JSON.stringify(script.href)};`;
-  const address = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
+  const worker = given === undefined ? create() : new Worker(script!, { type: "module" });
+  return { worker, script, started: () => undefined };
+}
+
+/** A page in a file may start classic scripts only. */
+function fromText(text: string, type: WorkerType): NewWorker {
+  const address = URL.createObjectURL(new Blob([text], { type: "text/javascript" }));
   return {
-    worker: new Worker(address, { type: "module" }),
-    script,
+    worker: new Worker(address, { type }),
+    script: undefined,
     started: () => {
       URL.revokeObjectURL(address);
     },

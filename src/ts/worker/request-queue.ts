@@ -6,6 +6,7 @@ import { abortError, BY_SIGNAL, whenAborted } from "./abort.js";
 import { isListing } from "./listing.js";
 import { isProgress, READY, type Replies, type Reply, type Request, WITH_INDICES } from "./protocol.js";
 import { Team } from "./team.js";
+import { startError } from "./start-thread.js";
 import type { ThreadEvents } from "./thread.js";
 
 type Kind = Request["kind"];
@@ -126,12 +127,7 @@ export class RequestQueue implements ThreadEvents {
     void this.close(
       this.#ready
         ? new HprError("internal", `the worker died: ${reason}; create a new cloud to go on`, { cause })
-        : new HprError(
-            "load",
-            `the worker could not be started: ${reason}. ` +
-              "Serve worker-thread.js of this package from the origin of the page",
-            { cause },
-          ),
+        : startError(cause),
     );
   }
 

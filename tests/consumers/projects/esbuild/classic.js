@@ -1,2 +1,7 @@
-// Everything in one classic script. There is no worker, because its script would be another file.
-import "../vite-inline/main.js";
+// Everything in one classic script: the wasm and the worker, too.
+import * as hpr from "hidden-point-removal/inline";
+import * as worker from "hidden-point-removal/worker";
+import { answer } from "../app/answer.js";
+import { show } from "../app/show.js";
+
+void show(answer(hpr, worker));
