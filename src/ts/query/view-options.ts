@@ -44,7 +44,7 @@ export interface VisibilityOptions {
   radius?: number | RadiusRule | undefined;
   /**
    * R = farthest distance · 10^exponent, the paper's own parameter. It is at least 0. Large values such as 99 are
-   * legal but useless: rounding then swallows the distances.
+   * legal but useless: nearly every point counts as visible then.
    */
   exponent?: number | undefined;
   /** How points are flipped. Default `"spherical"`. */
