@@ -39,7 +39,8 @@ function importsOfAll(): Imports {
 function importsOf(file: string, files: Set<string>): Set<string> {
   const text = readFileSync(file, "utf8")
     .replace(/\n#\[cfg\(test\)\]\nmod tests \{[^]*/, "")
-    .replace(/\/\/.*/g, "");
+    .replace(/\/\/.*/g, "")
+    .replace(/\bpub\(in [^)]*\)/g, "pub");
   const targets = new Set<string>();
   const here = relative(source, file)
     .replace(/(\/mod)?\.rs$/, "")

@@ -41,7 +41,7 @@ export function bumpyRadius(): (u: Direction) => number {
 }
 
 /** Points on the bumpy surface, evenly distributed over directions. */
-export function bumpySurface(count: number, seed: number): Float32Array {
+export function bumpySurface(count: number, seed: number): Float32Array<ArrayBuffer> {
   const random = seeded(seed);
   return surface(count, bumpyRadius(), () => direction(2 * random() - 1, random()));
 }
@@ -61,7 +61,7 @@ export function sphere(count: number, seed: number): Float32Array {
   );
 }
 
-function surface(count: number, radius: (u: Direction) => number, next: () => Direction): Float32Array {
+function surface(count: number, radius: (u: Direction) => number, next: () => Direction): Float32Array<ArrayBuffer> {
   const positions = new Float32Array(3 * count);
   for (let i = 0; i < count; i++) {
     const u = next();

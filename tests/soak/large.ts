@@ -55,7 +55,7 @@ export async function large(points: number, folder: string, tell: (stage: Stage)
     return done;
   };
 
-  let positions: Float32Array = new Float32Array(0);
+  let positions = new Float32Array(0);
   await run("make the positions", () => {
     positions = bumpySurface(points, SEED);
     return `${megabytes(positions.byteLength)} MB`;

@@ -67,7 +67,7 @@ export async function openCloud(
   const { signal, onProgress } = place;
   // The WebAssembly is downloaded beside the cloud. If that fails, the error is reported when the cloud needs it.
   init().catch(() => undefined);
-  let isPreviewed = false;
+  const preview = { isShown: false };
   const { cloud, positions, copy, ...loaded } = await loadCloud(
     request,
     signal,
@@ -77,7 +77,7 @@ export async function openCloud(
     (points) => {
       const up = wished.up ?? usualLook(sample, request.name, 0, undefined).up;
       if (signal.aborted) return;
-      isPreviewed = true;
+      preview.isShown = true;
       place.preview?.points(points, up);
     },
   );
@@ -114,7 +114,7 @@ export async function openCloud(
   };
   const home = homeFrom(view)(up);
   // The answer for a small cloud comes so soon that a picture of all points would only delay it.
-  if (isPreviewed || cloud.count >= PREVIEWED_FROM)
+  if (preview.isShown || cloud.count >= PREVIEWED_FROM)
     place.preview?.cloud({ cloud, home, look: { ...usual, ...wished } });
 
   // The worker takes the copy. The page keeps the file's own coordinates for the tools.

@@ -159,8 +159,8 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     this.setState({ refusal: error.message, mask: undefined, data: undefined });
     setTimeout(() => {
       const layer = this.getCurrentLayer() as this | null;
-      if (layer?.state?.refusal === error.message) {
-        layer?.raiseError(error, "");
+      if (layer?.state.refusal === error.message) {
+        layer.raiseError(error, "");
       }
     }, LASTING);
   }

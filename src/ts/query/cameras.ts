@@ -59,6 +59,7 @@ export interface PerspectiveCameraLike {
   readonly projectionMatrix: { readonly elements: ArrayLike<number> };
   readonly near: number;
   readonly far: number;
+  /** three's own method. It brings `matrixWorld` up to date. */
   updateWorldMatrix?(updateParents: boolean, updateChildren: boolean): void;
 }
 
