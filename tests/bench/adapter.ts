@@ -101,7 +101,7 @@ export function garbageOf(work: () => void): number {
 
 /** The worker lists the dimmed points in the answer's own memory. */
 function applyingMs(points: Points, visible: Uint32Array<ArrayBuffer>, dim: boolean): number {
-  const drawn = new DrawnPoints(points, dim);
+  const drawn = new DrawnPoints(points, { dim, dimsByScore: false, threshold: undefined });
   drawn.take();
   const indices = dim ? withHidden(visible, drawn.total) : visible;
   const times: number[] = [];

@@ -110,6 +110,12 @@ it("takes any data, a viewpoint and other options", async () => {
   });
   await reached(({ errors }) => errors.length > 1);
   expect(await inPage(({ errors }) => errors.at(-1))).toBe("non-finite");
+  // The layer does not draw scores.
+  await inPage(({ set }) => {
+    set({ visibility: { looks: 3, scores: true } });
+  });
+  await reached(({ errors }) => errors.length > 2);
+  expect(await inPage(({ errors }) => errors.at(-1))).toBe("option");
 });
 
 it("recovers from the death of its worker, during a question or not", async () => {

@@ -3,6 +3,7 @@ import { DataFilterExtension } from "@deck.gl/extensions";
 import { PointCloudLayer, type PointCloudLayerProps } from "@deck.gl/layers";
 
 import { asError } from "../base/errors.js";
+import { HprError } from "../base/errors.js";
 import type { AnswerKind } from "../follow/gaze.js";
 import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings } from "../query/follow-options.js";
 import { givenOptions, pick } from "../query/options.js";
@@ -218,6 +219,9 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       const text = JSON.stringify(visibility);
       const given = givenOptions(visibility, VIEW_OPTIONS, FOLLOW_OPTIONS);
       const settings = read?.text === text ? read.settings : followSettings(given, pick(given, VIEW_OPTIONS));
+      if (settings.stages.some((stage) => stage.options.scores === true)) {
+        throw new HprError("option", "scores have no effect in this layer; leave them out");
+      }
       this.state.read = read = { given: visibility, text, settings };
     }
     return read.settings;

@@ -272,13 +272,14 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
       watch.gaze,
       ({ options, signal }) => gathered.visibleFrom(place, options, signal),
       (answer, turn) => {
-        const { count, radius } = answer;
+        const { radius } = answer;
         if (this.#settings.stale === "all" && !turn.isCurrent()) {
           return undefined;
         }
-        for (const [node, own] of gathered.split(answer.indices)) {
+        let count = 0;
+        for (const { node, own, scores } of gathered.split(answer)) {
           if (this.#nodes.isPresent(node) && node.display.drawn.isSame) {
-            node.display.answer(watch, own);
+            count += node.display.answer(watch, own, false, scores);
           }
         }
         gathered.recycle(answer);

@@ -14,6 +14,15 @@ interface Span {
   revision: number;
 }
 
+/** The part of an answer that belongs to one node. */
+interface NodeAnswer {
+  node: CloudNode;
+  /** The ascending indices of its visible points. */
+  own: Uint32Array;
+  /** The scores of all its points. Undefined if the answer has none. */
+  scores: Float32Array | undefined;
+}
+
 /**
  * The cloud keeps removed points in memory. It is made again when the removed points are more than
  * half of all its points, plus this number.
@@ -89,15 +98,16 @@ export class Gathered {
     return see(this.#cloud!, place, options, signal);
   }
 
-  /** Splits ascending indices of the cloud by node. The result has indices of each node's own points. */
-  *split(indices: Uint32Array): Generator<[node: CloudNode, own: Uint32Array]> {
+  /** Splits an answer by node. The result has the indices and the scores of each node's own points. */
+  *split({ indices, scores }: Visibility): Generator<NodeAnswer> {
     let from = 0;
     for (const [node, { first, count, revision }] of this.#spans) {
       while (from < indices.length && indices[from]! < first) from++;
       let to = from;
       while (to < indices.length && indices[to]! < first + count) to++;
       if (node.revision === revision) {
-        yield [node, indices.subarray(from, to).map((index) => index - first)];
+        const own = indices.subarray(from, to).map((index) => index - first);
+        yield { node, own, scores: scores?.subarray(first, first + count) };
       }
       from = to;
     }

@@ -2,9 +2,8 @@ import { BufferGeometry, type Material, Points, type PointsMaterial } from "thre
 
 import { describe, HprError } from "../base/errors.js";
 import type { DrawnPoints } from "./drawn-points.js";
-
-/** The share of its opacity that a hidden point keeps. */
-const OPACITY = 0.15;
+import { DIMMED, type Shades } from "./shades.js";
+import { type ColorAttribute, SoftColors } from "./soft-colors.js";
 
 const dimmed = new WeakSet<Points>();
 
@@ -21,14 +20,18 @@ export class DimmedPoints {
   readonly #points: Points;
   readonly #child: Points;
   readonly #given: Material | undefined;
+  /** Only if hidden points are dimmed by their scores. */
+  readonly #colors: SoftColors | undefined;
+  #shades: Shades | undefined;
   #copied: { from: Material; version: number } | undefined;
   #refused: { material: unknown } | undefined;
   #isShown = false;
 
   /** @throws HprError `option` if the material cannot be dimmed. */
-  constructor(points: Points, material: Material | undefined) {
+  constructor(points: Points, material: Material | undefined, byScore: boolean) {
     this.#points = points;
     this.#given = material;
+    this.#colors = byScore ? new SoftColors() : undefined;
     this.#child = new Points(new BufferGeometry(), material ?? this.#copy());
     dimmed.add(this.#child);
     this.#child.name = "hidden points";
@@ -50,6 +53,7 @@ export class DimmedPoints {
       geometry.setIndex(drawn.order ?? null);
     }
     geometry.setDrawRange(drawn.visible, drawn.total - drawn.visible);
+    this.#shades = drawn.shades;
     this.#isShown = true;
     if (this.#child.parent !== this.#points) {
       this.#points.add(this.#child);
@@ -80,7 +84,7 @@ export class DimmedPoints {
     child.layers.mask = points.layers.mask;
     child.renderOrder = points.renderOrder;
     child.frustumCulled = points.frustumCulled;
-    this.#share(attributes);
+    this.#share(this.#attributesOf(attributes));
     child.geometry.boundingSphere = boundingSphere;
     if (this.#given !== undefined) {
       return;
@@ -91,7 +95,7 @@ export class DimmedPoints {
       return;
     }
     const copy = child.material as PointsMaterial;
-    copy.opacity = OPACITY * material.opacity;
+    copy.opacity = this.#opacity * material.opacity;
     copy.size = material.size;
     copy.color.copy(material.color);
   }
@@ -101,7 +105,7 @@ export class DimmedPoints {
     const { geometry, material } = this.#child;
     // Shared resources must stay on the graphics card.
     for (const name of Object.keys(geometry.attributes)) {
-      geometry.deleteAttribute(name);
+      if (this.#colors === undefined || name !== "color") geometry.deleteAttribute(name);
     }
     geometry.dispose();
     if (this.#given === undefined) {
@@ -139,8 +143,26 @@ export class DimmedPoints {
     const copy = material.clone();
     copy.transparent = true;
     copy.depthWrite = false;
-    copy.opacity = OPACITY * material.opacity;
+    copy.opacity = this.#opacity * material.opacity;
+    if (this.#colors !== undefined) {
+      copy.vertexColors = true;
+    }
     return copy;
+  }
+
+  /** The share of the material's opacity. With scores, each point has its own share in its color. */
+  get #opacity(): number {
+    return this.#colors === undefined ? DIMMED : 1;
+  }
+
+  /** The attributes of the child. With scores, the colors are its own. */
+  #attributesOf(attributes: BufferGeometry["attributes"]): BufferGeometry["attributes"] {
+    if (this.#colors === undefined || this.#shades === undefined) {
+      return attributes;
+    }
+    const { vertexColors } = this.#points.material as PointsMaterial;
+    const source = vertexColors ? (attributes["color"] as ColorAttribute | undefined) : undefined;
+    return { ...attributes, color: this.#colors.of(this.#shades, source) };
   }
 }
 

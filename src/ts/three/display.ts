@@ -2,21 +2,25 @@ import type { Material, Points } from "three";
 
 import { DimmedPoints } from "./dimmed.js";
 import { DrawnPoints } from "./drawn-points.js";
+import { type HiddenSettings, indicesOver } from "./shades.js";
 
 /** Draws either all points or only the visible ones. The hidden points may be drawn, too, but dimmed. */
 export class Display {
   readonly drawn: DrawnPoints;
   readonly #points: Points;
   readonly #dimmed: DimmedPoints | undefined;
+  readonly #threshold: number | undefined;
   #enabled = true;
   /** The layers of the points, while they are not drawn because they wait for their first answer. */
   #layers: number | undefined;
 
   /** @throws HprError `option` if the material cannot be dimmed. */
-  constructor(points: Points, { dim, dimMaterial }: { dim: boolean; dimMaterial: Material | undefined }) {
+  constructor(points: Points, settings: HiddenSettings & { dimMaterial: Material | undefined }) {
+    const { dim, dimsByScore, dimMaterial, threshold } = settings;
     this.#points = points;
-    this.#dimmed = dim ? new DimmedPoints(points, dimMaterial) : undefined;
-    this.drawn = new DrawnPoints(points, dim);
+    this.#dimmed = dim ? new DimmedPoints(points, dimMaterial, dimsByScore) : undefined;
+    this.#threshold = threshold;
+    this.drawn = new DrawnPoints(points, settings);
   }
 
   /** While false, everything is drawn. */
@@ -42,14 +46,19 @@ export class Display {
   /**
    * Takes up the points that a camera sees, and draws them if the camera is selected. `indices` are
    * their ascending indices among the points that `drawn` has read. With `isListed`, the indices of
-   * the hidden points follow in memory already.
+   * the hidden points follow in memory already. `scores` are those of all points that were read: with
+   * a threshold, they decide which points are visible.
    *
+   * @returns the number of points that are drawn as visible.
    * @throws HprError `too-large`, `option`.
    */
-  answer(camera: unknown, indices: Uint32Array, isListed = false): void {
-    this.drawn.setVisible(camera, indices, isListed);
+  answer(camera: unknown, indices: Uint32Array, isListed = false, scores?: Float32Array): number {
+    const isDecided = scores === undefined || this.#threshold === undefined;
+    const visible = isDecided ? indices : indicesOver(scores, this.#threshold);
+    this.drawn.setVisible(camera, visible, isListed && isDecided, scores);
     this.isPending = false;
     this.#show();
+    return visible.length;
   }
 
   /** Draws what this camera sees. Called in every frame. */

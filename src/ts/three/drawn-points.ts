@@ -4,6 +4,7 @@ import { describe, HprError } from "../base/errors.js";
 import { listHidden, orderIn } from "../cloud/hidden.js";
 import { allocating } from "../base/memory.js";
 import { type PositionAttribute, readPositions, type ReadPositions, requirePositions, versionOf } from "./attribute.js";
+import { type HiddenSettings, Shades } from "./shades.js";
 
 /** The state of a geometry before it got a filter. */
 interface Taken {
@@ -20,6 +21,8 @@ interface Taken {
 interface Order {
   attribute: BufferAttribute;
   visible: number;
+  /** How opaque the hidden points are, if they are dimmed by their scores. */
+  shades: Shades | undefined;
   /** Whether all points are drawn instead, because the answer is about another view. */
   isStale: boolean;
 }
@@ -39,7 +42,7 @@ const taken = new WeakSet<BufferGeometry>();
  */
 export class DrawnPoints {
   readonly #points: Points;
-  readonly #withHidden: boolean;
+  readonly #hidden: HiddenSettings;
   #taken: Taken | undefined;
   /** The numbers of the points that were drawn without a filter. Undefined if all were drawn, in their order. */
   #ids: Uint32Array | undefined;
@@ -49,9 +52,9 @@ export class DrawnPoints {
   /** The order that the geometry draws. Undefined while it draws all points. */
   #shown: Order | undefined;
 
-  constructor(points: Points, withHidden: boolean) {
+  constructor(points: Points, hidden: HiddenSettings) {
     this.#points = points;
-    this.#withHidden = withHidden;
+    this.#hidden = hidden;
   }
 
   /** How many points are drawn without a filter. */
@@ -66,6 +69,11 @@ export class DrawnPoints {
 
   get order(): BufferAttribute | undefined {
     return this.#order?.attribute;
+  }
+
+  /** How opaque the hidden points are. Undefined unless they are dimmed by their scores. */
+  get shades(): Shades | undefined {
+    return this.#order?.shades;
   }
 
   /** The numbers of the points that are drawn. */
@@ -160,20 +168,15 @@ export class DrawnPoints {
 
   /**
    * Notes the points that a camera sees. `indices` are their ascending indices among the points that `take`
-   * returned. With `isListed`, the indices of the hidden points follow in memory.
+   * returned. With `isListed`, the indices of the hidden points follow in memory. `scores` has one number
+   * for each of these points.
    */
-  setVisible(camera: unknown, indices: Uint32Array, isListed = false): void {
-    const known = this.#orders.get(camera) ?? {
-      attribute: allocating(`${this.#total} indices`, () => {
-        return new BufferAttribute(new Uint32Array(this.#total), 1).setUsage(DynamicDrawUsage);
-      }),
-      visible: 0,
-      isStale: false,
-    };
+  setVisible(camera: unknown, indices: Uint32Array, isListed = false, scores?: Float32Array): void {
+    const known = this.#orders.get(camera) ?? this.#newOrder();
     this.#orders.set(camera, known);
     const { attribute } = known;
     const order = attribute.array as Uint32Array;
-    const all = this.#withHidden;
+    const all = this.#hidden.dim;
     order.set(all && isListed ? orderIn(indices as Uint32Array<ArrayBuffer>, order.length) : indices);
     if (all && !isListed) {
       listHidden(order, indices.length);
@@ -183,6 +186,7 @@ export class DrawnPoints {
       const end = all ? order.length : indices.length;
       for (let i = 0; i < end; i++) order[i] = ids[order[i]!]!;
     }
+    known.shades?.take(scores, ids, this.#hidden.threshold);
     known.visible = indices.length;
     known.isStale = false;
     attribute.clearUpdateRanges();
@@ -191,6 +195,14 @@ export class DrawnPoints {
     if (this.#shown === known) {
       this.#taken?.geometry.setDrawRange(0, known.visible);
     }
+  }
+
+  #newOrder(): Order {
+    const attribute = allocating(`${this.#total} indices`, () => {
+      return new BufferAttribute(new Uint32Array(this.#total), 1).setUsage(DynamicDrawUsage);
+    });
+    const shades = this.#hidden.dimsByScore ? new Shades(this.#taken!.position.count) : undefined;
+    return { attribute, visible: 0, shades, isStale: false };
   }
 
   /** Draws the points that the selected camera sees: all points if there is no answer for it. */

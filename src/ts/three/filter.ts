@@ -252,9 +252,9 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
         if (!this.#drawn.isSame || isOutdated) {
           return undefined;
         }
-        this.#show(answer, turn, watch);
+        const count = this.#show(answer, turn, watch);
         cloud.recycle(answer);
-        const change = { count: answer.count, milliseconds: performance.now() - begun, answer: turn.kind };
+        const change = { count, milliseconds: performance.now() - begun, answer: turn.kind };
         return () => {
           this.dispatchEvent({ type: "change", ...change, camera: watch.camera });
         };
@@ -262,13 +262,15 @@ export class HiddenPointFilter extends Reporter<HiddenPointFilterEvents> {
     );
   }
 
-  #show(answer: Visibility, turn: Turn, watch: Watch): void {
-    this.#display.answer(watch, answer.indices, this.#settings.inWorker);
+  /** Returns the number of points that are drawn. */
+  #show({ indices, scores }: Visibility, turn: Turn, watch: Watch): number {
+    const count = this.#display.answer(watch, indices, this.#settings.inWorker, scores);
     watch.drawn = turn;
     this.#follower.answered();
     if (turn.kind !== "draft") {
       this.#readiness.resolve();
     }
+    return count;
   }
 
   #lost(isComingBack: boolean): void {
