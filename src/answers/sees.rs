@@ -24,7 +24,7 @@ impl PointCloud {
     /// is chosen for the cloud with the point: its spacing and its farthest distance count.
     ///
     /// One hull serves all positions. With a radius, an exponent or an inversion in numbers, a
-    /// position takes about a microsecond. Where the point changes the radius, its answer is proved
+    /// position takes one walk on the hull. Where the point changes the radius, its answer is proved
     /// from the same hull, with a look at some of the points. A new hull is made only where this proves
     /// nothing. Looks, noise handling and searches for a radius make new hulls for each position.
     ///
