@@ -10,7 +10,7 @@ import { describe, expect, test } from "vitest";
 import { blocks, printed, promised, root, scratchFor } from "./snippets";
 
 const DOCUMENTS = [
-  ...["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "www/README.md", "tests/README.md"],
+  ...["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "www/README.md", "tests/README.md", "python/README.md"],
   ...readdirSync(join(root, "docs"))
     .filter((name) => name.endsWith(".md"))
     .map((name) => `docs/${name}`),
@@ -60,7 +60,7 @@ describe("commands", () => {
       .filter((command) => command.startsWith("npm ") && !/^npm (install|ci|pack|i)\b/.test(command));
     expect(used.length).toBeGreaterThan(3);
     for (const command of used) {
-      const [, name = ""] = /^npm (?:run )?(\w+)/.exec(command) ?? [];
+      const [, name = ""] = /^npm (?:run )?([\w:]+)/.exec(command) ?? [];
       expect(scripts, command).toHaveProperty(name);
     }
   });
