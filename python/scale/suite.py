@@ -13,7 +13,6 @@ import logging
 import os
 import platform
 import re
-import resource
 import subprocess
 import sys
 import tempfile
@@ -24,6 +23,7 @@ import numpy as np
 
 from city import UTM, VIEWPOINTS, city, cut, write
 from killed import Killer, command, kill_when_kept
+from memory import peak_memory
 
 from hidden_point_removal.distributed import kernels, manifest, read_tile, visible_from_tiles, waves
 
@@ -108,7 +108,7 @@ def compare(report, folder, count, how, kind, dtype, offset):
     with cluster() as client:
         answers["exponential"] = visible_from_tiles(paths, viewpoints, client=client)
         answers["sphere"] = visible_from_tiles(paths, viewpoints, client=client, radius=RADIUS)
-        memory = {"scheduler and client": _peak(), **_peaks(client)}
+        memory = {"scheduler and client": peak_memory(), **_peaks(client)}
     seconds = time.monotonic() - started
     asked = {name: answer.options for name, answer in answers.items()}
     whole = ask_whole(folder, paths, viewpoints, asked)
@@ -242,12 +242,8 @@ def ask_whole(folder, paths, viewpoints, options):
         return dict(stored)
 
 
-def _peak():
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
-
-
 def _peaks(client):
-    return {f"worker {number}": peak for number, peak in enumerate(client.run(_peak).values(), 1)}
+    return {f"worker {number}": peak for number, peak in enumerate(client.run(peak_memory).values(), 1)}
 
 
 def share(part, whole):

@@ -1,10 +1,11 @@
 """python whole.py QUESTION.json ANSWER.npz: the same question for all tiles in one cloud, in a process of its own."""
 
 import json
-import resource
 import sys
 
 import numpy as np
+
+from memory import peak_memory
 
 from hidden_point_removal import PointCloud
 from hidden_point_removal.distributed import read_tile
@@ -19,7 +20,7 @@ def main(question, answer):
         for name, options in asked["options"].items():
             answers[f"{name} {number}"] = cloud.visible_from(viewpoint, **options).indices
     automatic = cloud.visible_from(asked["viewpoints"][0], inversion={"exponential": "auto"}).inversion["exponential"]
-    memory = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+    memory = peak_memory()
     np.savez(answer, automatic=automatic, memory=memory, points=len(cloud), **answers)
 
 
