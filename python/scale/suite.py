@@ -108,7 +108,7 @@ def compare(report, folder, count, how, kind, dtype, offset):
     with cluster() as client:
         answers["exponential"] = visible_from_tiles(paths, viewpoints, client=client)
         answers["sphere"] = visible_from_tiles(paths, viewpoints, client=client, radius=RADIUS)
-        memory = {"scheduler and client": peak_memory(), **_peaks(client)}
+        memory = {"generator, scheduler and client": peak_memory(), **_peaks(client)}
     seconds = time.monotonic() - started
     asked = {name: answer.options for name, answer in answers.items()}
     whole = ask_whole(folder, paths, viewpoints, asked)
