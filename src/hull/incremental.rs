@@ -174,6 +174,17 @@ impl Hull {
         self.fill_cavity(vertex)
     }
 
+    /// The same, not inlined, for callers that run rarely.
+    #[inline(never)]
+    pub(super) fn insert_out_of_line(
+        &mut self,
+        point: u32,
+        q: DVec3,
+        start: FaceId,
+    ) -> Result<FaceId, OutOfMemory> {
+        self.insert(point, q, start)
+    }
+
     /// Joins a new vertex to the horizon of the open cavity; returns an outer face of it.
     #[inline(never)]
     pub(super) fn fill_cavity(&mut self, vertex: Vertex) -> Result<FaceId, OutOfMemory> {

@@ -7,7 +7,6 @@
 //! −e beside the plane make it a body. Its section with the plane is K, because the middle of e and
 //! −e is the origin. So the same walk answers for points in the plane. Other points are visible.
 
-use alloc::vec::Vec;
 use glam::DVec3;
 
 use super::flat::collinear_with_origin;
@@ -80,7 +79,7 @@ impl KeptHull {
     /// Whether the cloud would hide a point at `position`. `hint` is the face near which the last
     /// point was located. `None` where coordinates of the flipped point are too small to decide;
     /// then the point has to be added to the cloud.
-    #[inline]
+    #[inline(never)]
     pub(crate) fn hides(&self, position: [f64; 3], hint: &mut FaceId) -> Option<bool> {
         let Some(q) = self.unscaled.apply(position) else {
             return Some(false);
@@ -107,6 +106,7 @@ impl KeptHull {
     }
 
     /// Whether K goes on beyond `q` in its direction. `q` is flipped, and scaled as the hull is.
+    #[inline(never)]
     pub(super) fn covers(&self, q: DVec3, hint: &mut FaceId) -> bool {
         // The bounds of errors hold up to 5/8 of the reach. No point of the cloud is farther out.
         const FARTHEST: f64 = 0.625;
@@ -115,7 +115,7 @@ impl KeptHull {
         if !is_near || !self.spans(q) {
             return false;
         }
-        match self.memory.hull.locate(q, *hint) {
+        match self.memory.hull.locate_out_of_line(q, *hint) {
             Location::Inside(face) => {
                 *hint = face;
                 true
@@ -155,38 +155,33 @@ impl KeptHull {
         let b = all().find(|&b| !collinear_with_origin(a, b));
         // The length of the added vertices is about that of the others.
         let length = all().fold(0.0f64, |most, q| most.max(q.abs().max_element()));
-        let span = b.map_or(Span::Line(a), |b| Span::Plane(a, b));
-        let mut corners: Vec<DVec3> = Vec::new();
-        corners.try_reserve(3)?;
-        corners.push(a);
-        corners.extend(b);
-        for axis in DVec3::AXES {
-            let e = axis * length;
-            let is_new = match corners[..] {
-                [a] => !collinear_with_origin(a, e),
-                [a, b] => side_of_origin(a, b, e) != Sign::Zero,
-                _ => false,
-            };
-            if is_new {
-                corners.push(e);
-            }
-        }
-        let added = &corners[1 + usize::from(b.is_some())..];
-        let opposite: Vec<DVec3> = added.iter().map(|&e| -e).collect();
-        if side_of_origin(corners[0], corners[1], corners[2]) == Sign::Negative {
+        let second = b.unwrap_or_else(|| beside(length, &|e| !collinear_with_origin(a, e)));
+        let e = beside(length, &|e| side_of_origin(a, second, e) != Sign::Zero);
+        let mut corners = [a, second, e].map(|q| (u32::MAX, q));
+        if side_of_origin(a, second, e) == Sign::Negative {
             corners.swap(0, 1);
         }
+        let opposite = match b {
+            Some(_) => [-e, -e],
+            None => [-e, -second],
+        };
         let hull = &mut self.memory.hull;
-        let corners = [0, 1, 2].map(|corner| (u32::MAX, corners[corner]));
         hull.start(corners, flip.reach(), flipped.len())?;
         let mut hint = 0;
         let visible = (0..flipped.len() as u32).filter(|&k| self.memory.visible[k as usize]);
         for q in opposite.into_iter().chain(visible.filter_map(at)) {
-            hint = match hull.locate(q, hint) {
-                Location::Outside(face) => hull.insert(u32::MAX, q, face)?,
+            hint = match hull.locate_out_of_line(q, hint) {
+                Location::Outside(face) => hull.insert_out_of_line(u32::MAX, q, face)?,
                 Location::Boundary(face) | Location::Inside(face) => face,
             };
         }
-        Ok(span)
+        Ok(b.map_or(Span::Line(a), |b| Span::Plane(a, b)))
     }
+}
+
+/// A vector of this length along the first axis for which `is_beside` holds.
+fn beside(length: f64, is_beside: &dyn Fn(DVec3) -> bool) -> DVec3 {
+    let mut axes = DVec3::AXES.into_iter().map(|axis| axis * length);
+    // One of the axes is beside every plane.
+    axes.find(|&e| is_beside(e)).unwrap_or(DVec3::ZERO)
 }

@@ -84,6 +84,12 @@ impl Hull {
         self.search(q, id)
     }
 
+    /// The same, not inlined, for callers that run rarely.
+    #[inline(never)]
+    pub(super) fn locate_out_of_line(&self, q: DVec3, hint: FaceId) -> Location {
+        self.locate(q, hint)
+    }
+
     /// The better of two faces to start a walk at. `hint` is an outer face; `other` is a number
     /// that was kept over insertions. This number may now be unused. Its face may also be far
     /// away, a ghost face or a face seen edge-on. So it is checked first.

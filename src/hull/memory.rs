@@ -290,7 +290,7 @@ impl Memory {
         for &index in &self.on_boundary {
             self.visible[index as usize] = match flipped.get_out_of_line(index) {
                 None => true,
-                Some(q) => match self.hull.locate(q, hint) {
+                Some(q) => match self.hull.locate_out_of_line(q, hint) {
                     Location::Boundary(face) => {
                         hint = face;
                         true

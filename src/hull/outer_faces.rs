@@ -129,7 +129,7 @@ impl Hull {
             let Some(q) = flipped.get_out_of_line(point) else {
                 continue;
             };
-            if let Location::Boundary(face) = self.locate(q, hint) {
+            if let Location::Boundary(face) = self.locate_out_of_line(q, hint) {
                 hint = self.cut(point, q, face)?;
             }
         }

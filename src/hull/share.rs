@@ -248,7 +248,7 @@ impl Share<'_> {
             let Some(q) = self.flipped.get_out_of_line(index) else {
                 continue;
             };
-            while let Location::Boundary(face) = self.hull.locate(q, self.hint) {
+            while let Location::Boundary(face) = self.hull.locate_out_of_line(q, self.hint) {
                 self.hint = face;
                 let Some(other) = self.in_the_way(face)? else {
                     self.visible[index as usize] = true;

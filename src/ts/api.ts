@@ -11,6 +11,7 @@ export {
   ringOfViewpoints,
   simdEnabled,
 } from "./cloud/formulas.js";
+export { Horizon } from "./cloud/horizon.js";
 export { type MergeOptions, mergeVisible, type VisiblePart } from "./cloud/merge.js";
 export type { PointCloudOptions } from "./query/options.js";
 export type { Positions } from "./query/positions.js";

@@ -15,17 +15,18 @@ use super::options::ViewOptions;
 use super::transfer::copy_in_bytes;
 use crate::base::allocation::push;
 use crate::hull::Memory;
-use crate::{Error, Options, PointCloud, PointCloudNd};
+use crate::{Error, Horizon, Options, PointCloud, PointCloudNd};
 
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<Cloud>>> = const { RefCell::new(Vec::new()) };
     static LAST_VIEW: RefCell<Option<LastView>> = const { RefCell::new(None) };
 }
 
-/// A cloud of three dimensions (or two, with z = 0), or of more.
+/// A cloud of three dimensions (or two, with z = 0), or of more; or the horizon of a cloud.
 pub(super) enum Cloud {
     Space(Box<PointCloud>),
     Hyper(PointCloudNd),
+    Horizon(Box<Horizon>),
 }
 
 /// The hull of the last view, from which the next one may start. All clouds share one, so that
@@ -50,6 +51,7 @@ impl CloudInfo {
         let (length, skipped, spacing) = match cloud {
             Cloud::Space(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
             Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
+            Cloud::Horizon(_) => (0, 0, 0.0),
         };
         Self {
             handle: f64::from(handle),
@@ -163,6 +165,16 @@ pub(super) fn with_hyper<T>(
 ) -> Result<T, Failure> {
     CLOUDS.with_borrow(|clouds| match clouds.get(handle as usize) {
         Some(Some(Cloud::Hyper(cloud))) => query(cloud).map_err(Failure::from),
+        _ => Err(Failure::DISPOSED),
+    })
+}
+
+pub(super) fn with_horizon<T>(
+    handle: u32,
+    query: impl FnOnce(&Horizon) -> Result<T, Error>,
+) -> Result<T, Failure> {
+    CLOUDS.with_borrow(|clouds| match clouds.get(handle as usize) {
+        Some(Some(Cloud::Horizon(horizon))) => query(horizon).map_err(Failure::from),
         _ => Err(Failure::DISPOSED),
     })
 }

@@ -32,7 +32,7 @@ pub fn create(
 pub fn append(handle: u32, positions: &Float64Array) -> Result<JsValue, JsValue> {
     let positions = numbers(positions).map_err(refused)?;
     resized(change_any(handle, &mut |cloud| match cloud {
-        Cloud::Space(_) => Ok(()),
+        Cloud::Space(_) | Cloud::Horizon(_) => Ok(()),
         Cloud::Hyper(cloud) => cloud.append(&positions),
     }))
 }

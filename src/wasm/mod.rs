@@ -11,6 +11,7 @@ mod clouds;
 mod failure;
 mod formulas;
 mod higher;
+mod horizons;
 mod objects;
 mod options;
 mod outputs;

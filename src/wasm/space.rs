@@ -51,6 +51,7 @@ pub fn remove(handle: u32, indices: &Uint32Array) -> Result<JsValue, JsValue> {
     resized(change_any(handle, &mut |cloud| match cloud {
         Cloud::Space(cloud) => cloud.remove(&indices),
         Cloud::Hyper(cloud) => cloud.remove(&indices),
+        Cloud::Horizon(_) => Ok(()),
     }))
 }
 
@@ -102,6 +103,7 @@ fn append(handle: u32, positions: Result<Points, Error>) -> Result<JsValue, JsVa
     let positions = positions.map_err(Failure::from)?;
     resized(change_any(handle, &mut |cloud| match cloud {
         Cloud::Space(cloud) => cloud.add(positions.as_given()),
+        Cloud::Horizon(horizon) => horizon.grow(positions.as_given()),
         Cloud::Hyper(_) => Ok(()),
     }))
 }

@@ -87,3 +87,16 @@ pub(super) fn copy_out_singles(
     copy.copy_from(numbers);
     Ok(copy)
 }
+
+/// The same for numbers in double precision.
+pub(super) fn copy_out_doubles(
+    numbers: &[f64],
+    options: &ViewOptions,
+) -> Result<Float64Array, Error> {
+    let room = options
+        .memory(2 * numbers.len() as u32)
+        .map_err(|_| Error::OutOfMemory)?;
+    let copy = Float64Array::new(&room.buffer());
+    copy.copy_from(numbers);
+    Ok(copy)
+}

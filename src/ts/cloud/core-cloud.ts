@@ -2,6 +2,7 @@ import type { Answers } from "../query/answers.js";
 import { HprError } from "../base/errors.js";
 import type { Instance } from "../instance/instance.js";
 import type { CloudSettings, CloudSize } from "../query/options.js";
+import { freeCloud, unreachable } from "./free.js";
 import { coreOptions, perform } from "./perform.js";
 import { packed, readIndices, readPositions } from "../query/positions.js";
 import type { Query, QueryKind } from "../query/queries.js";
@@ -135,16 +136,4 @@ export class CoreCloud {
 
 function readPacked(positions: unknown, { stride, dimension }: CloudSettings): Float32Array | Float64Array {
   return packed(readPositions(positions, stride), stride, dimension);
-}
-
-/** Frees the clouds that were never disposed of, after nothing refers to them any more. */
-const unreachable = new FinalizationRegistry(freeCloud);
-
-/** Frees a cloud unless its instance is lost. The number of a lost cloud may be in use again for another cloud. */
-function freeCloud({ instance, handle }: { instance: Instance; handle: number }): void {
-  if (instance.alive) {
-    instance.call((bindings) => {
-      bindings.freeCloud(handle);
-    });
-  }
 }

@@ -49,7 +49,7 @@ export function mergeVisible(
 ): Uint32Array {
   const instance = requireInstance();
   const [x, y, z] = readViewpoint(viewpoint, 3) as [number, number, number];
-  const settings = coreOptions(readSettings(options));
+  const settings = coreOptions(mergeSettings(options, "all parts were seen with"));
   const { positions, ids } = joined(readParts(parts));
   return instance.call((bindings) =>
     positions.BYTES_PER_ELEMENT === 4
@@ -68,18 +68,22 @@ interface ReadPart extends Points {
   count: number;
 }
 
-function readSettings(options: unknown): ViewSettings {
+/**
+ * The settings of a view whose radius or inversion is a number.
+ * @param purpose ends the message "the number that …".
+ */
+export function mergeSettings(options: unknown, purpose: string): ViewSettings {
   const given = givenOptions(options, ["radius", "inversion"]);
   const settings = viewSettings(given, 3);
   if (settings.kernel === Kernel.automaticExponential) {
-    throw new HprError("option", `inversion exponential must be the number that all parts were seen with, got "auto"`);
+    throw new HprError("option", `inversion exponential must be the number that ${purpose}, got "auto"`);
   }
   // A radius is also read with an exponential inversion: the core then refuses the two together.
   const needsRadius = settings.kernel !== Kernel.exponential || given["radius"] !== undefined;
   if (needsRadius && settings.rule !== Rule.radius) {
     throw new HprError(
       "option",
-      `radius must be the number that all parts were seen with, got ${describe(given["radius"])}`,
+      `radius must be the number that ${purpose}, got ${describe(given["radius"])}`,
     );
   }
   return settings;

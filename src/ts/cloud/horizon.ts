@@ -1,0 +1,141 @@
+/// <reference lib="esnext.disposable" preserve="true" />
+import { addDisposeSymbol } from "../base/dispose-symbol.js";
+import { HprError } from "../base/errors.js";
+import { type Bindings, type Instance, requireInstance } from "../instance/instance.js";
+import { type Positions, readPositions, readViewpoint } from "../query/positions.js";
+import type { ViewSettings } from "../query/view-options.js";
+import { freeCloud, unreachable } from "./free.js";
+import { type MergeOptions, mergeSettings } from "./merge.js";
+import { coreOptions } from "./perform.js";
+
+/**
+ * The hull of some points of a cloud, as seen from one viewpoint. It shows which other points and
+ * boxes are hidden, wherever they are stored: in tiles, on servers, not yet loaded.
+ *
+ * Hidden points stay hidden when points are added. So a horizon of a sample screens the rest of the
+ * cloud, part by part. {@link mergeVisible} then answers exactly for the points that are left.
+ */
+export class Horizon {
+  /** The same as {@link Horizon.dispose}, on platforms that have `Symbol.dispose`. */
+  declare readonly [Symbol.dispose]: () => void;
+
+  readonly #instance: Instance;
+  readonly #settings: ViewSettings;
+  #handle: number | undefined;
+
+  static {
+    addDisposeSymbol(this.prototype);
+  }
+
+  /**
+   * Makes a horizon without points, which hides nothing.
+   *
+   * @param viewpoint x, y, z in the units of the whole cloud.
+   * @param options as for {@link mergeVisible}: the radius or the inversion is a number, the same for
+   *   all parts of the cloud.
+   * @throws HprError `not-initialised`, `viewpoint`, `radius`, `option`, `too-large`, `internal`.
+   */
+  constructor(viewpoint: ArrayLike<number>, options: MergeOptions) {
+    const instance = requireInstance();
+    const [x, y, z] = readViewpoint(viewpoint, 3) as [number, number, number];
+    const settings = mergeSettings(options, "the whole cloud is seen with");
+    const { handle } = instance.call((bindings) => bindings.createHorizon(x, y, z, coreOptions(settings)));
+    this.#instance = instance;
+    this.#settings = settings;
+    this.#handle = handle;
+    unreachable.register(this, { instance, handle }, this);
+  }
+
+  /**
+   * Adds points: x, y, z of one after another. Then the horizon hides what all points so far hide
+   * together. It keeps only those that are visible among them. If the points are refused, the horizon
+   * stays as it was.
+   *
+   * @throws HprError `positions-type`, `positions-length`, `non-finite`, `radius` (a point is farther
+   *   than the radius), `too-large`, `disposed`, `internal`.
+   */
+  add(positions: Positions): void {
+    this.#call(positions, (bindings, handle, numbers) =>
+      numbers.BYTES_PER_ELEMENT === 4
+        ? bindings.appendF32(handle, numbers as Float32Array)
+        : bindings.appendF64(handle, numbers as Float64Array),
+    );
+  }
+
+  /**
+   * Finds the points that the horizon does not hide.
+   *
+   * @returns their numbers in the list of points, ascending. A point is listed exactly if it would be
+   *   visible after it was added alone. All others are hidden in every cloud with the horizon's points.
+   * @throws HprError as {@link Horizon.add}.
+   */
+  screen(positions: Positions): Uint32Array {
+    return this.#call(positions, (bindings, handle, numbers) => {
+      const options = coreOptions(this.#settings);
+      return numbers.BYTES_PER_ELEMENT === 4
+        ? bindings.screenF32(handle, numbers as Float32Array, options)
+        : bindings.screenF64(handle, numbers as Float64Array, options);
+    });
+  }
+
+  /**
+   * Whether every point in a box, borders included, is hidden. `true` is certain. `false` may also be
+   * the answer for a hidden box.
+   *
+   * @param min the least x, y, z.
+   * @param max the largest x, y, z.
+   * @throws HprError `option` (not finite, or a minimum above its maximum), `disposed`, `internal`.
+   */
+  hidesBox(min: ArrayLike<number>, max: ArrayLike<number>): boolean {
+    const corners = Float64Array.from([...readCorner(min, "min"), ...readCorner(max, "max")]);
+    const handle = this.#requireHandle();
+    return this.#instance.call((bindings) => bindings.hidesBox(handle, corners));
+  }
+
+  /**
+   * The points of the horizon: x, y, z of each added point that no other added point hides. A horizon
+   * of these points hides the same. So only they have to be sent to other workers or machines.
+   *
+   * @throws HprError `too-large`, `disposed`, `internal`.
+   */
+  visible(): Float64Array {
+    const handle = this.#requireHandle();
+    return this.#instance.call((bindings) => bindings.horizonPoints(handle, coreOptions(this.#settings)));
+  }
+
+  /** Frees the memory. May be called twice. */
+  dispose(): void {
+    const handle = this.#handle;
+    if (handle !== undefined) {
+      this.#handle = undefined;
+      unreachable.unregister(this);
+      freeCloud({ instance: this.#instance, handle });
+    }
+  }
+
+  #call<T>(
+    positions: unknown,
+    use: (bindings: Bindings, handle: number, numbers: Float32Array | Float64Array) => T,
+  ): T {
+    this.#requireHandle();
+    const numbers = readPositions(positions, 3);
+    // Getters of the positions may have disposed of the horizon.
+    const handle = this.#requireHandle();
+    return this.#instance.call((bindings) => use(bindings, handle, numbers));
+  }
+
+  #requireHandle(): number {
+    if (this.#handle === undefined) {
+      throw new HprError("disposed", "this horizon has been disposed of");
+    }
+    return this.#handle;
+  }
+}
+
+function readCorner(corner: ArrayLike<number>, name: string): number[] {
+  try {
+    return readViewpoint(corner, 3, name);
+  } catch (cause) {
+    throw cause instanceof HprError ? new HprError("option", cause.message, { cause }) : cause;
+  }
+}

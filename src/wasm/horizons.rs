@@ -1,0 +1,68 @@
+//! Horizons. They are kept among the clouds, and grow and are freed as clouds are.
+
+use alloc::boxed::Box;
+
+use js_sys::{Float32Array, Float64Array, Uint32Array};
+use wasm_bindgen::prelude::*;
+
+use super::clouds::{Cloud, created, with_horizon};
+use super::options::ViewOptions;
+use super::transfer::{copy_out, copy_out_doubles, doubles, singles};
+use crate::cloud::points::Points;
+use crate::{Error, Horizon};
+
+/// A horizon without points, seen from (x, y, z).
+#[wasm_bindgen(js_name = createHorizon, unchecked_return_type = "CloudInfo")]
+pub fn create_horizon(x: f64, y: f64, z: f64, options: &ViewOptions) -> Result<JsValue, JsValue> {
+    let horizon = Horizon::new([x, y, z], &options.read());
+    created(horizon.map(|horizon| Cloud::Horizon(Box::new(horizon))))
+}
+
+/// The indices of single-precision points that the horizon does not hide.
+#[wasm_bindgen(js_name = screenF32)]
+pub fn screen_f32(
+    handle: u32,
+    positions: &Float32Array,
+    options: &ViewOptions,
+) -> Result<Uint32Array, JsValue> {
+    screen(handle, singles(positions), options)
+}
+
+/// The indices of double-precision points that the horizon does not hide.
+#[wasm_bindgen(js_name = screenF64)]
+pub fn screen_f64(
+    handle: u32,
+    positions: &Float64Array,
+    options: &ViewOptions,
+) -> Result<Uint32Array, JsValue> {
+    screen(handle, doubles(positions), options)
+}
+
+/// Whether everything in a box is certainly hidden. `corners` holds its least and its largest x, y, z.
+#[wasm_bindgen(js_name = hidesBox)]
+pub fn hides_box(handle: u32, corners: &Float64Array) -> Result<bool, JsValue> {
+    let mut own = [[0.0; 3]; 2];
+    corners.copy_to(own.as_flattened_mut());
+    Ok(with_horizon(handle, |horizon| {
+        horizon.hides_box(own[0], own[1])
+    })?)
+}
+
+/// The points of the horizon that are visible among them: x, y, z of each.
+#[wasm_bindgen(js_name = horizonPoints)]
+pub fn horizon_points(handle: u32, options: &ViewOptions) -> Result<Float64Array, JsValue> {
+    Ok(with_horizon(handle, |horizon| {
+        copy_out_doubles(horizon.visible()?.as_flattened(), options)
+    })?)
+}
+
+fn screen(
+    handle: u32,
+    positions: Result<Points, Error>,
+    options: &ViewOptions,
+) -> Result<Uint32Array, JsValue> {
+    Ok(with_horizon(handle, |horizon| {
+        let kept = horizon.not_hidden(positions?.as_given())?;
+        copy_out(&kept, options)
+    })?)
+}

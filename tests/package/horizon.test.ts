@@ -1,0 +1,100 @@
+import { describe, expect, it } from "vitest";
+
+import { bumpySphere, freshPackage, pointsAt, readyPackage } from "./support";
+
+const { Horizon, HprError, mergeVisible, PointCloud } = await readyPackage();
+
+const sphere = bumpySphere(1, 6000);
+const viewpoint = [0, 0, 5];
+const options = { radius: 500 };
+/** The code of the error that `call` throws. */
+function codeOf(call: () => unknown): string {
+  try {
+    call();
+  } catch (error) {
+    return error instanceof HprError ? error.code : String(error);
+  }
+  return "nothing was thrown";
+}
+const loose = (value: unknown) => value as never;
+
+describe("a horizon", () => {
+  it.each([
+    ["single", sphere],
+    ["double", Float64Array.from(sphere)],
+  ])("screens points before a merge, in %s precision", (_, points) => {
+    const whole = new PointCloud(points).visibleFrom(viewpoint, options);
+    using horizon = new Horizon(viewpoint, options);
+    expect(horizon.screen(points)).toHaveLength(6000);
+    horizon.add(points.subarray(0, 900));
+    const left = horizon.screen(points);
+    expect(left.length).toBeLessThan(3500);
+    const positions = pointsAt(points, [...left]);
+    expect(mergeVisible([{ positions, ids: left }], viewpoint, options)).toEqual(whole.indices);
+  });
+
+  it("lists a point exactly if it would be visible after it was added alone", () => {
+    const own = sphere.subarray(0, 600);
+    const others = sphere.subarray(600, 1200);
+    const horizon = new Horizon(viewpoint, { inversion: { exponential: 0.02 } });
+    horizon.add(own);
+    const listed = horizon.screen(others);
+    const cloud = new PointCloud(own);
+    const alone = Array.from({ length: 200 }, (_, i) => i).filter((i) => {
+      cloud.append(others.subarray(3 * i, 3 * i + 3));
+      const { indices } = cloud.visibleFrom(viewpoint, { inversion: { exponential: 0.02 } });
+      const index = cloud.length - 1;
+      cloud.remove([index]);
+      return indices.includes(index);
+    });
+    expect([...listed]).toEqual(alone);
+  });
+
+  it("keeps only its visible points, which hide as much", () => {
+    const horizon = new Horizon(viewpoint, options);
+    horizon.add(sphere.subarray(0, 3000));
+    const points = horizon.visible();
+    expect(points.length).toBeLessThan(2000);
+    const copy = new Horizon(viewpoint, options);
+    copy.add(points);
+    expect(copy.visible()).toEqual(points);
+    expect(copy.screen(sphere)).toEqual(horizon.screen(sphere));
+  });
+
+  it("proves boxes hidden, also such as hold no point", () => {
+    const horizon = new Horizon(viewpoint, options);
+    expect(horizon.hidesBox([-0.2, -0.2, -3], [0.2, 0.2, -2])).toBe(false);
+    horizon.add(sphere);
+    expect(horizon.hidesBox([-0.2, -0.2, -3], [0.2, 0.2, -2])).toBe(true);
+    expect(horizon.hidesBox([-0.2, -0.2, 2], [0.2, 0.2, 3])).toBe(false);
+    expect(horizon.hidesBox([-9, -9, -9], [9, 9, 9])).toBe(false);
+  });
+
+  it("refuses bad input with a code, and stays as it was", () => {
+    const horizon = new Horizon(viewpoint, options);
+    horizon.add(sphere);
+    const before = horizon.visible();
+    expect(codeOf(() => horizon.add([0, 0, NaN]))).toBe("non-finite");
+    expect(codeOf(() => horizon.add([0, 0]))).toBe("positions-length");
+    expect(codeOf(() => horizon.screen(loose("points")))).toBe("positions-type");
+    expect(codeOf(() => horizon.add([0, 0, 1e6]))).toBe("radius");
+    expect(codeOf(() => horizon.screen([0, 0, 1e6]))).toBe("radius");
+    expect(codeOf(() => horizon.hidesBox([0, 0, 0], [1, 1, -1]))).toBe("option");
+    expect(codeOf(() => horizon.hidesBox(loose([0, 0]), [1, 1, 1]))).toBe("option");
+    expect(horizon.visible()).toEqual(before);
+    expect(codeOf(() => new Horizon([0, NaN, 0], options))).toBe("viewpoint");
+    expect(codeOf(() => new Horizon(viewpoint, {}))).toBe("option");
+    expect(codeOf(() => new Horizon(viewpoint, { inversion: loose({ exponential: "auto" }) }))).toBe("option");
+    expect(codeOf(() => new Horizon(viewpoint, { radius: -1 }))).toBe("radius");
+    horizon.dispose();
+    horizon.dispose();
+    expect(codeOf(() => horizon.add(sphere))).toBe("disposed");
+    expect(codeOf(() => horizon.hidesBox([0, 0, 0], [1, 1, 1]))).toBe("disposed");
+  });
+
+  it("asks for init first", async () => {
+    const fresh = await freshPackage();
+    expect(() => new fresh.Horizon(viewpoint, options)).toThrow(/init/);
+    expect(() => new Horizon(viewpoint, { radius: 0 })).toThrow(HprError);
+  });
+});
