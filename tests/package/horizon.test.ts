@@ -29,7 +29,7 @@ describe("a horizon", () => {
     horizon.add(points.subarray(0, 900));
     const left = horizon.screen(points);
     expect(left.length).toBeLessThan(3500);
-    const positions = pointsAt(points, [...left]);
+    const positions = pointsAt(sphere, [...left]);
     expect(mergeVisible([{ positions, ids: left }], viewpoint, options)).toEqual(whole.indices);
   });
 
