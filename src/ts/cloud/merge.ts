@@ -81,10 +81,7 @@ export function mergeSettings(options: unknown, purpose: string): ViewSettings {
   // A radius is also read with an exponential inversion: the core then refuses the two together.
   const needsRadius = settings.kernel !== Kernel.exponential || given["radius"] !== undefined;
   if (needsRadius && settings.rule !== Rule.radius) {
-    throw new HprError(
-      "option",
-      `radius must be the number that ${purpose}, got ${describe(given["radius"])}`,
-    );
+    throw new HprError("option", `radius must be the number that ${purpose}, got ${describe(given["radius"])}`);
   }
   return settings;
 }
