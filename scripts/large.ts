@@ -3,12 +3,12 @@
 import { writeFileSync } from "node:fs";
 import { cpus, loadavg, totalmem } from "node:os";
 import { parseArgs } from "node:util";
-import { runnerImport } from "vite";
 
 import { buildPackage } from "./build/package.js";
 import { buildWasm } from "./build/wasm.js";
 import { command } from "./lib/command.js";
-import { inRoot, root } from "./lib/paths.js";
+import { load } from "./lib/load.js";
+import { inRoot } from "./lib/paths.js";
 import { Problem } from "./lib/run.js";
 import { setUpForBuild } from "./setup/setup.js";
 
@@ -39,7 +39,7 @@ await command(async () => {
   await setUpForBuild();
   await buildWasm();
   await buildPackage();
-  const { module } = await runnerImport<Large>(inRoot("tests/soak/large.ts"), { root, configFile: false });
+  const module = await load<Large>("tests/soak/large.ts");
   const parts: string[] = [];
   for (const count of counts) {
     console.log(`${count.toLocaleString("en")} points`);

@@ -3,12 +3,12 @@
 import { writeFileSync } from "node:fs";
 import { cpus } from "node:os";
 import { parseArgs } from "node:util";
-import { runnerImport } from "vite";
 
 import { buildPackage } from "./build/package.js";
 import { buildWasm } from "./build/wasm.js";
 import { command } from "./lib/command.js";
-import { inRoot, root } from "./lib/paths.js";
+import { load } from "./lib/load.js";
+import { inRoot } from "./lib/paths.js";
 import { setUpForBuild } from "./setup/setup.js";
 
 const RESULT = "tests/soak/RESULTS.md";
@@ -26,7 +26,7 @@ await command(async () => {
   await setUpForBuild();
   await buildWasm();
   await buildPackage();
-  const { module } = await runnerImport<Refilter>(inRoot("tests/soak/refilter.ts"), { root, configFile: false });
+  const module = await load<Refilter>("tests/soak/refilter.ts");
   const result = await module.soak(views, seed, (row) => {
     console.log(JSON.stringify(row));
   });

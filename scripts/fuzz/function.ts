@@ -1,9 +1,8 @@
 // node function.js FILE NAME --minutes M --seed N: calls the function NAME of a TypeScript file and
-// prints its count like the other fuzzers. Vite loads the file, because the page's modules need Vite.
+// prints its count like the other fuzzers.
 import { parseArgs } from "node:util";
-import { runnerImport } from "vite";
 
-import { inRoot, root } from "../lib/paths.js";
+import { load } from "../lib/load.js";
 import type { Tally } from "./run.js";
 
 const text = { type: "string" } as const;
@@ -13,7 +12,7 @@ const [file = "", name = ""] = positionals;
 /** The whole count, or the number of wrong cases. With a number, the function prints lines `N cases, M wrong` itself. */
 type Result = Tally | number;
 type Module = Record<string, (minutes: number, seed: number) => Promise<Result>>;
-const { module } = await runnerImport<Module>(inRoot(file), { root, configFile: false, logLevel: "warn" });
+const module = await load<Module>(file);
 const result = await module[name]!(Number(values.minutes), Number(values.seed));
 const wrong = typeof result === "number" ? result : result.wrong;
 if (typeof result !== "number") console.log(`${result.tried} tried, ${wrong} wrong`);
