@@ -31,7 +31,6 @@ use crate::view::resolved::numbered_flip;
 /// # Ok::<(), hidden_point_removal::Error>(())
 /// ```
 pub struct Horizon {
-    viewpoint: [f64; 3],
     radius: Radius,
     flip: Flip,
     /// The points that were given and are visible among them.
@@ -51,7 +50,6 @@ impl Horizon {
         let flip = numbered_flip(viewpoint, options)?;
         let visible = Points::Single(Vec::new());
         Ok(Self {
-            viewpoint,
             radius: options.radius,
             flip,
             hull: KeptHull::of(&visible, &[], &flip)?,
@@ -114,7 +112,7 @@ impl Horizon {
             let count = bad().count();
             return Err(Error::NonFinite { count, first });
         }
-        check_reach(self.radius, self.viewpoint, given)?;
+        self.check_reach(given)?;
         let mut kept = Vec::new();
         let mut hint = self.hull.first_hint();
         for (index, position) in (0..).zip(given.iter()) {
@@ -123,6 +121,10 @@ impl Horizon {
             }
         }
         Ok(kept)
+    }
+
+    fn check_reach(&self, given: Given) -> Result<(), Error> {
+        check_reach(self.radius, self.flip.viewpoint().to_array(), given)
     }
 
     /// Whether every point of a box, borders included, is hidden, wherever it is in the box. The
@@ -137,12 +139,9 @@ impl Horizon {
             return Err(Error::BoundsInvalid);
         }
         // Points outside of the sphere cannot be flipped.
-        if check_reach(
-            self.radius,
-            self.viewpoint,
-            Given::Double(&corners_of(min, max)),
-        )
-        .is_err()
+        if self
+            .check_reach(Given::Double(&corners_of(min, max)))
+            .is_err()
         {
             return Ok(false);
         }

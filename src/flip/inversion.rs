@@ -120,11 +120,6 @@ impl Flip {
         power_of_two_below(0.5 * self.kernel.factor(farthest) * self.scale)
     }
 
-    /// The flipped point before it was scaled.
-    pub(crate) fn undo_scale(&self, q: DVec3) -> DVec3 {
-        q / self.scale
-    }
-
     pub(crate) fn viewpoint(&self) -> DVec3 {
         self.viewpoint
     }
@@ -146,13 +141,22 @@ impl Flip {
         }
         let scale = power_of_two_below((1.0 / self.extent).min(f64::MAX));
         let scaled = Self { scale, ..self };
-        let exact = points
-            .iter()
-            .all(|p| match (self.apply(p), scaled.apply(p)) {
-                (Some(q), Some(small)) => small / scale == q,
-                _ => true,
-            });
+        let exact = points.iter().all(|p| scaled.scales_exactly(p));
         if exact { scaled } else { self }
+    }
+
+    /// Whether the scale rounds no coordinate of this flipped point.
+    #[inline]
+    pub(crate) fn scales_exactly(&self, p: [f64; 3]) -> bool {
+        let unscaled = Self {
+            scale: 1.0,
+            ..*self
+        };
+        self.scale == 1.0
+            || match (unscaled.apply(p), self.apply(p)) {
+                (Some(q), Some(small)) => small / self.scale == q,
+                _ => true,
+            }
     }
 
     /// Whether all points have the viewpoint's z, like those of a cloud in the plane.

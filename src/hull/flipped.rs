@@ -14,7 +14,16 @@ pub(super) struct Flipped<'a> {
     pub blocks: &'a [Sphere],
 }
 
-impl Flipped<'_> {
+impl<'a> Flipped<'a> {
+    /// The points as `flip` moves them, scaled where they are extreme. `blocks` may be empty.
+    pub(super) fn of(points: &'a Points, blocks: &'a [Sphere], flip: &Flip) -> Self {
+        Self {
+            points,
+            flip: flip.rescaled_for(points),
+            blocks,
+        }
+    }
+
     pub(super) fn len(&self) -> usize {
         self.points.len()
     }

@@ -26,8 +26,6 @@ use crate::flip::inversion::Flip;
 pub(crate) struct KeptHull {
     memory: Memory,
     flip: Flip,
-    /// The same flip without its scale.
-    unscaled: Flip,
     span: Span,
     /// Any outer face; 0 if there is no hull.
     first: FaceId,
@@ -47,11 +45,11 @@ impl KeptHull {
     #[inline(never)]
     pub(crate) fn of(points: &Points, blocks: &[Sphere], flip: &Flip) -> Result<Self, OutOfMemory> {
         let mut memory = Memory::default();
-        mark_visible(points, blocks, flip, None, &mut memory)?;
+        let flip = flip.rescaled_for(points);
+        mark_visible(points, blocks, &flip, None, &mut memory)?;
         let mut kept = Self {
             memory,
-            flip: flip.rescaled_for(points),
-            unscaled: *flip,
+            flip,
             span: Span::Space,
             first: 0,
         };
@@ -81,14 +79,11 @@ impl KeptHull {
     /// then the point has to be added to the cloud.
     #[inline(never)]
     pub(crate) fn hides(&self, position: [f64; 3], hint: &mut FaceId) -> Option<bool> {
-        let Some(q) = self.unscaled.apply(position) else {
+        let Some(q) = self.flip.apply(position) else {
             return Some(false);
         };
-        let scaled = self.flip.apply(position)?;
-        if self.flip.undo_scale(scaled) != q {
-            return None;
-        }
-        Some(self.covers(scaled, hint))
+        let is_exact = self.flip.scales_exactly(position);
+        is_exact.then(|| self.covers(q, hint))
     }
 
     /// The hull, if it is one in space.
@@ -142,11 +137,7 @@ impl KeptHull {
     #[cold]
     fn thicken(&mut self, points: &Points) -> Result<Span, OutOfMemory> {
         let flip = self.flip;
-        let flipped = Flipped {
-            points,
-            flip,
-            blocks: &[],
-        };
+        let flipped = Flipped::of(points, &[], &flip);
         let at = |index| flipped.get_out_of_line(index);
         let all = || (0..flipped.len() as u32).filter_map(at);
         let Some(a) = all().next() else {

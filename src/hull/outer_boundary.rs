@@ -25,11 +25,7 @@ pub(crate) fn mark_visible(
     division: Option<Division>,
     memory: &mut Memory,
 ) -> Result<(), OutOfMemory> {
-    let flipped = Flipped {
-        points,
-        flip: flip.rescaled_for(points),
-        blocks,
-    };
+    let flipped = Flipped::of(points, blocks, flip);
     memory.clear_marks(points.len())?;
     let drafted = memory.drafted.take();
     if division.is_none() && drafted == Some(*flip) {
@@ -86,11 +82,7 @@ pub(crate) fn mark_draft(
     flip: &Flip,
     memory: &mut Memory,
 ) -> Result<(), OutOfMemory> {
-    let flipped = Flipped {
-        points,
-        flip: flip.rescaled_for(points),
-        blocks,
-    };
+    let flipped = Flipped::of(points, blocks, flip);
     if memory.drafted != Some(*flip) || memory.runs_added > 0 {
         memory.forget();
         let Some(corners) = seed(&flipped) else {
@@ -131,11 +123,7 @@ pub(crate) fn go_on(
     if memory.drafted != Some(*flip) {
         return Ok(true);
     }
-    let flipped = Flipped {
-        points,
-        flip: flip.rescaled_for(points),
-        blocks,
-    };
+    let flipped = Flipped::of(points, blocks, flip);
     memory.forget_slow_map(flip);
     let added = memory.add_last_round(&flipped, budget);
     if added.is_err() {
@@ -173,12 +161,7 @@ pub(crate) fn triangulate_visible(
     mark_visible(points, &[], flip, None, &mut memory)?;
     let mut triangles = Vec::new();
     if memory.holds_hull {
-        let flip = flip.rescaled_for(points);
-        let flipped = Flipped {
-            points,
-            flip,
-            blocks: &[],
-        };
+        let flipped = Flipped::of(points, &[], flip);
         triangles = memory.hull.outer_triangles(&memory.on_boundary, &flipped)?;
     }
     Ok((memory.visible, triangles))

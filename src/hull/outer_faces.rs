@@ -43,12 +43,7 @@ impl Memory {
         if !self.holds_hull {
             return Ok(None);
         }
-        let flip = flip.rescaled_for(points);
-        let flipped = Flipped {
-            points,
-            flip,
-            blocks: &[],
-        };
+        let flipped = Flipped::of(points, &[], flip);
         self.hull.cut_by(&self.on_boundary, &flipped)?;
         let first = self.hull.outer_face();
         Ok(first.map(|first| OuterFaces {
