@@ -16,6 +16,8 @@ export interface LasOptions {
   extra?: string;
   /** Colors are bytes in 16 bits, like many programs write them. */
   smallColors?: boolean;
+  /** The coordinate system, as text. */
+  wkt?: string;
 }
 
 const RECORD = { 0: 20, 1: 28, 2: 26, 3: 34, 6: 30, 7: 36, 8: 38 };
@@ -36,11 +38,12 @@ export const colorOf = (i: number): [number, number, number] => [i % 256, (2 * i
 
 export function las(
   positions: ArrayLike<number>,
-  { minor = 2, format = 3, claimed, extra, smallColors = false }: LasOptions = {},
+  { minor = 2, format = 3, claimed, extra, smallColors = false, wkt }: LasOptions = {},
 ): Uint8Array {
   const points = rows(positions);
   const headerBytes = minor === 4 ? 375 : minor === 3 ? 235 : 227;
-  const start = headerBytes + (extra === undefined ? 0 : 54 + 192);
+  const wktAt = headerBytes + (extra === undefined ? 0 : 54 + 192);
+  const start = wktAt + (wkt === undefined ? 0 : 54 + wkt.length);
   const rowBytes = RECORD[format] + (extra === undefined ? 0 : 4);
   const bytes = new Uint8Array(start + rowBytes * points.length);
   const view = new DataView(bytes.buffer);
@@ -49,7 +52,7 @@ export function las(
   view.setUint8(25, minor);
   view.setUint16(94, headerBytes, true);
   view.setUint32(96, start, true);
-  view.setUint32(100, extra === undefined ? 0 : 1, true);
+  view.setUint32(100, Number(extra !== undefined) + Number(wkt !== undefined), true);
   view.setUint8(104, format);
   view.setUint16(105, rowBytes, true);
   const count = claimed ?? points.length;
@@ -68,6 +71,12 @@ export function las(
     view.setUint16(headerBytes + 20, 192, true);
     view.setUint8(headerBytes + 54 + 2, 9);
     bytes.set(new TextEncoder().encode(extra), headerBytes + 54 + 4);
+  }
+  if (wkt !== undefined) {
+    bytes.set(new TextEncoder().encode("LASF_Projection"), wktAt + 2);
+    view.setUint16(wktAt + 18, 2112, true);
+    view.setUint16(wktAt + 20, wkt.length, true);
+    bytes.set(new TextEncoder().encode(wkt), wktAt + 54);
   }
   points.forEach((point, i) => {
     const at = start + rowBytes * i;

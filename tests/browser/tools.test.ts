@@ -92,7 +92,7 @@ test("two clicks measure a distance in the file's units, any number of times", a
   for (const index of [a!, b!]) await clickPoint(page, index);
   expect(Number(await result.getAttribute("data-distance"))).toBe(distance(a!, b!));
   for (const index of [a!, c!]) await clickPoint(page, index);
-  const texts = [distance(a!, b!), distance(a!, c!)].map((value) => String(Number(value.toPrecision(6))));
+  const texts = [distance(a!, b!), distance(a!, c!)].map((value) => `${Number(value.toPrecision(6))}\u00a0units`);
   expect(await page.locator("#marks .measure text").allTextContents()).toEqual(texts);
   // The line goes from point to point.
   const ends = await page

@@ -1,3 +1,5 @@
+import type { Field, FileFacts } from "./facts.ts";
+
 /** Numbers of one type. They have as many bytes as in the file. */
 export type Values =
   Int8Array | Uint8Array | Int16Array | Uint16Array | Int32Array | Uint32Array | Float32Array | Float64Array;
@@ -20,6 +22,11 @@ export interface LoadedCloud {
   positions: Float32Array | Float64Array;
   colors: Uint8Array | null;
   attributes?: Attribute[];
+  /** All columns besides positions and colors in bytes. If this is missing, they are the attributes. */
+  fields?: Field[];
+  facts?: FileFacts;
+  /** Whether the points are the rows and columns of a picture. Then points without a position are usual. */
+  isGrid?: boolean;
   /** Whether the file has faces, and the positions are all of its vertices in the order of the file. */
   isMesh?: boolean;
   /** Sentences about the cloud that the user has to read. */
@@ -33,6 +40,9 @@ export interface Cloud {
   count: number;
   colors: Uint8Array | null;
   attributes: readonly Attribute[];
+  /** All columns of the file besides positions and colors in bytes. */
+  fields: readonly Field[];
+  facts: FileFacts;
   /** Center of the bounding box in the file's coordinates; local = file − center. */
   center: [number, number, number];
   local: Float32Array;
@@ -49,7 +59,14 @@ export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "isMesh" 
 }
 
 /** Makes a cloud ready to draw. It is slow for many points, so call it in a worker, not in the page's thread. */
-export function prepareCloud({ positions, colors, attributes = [], ...said }: LoadedCloud): PreparedCloud {
+export function prepareCloud({
+  positions,
+  colors,
+  attributes = [],
+  fields = attributes,
+  facts = {},
+  ...said
+}: LoadedCloud): PreparedCloud {
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
   for (let i = 0; i < positions.length; i += 3) {
@@ -71,6 +88,8 @@ export function prepareCloud({ positions, colors, attributes = [], ...said }: Lo
   const cloud = {
     colors,
     attributes,
+    fields,
+    facts,
     count: positions.length / 3,
     center,
     local,

@@ -1,8 +1,11 @@
 import type { Attribute, LoadedCloud, Values } from "../cloud/cloud.ts";
+import type { Field } from "../cloud/facts.ts";
 import { isWhole } from "./numbers.ts";
 
-/** More attributes are not worth their memory. */
+/** More attributes would make the choice of colors too long. */
 const MOST_ATTRIBUTES = 8;
+/** More bytes for each point are not worth their memory. */
+const MOST_BYTES = 64;
 const MOST_CATEGORIES = 64;
 
 /** Columns that make no useful colors: normals, opacities and the parameters of splats. */
@@ -10,19 +13,39 @@ const NOT_FOR_EYES =
   /^(n[xyz]|normal_?[xyz]|scalar_n[xyz]|a|alpha|opacity|f_(dc|rest)_\d+|rot_\d+|scale_\d+|padding|_)$/i;
 const CATEGORY = /class|label|segment|cluster|category|return|source|ring|object|instance/i;
 
-/** Returns the colors in the columns of a file, and the attributes by which its points can be colored. */
+/** Returns the colors in the columns of a file, all columns, and the attributes by which its points can be colored. */
 export function attributesOf(
-  columns: readonly { name: string; values: Values }[],
-): Pick<LoadedCloud, "colors" | "attributes"> {
+  columns: readonly { name: string; values: Values; isDetail?: true | undefined }[],
+): Pick<LoadedCloud, "colors" | "attributes" | "fields" | "facts"> {
   const named = (name: string) => columns.find((column) => column.name === name)?.values;
   const [red, green, blue] = [named("red"), named("green"), named("blue")];
   const attributes: Attribute[] = [];
-  for (const { name, values } of columns) {
+  for (const { name, values, isDetail } of columns) {
+    if (isDetail) continue;
     if (attributes.length === MOST_ATTRIBUTES) break;
     if (/^(red|green|blue)$/.test(name) || NOT_FOR_EYES.test(name) || isConstant(values)) continue;
     attributes.push({ name, kind: isCategory(name, values) ? "category" : "scalar", values });
   }
-  return { colors: red && green && blue ? displayColors([red, green, blue]) : null, attributes };
+  const colors = red && green && blue ? displayColors([red, green, blue]) : null;
+  // Colors in bytes are kept as colors. In 16 bits they have more digits than a screen can show.
+  const fields = columns.filter(
+    ({ name, values }) => !(/^(red|green|blue)$/.test(name) && colors && !(values instanceof Uint16Array)),
+  );
+  return { colors, attributes, ...keptFields(fields) };
+}
+
+/** Keeps as many columns as fit. A column with the same number everywhere becomes one number. */
+function keptFields(columns: readonly { name: string; values: Values }[]): Pick<LoadedCloud, "fields" | "facts"> {
+  const fields: Field[] = [];
+  let bytes = 0;
+  for (const { name, values } of columns) {
+    const same = isConstant(values);
+    if (!same) bytes += values.BYTES_PER_ELEMENT;
+    if (bytes <= MOST_BYTES) fields.push({ name, values: same ? values.slice(0, 1) : values });
+    else bytes -= values.BYTES_PER_ELEMENT;
+  }
+  const dropped = columns.length - fields.length;
+  return { fields, ...(dropped > 0 ? { facts: { dropped } } : {}) };
 }
 
 /**

@@ -9,7 +9,7 @@ export interface Reading {
   /** The progress from 0 to 1. */
   onProgress: (fraction: number) => void;
   /** Takes points that have been read, measured from the first one. */
-  onPoints?: (points: Float32Array) => void;
+  onPoints?: (points: Float32Array, first: [number, number, number]) => void;
 }
 
 export const BLOCK = 1 << 24;

@@ -8,6 +8,8 @@ import { newValues } from "./numbers.ts";
 export interface Column {
   name: string;
   type: NumberType;
+  /** Nobody colors points by it. */
+  isDetail?: true;
 }
 
 const FIRST_CAPACITY = 65_536;
@@ -33,7 +35,7 @@ export class CloudBuilder {
   #step = 1;
   #capacity: number;
   readonly #limit: number;
-  readonly #onPoints: ((points: Float32Array) => void) | undefined;
+  readonly #onPoints: Reading["onPoints"];
   /** How many points have been handed on, and the number at which the next ones are. */
   #shown = 0;
   #showAt = FIRST_SHOWN;
@@ -81,7 +83,11 @@ export class CloudBuilder {
   finish(): LoadedCloud {
     const positions = this.#positions.slice(0, 3 * this.#kept);
     this.#positions = this.#positions.subarray(0, 0);
-    const columns = this.#columns.map(({ name }, k) => ({ name, values: this.values[k]!.slice(0, this.#kept) }));
+    const columns = this.#columns.map(({ name, isDetail }, k) => ({
+      name,
+      isDetail,
+      values: this.values[k]!.slice(0, this.#kept),
+    }));
     this.values.length = 0;
     const notes =
       this.#step > 1 ? [`Every ${ordinal(this.#step)} of its ${number.format(this.#seen)} points is shown.`] : [];
@@ -97,7 +103,7 @@ export class CloudBuilder {
     const from = 3 * this.#shown;
     for (let i = 0; i < points.length; i++) points[i] = this.#positions[from + i]! - this.#positions[i % 3]!;
     this.#shown = this.#kept;
-    this.#onPoints(points);
+    this.#onPoints(points, [this.#positions[0]!, this.#positions[1]!, this.#positions[2]!]);
   }
 
   #grow(): void {

@@ -14,7 +14,7 @@ export function loadCloud(
   request: LoadRequest,
   signal: AbortSignal,
   onProgress: (step: string, fraction: number | null) => void,
-  onPoints: (points: Float32Array) => void = () => undefined,
+  onPoints: (points: Float32Array, first: [number, number, number]) => void = () => undefined,
 ): Promise<PreparedCloud> {
   const { worker, end } = startWorker();
   return new Promise<PreparedCloud>((resolve, reject) => {
@@ -23,7 +23,7 @@ export function loadCloud(
     });
     worker.onmessage = ({ data: reply }: MessageEvent<LoadReply>) => {
       if (reply.kind === "progress") onProgress(reply.step, reply.fraction);
-      else if (reply.kind === "points") onPoints(reply.points);
+      else if (reply.kind === "points") onPoints(reply.points, reply.first);
       else if (reply.kind === "cloud") resolve(reply.prepared);
       else reject(new LoadProblem(reply.sentence, reply.nonFinite));
     };

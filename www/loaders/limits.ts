@@ -1,4 +1,5 @@
-import type { LoadedCloud, Values } from "../cloud/cloud.ts";
+import type { LoadedCloud } from "../cloud/cloud.ts";
+import { partOf } from "../cloud/part.ts";
 import { LoadProblem } from "./problem.ts";
 
 /**
@@ -20,8 +21,8 @@ export function checkByteLength(name: string, bytes: number): void {
 }
 
 /**
- * Refuses an empty cloud, and one that is too wide to draw. Points without a position are refused, or dropped if that
- * is asked for.
+ * Refuses an empty cloud, and one that is too wide to draw. Points without a position are refused. They are dropped if
+ * that is asked for, or if the points are a grid: a depth camera has no point where it sees nothing.
  */
 export function checkedCloud(name: string, cloud: LoadedCloud, skipNonFinite: boolean): LoadedCloud {
   const total = cloud.positions.length / 3;
@@ -29,7 +30,7 @@ export function checkedCloud(name: string, cloud: LoadedCloud, skipNonFinite: bo
 
   const bad = countNonFinite(cloud.positions);
   if (bad === total) throw new LoadProblem(`${name} holds no points: none of its coordinates are numbers.`);
-  if (bad > 0 && !skipNonFinite) {
+  if (bad > 0 && !skipNonFinite && !cloud.isGrid) {
     throw new LoadProblem(
       `${name} has ${number.format(bad)} of ${number.format(total)} points without a position (NaN or infinite).`,
       bad,
@@ -39,7 +40,12 @@ export function checkedCloud(name: string, cloud: LoadedCloud, skipNonFinite: bo
   if (finite.positions.some((value) => Math.abs(value) > MAX_EXTENT)) {
     throw new LoadProblem(`${name} has coordinates above 10¹⁸, too far out to be drawn.`);
   }
-  return { ...finite, positions: narrowed(finite.positions) };
+  const notes = [...(finite.notes ?? [])];
+  if (bad > 0 && !skipNonFinite)
+    notes.unshift(
+      `${number.format(bad)} of the ${number.format(total)} places in its rows and columns have no point (NaN) and are left out.`,
+    );
+  return { ...finite, notes, positions: narrowed(finite.positions) };
 }
 
 function isFiniteAt(positions: LoadedCloud["positions"], i: number): boolean {
@@ -55,23 +61,9 @@ function countNonFinite(positions: LoadedCloud["positions"]): number {
 }
 
 function withoutNonFinite(cloud: LoadedCloud, count: number): LoadedCloud {
-  const { positions, colors, attributes = [] } = cloud;
   const kept = new Uint32Array(count);
-  for (let i = 0, at = 0; at < count; i++) if (isFiniteAt(positions, i)) kept[at++] = i;
-  return {
-    ...cloud,
-    isMesh: false,
-    positions: picked(positions, kept, 3),
-    colors: colors && picked(colors, kept, 3),
-    attributes: attributes.map((attribute) => ({ ...attribute, values: picked(attribute.values, kept, 1) })),
-  };
-}
-
-function picked<T extends Values>(values: T, kept: Uint32Array, width: number): T {
-  const result = new (values.constructor as new (length: number) => T)(width * kept.length);
-  for (let i = 0; i < kept.length; i++)
-    for (let k = 0; k < width; k++) result[width * i + k] = values[width * kept[i]! + k]!;
-  return result;
+  for (let i = 0, at = 0; at < count; i++) if (isFiniteAt(cloud.positions, i)) kept[at++] = i;
+  return partOf(cloud, kept);
 }
 
 /** Halves the memory if f32 holds every coordinate exactly. */

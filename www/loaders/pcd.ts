@@ -57,9 +57,13 @@ async function readCompressed(reading: Reading, start: number, points: Points): 
 }
 
 /** A color is four bytes in one number. A text may write them as the float with the same bytes. */
-function packedColors({ colors, attributes = [] }: LoadedCloud): Pick<LoadedCloud, "colors" | "attributes"> {
+function packedColors({
+  colors,
+  attributes = [],
+  fields = [],
+}: LoadedCloud): Pick<LoadedCloud, "colors" | "attributes" | "fields"> {
   const packed = attributes.find(({ name }) => COLOR.test(name));
-  if (!packed) return { colors, attributes };
+  if (!packed) return { colors, attributes, fields };
   const { values } = packed;
   const bits = values instanceof Float32Array ? new Uint32Array(values.buffer) : values;
   const bytes = new Uint8Array(3 * bits.length);
@@ -68,11 +72,15 @@ function packedColors({ colors, attributes = [] }: LoadedCloud): Pick<LoadedClou
     bytes[3 * i + 1] = (bits[i]! >>> 8) & 255;
     bytes[3 * i + 2] = bits[i]! & 255;
   }
-  return { colors: bytes, attributes: attributes.filter((attribute) => attribute !== packed) };
+  return {
+    colors: bytes,
+    attributes: attributes.filter((attribute) => attribute !== packed),
+    fields: fields.filter(({ name }) => name !== packed.name),
+  };
 }
 
 /** The cloud of a depth camera, as rows and columns in the camera's coordinates: x to the right, y down, z ahead. */
-function taken({ height, viewpoint }: PcdHeader): Pick<LoadedCloud, "taken"> {
+function taken({ height, viewpoint }: PcdHeader): Pick<LoadedCloud, "taken" | "isGrid"> {
   if (!(height > 1)) return {};
-  return { taken: { up: "-y", from: viewpoint ? [...viewpoint] : [0, 0, 0] } };
+  return { isGrid: true, taken: { up: "-y", from: viewpoint ? [...viewpoint] : [0, 0, 0] } };
 }

@@ -25,19 +25,19 @@ const progress = (step: string, fraction: number | null) => {
   post({ kind: "progress", step, fraction });
 };
 
-const onPoints = (points: Float32Array) => {
-  post({ kind: "points", points }, [points.buffer]);
+const onPoints = (points: Float32Array, first: [number, number, number]) => {
+  post({ kind: "points", points, first }, [points.buffer]);
 };
 
 self.onmessage = async ({ data: request }: MessageEvent<LoadRequest>) => {
   try {
     const prepared = prepareCloud(await load(request));
     const { positions, copy, cloud } = prepared;
-    const arrays = [positions, copy, cloud.local, cloud.colors, ...cloud.attributes.map(({ values }) => values)];
-    post(
-      { kind: "cloud", prepared },
-      arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : [])),
-    );
+    const columns = [...cloud.attributes, ...cloud.fields].map(({ values }) => values);
+    const arrays = [positions, copy, cloud.local, cloud.colors, ...columns];
+    // Most fields are attributes, too.
+    const buffers = new Set(arrays.flatMap((array) => (array ? [array.buffer as ArrayBuffer] : [])));
+    post({ kind: "cloud", prepared }, [...buffers]);
   } catch (error) {
     const problem =
       error instanceof LoadProblem ? error : new LoadProblem(`${request.name} could not be read: ${String(error)}.`);

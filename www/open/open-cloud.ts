@@ -74,14 +74,14 @@ export async function openCloud(
     (step, fraction) => {
       onProgress(sentence(step, request.name, fraction), fraction);
     },
-    (points) => {
-      const up = wished.up ?? usualLook(sample, request.name, 0, undefined).up;
+    (points, first) => {
+      const up = wished.up ?? usualLook(sample, request.name, 0, undefined, first).up;
       if (signal.aborted) return;
       preview.isShown = true;
       place.preview?.points(points, up);
     },
   );
-  const usual = usualLook(sample, request.name, cloud.count, loaded.taken?.up);
+  const usual = usualLook(sample, request.name, cloud.count, loaded.taken?.up, cloud.center);
   const { view, places, notes: farNotes } = inReachOnly(cloud, wanted, wished, place.asked);
   const own: Partial<Settings> = {
     ...usual,

@@ -1,4 +1,4 @@
-import type { Up } from "../cloud/cloud.ts";
+import type { Cloud, Up } from "../cloud/cloud.ts";
 import type { Sample } from "../samples/samples.ts";
 import { type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
 
@@ -9,18 +9,31 @@ const SIZES = [
 ];
 const LARGE = 3;
 
-/** The usual settings for a cloud. `taken`: the direction that was up, if the file says so. */
+/**
+ * The usual settings for a cloud. `taken`: the direction that was up, if the file says so. `center`: a place in the
+ * middle of the cloud.
+ */
 export function usualLook(
   sample: Sample | null,
   name: string,
   count: number,
   taken: Up | undefined,
+  center: Cloud["center"],
 ): Pick<Settings, "size" | "fieldOfView" | "up"> {
   return {
     size: sample?.pointSize ?? SIZES.find(({ below }) => count < below)?.size ?? LARGE,
     fieldOfView: sample?.fieldOfView ?? USUAL_SETTINGS.fieldOfView,
-    up: sample?.up ?? taken ?? usualUp(name),
+    up: sample?.up ?? taken ?? (isOnMap(center) ? "z" : usualUp(name)),
   };
+}
+
+/**
+ * Whether a place looks like easting, northing and height. Maps count meters or feet from far away: 500,000 and more to
+ * the east in UTM, millions to the north. Heights are smaller.
+ */
+function isOnMap([x, y, z]: Cloud["center"]): boolean {
+  const [less, more] = [Math.min(Math.abs(x), Math.abs(y)), Math.max(Math.abs(x), Math.abs(y))];
+  return more >= 1e5 && less >= 1e3 && Math.abs(z) <= 0.1 * more;
 }
 
 /** In files of scanners and surveyors z is up. In files of modelers y is up. */

@@ -75,5 +75,9 @@ export function make(): LoadedCloud {
       { name: "classification", kind: "category", values: Uint8Array.from(classification), labels: LABELS },
       { name: "return number", kind: "category", values: Uint8Array.from(returnNumber) },
     ],
+    facts: {
+      decimals: [3, 3, 3],
+      crs: { name: "UTM zone 32N", unit: { name: "m", meters: 1 }, heightUnit: null, isAngular: false },
+    },
   };
 }

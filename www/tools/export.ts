@@ -1,6 +1,7 @@
 import type { TimedView } from "../ask/inquiry.ts";
 import { byId } from "../controls/dom.ts";
 import { Segmented } from "../controls/segmented.ts";
+import { coordinatesAt } from "./figures.ts";
 import { BATCH, copy, save } from "./files.ts";
 import { pictureWithMarks } from "./picture.ts";
 import type { Bench, Tool } from "./tool.ts";
@@ -75,7 +76,7 @@ export class Export implements Tool {
   }
 
   async #ply(): Promise<Iterable<BlobPart>> {
-    const { plyParts } = await import("./ply.ts");
+    const { plyFields, plyParts } = await import("./ply.ts");
     const { cloud, positions, answer } = this.#bench.viewer.scene;
     const what = this.#what;
     const indices = this.#indices;
@@ -83,7 +84,7 @@ export class Export implements Tool {
       `${what.value === "visible" ? "Visible" : "Selected"} points: ${indices.length} of ${cloud.count}`,
       ...seenFrom(answer),
     ];
-    return plyParts({ positions, colors: cloud.colors, fields: cloud.attributes, indices, comments });
+    return plyParts({ positions, colors: cloud.colors, fields: plyFields(cloud), indices, comments });
   }
 
   *#json(): Iterable<BlobPart> {
@@ -106,13 +107,9 @@ export class Export implements Tool {
   }
 
   *#csv(): Iterable<BlobPart> {
-    const { positions } = this.#bench.viewer.scene;
+    const { scene } = this.#bench.viewer;
     yield "index,x,y,z\n";
-    yield* joined(
-      this.#indices,
-      "\n",
-      (index) => `${index},${positions[3 * index]!},${positions[3 * index + 1]!},${positions[3 * index + 2]!}`,
-    );
+    yield* joined(this.#indices, "\n", (index) => `${index},${coordinatesAt(scene, index).join()}`);
     yield "\n";
   }
 

@@ -1,10 +1,14 @@
 import { byId } from "../controls/dom.ts";
 import { pointAt, type Spot } from "./find.ts";
+import { measured, measuresOf, split, wayBetween } from "./figures.ts";
 import type { Mark } from "./marks.ts";
-import { NO_POINT } from "./pick.ts";
+import { NO_POINT, row } from "./pick.ts";
 import type { Bench, Tool } from "./tool.ts";
 
-/** Shows the distance between two clicked points, in the file's units. Many distances can be shown at once. */
+/**
+ * Shows the distance between two clicked points, its horizontal part and the difference of their heights, in the file's
+ * units. Many distances can be shown at once.
+ */
 export class Measure implements Tool {
   readonly name = "measure";
   readonly uses = "clicks";
@@ -31,11 +35,18 @@ export class Measure implements Tool {
       this.#from = { index, mark: marks.ring(index) };
       this.#output.textContent = "Now the second point.";
     } else {
-      const distance = this.#distance(this.#from.index, index);
-      const text = distanceText(distance);
-      this.#lines.push(marks.line(this.#from.index, index, text));
+      const measures = measuresOf(viewer.cloud!);
+      const { unit } = measures;
+      const way = wayBetween(viewer.scene, this.#from.index, index, measures);
+      const distance = Math.hypot(...way);
+      const { horizontal, height } = split(way, this.#bench.up());
+      this.#lines.push(marks.line(this.#from.index, index, measured(distance, unit)));
       this.#drop();
-      this.#output.textContent = `Distance ${text}`;
+      this.#output.replaceChildren(
+        row("Distance", measured(distance, unit)),
+        row("Horizontal", measured(horizontal, unit)),
+        row("Height difference", measured(height, unit)),
+      );
       this.#output.dataset["distance"] = String(distance);
       this.#remove.hidden = false;
     }
@@ -64,14 +75,4 @@ export class Measure implements Tool {
     this.#from?.mark.remove();
     this.#from = null;
   }
-
-  #distance(a: number, b: number): number {
-    const { positions } = this.#bench.viewer.scene;
-    return Math.hypot(...[0, 1, 2].map((axis) => positions[3 * a + axis]! - positions[3 * b + axis]!));
-  }
-}
-
-/** The distance with six digits: no scanner is more precise. */
-function distanceText(distance: number): string {
-  return String(Number(distance.toPrecision(6)));
 }

@@ -1,4 +1,5 @@
 import { byId } from "../controls/dom.ts";
+import { coordinatesAt, fieldText } from "./figures.ts";
 import { copy } from "./files.ts";
 import { pointAt, type Spot } from "./find.ts";
 import type { Mark } from "./marks.ts";
@@ -6,7 +7,7 @@ import type { Bench, Tool } from "./tool.ts";
 
 export const NO_POINT = { visible: "No visible point there.", any: "No point there." };
 
-/** Shows the place of a clicked point, in the file's coordinates, and its index. */
+/** Shows all that the file says about a clicked point: its place in the file's coordinates, and its attributes. */
 export class Pick implements Tool {
   readonly name = "pick";
   readonly uses = "clicks";
@@ -32,10 +33,16 @@ export class Pick implements Tool {
       this.#output.textContent = through() ? NO_POINT.any : NO_POINT.visible;
       return;
     }
-    const place = [0, 1, 2].map((axis) => viewer.scene.positions[3 * index + axis]!);
+    const { scene } = viewer;
+    const place = coordinatesAt(scene, index);
+    const { colors, fields } = scene.cloud;
+    const color =
+      colors && !fields.some(({ name }) => name === "red") ? colors.subarray(3 * index, 3 * index + 3) : null;
     this.#output.replaceChildren(
-      ...["x", "y", "z"].map((axis, i) => row(axis, String(place[i]))),
+      ...["x", "y", "z"].map((axis, i) => row(axis, place[i]!)),
       row("index", String(index)),
+      ...(color ? [row("color", color.join(" "))] : []),
+      ...fields.map((field) => row(field.name.replaceAll("_", " "), fieldText(field, index))),
     );
     this.#output.dataset["index"] = String(index);
     this.#output.dataset["place"] = place.join(", ");
@@ -64,7 +71,8 @@ export class Pick implements Tool {
   }
 }
 
-function row(name: string, value: string): HTMLElement {
+/** A line with a name and a value. */
+export function row(name: string, value: string): HTMLElement {
   const line = document.createElement("span");
   const label = document.createElement("b");
   label.textContent = name;

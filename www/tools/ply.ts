@@ -1,10 +1,6 @@
+import type { Cloud, Values } from "../cloud/cloud.ts";
+import { type Field, valueAt } from "../cloud/facts.ts";
 import { BATCH } from "./files.ts";
-
-/** An attribute: a number for each point. */
-export interface Field {
-  name: string;
-  values: ArrayLike<number> & { constructor: unknown };
-}
 
 export interface PlyContent {
   positions: Float32Array | Float64Array;
@@ -64,17 +60,22 @@ const KIND_OF = new Map<unknown, Kind>([
 
 const TAKEN = ["x", "y", "z", "red", "green", "blue"];
 
+/** The columns of a cloud. Colors are written in bytes, as most programs expect them. */
+export function plyFields({ colors, fields }: Cloud): Field[] {
+  return fields.filter(({ name }) => !colors || !/^(red|green|blue)$/.test(name));
+}
+
 /** Yields a binary PLY file in pieces. Every number has the same type as in the cloud, so that nothing is lost. */
 export function* plyParts({ positions, colors, fields, indices, comments }: PlyContent): Generator<BlobPart> {
   const columns: { name: string; kind: Kind; valueOf: (index: number) => number }[] = [];
-  const add = (name: string, values: Field["values"], valueOf: (index: number) => number) => {
+  const add = (name: string, values: Values, valueOf: (index: number) => number) => {
     columns.push({ name, kind: KIND_OF.get(values.constructor) ?? KINDS.float64, valueOf });
   };
   for (const [axis, name] of ["x", "y", "z"].entries()) add(name, positions, (index) => positions[3 * index + axis]!);
   if (colors)
     for (const [channel, name] of ["red", "green", "blue"].entries())
       add(name, colors, (index) => colors[3 * index + channel]!);
-  for (const [name, values] of named(fields)) add(name, values, (index) => values[index]!);
+  for (const [name, values] of named(fields)) add(name, values, (index) => valueAt({ values }, index));
 
   const properties = columns.map(({ name, kind: { type } }) => `property ${type} ${name}`);
   yield [

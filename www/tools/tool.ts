@@ -1,3 +1,4 @@
+import type { Up } from "../cloud/cloud.ts";
 import type { Viewer } from "../view/viewer.ts";
 import type { Spot } from "./find.ts";
 import type { Marks } from "./marks.ts";
@@ -6,6 +7,8 @@ import type { Marks } from "./marks.ts";
 export interface Bench {
   viewer: Viewer;
   marks: Marks;
+  /** The direction that is up. */
+  up: () => Up;
   /** Whether hidden points count as well. */
   through: () => boolean;
   /** Runs something when the picture is final; see `Patience`. */

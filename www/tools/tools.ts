@@ -35,6 +35,7 @@ export class Tools {
     const bench: Bench = {
       viewer,
       marks: this.#marks,
+      up: () => store.current.up,
       through: () => this.#through.checked,
       whenFinal: (run, here) => {
         this.#patience.whenFinal(run, here);

@@ -107,6 +107,8 @@ export class Preview {
       count: 8,
       colors: null,
       attributes: [],
+      fields: [],
+      facts: {},
       center: [0, 0, 0] as [number, number, number],
       local,
       radius,

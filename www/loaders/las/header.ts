@@ -2,6 +2,9 @@ import type { Column } from "../builder.ts";
 import { bytes } from "../blocks.ts";
 import { bytesOf, type NumberReader, numberReader, type NumberType } from "../../../src/ts/formats/numbers.js";
 import { LoadProblem } from "../problem.ts";
+import type { Crs } from "../../cloud/facts.ts";
+import { crsOf, type CrsRecords } from "./crs.ts";
+import { type FieldPlace, layoutOf } from "./places.ts";
 
 /**
  * The parts of a LAS header that the page needs, for the versions 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15). The
@@ -21,26 +24,13 @@ export interface LasHeader {
   low: readonly [number, number, number];
   high: readonly [number, number, number];
   columns: readonly LasColumn[];
+  crs: Crs | null;
 }
 
 export interface LasColumn extends Column {
   read: NumberReader;
 }
 
-/** For each point format: its length, and the places of its color and its time. */
-const FORMATS: Record<number, { bytes: number; color?: number; time?: number }> = {
-  0: { bytes: 20 },
-  1: { bytes: 28, time: 20 },
-  2: { bytes: 26, color: 20 },
-  3: { bytes: 34, time: 20, color: 28 },
-  4: { bytes: 57, time: 20 },
-  5: { bytes: 63, time: 20, color: 28 },
-  6: { bytes: 30, time: 22 },
-  7: { bytes: 36, time: 22, color: 30 },
-  8: { bytes: 38, time: 22, color: 30 },
-  9: { bytes: 59, time: 22 },
-  10: { bytes: 67, time: 22, color: 30 },
-};
 const EXTRA_TYPES: (NumberType | null)[] = [
   null,
   "uint8",
@@ -61,7 +51,17 @@ export async function readHeader(name: string, blob: Blob): Promise<LasHeader> {
   const data = await bytes(name, blob, 0, LONGEST_HEADER);
   const header = parseHeader(name, data);
   if (header.start > blob.size) throw new LoadProblem(`${name} is broken: its points would begin after its end.`);
-  return header;
+  return header.crs ? header : { ...header, crs: await crsAtEnd(name, blob, data) };
+}
+
+/** Since version 1.4, records may also follow the points. */
+async function crsAtEnd(name: string, blob: Blob, head: ArrayBuffer): Promise<Crs | null> {
+  const view = new DataView(head);
+  if (view.getUint8(25) !== 4) return null;
+  const at = Number(view.getBigUint64(235, true));
+  if (at === 0 || at >= blob.size) return null;
+  const end = new DataView(await bytes(name, blob, at, at + LONGEST_HEADER));
+  return crsOf(crsRecords(end, recordsOf(end, 0, view.getUint32(243, true), 60)));
 }
 
 export function parseHeader(name: string, data: ArrayBuffer): LasHeader {
@@ -79,7 +79,7 @@ export function parseHeader(name: string, data: ArrayBuffer): LasHeader {
   // The two upper bits of the format are set if the points are compressed.
   const format = view.getUint8(104) & 63;
   const compressed = view.getUint8(104) >> 6 !== 0;
-  const layout = FORMATS[format];
+  const layout = layoutOf(format);
   const rowBytes = view.getUint16(105, true);
   if (!layout) throw new LoadProblem(`${name} has LAS points of an unknown format (${format}).`);
   if (rowBytes < layout.bytes) throw broken("its points are shorter than their format");
@@ -105,7 +105,8 @@ export function parseHeader(name: string, data: ArrayBuffer): LasHeader {
     offset,
     low: vector(187, 16),
     high: vector(179, 16),
-    columns: [...pointColumns(format, layout), ...(extra ? extraColumns(view, extra, layout.bytes, rowBytes) : [])],
+    columns: [...layout.places.map(columnOf), ...(extra ? extraColumns(view, extra, layout.bytes, rowBytes) : [])],
+    crs: crsOf(crsRecords(view, records)),
   };
 }
 
@@ -116,44 +117,43 @@ interface VariableRecord {
   length: number;
 }
 
-/** The records between the header and the points. Records that do not fit there are left out. */
-function recordsOf(view: DataView, start: number, count: number): VariableRecord[] {
+/**
+ * The records between the header and the points, or behind the points. Records that do not fit there are left out.
+ * `head`: the bytes before the content of a record.
+ */
+function recordsOf(view: DataView, start: number, count: number, head: 54 | 60 = 54): VariableRecord[] {
   const records: VariableRecord[] = [];
-  for (let at = start, i = 0; i < count && at + 54 <= view.byteLength; i++) {
-    const length = view.getUint16(at + 20, true);
-    if (at + 54 + length > view.byteLength) break;
-    records.push({ user: textAt(view, at + 2, 16), id: view.getUint16(at + 18, true), at: at + 54, length });
-    at += 54 + length;
+  for (let at = start, i = 0; i < count && at + head <= view.byteLength; i++) {
+    const length = head === 54 ? view.getUint16(at + 20, true) : Number(view.getBigUint64(at + 20, true));
+    if (at + head + length > view.byteLength) break;
+    records.push({ user: textAt(view, at + 2, 16), id: view.getUint16(at + 18, true), at: at + head, length });
+    at += head + length;
   }
   return records;
+}
+
+function crsRecords(view: DataView, records: readonly VariableRecord[]): CrsRecords {
+  const found: CrsRecords = {};
+  for (const { user, id, at, length } of records) {
+    if (user !== "LASF_Projection") continue;
+    if (id === 2112) found.wkt = textAt(view, at, length);
+    if (id === 34_737) found.texts = textAt(view, at, length);
+    if (id === 34_735)
+      found.keys = Uint16Array.from({ length: length >> 1 }, (_, i) => view.getUint16(at + 2 * i, true));
+  }
+  return found;
 }
 
 function textAt(view: DataView, at: number, length: number): string {
   return new TextDecoder("latin1").decode(new Uint8Array(view.buffer, at, length)).replace(/\0[\s\S]*$/, "");
 }
 
-function pointColumns(format: number, { color, time }: { color?: number; time?: number }): LasColumn[] {
-  const plain = (name: string, type: NumberType, offset: number): LasColumn => ({
-    name,
-    type,
-    read: numberReader(type, offset, true),
-  });
-  const newer = format >= 6;
-  const masked = (name: string, offset: number, mask: number): LasColumn => ({
-    name,
-    type: "uint8",
-    read: (view, at) => view.getUint8(at + offset) & mask,
-  });
-  return [
-    ...(color === undefined
-      ? []
-      : ["red", "green", "blue"].map((channel, i) => plain(channel, "uint16", color + 2 * i))),
-    plain("intensity", "uint16", 12),
-    newer ? plain("classification", "uint8", 16) : masked("classification", 15, 31),
-    masked("return number", 14, newer ? 15 : 7),
-    plain("point source", "uint16", newer ? 20 : 18),
-    ...(time === undefined ? [] : [plain("time", "float64", time)]),
-  ];
+function columnOf({ name, type, offset, bits, isDetail }: FieldPlace): LasColumn {
+  const whole = numberReader(type, offset, true);
+  const [first, count] = bits ?? [0, 0];
+  const mask = (1 << count) - 1;
+  const read: NumberReader = bits ? (view, at) => (view.getUint8(at + offset) >> first) & mask : whole;
+  return { name, type, read, ...(isDetail && { isDetail }) };
 }
 
 /** The extra values of each point, as the program that added them describes them. */
@@ -174,7 +174,7 @@ function extraColumns(view: DataView, { at, length }: VariableRecord, from: numb
       const name = textAt(view, record + 4, 32).trim() || "extra";
       const plain = scale === 1 && shift === 0;
       columns.push(
-        plain ? { name, type, read } : { name, type: "float32", read: (row, i) => read(row, i) * scale + shift },
+        plain ? { name, type, read } : { name, type: "float64", read: (row, i) => read(row, i) * scale + shift },
       );
     }
     offset += size;

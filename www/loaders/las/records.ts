@@ -11,6 +11,8 @@ const CLASSES: Readonly<Record<number, string>> = {
   20: "ignored ground", 21: "snow", 22: "temporal exclusion",
 }; // prettier-ignore
 
+const MOST_DECIMALS = 12;
+
 const number = new Intl.NumberFormat("en-US");
 
 /** Takes the points of a LAS file, one record after another. */
@@ -43,12 +45,32 @@ export class RecordTaker {
     const attributes = cloud.attributes!.map((attribute) =>
       attribute.name === "classification" ? { ...attribute, labels: CLASSES } : attribute,
     );
+    const fields = cloud.fields!.map((field) =>
+      field.name === "classification" ? { ...field, labels: CLASSES } : field,
+    );
+    const { scale, offset, crs } = this.#header;
+    const facts = { ...cloud.facts, ...decimalsOf(scale, offset), ...(crs && { crs }) };
     const notes = [...cloud.notes!];
     if (this.#outside > 0) {
       notes.push(
         `${number.format(this.#outside)} of its points lie outside the bounds that its header gives: the header is wrong, or the points are damaged.`,
       );
     }
-    return { ...cloud, attributes, notes };
+    return { ...cloud, attributes, fields, facts, notes };
   }
+}
+
+/** The decimals that every coordinate has: those of the scale and of the offset. */
+function decimalsOf(
+  scale: readonly number[],
+  offset: readonly number[],
+): { decimals: [number, number, number] } | Record<string, never> {
+  const decimals = scale.map((step, axis) => Math.max(decimalsIn(step), decimalsIn(offset[axis]!)));
+  // A scale such as 1/3 has no end. Then the coordinates are shown with all digits.
+  return decimals.every((count) => count <= MOST_DECIMALS) ? { decimals: decimals as [number, number, number] } : {};
+}
+
+function decimalsIn(value: number): number {
+  const [digits, exponent = "0"] = String(Math.abs(value)).split("e");
+  return Math.max(0, (digits!.split(".")[1]?.length ?? 0) - Number(exponent));
 }
