@@ -13,9 +13,19 @@ viewpoint, and those on the convex hull of the flipped cloud and the viewpoint a
 
 from __future__ import annotations
 
-from ._native import Horizon, HprError, Placement, PointCloud, Visibility, merge_visible
+from ._native import Horizon, HprError, Placement, PointCloud, Share, Visibility, merge_visible, share_visible
 
-__all__ = ["Horizon", "HprError", "Placement", "PointCloud", "Visibility", "hidden_point_removal", "merge_visible"]
+__all__ = [
+    "Horizon",
+    "HprError",
+    "Placement",
+    "PointCloud",
+    "Share",
+    "Visibility",
+    "hidden_point_removal",
+    "merge_visible",
+    "share_visible",
+]
 __version__ = "0.1.0"
 
 

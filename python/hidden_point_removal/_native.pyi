@@ -8,6 +8,16 @@ from typing_extensions import NotRequired, Unpack
 Rule = Literal["auto", "search", "opposite"]
 Inversion = Literal["spherical"] | dict[str, float | str]
 
+class Within(TypedDict):
+    """A point takes part if all entries choose it. An entry that is None counts as left out."""
+
+    distance: NotRequired[float | None]
+    """The points at most this far from the viewpoint."""
+    box: NotRequired[tuple[ArrayLike, ArrayLike] | ArrayLike | None]
+    """The points between these two corners, the lowest and the highest coordinates, borders included."""
+    mask: NotRequired[ArrayLike | None]
+    """One truth value for each index."""
+
 class Options(TypedDict):
     """The options of a view. An option that is None counts as left out."""
 
@@ -29,6 +39,8 @@ class Options(TypedDict):
     """An early answer. It contains all visible points, and some hidden ones."""
     sample: NotRequired[int | None]
     """Only an even sample of about this many points takes part."""
+    within: NotRequired[Within | None]
+    """Only these points take part, as if the cloud held no others."""
 
 class MergeOptions(TypedDict):
     radius: NotRequired[float | None]
@@ -196,4 +208,30 @@ def merge_visible(
 
     Each part is (positions, ids): the visible points of one part of the cloud, with the caller's number of each.
     The answer is exact: visible(A + B) = visible(visible(A) + visible(B)).
+    """
+
+class Share:
+    """What is known of one sector of a cloud. All lists ascend."""
+
+    @property
+    def visible(self) -> NDArray[np.uint32]:
+        """The indices of own points that are visible in the whole cloud. This is certain."""
+    @property
+    def undecided(self) -> NDArray[np.uint32]:
+        """The indices of own points that may be visible or hidden. The others are decided."""
+    @property
+    def needed(self) -> NDArray[np.uint32]:
+        """The indices of the given points, own ones first, that can still hide others."""
+    @property
+    def missing(self) -> NDArray[np.uint32]:
+        """The numbers of the boxes whose points may hide undecided points."""
+
+def share_visible(
+    own: ArrayLike, others: ArrayLike, boxes: ArrayLike, viewpoint: ArrayLike, **options: Unpack[MergeOptions]
+) -> Share:
+    """Which of the own points of a cloud are visible, if only a part of the cloud is at hand?
+
+    `others` are points near the own ones. All further points of the cloud are in `boxes`, of the shape (n, 2, 3): the
+    lowest and the highest coordinates of each. If points are undecided, ask again with them as own points. The other
+    needed points and the points of the missing boxes are then others, and these boxes are left out.
     """

@@ -17,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from contextlib import contextmanager, nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,7 @@ from city import UTM, VIEWPOINTS, city, cut, write
 from killed import Killer, command, kill_when_kept
 from memory import peak_memory
 
-from hidden_point_removal.distributed import kernels, manifest, read_tile, visible_from_tiles, waves
+from hidden_point_removal.distributed import kernels, manifest, plan, read_tile, sectors, visible_from_tiles, waves
 
 HERE = Path(__file__).parent
 #: The radius of the flipping sphere, in the units of the city.
@@ -37,7 +38,7 @@ CASES = {
     "spatial": ("Squares of the ground, LAZ, map coordinates", "LAZ", np.float64, UTM),
     "random": ("Random cut, NumPy files, float32", "NumPy", np.float32, np.zeros(3)),
 }
-PARTS = [*CASES, "workers", "command", "costs"]
+PARTS = [*CASES, "sectors", "workers", "command", "costs"]
 
 
 class Report:
@@ -80,6 +81,11 @@ def run(part, report, folder, points):
         title = f"{name}: {points:,} points"
         print(f"## {title}", flush=True)
         compare(report, folder, points, part, *rest)
+        return title
+    if part == "sectors":
+        title = f"Sectors of the directions: {points:,} points"
+        print(f"## {title}", flush=True)
+        in_sectors(report, folder, points)
         return title
     title, check = OTHERS[part]
     print(f"## {title}", flush=True)
@@ -158,13 +164,72 @@ def without_waves(report, paths, viewpoints, answers):
     report.say()
 
 
+@contextmanager
+def divided(merged):
+    """Merges of at most so many points, sectors of half as many, and horizons of a sixtieth of them.
+
+    So a small cloud is divided among sectors as a large one is.
+    """
+    before = plan.MERGED_POINTS, sectors.SECTOR_POINTS, plan.HORIZON_POINTS
+    plan.MERGED_POINTS, sectors.SECTOR_POINTS, plan.HORIZON_POINTS = merged, merged // 2, merged // 60
+    try:
+        yield
+    finally:
+        plan.MERGED_POINTS, sectors.SECTOR_POINTS, plan.HORIZON_POINTS = before
+
+
+def in_sectors(report, folder, count):
+    """Too many points for one merge: the same answers from sectors as from one piece."""
+    paths = write(folder, [tile + UTM for tile in cut(city(count), "spatial")], "NumPy")
+    viewpoints = [(np.array(at) + UTM).tolist() for at in VIEWPOINTS.values()]
+    with divided(count // 20), cluster() as client:
+        answers = {
+            "exponential": visible_from_tiles(paths, viewpoints, client=client),
+            "sphere": visible_from_tiles(paths, viewpoints, client=client, radius=RADIUS),
+        }
+        memory = _peaks(client)
+    whole = ask_whole(folder, paths, viewpoints, {name: answer.options for name, answer in answers.items()})
+    report.say(
+        f"Merges take {count // 20:,} points at most, a sector has about {count // 40:,} of its own. \"Own\" is the largest "
+        "share of a sector times the number of sectors. \"Held\" are the points of all sectors together, and the largest "
+        "sector, as shares of the points that are divided. One merge is enough where no sectors are given."
+    )
+    report.say()
+    report.say("| viewpoint | inversion | divided | sectors | own | held, together | held, largest | rounds | differences |")
+    report.say("|---|---|---:|---:|---:|---:|---:|---:|---:|")
+    for inversion, answer in answers.items():
+        for number, at in enumerate(VIEWPOINTS):
+            expected = whole[f"{inversion} {number}"].astype(np.uint64)
+            differences = len(np.setxor1d(answer[number], expected))
+            report.check(differences == 0, f"{at}, {inversion}: {differences} differences in sectors")
+            own = answer.sectors[number]
+            if not own:
+                report.say(f"| {at} | {inversion} | 0 | – | – | – | – | – | {differences} |")
+                continue
+            every = sum(sector.own for sector in own)
+            largest = max(sector.own for sector in own) * len(own) / every
+            report.say(
+                f"| {at} | {inversion} | {every:,} | {len(own)} | {largest:.2f} "
+                f"| {share(sum(sector.held for sector in own), every)} "
+                f"| {share(max(sector.held for sector in own), every)} "
+                f"| {max(sector.rounds for sector in own)} | {differences} |"
+            )
+            report.check(largest <= 1.5, f"{at}, {inversion}: a sector has {largest:.2f} times its share")
+    report.say()
+    shown = ", ".join(f"{process} {value:.0f} MB" for process, value in memory.items())
+    report.say(f"Largest memory: {shown}; one piece {float(whole['memory']):.0f} MB.")
+    report.say()
+
+
 def kill_workers(report, folder):
     """A worker that is killed in any stage changes nothing."""
     paths = write(folder, [tile + UTM for tile in cut(city(300_000), "spatial")], "NumPy")
     viewpoints = [(np.array(VIEWPOINTS[at]) + UTM).tolist() for at in ("street", "oblique")]
     expected = [answer.tobytes() for answer in visible_from_tiles(paths, viewpoints)]
-    for kernel in ("facts", "neighbors", "horizon_points", "screen", "merge"):
-        with cluster() as client:
+    in_one_merge = ("facts", "neighbors", "horizon_points", "screen", "merge")
+    for kernel in (*in_one_merge, "divide", "piece_of", "begin", "blocks_of", "go_on"):
+        sizes = nullcontext() if kernel in in_one_merge else divided(30_000)
+        with sizes, cluster() as client:
             killer = Killer(client, kernel)
             killer.start()
             answers = visible_from_tiles(paths, viewpoints, client=client, cache=False)

@@ -19,6 +19,16 @@ pub enum Points<'a> {
     Double(&'a [[f64; 3]]),
 }
 
+impl Points<'_> {
+    /// The same points in double precision.
+    pub fn widened(&self) -> Vec<[f64; 3]> {
+        match *self {
+            Self::Single(points) => points.iter().map(|p| p.map(f64::from)).collect(),
+            Self::Double(points) => points.to_vec(),
+        }
+    }
+}
+
 impl<'py> Positions<'py> {
     /// Reads an argument. Arrays of other numbers, or with gaps in memory, are converted.
     pub fn read(argument: &Bound<'py, PyAny>, name: &str) -> PyResult<Self> {

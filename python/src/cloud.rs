@@ -9,7 +9,7 @@ use pyo3::types::PyDict;
 use crate::arrays::{Points, Positions, indices, numbers, place, places};
 use crate::camera;
 use crate::failure::{option, refused};
-use crate::options;
+use crate::options::{self, Asked};
 use crate::placement::Placement;
 use crate::visibility::Visibility;
 
@@ -20,15 +20,19 @@ pub struct PointCloud {
 }
 
 impl PointCloud {
-    /// Asks the core, and lets other Python threads run meanwhile.
+    /// Asks the core, or the part of the cloud that a mask leaves. Other Python threads run meanwhile.
     fn ask<T: Send>(
         &self,
         py: Python<'_>,
+        mask: Option<Vec<bool>>,
         query: impl Send + FnOnce(&core::PointCloud) -> Result<T, core::Error>,
     ) -> PyResult<T> {
         let cloud = &self.cloud;
-        py.detach(|| query(cloud))
-            .map_err(|error| refused(py, error))
+        py.detach(|| match mask {
+            Some(mask) => query(&cloud.masked(&mask)?),
+            None => query(cloud),
+        })
+        .map_err(|error| refused(py, error))
     }
 
     fn view(
@@ -37,8 +41,8 @@ impl PointCloud {
         given: Option<&Bound<'_, PyDict>>,
         query: impl Send + FnOnce(&core::PointCloud, &Options) -> Result<core::Visibility, core::Error>,
     ) -> PyResult<Visibility> {
-        let options = options::read(py, given)?;
-        let seen = self.ask(py, |cloud| query(cloud, &options))?;
+        let Asked { options, mask } = options::read(py, given)?;
+        let seen = self.ask(py, mask, |cloud| query(cloud, &options))?;
         Ok(Visibility::new(py, seen))
     }
 }
@@ -142,8 +146,10 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Visibility> {
         let camera = camera::read(py, camera)?;
-        let options = options::read(py, options)?;
-        let view = self.ask(py, |cloud| cloud.visible_from_camera(&camera, &options))?;
+        let Asked { options, mask } = options::read(py, options)?;
+        let view = self.ask(py, mask, |cloud| {
+            cloud.visible_from_camera(&camera, &options)
+        })?;
         Visibility::of_camera(py, view)
     }
 
@@ -156,10 +162,10 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<bool>>> {
         let viewpoint = place(viewpoint, "viewpoint")?;
-        let options = options::read(py, options)?;
+        let Asked { options, mask } = options::read(py, options)?;
         let positions = Positions::read(positions, "positions")?;
         let points = positions.points();
-        let seen = self.ask(py, |cloud| match points {
+        let seen = self.ask(py, mask, |cloud| match points {
             Points::Single(points) => cloud.sees(viewpoint, points, &options),
             Points::Double(points) => cloud.sees(viewpoint, points, &options),
         })?;
@@ -174,8 +180,8 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<u32>>> {
         let viewpoints = places(viewpoints, "viewpoints")?;
-        let options = options::read(py, options)?;
-        let counts = self.ask(py, |cloud| cloud.coverage(&viewpoints, &options))?;
+        let Asked { options, mask } = options::read(py, options)?;
+        let counts = self.ask(py, mask, |cloud| cloud.coverage(&viewpoints, &options))?;
         Ok(counts.into_pyarray(py))
     }
 
@@ -190,7 +196,7 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Placement> {
         let candidates = places(candidates, "candidates")?;
-        let options = options::read(py, options)?;
+        let Asked { options, mask } = options::read(py, options)?;
         let weights = weights.map(|given| numbers(given, "weights")).transpose()?;
         let wrong = || option(py, "share must be a number".into());
         let placing = Placing {
@@ -202,7 +208,7 @@ impl PointCloud {
                 .transpose()?,
             weights: weights.as_deref(),
         };
-        let placed = self.ask(py, |cloud| {
+        let placed = self.ask(py, mask, |cloud| {
             cloud.place_viewpoints(&candidates, &options, &placing)
         })?;
         Ok(Placement::new(py, placed))
@@ -218,7 +224,7 @@ impl PointCloud {
         let viewpoint = place(viewpoint, "viewpoint")?;
         let word = rule.into_pyobject(py)?.into_any();
         let rule = options::radius(py, "radius", &word)?;
-        let chosen = self.ask(py, |cloud| cloud.auto_radius(viewpoint, rule))?;
+        let chosen = self.ask(py, None, |cloud| cloud.auto_radius(viewpoint, rule))?;
         Ok((chosen.radius, chosen.exponent, chosen.evaluations))
     }
 
@@ -231,8 +237,10 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<(Visibility, Bound<'py, PyArray2<u32>>)> {
         let viewpoint = place(viewpoint, "viewpoint")?;
-        let options = options::read(py, options)?;
-        let made = self.ask(py, |cloud| cloud.reconstruct(viewpoint, &options, max_edge))?;
+        let Asked { options, mask } = options::read(py, options)?;
+        let made = self.ask(py, mask, |cloud| {
+            cloud.reconstruct(viewpoint, &options, max_edge)
+        })?;
         let count = made.triangles.len();
         let triangles = made.triangles.into_flattened().into_pyarray(py);
         Ok((
@@ -252,7 +260,7 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<f32>>> {
         let lights = places(lights, "lights")?;
-        let options = options::read(py, options)?;
+        let Asked { options, mask } = options::read(py, options)?;
         let corners = triangles
             .map(|given| corners(given, self.cloud.len()))
             .transpose()?;
@@ -261,7 +269,9 @@ impl PointCloud {
             smoothing,
             ambient,
         };
-        let brightness = self.ask(py, |cloud| cloud.illuminate(&lights, &options, &lighting))?;
+        let brightness = self.ask(py, mask, |cloud| {
+            cloud.illuminate(&lights, &options, &lighting)
+        })?;
         Ok(brightness.into_pyarray(py))
     }
 

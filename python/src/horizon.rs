@@ -25,7 +25,7 @@ impl Horizon {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Self> {
         let viewpoint = place(viewpoint, "viewpoint")?;
-        let options = options::read(py, options)?;
+        let options = options::read_without_cloud(py, options)?;
         let horizon =
             core::Horizon::new(viewpoint, &options).map_err(|error| refused(py, error))?;
         Ok(Self { horizon })

@@ -8,6 +8,7 @@ mod horizon;
 mod options;
 mod parts;
 mod placement;
+mod share;
 mod visibility;
 
 use pyo3::prelude::*;
@@ -18,7 +19,9 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<cloud::PointCloud>()?;
     module.add_class::<horizon::Horizon>()?;
     module.add_class::<placement::Placement>()?;
+    module.add_class::<share::Share>()?;
     module.add_class::<visibility::Visibility>()?;
     module.add_function(wrap_pyfunction!(parts::merge_visible, module)?)?;
+    module.add_function(wrap_pyfunction!(share::share_visible, module)?)?;
     Ok(())
 }

@@ -1,12 +1,13 @@
 //! Keyword arguments as options of a view.
 
-use hidden_point_removal::{Exponential, Inversion, Options, Radius};
+use hidden_point_removal::{Exponential, Inversion, Options, Radius, Within};
+use numpy::PyReadonlyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyDict};
 
 use crate::failure::option;
 
-const NAMES: [&str; 9] = [
+const NAMES: [&str; 10] = [
     "radius",
     "exponent",
     "inversion",
@@ -16,14 +17,33 @@ const NAMES: [&str; 9] = [
     "vote",
     "draft",
     "sample",
+    "within",
 ];
 
+/// The options of a view.
+#[derive(Default)]
+pub struct Asked {
+    pub options: Options,
+    /// Only these indices take part.
+    pub mask: Option<Vec<bool>>,
+}
+
+/// Reads the options of a question that is not to one cloud. The core refuses a choice of points there.
+pub fn read_without_cloud(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Options> {
+    let Asked { mut options, mask } = read(py, given)?;
+    if mask.is_some() {
+        options.within.get_or_insert_default();
+    }
+    Ok(options)
+}
+
 /// Reads the options of a view. Options that are `None` count as left out.
-pub fn read(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Options> {
-    let mut options = Options::default();
+pub fn read(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Asked> {
+    let mut asked = Asked::default();
     let Some(given) = given else {
-        return Ok(options);
+        return Ok(asked);
     };
+    let Asked { options, mask } = &mut asked;
     let mut has_radius = false;
     let mut has_inversion = false;
     for (name, value) in given.iter() {
@@ -58,11 +78,86 @@ pub fn read(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Optio
             "denoise" => options.denoise = Some(count(py, &name, &value)?),
             "vote" => options.vote = Some(count(py, &name, &value)?),
             "sample" => options.sample = Some(count(py, &name, &value)?),
+            "within" => *mask = within(py, &value, options)?,
             "scores" => options.scores = truth(py, &name, &value)?,
             _ => options.draft = truth(py, &name, &value)?,
         }
     }
-    Ok(options)
+    Ok(asked)
+}
+
+/// Reads a distance and a box into the options. Returns the mask.
+fn within(
+    py: Python<'_>,
+    value: &Bound<'_, PyAny>,
+    options: &mut Options,
+) -> PyResult<Option<Vec<bool>>> {
+    let wrong = |message: String| option(py, format!("within: {message}"));
+    let entries = value
+        .cast::<PyDict>()
+        .map_err(|_| wrong(format!("it must be a dictionary, got {}", shown(value))))?;
+    let mut chosen = Within::default();
+    let mut mask = None;
+    for (name, value) in entries.iter() {
+        if value.is_none() {
+            continue;
+        }
+        let name: String = name.extract()?;
+        match name.as_str() {
+            "distance" => {
+                let distance = number(&value).ok_or_else(|| {
+                    wrong(format!("distance must be a number, got {}", shown(&value)))
+                })?;
+                chosen.distance = Some(distance);
+            }
+            "box" => {
+                let corners: Option<Vec<Vec<f64>>> = value.extract().ok();
+                let bounds = corners.and_then(|corners| {
+                    let [min, max] = <[Vec<f64>; 2]>::try_from(corners).ok()?;
+                    Some([min.try_into().ok()?, max.try_into().ok()?])
+                });
+                let bounds = bounds
+                    .ok_or_else(|| wrong("box must be two corners of 3 numbers each".into()))?;
+                chosen.bounds = Some(bounds);
+            }
+            "mask" => {
+                mask = Some(truths(py, &value).ok_or_else(|| {
+                    wrong("mask must be a list of truth values, one for each index".into())
+                })?)
+            }
+            _ => {
+                return Err(wrong(format!(
+                    "unknown entry {name}; the entries are distance, box, mask"
+                )));
+            }
+        }
+    }
+    if chosen != Within::default() {
+        options.within = Some(chosen);
+    }
+    Ok(mask)
+}
+
+/// Truth values, or integers of which 0 is false.
+fn truths(py: Python<'_>, value: &Bound<'_, PyAny>) -> Option<Vec<bool>> {
+    let array = py
+        .import("numpy")
+        .ok()?
+        .call_method1("asarray", (value,))
+        .ok()?;
+    let kind: String = array
+        .getattr("dtype")
+        .ok()?
+        .getattr("kind")
+        .ok()?
+        .extract()
+        .ok()?;
+    if !["b", "i", "u"].contains(&kind.as_str()) {
+        return None;
+    }
+    let array = array.call_method1("astype", ("bool",)).ok()?;
+    let array: PyReadonlyArray1<'_, bool> = array.extract().ok()?;
+    Some(array.as_array().to_vec())
 }
 
 /// A rule for the radius, or a number.

@@ -19,7 +19,7 @@ pub fn merge_visible<'py>(
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<Bound<'py, PyArray1<u64>>> {
     let viewpoint = place(viewpoint, "viewpoint")?;
-    let options = options::read(py, options)?;
+    let options = options::read_without_cloud(py, options)?;
     let mut positions = Vec::with_capacity(parts.len());
     let mut ids = Vec::with_capacity(parts.len());
     for (number, (own, numbers)) in parts.iter().enumerate() {
@@ -66,13 +66,7 @@ fn merge(
         return merge_visible_u64(&parts, viewpoint, options);
     }
     // A part in double precision makes all of them double.
-    let wide: Vec<Vec<[f64; 3]>> = points
-        .iter()
-        .map(|points| match *points {
-            Points::Single(points) => points.iter().map(|p| p.map(f64::from)).collect(),
-            Points::Double(points) => points.to_vec(),
-        })
-        .collect();
+    let wide: Vec<Vec<[f64; 3]>> = points.iter().map(Points::widened).collect();
     let parts: Vec<Part<'_, f64>> = wide
         .iter()
         .zip(ids)

@@ -278,3 +278,64 @@ def test_bad_cameras_and_placements_are_refused(code, call):
     with pytest.raises(HprError) as refused:
         call(PointCloud([[0.0, 0, 1], [1, 0, 0], [0, 1, 0]]))
     assert refused.value.code == code, str(refused.value)
+
+
+def test_only_some_points_take_part():
+    points = bumpy(3000)
+    cloud = PointCloud(points)
+    mask = np.arange(3000) % 3 != 0
+    low, high = [-1.0, -1.0, 0.0], [1.0, 0.3, 1.0]
+    near = np.sqrt(((points - VIEWPOINT) ** 2).sum(axis=1)) <= 3.8
+    inside = ((points >= low) & (points <= high)).all(axis=1)
+    for within, chosen in (
+        ({"mask": mask}, mask),
+        ({"mask": mask.astype(np.uint8)}, mask),
+        ({"box": (low, high)}, inside),
+        ({"box": np.array([low, high]), "distance": None}, inside),
+        ({"distance": 3.8}, near),
+        ({"distance": 3.8, "box": (low, high), "mask": mask}, near & inside & mask),
+    ):
+        numbers = np.flatnonzero(chosen)
+        alone = PointCloud(points[chosen])
+        seen = cloud.visible_from(VIEWPOINT, within=within)
+        expected = alone.visible_from(VIEWPOINT)
+        assert 0 < len(expected) < len(numbers)
+        assert np.array_equal(seen.indices, numbers[expected.indices]) and seen.radius == expected.radius
+        assert len(seen.mask()) == 3000
+        counts = cloud.coverage([VIEWPOINT], within=within)
+        assert np.array_equal(np.flatnonzero(counts), seen.indices)
+    every = cloud.visible_from(VIEWPOINT, within={}).indices
+    assert np.array_equal(every, cloud.visible_from(VIEWPOINT).indices)
+
+
+@pytest.mark.parametrize(
+    "within",
+    [
+        {"mask": [True]},
+        {"mask": np.ones(50)},
+        {"mask": "all"},
+        {"distance": -1.0},
+        {"distance": "far"},
+        {"distance": True},
+        {"box": [0.0, 1.0]},
+        {"box": ([0, 0, 2], [1, 1, 1])},
+        {"box": ([0, 0, np.nan], [1, 1, 1])},
+        {"sphere": 3},
+        7,
+    ],
+)
+def test_bad_choices_of_points_are_refused(within):
+    with pytest.raises(HprError) as refused:
+        PointCloud(bumpy(50)).visible_from(VIEWPOINT, within=within)
+    assert refused.value.code == "option", str(refused.value)
+
+
+@pytest.mark.parametrize("within", [{"mask": [True]}, {"distance": 3.0}])
+def test_parts_of_points_are_refused_where_there_is_no_cloud(within):
+    for call in (
+        lambda: Horizon(VIEWPOINT, radius=100.0, within=within),
+        lambda: merge_visible([(bumpy(1), [0])], VIEWPOINT, radius=100.0, within=within),
+    ):
+        with pytest.raises(HprError) as refused:
+            call()
+        assert refused.value.code == "option" and "within" in str(refused.value)

@@ -16,5 +16,6 @@ pub(crate) mod reconstruct;
 pub(crate) mod sample;
 pub(crate) mod sector;
 pub(crate) mod sees;
+pub(crate) mod share;
 pub(crate) mod union;
 pub(crate) mod visibility;

@@ -14,6 +14,7 @@ mod around;
 #[cfg(debug_assertions)]
 mod assertions;
 mod boxes;
+mod certain;
 mod chain;
 mod depth;
 mod dual_plane;
@@ -39,6 +40,7 @@ mod topology;
 mod triangles;
 
 pub(crate) use boxes::hides_box;
+pub(crate) use certain::certain_among;
 pub(crate) use kept::KeptHull;
 pub(crate) use lower::mark_lower_boundary;
 pub(crate) use memory::Memory;

@@ -31,6 +31,7 @@ mod refusals;
 mod search;
 mod sectors;
 mod sees;
+mod share;
 mod survivors;
 mod thin;
 mod union;

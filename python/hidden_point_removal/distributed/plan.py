@@ -13,6 +13,7 @@ from hidden_point_removal import Horizon
 from . import kernels, manifest, statistics
 from .engines import engine_for, tree
 from .manifest import digest_of, identity
+from .sectors import visible_in_sectors
 from .tiles import refuse
 from .waves import waves_of
 
@@ -31,10 +32,12 @@ class Answers(list):
     `skipped` is the number of tiles, for each viewpoint, that were not needed because their box is hidden.
     `survivors` is the number of points, for each viewpoint, that were merged.
     `skipped_tiles` are the numbers of these tiles, for each viewpoint.
+    `sectors` tells for each viewpoint how many points each sector had; empty lists where one merge was enough.
     """
 
-    def __init__(self, answers, options, skipped_tiles, survivors):
+    def __init__(self, answers, options, skipped_tiles, survivors, sectors):
         super().__init__(answers)
+        self.sectors = sectors
         self.options = options
         self.skipped_tiles = skipped_tiles
         self.skipped = [len(tiles) for tiles in skipped_tiles]
@@ -99,13 +102,15 @@ class _Question:
         sizes = self._map(_sizes, [(parts,) for parts in screened], None)
         skipped = [[tile for tile, own in enumerate(sizes) if own[number][1]] for number in range(len(viewpoints))]
         survivors = [sum(own[number][0] for own in sizes) for number in range(len(viewpoints))]
-        answers = []
+        answers, sectors = [], []
         for number, viewpoint in enumerate(viewpoints):
             parts = self._map(_pick, [(parts, number) for parts in screened], None, keep=True)
-            answers.append(self._reduce(parts, [own[number][0] for own in sizes], viewpoint, options))
+            ids, own = self._reduce(parts, [own[number][0] for own in sizes], number, viewpoint, options)
+            answers.append(ids)
+            sectors.append(own)
         if job is not None:
             shutil.rmtree(job, ignore_errors=True)
-        return Answers(answers, options, skipped, survivors)
+        return Answers(answers, options, skipped, survivors, sectors)
 
     def _map(self, kernel, calls, stage, keep=False):
         return self._engine.map(kernel, calls, stage, self._progress if stage else None, keep=keep)
@@ -146,6 +151,7 @@ class _Question:
             done += len(wave)
             if done < len(self._tiles):
                 horizons = self._grown(viewpoints, options, horizons, own)
+        self._horizons = horizons
         return screened
 
     def _grown(self, viewpoints, options, horizons, screened):
@@ -164,14 +170,18 @@ class _Question:
             return None
         return lambda stage, number, _: self._progress(stage, done + number, len(self._tiles))
 
-    def _reduce(self, parts, sizes, viewpoint, options):
-        """Merges parts in a tree until one is left."""
+    def _reduce(self, parts, sizes, number, viewpoint, options):
+        """The visible ids of all parts, and a report of each sector if there are too many points for one merge."""
         while len(parts) > 1:
             groups = _groups(sizes)
-            calls = [([parts[k] for k in group], viewpoint, options) for group in groups]
-            parts = self._map(kernels.merge, calls, "merge", keep=True)
+            if len(groups) == len(parts):
+                horizon = self._horizons[number]
+                return visible_in_sectors(self._engine, parts, sum(sizes), horizon, viewpoint, options, self._progress)
+            calls = [([parts[k] for k in group], viewpoint, options) for group in groups if len(group) > 1]
+            merged = iter(self._map(kernels.merge, calls, "merge", keep=True))
+            parts = [parts[group[0]] if len(group) == 1 else next(merged) for group in groups]
             sizes = self._map(_size, [(part,) for part in parts], None)
-        return self._engine.result(parts[0]).ids if parts else np.empty(0, np.uint64)
+        return (self._engine.result(parts[0]).ids if parts else np.empty(0, np.uint64)), []
 
     def _spacing(self):
         queries = self._engine.result(
@@ -222,10 +232,10 @@ class _Question:
 
 
 def _groups(sizes):
-    """Runs of parts that are merged together: at least two, and not more points than fit in one merge."""
+    """Runs of parts that are merged together: not more points than fit in one merge."""
     groups, points = [[]], 0
     for number, size in enumerate(sizes):
-        if len(groups[-1]) >= 2 and points + size > MERGED_POINTS:
+        if groups[-1] and points + size > MERGED_POINTS:
             groups.append([])
             points = 0
         groups[-1].append(number)

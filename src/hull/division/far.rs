@@ -3,18 +3,16 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
+use super::alike::Alike;
 use super::cone::Cone;
 use super::places_in;
-use crate::base::allocation::{OutOfMemory, filled, push, reserve};
+use crate::base::allocation::{OutOfMemory, filled, reserve};
 use crate::base::real::square_root;
 use crate::cloud::blocks::{BLOCK, FANOUT};
 use crate::hull::flipped::Flipped;
 
 /// A block whose points have not been flipped yet.
 const CLOSED: u32 = u32::MAX;
-
-/// The largest angle between planes that are alike, in spreads of the blocks.
-const TURN: f64 = 0.7;
 
 pub(super) struct Far {
     /// For each block, a bit for each point that is not far.
@@ -27,21 +25,7 @@ pub(super) struct Far {
     opened: Vec<u32>,
     /// The x, y and z of the far points of each opened block, flipped; zero for a point that is not far.
     flipped: Vec<[[f64; BLOCK]; 3]>,
-    /// The nodes that a search has yet to visit.
-    path: Vec<(u32, u32)>,
-    around: Around,
-    /// The cosine and the sine of the largest angle between planes that are alike.
-    turn: (f64, f64),
-}
-
-/// The blocks that can be in the way of similar planes. Neighboring faces are asked about one after
-/// another.
-struct Around {
-    /// The planes are across about this direction.
-    direction: DVec3,
-    /// The planes are farther than this from the origin.
-    limit: f64,
-    blocks: Vec<u32>,
+    alike: Alike,
 }
 
 impl Far {
@@ -54,7 +38,6 @@ impl Far {
         spread: f64,
     ) -> Result<Self, OutOfMemory> {
         let mut counts: Vec<Vec<u32>> = Vec::new();
-        let sin = (TURN * spread).min(0.5);
         counts.try_reserve_exact(levels.len())?;
         for cones in &levels {
             let mut level = filled(cones.len(), 0)?;
@@ -72,21 +55,13 @@ impl Far {
             }
             counts.push(level);
         }
-        let mut path = Vec::new();
-        reserve(&mut path, FANOUT * levels.len())?;
         Ok(Self {
             opened: filled(taken.len(), CLOSED)?,
             taken,
+            alike: Alike::new(spread, levels.len())?,
             levels,
             counts,
             flipped: Vec::new(),
-            path,
-            around: Around {
-                direction: DVec3::X,
-                limit: f64::INFINITY,
-                blocks: Vec::new(),
-            },
-            turn: (square_root(1.0 - sin * sin), sin),
         })
     }
 
@@ -102,18 +77,13 @@ impl Far {
             return Ok(self.first());
         }
         let length = square_root(m.dot(m));
-        let Around {
-            direction,
-            limit: least,
-            ..
-        } = self.around;
-        let is_alike = m.dot(direction) > self.turn.0 * length && limit > least * length;
-        if !is_alike {
-            self.look_around(m, length, limit)?;
-        }
+        let counts = &self.counts;
+        let is_empty = |level: usize, node: usize| counts[level][node] == 0;
+        self.alike
+            .turn_to((m, limit), length, &self.levels, is_empty)?;
         let mut most = None;
-        for k in 0..self.around.blocks.len() {
-            let block = self.around.blocks[k] as usize;
+        for k in 0..self.alike.leaves.len() {
+            let block = self.alike.leaves[k] as usize;
             if self.counts[0][block] == 0 || self.levels[0][block].bound(m, length) < limit {
                 continue;
             }
@@ -141,39 +111,6 @@ impl Far {
             }
         }
         Ok(most)
-    }
-
-    /// Finds the blocks that can be in the way of this face and of its neighbors.
-    #[inline(never)]
-    fn look_around(&mut self, m: DVec3, length: f64, limit: f64) -> Result<(), OutOfMemory> {
-        let (cos, sin) = self.turn;
-        self.around.direction = m / length;
-        self.around.limit = limit / length * (1.0 - sin * sin);
-        self.around.blocks.clear();
-        let Around {
-            direction, limit, ..
-        } = self.around;
-        let top = self.levels.len() - 1;
-        self.path.clear();
-        self.path
-            .extend((0..self.levels[top].len() as u32).map(|node| (top as u32, node)));
-        while let Some((level, node)) = self.path.pop() {
-            let (level, node) = (level as usize, node as usize);
-            let cone = &self.levels[level][node];
-            if self.counts[level][node] == 0 || cone.widened(cos, sin).bound(direction, 1.0) < limit
-            {
-                continue;
-            }
-            if level == 0 {
-                push(&mut self.around.blocks, node as u32)?;
-                continue;
-            }
-            let below = self.levels[level - 1].len();
-            let children = node * FANOUT..below.min((node + 1) * FANOUT);
-            self.path
-                .extend(children.map(|child| (level as u32 - 1, child as u32)));
-        }
-        Ok(())
     }
 
     /// Flips the far points of a block. Their own bounds replace the bounds of the block's sphere.

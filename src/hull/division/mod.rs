@@ -9,9 +9,13 @@
 //!          worker finds the same cells. Any division gives the right answer (see
 //!          `hull::share`). This division has short seams.
 
+mod alike;
 mod cell;
 mod cone;
+mod elsewhere;
 mod far;
+
+pub(crate) use self::elsewhere::Elsewhere;
 
 use alloc::vec::Vec;
 use glam::DVec3;

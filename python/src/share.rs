@@ -1,0 +1,98 @@
+//! One sector of a cloud in parts.
+
+use hidden_point_removal as core;
+use numpy::{IntoPyArray, PyArray1, PyReadonlyArray3};
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::arrays::{Points, Positions, place};
+use crate::failure::{option, refused};
+use crate::options;
+
+/// What is known of one sector of a cloud.
+#[pyclass(frozen, module = "hidden_point_removal")]
+pub struct Share {
+    #[pyo3(get)]
+    visible: Py<PyArray1<u32>>,
+    #[pyo3(get)]
+    undecided: Py<PyArray1<u32>>,
+    #[pyo3(get)]
+    needed: Py<PyArray1<u32>>,
+    #[pyo3(get)]
+    missing: Py<PyArray1<u32>>,
+}
+
+#[pymethods]
+impl Share {
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let count = |list: &Py<PyArray1<u32>>| list.bind(py).len();
+        Ok(format!(
+            "Share({} visible, {} undecided, {} missing)",
+            count(&self.visible)?,
+            count(&self.undecided)?,
+            count(&self.missing)?
+        ))
+    }
+}
+
+/// Which of the own points are visible in the whole cloud.
+#[pyfunction]
+#[pyo3(signature = (own, others, boxes, viewpoint, **options))]
+pub fn share_visible(
+    py: Python<'_>,
+    own: &Bound<'_, PyAny>,
+    others: &Bound<'_, PyAny>,
+    boxes: &Bound<'_, PyAny>,
+    viewpoint: &Bound<'_, PyAny>,
+    options: Option<&Bound<'_, PyDict>>,
+) -> PyResult<Share> {
+    let viewpoint = place(viewpoint, "viewpoint")?;
+    let options = options::read_without_cloud(py, options)?;
+    let own = Positions::read(own, "own")?;
+    let others = Positions::read(others, "others")?;
+    let boxes = read_boxes(boxes)?;
+    let (own, others) = (own.points(), others.points());
+    let share = py.detach(|| match (own, others) {
+        (Points::Single(own), Points::Single(others)) => {
+            core::share_visible(own, others, &boxes, viewpoint, &options)
+        }
+        // Points in double precision make all of them double.
+        _ => core::share_visible(
+            &own.widened(),
+            &others.widened(),
+            &boxes,
+            viewpoint,
+            &options,
+        ),
+    });
+    let share = share.map_err(|error| refused(py, error))?;
+    let list = |numbers: &[u32]| numbers.to_vec().into_pyarray(py).unbind();
+    Ok(Share {
+        visible: list(share.visible()),
+        undecided: list(share.undecided()),
+        needed: list(share.needed()),
+        missing: list(share.missing()),
+    })
+}
+
+/// Boxes: (n, 2, 3), the least and the largest coordinates of each.
+fn read_boxes(argument: &Bound<'_, PyAny>) -> PyResult<Vec<[[f64; 3]; 2]>> {
+    let py = argument.py();
+    let wrong = |_| option(py, "boxes must be numbers of the shape (n, 2, 3)".into());
+    let numpy = py.import("numpy")?;
+    let array = numpy
+        .call_method1("ascontiguousarray", (argument, "float64"))
+        .map_err(wrong)?;
+    if array.len()? == 0 {
+        return Ok(Vec::new());
+    }
+    let array: PyReadonlyArray3<'_, f64> = array.extract().map_err(wrong)?;
+    let numbers = array.as_slice().map_err(|error| wrong(error.into()))?;
+    if array.as_array().shape()[1..] != [2, 3] {
+        return Err(option(
+            py,
+            "boxes must be numbers of the shape (n, 2, 3)".into(),
+        ));
+    }
+    Ok(bytemuck::cast_slice::<f64, [[f64; 3]; 2]>(numbers).to_vec())
+}
