@@ -16,5 +16,5 @@ export async function load<Module>(file: string): Promise<Module> {
     server: { middlewareMode: true, hmr: false, ws: false, watch: null },
   });
   const runner = createServerModuleRunner(server.environments.ssr, { hmr: false });
-  return (await runner.import(inRoot(file)));
+  return await runner.import(inRoot(file));
 }
