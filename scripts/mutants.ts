@@ -29,7 +29,10 @@ await command(async () => {
   const results = readResults();
   const { paths, placed, unviable } = await buildPrograms();
   const numberOf = new Map(every.map((mutant, index) => [mutant, index + 1]));
-  for (const mutant of every) if (unviable.has(numberOf.get(mutant)!)) results.set(mutant.key, "unviable");
+  for (const mutant of every) {
+    if (unviable.has(numberOf.get(mutant)!)) results.set(mutant.key, "unviable");
+    else if (results.get(mutant.key) === "unviable") results.delete(mutant.key);
+  }
   const isDue = ({ key }: Mutant) => results.get(key) === undefined || (!quick && results.get(key) === "open");
   const due = [...chosen].filter((mutant) => isDue(mutant) && placed.has(numberOf.get(mutant)!));
   const tests = due.length === 0 ? [] : await measureTests(paths, quick);

@@ -16,6 +16,8 @@ const CARGO = [
   join(out, "target"),
 ];
 const SWITCH = "crate::mutant::is(";
+/** The beginning of the switch of an arm. */
+const ARM = ` if !${SWITCH}`;
 
 export interface Programs {
   /** The test programs, which hold all mutants. */
@@ -103,11 +105,16 @@ async function cargo([command, ...what]: string[]) {
   return { messages, errors };
 }
 
-/** The mutant at which the compiler stopped: the last one that begins before that place. */
+/**
+ * The mutant at which the compiler stopped: the last one that begins before that place. Where a `match` lacks
+ * patterns, the place is before its arms, and the first arm that has a switch is to blame.
+ */
 function mutantAt({ message, spans }: { message: string; spans: Place[] }): number {
   const { file_name, byte_start } = spans.find(({ is_primary }) => is_primary)!;
-  const before = readFileSync(join(tree, file_name)).subarray(0, byte_start).toString();
-  const number = Number.parseInt(before.slice(before.lastIndexOf(SWITCH) + SWITCH.length));
-  if (!before.includes(SWITCH)) throw new Problem(`${file_name} does not compile: ${message}`);
-  return number;
+  const source = readFileSync(join(tree, file_name));
+  const lacksPatterns = message.startsWith("non-exhaustive patterns");
+  const text = lacksPatterns ? source.subarray(byte_start).toString() : source.subarray(0, byte_start).toString();
+  const [mark, at] = lacksPatterns ? [ARM, text.indexOf(ARM)] : [SWITCH, text.lastIndexOf(SWITCH)];
+  if (at < 0) throw new Problem(`${file_name} does not compile: ${message}`);
+  return Number.parseInt(text.slice(at + mark.length));
 }
