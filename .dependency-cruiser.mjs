@@ -20,8 +20,9 @@ const PACKAGE = [
   ["nodes", "nodes/"],
   ["react-three-fiber", "react-three-fiber/"],
   ["deck", "deck/"],
+  ["stream", "stream/"],
   ["api", "api\\.ts$"],
-  ["entries", "(index|inline|worker|three|nodes|react-three-fiber|deck)\\.ts$"],
+  ["entries", "(index|inline|worker|three|nodes|react-three-fiber|deck|stream)\\.ts$"],
   // The command uses the entries, as any user does.
   ["cli", "cli/"],
 ];
@@ -91,6 +92,13 @@ const forbidden = [
     severity: "error",
     from: { path: "^src/ts/", pathNot: "^src/ts/(three|nodes|react-three-fiber|deck)/" },
     to: { path: "node_modules/(three|@types/three|react|@types/react|@react-three|@deck\\.gl)/" },
+  },
+  {
+    name: "the reader of COPC only in the stream",
+    comment: "The package copc is optional, too.",
+    severity: "error",
+    from: { path: "^src/ts/", pathNot: "^src/ts/stream/" },
+    to: { path: "node_modules/(copc|laz-perf)/" },
   },
   {
     name: "one adapter's peers",

@@ -8,7 +8,7 @@ import { expect, it } from "vitest";
 import { wasmBytes } from "./support";
 
 /** A page that uses an adapter already has these modules. */
-const PEERS = ["three", "react", "react/*", "@react-three/fiber", "@deck.gl/*"];
+const PEERS = ["three", "react", "react/*", "@react-three/fiber", "@deck.gl/*", "copc"];
 
 const gzipped = (bytes: Uint8Array) => gzipSync(bytes, { level: 9 }).length;
 
@@ -40,6 +40,7 @@ it.each([
   ["nodes.js", 28_700],
   // Degrees, meters and matrices cost 950 bytes.
   ["deck.js", 17_600],
+  ["stream.js", 18_000],
 ])("%s stays below %i bytes, gzipped", async (file, limit) => {
   const size = await sizeOf(file);
   console.log(`${file}: ${size} bytes gzipped, ${size + gzipped(wasmBytes())} with the wasm`);

@@ -25,6 +25,7 @@ import {
   type VisiblePart,
 } from "hidden-point-removal";
 import { init as initInline } from "hidden-point-removal/inline";
+import { openOctree, type OctreeStep, type OctreeViewOptions } from "hidden-point-removal/stream";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 
 const inputs: InitInput[] = [
@@ -112,4 +113,15 @@ export async function everything(): Promise<HprErrorCode | undefined> {
     return error instanceof HprError ? error.code : undefined;
   }
   return undefined;
+}
+
+export async function stream(view: OctreeViewOptions): Promise<OctreeStep | undefined> {
+  const octree = await openOctree("https://example.org/a.copc.laz", { cache: 1000 });
+  let last: OctreeStep | undefined;
+  for await (const step of octree.visibleFrom([0, 0, 1], { ...view, inversion: { exponential: "auto" } })) {
+    last = step;
+  }
+  // @ts-expect-error There is no such format.
+  await openOctree(3);
+  return last;
 }

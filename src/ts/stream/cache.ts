@@ -1,0 +1,65 @@
+import type { OctreeNode, Tree } from "./tree.js";
+
+type Positions = Float64Array<ArrayBuffer>;
+
+/** The positions of a node, and the number of bytes that were read for it now. */
+export interface Loaded {
+  positions: Positions;
+  bytes: number;
+}
+
+/** Reads nodes, and keeps those that were used last, so that another viewpoint finds them. */
+export class NodeCache {
+  readonly #tree: Tree;
+  /** The most points that are kept. */
+  #most: number;
+  /** In the order of their last use. */
+  readonly #kept = new Map<OctreeNode, Positions>();
+  #points = 0;
+
+  constructor(tree: Tree, most: number) {
+    this.#tree = tree;
+    this.#most = most;
+  }
+
+  get points(): number {
+    return this.#points;
+  }
+
+  async load(node: OctreeNode, signal?: AbortSignal): Promise<Loaded> {
+    const kept = this.#kept.get(node);
+    if (kept !== undefined) {
+      this.#kept.delete(node);
+      this.#kept.set(node, kept);
+      return { positions: kept, bytes: 0 };
+    }
+    if (node.count === 0) {
+      return { positions: new Float64Array(0), bytes: 0 };
+    }
+    const positions = await this.#tree.read(node, signal);
+    this.#keep(node, positions);
+    return { positions, bytes: node.part.length };
+  }
+
+  /** Drops all nodes, and keeps none from now on. */
+  close(): void {
+    this.#most = 0;
+    this.#kept.clear();
+    this.#points = 0;
+  }
+
+  #keep(node: OctreeNode, positions: Positions): void {
+    if (this.#kept.has(node) || node.count > this.#most) {
+      return;
+    }
+    this.#kept.set(node, positions);
+    this.#points += node.count;
+    for (const [oldest] of this.#kept) {
+      if (this.#points <= this.#most) {
+        break;
+      }
+      this.#kept.delete(oldest);
+      this.#points -= oldest.count;
+    }
+  }
+}

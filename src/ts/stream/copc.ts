@@ -1,0 +1,142 @@
+import type { Copc, Hierarchy } from "copc";
+
+import { asError, HprError } from "../base/errors.js";
+import { checkRecords, decompress, type LazPerf } from "./laz-chunk.js";
+import { broken, type Part, type RangeReader, readPart } from "./source.js";
+import { childCell, type OctreeNode, Tree, triple, type Triple } from "./tree.js";
+
+type Library = typeof import("copc");
+
+/** The decoder of all octrees that were opened without one. */
+let started: Promise<LazPerf> | undefined;
+
+/** Opens a cloud-optimized point cloud (copc.io): an octree in one LAZ file. */
+export async function openCopc(name: string, read: RangeReader, lazPerf: Promise<LazPerf> | undefined): Promise<Tree> {
+  const library = await loadLibrary();
+  let copc: Copc;
+  try {
+    copc = await library.Copc.create(read);
+  } catch (cause) {
+    if (cause instanceof HprError) {
+      throw cause;
+    }
+    throw new HprError("load", `${name} is not a COPC file, or it is broken: ${asError(cause).message}`, { cause });
+  }
+  // The types of laz-perf need those of Emscripten.
+  const { createLazPerf } = library.Las.PointData as unknown as { createLazPerf: () => Promise<LazPerf> };
+  const perf = lazPerf ?? (started ??= createLazPerf());
+  // This error is reported when the first node is read.
+  perf.catch(() => undefined);
+  return new CopcTree(name, read, library, copc, perf);
+}
+
+async function loadLibrary(): Promise<Library> {
+  try {
+    return await import("copc");
+  } catch (cause) {
+    throw new HprError("load", `COPC needs the package copc: npm install copc (${asError(cause).message})`, { cause });
+  }
+}
+
+class CopcTree extends Tree {
+  readonly root: OctreeNode;
+  readonly #read: RangeReader;
+  readonly #library: Library;
+  readonly #copc: Copc;
+  readonly #perf: Promise<LazPerf>;
+  /** The number of known pages that were not read. */
+  #unread = 1;
+  /** Entries of nodes that have a page of their own. */
+  readonly #beside = new WeakMap<OctreeNode, Hierarchy.Node>();
+
+  constructor(name: string, read: RangeReader, library: Library, copc: Copc, perf: Promise<LazPerf>) {
+    const { header, info } = copc;
+    const corner = (numbers: readonly number[], from = 0) => triple((axis) => numbers[from + axis]!);
+    super({
+      name,
+      points: header.pointCount,
+      cube: { min: corner(info.cube), max: corner(info.cube, 3) },
+      bounds: { min: corner(header.min), max: corner(header.max) },
+      scale: corner(header.scale),
+      offset: corner(header.offset),
+    });
+    checkRecords(name, { format: header.pointDataRecordFormat, length: header.pointDataRecordLength });
+    this.#read = read;
+    this.#library = library;
+    this.#copc = copc;
+    this.#perf = perf;
+    this.root = this.node(keyOf(0, [0, 0, 0]), 0, [0, 0, 0]);
+    this.defer(this.root, partOf(info.rootHierarchyPage));
+  }
+
+  async read(node: OctreeNode, signal?: AbortSignal): Promise<Float64Array<ArrayBuffer>> {
+    const { name } = this.facts;
+    const { pointDataRecordFormat: format, pointDataRecordLength: length } = this.#copc.header;
+    const chunk = await readPart(name, this.#read, node.part, signal);
+    let perf: LazPerf;
+    try {
+      perf = await this.#perf;
+    } catch (cause) {
+      const why = asError(cause).message;
+      throw new HprError("load", `the decoder laz-perf did not start (${why}); pass it as the option lazPerf`, {
+        cause,
+      });
+    }
+    return this.placed(node, decompress(name, node.key, chunk, node.count, { format, length }, perf));
+  }
+
+  protected async readPage(top: OctreeNode, page: Part): Promise<void> {
+    const { name, points } = this.facts;
+    const bytes = await readPart(name, this.#read, page);
+    let listed: Hierarchy.Subtree;
+    try {
+      const { offset: pageOffset, length: pageLength } = page;
+      listed = await this.#library.Copc.loadHierarchyPage(() => Promise.resolve(bytes), { pageOffset, pageLength });
+    } catch (cause) {
+      throw broken(name, "its list of nodes cannot be read", cause);
+    }
+    // Some writers list such a node beside its page, and not in it.
+    const own = listed.nodes[top.key] ?? this.#beside.get(top);
+    if (own === undefined) {
+      throw broken(name, `the page of node ${top.key} does not list it`);
+    }
+    this.#unread -= 1;
+    this.#add(top, own, listed);
+    if (this.#unread === 0 && this.listed !== points) {
+      throw broken(name, `its nodes list ${this.listed} points, but its header gives ${points}`);
+    }
+  }
+
+  /** Adds a node that a page lists, and those below it. */
+  #add(node: OctreeNode, own: Hierarchy.Node, listed: Hierarchy.Subtree): void {
+    node.page = undefined;
+    node.count = own.pointCount;
+    node.part = { offset: own.pointDataOffset, length: own.pointDataLength };
+    this.countListed(own.pointCount);
+    for (let number = 0; number < 8; number++) {
+      const cell = childCell(node.cell, number);
+      const key = keyOf(node.depth + 1, cell);
+      const [page, entry] = [listed.pages[key], listed.nodes[key]];
+      if (page === undefined && entry === undefined) {
+        continue;
+      }
+      const child = this.node(key, node.depth + 1, cell);
+      node.children.push(child);
+      if (page !== undefined) {
+        this.defer(child, partOf(page));
+        this.#unread += 1;
+        if (entry !== undefined) this.#beside.set(child, entry);
+      } else {
+        this.#add(child, entry!, listed);
+      }
+    }
+  }
+}
+
+function keyOf(depth: number, cell: Triple): string {
+  return [depth, ...cell].join("-");
+}
+
+function partOf({ pageOffset, pageLength }: Hierarchy.Page): Part {
+  return { offset: pageOffset, length: pageLength };
+}

@@ -1,0 +1,127 @@
+import { describe, HprError } from "../base/errors.js";
+import { type MergeOptions, mergeSettings } from "../cloud/merge.js";
+import { givenOptions, integer, pick } from "../query/options.js";
+import { readViewpoint } from "../query/positions.js";
+import type { ResolvedInversion } from "../query/view-options.js";
+import { readSignal } from "../worker/abort.js";
+import type { Fetch } from "./source.js";
+import type { LazPerf } from "./laz-chunk.js";
+
+/** How an octree is read. */
+export interface OctreeOptions {
+  /** Fetches addresses, for instance with a token in the headers. Default: the platform's `fetch`. */
+  fetch?: Fetch | undefined;
+  /**
+   * The LAZ decoder: what `createLazPerf()` of the package `laz-perf` returns. Pages need it for COPC,
+   * because the address of its wasm is theirs to know. Node finds it by itself.
+   */
+  lazPerf?: LazPerf | Promise<LazPerf> | undefined;
+  /** The most points that are kept in memory after they were read. Default 4,000,000 (96 MB). */
+  cache?: number | undefined;
+}
+
+/** How the visible points of an octree are computed. */
+export interface OctreeViewOptions {
+  /** R of the flipping sphere, in the cloud's units: at least the distance of the farthest point. */
+  radius?: number | undefined;
+  /**
+   * The inversion, with numbers. Without it and without a radius, it is exponential, and its scale comes
+   * from the spacing of the cloud, as with `{ exponential: "auto" }`. The answer records it.
+   */
+  inversion?: ResolvedInversion | { exponential: "auto" } | undefined;
+  /**
+   * The most points that may be held for this view at once: those that may be visible, and the points
+   * of the nodes that are being read. When they do not suffice, the answer is not exact, and says how
+   * many nodes are undecided. Default 4,000,000.
+   */
+  budget?: number | undefined;
+  /** The most nodes that are fetched at the same time. Default 6. */
+  requests?: number | undefined;
+  /** Ends the view. The iteration then throws an `AbortError`. */
+  signal?: AbortSignal | undefined;
+  /** Is called after each node. */
+  onProgress?: ((progress: OctreeProgress) => void) | undefined;
+}
+
+/** How far a view is. */
+export interface OctreeProgress {
+  /** The nodes whose points were taken up. */
+  read: number;
+  /** The nodes that are hidden, so that they are not needed. */
+  hidden: number;
+  /** The number of bytes of points that were fetched for this view. */
+  bytes: number;
+}
+
+export interface OctreeSettings {
+  fetch: Fetch;
+  lazPerf: Promise<LazPerf> | undefined;
+  cache: number;
+}
+
+export interface ViewRequest {
+  viewpoint: readonly number[];
+  /** Undefined for the automatic inversion. */
+  merge: MergeOptions | undefined;
+  budget: number;
+  requests: number;
+  signal: AbortSignal | undefined;
+  onProgress: (progress: OctreeProgress) => void;
+}
+
+const MANY = 4_000_000;
+const MOST_POINTS = 2 ** 28;
+const MOST_REQUESTS = 64;
+
+export function octreeSettings(options: unknown): OctreeSettings {
+  const given = givenOptions(options, ["fetch", "lazPerf", "cache"]);
+  const { fetch: fetcher = fetch, lazPerf } = given;
+  if (typeof fetcher !== "function") {
+    throw new HprError("option", `fetch must be a function, got ${describe(fetcher)}`);
+  }
+  if (lazPerf !== undefined && (typeof lazPerf !== "object" || lazPerf === null)) {
+    throw new HprError("option", `lazPerf must be what createLazPerf() returns, got ${describe(lazPerf)}`);
+  }
+  return {
+    // Called without an object: the platform's own fetch refuses any other.
+    fetch: (url, init) => (fetcher as Fetch)(url, init),
+    lazPerf: lazPerf === undefined ? undefined : Promise.resolve(lazPerf as LazPerf | Promise<LazPerf>),
+    cache: integer(given, "cache", 0, MOST_POINTS) ?? MANY,
+  };
+}
+
+export function viewRequest(viewpoint: unknown, options: unknown): ViewRequest {
+  const given = givenOptions(options, ["radius", "inversion", "budget", "requests", "signal", "onProgress"]);
+  const { onProgress = () => undefined } = given;
+  if (typeof onProgress !== "function") {
+    throw new HprError("option", `onProgress must be a function, got ${describe(onProgress)}`);
+  }
+  return {
+    viewpoint: readFinite(viewpoint),
+    merge: mergeOptions(pick(given, ["radius", "inversion"])),
+    budget: integer(given, "budget", 1, MOST_POINTS) ?? MANY,
+    requests: integer(given, "requests", 1, MOST_REQUESTS) ?? 6,
+    signal: readSignal(given["signal"]),
+    onProgress: onProgress as ViewRequest["onProgress"],
+  };
+}
+
+function readFinite(viewpoint: unknown): number[] {
+  const numbers = readViewpoint(viewpoint, 3);
+  if (!numbers.every(Number.isFinite)) {
+    throw new HprError("viewpoint", `the viewpoint must be finite, got ${numbers.join(", ")}`);
+  }
+  return numbers;
+}
+
+/** The inversion that is asked for, checked before anything is read. Undefined for the automatic one. */
+function mergeOptions(given: Record<string, unknown>): MergeOptions | undefined {
+  const { radius, inversion } = given;
+  const isAutomatic = (inversion as { exponential?: unknown } | undefined)?.exponential === "auto";
+  if (radius === undefined && (inversion === undefined || isAutomatic)) {
+    return undefined;
+  }
+  const merge = { ...(radius !== undefined && { radius }), ...(inversion !== undefined && { inversion }) };
+  mergeSettings(merge, "the whole octree is seen with");
+  return merge as MergeOptions;
+}

@@ -1,0 +1,185 @@
+import { broken, type Part } from "./source.js";
+
+/** Three numbers: x, y, z. */
+export type Triple = readonly [number, number, number];
+
+export interface Box {
+  readonly min: Triple;
+  readonly max: Triple;
+}
+
+/** One node of an octree. */
+export interface OctreeNode extends Box {
+  /** The name of the node in its format, such as `2-0-1-3` (COPC) or `r046` (Potree). */
+  readonly key: string;
+  readonly depth: number;
+  /** Its cell among the cells of its depth. */
+  readonly cell: Triple;
+  /** The number of its own points. It is not exact as long as the node is not listed. */
+  count: number;
+  /** Where its own points are. */
+  part: Part;
+  children: OctreeNode[];
+  /** Where the node and the nodes below it are listed. Undefined if they are listed already. */
+  page: Part | undefined;
+  /** The length of this page, also after it was read. 0 if the node is in the page of its parent. */
+  pageLength: number;
+}
+
+/** The facts of an octree that its header gives. */
+export interface TreeFacts {
+  /** For messages. */
+  name: string;
+  /** The number of points of all nodes. */
+  points: number;
+  /** The cell of the root: a cube. */
+  cube: Box;
+  /** A box around all points, if it is known. */
+  bounds: Box | undefined;
+  /** A coordinate is an integer times the scale, plus the offset. */
+  scale: Triple;
+  offset: Triple;
+}
+
+/** Octrees are less deep. A deeper one contains itself. */
+const DEEPEST = 40;
+
+/**
+ * An octree in which each point is in one node, and deeper nodes refine coarser ones. Its nodes are
+ * listed page by page.
+ */
+export abstract class Tree {
+  readonly facts: TreeFacts;
+  /** How far points may lie outside of their cell: coordinates are rounded after they are sorted into cells. */
+  readonly #tolerance: Triple;
+  /** The offsets of all pages so far. */
+  readonly #pages = new Set<number>();
+  readonly #listing = new Map<OctreeNode, Promise<void>>();
+  #listed = 0;
+
+  protected constructor(facts: TreeFacts) {
+    const { name, scale, offset, cube, bounds } = facts;
+    const numbers = [...scale, ...offset, ...cube.min, ...cube.max, ...(bounds ? [...bounds.min, ...bounds.max] : [])];
+    if (!numbers.every(Number.isFinite) || scale.includes(0)) {
+      throw broken(name, "its scale, its offset or its box is not a finite number");
+    }
+    this.facts = facts;
+    this.#tolerance = triple((axis) => {
+      const largest = Math.max(Math.abs(cube.min[axis]), Math.abs(cube.max[axis]));
+      return Math.abs(scale[axis]) + 4 * Number.EPSILON * largest;
+    });
+  }
+
+  abstract readonly root: OctreeNode;
+
+  /** Reads and checks the positions of a listed node. */
+  abstract read(node: OctreeNode, signal?: AbortSignal): Promise<Float64Array<ArrayBuffer>>;
+
+  /** Reads a page: lists its node and nodes below it. */
+  protected abstract readPage(node: OctreeNode, page: Part): Promise<void>;
+
+  /** The number of points of all nodes that are listed so far. */
+  get listed(): number {
+    return this.#listed;
+  }
+
+  /** Lists a node, if it is not listed yet. Several callers may wait for one page. */
+  async list(node: OctreeNode): Promise<void> {
+    const { page } = node;
+    if (page === undefined) {
+      return;
+    }
+    let listing = this.#listing.get(node);
+    if (listing === undefined) {
+      if (this.#pages.has(page.offset)) {
+        throw broken(this.facts.name, "a page of its list of nodes contains itself");
+      }
+      listing = this.#readPage(node, page).finally(() => this.#listing.delete(node));
+      this.#listing.set(node, listing);
+    }
+    await listing;
+  }
+
+  async #readPage(node: OctreeNode, page: Part): Promise<void> {
+    await this.readPage(node, page);
+    this.#pages.add(page.offset);
+  }
+
+  /** Counts the points of nodes that were listed. */
+  protected countListed(points: number): void {
+    this.#listed += points;
+    if (this.#listed > this.facts.points) {
+      throw broken(this.facts.name, `its nodes list more points than the ${this.facts.points} of its header`);
+    }
+  }
+
+  /** A node that is not listed yet. */
+  protected node(key: string, depth: number, cell: Triple): OctreeNode {
+    if (depth > DEEPEST) {
+      throw broken(this.facts.name, `its octree is deeper than ${DEEPEST} levels`);
+    }
+    const nothing = { offset: 0, length: 0 };
+    return {
+      key,
+      depth,
+      cell,
+      ...this.#boxOf(depth, cell),
+      count: 0,
+      part: nothing,
+      children: [],
+      page: undefined,
+      pageLength: 0,
+    };
+  }
+
+  /** Notes that a page of its own lists the node. */
+  protected defer(node: OctreeNode, page: Part): void {
+    node.page = page;
+    node.pageLength = page.length;
+  }
+
+  /** The positions of integers, which must be in the node's box. */
+  protected placed(node: OctreeNode, integers: Int32Array): Float64Array<ArrayBuffer> {
+    const { scale, offset, name } = this.facts;
+    const { min, max } = node;
+    const positions = new Float64Array(integers.length);
+    for (let i = 0; i < integers.length; i++) {
+      const axis = i % 3;
+      const value = integers[i]! * scale[axis]! + offset[axis]!;
+      if (!(value >= min[axis]! && value <= max[axis]!)) {
+        throw broken(name, `point ${Math.floor(i / 3)} of node ${node.key} lies outside of the node's box`);
+      }
+      positions[i] = value;
+    }
+    return positions;
+  }
+
+  #boxOf(depth: number, cell: Triple): Box {
+    const { cube, bounds } = this.facts;
+    const at = (axis: Axis, step: number) =>
+      cube.min[axis] + (cube.max[axis] - cube.min[axis]) * ((cell[axis] + step) / 2 ** depth);
+    const min = triple((axis) => Math.max(at(axis, 0), bounds?.min[axis] ?? -Infinity) - this.#tolerance[axis]);
+    const max = triple((axis) => Math.min(at(axis, 1), bounds?.max[axis] ?? Infinity) + this.#tolerance[axis]);
+    return { min, max };
+  }
+}
+
+type Axis = 0 | 1 | 2;
+
+export function triple(of: (axis: Axis) => number): Triple {
+  return [of(0), of(1), of(2)];
+}
+
+/** The cell of a child. Bit 0 of the number is x, bit 1 is y, bit 2 is z. */
+export function childCell([x, y, z]: Triple, number: number): Triple {
+  return [2 * x + (number & 1), 2 * y + ((number >> 1) & 1), 2 * z + ((number >> 2) & 1)];
+}
+
+/** The node and all nodes below it that are known so far. */
+export function* subtree(node: OctreeNode): Generator<OctreeNode> {
+  const left = [node];
+  for (let next = left.pop(); next !== undefined; next = left.pop()) {
+    yield next;
+    left.push(...next.children);
+  }
+}
