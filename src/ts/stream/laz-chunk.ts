@@ -3,11 +3,16 @@ import { broken } from "./source.js";
 /** The part of laz-perf that is used: `createLazPerf()` of the package `laz-perf` makes it. */
 export interface LazPerf {
   readonly HEAPU8: Uint8Array;
+  /** Takes memory of the decoder. */
   _malloc(bytes: number): number;
+  /** Gives it back. */
   _free(pointer: number): void;
   ChunkDecoder: new () => {
+    /** Begins with a chunk of compressed points. */
     open(format: number, recordLength: number, pointer: number): void;
+    /** Writes the next point to an address. */
     getPoint(pointer: number): void;
+    /** Ends the decoder. */
     delete(): void;
   };
 }

@@ -3,6 +3,7 @@ import { broken, type Part } from "./source.js";
 /** Three numbers: x, y, z. */
 export type Triple = readonly [number, number, number];
 
+/** A box with its borders: its least and its largest x, y, z. */
 export interface Box {
   readonly min: Triple;
   readonly max: Triple;
