@@ -1,26 +1,31 @@
+import { init } from "hidden-point-removal";
 import { byId } from "./controls/dom.ts";
-import { startSession } from "./page/session.ts";
-import { Status } from "./page/status.ts";
+import { loadAhead } from "./loaders/index.ts";
+import { firstSource } from "./page/sources.ts";
 import { showEmbedded } from "./panel/embedded.ts";
-import { Message } from "./panel/message.ts";
 import { bindSheet } from "./panel/sheet.ts";
 import { SAMPLES } from "./samples/samples.ts";
 import { readAddress } from "./settings/read-address.ts";
-import { canDraw } from "./view/stage.ts";
 
+// The first cloud and the WebAssembly are fetched beside the part of the page that draws, which is larger than both.
 const wishes = readAddress(
   location.search,
   SAMPLES.map((sample) => sample.name),
 );
+const first = firstSource(wishes);
+loadAhead(first.request);
+// If that fails, the error is reported when a cloud needs it.
+init().catch(() => undefined);
 if (wishes.embed) showEmbedded();
-const status = new Status(byId("status"));
-const message = new Message();
 bindSheet();
 
-if (canDraw(byId("view", HTMLCanvasElement))) {
-  startSession(wishes, status, message);
-} else {
-  const sentence = "This page draws with WebGL 2, which this browser does not offer or has switched off.";
-  status.error(sentence);
-  message.show(sentence);
-}
+import("./page/session.ts")
+  .then(({ startSession }) => {
+    startSession(wishes, first);
+  })
+  .catch((error: unknown) => {
+    const status = byId("status");
+    status.dataset["state"] = "error";
+    status.textContent = "A part of this page could not be loaded; reload the page to try again.";
+    throw error;
+  });

@@ -1,5 +1,6 @@
 import { fileURLToPath } from "node:url";
 import { defineConfig } from "vite";
+import { ahead } from "./build/ahead-plugin.ts";
 import { COMMON } from "./build/common.ts";
 import { html } from "./build/html-plugin.ts";
 import { offline } from "./build/offline-plugin.ts";
@@ -13,5 +14,5 @@ export default defineConfig({
   ...COMMON,
   root: here("."),
   build: { outDir: here("dist"), emptyOutDir: true, target: "es2022", chunkSizeWarningLimit: 900 },
-  plugins: [ownShadersOnly(), samples(), html(), policy(), offline()],
+  plugins: [ownShadersOnly(), samples(), html(), ahead(), policy(), offline()],
 });

@@ -14,7 +14,7 @@ function onTheWire(name: string): number {
   return /\.webp$/.test(name) ? bytes.length : gzipSync(bytes, { level: 9 }).length;
 }
 
-test("the download for the first cloud, with three.js, wasm and workers, is at most 326 kB", async () => {
+test("the download for the first cloud, with three.js, wasm and workers, is at most 300 kB", async () => {
   const context = await browser.newContext({ serviceWorkers: "block" });
   const page = await context.newPage();
   // The time of the first answer. The first cloud does not wait for later requests.
@@ -50,7 +50,7 @@ test("the download for the first cloud, with three.js, wasm and workers, is at m
   expect(new Set(asked).size).toBe(asked.length);
   expect(asked.some((name) => name.endsWith(".wasm"))).toBe(true);
   // 145 kB of it are the wasm.
-  expect(total).toBeLessThanOrEqual(326_000);
+  expect(total).toBeLessThanOrEqual(300_000);
   await context.close();
 });
 
@@ -87,3 +87,53 @@ test.for([{ viewport: { width: 1280, height: 800 } }, PHONE])(
     expect(sum, JSON.stringify(shifts)).toBeLessThan(0.02);
   },
 );
+
+test("the cloud and the WebAssembly are asked for before the part of the page that draws has run", async () => {
+  const page = await openPage("?sample=dragon_res2", {}, async (opened) => {
+    await opened.addInitScript(() => {
+      type Methods = Record<string, (...given: unknown[]) => unknown>;
+      const before = (methods: Methods, name: string, note: (first: unknown) => void) => {
+        const own = methods[name]!;
+        methods[name] = function (this: unknown, ...given: unknown[]) {
+          note(given[0]);
+          return own.apply(this, given);
+        };
+      };
+      before(HTMLCanvasElement.prototype as unknown as Methods, "getContext", () => performance.mark("context"));
+      before(Worker.prototype as unknown as Methods, "postMessage", (message) => {
+        if ((message as { kind?: string }).kind === "sample") performance.mark("cloud asked for");
+      });
+    });
+  });
+  await reached(page, "ready");
+  const begun = await page.evaluate(() => {
+    const { startTime: drawn } = performance.getEntriesByName("context")[0]!;
+    return {
+      files: performance
+        .getEntriesByType("resource")
+        .filter(({ startTime }) => startTime < drawn)
+        .map(({ name }) => name),
+      isAsked: performance.getEntriesByName("cloud asked for")[0]!.startTime < drawn,
+    };
+  });
+  expect(begun.isAsked).toBe(true);
+  for (const name of ["hpr_bg-", "session-"])
+    expect(begun.files.filter((address) => address.includes(`/assets/${name}`))).not.toEqual([]);
+});
+
+test("points of a large sample are on screen before its first answer", async () => {
+  const page = await openPage("?sample=dragon", {}, async (opened) => {
+    await opened.addInitScript(() => {
+      const methods = WebGL2RenderingContext.prototype as unknown as Record<string, (...given: number[]) => void>;
+      const own = methods["drawElements"]!;
+      methods["drawElements"] = function (this: unknown, ...given: number[]) {
+        if (given[1]! > 10_000)
+          performance.mark(`drawn in state ${document.getElementById("status")!.dataset["state"]}`);
+        own.apply(this, given);
+      };
+    });
+  });
+  await reached(page, "ready");
+  const drawn = await page.evaluate(() => performance.getEntriesByName("drawn in state loading").length);
+  expect(drawn).toBeGreaterThan(0);
+});

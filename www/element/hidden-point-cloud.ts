@@ -1,6 +1,6 @@
 import type { TimedView } from "../ask/inquiry.ts";
 import { SETTINGS } from "../settings/table.ts";
-import { canDraw } from "../view/stage.ts";
+import { canDraw } from "../view/can-draw.ts";
 import type * as Api from "./api.ts";
 import { ATTRIBUTE_NAMES, SOURCES, valueOf } from "./attributes.ts";
 import { Frame } from "./frame.ts";

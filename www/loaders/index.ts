@@ -6,6 +6,20 @@ import script from "./worker.ts?worker&url";
 export { LoadProblem } from "./problem.ts";
 export type { LoadRequest } from "./protocol.ts";
 
+/** A loading that has begun before anybody waits for it. */
+let ahead: { request: LoadRequest; loading: Loading } | null = null;
+
+/** Begins to load a cloud, before the page's other parts are there. `loadCloud` goes on with the same request. */
+export function loadAhead(request: LoadRequest): void {
+  ahead = { request, loading: new Loading(request) };
+}
+
+/** Ends the loading that has begun, if nobody will wait for it. */
+export function forgetAhead(): void {
+  ahead?.loading.end();
+  ahead = null;
+}
+
 /**
  * Loads a cloud in its own worker. So a large file does not block the page, and its memory is freed when the worker
  * ends. `onPoints`: takes the points that have been read so far; see `LoadReply`.
@@ -16,29 +30,62 @@ export function loadCloud(
   onProgress: (step: string, fraction: number | null) => void,
   onPoints: (points: Float32Array, first: [number, number, number]) => void = () => undefined,
 ): Promise<PreparedCloud> {
-  const { worker, end } = startWorker();
+  const loading = ahead?.request === request ? ahead.loading : new Loading(request);
+  ahead = null;
   return new Promise<PreparedCloud>((resolve, reject) => {
     signal.addEventListener("abort", () => {
       reject(new DOMException("Another cloud was opened.", "AbortError"));
     });
-    worker.onmessage = ({ data: reply }: MessageEvent<LoadReply>) => {
+    loading.listen((reply) => {
       if (reply.kind === "progress") onProgress(reply.step, reply.fraction);
       else if (reply.kind === "points") onPoints(reply.points, reply.first);
       else if (reply.kind === "cloud") resolve(reply.prepared);
       else reject(new LoadProblem(reply.sentence, reply.nonFinite));
+    }, reject);
+  }).finally(() => {
+    loading.end();
+  });
+}
+
+/** A worker that loads one cloud. It keeps its replies until somebody listens. */
+class Loading {
+  readonly end: () => void;
+  readonly #early: (() => void)[] = [];
+  #onReply: ((reply: LoadReply) => void) | null = null;
+  #onProblem: (problem: LoadProblem) => void = () => undefined;
+
+  constructor(request: LoadRequest) {
+    const { worker, end } = startWorker();
+    this.end = end;
+    worker.onmessage = ({ data: reply }: MessageEvent<LoadReply>) => {
+      this.#tell(() => {
+        this.#onReply!(reply);
+      });
     };
     worker.onerror = (event) => {
       event.preventDefault();
       // Only an error inside a running worker is an ErrorEvent. Otherwise the worker's script is missing.
       const running = event instanceof ErrorEvent;
-      reject(
-        running
-          ? new LoadProblem(`${request.name} could not be read: the browser ran out of memory or stopped the loader.`)
-          : missingPart(request.name),
-      );
+      const problem = running
+        ? new LoadProblem(`${request.name} could not be read: the browser ran out of memory or stopped the loader.`)
+        : missingPart(request.name);
+      this.#tell(() => {
+        this.#onProblem(problem);
+      });
     };
     worker.postMessage(request);
-  }).finally(end);
+  }
+
+  listen(onReply: (reply: LoadReply) => void, onProblem: (problem: LoadProblem) => void): void {
+    this.#onReply = onReply;
+    this.#onProblem = onProblem;
+    for (const tell of this.#early.splice(0)) tell();
+  }
+
+  #tell(tell: () => void): void {
+    if (this.#onReply) tell();
+    else this.#early.push(tell);
+  }
 }
 
 /**

@@ -56,8 +56,13 @@ export interface Ready {
 
 /** Below this number of points one worker is enough. */
 const SHARED_BELOW = 200_000;
+/**
+ * With two cores, one worker answers. A second one would delay the first picture: it sorts the same points, while the
+ * first picture is drawn, and a draft and the answer that goes on from it are the first worker's work alone.
+ */
+const FEW_CORES = navigator.hardwareConcurrency <= 2;
 /** From this number of points on, all points are shown until the first answer is there. */
-const PREVIEWED_FROM = 600_000;
+const PREVIEWED_FROM = 200_000;
 
 /** Loads a cloud and finds its first answer. Nothing is shown yet, and a failure leaves nothing behind. */
 export async function openCloud(
@@ -113,17 +118,22 @@ export async function openCloud(
     return findHome(cloud, upward, sameUp ? sample : null, sameUp ? (asked ?? taken) : null, lens);
   };
   const home = homeFrom(view)(up);
-  // The answer for a small cloud comes so soon that a picture of all points would only delay it.
-  if (preview.isShown || cloud.count >= PREVIEWED_FROM)
-    place.preview?.cloud({ cloud, home, look: { ...usual, ...wished } });
-
+  // The answer for a small cloud comes so soon that a picture of all points would only delay it. The picture waits for
+  // the first word of the worker, because the first drawing blocks the page's thread, and the worker with it.
+  let isWhole = preview.isShown || cloud.count >= PREVIEWED_FROM;
+  const previewCloud = () => {
+    if (isWhole && !signal.aborted) place.preview?.cloud({ cloud, home, look: { ...usual, ...wished } });
+    isWhole = false;
+  };
   // The worker takes the copy. The page keeps the file's own coordinates for the tools.
   const worker = await WorkerPointCloud.create(copy, {
     signal,
     transfer: true,
+    ...(FEW_CORES ? { workers: 1 } : {}),
     shared: place.shared && cloud.count < SHARED_BELOW,
     onProgress: (fraction) => {
       onProgress(sentence("Preparing", request.name, fraction), fraction);
+      if (fraction > 0) previewCloud();
     },
   });
   onProgress(`Finding the visible points of ${request.name}.`, null);

@@ -1,30 +1,20 @@
 import { LoadProblem } from "../loaders/index.ts";
 import { keepForOffline } from "../offline/keep.ts";
-import { openCloud, type Wish } from "../open/open-cloud.ts";
-import { requestForAddress, requestForSample } from "../open/source.ts";
+import { openCloud } from "../open/open-cloud.ts";
 import { LoadingSign } from "../panel/loading-sign.ts";
 import type { Message } from "../panel/message.ts";
 import type { Panel } from "../panel/panel.ts";
 import { Progress } from "../panel/progress.ts";
 import { SamplePicker } from "../panel/sample-picker.ts";
-import { type Sample, sampleNamed } from "../samples/samples.ts";
-import type { Address, CloudName } from "../settings/address.ts";
+import type { Sample } from "../samples/samples.ts";
+import type { Address } from "../settings/address.ts";
 import type { Store } from "../settings/store.ts";
 import type { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { type Notices, sentenceOf } from "./notices.ts";
+import { fromSample, type Source } from "./sources.ts";
 import type { Status } from "./status.ts";
-
-/** A cloud that the page opens. */
-export interface Source extends Wish {
-  /** Its name in the address; `null` for a file from this device. */
-  name: CloudName | null;
-  /** Sentences that the user has to read about it. */
-  notes: string[];
-  /** The reason why the cloud that was asked for could not be opened, if this cloud replaces it. */
-  insteadOf?: string;
-}
 
 /** The parts of the page that take part when a cloud is opened. */
 interface Parts {
@@ -170,41 +160,10 @@ export class Opening {
   }
 }
 
-export function fromSample(sample: Sample, view: AskedView | null = null): Source {
-  return {
-    request: requestForSample(sample, document.baseURI),
-    sample,
-    name: ["sample", sample.name],
-    view,
-    settings: {},
-    notes: [],
-  };
-}
-
-export function fromAddress(text: string, view: AskedView | null, limit: { limit?: number }): Source {
-  const request = requestForAddress(text, { skipNonFinite: false, ...limit });
-  return { request, sample: null, name: ["src", text], view, settings: {}, notes: [] };
-}
-
-export function fromFile(file: File, notes: string[], limit: { limit?: number }): Source {
-  const request = { kind: "file", name: file.name, file, skipNonFinite: false, ...limit } as const;
-  return { request, sample: null, name: null, view: null, settings: {}, notes };
-}
-
 /** The same cloud without the points that have no position, if nothing else was wrong with it. */
 function withoutNonFinite(error: unknown, source: Source): Source | null {
   const { request } = source;
   const possible =
     error instanceof LoadProblem && error.nonFinite > 0 && (request.kind === "file" || request.kind === "url");
   return possible ? { ...source, request: { ...request, skipNonFinite: true } } : null;
-}
-
-/** The cloud that the page's address asks for. */
-export function firstSource(
-  wishes: { sample: string; src: string | null } & Pick<Source, "view" | "settings" | "notes">,
-  limit: { limit?: number },
-): Source {
-  const { sample, src, view, settings, notes } = wishes;
-  const source = src === null ? fromSample(sampleNamed(sample), view) : fromAddress(src, view, limit);
-  return { ...source, settings, notes };
 }

@@ -1,7 +1,8 @@
 import { byId } from "../controls/dom.ts";
 import { LightHandles } from "../lights/handles.ts";
+import { forgetAhead } from "../loaders/index.ts";
 import { onFile } from "../panel/files.ts";
-import type { Message } from "../panel/message.ts";
+import { Message } from "../panel/message.ts";
 import { Panel } from "../panel/panel.ts";
 import { Signs } from "../panel/signs.ts";
 import { sampleNamed } from "../samples/samples.ts";
@@ -11,14 +12,25 @@ import { USUAL_SETTINGS } from "../settings/settings.ts";
 import { Store } from "../settings/store.ts";
 import { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
+import { canDraw } from "../view/can-draw.ts";
 import { Viewer } from "../view/viewer.ts";
 import { Notices } from "./notices.ts";
-import { firstSource, fromFile, Opening } from "./opening.ts";
-import type { Status } from "./status.ts";
+import { Opening } from "./opening.ts";
+import { fromFile, limitOf, type Source } from "./sources.ts";
+import { Status } from "./status.ts";
 import { wire } from "./wiring.ts";
 
-/** Makes the parts of the page, wires them, and opens the cloud that the address asks for. */
-export function startSession(wishes: Wishes, status: Status, message: Message): void {
+/** Makes the parts of the page, and opens the first cloud in them. Without WebGL 2, says so. */
+export function startSession(wishes: Wishes, first: Source): void {
+  const status = new Status(byId("status"));
+  const message = new Message();
+  if (!canDraw(byId("view", HTMLCanvasElement))) {
+    const sentence = "This page draws with WebGL 2, which this browser does not offer or has switched off.";
+    status.error(sentence);
+    message.show(sentence);
+    forgetAhead();
+    return;
+  }
   const settings = { ...USUAL_SETTINGS, ...wishes.settings };
   // Places in space belong to a cloud, and are set with the cloud.
   const store = new Store({ ...settings, freeze: null, lights: [] });
@@ -38,15 +50,13 @@ export function startSession(wishes: Wishes, status: Status, message: Message): 
   const opening: Opening = new Opening(parts, wishes.embed ? null : sampleNamed(wishes.sample));
   wire({ ...parts, handles, signs: new Signs(store) });
 
-  const limit = wishes.points === null ? {} : { limit: wishes.points };
   onFile({
-    open: (file, notes) => void opening.open(fromFile(file, notes, limit)),
+    open: (file, notes) => void opening.open(fromFile(file, notes, limitOf(wishes))),
     refuse: (sentence) => {
       message.show(sentence);
     },
   });
-  const view = wishes.view && { at: wishes.view, target: wishes.target };
-  void opening.open(firstSource({ ...wishes, view }, limit));
+  void opening.open(first);
 }
 
 /** The camera's place for the address. `null` at the first view, unless the address asked for that view. */

@@ -1,3 +1,5 @@
+import "../styles/tools.css";
+import "../styles/compare.css";
 import { Vector3 } from "three";
 import { byId } from "../controls/dom.ts";
 import { type Action, isKeyOf, pressed } from "../controls/keys.ts";

@@ -14,16 +14,14 @@ export class Change {
   readonly #points: CloudPoints;
   readonly #calm = matchMedia("(prefers-reduced-motion: reduce)");
   #fadesSince = -Infinity;
-  #fits: boolean;
+  #fits = true;
   #fitsSince = -Infinity;
   #faded = 1;
   #isOver = true;
 
-  /** `previewed`: all points are on the screen already. They fade, so that the first answer is left. */
-  constructor(stage: Stage, points: CloudPoints, previewed: boolean) {
+  constructor(stage: Stage, points: CloudPoints) {
     this.#stage = stage;
     this.#points = points;
-    this.#fits = !previewed;
   }
 
   /** Whether the picture shows nothing but the last answer. */

@@ -44,7 +44,7 @@ const fragmentShader = /* glsl */ `
   uniform bool layer;
   /* How opaque all points are where the scene is empty, and up to which pixel from the left they are drawn alone. */
   uniform float behind, alone;
-  /* The distance in pixels of the first neighbors that a gap is looked for between. */
+  /* The distance in pixels of the first neighbors that a gap is looked for between. 0: gaps stay. */
   uniform float gap;
   out vec4 result;
 
@@ -52,24 +52,24 @@ const fragmentShader = /* glsl */ `
     vec2(1.0, 0.0), vec2(0.7, 0.7), vec2(0.0, 1.0), vec2(-0.7, 0.7),
     vec2(-1.0, 0.0), vec2(-0.7, -0.7), vec2(0.0, -1.0), vec2(0.7, -0.7));
 
-  /* log2 of the distance from the eye: equal ratios of distance are equal steps. */
-  float logDistance(float depth) {
-    float near = planes.x, far = planes.y;
-    return log2(near * far / (far - depth * (far - near)));
+  /* One divided by the distance from the eye, in a unit of its own. */
+  float nearness(float depth) {
+    return planes.y - depth * (planes.y - planes.x);
   }
 
   vec3 shaded(sampler2D colors, highp sampler2D depths, ivec2 pixel, float depth) {
     ivec2 last = textureSize(depths, 0) - 1;
-    float own = logDistance(depth);
-    float soft = min(1.0, exp2(own) / softness);
+    float own = nearness(depth);
+    float soft = min(1.0, planes.x * planes.y / (own * softness));
     float step = reach * max(1.0, ${WIDE.toFixed(1)} / soft);
-    float sum = 0.0;
+    // Equal ratios of distance are equal steps. The product of eight ratios takes one logarithm instead of eight.
+    float ratios = 1.0;
     for (int i = 0; i < 8; i++) {
       ivec2 there = clamp(ivec2(round(vec2(pixel) + step * AROUND[i])), ivec2(0), last);
       float other = texelFetch(depths, there, 0).r;
-      if (other < 1.0) sum += max(0.0, own - logDistance(other));
+      ratios *= other < 1.0 ? max(1.0, nearness(other) / own) : 1.0;
     }
-    float shade = exp(-strength * soft * sum / 8.0);
+    float shade = exp(-strength * soft * log2(ratios) / 8.0);
     return texelFetch(colors, pixel, 0).rgb * mix(0.2, 1.0, shade);
   }
 
@@ -104,7 +104,7 @@ const fragmentShader = /* glsl */ `
     ivec2 last = textureSize(depths, 0) - 1;
     int away = int(round(2.0 * gap));
     float nearest = 1.0;
-    for (int i = 0; i < 4; i++) {
+    for (int i = 0; i < (gap > 0.0 ? 4 : 0); i++) {
       ivec2 there = clamp(pixel + (i < 2 ? ivec2(away * (2 * i - 1), 0) : ivec2(0, away * (2 * i - 5))), ivec2(0), last);
       nearest = min(nearest, texelFetch(depths, there, 0).r);
     }
@@ -145,6 +145,8 @@ export interface AllPoints {
 export class EyeDome {
   /** The width of a point in the scene's units. */
   pointWidth = 1;
+  /** Whether gaps of a pixel or two between points are closed. */
+  closesGaps = true;
   /** Whether the picture is shaded. It is off if something else shows the shape. */
   enabled = true;
   readonly #target = newTarget();
@@ -230,7 +232,7 @@ export class EyeDome {
     this.#drawInto(this.#target, renderer, scene, camera);
     this.#planes.set(camera.near, camera.far);
     this.#material.uniforms["reach"]!.value = REACH * renderer.getPixelRatio();
-    this.#material.uniforms["gap"]!.value = Math.max(1, renderer.getPixelRatio());
+    this.#material.uniforms["gap"]!.value = this.closesGaps ? Math.max(1, renderer.getPixelRatio()) : 0;
     this.#material.uniforms["strength"]!.value = this.enabled ? STRENGTH : 0;
     // At this distance a point is as wide as SOFT_FROM pixels. Nearer points are wider in proportion.
     const pixels = (camera.projectionMatrix.elements[5] * this.#size.y) / 2;

@@ -31,6 +31,8 @@ export class Stage {
   #shape = { width: 1, height: 1 };
   #changed = true;
   #drawnFrom = "";
+  /** Whether there has been something to draw. The first frame compiles the shaders, so it must not be an empty one. */
+  #isBegun = false;
   /** The radius of everything that is drawn, around the origin. */
   #extent = 1;
   #throughOpacity = 1;
@@ -88,6 +90,12 @@ export class Stage {
   /** Whether points are shaded by how far their neighbors stand in front of them. */
   setEyeDome(enabled: boolean): void {
     this.#eyeDome.enabled = enabled;
+    this.invalidate();
+  }
+
+  /** Whether gaps of a pixel or two between points are closed. */
+  setClosingGaps(closes: boolean): void {
+    this.#eyeDome.closesGaps = closes;
     this.invalidate();
   }
 
@@ -168,6 +176,8 @@ export class Stage {
     this.onFrame();
     const from = this.camera.matrixWorld.elements.join();
     if (!this.#changed && from === this.#drawnFrom) return;
+    this.#isBegun ||= [this.points, this.through, this.all, this.overlay].some(({ children }) => children.length > 0);
+    if (!this.#isBegun) return;
     if (from !== this.#drawnFrom) this.onCamera();
     this.#changed = false;
     this.#drawnFrom = from;
@@ -190,12 +200,4 @@ export class Stage {
 export function clipping(distance: number, extent: number): { near: number; far: number } {
   const far = distance + 1.1 * extent;
   return { near: Math.max(distance - 1.1 * extent, far / 5000), far };
-}
-
-/** The attributes of the context. They are the same as in three.js. */
-const CONTEXT: WebGLContextAttributes = { alpha: true, antialias: false, powerPreference: "high-performance" };
-
-/** Whether this browser can draw. Ask it before three.js, which would log an error. three.js then uses this context. */
-export function canDraw(canvas: HTMLCanvasElement): boolean {
-  return canvas.getContext("webgl2", CONTEXT) !== null;
 }

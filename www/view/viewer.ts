@@ -64,6 +64,8 @@ export class Viewer {
   #theme = THEMES.dark;
   #lit = false;
   #surfaceShown = false;
+  /** Whether the cloud has not been drawn yet. */
+  #isNew = false;
   #isFinal = false;
   /** Whether the picture shows our answer beside a reference. */
   #compared = false;
@@ -78,6 +80,7 @@ export class Viewer {
     this.stage.onFrame = () => {
       this.#marker.follow(this.stage.camera);
       this.#inquire();
+      this.#isNew = false;
       this.onFrame();
     };
     this.navigation.onMove = () => {
@@ -191,7 +194,7 @@ export class Viewer {
     const attributes = new CloudAttributes(cloud, this.#theme);
     const points = new CloudPoints(cloud, attributes, this.#theme);
     const mesh = new Surface(attributes, this.#theme);
-    const change = new Change(this.stage, points, this.#waiting.hasShown(home));
+    const change = new Change(this.stage, points);
     this.#shown = { ...opened, attributes, points, change, mesh, frozen: null };
     inquiry.onView = (next) => {
       this.#showAnswer(next);
@@ -222,6 +225,7 @@ export class Viewer {
     inquiry.onView(answer);
     // If the worker has failed, the next answer reports the error.
     inquiry.findAutomatic().catch(() => undefined);
+    this.#isNew = true;
     this.#inquire();
   }
 
@@ -284,7 +288,8 @@ export class Viewer {
     const { inquiry, change, cloud } = this.#shown;
     const settings = this.#store.current;
     const viewpoint = settings.freeze ?? this.viewpoint;
-    inquiry.follow(viewpoint, settings);
+    // A new cloud is drawn before anything more is asked: the worker would take the drawing's time.
+    if (!this.#isNew) inquiry.follow(viewpoint, settings);
     // A surface closes the picture itself.
     change.follow(this.#surfaceShown || isSamePlace(this.#shown.answer.question.viewpoint, viewpoint, cloud.radius));
     this.#isFinal = !inquiry.busy && change.isOver;
@@ -302,6 +307,8 @@ export class Viewer {
     this.#shown!.answer = answer;
     const fades = answer !== before && isSamePlace(question.viewpoint, before.question.viewpoint, cloud.radius);
     if (!this.#compared) change.show(visibility.indices, fades);
+    // A draft has too many points rather than too few, and it has to be drawn fast.
+    this.stage.setClosingGaps(answer.kind !== "draft");
     mesh.setTriangles(triangles);
     this.#setShape();
   }

@@ -1,3 +1,4 @@
+import { BufferAttribute } from "three";
 import type { Cloud, Up } from "../cloud/cloud.ts";
 import type { Settings } from "../settings/settings.ts";
 import { CloudAttributes } from "./attributes.ts";
@@ -15,8 +16,12 @@ export interface Previewed {
   look: Pick<Settings, "size" | "fieldOfView" | "up">;
 }
 
+/** The answer to so many points comes within a second. Until then an even share is shown, which is drawn faster. */
+const SOON = 600_000;
+const SHARE = 60_000;
+
 /**
- * The picture while a cloud is being read and prepared: the points so far, then all points as any viewer shows them. The
+ * The picture while a cloud is being read and prepared: the points so far, then the whole cloud as any viewer shows it. The
  * cloud before it (`left`) is out of the picture, and can come back.
  */
 export class WaitingRoom<Left> {
@@ -57,8 +62,11 @@ export class WaitingRoom<Left> {
     const attributes = new CloudAttributes(cloud, theme);
     attributes.setUp(look.up);
     this.#points = new CloudPoints(cloud, attributes, theme);
+    const step = cloud.count < SOON ? Math.ceil(cloud.count / SHARE) : 1;
+    this.#points.all.geometry.setIndex(new BufferAttribute(everyNth(step, cloud.count), 1));
     this.#stage.all.add(this.#points.all);
-    this.#stage.setPointWidth(this.#points.setPointSize(look.size));
+    // Fewer points are wider, so that they close the surface all the same.
+    this.#stage.setPointWidth(this.#points.setPointSize(look.size * Math.sqrt(step)));
     this.#stage.setFieldOfView(look.fieldOfView);
     this.#stage.setExtent(cloud.radius);
     this.#stage.setAll({ opacity: 1, alone: 0 });
@@ -98,4 +106,10 @@ export class WaitingRoom<Left> {
     const { points, through, overlay, all } = this.#stage;
     for (const drawn of [points, through, overlay, ...all.children]) drawn.visible = visible;
   }
+}
+
+function everyNth(step: number, count: number): Uint32Array {
+  const indices = new Uint32Array(Math.floor(count / step));
+  for (let i = 0; i < indices.length; i++) indices[i] = i * step;
+  return indices;
 }

@@ -7,6 +7,8 @@ export const SIZE = { width: 1280, height: 800 };
 const LONGEST_WAIT = 120_000;
 
 export interface Watched {
+  /** The time at which the first frame with points was done, with or without an answer. */
+  firstPoints?: number;
   /** The time at which the first frame with an answer was done, in milliseconds since the navigation. */
   firstPicture?: number;
   /** For each viewpoint: when it was asked, and when the page got its answer. The frame of the answer follows later. */
@@ -36,6 +38,17 @@ export async function watchedPage(context: BrowserContext, drawing = true): Prom
         watched.asked[Array.from(content.viewpoint).join()] ??= performance.now();
       post.apply(this, args);
     };
+    const draws = WebGL2RenderingContext.prototype as unknown as Record<string, (...given: number[]) => void>;
+    for (const name of ["drawElements", "drawArrays"]) {
+      const own = draws[name]!;
+      draws[name] = function (this: unknown, ...given: number[]) {
+        own.apply(this, given);
+        // The shading is drawn as one triangle.
+        if (watched.firstPoints !== undefined || Math.max(given[1]!, given[2]!) <= 3) return;
+        watched.firstPoints = 0;
+        requestAnimationFrame((now) => (watched.firstPoints = now));
+      };
+    }
     let refilters = "";
     new MutationObserver(() => {
       const { dataset } = document.getElementById("status") ?? {};
