@@ -132,27 +132,27 @@ const layers = fixture("ball-14.laz");
 const tree = fixture("octree.copc.laz");
 
 const REFUSED: [string, Uint8Array, RegExp][] = [
-  ["cut.las", las(far).slice(0, 9000), /is broken: it ends before the 600 points that its header promises/],
+  ["cut.las", las(far).slice(0, 9000), /cannot be read: it ends before the 600 points that its header promises/],
   [
     "boast.las",
     las(far, { minor: 4, format: 6, claimed: 1e12 }),
-    /is broken: it ends before the 1,000,000,000,000 points/,
+    /cannot be read: it ends before the 1,000,000,000,000 points/,
   ],
-  ["stub.las", las(far).slice(0, 100), /is broken: it ends within its LAS header/],
+  ["stub.las", las(far).slice(0, 100), /cannot be read: it ends within its LAS header/],
   ["none.las", las([]), /holds no points/],
   [
     "version.las",
     edited(las(far), (view) => {
       view.setUint8(25, 9);
     }),
-    /has LAS version 1\.9/,
+    /its LAS version is 1\.9/,
   ],
   [
     "format.las",
     edited(las(far), (view) => {
       view.setUint8(104, 33);
     }),
-    /has LAS points of an unknown format \(33\)/,
+    /its LAS points have an unknown format \(33\)/,
   ],
   [
     "rows.las",
@@ -183,8 +183,8 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
     /the sizes in its LAS header are impossible/,
   ],
   ["swapped.las", text("FSAL and so on"), /is not a point cloud: it does not begin like a LAS file/],
-  ["cut.laz", laz.slice(0, 3000), /is broken: it ends before the 600 points/],
-  ["cut-layers.laz", layers.slice(0, 4000), /is broken: it ends before the 600 points/],
+  ["cut.laz", laz.slice(0, 3000), /cannot be read: it ends before the 600 points/],
+  ["cut-layers.laz", layers.slice(0, 4000), /cannot be read: it ends before the 600 points/],
   [
     "chunks.laz",
     edited(laz, (view) => {
@@ -192,13 +192,13 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
     }),
     /compressed points cannot be decompressed/,
   ],
-  ["cut.copc.laz", tree.slice(0, 30_000), /is broken: /],
+  ["cut.copc.laz", tree.slice(0, 30_000), /is broken: |cannot be/],
   [
     "tree.copc.laz",
     edited(tree, (view) => {
       view.setBigUint64(375 + 54 + 40, 7n, true);
     }),
-    /is broken: /,
+    /is broken: |cannot be decompressed/,
   ],
   [
     "draco.glb",

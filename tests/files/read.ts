@@ -2,6 +2,7 @@
 import { extname } from "node:path";
 import type { ChosenColumns } from "../../src/ts/formats/axes";
 import { FormatProblem } from "../../src/ts/formats/problem";
+import type { PointFile } from "../../src/ts/cli/formats/point-file";
 import { FORMATS } from "../../src/ts/cli/formats/formats";
 import { LoadProblem } from "../../www/loaders/problem";
 import { readFile } from "../../www/loaders/read";
@@ -10,7 +11,8 @@ export type Outcome = { points: number[] } | { refused: string };
 
 export function readAsCommand(name: string, content: Uint8Array, columns?: ChosenColumns): Outcome {
   try {
-    const { positions } = FORMATS[extname(name)]!(Buffer.from(content), columns);
+    // Only LAZ, which is not among these files, is read asynchronously.
+    const { positions } = FORMATS[extname(name)]!.read(Buffer.from(content), columns) as PointFile;
     return { points: [...positions] };
   } catch (error) {
     if (!(error instanceof FormatProblem)) throw error;

@@ -221,7 +221,7 @@ describe("missing points, wrong files and wrong usage", () => {
     [/three numbers/, ["a.ply", "-o", "b.ply", "--from", "1,2,x"]],
     [/-o OUT/, ["a.ply", "--from", "1,2,3"]],
     [/not converted/, ["a.ply", "--from", "1,2,3", "-o", "b.pcd"]],
-    [/a\.las is none of \.ply/, ["a.las", "--from", "1,2,3", "-o", "b.las"]],
+    [/a\.obj is none of \.ply/, ["a.obj", "--from", "1,2,3", "-o", "b.las"]],
     [/one file/, ["a.ply", "c.ply", "--from", "1,2,3", "-o", "b.ply"]],
     [/--exponent/, ["a.ply", "--from", "1,2,3", "-o", "b.ply", "--exponent", "-1"]],
     [/--exponent/, ["a.ply", "--from", "1,2,3", "-o", "b.ply", "--exponent", "best"]],

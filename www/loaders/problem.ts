@@ -18,13 +18,6 @@ export function missingPart(name: string): LoadProblem {
   return new LoadProblem(`${name} could not be read: a part of this page could not be downloaded.`);
 }
 
-/** @param promised the number of points in the header of a LAS file */
-export function endsEarly(name: string, promised: number): LoadProblem {
-  return new LoadProblem(
-    `${name} is broken: it ends before the ${promised.toLocaleString("en-US")} points that its header promises.`,
-  );
-}
-
 export function problemOf(name: string, { message }: FormatProblem): LoadProblem {
   return new LoadProblem(`${name} cannot be read: ${message}.`);
 }

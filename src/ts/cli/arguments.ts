@@ -1,47 +1,41 @@
 import { extname } from "node:path";
 import { parseArgs } from "node:util";
 
-import { type ChosenColumns, isNumber } from "../formats/axes.js";
+import { HprError } from "../base/errors.js";
+import type { ChosenColumns } from "../formats/axes.js";
+import { viewSettings, type VisibilityOptions } from "../query/view-options.js";
 import { FORMATS } from "./formats/formats.js";
-
-export const HELP = `Usage: hidden-point-removal IN --from X,Y,Z -o OUT [--exponent E|auto] [--columns X,Y,Z]
-
-Writes those points of a file that can be seen from a viewpoint.
-
-  IN                 a PLY, PCD, XYZ, TXT, CSV or PTS file
-  --from X,Y,Z       the viewpoint, in the coordinates of the file
-  -o, --output OUT   the file to write, in the format of IN; - is standard output
-  --exponent E       R is the farthest distance times 10^E (0 or more); the larger, the
-                     more points; auto, the default, derives it from the points' gaps
-  --columns X,Y,Z    which columns of IN are x, y and z: their names or numbers from 1
-  -h, --help         shows this
-  --version          shows the version
-
-Without --columns, the columns named x, y and z (or easting, northing and height) are
-read. In a file without names, the first three columns are read. At the end, the command
-says which columns it has read. A file that breaks the rules of its format is refused,
-with the number of the line.
-
-All values of a point (color, normal, any property) are copied unchanged. Of a PLY file,
-only the vertices are kept. Compressed PCD data is written uncompressed. Points without a
-position (NaN) are never visible.
-
-Exit codes: 0 done, 1 a file could not be read, written or understood, 2 wrong usage
-`;
+import { chosenFormat, type OutputFormat } from "./output-format.js";
+import {
+  readColumns,
+  readExponent,
+  readInversion,
+  readLooks,
+  readNeighbors,
+  readRadius,
+  readThreshold,
+  readViewpoint,
+  UsageProblem,
+} from "./values.js";
 
 export interface Settings {
   input: string;
   /** The name of a file, or "-" for standard output. */
   output: string;
-  viewpoint: number[];
-  /** Undefined for the automatic exponent. */
-  exponent: number | undefined;
+  format: OutputFormat;
+  /** From where: a viewpoint, or the name of a file with a camera or with viewpoints. */
+  place: { viewpoint: number[] } | { camera: string } | { viewpoints: string; each: boolean };
+  options: VisibilityOptions;
+  /** The least score of a point that counts as visible. Undefined for the answer's own choice. */
+  threshold: number | undefined;
   /** Undefined for the columns that the file itself names. */
   columns: ChosenColumns | undefined;
+  /** Whether the progress is reported without a terminal, too. */
+  progress: boolean;
 }
 
-/** Wrong usage: the message says what is wrong. */
-export class UsageProblem extends Error {}
+/** In the name of the output: is replaced by the name of each viewpoint. */
+export const NAME = "{name}";
 
 export function readArguments(args: string[]): Settings | "help" | "version" {
   const { values, positionals } = parsed(args);
@@ -50,21 +44,46 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
   const [input, ...others] = positionals;
   if (input === undefined) throw new UsageProblem("which file?");
   if (others.length > 0) throw new UsageProblem(`one file at a time, not also ${others.join(", ")}`);
-  if (values.from === undefined) throw new UsageProblem("--from X,Y,Z is needed: the viewpoint");
-  if (values.output === undefined) throw new UsageProblem("-o OUT is needed: the file to write");
-  const [is, wanted] = [input, values.output].map((name) => extname(name).toLowerCase());
-  if (!Object.hasOwn(FORMATS, is!)) throw new UsageProblem(`${input} is none of ${Object.keys(FORMATS).join(", ")}`);
-  if (values.output !== "-" && FORMATS[wanted!] !== FORMATS[is!]) {
-    throw new UsageProblem(`${values.output} must be a ${is!} file like ${input}: formats are not converted`);
-  }
+  checkInput(input, values.columns !== undefined);
+  const { output } = values;
+  const given = (["from", "camera", "viewpoints"] as const).filter((name) => values[name] !== undefined);
+  if (given.length === 0)
+    throw new UsageProblem("--from X,Y,Z is needed: the viewpoint; or --camera FILE, or --viewpoints FILE");
+  if (given.length > 1) throw new UsageProblem(`--${given.join(" and --")} exclude each other; give one of the two`);
+  if (output === undefined) throw new UsageProblem("-o OUT is needed: the file to write");
+  const each = output.includes(NAME);
+  if (each && values.viewpoints === undefined)
+    throw new UsageProblem(`${NAME} in the name of the output needs --viewpoints`);
+
+  const options = viewOptions(values);
+  const threshold = values["score-threshold"] === undefined ? undefined : readThreshold(values["score-threshold"]);
+  const isOne = values.from !== undefined || each;
+  const format = chosenFormat(values.format, {
+    input,
+    output,
+    camera: values.camera !== undefined,
+    coverage: values.coverage === true,
+  });
+  checkCompany({ format, options, threshold, isOne, each, values });
+  if (threshold !== undefined || format === "scores") options.scores = true;
   return {
     input,
-    output: values.output,
-    viewpoint: viewpoint(values.from),
-    exponent: exponent(values.exponent ?? "auto"),
-    columns: values.columns === undefined ? undefined : columns(values.columns),
+    output,
+    format,
+    place:
+      values.from !== undefined
+        ? { viewpoint: readViewpoint(values.from) }
+        : values.camera !== undefined
+          ? { camera: values.camera }
+          : { viewpoints: values.viewpoints!, each },
+    options,
+    threshold,
+    columns: values.columns === undefined ? undefined : readColumns(values.columns),
+    progress: values.progress === true,
   };
 }
+
+type Values = ReturnType<typeof parsed>["values"];
 
 function parsed(args: string[]) {
   try {
@@ -73,9 +92,20 @@ function parsed(args: string[]) {
       allowPositionals: true,
       options: {
         from: { type: "string" },
+        camera: { type: "string" },
+        viewpoints: { type: "string" },
         output: { type: "string", short: "o" },
+        format: { type: "string" },
+        coverage: { type: "boolean" },
+        radius: { type: "string" },
         exponent: { type: "string" },
+        inversion: { type: "string" },
+        looks: { type: "string" },
+        "score-threshold": { type: "string" },
+        denoise: { type: "string" },
+        vote: { type: "string" },
         columns: { type: "string" },
+        progress: { type: "boolean" },
         help: { type: "boolean", short: "h" },
         version: { type: "boolean" },
       },
@@ -88,33 +118,88 @@ function parsed(args: string[]) {
 
 /** parseArgs insists on `--from=-1,2,3`, so `--from -1,2,3` is changed to that. */
 function joinedToNegative(args: string[]) {
-  const isValue = (i: number) => /^--(from|exponent)$/.test(args[i - 1] ?? "") && /^-[\d.]/.test(args[i] ?? "");
+  const takesNumber = /^--(from|radius|exponent|looks|score-threshold|denoise|vote)$/;
+  const isValue = (i: number) => takesNumber.test(args[i - 1] ?? "") && /^-[\d.]/.test(args[i] ?? "");
   return (word: string, i: number): string[] => {
     if (isValue(i)) return [];
     return [isValue(i + 1) ? `${word}=${args[i + 1]!}` : word];
   };
 }
 
-function viewpoint(text: string): number[] {
-  const numbers = text.split(",").map((word) => (word.trim() === "" ? NaN : Number(word)));
-  if (numbers.length !== 3 || !numbers.every(Number.isFinite)) {
-    throw new UsageProblem(`--from needs three numbers, as in --from 1,2.5,-3, not ${text}`);
+function checkInput(input: string, hasColumns: boolean): void {
+  const ending = extname(input).toLowerCase();
+  if (ending === ".e57")
+    throw new UsageProblem(
+      `${input}: no reader of E57 files runs in Node (web-e57 was tried); convert it first: pdal translate ${input} OUT.laz`,
+    );
+  if (!Object.hasOwn(FORMATS, ending)) throw new UsageProblem(`${input} is none of ${Object.keys(FORMATS).join(", ")}`);
+  if (hasColumns && !FORMATS[ending]!.hasColumns)
+    throw new UsageProblem(`--columns has no meaning for ${input}: the format says where x, y and z are`);
+}
+
+/** The options of a view. Those that exclude each other are refused. */
+function viewOptions(values: Values): VisibilityOptions {
+  const { radius, exponent, inversion, looks, denoise, vote } = values;
+  const options: VisibilityOptions = {
+    ...(radius === undefined ? {} : { radius: readRadius(radius) }),
+    ...(exponent === undefined ? {} : { exponent: readExponent(exponent) }),
+    ...(inversion === undefined ? {} : { inversion: readInversion(inversion) }),
+    ...(looks === undefined ? {} : { looks: readLooks(looks) }),
+    ...(denoise === undefined ? {} : { denoise: readNeighbors("denoise", denoise) }),
+    ...(vote === undefined ? {} : { vote: readNeighbors("vote", vote) }),
+  };
+  // `--exponent auto` says the same as no exponent, but it excludes the same options.
+  const asked = { ...options, ...(exponent === undefined ? {} : { exponent: options.exponent ?? 0 }) };
+  try {
+    viewSettings(asked, 3);
+  } catch (cause) {
+    throw cause instanceof HprError ? new UsageProblem(cause.message, { cause }) : cause;
   }
-  return numbers;
+  checkInversion(asked);
+  return options;
 }
 
-function exponent(text: string): number | undefined {
-  if (text === "auto") return undefined;
-  const value = text.trim() === "" ? NaN : Number(text);
-  if (!(value >= 0 && Number.isFinite(value)))
-    throw new UsageProblem(`--exponent needs a number of 0 or more, or auto, not ${text}`);
-  return value;
+/** The core refuses the same, but only after the file is read. */
+function checkInversion({ radius, exponent, inversion }: VisibilityOptions): void {
+  if (inversion === undefined || inversion === "spherical") return;
+  const excluded =
+    exponent !== undefined
+      ? "--exponent"
+      : radius === "search" || radius === "opposite" || (typeof radius === "number" && "exponential" in inversion)
+        ? `--radius ${radius}`
+        : undefined;
+  if (excluded !== undefined) {
+    throw new UsageProblem(`${excluded} cannot be combined with --inversion ${Object.keys(inversion)[0]!}`);
+  }
 }
 
-function columns(text: string): ChosenColumns {
-  const chosen = text.split(",").map((word) => word.trim());
-  const isChoice = (word: string) => word !== "" && (isNumber(word) || !/^[-+]?\d+$/.test(word));
-  if (chosen.length !== 3 || !chosen.every(isChoice) || new Set(chosen).size < 3)
-    throw new UsageProblem(`--columns needs three different columns, as in --columns 2,3,4, not ${text}`);
-  return chosen as unknown as ChosenColumns;
+interface Company {
+  format: OutputFormat;
+  options: VisibilityOptions;
+  threshold: number | undefined;
+  /** Whether each answer is of one viewpoint. */
+  isOne: boolean;
+  each: boolean;
+  values: Values;
+}
+
+/** Refuses options that have no effect together. */
+function checkCompany({ format, options, threshold, isOne, each, values }: Company): void {
+  const needs = (is: boolean, what: string, company: string) => {
+    if (!is) throw new UsageProblem(`${what} needs ${company}`);
+  };
+  const excludes = (is: boolean, what: string, other: string) => {
+    if (is) throw new UsageProblem(`${what} cannot be combined with ${other}`);
+  };
+  const coverage = values.coverage === true;
+  needs(!coverage || values.viewpoints !== undefined, "--coverage", "--viewpoints FILE");
+  excludes(coverage && each, "--coverage", `${NAME} in the name of the output`);
+  excludes(coverage && format !== "counts", "--coverage", `--format ${format}`);
+  needs(format !== "counts" || coverage, "--format counts", "--coverage");
+  needs(format !== "pixels" || values.camera !== undefined, "--format pixels", "--camera FILE");
+  const scored = threshold !== undefined ? "--score-threshold" : "--format scores";
+  if (threshold === undefined && format !== "scores") return;
+  needs(options.looks !== undefined, scored, "--looks 2 or 3");
+  excludes(threshold !== undefined && format === "scores", scored, "--format scores, which writes all scores");
+  needs(isOne, scored, `one viewpoint: --from X,Y,Z, or --viewpoints FILE with ${NAME} in the name of the output`);
 }

@@ -6,11 +6,14 @@ import { FormatProblem } from "../formats/problem.js";
 
 const CHUNK = 1 << 24;
 
+/** A file that breaks the rules of its format. */
+export class InputProblem extends Error {}
+
 /** A file that cannot be written. */
 export class OutputProblem extends Error {}
 
 /** Reads a whole file. `onProgress` gets the share that has been read. */
-export async function readWhole(name: string, onProgress: (share: number) => void): Promise<Buffer> {
+async function readWhole(name: string, onProgress: (share: number) => void): Promise<Buffer> {
   // Without this flag, opening a FIFO would wait until another program writes to it.
   const handle = await open(name, constants.O_RDONLY | nonBlocking());
   try {
@@ -28,6 +31,21 @@ export async function readWhole(name: string, onProgress: (share: number) => voi
     return file.subarray(0, at);
   } finally {
     await handle.close();
+  }
+}
+
+/** Reads a whole file and understands it. Problems are told with its name. */
+export async function readAs<T>(
+  name: string,
+  onProgress: (share: number) => void,
+  understand: (file: Buffer) => T | Promise<T>,
+): Promise<T> {
+  try {
+    return await understand(await readWhole(name, onProgress));
+  } catch (cause) {
+    throw cause instanceof FormatProblem
+      ? new InputProblem(`${name} cannot be read: ${cause.message}`, { cause })
+      : cause;
   }
 }
 

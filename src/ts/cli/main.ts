@@ -4,13 +4,17 @@ import { readFileSync } from "node:fs";
 import { extname } from "node:path";
 
 import { HprError } from "../base/errors.js";
-import { WorkerPointCloud } from "../worker.js";
-import { HELP, readArguments, type Settings, UsageProblem } from "./arguments.js";
-import { FormatProblem } from "../formats/problem.js";
-import { OutputProblem, readWhole, writeWhole } from "./files.js";
+import { type Answer, ask, type Question } from "./ask.js";
+import { NAME, readArguments, type Settings } from "./arguments.js";
+import { readAs, writeWhole } from "./files.js";
 import { FORMATS } from "./formats/formats.js";
-import { type PointFile, written } from "./formats/point-file.js";
+import { pointsWritten, type PointFile } from "./formats/point-file.js";
+import { HELP } from "./help.js";
+import { numbersWritten } from "./numbers.js";
+import { isNumpy } from "./output-format.js";
+import { cameraIn, viewpointsIn } from "./places.js";
 import { Progress } from "./progress.js";
+import { UsageProblem } from "./values.js";
 
 process.exitCode = await main(process.argv.slice(2));
 
@@ -27,7 +31,7 @@ async function main(args: string[]): Promise<number> {
     process.stdout.write(settings === "help" ? HELP : `${version()}\n`);
     return 0;
   }
-  const progress = new Progress(process.stderr);
+  const progress = new Progress(process.stderr, settings.progress);
   try {
     const summary = await filter(settings, progress);
     progress.done();
@@ -35,49 +39,61 @@ async function main(args: string[]): Promise<number> {
     return 0;
   } catch (error) {
     progress.done();
-    console.error(`hidden-point-removal: ${reason(settings.input, error)}`);
-    return 1;
+    console.error(`hidden-point-removal: ${reason(error)}`);
+    // The numbers of an option may be wrong for this cloud only.
+    return error instanceof HprError && error.code === "option" ? 2 : 1;
   }
 }
 
 async function filter(settings: Settings, progress: Progress): Promise<string> {
-  const { input, output, viewpoint, exponent, columns } = settings;
-  const bytes = await readWhole(input, (share) => {
+  const { input, columns } = settings;
+  const question = await questionOf(settings);
+  const onRead = (share: number) => {
     progress.show(0.2 * share, "reading");
+  };
+  const file = await readAs(input, onRead, (bytes) => {
+    progress.show(0.2, "understanding");
+    return FORMATS[extname(input).toLowerCase()]!.read(bytes, columns);
   });
-  progress.show(0.2, "understanding");
-  const file = FORMATS[extname(input).toLowerCase()]!(bytes, columns);
-  const { visible, length, skipped } = await ask(file, viewpoint, exponent, progress);
-  progress.show(0.9, "writing");
-  await writeWhole(output, written(file, visible));
-  const notes = [
+  const seen: string[] = [];
+  let skipped = 0;
+  const onAsked = (share: number, doing: string) => {
+    progress.show(0.3 + 0.6 * share, doing);
+  };
+  for await (const answer of ask(file, question, onAsked)) {
+    await write(settings, file, answer);
+    const from = answer.name === undefined ? "" : ` from ${answer.name}`;
+    seen.push(`${answer.indices.length} of ${answer.length} points are visible${from}`);
+    ({ skipped } = answer);
+  }
+  return [
+    ...seen,
     ...(file.columns === undefined ? [] : [file.columns]),
     ...(skipped > 0 ? [`${skipped} without a position`] : []),
-    ...(file.leftOut.length > 0 ? [`left out: ${file.leftOut.join(", ")}`] : []),
-  ];
-  return [`${visible.length} of ${length} points are visible`, ...notes].join("; ");
+    ...(file.leftOut.length > 0 && settings.format === "points" ? [`left out: ${file.leftOut.join(", ")}`] : []),
+  ].join("; ");
 }
 
-/** The cloud is in workers, so this thread can draw the progress, and large clouds use several cores. */
-async function ask({ positions }: PointFile, viewpoint: number[], exponent: number | undefined, progress: Progress) {
-  const onProgress = (share: number) => {
-    progress.show(0.4 + 0.3 * share, "preparing");
-  };
-  const cloud = await WorkerPointCloud.create(positions, { nonFinite: "skip", transfer: true, onProgress });
-  try {
-    progress.show(0.7, "looking");
-    const { indices } = await cloud.visibleFrom(viewpoint, { exponent });
-    return { visible: indices, length: cloud.length, skipped: cloud.skipped };
-  } finally {
-    await cloud.dispose();
-  }
+/** Reads the small files first: a mistake in them is told at once. */
+async function questionOf({ place, options, threshold, format }: Settings): Promise<Question> {
+  const asked = { options, threshold };
+  const quietly = () => undefined;
+  if ("viewpoint" in place) return { ...asked, kind: "view", viewpoint: place.viewpoint };
+  if ("camera" in place) return { ...asked, kind: "camera", camera: await readAs(place.camera, quietly, cameraIn) };
+  const viewpoints = await readAs(place.viewpoints, quietly, (file) => viewpointsIn(file, place.each));
+  return { ...asked, kind: place.each ? "each" : format === "counts" ? "coverage" : "any", viewpoints };
 }
 
-function reason(input: string, error: unknown): string {
-  if (error instanceof FormatProblem) return `${input} cannot be read: ${error.message}`;
+async function write({ output, format }: Settings, file: PointFile, answer: Answer): Promise<void> {
+  const name = answer.name === undefined ? output : output.replaceAll(NAME, () => answer.name!);
+  const parts =
+    format === "points" ? pointsWritten(file, answer.indices) : numbersWritten(format, answer, isNumpy(output));
+  await writeWhole(name, parts);
+}
+
+function reason(error: unknown): string {
   if (error instanceof HprError) return `${error.message} (${error.code})`;
-  if (error instanceof OutputProblem) return error.message;
-  // A message of the system contains the file's name already.
+  // A message of the system contains the file's name already, and so do those of this command.
   return error instanceof Error ? error.message : String(error);
 }
 

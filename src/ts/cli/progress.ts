@@ -7,21 +7,33 @@ export interface Screen {
 
 const WIDTH = 24;
 
-/** A progress bar on a terminal. It disappears when the work is done. Without a terminal, there is no bar. */
+/** How many lines report the progress from 0 to 100 % if there is no terminal. */
+const LINES = 20;
+
+/**
+ * A progress bar on a terminal. It disappears when the work is done. Without a terminal, there is no
+ * bar; lines report the progress if that is wanted.
+ */
 export class Progress {
   readonly #screen: Screen | undefined;
+  readonly #log: Screen | undefined;
   readonly #started = Date.now();
   #share = 0;
   #doing = "";
   #timer: ReturnType<typeof setInterval> | undefined;
 
-  constructor(screen: Screen) {
+  /** @param always whether the progress is reported without a terminal, too */
+  constructor(screen: Screen, always = false) {
     this.#screen = screen.isTTY === true ? screen : undefined;
+    this.#log = always && this.#screen === undefined ? screen : undefined;
   }
 
   /** @param share the share of the work that is done, from 0 to 1 */
   show(share: number, doing: string): void {
-    if (this.#screen === undefined) return;
+    if (this.#screen === undefined) {
+      this.#note(share, doing);
+      return;
+    }
     const percent = Math.floor(100 * share);
     if (percent === Math.floor(100 * this.#share) && doing === this.#doing) return;
     [this.#share, this.#doing] = [share, doing];
@@ -36,6 +48,13 @@ export class Progress {
     clearInterval(this.#timer);
     if (this.#timer !== undefined) this.#screen?.write("\r\x1b[K");
     this.#timer = undefined;
+  }
+
+  /** Writes a line for each 5 %, and for each new kind of work. */
+  #note(share: number, doing: string): void {
+    if (Math.floor(LINES * share) === Math.floor(LINES * this.#share) && doing === this.#doing) return;
+    [this.#share, this.#doing] = [share, doing];
+    this.#log?.write(`${Math.floor(100 * share)} % ${doing}\n`);
   }
 
   #draw(): void {

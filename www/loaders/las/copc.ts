@@ -2,8 +2,9 @@ import { Copc, type Hierarchy } from "copc";
 import type { LoadedCloud } from "../../cloud/cloud.ts";
 import type { Reading } from "../blocks.ts";
 import { LoadProblem } from "../problem.ts";
-import { checkFormat, damaged } from "./compressed.ts";
+import { FormatProblem } from "../../../src/ts/formats/problem.js";
 import { type LasHeader, parseHeader } from "./header.ts";
+import { checkLazFormat, lazDamaged } from "../../../src/ts/formats/laz.js";
 import { type LazPerf, startLazPerf } from "./perf.ts";
 import { RecordTaker } from "./records.ts";
 
@@ -27,8 +28,8 @@ const number = new Intl.NumberFormat("en-US");
  */
 export async function readCopc(reading: Omit<Reading, "blob">, read: ReadRange): Promise<LoadedCloud> {
   const { name, limit, onProgress } = reading;
-  const header = parseHeader(name, (await read(0, HEAD)).slice().buffer);
-  checkFormat(name, header);
+  const header = parseHeader(await read(0, HEAD));
+  checkLazFormat(header);
   if (header.count === 0) throw new LoadProblem(`${name} holds no points.`);
   const { nodes, points } = await chooseNodes(name, read, limit, header.count);
   const perf = await startLazPerf(name);
@@ -51,7 +52,7 @@ export async function readCopc(reading: Omit<Reading, "blob">, read: ReadRange):
     ask(i + AHEAD);
     if (compressed.length < node.pointDataLength)
       throw new LoadProblem(`${name} is broken: it ends before its points do.`);
-    decodeNode(name, perf, header, node, compressed, taker);
+    decodeNode(perf, header, node, compressed, taker);
   }
   const cloud = taker.finish();
   if (points >= header.count) return cloud;
@@ -85,7 +86,7 @@ async function chooseNodes(
         const { depth: from, page } = pages[i]!;
         if (from > depth) continue;
         pages.splice(i--, 1);
-        if (!isPart(page.pageOffset, page.pageLength) || known.has(page.pageOffset)) throw damaged(name);
+        if (!isPart(page.pageOffset, page.pageLength) || known.has(page.pageOffset)) throw lazDamaged();
         known.add(page.pageOffset);
         const listed = await Copc.loadHierarchyPage(read, page);
         for (const [key, node] of Object.entries(listed.nodes))
@@ -96,17 +97,17 @@ async function chooseNodes(
       const level = levels[depth] ?? [];
       if (level.length === 0 && pages.length === 0 && levels.length <= depth + 1) break;
       const more = level.reduce((sum, node) => sum + node.pointCount, 0);
-      if (points + more > total) throw damaged(name);
+      if (points + more > total) throw lazDamaged();
       if (chosen.length > 0 && points + more > limit) break;
       chosen.push(...level);
       points += more;
     }
   } catch (error) {
-    if (error instanceof LoadProblem) throw error;
+    if (error instanceof LoadProblem || error instanceof FormatProblem) throw error;
     throw new LoadProblem(`${name} is broken: the list of its octree's nodes cannot be read.`);
   }
   if (chosen.length === 0) throw new LoadProblem(`${name} holds no points.`);
-  if (!chosen.every((node) => isPart(node.pointDataOffset, node.pointDataLength))) throw damaged(name);
+  if (!chosen.every((node) => isPart(node.pointDataOffset, node.pointDataLength))) throw lazDamaged();
   return { nodes: chosen, points };
 }
 
@@ -118,14 +119,7 @@ function isPart(offset: number, length: number): boolean {
   return offset > 0 && length > 0 && length <= LARGEST_PART;
 }
 
-function decodeNode(
-  name: string,
-  perf: LazPerf,
-  header: LasHeader,
-  node: Node,
-  compressed: Uint8Array,
-  taker: RecordTaker,
-): void {
+function decodeNode(perf: LazPerf, header: LasHeader, node: Node, compressed: Uint8Array, taker: RecordTaker): void {
   const { format, rowBytes } = header;
   try {
     const from = perf._malloc(compressed.length);
@@ -142,6 +136,6 @@ function decodeNode(
     perf._free(from);
     perf._free(to);
   } catch {
-    throw damaged(name);
+    throw lazDamaged();
   }
 }

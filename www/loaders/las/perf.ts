@@ -15,9 +15,6 @@ export interface LazPerf {
   };
 }
 
-/** The point formats that it supports. */
-export const LAZ_FORMATS = [0, 1, 2, 3, 6, 7, 8];
-
 /** The page itself serves its wasm. */
 export async function startLazPerf(name: string): Promise<LazPerf> {
   try {

@@ -1,3 +1,4 @@
+import { LAS_POINT_BYTES } from "../../../src/ts/formats/las.js";
 import type { NumberType } from "../../../src/ts/formats/numbers.js";
 
 /** Where a point's number is in its record. The reader and the writer of LAS take it from the same table. */
@@ -16,26 +17,26 @@ export interface PointLayout {
   places: readonly FieldPlace[];
 }
 
-/** For each point format (ASPRS, LAS Specification 1.4 R15): its length, and the places of its color and its time. */
-const FORMATS: Record<number, { bytes: number; color?: number; time?: number; infrared?: number }> = {
-  0: { bytes: 20 },
-  1: { bytes: 28, time: 20 },
-  2: { bytes: 26, color: 20 },
-  3: { bytes: 34, time: 20, color: 28 },
-  4: { bytes: 57, time: 20 },
-  5: { bytes: 63, time: 20, color: 28 },
-  6: { bytes: 30, time: 22 },
-  7: { bytes: 36, time: 22, color: 30 },
-  8: { bytes: 38, time: 22, color: 30, infrared: 36 },
-  9: { bytes: 59, time: 22 },
-  10: { bytes: 67, time: 22, color: 30, infrared: 36 },
+/** For each point format (ASPRS, LAS Specification 1.4 R15): the places of its color and its time. */
+const FORMATS: Record<number, { color?: number; time?: number; infrared?: number }> = {
+  0: {},
+  1: { time: 20 },
+  2: { color: 20 },
+  3: { time: 20, color: 28 },
+  4: { time: 20 },
+  5: { time: 20, color: 28 },
+  6: { time: 22 },
+  7: { time: 22, color: 30 },
+  8: { time: 22, color: 30, infrared: 36 },
+  9: { time: 22 },
+  10: { time: 22, color: 30, infrared: 36 },
 };
 
 /** Where the numbers of a point format are, besides x, y and z. `null`: there is no such format. */
 export function layoutOf(format: number): PointLayout | null {
   const layout = FORMATS[format];
   if (!layout) return null;
-  const { bytes, color, time, infrared } = layout;
+  const { color, time, infrared } = layout;
   const own = (name: string, type: NumberType, offset: number): FieldPlace => ({ name, type, offset });
   const shared = (name: string, offset: number, first: number, count: number): FieldPlace => ({
     name,
@@ -46,7 +47,7 @@ export function layoutOf(format: number): PointLayout | null {
   const detail = (place: FieldPlace): FieldPlace => ({ ...place, isDetail: true });
   const isNew = format >= 6;
   return {
-    bytes,
+    bytes: LAS_POINT_BYTES[format]!,
     places: [
       ...(color === undefined
         ? []

@@ -2,6 +2,7 @@ import type { LoadedCloud } from "../../cloud/cloud.ts";
 import type { Reading } from "../blocks.ts";
 import { CloudBuilder } from "../builder.ts";
 import type { LasHeader } from "./header.ts";
+import { lasPosition } from "../../../src/ts/formats/las.js";
 
 /** The classes of the LAS specification (1.4 R15, table 17). */
 const CLASSES: Readonly<Record<number, string>> = {
@@ -28,10 +29,8 @@ export class RecordTaker {
 
   take(view: DataView, at: number): void {
     if (!this.#builder.takes()) return;
-    const { scale, offset, low, high, columns } = this.#header;
-    const x = view.getInt32(at, true) * scale[0] + offset[0];
-    const y = view.getInt32(at + 4, true) * scale[1] + offset[1];
-    const z = view.getInt32(at + 8, true) * scale[2] + offset[2];
+    const { scale, low, high, columns } = this.#header;
+    const [x, y, z] = lasPosition(this.#header, view, at);
     // The tolerance is one step of the scale, since the header's bounds are rounded, too.
     const isOutside = (value: number, axis: 0 | 1 | 2) =>
       value < low[axis] - scale[axis] || value > high[axis] + scale[axis];

@@ -18,7 +18,7 @@ export function readPcd(file: Buffer, chosen?: ChosenColumns): PointFile {
         : readBinaryRows(interleaved(unpackPcd(file.subarray(end), points), points), 0, points, axes)),
     leftOut: [],
     columns: fieldsSaid(points.fields, axes),
-    header: (count) => Buffer.from(headerOf(file, header, count), "latin1"),
+    header: ({ length }) => Buffer.from(headerOf(file, header, length), "latin1"),
   };
 }
 

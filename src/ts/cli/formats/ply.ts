@@ -16,7 +16,7 @@ export function readPly(file: Buffer, chosen?: ChosenColumns): PointFile {
     ...points,
     leftOut: elements.filter((one) => one !== vertices && one.count > 0).map(({ name, count }) => `${count} × ${name}`),
     columns: fieldsSaid(vertices.fields, axes),
-    header: (count) => Buffer.from(headerOf(file, header, count), "latin1"),
+    header: ({ length }) => Buffer.from(headerOf(file, header, length), "latin1"),
   };
 }
 

@@ -8,9 +8,11 @@ export interface PointFile {
   leftOut: string[];
   /** In words: which columns are x, y and z. Undefined if the columns have these names. */
   columns: string | undefined;
-  /** The header of a file with this number of points. */
-  header: (count: number) => Uint8Array;
+  /** The header of a file with these points. */
+  header: (indices: Uint32Array) => Uint8Array;
   records: Records;
+  /** The bytes after the points. */
+  footer?: Uint8Array;
 }
 
 /** The place of each point's own bytes in a file. */
@@ -32,8 +34,8 @@ export function equalRecords(bytes: Uint8Array, from: number, size: number): Rec
 }
 
 /** The file with only these points, in their order. Their bytes are copied unchanged. */
-export function* written({ header, records }: PointFile, indices: Uint32Array): Generator<Uint8Array> {
-  yield header(indices.length);
+export function* pointsWritten({ header, records, footer }: PointFile, indices: Uint32Array): Generator<Uint8Array> {
+  yield header(indices);
   let at = 0;
   while (at < indices.length) {
     const first = indices[at++]!;
@@ -41,4 +43,5 @@ export function* written({ header, records }: PointFile, indices: Uint32Array): 
     while (at < indices.length && records.start(indices[at]!) === end) end = records.end(indices[at++]!);
     yield records.bytes.subarray(records.start(first), end);
   }
+  if (footer !== undefined) yield footer;
 }

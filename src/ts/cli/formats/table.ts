@@ -21,7 +21,7 @@ export function readTable(file: Buffer, chosen?: ChosenColumns): PointFile {
     positions: points.numbers.slice(),
     leftOut: [],
     columns: columnsSaid(rows.layout!),
-    header: (count) => Buffer.concat(head.map((line) => headLine(file, line, count))),
+    header: ({ length }) => Buffer.concat(head.map((line) => headLine(file, line, length))),
     records: points.records,
   };
 }

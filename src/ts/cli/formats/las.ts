@@ -1,0 +1,144 @@
+// LAS, LAZ and COPC. All are written as LAS: laz-perf does not compress.
+import {
+  LAS_RECORD_HEADER,
+  type LasHeader,
+  lasPosition,
+  lasRecords,
+  LONGEST_LAS_HEADER,
+  readLasHeader,
+} from "../../formats/las.js";
+import { checkChunkTable, checkLazFormat, lasEndsEarly, lazDamaged } from "../../formats/laz.js";
+import { FormatProblem } from "../../formats/problem.js";
+import { decompressed } from "./laz.js";
+import { equalRecords, type PointFile } from "./point-file.js";
+
+/** The places in the header (LAS Specification 1.4 R15, table 3). */
+const [COUNT, COUNTS_BY_RETURN, BOUNDS, WAVES, EXTENDED, WIDE_COUNT, WIDE_BY_RETURN] = [
+  107, 111, 179, 227, 235, 247, 255,
+];
+/** The extended record with the wave forms. */
+const WAVE_FORMS = 65_535;
+
+export async function readLas(file: Buffer): Promise<PointFile> {
+  const header = readLasHeader(file.subarray(0, LONGEST_LAS_HEADER));
+  const { count, compressed, rowBytes, start } = header;
+  if (count === 0) throw new FormatProblem("it has no points");
+  const rows = compressed ? await unpacked(file, header) : file.subarray(start);
+  if (rows.length < count * rowBytes) throw lasEndsEarly(count);
+
+  const view = new DataView(rows.buffer, rows.byteOffset, rows.byteLength);
+  const positions = roomFor(3 * count);
+  for (let i = 0; i < count; i++) positions.set(lasPosition(header, view, i * rowBytes), 3 * i);
+  const extended = extendedRecords(file, header);
+  return {
+    positions,
+    leftOut: [],
+    columns: undefined,
+    header: (indices) => headerOf(file, header, view, indices, extended),
+    records: equalRecords(rows, 0, rowBytes),
+    footer: Buffer.concat(extended.map(({ bytes }) => bytes)),
+  };
+}
+
+async function unpacked(file: Buffer, header: LasHeader): Promise<Uint8Array> {
+  checkLazFormat(header);
+  await checkChunkTable(header, file.length, (from, to) => Promise.resolve(file.subarray(from, to)));
+  try {
+    return await decompressed(file, header);
+  } catch (cause) {
+    // The decoder throws numbers, traps and aborts. Each of these means that the file is damaged.
+    throw cause instanceof FormatProblem ? cause : lazDamaged();
+  }
+}
+
+function roomFor(length: number): Float64Array<ArrayBuffer> {
+  try {
+    return new Float64Array(length);
+  } catch (cause) {
+    throw new FormatProblem(`no memory for ${length} coordinates`, { cause });
+  }
+}
+
+/** The header, and the records after it, of a file with these points. */
+function headerOf(
+  file: Buffer,
+  header: LasHeader,
+  rows: DataView,
+  indices: Uint32Array,
+  extended: readonly ExtendedRecord[],
+): Uint8Array {
+  const { headerBytes, minor, format, rowBytes } = header;
+  // The records of LAZ and COPC describe how the points were compressed.
+  const records = header.records.filter(({ user }) => user !== "laszip encoded" && user !== "copc");
+  const bytes = Buffer.concat([
+    file.subarray(0, headerBytes),
+    ...records.map(({ at, length }) => file.subarray(at - LAS_RECORD_HEADER.before, at + length)),
+  ]);
+  const start = bytes.length;
+  bytes.writeUInt32LE(start, 96);
+  bytes.writeUInt32LE(records.length, 100);
+  bytes.writeUInt8(format, 104);
+
+  const returns = new Array<number>(15).fill(0);
+  const bits = format >= 6 ? 15 : 7;
+  for (const index of indices) {
+    const number = rows.getUint8(index * rowBytes + 14) & bits;
+    if (number > 0) returns[number - 1]!++;
+  }
+  // Files with the formats from 6 on, or too many points, have zeros in the old fields.
+  const isOld = minor < 4 || file.readUInt32LE(COUNT) > 0;
+  bytes.writeUInt32LE(isOld ? indices.length : 0, COUNT);
+  for (let i = 0; i < 5; i++) bytes.writeUInt32LE(isOld ? returns[i]! : 0, COUNTS_BY_RETURN + 4 * i);
+  boundsOf(header, rows, indices).forEach((bound, i) => bytes.writeDoubleLE(bound, BOUNDS + 8 * i));
+  if (minor < 3 || headerBytes < EXTENDED) return bytes;
+
+  const end = start + indices.length * rowBytes;
+  const before = (record: number) => extended.slice(0, record).reduce((sum, one) => sum + one.bytes.length, 0);
+  const waves = extended.findIndex(({ user, id }) => user === "LASF_Spec" && id === WAVE_FORMS);
+  bytes.writeBigUInt64LE(BigInt(waves < 0 ? 0 : end + before(waves)), WAVES);
+  if (minor < 4) return bytes;
+  bytes.writeBigUInt64LE(BigInt(extended.length === 0 ? 0 : end), EXTENDED);
+  bytes.writeUInt32LE(extended.length, EXTENDED + 8);
+  bytes.writeBigUInt64LE(BigInt(indices.length), WIDE_COUNT);
+  returns.forEach((number, i) => bytes.writeBigUInt64LE(BigInt(number), WIDE_BY_RETURN + 8 * i));
+  return bytes;
+}
+
+/** The highest and the lowest x, y and z, in the order of the header. */
+function boundsOf(header: LasHeader, rows: DataView, indices: Uint32Array): number[] {
+  const bounds = [-Infinity, Infinity, -Infinity, Infinity, -Infinity, Infinity];
+  for (const index of indices) {
+    lasPosition(header, rows, index * header.rowBytes).forEach((value, axis) => {
+      bounds[2 * axis] = Math.max(bounds[2 * axis]!, value);
+      bounds[2 * axis + 1] = Math.min(bounds[2 * axis + 1]!, value);
+    });
+  }
+  return bounds.map((bound) => (Number.isFinite(bound) ? bound : 0));
+}
+
+interface ExtendedRecord {
+  user: string;
+  id: number;
+  bytes: Uint8Array;
+}
+
+/** The records after the points, without the octree of COPC. Records that do not fit into the file are left out. */
+function extendedRecords(file: Buffer, { minor }: LasHeader): ExtendedRecord[] {
+  if (minor === 3) {
+    // The wave forms are the only such record of this version, and nothing counts it.
+    const at = Number(file.readBigUInt64LE(WAVES));
+    const isThere = at > 0 && at + LAS_RECORD_HEADER.after <= file.length;
+    return isThere ? [{ user: "LASF_Spec", id: WAVE_FORMS, bytes: file.subarray(at) }] : [];
+  }
+  if (minor < 4) return [];
+  const start = Number(file.readBigUInt64LE(EXTENDED));
+  if (start === 0) return [];
+  const view = new DataView(file.buffer, file.byteOffset, file.byteLength);
+  return lasRecords(view, start, file.readUInt32LE(EXTENDED + 8), "after")
+    .filter(({ user }) => user !== "copc")
+    .map(({ user, id, at, length }) => ({
+      user,
+      id,
+      bytes: file.subarray(at - LAS_RECORD_HEADER.after, at + length),
+    }));
+}

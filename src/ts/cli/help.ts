@@ -1,0 +1,52 @@
+export const HELP = `Usage: hidden-point-removal IN --from X,Y,Z -o OUT [options]
+       hidden-point-removal IN --camera CAMERA.json -o OUT.csv
+       hidden-point-removal IN --viewpoints PLACES.csv [--coverage] -o OUT
+
+Writes those points of a file that can be seen, or their indices, a mask, their pixels
+in an image, or from how many places each point is seen.
+
+  IN                   a LAS, LAZ, COPC, PLY, PCD, XYZ, TXT, CSV or PTS file
+  --columns X,Y,Z      which columns of IN are x, y and z: their names or numbers from 1
+
+From where (one of the three, in the coordinates of the file):
+  --from X,Y,Z         one viewpoint
+  --camera FILE        one camera: a JSON file with matrix, convention, fx, fy, cx, cy,
+                       width, height and, if needed, distortion, near, far
+  --viewpoints FILE    many viewpoints: a table with the columns x,y,z or name,x,y,z
+
+How (the defaults fit most clouds):
+  --radius R           R in the units of the file; or auto (the default), search, opposite
+  --exponent E         R is the farthest distance times 10^E (0 or more); the larger, the
+                       more points
+  --inversion I        spherical (the default), power:G, exponential:C or exponential:auto
+  --looks N            2 or 3 looks instead of one flip: truer answers, about 3 times the work
+  --score-threshold T  with --looks: the points whose score is at least T, from 0 to 1
+  --denoise K          for noisy points: first moves each onto the plane of its K neighbors
+  --vote K             for noisy points: lets each point and its K neighbors vote
+
+What to write:
+  -o, --output OUT     the file to write; - is standard output. With --viewpoints, a name with
+                       {name} in it is one file for each viewpoint; without, OUT holds what any
+                       of them sees
+  --coverage           with --viewpoints: how many of them see each point
+  --format F           points (a file like IN), indices, mask, scores (with --looks), pixels
+                       (index, u, v, depth; with --camera) or counts (with --coverage). The
+                       default follows from OUT: an ending like IN's is points, .idx indices,
+                       .mask and .npy a mask; with --camera, a table or .npy is pixels
+                       All but points are text, one line each, or NumPy arrays (.npy)
+  --progress           reports the progress, also if standard error is not a terminal
+  -h, --help           shows this
+  --version            shows the version
+
+Without --columns, the columns named x, y and z (or easting, northing and height) are
+read. In a file without names, the first three columns are read. At the end, the command
+says which columns it has read. A file that breaks the rules of its format is refused,
+with the number of the line.
+
+All values of a point (color, normal, any property) are copied unchanged. Of a PLY file,
+only the vertices are kept. Compressed PCD data is written uncompressed, and LAZ and COPC
+files are written as LAS. Points without a position (NaN) are never visible. Indices count
+from 0, in the order of the file.
+
+Exit codes: 0 done, 1 a file could not be read, written or understood, 2 wrong usage
+`;

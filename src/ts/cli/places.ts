@@ -1,0 +1,71 @@
+// Reads the files that say from where: a camera, or many viewpoints.
+import { HprError } from "../base/errors.js";
+import { FormatProblem, lineProblem } from "../formats/problem.js";
+import { TableRows } from "../formats/table.js";
+import { cell, isComment, separatorOf, split } from "../formats/table-words.js";
+import { trimmed } from "../formats/text.js";
+import { type Camera, readCamera } from "../query/camera.js";
+import { linesOf } from "./formats/lines.js";
+
+/** A camera as a JSON object. It is checked as the library checks it, before the points are read. */
+export function cameraIn(file: Buffer): Camera {
+  let camera: unknown;
+  try {
+    camera = JSON.parse(file.toString("utf8"));
+  } catch (cause) {
+    throw new FormatProblem(`it is not JSON: ${(cause as Error).message}`, { cause });
+  }
+  try {
+    readCamera(camera);
+  } catch (cause) {
+    throw cause instanceof HprError ? new FormatProblem(cause.message, { cause }) : cause;
+  }
+  return camera as Camera;
+}
+
+export interface NamedViewpoint {
+  name: string;
+  viewpoint: number[];
+}
+
+/**
+ * The viewpoints of a table with the columns x,y,z or name,x,y,z, with or without a line of names.
+ * Viewpoints without a name are called by their number, from 1.
+ *
+ * @param inFileNames whether the names become parts of names of files
+ */
+export function viewpointsIn(file: Buffer, inFileNames: boolean): NamedViewpoint[] {
+  const lines = [...linesOf(file)];
+  const bareName = hasBareName(lines.map(({ text }) => trimmed(text)).find((text) => text !== "" && !isComment(text)));
+  const rows = new TableRows(bareName ? ["2", "3", "4"] : undefined);
+  const found: NamedViewpoint[] = [];
+  const known = new Set<string>();
+  for (const { text, number } of lines) {
+    const point = rows.take(text, number);
+    if (point === undefined) continue;
+    const { names, width } = rows.layout!;
+    if (names === undefined && !bareName && width > 3)
+      throw lineProblem(number, `has ${width} columns without names; begin with a line such as name,x,y,z`);
+    const column = bareName ? 0 : (names?.bare.indexOf("name") ?? -1);
+    const name = column < 0 ? String(found.length + 1) : point.words[column]!;
+    if (!point.position.every(Number.isFinite)) throw lineProblem(number, "has a coordinate that is not finite", text);
+    if (inFileNames && (/[/\\\0]/.test(name) || name === "" || known.has(name)))
+      throw lineProblem(
+        number,
+        known.has(name) ? "has a name a second time" : "has a name that no file can have",
+        text,
+      );
+    known.add(name);
+    found.push({ name, viewpoint: [...point.position] });
+  }
+  rows.finish();
+  return found;
+}
+
+/** Whether a line is a name and three numbers. A name that is a number itself needs a line of names above. */
+function hasBareName(line: string | undefined): boolean {
+  const words = line === undefined ? [] : (split(line, separatorOf(line)) ?? []);
+  const [name = "", ...numbers] = words;
+  const isNumber = (word: string) => word !== "" && cell(word) !== undefined;
+  return words.length === 4 && cell(name) === undefined && numbers.every(isNumber);
+}

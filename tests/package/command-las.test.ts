@@ -1,0 +1,152 @@
+// The command with LAS, LAZ and COPC files. Their coordinates are as large as those of UTM.
+import { spawnSync } from "node:child_process";
+import { cpSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { Las } from "copc";
+import { describe, expect, it } from "vitest";
+
+import { georeferencedBall } from "../browser/clouds";
+import { inMillimeters, las } from "../browser/formats";
+import { commandIn } from "./command-support";
+import { readyPackage } from "./support";
+
+const { PointCloud } = await readyPackage();
+const { run, write, read, lines, place } = commandIn("command-las");
+const fixture = (name: string) => readFileSync(join(import.meta.dirname, "../browser/fixtures", name));
+
+const POINTS = inMillimeters(georeferencedBall(600));
+const VIEWPOINT = [512_345, 5_403_209, 450];
+const visible = new PointCloud(POINTS).visibleFrom(VIEWPOINT).indices;
+
+function filtered(name: string, content: Uint8Array, output: string, ...options: string[]): Buffer {
+  write(name, content);
+  const { stderr, status } = run(name, "--from", VIEWPOINT.join(","), "-o", output, ...options);
+  expect(status, stderr).toBe(0);
+  expect(stderr).toMatch(/^\d+ of \d+ points are visible\n$/);
+  return read(output);
+}
+
+/** The header and the rows of a LAS file, read by another program. */
+function opened(file: Buffer) {
+  const header = Las.Header.parse(file);
+  const { pointCount, pointDataOffset: start, pointDataRecordLength: size } = header;
+  expect(file).toHaveLength(start + pointCount * size);
+  const rows = Array.from({ length: pointCount }, (_, i) => file.subarray(start + i * size, start + (i + 1) * size));
+  return { header, rows };
+}
+
+describe("the visible points of a LAS file are a LAS file", () => {
+  it.each([
+    ["LAS 1.2", las(georeferencedBall(600)), las(georeferencedBall(600))],
+    ["LAS 1.4 with a value of its own", ...twice(las(georeferencedBall(600), { minor: 4, format: 7, extra: "glow" }))],
+    ["LAZ 1.2", fixture("ball-12.laz"), las(georeferencedBall(600))],
+    ["LAZ 1.4", fixture("ball-14.laz"), las(georeferencedBall(600), { minor: 4, format: 7 })],
+  ])("%s, with all bytes of each point", (_, content, uncompressed) => {
+    const { header, rows } = opened(filtered("ball.laz", content, "out.las"));
+    const all = opened(Buffer.from(uncompressed)).rows;
+    expect(rows.map((row) => row.toString("hex"))).toEqual([...visible].map((i) => all[i]!.toString("hex")));
+    const bounds = (pick: typeof Math.min) =>
+      [0, 1, 2].map((axis) => pick(...[...visible].map((i) => POINTS[3 * i + axis]!)));
+    expect([header.min, header.max]).toEqual([bounds(Math.min), bounds(Math.max)]);
+    // The ball's points say that they are the first return of their pulse.
+    expect([header.pointCount, header.pointCountByReturn[0]]).toEqual([visible.length, visible.length]);
+  });
+
+  it("and of a COPC file, in the order of the file", () => {
+    const { header, rows } = opened(filtered("tree.copc.laz", fixture("octree.copc.laz"), "out-tree.las"));
+    const everything = inMillimeters(georeferencedBall(3000));
+    const expected = new PointCloud(everything).visibleFrom(VIEWPOINT).indices;
+    const place = (x: number, y: number, z: number) => [x, y, z].map((value) => value.toFixed(3)).join(" ");
+    const found = rows.map((row) => {
+      const at = (axis: number) => row.readInt32LE(4 * axis) * header.scale[axis]! + header.offset[axis]!;
+      return place(at(0), at(1), at(2));
+    });
+    const wanted = [...expected].map((i) => place(everything[3 * i]!, everything[3 * i + 1]!, everything[3 * i + 2]!));
+    expect(found.sort()).toEqual(wanted.sort());
+    expect(header.vlrCount).toBe(0);
+  });
+
+  it("the records after the points move with them", () => {
+    const plain = las(georeferencedBall(600), { minor: 4, format: 6 });
+    const record = Buffer.alloc(60 + 5);
+    record.write("LASF_Projection", 2, "latin1");
+    record.writeUInt16LE(2112, 18);
+    record.writeBigUInt64LE(5n, 20);
+    record.write("WKT…", 60, "latin1");
+    const file = Buffer.concat([plain, record]);
+    file.writeBigUInt64LE(BigInt(plain.length), 235);
+    file.writeUInt32LE(1, 243);
+    write("wkt.las", file);
+    expect(run("wkt.las", "--from", VIEWPOINT.join(","), "-o", "out-wkt.las").status).toBe(0);
+    const out = read("out-wkt.las");
+    const { evlrOffset, evlrCount } = Las.Header.parse(out);
+    expect([evlrCount, out.subarray(evlrOffset).equals(record)]).toEqual([1, true]);
+  });
+
+  it("as indices, too", () => {
+    filtered("list.laz", fixture("ball-14.laz"), "list.idx");
+    expect(lines("list.idx")).toEqual([...visible].map(String));
+  });
+});
+
+describe("a LAS file that cannot be read", () => {
+  const laz = fixture("ball-12.laz");
+  const PROBLEMS: [name: string, content: Uint8Array, says: RegExp][] = [
+    ["cut.las", las(georeferencedBall(600)).slice(0, 9000), /ends before the 600 points/],
+    ["cut.laz", laz.subarray(0, 3000), /ends before the 600 points/],
+    ["stub.laz", laz.subarray(0, 100), /ends within its LAS header/],
+    ["none.las", las([]), /has no points/],
+    ["other.las", Buffer.from("FSAL"), /does not begin like a LAS file/],
+    ["formats.laz", edited(laz, 104, 128 + 4, 57), /format 4, which laz-perf cannot decompress/],
+  ];
+  it.each(PROBLEMS)("%s", (name, content, says) => {
+    write(name, content);
+    const { stderr, status } = run(name, "--from", "0,0,5", "-o", "nothing.las");
+    expect([status, stderr]).toEqual([1, expect.stringMatching(says)]);
+    expect(stderr).toContain(`${name} cannot be read: `);
+    expect(stderr.trim().split("\n")).toHaveLength(1);
+  });
+
+  it("LAZ without laz-perf: the message names it", () => {
+    // Outside of the repository, the command finds no packages.
+    const elsewhere = mkdtempSync(join(tmpdir(), "hpr-command-"));
+    try {
+      for (const part of ["dist", "package.json"]) {
+        cpSync(join(import.meta.dirname, "../..", part), join(elsewhere, part), { recursive: true });
+      }
+      write("ball.laz", laz);
+      const args = [join(elsewhere, "dist/cli/main.js"), place("ball.laz"), "--from", "0,0,5", "-o", place("no.las")];
+      const { stderr, status } = spawnSync(process.execPath, args, { encoding: "utf8" });
+      expect([status, stderr]).toEqual([
+        1,
+        expect.stringMatching(/need the package laz-perf: npm install laz-perf\n$/),
+      ]);
+    } finally {
+      rmSync(elsewhere, { recursive: true });
+    }
+  });
+
+  it("LAZ is not written, E57 is not read, and columns cannot be chosen", () => {
+    write("ball.laz", laz);
+    const refused = (...args: string[]) => {
+      const { stderr, status } = run(...args);
+      expect(status).toBe(2);
+      return stderr;
+    };
+    expect(refused("ball.laz", "--from", "0,0,5", "-o", "out.laz")).toMatch(/must be a file like ball\.laz \(\.las\)/);
+    expect(refused("scan.e57", "--from", "0,0,5", "-o", "out.las")).toMatch(/web-e57 was tried.*pdal translate/);
+    expect(refused("ball.laz", "--from", "0,0,5", "-o", "out.las", "--columns", "1,2,3")).toMatch(/no meaning/);
+  });
+});
+
+function edited(file: Uint8Array, at: number, format: number, size: number): Buffer {
+  const copy = Buffer.from(file);
+  copy.writeUInt8(format, at);
+  copy.writeUInt16LE(size, at + 1);
+  return copy;
+}
+
+function twice(file: Uint8Array): [Uint8Array, Uint8Array] {
+  return [file, file];
+}

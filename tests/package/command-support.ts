@@ -1,0 +1,33 @@
+// Runs the command as npx runs it, in a folder of its own.
+import { spawnSync } from "node:child_process";
+import { mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+const root = join(import.meta.dirname, "../..");
+
+export function commandIn(folder: string) {
+  const scratch = join(root, "target", folder);
+  rmSync(scratch, { recursive: true, force: true });
+  mkdirSync(scratch, { recursive: true });
+  const place = (name: string) => join(scratch, name);
+  return {
+    place,
+    write: (name: string, content: Uint8Array | string) => {
+      writeFileSync(place(name), content);
+    },
+    read: (name: string) => readFileSync(place(name)),
+    lines: (name: string) => readFileSync(place(name), "utf8").split("\n").slice(0, -1),
+    run: (...args: string[]) => {
+      const { stdout, stderr, status } = spawnSync(process.execPath, [join(root, "dist/cli/main.js"), ...args], {
+        cwd: scratch,
+      });
+      return { stdout, stderr: stderr.toString(), status };
+    },
+  };
+}
+
+/** The data of a NumPy file, and its header. */
+export function numpy(file: Buffer): { header: string; data: Buffer } {
+  const start = 10 + file.readUInt16LE(8);
+  return { header: file.toString("latin1", 10, start).trim(), data: file.subarray(start) };
+}
