@@ -4,6 +4,7 @@ use alloc::vec::Vec;
 
 use crate::answers::looks::{scales, scores_of_indices};
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
+use crate::base::bits::{bits_of, places};
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
 use crate::hull;
@@ -351,7 +352,9 @@ impl PointCloud {
         chosen: ChosenRadius,
         inversion: Inversion,
     ) -> Result<Visibility, Error> {
-        let indices = marked_indices(self.len(), visible, &|k| self.sequence.indices_of(k))?;
+        let indices = marked_indices(self.len(), visible, self.sequence.single_indices(), &|k| {
+            self.sequence.indices_of(k)
+        })?;
         let mut answer = Visibility::new(indices, self.len(), chosen, inversion);
         if let Inversion::Looks(count) = inversion {
             let scales = scales(count, self.statistics.spacing);
@@ -376,10 +379,12 @@ impl PointCloud {
 }
 
 /// The caller's indices of the distinct points marked as `visible`, ascending and below `len`.
-/// `indices_of` lists the indices of one distinct point.
+/// `indices_of` lists the indices of one distinct point. `single` holds the index of each point
+/// if all have only one; otherwise it is empty.
 pub(crate) fn marked_indices<'a>(
     len: usize,
     visible: &[bool],
+    single: &[u32],
     indices_of: &dyn Fn(usize) -> &'a [u32],
 ) -> Result<Vec<u32>, OutOfMemory> {
     // A bit for each index.
@@ -390,19 +395,21 @@ pub(crate) fn marked_indices<'a>(
         if !run.iter().fold(false, |any, &visible| any | visible) {
             continue;
         }
-        for (k, _) in (start..).zip(run).filter(|(_, visible)| **visible) {
-            for &index in indices_of(k) {
-                marked[index as usize / BITS] |= 1 << (index as usize % BITS);
-                count += 1;
+        let mut mark = |index: u32| {
+            marked[index as usize / BITS] |= 1 << (index as usize % BITS);
+            count += 1;
+        };
+        for place in places(bits_of(run)) {
+            let k = start + place as usize;
+            match single.get(k) {
+                Some(&index) => mark(index),
+                None => indices_of(k).iter().copied().for_each(&mut mark),
             }
         }
     }
     let mut indices = with_capacity(count)?;
-    for (start, mut bits) in (0..).step_by(BITS).zip(marked) {
-        while bits != 0 {
-            indices.push(start + bits.trailing_zeros());
-            bits &= bits - 1;
-        }
+    for (start, bits) in (0..).step_by(BITS).zip(marked) {
+        indices.extend(places(bits).map(|place| start + place));
     }
     Ok(indices)
 }

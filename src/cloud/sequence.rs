@@ -175,6 +175,15 @@ impl Sequence {
         self.indices.of(k)
     }
 
+    /// The caller's index of each distinct point, if each has only one. Otherwise empty.
+    pub(crate) fn single_indices(&self) -> &[u32] {
+        if self.indices.starts.is_empty() {
+            &self.indices.order
+        } else {
+            &[]
+        }
+    }
+
     /// Where a point is in the order, or would be, and whether it is there.
     pub(crate) fn place_of(&self, point: [f64; 3], curve: &HilbertCurve) -> (usize, bool) {
         let place = self.first_not_before(&curve.place(point), 0, curve);

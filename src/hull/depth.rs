@@ -8,7 +8,6 @@
 //! point is hidden, now and for every larger K.
 
 use alloc::vec::Vec;
-use core::ops::Range;
 use glam::DVec3;
 
 use super::flipped::Flipped;
@@ -176,45 +175,95 @@ impl DepthMap {
         (room > 0.0).then_some((side, cells))
     }
 
-    /// Whether a point is certainly hidden.
-    #[inline]
-    pub(super) fn hides(&self, flipped: &Flipped, index: u32) -> bool {
-        let v = flipped.relative(index);
-        // Except for roundings, q is v times a positive number.
-        let (side, x, y, z) = place(v);
+    /// Which of the `wanted` points of a block are not certainly hidden. The first point is number
+    /// `start`, and there is a bit for each point. Bits beyond the end of the cloud are cleared.
+    #[inline(never)]
+    pub(super) fn not_hidden(&self, flipped: &Flipped, start: u32, wanted: u64) -> u64 {
+        let start = start as usize;
+        let len = BLOCK.min(flipped.len() - start);
+        let mut left = wanted & (u64::MAX >> (BLOCK - len));
+        if self.heights.is_empty() {
+            return left;
+        }
+        let sphere = flipped.blocks.get(start / BLOCK);
+        if sphere.is_some_and(|sphere| self.hides_all(flipped, sphere)) {
+            return 0;
+        }
+        // Most points are on the side of the cube where the block's center is.
+        let center = sphere.map_or(flipped.position(start as u32), |sphere| sphere.center);
+        let (home, ..) = place(DVec3::from_array(center) - flipped.flip.viewpoint());
+        let mut open = left;
+        while open != 0 {
+            let bit = open.trailing_zeros();
+            open &= open - 1;
+            let v = flipped.relative(start as u32 + bit);
+            let is_hidden = match self.height_towards(home, v) {
+                Some((z, height)) => self.reaches_beyond(flipped, v, z, height),
+                None => self.hides_elsewhere(flipped, home, v),
+            };
+            left &= !(u64::from(is_hidden) << bit);
+        }
+        left
+    }
+
+    /// Whether a point at `v` from the viewpoint is certainly hidden, if its own side is not `home`.
+    #[cold]
+    #[inline(never)]
+    fn hides_elsewhere(&self, flipped: &Flipped, home: usize, v: DVec3) -> bool {
+        let (side, ..) = place(v);
+        let found = self.height_towards(side, v);
+        side != home && found.is_some_and(|(z, height)| self.reaches_beyond(flipped, v, z, height))
+    }
+
+    /// z of `v` on this side of the cube, and an upper bound of w in its direction. `None` where no
+    /// bound is known.
+    #[inline(always)]
+    fn height_towards(&self, side: usize, v: DVec3) -> Option<(f64, f64)> {
+        let (x, y, z) = match side / 2 {
+            0 => (v.x, v.y, v.z),
+            1 => (v.y, v.z, v.x),
+            _ => (v.z, v.x, v.y),
+        };
+        let z = if side % 2 == 0 { z } else { -z };
+        let inverse = 1.0 / z;
         let window = &self.windows[side];
-        let x = (x - window.x) * self.cells_per_unit;
-        let y = (y - window.y) * self.cells_per_unit;
+        let x = (x * inverse - window.x) * self.cells_per_unit;
+        let y = (y * inverse - window.y) * self.cells_per_unit;
         // A number out of range becomes 0 or large; NaN becomes 0. The checks below refuse both.
         let (column, row) = (x as u32, y as u32);
         let (x, y) = (x - f64::from(column), y - f64::from(row));
         const INNER: f64 = 0.5 - BORDER;
         let (column, row) = (column as usize, row as usize);
-        let known = column < window.columns
+        let known = z > 0.0
+            && column < window.columns
             && row < window.rows
             && (x - 0.5).abs() < INNER
             && (y - 0.5).abs() < INNER;
         if !known {
-            return false;
+            return None;
         }
         // The product is in range only where the height is known.
         let corners = window.columns + 1;
         let low = window.first + row * corners + column;
-        let high = low + corners;
+        let [a, b] = self.pair(low)?;
+        let [c, d] = self.pair(low + corners)?;
         let between = |a: f64, b: f64, t: f64| (1.0 - t) * a + t * b;
-        let below = between(self.heights[low], self.heights[low + 1], x);
-        let above = between(self.heights[high], self.heights[high + 1], x);
-        let height = between(below, above, y);
-        let (far, near) = flipped.flip.ratio(v);
-        z * far * height < near * self.limit
+        Some((z, between(between(a, b, x), between(c, d, x), y)))
     }
 
-    /// Whether all points of a run in the spatial order are certainly hidden, by the bounds of
-    /// their blocks.
-    #[inline(never)]
-    pub(super) fn hides_run(&self, flipped: &Flipped, run: &Range<u32>) -> bool {
-        let block = flipped.blocks.get(run.start as usize / BLOCK);
-        !self.heights.is_empty() && block.is_some_and(|sphere| self.hides_all(flipped, sphere))
+    /// The heights at a corner and at the next one.
+    #[inline(always)]
+    fn pair(&self, corner: usize) -> Option<[f64; 2]> {
+        let pair = self.heights.get(corner..)?.first_chunk::<2>()?;
+        Some(*pair)
+    }
+
+    /// Whether K reaches beyond the flipped point of `v`. Except for roundings, this point is v
+    /// times a positive number.
+    #[inline(always)]
+    fn reaches_beyond(&self, flipped: &Flipped, v: DVec3, z: f64, height: f64) -> bool {
+        let (far, near) = flipped.flip.ratio(v);
+        z * far * height < near * self.limit
     }
 
     /// Whether all points of a sphere are certainly hidden. The points in the directions of a cell

@@ -32,18 +32,23 @@ impl Plane {
         error: f64::INFINITY,
     };
 
+    /// The plane of a, b and p.
     #[inline]
     pub(super) fn through(a: DVec3, b: DVec3, p: DVec3, reach: f64) -> Self {
+        Self::between(Spoke::new(a, p), Spoke::new(b, p), p, reach)
+    }
+
+    /// The plane of the two ends of spokes and of `p`, where the spokes start.
+    #[inline]
+    pub(super) fn between(u: Spoke, w: Spoke, p: DVec3, reach: f64) -> Self {
         const ROUNDING: f64 = f64::EPSILON / 2.0;
         const MAX_CONDITION: f64 = 1e10;
         // A volume above this shows that no product that matters has underflowed.
         const MIN_VOLUME: f64 = 1e-200;
-        let u = a - p;
-        let w = b - p;
-        let n = u.cross(w);
+        let n = u.along.cross(w.along);
         let volume = n.dot(p);
         let inverse = 1.0 / volume;
-        let condition = 0.5 * (u.length_squared() + w.length_squared()) * reach * inverse;
+        let condition = 0.5 * (u.squared + w.squared) * reach * inverse;
         // The comparisons also refuse a NaN.
         if volume > MIN_VOLUME && volume < f64::MAX && condition < MAX_CONDITION {
             Self {
@@ -58,6 +63,30 @@ impl Plane {
     #[inline]
     pub(super) fn is_exact_only(&self) -> bool {
         self.error == f64::INFINITY
+    }
+}
+
+/// An edge from a vertex p to another vertex, and the square of its length.
+#[derive(Clone, Copy)]
+pub(super) struct Spoke {
+    along: DVec3,
+    squared: f64,
+}
+
+impl Spoke {
+    /// The edge to the ghost vertex. A plane with this spoke decides nothing by itself.
+    pub(super) const NONE: Self = Self {
+        along: DVec3::ZERO,
+        squared: 0.0,
+    };
+
+    #[inline]
+    pub(super) fn new(end: DVec3, p: DVec3) -> Self {
+        let along = end - p;
+        Self {
+            along,
+            squared: along.length_squared(),
+        }
     }
 }
 

@@ -12,7 +12,7 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::dual_plane::Plane;
+use super::dual_plane::{Plane, Spoke};
 use super::topology::{Face, FaceId, Surface, Vertex};
 use crate::base::allocation::{OutOfMemory, reserve};
 use crate::hull::predicates::{Sign, side_of_face, side_of_origin};
@@ -62,6 +62,7 @@ impl Vertices {
     }
 
     /// Gives a vertex number to the point `point`, which is flipped to `q`.
+    #[inline]
     pub(super) fn add(&mut self, point: u32, q: DVec3) -> Result<Vertex, OutOfMemory> {
         if let Some(vertex) = self.free.pop() {
             self.positions[vertex as usize] = q;
@@ -189,8 +190,14 @@ impl Hull {
     #[inline(never)]
     pub(super) fn fill_cavity(&mut self, vertex: Vertex) -> Result<FaceId, OutOfMemory> {
         let vertices = &self.vertices;
-        self.surface
-            .fill_cavity(vertex, |corners| vertices.plane(corners))?;
+        let (apex, reach) = (vertices.at(vertex), vertices.reach);
+        let spoke = |end| match end {
+            ORIGIN => Spoke::NONE,
+            end => Spoke::new(vertices.at(end), apex),
+        };
+        self.surface.fill_cavity(vertex, spoke, |tail, head| {
+            Plane::between(tail, head, apex, reach)
+        })?;
         let is_outer = |&id: &FaceId| self.vertices.is_outer(self.surface.face(id));
         let outer = self.surface.fan().iter().rev().copied().find(is_outer);
         Ok(outer.expect("a new vertex is on the outer boundary"))

@@ -210,7 +210,7 @@ impl LowerHull {
         let vertices = &self.vertices;
         let conflicts = |face: &Face<()>| vertices.side(face, q) == Sign::Positive;
         self.surface.find_cavity(start, conflicts)?;
-        self.surface.fill_cavity(vertex, |_| ())?;
+        self.surface.fill_cavity(vertex, |_| (), |(), ()| ())?;
         let is_outer = |&id: &FaceId| self.vertices.is_outer(self.surface.face(id));
         let outer = self.surface.fan().iter().rev().copied().find(is_outer);
         Ok(outer.expect("a new vertex is on the lower boundary"))

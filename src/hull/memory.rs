@@ -8,10 +8,11 @@ use super::depth::DepthMap;
 use super::flipped::Flipped;
 use super::incremental::Hull;
 use super::locate::Location;
-use super::order;
+use super::order::{self, LAST_ROUND, points_at};
 use super::repair::Repair;
 use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, push};
+use crate::base::bits::bits_of;
 use crate::cloud::selection::Selection;
 use crate::flip::inversion::Flip;
 
@@ -171,16 +172,12 @@ impl Memory {
                 return Ok(false);
             }
             self.runs_added += 1;
-            if self.depth.hides_run(flipped, &run) {
-                self.witnesses[run.start as usize..run.end as usize].fill(hint);
-                budget -= 1;
-                continue;
-            }
-            budget = budget.saturating_sub(run.len());
-            for index in order::last_round().indices_in(run) {
-                if !self.depth.hides(flipped, index) {
-                    hint = self.add(index, flipped, [hint, hint])?;
-                }
+            let added = self.depth.not_hidden(flipped, run.start, LAST_ROUND);
+            // To test a block takes about as long as to add a few points.
+            budget = budget.saturating_sub(8 + added.count_ones() as usize);
+            self.witnesses[run.start as usize..run.end as usize].fill(hint);
+            for index in points_at(run.start, added) {
+                hint = self.add(index, flipped, [hint, hint])?;
                 self.witnesses[index as usize] = hint;
             }
         }
@@ -230,13 +227,10 @@ impl Memory {
             return Ok(());
         };
         for run in order::runs(count as u32) {
-            if self.depth.hides_run(flipped, &run) {
-                continue;
-            }
-            for index in run {
-                if self.visible[index as usize] || self.depth.hides(flipped, index) {
-                    continue;
-                }
+            let marks = &self.visible[run.start as usize..run.end as usize];
+            let open = !bits_of(marks);
+            let added = self.depth.not_hidden(flipped, run.start, open);
+            for index in points_at(run.start, added) {
                 let witness = self.witnesses[index as usize];
                 hint = self.add(index, flipped, [hint, witness])?;
                 self.witnesses[index as usize] = hint;

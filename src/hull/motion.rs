@@ -24,7 +24,7 @@ use crate::hull::predicates::{Sign, side_of_origin};
 
 /// A new hull is faster than mending the old one where more than one face in this many has turned
 /// over.
-const FEW_TURNED: usize = 60;
+const FEW_TURNED: usize = 120;
 /// A new hull is faster where more than one edge in this many has become reflex.
 const FEW_REFLEX: usize = 25;
 /// How many faces of the last hull are looked at, to find out whether the views are close.

@@ -2,10 +2,16 @@
 
 use core::ops::Range;
 
+use crate::base::bits;
 use crate::cloud::blocks::BLOCK;
 
 /// The stride of the last round but one.
 const COARSE: u32 = 8;
+
+/// The points of a block that are not in the last round: every eighth one.
+pub(super) const EIGHTH: u64 = 0x0101_0101_0101_0101;
+/// The points of a block that are in the last round.
+pub(super) const LAST_ROUND: u64 = !EIGHTH;
 
 /// One round: the multiples of `stride` that are no multiples of `given`, the
 /// stride of the round before.
@@ -18,12 +24,8 @@ pub(super) struct Round {
 impl Round {
     /// The round's indices below `count`, ascending.
     pub(super) fn indices(self, count: u32) -> impl Iterator<Item = u32> + Clone {
-        self.indices_in(0..count)
-    }
-
-    /// The round's indices in a run that starts at a multiple of every stride, or of the last two.
-    pub(super) fn indices_in(self, run: Range<u32>) -> impl Iterator<Item = u32> + Clone {
-        run.step_by(self.stride as usize)
+        (0..count)
+            .step_by(self.stride as usize)
             .filter(move |i| self.given == 0 || i % self.given != 0)
     }
 }
@@ -55,6 +57,11 @@ pub(super) fn runs(count: u32) -> impl Iterator<Item = Range<u32>> {
     starts.map(move |start| start..count.min(start + BLOCK as u32))
 }
 
+/// The points at these `places` of the block that begins with point `start`.
+pub(super) fn points_at(start: u32, places: u64) -> impl Iterator<Item = u32> {
+    bits::places(places).map(move |place| start + place)
+}
+
 /// The step of the sample in which a start is searched, before all points are searched.
 pub(super) fn sample_step(count: u32) -> usize {
     const SAMPLE: u32 = 512;
@@ -63,8 +70,14 @@ pub(super) fn sample_step(count: u32) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{coarse_rounds, last_round};
+    use super::{BLOCK, LAST_ROUND, coarse_rounds, last_round, points_at};
     use alloc::vec::Vec;
+
+    #[test]
+    fn the_last_round_of_a_block_has_the_points_at_its_places() {
+        let places = points_at(0, LAST_ROUND);
+        assert!(places.eq(last_round().indices(BLOCK as u32)));
+    }
 
     #[test]
     fn every_index_comes_once() {

@@ -100,11 +100,11 @@ pub(crate) fn mark_draft(
     memory.clear_marks(points.len())?;
     memory.mark_boundary(&flipped)?;
     for run in order::runs(points.len() as u32) {
-        if memory.depth.hides_run(&flipped, &run) {
-            continue;
-        }
-        for index in order::last_round().indices_in(run) {
-            memory.visible[index as usize] = !memory.depth.hides(&flipped, index);
+        let shown = memory
+            .depth
+            .not_hidden(&flipped, run.start, order::LAST_ROUND);
+        for index in order::points_at(run.start, shown) {
+            memory.visible[index as usize] = true;
         }
     }
     Ok(())

@@ -39,6 +39,7 @@ use super::flipped::Flipped;
 use super::incremental::Hull;
 use super::locate::Location;
 use super::memory::Memory;
+use super::order::{EIGHTH, LAST_ROUND, points_at};
 use super::topology::{FaceId, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::cloud::blocks::BLOCK;
@@ -92,18 +93,8 @@ pub(super) fn mark_visible(
     Ok(())
 }
 
-/// The first point of each block, and every eighth one.
+/// The first point of each block.
 const FIRST: u64 = 1;
-const EIGHTH: u64 = 0x0101_0101_0101_0101;
-
-/// The points at these places of a block.
-fn places_of(block: usize, mut places: u64) -> impl Iterator<Item = u32> {
-    core::iter::from_fn(move || {
-        let place = places.trailing_zeros();
-        places &= places.wrapping_sub(1);
-        (place < u64::BITS).then(|| (block * BLOCK) as u32 + place)
-    })
-}
 
 pub(super) struct Share<'a> {
     pub(super) hull: &'a mut Hull,
@@ -126,7 +117,8 @@ impl Share<'_> {
     #[inline(never)]
     fn add_near(&mut self, places: u64) -> Result<(), OutOfMemory> {
         for block in 0..self.division.block_count() {
-            for index in places_of(block, self.division.near(block) & places) {
+            let start = (block * BLOCK) as u32;
+            for index in points_at(start, self.division.near(block) & places) {
                 if index % SAMPLE != 0 {
                     self.add(index)?;
                 }
@@ -138,18 +130,14 @@ impl Share<'_> {
     /// Adds the near points of the last round that the map does not hide.
     #[inline(never)]
     fn add_last_round(&mut self, depth: &DepthMap) -> Result<(), OutOfMemory> {
-        let count = self.visible.len() as u32;
         for block in 0..self.division.block_count() {
-            let places = self.division.near(block) & !EIGHTH;
             let start = (block * BLOCK) as u32;
-            let run = start..count.min(start + BLOCK as u32);
-            if places == 0 || depth.hides_run(self.flipped, &run) {
-                continue;
+            let mut places = self.division.near(block) & LAST_ROUND;
+            if places != 0 {
+                places = depth.not_hidden(self.flipped, start, places);
             }
-            for index in places_of(block, places) {
-                if !depth.hides(self.flipped, index) {
-                    self.add(index)?;
-                }
+            for index in points_at(start, places) {
+                self.add(index)?;
             }
         }
         Ok(())

@@ -62,16 +62,27 @@ impl<T> Face<T> {
     }
 
     /// The vertices, beginning with the tail of `edge`.
+    #[inline]
     pub(crate) fn vertices_from(&self, edge: usize) -> [Vertex; 3] {
-        let [a, b, c] = self.vertices;
-        [[a, b, c], [b, c, a], [c, a, b]][edge]
+        turned(self.vertices, edge)
     }
 
     /// The twins, beginning with the twin of `edge`.
+    #[inline]
     pub(crate) fn twins_from(&self, edge: usize) -> [HalfEdge; 3] {
-        let [a, b, c] = self.twins;
-        [[a, b, c], [b, c, a], [c, a, b]][edge]
+        turned(self.twins, edge)
     }
+}
+
+/// The three items in their cyclic order, from number `first` on.
+#[inline(always)]
+fn turned<I: Copy>(items: [I; 3], first: usize) -> [I; 3] {
+    // Two bits for each `first`. A branch would often be predicted wrong.
+    const NEXT: usize = 1 | 2 << 2;
+    const LAST: usize = 2 | 1 << 4;
+    let next = NEXT >> (2 * first) & 3;
+    let last = LAST >> (2 * first) & 3;
+    [items[first], items[next], items[last]]
 }
 
 /// An edge of a hole: its tail, its head, and the half-edge outside of the hole
@@ -88,7 +99,8 @@ pub(crate) struct Surface<T> {
     pub(super) faces: Vec<Face<T>>,
     pub(super) free: Vec<FaceId>,
     cavity: Vec<FaceId>,
-    horizon: Vec<Rim>,
+    /// The edges of the faces around the cavity. They run the other way.
+    horizon: Vec<HalfEdge>,
     crossings: Vec<HalfEdge>,
 }
 
@@ -175,48 +187,41 @@ impl<T: Copy> Surface<T> {
         self.cavity.clear();
         self.horizon.clear();
         self.crossings.clear();
-        self.enter(start)?;
-        let [e0, e1, e2] = [0, 1, 2].map(|edge| HalfEdge::new(start, edge));
-        self.crossings.extend([e2, e1, e0]);
-        while let Some(crossing) = self.crossings.pop() {
-            // A face of the cavity is dead as soon as it is entered. It keeps its other
-            // indices, which are needed until the fan is built.
-            let from = &self.faces[crossing.face() as usize];
-            let twin = from.twins[crossing.edge()];
+        let [mut twin, second, third] = self.face(start).twins;
+        self.enter(start, third)?;
+        push(&mut self.crossings, second)?;
+        loop {
+            // A face of the cavity is dead as soon as it is entered.
             let across = &self.faces[twin.face() as usize];
-            if !across.is_alive() {
-                continue;
+            if across.is_alive() {
+                if conflicts(across) {
+                    let [_, next, last] = across.twins_from(twin.edge());
+                    self.enter(twin.face(), last)?;
+                    twin = next;
+                    continue;
+                }
+                push(&mut self.horizon, twin)?;
             }
-            if conflicts(across) {
-                self.enter(twin.face())?;
-                self.crossings.push(twin.next().next());
-                self.crossings.push(twin.next());
-            } else {
-                // In the face across, the edge runs the other way.
-                let edge = twin.edge();
-                let tail = across.vertices[(edge + 1) % 3];
-                let head = across.vertices[edge];
-                push(
-                    &mut self.horizon,
-                    Rim {
-                        tail,
-                        head,
-                        outside: twin,
-                    },
-                )?;
+            match self.crossings.pop() {
+                Some(next) => twin = next,
+                None => return Ok(()),
             }
         }
-        Ok(())
     }
 
-    /// Moves a face from the surface to the cavity.
+    /// Moves a face from the surface to the cavity. The search goes on across `later`, when it
+    /// has found the part of the cavity before it.
     #[inline]
-    fn enter(&mut self, face: FaceId) -> Result<(), OutOfMemory> {
-        reserve(&mut self.cavity, 1)?;
-        reserve(&mut self.crossings, 3)?;
-        self.cavity.push(face);
+    fn enter(&mut self, face: FaceId, later: HalfEdge) -> Result<(), OutOfMemory> {
+        push(&mut self.crossings, later)?;
+        self.kill(face)
+    }
+
+    /// Takes a face out of the surface and lists it in the cavity.
+    #[inline]
+    fn kill(&mut self, face: FaceId) -> Result<(), OutOfMemory> {
         self.faces[face as usize].vertices[0] = NONE;
-        Ok(())
+        push(&mut self.cavity, face)
     }
 
     /// Opens a cavity of face `id` alone. If an `edge` is given, the cavity holds the two faces
@@ -235,10 +240,10 @@ impl<T: Copy> Surface<T> {
             Some(_) => {
                 let twin = self.face(id).twins[first.edge()];
                 self.add_to_horizon([second, third, twin.next(), twin.next().next()])?;
-                self.enter(twin.face())?;
+                self.kill(twin.face())?;
             }
         }
-        self.enter(id)
+        self.kill(id)
     }
 
     /// Adds edges to the horizon. They are given as seen from inside the cavity.
@@ -247,27 +252,21 @@ impl<T: Copy> Surface<T> {
         edges: [HalfEdge; COUNT],
     ) -> Result<(), OutOfMemory> {
         for edge in edges {
-            let [tail, head, _] = self.face(edge.face()).vertices_from(edge.edge());
             let outside = self.face(edge.face()).twins[edge.edge()];
-            push(
-                &mut self.horizon,
-                Rim {
-                    tail,
-                    head,
-                    outside,
-                },
-            )?;
+            push(&mut self.horizon, outside)?;
         }
         Ok(())
     }
 
     /// Replaces the faces of the cavity by a fan from the new vertex `apex` to the horizon.
     /// [`Surface::fan`] then lists the new faces. They take the cavity's own slots first, then
-    /// free slots, then new slots.
-    pub(crate) fn fill_cavity(
+    /// free slots, then new slots. `spoke` computes from an end what the two faces at an edge of
+    /// the apex have in common. `data` makes a face's data from its two spokes.
+    pub(crate) fn fill_cavity<S: Copy>(
         &mut self,
         apex: Vertex,
-        data: impl Fn([Vertex; 3]) -> T,
+        spoke: impl Fn(Vertex) -> S,
+        data: impl Fn(S, S) -> T,
     ) -> Result<(), OutOfMemory> {
         let count = self.horizon.len();
         debug_assert!(count >= 3);
@@ -275,36 +274,42 @@ impl<T: Copy> Surface<T> {
             let slot = match self.free.pop() {
                 Some(slot) => slot,
                 None => {
-                    reserve(&mut self.faces, 1)?;
-                    reserve(&mut self.cavity, 1)?;
-                    // Any dead face will do; it is overwritten below.
-                    self.faces.push(self.faces[self.cavity[0] as usize]);
+                    // Any dead face will do; a face of the fan replaces it.
+                    let dead = self.faces[self.cavity[0] as usize];
+                    push(&mut self.faces, dead)?;
                     (self.faces.len() - 1) as FaceId
                 }
             };
-            self.cavity.push(slot);
-        }
-        for i in 0..count {
-            let Rim {
-                tail,
-                head,
-                outside,
-            } = self.horizon[i];
-            let slot = self.cavity[i];
-            let next = self.cavity[if i + 1 == count { 0 } else { i + 1 }];
-            let previous = self.cavity[if i == 0 { count - 1 } else { i - 1 }];
-            let vertices = [tail, head, apex];
-            self.faces[slot as usize] = Face {
-                vertices,
-                twins: [outside, HalfEdge::new(next, 2), HalfEdge::new(previous, 1)],
-                data: data(vertices),
-            };
-            self.faces[outside.face() as usize].twins[outside.edge()] = HalfEdge::new(slot, 0);
+            push(&mut self.cavity, slot)?;
         }
         // Some vertices vanished with the cavity, so there are fewer faces than before.
         let spare = self.cavity.len() - count;
-        reserve(&mut self.free, spare)?;
-        self.free.extend(self.cavity.drain(count..));
+        if spare > 0 {
+            reserve(&mut self.free, spare)?;
+            self.free.extend(self.cavity.drain(count..));
+        }
+        // The fan is a ring: its first face comes again after the last.
+        let first = self.cavity[0];
+        let mut previous = self.cavity[count - 1];
+        let mut slot = first;
+        push(&mut self.cavity, first)?;
+        // The face outside of an edge of the horizon starts its edge where this one ends.
+        let last = self.horizon[count - 1];
+        let mut tail = self.faces[last.face() as usize].vertices[last.edge()];
+        let mut tail_spoke = spoke(tail);
+        for (&outside, &next) in self.horizon.iter().zip(&self.cavity[1..]) {
+            let across = &mut self.faces[outside.face() as usize];
+            across.twins[outside.edge()] = HalfEdge::new(slot, 0);
+            let head = across.vertices[outside.edge()];
+            let head_spoke = spoke(head);
+            self.faces[slot as usize] = Face {
+                vertices: [tail, head, apex],
+                twins: [outside, HalfEdge::new(next, 2), HalfEdge::new(previous, 1)],
+                data: data(tail_spoke, head_spoke),
+            };
+            (previous, slot, tail, tail_spoke) = (slot, next, head, head_spoke);
+        }
+        self.cavity.truncate(count);
         Ok(())
     }
 

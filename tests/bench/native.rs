@@ -16,6 +16,10 @@ use std::time::Instant;
 
 use hidden_point_removal::{Observer, Options, PointCloud, Position, Sector, Visibility};
 
+#[expect(dead_code, reason = "the tasks name the viewpoints")]
+mod raw;
+use raw::points;
+
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).collect();
     let (file, precision, divided) = match args.as_slice() {
@@ -29,13 +33,6 @@ fn main() {
         "f64" => answer_all(&points(&bytes, f64::from_le_bytes), divided),
         _ => panic!("the precision is f32 or f64"),
     }
-}
-
-fn points<T: Copy, const SIZE: usize>(bytes: &[u8], read: fn([u8; SIZE]) -> T) -> Vec<[T; 3]> {
-    let at = |i: usize| read(bytes[i * SIZE..][..SIZE].try_into().expect("SIZE bytes"));
-    (0..bytes.len() / (3 * SIZE))
-        .map(|p| core::array::from_fn(|axis| at(3 * p + axis)))
-        .collect()
 }
 
 fn answer_all<P: Position>(positions: &[P], divided: bool) {

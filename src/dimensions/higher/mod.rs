@@ -280,7 +280,7 @@ impl PointCloudNd {
         chosen: ChosenRadius,
         inversion: Inversion,
     ) -> Result<Visibility, Error> {
-        let indices = marked_indices(self.len(), visible, &|k| self.rows.indices_of(k))?;
+        let indices = marked_indices(self.len(), visible, &[], &|k| self.rows.indices_of(k))?;
         Ok(Visibility::new(indices, self.len(), chosen, inversion))
     }
 }
