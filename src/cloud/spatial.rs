@@ -71,6 +71,7 @@ impl Bounds {
     }
 
     /// Squared distance from `p` to the box, 0 inside.
+    #[inline]
     pub(crate) fn distance_squared(&self, p: [f64; 3]) -> f64 {
         self.gap_squared(&Self { min: p, max: p })
     }
@@ -202,6 +203,7 @@ fn to_hilbert(mut x: [u32; 3]) -> [u32; 3] {
     x.map(|axis| axis ^ gray)
 }
 
+#[inline]
 fn interleave(x: [u32; 3]) -> u64 {
     spread(x[0]) << 2 | spread(x[1]) << 1 | spread(x[2])
 }

@@ -23,6 +23,7 @@ const MAX_EXPONENT: f64 = 200.0;
 
 impl Kernel {
     /// The factor s for a point at distance `d`; not finite for d = 0.
+    #[inline]
     pub(crate) fn factor(&self, d: f64) -> f64 {
         match *self {
             Self::Spherical { radius } => (2.0 * radius - d) / d,
@@ -33,6 +34,7 @@ impl Kernel {
     }
 
     /// |q| of a point at distance `d`, for kernels that need no other number.
+    #[inline]
     pub(crate) fn length(&self, d: f64) -> f64 {
         match *self {
             Self::Exponential { scale } => exponential(scale, d),

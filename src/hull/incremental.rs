@@ -56,6 +56,7 @@ pub(super) struct Vertices {
 }
 
 impl Vertices {
+    #[inline]
     fn reserve(&mut self, more: usize) -> Result<(), OutOfMemory> {
         reserve(&mut self.positions, more)?;
         reserve(&mut self.points, more)
@@ -109,6 +110,7 @@ impl Vertices {
     }
 
     /// Whether the ray of `q` passes strictly beyond edge `edge` of an outer face.
+    #[inline]
     pub(super) fn is_beyond(&self, face: &Face<Plane>, edge: usize, q: DVec3) -> bool {
         let tail = self.at(face.vertices[edge]);
         let head = self.at(face.vertices[(edge + 1) % 3]);
@@ -248,6 +250,7 @@ impl Hull {
     }
 
     /// Whether a face of the surface is an outer one.
+    #[inline]
     pub(super) fn is_outer(&self, id: FaceId) -> bool {
         let face = self.surface.face(id);
         !face.vertices.contains(&ORIGIN) && self.vertices.is_outer(face)

@@ -141,6 +141,7 @@ impl Hull {
 
     /// Whether the ray of `direction` certainly leaves K through `face`, whose m·direction is
     /// the positive `height`.
+    #[inline]
     fn is_pierced(&self, face: &Face<Plane>, direction: DVec3, height: f64) -> bool {
         let error = face.data.error;
         !face.data.is_exact_only()
@@ -195,6 +196,7 @@ impl Hull {
     }
 
     /// Decides for the outer face that the ray of `q` pierces.
+    #[inline]
     fn decide(&self, id: FaceId, q: DVec3) -> Location {
         let face = self.surface.face(id);
         match self.vertices.side(face, q) {

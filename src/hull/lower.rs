@@ -132,6 +132,7 @@ struct Vertices {
 }
 
 impl Vertices {
+    #[inline]
     fn at(&self, vertex: Vertex) -> DVec3 {
         self.positions[vertex as usize]
     }
@@ -152,6 +153,7 @@ impl Vertices {
     }
 
     /// Whether `face` is neither a ghost face nor upright.
+    #[inline]
     fn is_outer(&self, face: &Face<()>) -> bool {
         let [a, b, c] = face.vertices.map(|v| self.at(v));
         !face.vertices.contains(&ABOVE) && turn(a, b, c) == Sign::Positive

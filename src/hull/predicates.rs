@@ -81,6 +81,7 @@ const ROUNDING: f64 = f64::EPSILON / 2.0;
 /// The sign of det(a, b, c) for rounded differences of moderate coordinates, if it is
 /// beyond doubt: Shewchuk's first filter, with his bound ("Adaptive precision
 /// floating-point arithmetic and fast robust geometric predicates", 1997, §4.3, 4.4).
+#[inline]
 fn rounded_determinant(a: DVec3, b: DVec3, c: DVec3, moderate: bool) -> Option<Sign> {
     const BOUND: f64 = (7.0 + 56.0 * ROUNDING) * ROUNDING;
     let minor = |p: DVec3, q: DVec3| {
@@ -95,6 +96,7 @@ fn rounded_determinant(a: DVec3, b: DVec3, c: DVec3, moderate: bool) -> Option<S
 
 /// `size` is the sum of the absolute values of the products that `rounded` is made of;
 /// if it is 0, each has a factor that is exactly 0.
+#[inline]
 fn is_certain(rounded: f64, bound: f64, size: f64) -> bool {
     rounded.abs() > bound * size || size == 0.0
 }
@@ -102,6 +104,7 @@ fn is_certain(rounded: f64, bound: f64, size: f64) -> bool {
 /// Whether no product of three differences of such coordinates leaves the range in
 /// which rounding is relative: their last bit is at least 2^-252, whose cube 2^-756 is
 /// far above the smallest f64, and cubes of 2^201 stay far below the largest.
+#[inline]
 fn is_moderate(coordinates: &[f64]) -> bool {
     const BIAS: u64 = 1023;
     coordinates.iter().all(|x| {

@@ -154,6 +154,7 @@ impl Hull {
     }
 
     /// Whether both faces that flipping `edge` would make turn outward.
+    #[inline]
     fn can_flip(&self, edge: HalfEdge) -> bool {
         let faces = self.surface.flipped(edge);
         let [[c, _, d], _] = faces;
@@ -279,6 +280,7 @@ impl Vertices {
 
 impl Repair {
     /// Lists all edges of a face, to be looked at again.
+    #[inline]
     fn suspect(&mut self, face: FaceId) -> Result<(), OutOfMemory> {
         reserve(&mut self.suspects, 3)?;
         self.suspects

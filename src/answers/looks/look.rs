@@ -52,6 +52,7 @@ impl<'a> Verdicts<'a> {
         })
     }
 
+    #[inline]
     pub(super) fn decide(&mut self, point: usize, is_visible: bool, score: f64) {
         self.of[point] = if is_visible {
             Verdict::Visible

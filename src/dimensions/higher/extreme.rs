@@ -135,6 +135,7 @@ impl<'a> Solver<'a> {
         Ok(solver)
     }
 
+    #[inline]
     fn at(&self, point: usize) -> &'a [f64] {
         &self.points[point * self.rank..][..self.rank]
     }
@@ -216,6 +217,7 @@ impl<'a> Solver<'a> {
         }
     }
 
+    #[inline]
     fn height(&self, point: usize) -> f64 {
         dot(&self.plane, self.at(point))
     }

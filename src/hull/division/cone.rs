@@ -86,6 +86,7 @@ impl Cone {
     }
 
     /// An upper bound of m·q. `length` is the length of m.
+    #[inline]
     pub(super) fn bound(&self, m: DVec3, length: f64) -> f64 {
         let along = m.dot(self.axis);
         let across = positive_root(length * length - along * along);
