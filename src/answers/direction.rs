@@ -25,10 +25,10 @@ impl PointCloud {
     /// looks? The answer is the limit for viewpoints farther and farther back. The length of
     /// `direction` has no meaning.
     ///
-    /// R grows as a·r² with the distance r. For [`Radius::Auto`] a is 5.5/g, where g is the gap of
-    /// [`Radius::Auto`]. For [`Inversion::Exponential`] a is 1/(2c). For a given radius or exponent a is
-    /// R/r², measured from the viewpoint that lies one diagonal of the bounding box before the
-    /// centroid. The radius and exponent of the answer belong to this viewpoint.
+    /// R grows as a·r² with the distance r. For [`Radius::Auto`] a is 0.4·n^¼/g, with n and g as
+    /// there. For [`Inversion::Exponential`] a is 1/(2c). For a given radius or exponent a is R/r²,
+    /// measured from the viewpoint that lies one diagonal of the bounding box before the centroid.
+    /// The radius and exponent of the answer belong to this viewpoint.
     ///
     /// Exact for (x, y, z + a·(x² + y²)) as rounded to `f64`. Coordinates are relative to a center
     /// near the middle of the bounding box, in units of a power of two near its size, along the
@@ -128,7 +128,11 @@ impl PointCloud {
             .farthest_distance(&self.sequence.points, viewpoint)?;
         if let Radius::Auto = choice {
             // Without a gap any bend gives the same answer.
-            let bend = if gap > 0.0 { radius::FACTOR / gap } else { 1.0 };
+            let bend = if gap > 0.0 {
+                radius::bend(statistics.count, gap)
+            } else {
+                1.0
+            };
             let radius = bend * diagonal * diagonal;
             return Ok((bend, radius::bounded(radius, farthest)));
         }

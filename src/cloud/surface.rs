@@ -10,7 +10,7 @@ use crate::base::sort::sort_keyed;
 
 /// The percentile of the spacings at which longer ones are cut off. Otherwise a few stray points
 /// far from the surface would decide.
-const PERCENTILE: usize = 98;
+const PERCENTILE: usize = 99;
 
 /// The mean of the spacings; 0 where there are none.
 pub(crate) fn mean(spacings: &[f64]) -> f64 {

@@ -6,11 +6,11 @@ use crate::cloud::selection::{Selection, Within};
 /// How the radius R of the flipping sphere is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Radius {
-    /// From the cloud's sampling and the viewpoint: R = 5.5·r²/g, never below the farthest
-    /// distance. Here g = mean(s³)/mean(s)², where s is the mean distance of a point from its 6
-    /// nearest points: the cloud's spacing where sampling is even, and more where it is not. r² is
-    /// the mean square of the distances from the viewpoint, in which each point counts s² times,
-    /// as the area for which it stands.
+    /// From the cloud's sampling and the viewpoint: R = 0.4·n^¼·r²/g, never below the
+    /// farthest distance. n is the number of distinct points. g = mean(s³)/mean(s)², where s is the
+    /// mean distance of a point from its 6 nearest points: the cloud's spacing where sampling is
+    /// even, and more where it is not. r² is the mean square of the distances from the viewpoint, in
+    /// which each point counts s² times, as the area for which it stands.
     #[default]
     Auto,
     /// By antipodal search around the closed form of [`Radius::Auto`], with six hulls. A look

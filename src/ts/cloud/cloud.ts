@@ -120,7 +120,7 @@ export class PointCloud {
    * are exactly those on the lower boundary of the convex hull of all (x, y, z + a·(x² + y²)). Here z
    * is the depth along the direction.
    *
-   * By default, a is 5.5/g, as the automatic R is 5.5·r²/g. With `inversion: { exponential: c }`, a is 1/(2c). For a
+   * By default, a is 0.4·n^¼/g, as the automatic R is 0.4·n^¼·r²/g. With `inversion: { exponential: c }`, a is 1/(2c). For a
    * given `radius` or `exponent`, a is R/d². Here d is the diagonal of the bounding box, and R is
    * measured from the viewpoint that lies at the distance d before the centroid. The answer's `radius`
    * is R for that viewpoint. `"search"`, `"opposite"` and `power` have no limit and are refused

@@ -35,8 +35,8 @@ export interface VisibilityOptions {
    * units. It is finite, and at least the distance of the farthest point. Instead of a number, this
    * can be the rule that chooses R:
    *
-   * - `"auto"`, the default, is R = 5.5·r²/g, from the viewpoint and the gaps between the cloud's points
-   *   (`docs/VISIBLE.md`).
+   * - `"auto"`, the default, is R = 0.4·n^¼·r²/g, from the viewpoint, the number of points and the gaps
+   *   between them (`docs/VISIBLE.md`).
    * - `"search"` chooses R by antipodal search, which takes six hulls.
    * - `"opposite"` is the paper's own rule (§4), which takes about 40 hulls. In perspective, its R is
    *   mostly far too large.
