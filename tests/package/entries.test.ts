@@ -37,7 +37,8 @@ it.each([
   ["worker/worker-thread.js", 8300],
   ["three.js", 26_450],
   ["react-three-fiber.js", 26_900],
-  ["nodes.js", 28_700],
+  // `hidesBox` costs 1,050 bytes: the horizon, and when it holds.
+  ["nodes.js", 29_850],
   // Degrees, meters and matrices cost 950 bytes.
   ["deck.js", 17_600],
   ["stream.js", 18_000],

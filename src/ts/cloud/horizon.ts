@@ -87,7 +87,7 @@ export class Horizon {
    * @throws HprError `option` (not finite, or a minimum above its maximum), `disposed`, `internal`.
    */
   hidesBox(min: ArrayLike<number>, max: ArrayLike<number>): boolean {
-    const corners = Float64Array.from([...readCorner(min, "min"), ...readCorner(max, "max")]);
+    const corners = readBox(min, max);
     const handle = this.#requireHandle();
     return this.#instance.call((bindings) => bindings.hidesBox(handle, corners));
   }
@@ -130,6 +130,15 @@ export class Horizon {
     }
     return this.#handle;
   }
+}
+
+/**
+ * The corners of a box. The core checks that they are finite and in order.
+ *
+ * @throws HprError `option`.
+ */
+export function readBox(min: ArrayLike<number>, max: ArrayLike<number>): Float64Array<ArrayBuffer> {
+  return Float64Array.from([...readCorner(min, "min"), ...readCorner(max, "max")]);
 }
 
 function readCorner(corner: ArrayLike<number>, name: string): number[] {

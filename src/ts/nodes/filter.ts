@@ -10,6 +10,7 @@ import { type Watch, Watches } from "../three/watch.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { Gathered } from "./gathered.js";
 import type { Refused } from "./node.js";
+import { NodeHorizons } from "./node-horizons.js";
 import { NodeSet } from "./node-set.js";
 import { type HiddenPointNodesFilterOptions, type NodesSettings, readNodesOptions } from "./options.js";
 
@@ -72,6 +73,7 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
   readonly #watches: Watches;
   readonly #nodes: NodeSet;
   readonly #gathered: Gathered;
+  readonly #horizons: NodeHorizons;
   readonly #follower = new Follower({
     next: () => this.#next(),
     refused: (error, again) => {
@@ -115,6 +117,10 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     this.#settings = readNodesOptions(options);
     this.#nodes = new NodeSet(root, this.#settings, this.#refuseNode);
     this.#gathered = new Gathered(this.#settings);
+    this.#horizons = new NodeHorizons(this.#nodes, (error) => {
+      this.#untold.push({ error, points: null });
+      this.#tell();
+    });
     this.#watches = new Watches(
       this.#settings,
       () => {
@@ -122,6 +128,7 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
       },
       (watch) => {
         this.#nodes.drop(watch);
+        this.#horizons.drop(watch);
       },
     );
     requireUniformScale(root);
@@ -169,6 +176,26 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
   }
 
   /**
+   * Whether every point in a box would be hidden from the camera of the last `update`. A tiled viewer
+   * need not load such tiles. `true` is certain for the radius of the last answer, and `false` may also
+   * be the answer for a hidden box. It is always `false` before the first exact answer for the present
+   * viewpoint, for orthographic cameras, and with `looks`, `denoise` or `vote` as the main question.
+   *
+   * An automatic radius changes with the nodes, so a change of nodes makes it `false` until the next answer.
+   * If `radius` or the scale of the exponential inversion is a number, it stays while nodes are added, and
+   * while nodes go that have no visible point.
+   *
+   * The first call after an answer makes a hull of up to 50,000 visible points in this thread.
+   *
+   * @param min the least x, y, z in the root's space.
+   * @param max the largest x, y, z.
+   * @throws HprError `option` (not finite, or a minimum above its maximum), `too-large`, `internal`.
+   */
+  hidesBox(min: ArrayLike<number>, max: ArrayLike<number>): boolean {
+    return this.#horizons.hidesBox(this.enabled ? this.#watches.last : undefined, min, max);
+  }
+
+  /**
    * Call this in each frame, after the nodes have been chosen and before rendering. It asks for an
    * answer if the view or the nodes are new. It never waits.
    */
@@ -185,6 +212,7 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
       this.#nodes.select(watch);
       if (this.#watches.look(watch, this.#root)) {
         this.#isMoved = true;
+        this.#horizons.drop(watch);
         if (this.#isFailed) {
           this.#isFailed = false;
           this.#askedVersion = undefined;
@@ -213,6 +241,7 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     this.#watches.stop();
     this.#nodes.dispose();
     this.#gathered.close();
+    this.#horizons.clear();
   }
 
   /** Whether the nodes are not those of the last question. */
@@ -268,6 +297,7 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
     const begun = performance.now();
     const gathered = this.#gathered;
     const { place } = watch.eye;
+    const version = this.#askedVersion;
     return turnRound(
       watch.gaze,
       ({ options, signal }) => gathered.visibleFrom(place, options, signal),
@@ -277,9 +307,11 @@ export class HiddenPointNodesFilter extends Reporter<HiddenPointNodesFilterEvent
           return undefined;
         }
         let count = 0;
+        const horizon = this.#horizons.begin(watch, place, answer, turn, version);
         for (const { node, own, scores } of gathered.split(answer)) {
           if (this.#nodes.isPresent(node) && node.display.drawn.isSame) {
             count += node.display.answer(watch, own, false, scores);
+            if (own.length > 0) horizon?.add(node, own);
           }
         }
         gathered.recycle(answer);

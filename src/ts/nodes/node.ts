@@ -82,6 +82,11 @@ export class CloudNode {
     }
   }
 
+  /** The positions of some of its points in the root's space. `indices` are their indices among those that `read` returned. */
+  positionsOf(indices: Uint32Array): Float32Array | Float64Array {
+    return this.display.drawn.positionsOf(indices, this.#matrix);
+  }
+
   #isUnchanged(): boolean {
     const refused = this.#refused;
     if (refused !== undefined) {
