@@ -40,6 +40,7 @@ const PAGE = [
   ["open", "open/"],
   ["lights", "lights/"],
   ["compare", "compare/"],
+  ["how", "how/"],
   ["panel", "panel/"],
   ["tools", "tools/"],
   ["page", "page/"],

@@ -62,6 +62,15 @@ const sheetOfKeys: Step = {
   },
 };
 
+const lesson: Step = {
+  name: "how it works",
+  act: async (page) => {
+    await page.keyboard.press("Escape");
+    await page.getByRole("button", { name: "Show how it works" }).click();
+    await page.locator("#how [data-say]:not(:empty)").waitFor();
+  },
+};
+
 const refused: Step = {
   name: "a file that is refused",
   act: async (page) => {
@@ -97,7 +106,7 @@ export const VISITS: Visit[] = [
     name: "1280 × 800",
     query: `?${SMALL}&hidden=dimmed`,
     options: WIDE,
-    steps: [first, unfolded, ...tools, sheetOfKeys, refused, underWay],
+    steps: [first, unfolded, ...tools, sheetOfKeys, lesson, refused, underWay],
   },
   { name: "390 × 844", query: `?${SMALL}`, options: PHONE, steps: [first, sheet, unfolded] },
   { name: "in another page", query: `?${SMALL}&embed=1`, options: WIDE, steps: [first] },

@@ -6,8 +6,9 @@ import { Rest } from "../../src/ts/follow/rest.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import type { Viewpoint } from "../settings/settings.ts";
 import type { Viewer } from "../view/viewer.ts";
-import type { TruthAnswer, TruthQuestion } from "./protocol.ts";
-import { Reference, sentenceOf } from "./reference.ts";
+import type { TruthAnswer } from "./protocol.ts";
+import { sentenceOf } from "./reference.ts";
+import { Truth } from "./truth.ts";
 
 /** Rays are traced when the view has been at rest for this number of milliseconds. */
 const REST = 300;
@@ -21,9 +22,8 @@ export class AgainstSurface {
   stopped = false;
   readonly #viewer: Viewer;
   readonly #changed: () => void;
-  readonly #surface: KnownSurface;
-  readonly #worker: Reference<TruthQuestion, TruthAnswer>;
-  readonly #origin: Viewpoint;
+  readonly #truth: Truth;
+  readonly #worker: Truth["worker"];
   readonly #newest = new Newest<TimedView>((a, b) => a === b);
   readonly #follower = new Follower({
     next: () => (this.#newest.isNew ? this.#round(this.#newest.take()) : undefined),
@@ -41,16 +41,8 @@ export class AgainstSurface {
   constructor(viewer: Viewer, surface: KnownSurface, changed: () => void) {
     this.#viewer = viewer;
     this.#changed = changed;
-    // The worker has another address than the page, so it needs an absolute address.
-    this.#surface = "faces" in surface ? { faces: new URL(surface.faces, document.baseURI).href } : surface;
-    const { positions, cloud } = viewer.scene;
-    // A mesh is traced in f32. Coordinates in f64, such as those of a map, are measured from the middle of the cloud.
-    const single = positions instanceof Float32Array;
-    this.#origin = single ? [0, 0, 0] : cloud.center;
-    this.#worker = new Reference(
-      new Worker(new URL("./truth-worker.ts", import.meta.url), { type: "module" }),
-      single ? positions : cloud.local,
-    );
+    this.#truth = new Truth(viewer.scene, surface);
+    this.#worker = this.#truth.worker;
     this.#worker.onProgress = (fraction) => {
       this.progress = fraction;
       changed();
@@ -112,16 +104,10 @@ export class AgainstSurface {
     return {
       ask: () => {
         // The place is exact: a place that differs in the last bits would be traced again.
-        const viewpoint = at.map((value, axis) => value - this.#origin[axis]!) as Viewpoint;
         const current = isSamePlace(question.viewpoint, at, this.#viewer.scene.cloud.radius);
         if (!current) return null;
         const hull = ours.kind === "looks" ? this.#viewer.scene.inquiry.hullFor(ours) : null;
-        return this.#worker.ask({
-          surface: this.#surface,
-          viewpoint,
-          visible: visibility.indices,
-          hull: hull && hull.visibility.indices,
-        });
+        return this.#truth.ask(at, visibility.indices, hull && hull.visibility.indices);
       },
       use: (truth) => {
         // The truth is not shown if the viewpoint has left the place.

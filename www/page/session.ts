@@ -14,7 +14,7 @@ import { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
 import { canDraw } from "../view/can-draw.ts";
 import { Viewer } from "../view/viewer.ts";
-import { Notices } from "./notices.ts";
+import { Notices, sentenceOf } from "./notices.ts";
 import { Opening } from "./opening.ts";
 import { fromFile, limitOf, type Source } from "./sources.ts";
 import { Status } from "./status.ts";
@@ -50,6 +50,14 @@ export function startSession(wishes: Wishes, first: Source): void {
   const opening: Opening = new Opening(parts, wishes.embed ? null : sampleNamed(wishes.sample));
   wire({ ...parts, handles, signs: new Signs(store) });
 
+  byId("how-open").addEventListener("click", () => {
+    if (!viewer.cloud) return;
+    import("../how/how.ts")
+      .then(({ showHow }) => showHow(viewer, store))
+      .catch((error: unknown) => {
+        message.show(sentenceOf(error, "The lesson could not be shown"));
+      });
+  });
   onFile({
     open: (file, notes) => void opening.open(fromFile(file, notes, limitOf(wishes))),
     refuse: (sentence) => {
