@@ -1,4 +1,7 @@
+import { readFileSync } from "node:fs";
+
 import { print } from "../lib/output.js";
+import { inRoot } from "../lib/paths.js";
 import { run } from "../lib/run.js";
 import { setUpBrowser } from "../setup/browser.js";
 import { BUILD } from "./build.js";
@@ -7,7 +10,8 @@ import { FAIL, PASS, checkCommand, sum } from "./check.js";
 import { vitest } from "./vitest.js";
 
 /** All files that a user of the npm package gets. */
-const WANTED = /^(dist\/.+\.(js|d\.ts|wasm)|README\.md|THIRD_PARTY\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
+const WANTED =
+  /^(dist\/.+\.(js|d\.ts|wasm)|docs\/[^/]+\.(md|png)|(python\/)?README\.md|(ARCHITECTURE|CHANGELOG|CONTRIBUTING|SECURITY|THIRD_PARTY)\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
 const INDISPENSABLE = [
   "dist/index.js",
   "dist/index.d.ts",
@@ -53,8 +57,17 @@ async function npmPackage(): Promise<Outcome> {
   const missing = INDISPENSABLE.filter((file) => !files.includes(file));
   if (unwanted.length > 0) print(`Would be published, but should not: ${unwanted.join(", ")}\n`);
   if (missing.length > 0) print(`Would not be published, but should: ${missing.join(", ")}\n`);
+  const broken = linksIn("README.md").filter((file) => !files.includes(file));
+  if (broken.length > 0) print(`README.md links to files that would not be published: ${broken.join(", ")}\n`);
   print(`${files.length} files\n`);
-  return sum([unwanted.length === 0 ? PASS : FAIL, missing.length === 0 ? PASS : FAIL, await rehearsal()]);
+  const found = [unwanted, missing, broken].map(({ length }) => (length === 0 ? PASS : FAIL));
+  return sum([...found, await rehearsal()]);
+}
+
+/** The files that a document links to or shows. Its readers look for them in the package, and npm's page in the repository. */
+function linksIn(document: string): string[] {
+  const text = readFileSync(inRoot(document), "utf8");
+  return [...text.matchAll(/\]\((?!\w+:|#)([^)#]+)/g)].map(([, file]) => file!);
 }
 
 /** Rehearses the publication, without sending anything. npm reports everything that it would have to correct. */

@@ -2,6 +2,7 @@
 import type { ChosenRadius } from "../query/answers.js";
 import { CoreCloud } from "./core-cloud.js";
 import { addDisposeSymbol } from "../base/dispose-symbol.js";
+import { addTag } from "../base/tag.js";
 import { requireInstance } from "../instance/instance.js";
 import { CLOUD_OPTIONS, cloudSettings, givenOptions, pick, type PointCloudOptions } from "../query/options.js";
 import type { Positions } from "../query/positions.js";
@@ -59,6 +60,7 @@ export class PointCloud {
 
   static {
     addDisposeSymbol(this.prototype);
+    addTag(this.prototype, "PointCloud");
   }
 
   /**

@@ -1,5 +1,6 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import { addDisposeSymbol } from "../base/dispose-symbol.js";
+import { addTag } from "../base/tag.js";
 import { HprError } from "../base/errors.js";
 import { type Bindings, type Instance, requireInstance } from "../instance/instance.js";
 import { type Positions, readPositions, readViewpoint } from "../query/positions.js";
@@ -25,6 +26,7 @@ export class Horizon {
 
   static {
     addDisposeSymbol(this.prototype);
+    addTag(this.prototype, "Horizon");
   }
 
   /**

@@ -1,5 +1,6 @@
 import type { Answers, ChosenRadius, Found } from "../query/answers.js";
 import { describe, HprError } from "../base/errors.js";
+import { addTag } from "../base/tag.js";
 import { allocating } from "../base/memory.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import type { ResolvedInversion } from "../query/view-options.js";
@@ -79,6 +80,10 @@ export class VisibilityAnswer implements Visibility {
   readonly exact: boolean;
   declare readonly scores?: Float32Array;
   readonly #cloudLength: number;
+
+  static {
+    addTag(this.prototype, "Visibility");
+  }
 
   /**
    * Takes the memory of an answer's indices away. Nobody can read these indices after that.

@@ -70,9 +70,19 @@ export function readFilterOptions(options: unknown): FilterSettings {
   };
 }
 
+const WAY_OUT =
+  "The vertices of a mesh: new THREE.Points(mesh.geometry.clone(), material). Sprites and instances: filter a " +
+  "THREE.Points with the same positions, and draw its `visible`";
+
+/** three's own name of an object, such as "a THREE.Mesh". */
+function kindOf(value: unknown): string {
+  const { type } = (value ?? {}) as { type?: unknown };
+  return typeof type === "string" && /^[A-Z]\w*$/.test(type) ? `a THREE.${type}` : describe(value);
+}
+
 export function requirePoints(points: unknown): asserts points is Points {
   if (typeof points !== "object" || points === null || !("isPoints" in points)) {
-    throw new HprError("option", `points must be a THREE.Points, got ${describe(points)}`);
+    throw new HprError("option", `points must be a THREE.Points, got ${kindOf(points)}. ${WAY_OUT}`);
   }
 }
 

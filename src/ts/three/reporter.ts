@@ -1,5 +1,7 @@
 import { EventDispatcher, type EventListener } from "three";
 
+import { addTag } from "../base/tag.js";
+
 type Name<Events> = Extract<keyof Events, string>;
 
 /**
@@ -8,6 +10,10 @@ type Name<Events> = Extract<keyof Events, string>;
  */
 export abstract class Reporter<Events extends { error: { error: Error } }> extends EventDispatcher<Events> {
   readonly #heard = new Set<unknown>();
+
+  static {
+    addTag(this.prototype, "HiddenPointFilter");
+  }
 
   /** Calls the listener with each event of that type. */
   override addEventListener<T extends Name<Events>>(type: T, listener: EventListener<Events[T], T, this>): void {

@@ -1,6 +1,7 @@
 /// <reference lib="esnext.disposable" preserve="true" />
 import type { Answers, ChosenRadius } from "../query/answers.js";
 import { addDisposeSymbol } from "../base/dispose-symbol.js";
+import { addTag } from "../base/tag.js";
 import { HprError } from "../base/errors.js";
 import { moduleForWorker } from "../loader.js";
 import { allocating } from "../base/memory.js";
@@ -130,6 +131,7 @@ export class WorkerPointCloud {
 
   static {
     addDisposeSymbol(this.prototype);
+    addTag(this.prototype, "WorkerPointCloud");
   }
 
   private constructor(queue: RequestQueue, settings: CloudSettings, size: CloudSize) {

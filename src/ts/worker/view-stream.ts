@@ -1,3 +1,4 @@
+import { addTag } from "../base/tag.js";
 import { describe, HprError } from "../base/errors.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { Follower, type Round } from "../follow/follower.js";
@@ -76,6 +77,10 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
   #last: { answer: StreamedAnswer; turn: Turn } | undefined;
   #waiting: { resolve: () => void; reject: (error: Error) => void }[] = [];
   #isOver = false;
+
+  static {
+    addTag(this.prototype, "ViewStream");
+  }
 
   /** @internal */
   constructor(cloud: StreamedCloud, options: unknown) {
