@@ -35,10 +35,11 @@ it.each([
   ["index.js", 14_800],
   ["worker.js", 14_900],
   ["worker/worker-thread.js", 8300],
-  ["three.js", 26_450],
-  ["react-three-fiber.js", 26_900],
+  // A refusal that names the kind of object and the way out costs 200 bytes.
+  ["three.js", 26_650],
+  ["react-three-fiber.js", 27_100],
   // `hidesBox` costs 1,050 bytes: the horizon, and when it holds.
-  ["nodes.js", 29_850],
+  ["nodes.js", 30_000],
   // Degrees, meters and matrices cost 950 bytes.
   ["deck.js", 17_600],
   // The octrees themselves cost 7.5 kB (the formats, the order of the nodes, the steps), clouds and horizons the rest.
