@@ -5,5 +5,7 @@ pub(crate) mod allocation;
 pub(crate) mod bits;
 pub(crate) mod error;
 pub(crate) mod limit;
+#[cfg(test)]
+pub(crate) mod random;
 pub(crate) mod real;
 pub(crate) mod sort;

@@ -93,23 +93,18 @@ impl Spoke {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::random::Random;
     use crate::hull::predicates::{Sign, side_of_face};
 
     /// Faces on a fine lattice: mostly thin ones, whose planes are uncertain.
     #[test]
     fn signs_beyond_the_error_are_exact() {
-        let mut state = 5u64;
-        let mut below = |n: u64| {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            (state >> 33) % n
-        };
+        let mut random = Random::new(5);
         let mut decided = 0;
         for round in 0..40_000 {
             let unit = 2.0f64.powi(-10 - 10 * (round % 4));
             let mut point = || {
-                let [x, y, z] = [7, 5, 6].map(|n| unit * below(n) as f64);
+                let [x, y, z] = [7, 5, 6].map(|n| unit * random.below(n) as f64);
                 DVec3::new(0.3 + x, 0.7 + y, 0.9 + x - z)
             };
             let [a, b, p, q] = core::array::from_fn(|_| point());

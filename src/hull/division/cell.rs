@@ -136,3 +136,125 @@ fn cut(items: &[Item], axis: usize, lower: u32, count: u32) -> Result<f64, OutOf
     }
     Ok(0.0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::random::Random;
+
+    fn cells(items: &[Item], count: u32) -> Vec<Cell> {
+        let sector = |number| Sector { number, count };
+        let cell = |number| Cell::of(sector(number), &mut items.to_vec()).unwrap();
+        (0..count).map(cell).collect()
+    }
+
+    /// Directions that are spread most along one axis, with uneven work.
+    fn items(axis: usize, seed: u64) -> Vec<Item> {
+        let mut random = Random::new(seed);
+        let item = |_| {
+            let mut direction = 0.3 * random.direction();
+            direction[axis] *= 3.0;
+            let work = 1 + 9 * u32::from(direction[axis] > 0.2);
+            Item { direction, work }
+        };
+        (0..3000).map(item).collect()
+    }
+
+    #[test]
+    fn the_cut_is_across_the_widest_spread_and_halves_the_work() {
+        for axis in 0..3 {
+            // Far from the middle, so that sums matter.
+            let mut items = items(axis, 3);
+            items
+                .iter_mut()
+                .for_each(|item| item.direction += DVec3::new(0.3, -0.2, 0.1));
+            let [low, high] = cells(&items, 2)[..] else {
+                panic!("two cells");
+            };
+            for other in 0..3 {
+                assert_eq!(low.high[other].is_finite(), other == axis);
+                assert_eq!(low.low[other], f64::NEG_INFINITY);
+            }
+            assert_eq!(low.high[axis], high.low[axis]);
+        }
+    }
+
+    #[test]
+    fn work_decides_which_axis_is_the_widest() {
+        let item = |direction, work| Item { direction, work };
+        let pair = |direction, work| [item(direction, work), item(-direction, work)];
+        let items = [pair(0.5 * DVec3::X, 1), pair(0.3 * DVec3::Y, 9)].concat();
+        assert_eq!(widest_axis(&items), 1);
+        let items = [pair(0.5 * DVec3::X, 9), pair(0.3 * DVec3::Z, 1)].concat();
+        assert_eq!(widest_axis(&items), 0);
+        let items = [pair(0.3 * DVec3::Z, 9), pair(0.5 * DVec3::Y, 1)].concat();
+        assert_eq!(widest_axis(&items), 2);
+    }
+
+    #[test]
+    fn cells_hold_each_direction_once_and_about_the_same_work() {
+        for count in [1, 2, 3, 5, 8] {
+            let items = items(count as usize % 3, u64::from(count));
+            let cells = cells(&items, count);
+            let total: u32 = items.iter().map(|item| item.work).sum();
+            for item in &items {
+                let holders = cells.iter().filter(|cell| cell.contains(item.direction));
+                assert_eq!(holders.count(), 1);
+            }
+            for cell in &cells {
+                let own = items.iter().filter(|item| cell.contains(item.direction));
+                let work: u32 = own.map(|item| item.work).sum();
+                assert!(
+                    work.abs_diff(total / count) <= 40,
+                    "{work} of {total} in {count}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn places_tell_inside_and_near() {
+        let cell = Cell {
+            low: DVec3::new(0.0, f64::NEG_INFINITY, -0.5),
+            high: DVec3::new(0.5, 0.25, f64::INFINITY),
+        };
+        let directions = [
+            DVec3::new(0.2, 0.1, 0.0),
+            DVec3::new(0.5, 0.1, 0.0),
+            DVec3::new(-0.1, 0.1, 0.0),
+            DVec3::new(0.2, 0.4, 0.0),
+            DVec3::new(0.0, -0.9, -0.5),
+            DVec3::new(0.2, 0.1, -0.75),
+        ];
+        let excess = directions.map(|u| cell.excess(u));
+        let expected = [-0.15, 0.0, 0.1, 0.15, 0.0, 0.25];
+        for (excess, expected) in excess.into_iter().zip(expected) {
+            assert!((excess - expected).abs() < 1e-12, "{excess}, {expected}");
+        }
+        assert_eq!(
+            cell.places(directions.into_iter(), 0.125),
+            (0b01_0001, 0b01_0111)
+        );
+        assert_eq!(
+            cell.places(directions.into_iter(), 0.25),
+            (0b01_0001, 0b11_1111)
+        );
+    }
+
+    #[test]
+    fn caps_lie_beyond_the_sides() {
+        let cell = |low, high| Cell { low, high };
+        let all = cell(DVec3::NEG_INFINITY, DVec3::INFINITY);
+        assert_eq!(all.caps(0.1).count(), 0);
+        let some = cell(
+            DVec3::new(-0.5, f64::NEG_INFINITY, 0.25),
+            DVec3::new(f64::INFINITY, 0.75, 0.5),
+        );
+        let caps: Vec<DVec3> = some.caps(0.125).collect();
+        assert_eq!(caps, [-DVec3::X, DVec3::Y, DVec3::Z, -DVec3::Z]);
+        // Exactly up to the pole, no cap is left.
+        let caps: Vec<DVec3> = some.caps(0.5).collect();
+        assert_eq!(caps, [-DVec3::Z]);
+        assert_eq!(some.caps(0.25).count(), 3);
+    }
+}

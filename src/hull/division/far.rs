@@ -176,3 +176,93 @@ impl Far {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::random::Random;
+    use crate::cloud::blocks::Blocks;
+    use crate::cloud::points::Points;
+    use crate::flip::inversion::Flip;
+    use crate::flip::kernel::Kernel;
+
+    const POINTS: usize = 6000;
+
+    /// Points on a bumpy surface in the order of their longitude, and most of them far.
+    fn far(random: &mut Random, flip: &Flip) -> (Points, Far, Vec<bool>) {
+        let mut places: Vec<[f64; 3]> = (0..POINTS)
+            .map(|_| {
+                let u = random.direction();
+                ((1.0 + 1.5 * u.x * u.y * u.z) * u).to_array()
+            })
+            .collect();
+        places.sort_by_key(|p| (f64::atan2(p[1], p[0]) * 6.0) as i64 * 100 + (p[2] * 9.0) as i64);
+        let points = Points::Double(places);
+        let blocks = Blocks::around(&points).unwrap();
+        let cone = |sphere| Cone::of(sphere, flip.viewpoint(), 20.0);
+        let levels = blocks
+            .levels
+            .iter()
+            .map(|level| level.iter().map(cone).collect());
+        let is_far: Vec<bool> = (0..POINTS)
+            .map(|k| k > 700 && random.below(5) > 0)
+            .collect();
+        let mut taken = alloc::vec![0; blocks.levels[0].len()];
+        for index in (0..POINTS).filter(|index| !is_far[*index]) {
+            taken[index / BLOCK] |= 1 << (index % BLOCK);
+        }
+        let far = Far::new(levels.collect(), taken, POINTS, 0.2).unwrap();
+        (points, far, is_far)
+    }
+
+    #[test]
+    fn the_point_that_is_most_in_the_way_is_found() {
+        let mut random = Random::new(3);
+        let flip = Flip::new([0.0, 0.1, 0.2], Kernel::Spherical { radius: 10.0 });
+        let (points, mut far, mut is_far) = far(&mut random, &flip);
+        let flipped = Flipped::of(&points, &[], &flip);
+        let mut found = [0, 0];
+        let mut m = random.direction() / 19.0;
+        for round in 0..3000 {
+            // Most planes are alike the one before.
+            m = match round % 10 {
+                0 => random.direction() / random.between(18.0, 20.0),
+                _ => m + 0.002 * random.direction(),
+            };
+            let limit = random.between(0.97, 1.03);
+            let heights = (0..POINTS as u32).filter(|k| is_far[*k as usize]).map(|k| {
+                let height = flipped.get(k).map_or(0.0, |q| m.dot(q));
+                (height, k)
+            });
+            let highest = heights.fold((limit, None), |best, (height, k)| {
+                if height >= best.0 {
+                    (height, Some(k))
+                } else {
+                    best
+                }
+            });
+            let asked = far.most_in_the_way((m, limit), &flipped).unwrap();
+            assert_eq!(asked, highest.1, "round {round}");
+            found[usize::from(asked.is_some())] += 1;
+            if let Some(index) = asked.filter(|_| round % 3 == 0) {
+                far.take(index);
+                far.take(index);
+                is_far[index as usize] = false;
+                assert!(far.is_taken(index));
+            }
+        }
+        assert!(found.iter().all(|&count| count > 500), "{found:?}");
+        // Most blocks were never asked about.
+        let open = far.opened.iter().filter(|&&place| place != CLOSED);
+        assert!(far.flipped.len() == open.count());
+        // A plane that says nothing gets any far point, and at last all of them.
+        let left = is_far.iter().filter(|is_far| **is_far).count();
+        for _ in 0..left {
+            let index = far.most_in_the_way((m, 0.0), &flipped).unwrap().unwrap();
+            assert!(core::mem::take(&mut is_far[index as usize]));
+            far.take(index);
+        }
+        assert_eq!(far.most_in_the_way((m, -1.0), &flipped).unwrap(), None);
+        assert!(far.counts.iter().flatten().all(|&count| count == 0));
+    }
+}
