@@ -1,6 +1,6 @@
-// npm run mutants -- [--files PATH]... [--shard K/N] [--quick] [--jobs N]: changes one place of the core at a time
-// and checks that a test fails. All mutants are compiled into one program. Mutants that were tried before are not
-// tried again, so the command can be stopped at any time. Writes tests/mutations/rust.tsv and the table of RUST.md.
+// npm run mutants -- [--files PATH]... [--shard K/N] [--quick] [--tests NAME]... [--jobs N]: changes one place of the
+// core at a time and checks that a test fails. All mutants are compiled into one program. Mutants that were tried before
+// are not tried again, so the command can be stopped at any time. Writes tests/mutations/rust.tsv and the table of RUST.md.
 import { parseArgs } from "node:util";
 
 import { command } from "./lib/command.js";
@@ -13,11 +13,12 @@ import type { Mutant } from "./mutants/list.js";
 import { listMutants } from "./mutants/list.js";
 import { buildPrograms } from "./mutants/programs.js";
 import { readResults, saveResults, writeTable } from "./mutants/results.js";
+import type { Choice } from "./mutants/tests.js";
 import { measureTests } from "./mutants/tests.js";
 import { Trial } from "./mutants/try.js";
 
 await command(async () => {
-  const { files, shard, quick, jobs } = askedFor(process.argv.slice(3));
+  const { files, shard, choice, jobs } = askedFor(process.argv.slice(3));
   await setUpRust();
   await setUpLinker();
   await setUpCargoMutants();
@@ -33,16 +34,17 @@ await command(async () => {
     if (unviable.has(numberOf.get(mutant)!)) results.set(mutant.key, "unviable");
     else if (results.get(mutant.key) === "unviable") results.delete(mutant.key);
   }
-  const isDue = ({ key }: Mutant) => results.get(key) === undefined || (!quick && results.get(key) === "open");
+  const isAll = !choice.quick;
+  const isDue = ({ key }: Mutant) => results.get(key) === undefined || (isAll && results.get(key) === "open");
   const due = [...chosen].filter((mutant) => isDue(mutant) && placed.has(numberOf.get(mutant)!));
-  const tests = due.length === 0 ? [] : await measureTests(paths, quick);
+  const tests = due.length === 0 ? [] : await measureTests(paths, choice);
 
   console.log(`${due.length} of ${chosen.size} mutants to try`);
   const trial = new Trial(tests);
   const tries = due.map((mutant) => ({ title: mutant.name, ...mutant }));
   const numbers = new Map(due.map((mutant) => [mutant.key, numberOf.get(mutant)!]));
   await inOrder(tries, jobs, async ({ name, file, key }) => {
-    const result = await trial.run(numbers.get(key)!, file, quick);
+    const result = await trial.run(numbers.get(key)!, file, choice);
     results.set(key, result);
     console.log(`${result.padEnd(9)} ${name}`);
     saveResults(results, every);
@@ -56,27 +58,28 @@ interface Asked {
   files: string[];
   /** Every mutant whose place in the list has this remainder. */
   shard: { part: number; count: number };
-  /** Whether tests that take more than two seconds are left out. */
-  quick: boolean;
+  choice: Choice;
   /** How many mutants are tried at a time. */
   jobs: number;
 }
 
 function askedFor(args: string[]): Asked {
-  const usage = "npm run mutants -- [--files src/hull]... [--shard 0/8] [--quick] [--jobs 2]";
+  const usage = "npm run mutants -- [--files src/hull]... [--shard 0/8] [--quick] [--tests sectors::]... [--jobs 2]";
   try {
     const text = { type: "string" } as const;
     const options = {
       files: { ...text, multiple: true },
       shard: text,
       quick: { type: "boolean" },
+      tests: { ...text, multiple: true },
       jobs: text,
     } as const;
-    const { files = ["src"], shard = "0/1", quick = false, jobs = "1" } = parseArgs({ args, options }).values;
+    const given = parseArgs({ args, options }).values;
+    const { files = ["src"], shard = "0/1", quick = false, tests: names = [], jobs = "1" } = given;
     const [, part, count] = /^(\d+)\/(\d+)$/.exec(shard) ?? [];
     if (part === undefined || Number(part) >= Number(count)) throw new Error(`--shard ${shard} is no part of a whole.`);
     if (!/^[1-9]\d?$/.test(jobs)) throw new Error(`--jobs ${jobs} is no number from 1 to 99.`);
-    return { files, shard: { part: Number(part), count: Number(count) }, quick, jobs: Number(jobs) };
+    return { files, shard: { part: Number(part), count: Number(count) }, choice: { quick, names }, jobs: Number(jobs) };
   } catch (error) {
     throw new Problem(`${(error as Error).message}\n${usage}`);
   }

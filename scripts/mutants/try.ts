@@ -1,5 +1,5 @@
 import type { Result } from "./results.js";
-import type { Test } from "./tests.js";
+import type { Choice, Test } from "./tests.js";
 import { runTests } from "./tests.js";
 
 /**
@@ -22,15 +22,16 @@ export class Trial {
     this.#whole = tests.reduce((sum, { seconds }) => sum + seconds, 0);
   }
 
-  /** Runs the tests that reach a mutant of a file, until one fails. If `quick`, the slow ones are left out. */
-  async run(number: number, file: string, quick: boolean): Promise<Result> {
+  /** Runs the tests that reach a mutant of a file, until one fails. */
+  async run(number: number, file: string, { quick, names }: Choice): Promise<Result> {
+    const isSome = quick || names.length > 0;
     const reaching = this.#tests.filter(({ reached }) => reached.has(number)).sort((a, b) => a.seconds - b.seconds);
-    if (reaching.length === 0) return quick ? "open" : "unreached";
-    for (const group of this.#groups(reaching, file, quick)) {
+    if (reaching.length === 0) return isSome ? "open" : "unreached";
+    for (const group of this.#groups(reaching, file, quick && names.length === 0)) {
       const result = await this.#runGroup(number, file, group);
       if (result !== undefined) return result;
     }
-    return quick ? "open" : "missed";
+    return isSome ? "open" : "missed";
   }
 
   #groups(reaching: Test[], file: string, quick: boolean): Test[][] {
