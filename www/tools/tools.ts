@@ -7,6 +7,7 @@ import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { Compare } from "./compare.ts";
 import { Export, type ExportActions } from "./export.ts";
+import { offerGuide } from "./guide.ts";
 import { bindKeysSheet } from "./keys.ts";
 import { Label } from "./label.ts";
 import { Marks } from "./marks.ts";
@@ -64,6 +65,7 @@ export class Tools {
     bindKeysSheet();
     byId("tools").hidden = false;
     this.#bindKeys(viewer);
+    if (introduce) offerGuide(viewer, store);
   }
 
   /** Whether the picture is divided only as an introduction to the page. */

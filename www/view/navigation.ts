@@ -82,6 +82,11 @@ export class Navigation {
     step();
   }
 
+  /** Turns the camera around its target, by radians to its right. */
+  turn(angle: number): void {
+    this.#controls.rotateLeft(-angle);
+  }
+
   /** One step of a flight. Returns whether there is a next one. */
   #fly({ from, to, begun }: Flight): boolean {
     const share = Math.min(1, (performance.now() - begun) / FLIGHT);
