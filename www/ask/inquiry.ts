@@ -50,7 +50,8 @@ export class Inquiry {
   onAutomatic: (exponent: number) => void = () => undefined;
   onError: (error: unknown) => void = () => undefined;
 
-  readonly #cloud: WorkerCloud;
+  /** The cloud in its worker, also for questions that are not for the picture. */
+  readonly cloud: WorkerCloud;
   readonly #second: SecondCloud;
   readonly #size: number;
   readonly #ladder: Ladder;
@@ -84,7 +85,7 @@ export class Inquiry {
 
   /** `another` makes a second copy of the cloud, for slow questions. */
   constructor(cloud: WorkerCloud, another: () => Promise<WorkerCloud>, size: number) {
-    this.#cloud = cloud;
+    this.cloud = cloud;
     this.#second = new SecondCloud(another);
     this.#size = size;
     this.#ladder = new Ladder(cloud.points.length, size);
@@ -100,14 +101,14 @@ export class Inquiry {
     this.#viewpoint = viewpoint;
     this.#ladder.want(viewOf(viewpoint, settings));
     const due = this.#ladder.next({ isPaused: true, isAtRest: false })!;
-    return this.#ask(this.#cloud, this.#ladder.take(due), due.question);
+    return this.#ask(this.cloud, this.#ladder.take(due), due.question);
   }
 
   /** Finds the automatic exponent if the answer does not contain it. Does nothing if a newer question waits. */
   async findAutomatic(): Promise<void> {
     const question = this.#ladder.wanted;
     if (!question?.method.radius || isAutomatic(question.method)) return;
-    const { exponent } = await this.#cloud.points.autoRadius(question.viewpoint);
+    const { exponent } = await this.cloud.points.autoRadius(question.viewpoint);
     if (question === this.#ladder.wanted) this.onAutomatic(exponent);
   }
 
@@ -144,21 +145,21 @@ export class Inquiry {
 
   /** Asks a question that is not for the picture. Questions for the picture go first. */
   async aside(question: ViewQuestion): Promise<ViewAnswer> {
-    const answer = await askView(this.#cloud, question);
-    this.#noteFree(this.#cloud);
+    const answer = await askView(this.cloud, question);
+    this.#noteFree(this.cloud);
     return answer;
   }
 
   /** The cloud's spacing in its own units. 0 if it has none. */
   get spacing(): number {
-    return this.#cloud.points.spacing;
+    return this.cloud.points.spacing;
   }
 
   dispose(): void {
     this.onView = this.onLight = this.onAutomatic = this.onError = () => undefined;
     this.#viewFollower.stop();
     this.#lightFollower.stop();
-    void this.#cloud.points.dispose();
+    void this.cloud.points.dispose();
     this.#second.dispose();
   }
 
@@ -187,7 +188,7 @@ export class Inquiry {
     const overtaken = this.#ladder.take(due);
     return {
       ask: async () => {
-        const cloud = this.#isAside(question.method) ? await this.#second.ready(overtaken) : this.#cloud;
+        const cloud = this.#isAside(question.method) ? await this.#second.ready(overtaken) : this.cloud;
         this.onView(await this.#ask(cloud, overtaken, question));
         if (this.#ladder.isFinal) await this.findAutomatic();
       },
@@ -203,7 +204,7 @@ export class Inquiry {
     const overtaken = aside ? this.#lights.signal : undefined;
     return {
       ask: async () => {
-        const cloud = aside ? await this.#second.ready(overtaken) : this.#cloud;
+        const cloud = aside ? await this.#second.ready(overtaken) : this.cloud;
         const answer = await askLight(cloud, question, overtaken);
         this.#noteFree(cloud);
         return answer;
@@ -225,18 +226,18 @@ export class Inquiry {
 
   /** Whether a question is for the second worker. */
   #isAside(method: Method): boolean {
-    return isSearched(method) || (method.looks > 0 && this.#cloud.points.length >= LOOKS_ASIDE_FROM);
+    return isSearched(method) || (method.looks > 0 && this.cloud.points.length >= LOOKS_ASIDE_FROM);
   }
 
   /** From now on, the cloud in the foreground can take the next question. */
   #noteFree(cloud: WorkerCloud): void {
-    if (cloud === this.#cloud) this.#freeSince = performance.now();
+    if (cloud === this.cloud) this.#freeSince = performance.now();
   }
 
   async #ask(cloud: WorkerCloud, signal: AbortSignal | undefined, question: ViewQuestion): Promise<TimedView> {
     const asked = performance.now();
     const answer = await askView(cloud, question, signal);
-    const begun = cloud === this.#cloud ? Math.max(asked, this.#freeSince) : asked;
+    const begun = cloud === this.cloud ? Math.max(asked, this.#freeSince) : asked;
     this.#noteFree(cloud);
     this.#mesh = answer.triangles;
     this.#ladder.answered(question);

@@ -15,6 +15,8 @@ export interface Attribute {
   values: Values;
   /** The meaning of a category's numbers, if it is known. */
   labels?: Readonly<Record<number, string>>;
+  /** The colors of a category's numbers, if they have an order. */
+  colors?: Readonly<Record<number, string>>;
 }
 
 /** The result of a loader: the file's own coordinates, and its colors (sRGB bytes), if it has any. */
@@ -25,6 +27,8 @@ export interface LoadedCloud {
   /** All columns besides positions and colors in bytes. If this is missing, they are the attributes. */
   fields?: Field[];
   facts?: FileFacts;
+  /** The index of each point in the file, if some points of the file are left out. */
+  origin?: Uint32Array;
   /** Whether the points are the rows and columns of a picture. Then points without a position are usual. */
   isGrid?: boolean;
   /** Whether the file has faces, and the positions are all of its vertices in the order of the file. */
@@ -43,6 +47,8 @@ export interface Cloud {
   /** All columns of the file besides positions and colors in bytes. */
   fields: readonly Field[];
   facts: FileFacts;
+  /** The index of each point in the file. `null`: all points of the file are there. */
+  origin: Uint32Array | null;
   /** Center of the bounding box in the file's coordinates; local = file − center. */
   center: [number, number, number];
   local: Float32Array;
@@ -56,47 +62,6 @@ export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "isMesh" 
   cloud: Cloud;
   /** A copy of the positions for the hull's worker, which keeps what it gets. */
   copy: Float32Array | Float64Array;
-}
-
-/** Makes a cloud ready to draw. It is slow for many points, so call it in a worker, not in the page's thread. */
-export function prepareCloud({
-  positions,
-  colors,
-  attributes = [],
-  fields = attributes,
-  facts = {},
-  ...said
-}: LoadedCloud): PreparedCloud {
-  const low = [Infinity, Infinity, Infinity];
-  const high = [-Infinity, -Infinity, -Infinity];
-  for (let i = 0; i < positions.length; i += 3) {
-    for (let axis = 0; axis < 3; axis++) {
-      const value = positions[i + axis]!;
-      if (value < low[axis]!) low[axis] = value;
-      if (value > high[axis]!) high[axis] = value;
-    }
-  }
-  const center = low.map((value, axis) => value / 2 + high[axis]! / 2) as [number, number, number];
-
-  // The subtraction happens in f64: a georeferenced cloud keeps its millimeters on the graphics card.
-  const local = new Float32Array(positions.length);
-  for (let i = 0; i < positions.length; i++) local[i] = positions[i]! - center[i % 3]!;
-
-  const size = high.map((value, axis) => value - low[axis]!) as [number, number, number];
-  const radius = Math.hypot(...size) / 2;
-  // The view needs a size, even if there is only one point, or all points are equal.
-  const cloud = {
-    colors,
-    attributes,
-    fields,
-    facts,
-    count: positions.length / 3,
-    center,
-    local,
-    size,
-    radius: radius > 0 ? radius : 1,
-  };
-  return { cloud, positions, copy: positions.slice(), ...said };
 }
 
 export function upVector(up: Up): [number, number, number] {

@@ -26,11 +26,25 @@ export interface Crs {
   isAngular: boolean;
 }
 
+/** The parts of a LAS file that its points alone do not say. With them, the file can be written again. */
+export interface LasSource {
+  /** The header as it is in the file. */
+  head: Uint8Array;
+  format: number;
+  scale: readonly [number, number, number];
+  offset: readonly [number, number, number];
+  /** The records before the points, such as the coordinate system, each with its own head of 54 bytes. */
+  records: Uint8Array[];
+  /** The descriptions of the extra columns, in the order of the file. */
+  extras: { name: string; description: Uint8Array }[];
+}
+
 /** What a file says about its numbers. */
 export interface FileFacts {
   /** The decimals of x, y and z, if the file gives them. */
   decimals?: [number, number, number];
   crs?: Crs;
+  las?: LasSource;
   /** How many columns of the file are not kept, because they would take too much memory. */
   dropped?: number;
 }

@@ -1,5 +1,6 @@
 /// <reference lib="webworker" />
-import { type LoadedCloud, prepareCloud } from "../cloud/cloud.ts";
+import type { LoadedCloud } from "../cloud/cloud.ts";
+import { prepareCloud } from "../cloud/prepare.ts";
 import { makeSample } from "../samples/generators.ts";
 import { download, downloadRanges } from "./download.ts";
 import { MAX_POINTS } from "../settings/limits.ts";

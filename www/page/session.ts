@@ -43,7 +43,11 @@ export function startSession(wishes: Wishes, first: Source): void {
     () => cameraPlace(viewer, opening.askedView),
     () => workshop.introducing,
   );
-  const actions = { name: () => opening.shownName, link: () => address.link() };
+  const actions = {
+    name: () => opening.shownName,
+    link: () => address.link(),
+    showPart: (...part: Parameters<Opening["showPart"]>) => opening.showPart(...part),
+  };
   // A visitor whose address asks for nothing sees the introduction.
   const workshop: Workshop = new Workshop(viewer, store, actions, location.search === "");
   const parts = { viewer, store, panel, address, workshop, status, message, notices };

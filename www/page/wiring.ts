@@ -39,6 +39,9 @@ export function wire({
     handles.place();
     workshop.place();
   };
+  viewer.onAttributes = (cloud) => {
+    panel.prepare(cloud);
+  };
   viewer.stage.onCamera = () => {
     // While another cloud is being read, the camera is not where the address says.
     if (viewer.cloud) address.touch();

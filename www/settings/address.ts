@@ -1,6 +1,6 @@
 import { canLook, rowOf, type Settings, USUAL_SETTINGS, type Viewpoint } from "./settings.ts";
 import type { Store } from "./store.ts";
-import { PARAMETERS, type SettingName, SETTINGS } from "./table.ts";
+import { PARAMETERS, type SettingName, SETTINGS, STATION_COLORS } from "./table.ts";
 
 /** How the address names a cloud, by parameter and value: a sample of the page, or a file on the web. */
 export type CloudName = ["sample" | "src", string];
@@ -124,6 +124,7 @@ function settingsInAddress(now: Settings, usual: Usual): Record<string, string[]
   for (const name of Object.keys(SETTINGS)) write(name as SettingName);
   texts[SETTINGS.lights.parameter] = now.lights.map(String);
   if ("exponent" in radius) texts[SETTINGS.radius.parameter] = [];
+  if (now.color === STATION_COLORS) texts[SETTINGS.color.parameter] = [];
   if (!canLook(now)) texts[SETTINGS.looks.parameter] = [];
   // The kind of comparison is needed only with a comparison, the width of its points only with the z-buffer.
   if (now.compare === null) texts[SETTINGS.against.parameter] = [];

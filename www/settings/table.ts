@@ -60,6 +60,9 @@ function parameter<T>(row: Parameter<T>): Parameter<T> {
 /** The file's own colors. */
 export const OWN_COLORS = "own";
 
+/** The colors by what stations see. They are there only as long as there are stations, so no address asks for them. */
+export const STATION_COLORS = "seen by stations";
+
 /** The modes in the order of the panel. The key goes through them in the same order. */
 export const HIDDEN_MODES: readonly HiddenMode[] = ["off", "dimmed", "shown"];
 

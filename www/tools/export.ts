@@ -1,8 +1,9 @@
 import type { TimedView } from "../ask/inquiry.ts";
+import type { MadeRequest } from "../loaders/index.ts";
 import { byId } from "../controls/dom.ts";
 import { Segmented } from "../controls/segmented.ts";
-import { coordinatesAt } from "./figures.ts";
-import { BATCH, copy, save } from "./files.ts";
+import { coordinatesAt, indexInFile } from "./figures.ts";
+import { BATCH, copy, save, stemOf } from "./files.ts";
 import { pictureWithMarks } from "./picture.ts";
 import type { Bench, Tool } from "./tool.ts";
 
@@ -11,6 +12,8 @@ export interface ExportActions {
   name: () => string;
   /** An address that opens the page in its present state. `null` if no address can do that. */
   link: () => string | null;
+  /** Shows other points of the cloud on screen; see `Opening`. */
+  showPart: (name: string, make: MadeRequest["make"], isWhole: boolean) => Promise<void>;
 }
 
 /** Saves the visible or the selected points, or the picture; copies a link to the page. */
@@ -28,6 +31,7 @@ export class Export implements Tool {
     this.#selected = selected;
     this.#actions = actions;
     this.#bind("export-ply", "ply", () => this.#ply());
+    this.#bind("export-las", "las", () => this.#las());
     this.#bind("export-json", "json", () => this.#json());
     this.#bind("export-csv", "csv", () => this.#csv());
     this.#bind("export-png", "png", async () => [await pictureWithMarks(bench.viewer.stage, bench.marks.svg)]);
@@ -54,13 +58,7 @@ export class Export implements Tool {
     const button = byId(id, HTMLButtonElement);
     button.addEventListener("click", () => {
       if (!this.#bench.viewer.cloud) return;
-      const stem = this.#actions
-        .name()
-        .toLowerCase()
-        .replace(/\.\w{1,4}$/, "")
-        .replace(/[^\p{L}\p{N}]+/gu, "-")
-        .replace(/^-+|-+$/g, "");
-      const file = `${stem || "cloud"}-${ending === "png" ? "picture" : this.#what.value}.${ending}`;
+      const file = `${stemOf(this.#actions.name())}-${ending === "png" ? "picture" : this.#what.value}.${ending}`;
       button.disabled = true;
       const run = async () => {
         try {
@@ -87,6 +85,12 @@ export class Export implements Tool {
     return plyParts({ positions, colors: cloud.colors, fields: plyFields(cloud), indices, comments });
   }
 
+  async #las(): Promise<Iterable<BlobPart>> {
+    const { lasParts } = await import("./las.ts");
+    const { cloud, positions } = this.#bench.viewer.scene;
+    return lasParts({ cloud, positions, indices: this.#indices });
+  }
+
   *#json(): Iterable<BlobPart> {
     const { cloud, answer } = this.#bench.viewer.scene;
     const { question, visibility } = answer;
@@ -102,14 +106,18 @@ export class Export implements Tool {
     };
     yield JSON.stringify(head).slice(0, -1);
     yield ',"indices":[';
-    yield* joined(this.#indices, ",", String);
+    yield* joined(this.#indices, ",", (index) => String(indexInFile(cloud, index)));
     yield "]}\n";
   }
 
   *#csv(): Iterable<BlobPart> {
     const { scene } = this.#bench.viewer;
     yield "index,x,y,z\n";
-    yield* joined(this.#indices, "\n", (index) => `${index},${coordinatesAt(scene, index).join()}`);
+    yield* joined(
+      this.#indices,
+      "\n",
+      (index) => `${indexInFile(scene.cloud, index)},${coordinatesAt(scene, index).join()}`,
+    );
     yield "\n";
   }
 

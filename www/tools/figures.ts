@@ -21,6 +21,11 @@ export function coordinatesAt({ cloud, positions }: Placed, index: number): [str
   return [text(0), text(1), text(2)];
 }
 
+/** The index of a point in its file. Some points of the file may be left out. */
+export function indexInFile({ origin }: Cloud, index: number): number {
+  return origin ? origin[index]! : index;
+}
+
 /** A point's number in a column, with its meaning if that is known. */
 export function fieldText(field: Field, index: number): string {
   const value = valueAt(field, index);

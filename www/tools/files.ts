@@ -19,6 +19,16 @@ export async function save(name: string, parts: Iterable<BlobPart>): Promise<voi
   }, 60_000);
 }
 
+/** The beginning of the name of a file that is saved: the name of the cloud, without its ending and without signs. */
+export function stemOf(name: string): string {
+  const stem = name
+    .toLowerCase()
+    .replace(/\.\w{1,4}$/, "")
+    .replace(/[^\p{L}\p{N}]+/gu, "-")
+    .replace(/^-+|-+$/g, "");
+  return stem || "cloud";
+}
+
 /** Copies a text. Returns `false` if the browser refuses: the connection is not secure, or the user forbids it. */
 export async function copy(text: string): Promise<boolean> {
   try {

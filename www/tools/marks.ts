@@ -1,3 +1,5 @@
+import type { Viewpoint } from "../settings/settings.ts";
+import { project } from "../view/place.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { includes } from "./find.ts";
 import { Projection } from "./projection.ts";
@@ -28,6 +30,7 @@ export class Marks {
   readonly svg: SVGSVGElement;
   readonly #viewer: Viewer;
   readonly #all = new Set<Fastened>();
+  readonly #pins = new Set<{ element: SVGGElement; at: Viewpoint }>();
   #placed = "";
 
   constructor(svg: SVGSVGElement, viewer: Viewer) {
@@ -79,9 +82,26 @@ export class Marks {
     return this.#fasten({ element, anchors: [index], hides: true, place });
   }
 
+  /** A text at a place that need not have a point, such as a station. It is never covered. */
+  pin(at: Viewpoint, text: string): Mark {
+    const label = withText(text);
+    set(label, { x: 10, y: -8 });
+    const element = group("pin", [create("circle", { r: 5, class: "dot" }), label]);
+    const pin = { element, at };
+    this.svg.append(element);
+    this.#pins.add(pin);
+    this.invalidate();
+    return {
+      remove: () => {
+        element.remove();
+        this.#pins.delete(pin);
+      },
+    };
+  }
+
   /** Moves the marks to their points. Called every frame; does nothing while nothing has moved. */
   place(): void {
-    if (this.#all.size === 0 || !this.#viewer.cloud) return;
+    if (this.#all.size + this.#pins.size === 0 || !this.#viewer.cloud) return;
     const { camera, size } = this.#viewer.stage;
     const now = [camera.matrixWorld.elements, camera.projectionMatrix.elements[5], size.width, size.height].join();
     if (now === this.#placed) return;
@@ -95,6 +115,11 @@ export class Marks {
       element.style.display = shown ? "" : "none";
       element.classList.toggle("hidden", !seen);
       if (shown) place(ends);
+    }
+    for (const { element, at: place } of this.#pins) {
+      const spot = project(this.#viewer, place);
+      element.style.display = spot ? "" : "none";
+      if (spot) move(element, spot);
     }
   }
 

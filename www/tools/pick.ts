@@ -1,5 +1,5 @@
 import { byId } from "../controls/dom.ts";
-import { coordinatesAt, fieldText } from "./figures.ts";
+import { coordinatesAt, fieldText, indexInFile } from "./figures.ts";
 import { copy } from "./files.ts";
 import { pointAt, type Spot } from "./find.ts";
 import type { Mark } from "./marks.ts";
@@ -40,7 +40,7 @@ export class Pick implements Tool {
       colors && !fields.some(({ name }) => name === "red") ? colors.subarray(3 * index, 3 * index + 3) : null;
     this.#output.replaceChildren(
       ...["x", "y", "z"].map((axis, i) => row(axis, place[i]!)),
-      row("index", String(index)),
+      row("index", String(indexInFile(scene.cloud, index))),
       ...(color ? [row("color", color.join(" "))] : []),
       ...fields.map((field) => row(field.name.replaceAll("_", " "), fieldText(field, index))),
     );

@@ -12,13 +12,17 @@ const number = new Intl.NumberFormat("en-US");
 export class Select implements Tool {
   readonly name = "select";
   readonly uses = "drags";
-  /** Called when other points are selected. */
+  /** Called when the tool is opened. */
+  onOpen: () => void = () => undefined;
+  /** Called when other points are selected, or in another way. */
   onChange: () => void = () => undefined;
   readonly #bench: Bench;
   readonly #output = byId("select-result");
   readonly #remove = byId("select-clear", HTMLButtonElement);
   readonly #outline = document.createElementNS("http://www.w3.org/2000/svg", "polygon");
-  readonly #shape = new Segmented<"lasso" | "box">("select-shape", () => undefined);
+  readonly #shape = new Segmented<"lasso" | "box" | "range">("select-shape", () => {
+    this.onChange();
+  });
   readonly #drags: { cancel: () => boolean };
   #chosen: Uint32Array = new Uint32Array();
 
@@ -26,7 +30,7 @@ export class Select implements Tool {
     this.#bench = bench;
     this.#outline.classList.add("outline");
     bench.marks.svg.append(this.#outline);
-    this.#drags = onDrag(canvas, () => active() && bench.viewer.cloud !== null, {
+    this.#drags = onDrag(canvas, () => active() && !this.isRange && bench.viewer.cloud !== null, {
       drag: (path) => {
         this.#draw(this.#line(path));
       },
@@ -35,7 +39,7 @@ export class Select implements Tool {
           this.#draw([]);
           const found =
             path.length > 1 ? pointsWithin(bench.viewer, this.#line(path), bench.through()) : new Uint32Array();
-          this.#choose(
+          this.choose(
             event.shiftKey ? joined(this.#chosen, found) : event.altKey ? without(this.#chosen, found) : found,
           );
           if (path.length > 1 && found.length === 0)
@@ -44,13 +48,13 @@ export class Select implements Tool {
       },
     });
     this.#remove.addEventListener("click", () => {
-      this.#choose(new Uint32Array());
+      this.choose(new Uint32Array());
       byId("view").focus();
     });
     byId("select-all").addEventListener("click", () => {
       bench.whenFinal(() => {
         const { width, height } = bench.viewer.stage.size;
-        this.#choose(pointsWithin(bench.viewer, box({ x: 0, y: 0 }, { x: width + 1, y: height + 1 }), bench.through()));
+        this.choose(pointsWithin(bench.viewer, box({ x: 0, y: 0 }, { x: width + 1, y: height + 1 }), bench.through()));
       });
     });
   }
@@ -58,6 +62,15 @@ export class Select implements Tool {
   /** The indices of the selected points, ascending. */
   get indices(): Uint32Array {
     return this.#chosen;
+  }
+
+  /** Whether points are selected by their coordinates, not in the picture. */
+  get isRange(): boolean {
+    return this.#shape.value === "range";
+  }
+
+  open(): void {
+    this.onOpen();
   }
 
   leave(): void {
@@ -69,16 +82,17 @@ export class Select implements Tool {
     this.#draw([]);
     if (this.#drags.cancel()) return true;
     const some = this.#chosen.length > 0;
-    this.#choose(new Uint32Array());
+    this.choose(new Uint32Array());
     return some;
   }
 
   clear(): void {
     this.leave();
-    this.#choose(new Uint32Array());
+    this.choose(new Uint32Array());
   }
 
-  #choose(indices: Uint32Array): void {
+  /** Selects these points, ascending, and no others. */
+  choose(indices: Uint32Array): void {
     this.#chosen = indices;
     this.#bench.viewer.setChosen(indices);
     const { length } = indices;

@@ -9,6 +9,12 @@ export interface Bench {
   marks: Marks;
   /** The direction that is up. */
   up: () => Up;
+  /** The name of the cloud. */
+  name: () => string;
+  /** Selects these points, ascending. */
+  choose: (indices: Uint32Array) => void;
+  /** Whether another cloud is being shown that has other points of the same file. */
+  isEditing: () => boolean;
   /** Whether hidden points count as well. */
   through: () => boolean;
   /** Runs something when the picture is final; see `Patience`. */
@@ -17,7 +23,7 @@ export interface Bench {
 
 /** One tool of the bar. Its button is #tool-NAME, its words and controls are in #NAME-card. */
 export interface Tool {
-  readonly name: "pick" | "measure" | "select" | "label" | "export";
+  readonly name: "pick" | "measure" | "select" | "label" | "export" | "stations";
   /** Whether the tool uses clicks on the canvas, drags, or neither. */
   readonly uses: "clicks" | "drags" | "nothing";
   /** Called at a click, and for the middle of the picture when Enter is pressed. */
@@ -28,6 +34,8 @@ export interface Tool {
   leave?(): void;
   /** Called when the card is about to be shown. */
   open?(): void;
+  /** Called when a cloud is shown. */
+  begin?(): void;
   /** Forgets everything, because another cloud is shown. */
   clear?(): void;
 }

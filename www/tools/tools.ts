@@ -6,10 +6,12 @@ import { type Action, isKeyOf, pressed } from "../controls/keys.ts";
 import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { Compare } from "./compare.ts";
+import { LateEdits } from "./edit/late-edits.ts";
 import { Export, type ExportActions } from "./export.ts";
 import { offerGuide } from "./guide.ts";
 import { bindKeysSheet } from "./keys.ts";
 import { Label } from "./label.ts";
+import { LateTool } from "./late-tool.ts";
 import { Marks } from "./marks.ts";
 import { Measure } from "./measure.ts";
 import { Patience } from "./patience.ts";
@@ -29,6 +31,7 @@ export class Tools {
   readonly #through = byId("through", HTMLInputElement);
   readonly #compare: Compare;
   readonly #patience: Patience;
+  readonly #edits: LateEdits;
   #active: Tool | null = null;
 
   constructor(viewer: Viewer, store: Store, actions: ExportActions, introduce: boolean) {
@@ -39,6 +42,11 @@ export class Tools {
       viewer,
       marks: this.#marks,
       up: () => store.current.up,
+      name: actions.name,
+      isEditing: () => edits.isOwn,
+      choose: (indices) => {
+        select.choose(indices);
+      },
       through: () => this.#through.checked,
       whenFinal: (run, here) => {
         this.#patience.whenFinal(run, here);
@@ -46,10 +54,20 @@ export class Tools {
     };
     const select: Select = new Select(bench, this.#canvas, () => this.#active === select);
     const exports = new Export(bench, () => select.indices, actions);
+    const edits: LateEdits = new LateEdits(() => bench, store, select, actions.showPart, byId("select-card"));
+    this.#edits = edits;
+    select.onOpen = () => {
+      edits.open();
+    };
     select.onChange = () => {
       exports.open();
+      edits.follow();
     };
-    this.#tools = [new Pick(bench), new Measure(bench), select, new Label(bench), exports];
+    const stations = new LateTool("stations", "clicks", async (card) => {
+      const { Stations } = await import("./stations/stations.ts");
+      return new Stations(bench, store, card);
+    });
+    this.#tools = [new Pick(bench), new Measure(bench), select, new Label(bench), stations, exports];
     for (const tool of this.#tools) {
       byId(`tool-${tool.name}`).addEventListener("click", () => {
         this.#toggle(tool);
@@ -77,7 +95,13 @@ export class Tools {
   clear(): void {
     this.#patience.clear();
     for (const tool of this.#tools) tool.clear?.();
+    this.#edits.clear();
     this.#compare.drop();
+  }
+
+  /** Called when a cloud is shown. */
+  begin(): void {
+    for (const tool of this.#tools) tool.begin?.();
   }
 
   /** Called when other points have become visible. */

@@ -39,6 +39,7 @@ export class Workshop {
   async begin(): Promise<void> {
     if (this.#here) {
       this.#here.plot.clear();
+      this.#here.tools.begin();
       return;
     }
     if (this.#coming) return;

@@ -101,11 +101,14 @@ function ramp(count: number, value: (i: number) => number): Coloring {
   return { tints, legend: { kind: "ramp", low, high, colors: VIRIDIS_STOPS } };
 }
 
-function categories({ values, labels = {} }: Attribute): Coloring {
+function categories({ values, labels = {}, colors = {} }: Attribute): Coloring {
   const { known, counts, numbers } = numbered(values);
   const ascending = [...known].sort((a, b) => a - b);
   const shown = new Map(
-    ascending.map((value, i) => [value, CLASS_COLORS[labels[value] ?? ""] ?? TABLEAU[i % TABLEAU.length]!]),
+    ascending.map((value, i) => [
+      value,
+      colors[value] ?? CLASS_COLORS[labels[value] ?? ""] ?? TABLEAU[i % TABLEAU.length]!,
+    ]),
   );
   const tints = painted(
     values.length,

@@ -109,6 +109,7 @@ export class Preview {
       attributes: [],
       fields: [],
       facts: {},
+      origin: null,
       center: [0, 0, 0] as [number, number, number],
       local,
       radius,

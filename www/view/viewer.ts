@@ -2,7 +2,7 @@ import { Matrix4, Quaternion } from "three";
 import type { LightAnswer } from "../ask/lights.ts";
 import { isSamePlace } from "../ask/question.ts";
 import type { Inquiry, TimedView } from "../ask/inquiry.ts";
-import type { Cloud, Up } from "../cloud/cloud.ts";
+import type { Attribute, Cloud, Up } from "../cloud/cloud.ts";
 import type { Parts } from "./parts.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
@@ -54,6 +54,8 @@ export class Viewer {
   onBusy: (busy: boolean) => void = () => undefined;
   /** Called with a legend whenever the colors change. */
   onLegend: (legend: Legend | null) => void = () => undefined;
+  /** Called when a cloud has got another attribute to color by. */
+  onAttributes: (cloud: Cloud) => void = () => undefined;
   /** Called before each frame. */
   onFrame: () => void = () => undefined;
 
@@ -227,6 +229,14 @@ export class Viewer {
     inquiry.findAutomatic().catch(() => undefined);
     this.#isNew = true;
     this.#inquire();
+  }
+
+  /** Sets an attribute by which the cloud can be colored. `null`: takes it away. */
+  setAttribute(name: string, attribute: Attribute | null): void {
+    const { cloud } = this.#shown!;
+    cloud.attributes = [...cloud.attributes.filter((other) => other.name !== name), ...(attribute ? [attribute] : [])];
+    this.onAttributes(cloud);
+    if (this.#store.current.color === name) this.#paint(this.#store.current);
   }
 
   /** Tints the points that are selected. */

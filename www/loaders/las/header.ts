@@ -2,6 +2,7 @@ import type { Column } from "../builder.ts";
 import { bytes } from "../blocks.ts";
 import { bytesOf, type NumberReader, numberReader, type NumberType } from "../../../src/ts/formats/numbers.js";
 import {
+  LAS_RECORD_HEADER,
   type LasHeader as LasFrame,
   type LasRecord,
   lasRecords,
@@ -10,7 +11,7 @@ import {
   textAt,
 } from "../../../src/ts/formats/las.js";
 import { LoadProblem } from "../problem.ts";
-import type { Crs } from "../../cloud/facts.ts";
+import type { LasSource, Crs } from "../../cloud/facts.ts";
 import { crsOf, type CrsRecords } from "./crs.ts";
 import { type FieldPlace, layoutOf } from "./places.ts";
 
@@ -18,6 +19,7 @@ import { type FieldPlace, layoutOf } from "./places.ts";
 export interface LasHeader extends LasFrame {
   columns: readonly LasColumn[];
   crs: Crs | null;
+  source: LasSource;
 }
 
 export interface LasColumn extends Column {
@@ -32,8 +34,8 @@ const EXTRA_TYPES: (NumberType | null)[] = [
   "int16",
   "uint32",
   "int32",
-  null,
-  null,
+  "uint64",
+  "int64",
   "float32",
   "float64",
 ];
@@ -43,17 +45,27 @@ export async function readHeader(name: string, blob: Blob): Promise<LasHeader> {
   const data = new Uint8Array(await bytes(name, blob, 0, LONGEST_LAS_HEADER));
   const header = parseHeader(data);
   if (header.start > blob.size) throw new LoadProblem(`${name} is broken: its points would begin after its end.`);
-  return header.crs ? header : { ...header, crs: await crsAtEnd(name, blob, data) };
+  const view = new DataView(data.buffer);
+  // Since version 1.4, records may also follow the points.
+  const at = header.minor === 4 ? Number(view.getBigUint64(235, true)) : 0;
+  if (header.crs || at === 0 || at >= blob.size) return header;
+  const end = new DataView(await bytes(name, blob, at, at + LONGEST_LAS_HEADER));
+  const { wkt } = crsRecords(end, lasRecords(end, 0, view.getUint32(243, true), "after"));
+  if (wkt === undefined) return header;
+  const records = [...header.source.records, wktRecord(wkt)];
+  return { ...header, crs: crsOf({ wkt }), source: { ...header.source, records } };
 }
 
-/** Since version 1.4, records may also follow the points. */
-async function crsAtEnd(name: string, blob: Blob, head: Uint8Array): Promise<Crs | null> {
-  const view = new DataView(head.buffer);
-  if (view.getUint8(25) !== 4) return null;
-  const at = Number(view.getBigUint64(235, true));
-  if (at === 0 || at >= blob.size) return null;
-  const end = new DataView(await bytes(name, blob, at, at + LONGEST_LAS_HEADER));
-  return crsOf(crsRecords(end, lasRecords(end, 0, view.getUint32(243, true), "after")));
+/** The coordinate system as a record before the points. */
+function wktRecord(wkt: string): Uint8Array {
+  const head = LAS_RECORD_HEADER.before;
+  const text = new TextEncoder().encode(`${wkt}\0`);
+  const record = new Uint8Array(head + text.length);
+  record.set(new TextEncoder().encode("LASF_Projection"), 2);
+  new DataView(record.buffer).setUint16(18, 2112, true);
+  new DataView(record.buffer).setUint16(20, text.length, true);
+  record.set(text, head);
+  return record;
 }
 
 export function parseHeader(data: Uint8Array): LasHeader {
@@ -66,7 +78,29 @@ export function parseHeader(data: Uint8Array): LasHeader {
     ...frame,
     columns: [...places.map(columnOf), ...(extra ? extraColumns(view, extra, least, rowBytes) : [])],
     crs: crsOf(crsRecords(view, records)),
+    source: {
+      head: data.slice(0, Math.min(frame.headerBytes, 375)),
+      format,
+      scale: frame.scale,
+      offset: frame.offset,
+      records: records.filter(isKept).map(({ at, length }) => data.slice(at - LAS_RECORD_HEADER.before, at + length)),
+      extras: extra ? descriptionsIn(data, extra) : [],
+    },
   };
+}
+
+/** Records about the compression and the extra columns suit only the file that they are in. */
+function isKept({ user, id }: LasRecord): boolean {
+  return user !== "copc" && user !== "laszip encoded" && !(user === "LASF_Spec" && id === 4);
+}
+
+function descriptionsIn(data: Uint8Array, { at, length }: LasRecord): LasSource["extras"] {
+  const view = new DataView(data.buffer, data.byteOffset);
+  return Array.from({ length: Math.floor(length / EXTRA_RECORD) }, (_, i) => {
+    const from = at + i * EXTRA_RECORD;
+    const name = textAt(view, from + 4, 32).trim() || "extra";
+    return { name, description: data.slice(from, from + EXTRA_RECORD) };
+  });
 }
 
 function crsRecords(view: DataView, records: readonly LasRecord[]): CrsRecords {

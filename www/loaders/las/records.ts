@@ -1,16 +1,9 @@
 import type { LoadedCloud } from "../../cloud/cloud.ts";
 import type { Reading } from "../blocks.ts";
 import { CloudBuilder } from "../builder.ts";
+import { CLASSES, CLASSIFICATION } from "./classes.ts";
 import type { LasHeader } from "./header.ts";
 import { lasPosition } from "../../../src/ts/formats/las.js";
-
-/** The classes of the LAS specification (1.4 R15, table 17). */
-const CLASSES: Readonly<Record<number, string>> = {
-  0: "never classified", 1: "unclassified", 2: "ground", 3: "low vegetation", 4: "medium vegetation", 5: "high vegetation",
-  6: "building", 7: "low noise", 8: "key point", 9: "water", 10: "rail", 11: "road", 12: "overlap", 13: "wire guard",
-  14: "wire", 15: "transmission tower", 16: "wire connector", 17: "bridge deck", 18: "high noise", 19: "overhead structure",
-  20: "ignored ground", 21: "snow", 22: "temporal exclusion",
-}; // prettier-ignore
 
 const MOST_DECIMALS = 12;
 
@@ -42,13 +35,13 @@ export class RecordTaker {
   finish(): LoadedCloud {
     const cloud = this.#builder.finish();
     const attributes = cloud.attributes!.map((attribute) =>
-      attribute.name === "classification" ? { ...attribute, labels: CLASSES } : attribute,
+      attribute.name === CLASSIFICATION ? { ...attribute, labels: CLASSES } : attribute,
     );
     const fields = cloud.fields!.map((field) =>
-      field.name === "classification" ? { ...field, labels: CLASSES } : field,
+      field.name === CLASSIFICATION ? { ...field, labels: CLASSES } : field,
     );
-    const { scale, offset, crs } = this.#header;
-    const facts = { ...cloud.facts, ...decimalsOf(scale, offset), ...(crs && { crs }) };
+    const { scale, offset, crs, source } = this.#header;
+    const facts = { ...cloud.facts, las: source, ...decimalsOf(scale, offset), ...(crs && { crs }) };
     const notes = [...cloud.notes!];
     if (this.#outside > 0) {
       notes.push(

@@ -1,0 +1,145 @@
+// Stations: what several viewpoints see together, each one alone, and none. Checked against the package in Node.
+import { readFileSync } from "node:fs";
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { at, clickPoint, lonely, MIDDLE, openBall, positions, tool, visible } from "./ball.js";
+import { inNode, openReady } from "./support.js";
+
+const [X, Y, Z] = MIDDLE;
+const PLACES: [string, number[]][] = [
+  ["north", [X, Y, Z + 9]],
+  ["east", [X + 7, Y + 1, Z]],
+  ["below, far", [X - 2, Y - 12, Z - 3]],
+];
+const number = (value: number) => value.toLocaleString("en-US");
+
+async function readList(page: Page, text: string): Promise<void> {
+  await page
+    .locator("#stations-card input[type=file]")
+    .setInputFiles({ name: "stations.csv", mimeType: "", buffer: Buffer.from(text) });
+}
+
+const table = (page: Page) =>
+  page
+    .locator("#stations-card tbody tr")
+    .evaluateAll((rows) => rows.map((row) => [...row.children].slice(0, 3).map((cell) => cell.textContent)));
+
+/** What the card has to say about stations. */
+async function expected(stations: readonly (readonly [string, number[]])[]) {
+  return inNode(positions, (cloud) => {
+    const masks = stations.map(([, place]) => cloud.visibleFrom(place, { looks: 3 }).mask());
+    const counts = [
+      ...cloud.coverage(
+        stations.map(([, place]) => place),
+        { looks: 3 },
+      ),
+    ];
+    const rows = stations.map(([name], s) => [
+      name,
+      number(masks[s]!.reduce((sum, value) => sum + value, 0)),
+      number(masks[s]!.filter((value, i) => value === 1 && counts[i] === 1).length),
+    ]);
+    return { counts, rows, unseen: counts.filter((count) => count === 0).length };
+  });
+}
+
+async function saved(page: Page, name: string): Promise<string> {
+  const coming = page.waitForEvent("download");
+  await page.locator("#stations-card").getByRole("button", { name }).click();
+  return readFileSync(await (await coming).path(), "latin1");
+}
+
+test("stations from a list: each one's figures, the counts, the points that none sees, and the files are the package's", async () => {
+  const page = await openBall();
+  await tool(page, "Stations").click();
+  await page.locator("#stations-card tbody").waitFor({ state: "attached" });
+  await readList(page, ["name;x;y;z", ...PLACES.map(([name, place]) => [name, ...place].join(";"))].join("\r\n"));
+  const { counts, rows, unseen } = await expected(PLACES);
+  await expect.poll(() => page.locator("#stations-unseen").getAttribute("data-count")).toBe(String(unseen));
+  expect(await table(page)).toEqual(rows);
+  expect(await page.locator("#marks .pin text").allTextContents()).toEqual(PLACES.map(([name]) => name));
+
+  // Points are colored by their counts. The legend has the number of points of each count.
+  expect(await page.locator("#color").inputValue()).toBe("seen by stations");
+  const legend = (await page.locator("#legend .count").allTextContents()).map((text) => Number(text.replace(",", "")));
+  expect(legend.reduce((a, b) => a + b)).toBe(600);
+  expect(legend[0]).toBe(unseen);
+  expect(new URL(page.url()).searchParams.has("color")).toBe(false);
+
+  expect(await saved(page, "Stations, CSV")).toBe(
+    [
+      "name,x,y,z,sees,alone",
+      ...PLACES.map(([name, place], s) =>
+        [
+          name.includes(",") ? `"${name}"` : name,
+          ...place,
+          ...rows[s]!.slice(1).map((text) => text.replace(",", "")),
+        ].join(),
+      ),
+      "",
+    ].join("\n"),
+  );
+  expect(await saved(page, "Points, CSV")).toBe(
+    ["index,x,y,z,stations", ...counts.map((count, i) => [i, ...at(i), count].join()), ""].join("\n"),
+  );
+  const ply = Buffer.from(await saved(page, "Points, PLY"), "latin1");
+  const start = ply.indexOf("end_header\n") + 11;
+  expect(ply.subarray(0, start).toString()).toContain("element vertex 600");
+  expect(counts.map((_, i) => ply.readUInt8(start + 25 * i + 24))).toEqual(counts);
+
+  await page.getByRole("button", { name: "Select these" }).click();
+  await tool(page, "Select").click();
+  expect(await page.locator("#select-result").getAttribute("data-count")).toBe(String(unseen));
+});
+
+test("a click places a station above the point, one can be removed, and a list with a wrong line is refused", async () => {
+  const page = await openBall();
+  const seen = await visible(page);
+  const [index] = await lonely(page, seen, seen);
+  await tool(page, "Stations").click();
+  await page.getByLabel("Height above a clicked point").fill("1.5");
+  await clickPoint(page, index!);
+  const [x, y, z] = at(index!);
+  const { rows, unseen } = await expected([["S1", [x, y + 1.5, z]]]);
+  await expect.poll(() => page.locator("#stations-unseen").getAttribute("data-count")).toBe(String(unseen));
+  expect(await table(page)).toEqual(rows);
+  await page.getByRole("button", { name: "At the camera" }).click();
+  const both = await expected([
+    ["S1", [x, y + 1.5, z]],
+    ["S2", [X, Y, Z + 9]],
+  ]);
+  await expect.poll(() => page.locator("#stations-unseen").getAttribute("data-count")).toBe(String(both.unseen));
+  expect(await table(page)).toEqual(both.rows);
+  await readList(page, "a,1,2,3\nb,1,two,3\n");
+  await expect
+    .poll(() => page.locator("#stations-card output").textContent())
+    .toBe("Line 2 is not a name and three numbers x, y, z: “b, 1, two, 3”.");
+  expect((await table(page)).length).toBe(2);
+  await page.getByRole("button", { name: "Remove the station S1" }).click();
+  const last = await expected([["S2", [X, Y, Z + 9]]]);
+  await expect.poll(() => page.locator("#stations-unseen").getAttribute("data-count")).toBe(String(last.unseen));
+  await page.getByRole("button", { name: "Remove all" }).click();
+  expect(await page.locator("#marks .pin").count()).toBe(0);
+  expect(await page.locator("#color").inputValue()).toBe("own");
+});
+
+test("the next station is suggested: it sees points that no station sees; a long question can be stopped", async () => {
+  const page = await openBall();
+  await tool(page, "Stations").click();
+  await page.getByRole("button", { name: "At the camera" }).click();
+  const unseen = page.locator("#stations-unseen");
+  await expect.poll(() => unseen.getAttribute("data-count")).not.toBe(null);
+  const before = Number(await unseen.getAttribute("data-count"));
+  await page.getByRole("button", { name: "Suggest one" }).click();
+  await expect.poll(async () => (await table(page)).map(([name]) => name)).toEqual(["S1", "Suggested 1"]);
+  await expect.poll(async () => Number(await unseen.getAttribute("data-count"))).toBeLessThan(before);
+
+  const large = await openReady("?sample=tile");
+  await tool(large, "Stations").click();
+  await large.getByRole("button", { name: "Suggest one" }).click();
+  const stop = large.getByRole("button", { name: "Stop" });
+  await stop.click();
+  await expect.poll(() => large.locator("#stations-card output").textContent()).toBe("Stopped.");
+  expect(await stop.isVisible()).toBe(false);
+  expect(await table(large)).toEqual([]);
+});

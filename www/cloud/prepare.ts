@@ -1,0 +1,44 @@
+import type { LoadedCloud, PreparedCloud } from "./cloud.ts";
+
+/** Makes a cloud ready to draw. It is slow for many points, so call it in a worker, not in the page's thread. */
+export function prepareCloud({
+  positions,
+  colors,
+  attributes = [],
+  fields = attributes,
+  facts = {},
+  origin,
+  ...said
+}: LoadedCloud): PreparedCloud {
+  const low = [Infinity, Infinity, Infinity];
+  const high = [-Infinity, -Infinity, -Infinity];
+  for (let i = 0; i < positions.length; i += 3) {
+    for (let axis = 0; axis < 3; axis++) {
+      const value = positions[i + axis]!;
+      if (value < low[axis]!) low[axis] = value;
+      if (value > high[axis]!) high[axis] = value;
+    }
+  }
+  const center = low.map((value, axis) => value / 2 + high[axis]! / 2) as [number, number, number];
+
+  // The subtraction happens in f64: a georeferenced cloud keeps its millimeters on the graphics card.
+  const local = new Float32Array(positions.length);
+  for (let i = 0; i < positions.length; i++) local[i] = positions[i]! - center[i % 3]!;
+
+  const size = high.map((value, axis) => value - low[axis]!) as [number, number, number];
+  const radius = Math.hypot(...size) / 2;
+  // The view needs a size, even if there is only one point, or all points are equal.
+  const cloud = {
+    colors,
+    attributes,
+    fields,
+    facts,
+    origin: origin ?? null,
+    count: positions.length / 3,
+    center,
+    local,
+    size,
+    radius: radius > 0 ? radius : 1,
+  };
+  return { cloud, positions, copy: positions.slice(), ...said };
+}

@@ -1,0 +1,139 @@
+import { button, make, numberField, tableRow } from "../make.ts";
+import type { Station } from "./csv.ts";
+import type { Viewshed } from "./viewshed.ts";
+
+export interface StationActions {
+  here: () => void;
+  read: (file: File) => void;
+  suggest: () => void;
+  stop: () => void;
+  remove: (number: number) => void;
+  clear: () => void;
+  selectUnseen: () => void;
+  saveStations: () => void;
+  savePoints: (ending: "ply" | "csv") => void;
+}
+
+const number = new Intl.NumberFormat("en-US");
+
+/** The controls, the table and the figures of the stations. */
+export class StationCard {
+  readonly #height = numberField("station-height", "Height above a clicked point");
+  readonly #said = make("output", {});
+  readonly #body = make("tbody");
+  readonly #table = make(
+    "table",
+    { "aria-label": "Stations", hidden: true },
+    make(
+      "thead",
+      {},
+      make("tr", {}, ...["Station", "Sees", "Alone"].map((text) => make("th", { scope: "col" }, text)), make("td")),
+    ),
+    this.#body,
+  );
+  readonly #unseen = make("p", { class: "note", id: "stations-unseen" });
+  readonly #bar = make("progress", { max: "1", "aria-label": "Finding what the stations see" });
+  readonly #work: HTMLElement;
+  readonly #select: HTMLButtonElement;
+  readonly #suggest: HTMLButtonElement;
+  readonly #results: HTMLElement;
+  readonly #clear: HTMLButtonElement;
+  readonly #actions: StationActions;
+
+  constructor(card: HTMLElement, actions: StationActions) {
+    this.#actions = actions;
+    const file = make("input", { type: "file", accept: ".csv,.txt", "aria-label": "Read stations", tabindex: "-1" });
+    file.addEventListener("change", () => {
+      const [chosen] = file.files ?? [];
+      if (chosen) actions.read(chosen);
+      file.value = "";
+    });
+    this.#work = make("div", { class: "work", hidden: true }, this.#bar, button("Stop", actions.stop));
+    this.#select = button("Select these", actions.selectUnseen);
+    this.#clear = button("Remove all", actions.clear, { hidden: true });
+    this.#suggest = button("Suggest one", actions.suggest, {
+      title: "The place on a grid over the ground from which most points are seen that no station sees",
+    });
+    this.#results = make(
+      "div",
+      { class: "files", hidden: true },
+      this.#select,
+      button("Stations, CSV", actions.saveStations),
+      button("Points, PLY", () => {
+        actions.savePoints("ply");
+      }),
+      button("Points, CSV", () => {
+        actions.savePoints("csv");
+      }),
+    );
+    card.replaceChildren(
+      this.#said,
+      this.#table,
+      this.#work,
+      this.#unseen,
+      this.#results,
+      this.#height.row,
+      make(
+        "div",
+        { class: "files" },
+        button("At the camera", actions.here),
+        button(
+          "Read a list …",
+          () => {
+            file.click();
+          },
+          { title: "A file with lines of name, x, y, z" },
+        ),
+        this.#suggest,
+        this.#clear,
+      ),
+      file,
+    );
+  }
+
+  /** How far a station stands above the point that is clicked. */
+  get height(): number {
+    const value = this.#height.input.valueAsNumber;
+    return Number.isFinite(value) ? value : 0;
+  }
+
+  set height(value: number) {
+    this.#height.input.value = String(value);
+  }
+
+  say(sentence: string): void {
+    this.#said.textContent = sentence;
+  }
+
+  /** `null`: nothing is under way. */
+  progress(fraction: number | null): void {
+    this.#work.hidden = fraction === null;
+    this.#bar.value = fraction ?? 0;
+    this.#suggest.disabled = fraction !== null;
+  }
+
+  /** `found`: `null` as long as it is not known what the stations see. */
+  show(stations: readonly Station[], found: Viewshed | null): void {
+    this.#table.hidden = this.#clear.hidden = stations.length === 0;
+    this.#results.hidden = this.#unseen.hidden = found === null;
+    this.#body.replaceChildren(
+      ...stations.map(({ name }, i) => {
+        const row = found?.rows[i];
+        const remove = button(
+          make("span", { "aria-hidden": "true" }, "×"),
+          () => {
+            this.#actions.remove(i);
+          },
+          { "aria-label": `Remove the station ${name}` },
+        );
+        return tableRow(name, row ? number.format(row.sees) : "…", row ? number.format(row.alone) : "…", remove);
+      }),
+    );
+    if (!found) return;
+    const total = found.counts.length;
+    const share = `${((100 * found.unseen) / total).toFixed(1)}\u00a0%`;
+    this.#unseen.textContent = `No station sees ${number.format(found.unseen)} of ${number.format(total)} points (${share}).`;
+    this.#unseen.dataset["count"] = String(found.unseen);
+    this.#select.hidden = found.unseen === 0;
+  }
+}

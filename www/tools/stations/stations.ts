@@ -1,0 +1,280 @@
+import { type Attribute, upVector } from "../../cloud/cloud.ts";
+import { OWN_COLORS, type Viewpoint } from "../../settings/settings.ts";
+import type { Store } from "../../settings/store.ts";
+import { STATION_COLORS } from "../../settings/table.ts";
+import { viewOf } from "../../ask/question.ts";
+import { csvWord } from "../csv.ts";
+import { BATCH, save, stemOf } from "../files.ts";
+import { coordinatesAt, indexInFile, measuresOf } from "../figures.ts";
+import { indicesWhere, pointAt, type Spot } from "../find.ts";
+import type { Mark } from "../marks.ts";
+import { NO_POINT } from "../pick.ts";
+import { plyFields, plyParts } from "../ply.ts";
+import type { Bench, Tool } from "../tool.ts";
+import { candidatesOver } from "./candidates.ts";
+import { StationCard } from "./card.ts";
+import { MOST_STATIONS, readStations, type Station } from "./csv.ts";
+import { countColors } from "./colors.ts";
+import { type Under, type Viewshed, ViewshedFinder } from "./viewshed.ts";
+
+const INVITATION = "Click where a station stands.";
+/** The height of an instrument in meters, and as a share of the cloud's radius if the unit is not known. */
+const USUAL_HEIGHT = { meters: 1.7, share: 0.02 };
+
+/** Stations, and which points they see: together, each one, and none. */
+export class Stations implements Tool {
+  readonly name = "stations";
+  readonly uses = "clicks";
+  readonly #bench: Bench;
+  readonly #store: Store;
+  readonly #card: StationCard;
+  #stations: Station[] = [];
+  #pins: Mark[] = [];
+  #finder: ViewshedFinder | null = null;
+  #found: Viewshed | null = null;
+  #running: AbortController | null = null;
+  #suggested = 0;
+
+  constructor(bench: Bench, store: Store, card: HTMLElement) {
+    this.#bench = bench;
+    this.#store = store;
+    this.#card = new StationCard(card, {
+      here: () => {
+        if (bench.viewer.cloud)
+          this.#add([{ name: this.#nextName(), at: store.current.freeze ?? bench.viewer.viewpoint }]);
+      },
+      read: (file) => void this.#read(file),
+      suggest: () => void this.#suggest(),
+      stop: () => {
+        this.#running?.abort();
+      },
+      remove: (i) => {
+        this.#stations = this.#stations.filter((_, other) => other !== i);
+        this.#changed();
+      },
+      clear: () => {
+        this.#stations = [];
+        this.#changed();
+      },
+      selectUnseen: () => {
+        const counts = this.#found?.counts;
+        if (counts) bench.choose(indicesWhere(counts.length, (i) => counts[i] === 0));
+      },
+      saveStations: () => void this.#saveStations(),
+      savePoints: (ending) => void this.#savePoints(ending),
+    });
+    store.follow((now, before) => {
+      const changed =
+        JSON.stringify(viewOf([0, 0, 0], now).method) !== JSON.stringify(viewOf([0, 0, 0], before).method);
+      if (changed && this.#stations.length > 0) this.#changed();
+    });
+    this.#invite();
+  }
+
+  /** The places, for a link to the page. */
+  get places(): readonly Station[] {
+    return this.#stations;
+  }
+
+  place(stations: readonly Station[]): void {
+    this.#add(stations);
+  }
+
+  click(spot: Spot): void {
+    const { viewer, through, up } = this.#bench;
+    const index = pointAt(viewer, spot, through());
+    if (index === null) {
+      this.#card.say(through() ? NO_POINT.any : NO_POINT.visible);
+      return;
+    }
+    const { positions } = viewer.scene;
+    const at = upVector(up()).map((part, axis) => positions[3 * index + axis]! + part * this.#card.height);
+    this.#add([{ name: this.#nextName(), at: at as Viewpoint }]);
+  }
+
+  cancel(): boolean {
+    const runs = this.#running !== null;
+    this.#running?.abort();
+    return runs;
+  }
+
+  /** Stations stay if the next cloud has other points of the same file. */
+  clear(): void {
+    this.#running?.abort();
+    if (!this.#bench.isEditing()) this.#stations = [];
+    this.#finder = null;
+    this.#show(null);
+    this.#invite();
+  }
+
+  begin(): void {
+    if (this.#stations.length > 0) this.#changed();
+  }
+
+  /** The height of an instrument in the units of the cloud. */
+  #invite(): void {
+    const { cloud } = this.#bench.viewer;
+    this.#card.say(INVITATION);
+    if (!cloud) return;
+    const { unit } = measuresOf(cloud);
+    const height = unit ? USUAL_HEIGHT.meters / unit.meters : USUAL_HEIGHT.share * cloud.radius;
+    this.#card.height = Number(height.toPrecision(2));
+  }
+
+  open(): void {
+    if (this.#stations.length === 0) this.#invite();
+  }
+
+  #nextName(): string {
+    const names = new Set(this.#stations.map(({ name }) => name));
+    let i = this.#stations.length + 1;
+    while (names.has(`S${i}`)) i++;
+    return `S${i}`;
+  }
+
+  #add(stations: readonly Station[]): void {
+    const room = MOST_STATIONS - this.#stations.length;
+    this.#stations = [...this.#stations, ...stations.slice(0, room)];
+    this.#changed(
+      stations.length > room ? `The page takes ${MOST_STATIONS} stations; the others are left out.` : undefined,
+    );
+  }
+
+  async #read(file: File): Promise<void> {
+    try {
+      this.#add(readStations(await file.text()));
+    } catch (error) {
+      this.#card.say((error as Error).message);
+    }
+  }
+
+  /** Asks again, since there are other stations. */
+  #changed(note?: string): void {
+    this.#show(null);
+    if (this.#stations.length === 0) {
+      this.#running?.abort();
+      this.#card.say(INVITATION);
+      return;
+    }
+    void this.#run(async (under) => {
+      this.#card.say("Finding what the stations see.");
+      this.#show(await this.#finderNow.find(this.#stations, this.#store.current, under));
+      this.#card.say(note ?? "");
+    });
+  }
+
+  async #suggest(): Promise<void> {
+    const { viewer, up } = this.#bench;
+    if (!viewer.cloud) return;
+    const { scene } = viewer;
+    const best = await this.#run(async (under) => {
+      const candidates = candidatesOver(scene, up(), this.#card.height);
+      this.#card.say(`Trying ${candidates.length} places.`);
+      const counts = this.#found?.counts;
+      return this.#finderNow.suggest(candidates, (i) => !counts?.[i], this.#store.current, under);
+    });
+    if (best === undefined) return;
+    if (best === null) {
+      this.#card.say("None of the tried places sees a point that no station sees.");
+      return;
+    }
+    this.#suggested++;
+    this.#add([{ name: `Suggested ${this.#suggested}`, at: best.at }]);
+  }
+
+  get #finderNow(): ViewshedFinder {
+    return (this.#finder ??= new ViewshedFinder(this.#bench.viewer.scene.inquiry));
+  }
+
+  /** Runs one long question. It replaces the one that is under way. `undefined`: it was stopped or has failed. */
+  async #run<T>(ask: (under: Under) => Promise<T>): Promise<T | undefined> {
+    this.#running?.abort();
+    const running = (this.#running = new AbortController());
+    const { signal } = running;
+    const onProgress = (fraction: number) => {
+      if (!signal.aborted) this.#card.progress(fraction);
+    };
+    onProgress(0);
+    try {
+      return await ask({ signal, onProgress });
+    } catch (error) {
+      if (running === this.#running)
+        this.#card.say(signal.aborted ? "Stopped." : `It could not be found: ${(error as Error).message}.`);
+      return undefined;
+    } finally {
+      if (running === this.#running) {
+        this.#running = null;
+        this.#card.progress(null);
+      }
+    }
+  }
+
+  #show(found: Viewshed | null): void {
+    const { viewer, marks } = this.#bench;
+    this.#found = found;
+    for (const pin of this.#pins.splice(0)) pin.remove();
+    this.#pins = this.#stations.map(({ name, at }) => marks.pin(at, name));
+    this.#card.show(this.#stations, found);
+    if (found) {
+      viewer.setAttribute(STATION_COLORS, attributeOf(found));
+      this.#store.change({ color: STATION_COLORS });
+    } else if (this.#stations.length === 0 && this.#store.current.color === STATION_COLORS) {
+      this.#store.change({ color: OWN_COLORS });
+      viewer.setAttribute(STATION_COLORS, null);
+    }
+  }
+
+  async #saveStations(): Promise<void> {
+    const { rows } = this.#found!;
+    const lines = this.#stations.map(({ name, at }, i) =>
+      [csvWord(name), ...at.map(String), rows[i]!.sees, rows[i]!.alone].join(),
+    );
+    await this.#save("stations.csv", [["name,x,y,z,sees,alone", ...lines, ""].join("\n")]);
+  }
+
+  async #savePoints(ending: "ply" | "csv"): Promise<void> {
+    const { scene } = this.#bench.viewer;
+    const { counts } = this.#found!;
+    const { cloud, positions } = scene;
+    const indices = indicesWhere(counts.length, () => true);
+    if (ending === "csv") {
+      await this.#save(
+        "seen-by-stations.csv",
+        csvParts(indices, (i) => `${indexInFile(cloud, i)},${coordinatesAt(scene, i).join()},${counts[i]!}`),
+      );
+      return;
+    }
+    const fields = [...plyFields(cloud), { name: "stations", values: counts }];
+    const comments = this.#stations.map(
+      ({ name, at }) => `Station ${name.replace(/[^\x20-\x7e]/g, "?")} ${at.join(" ")}`,
+    );
+    await this.#save("seen-by-stations.ply", plyParts({ positions, colors: cloud.colors, fields, indices, comments }));
+  }
+
+  async #save(ending: string, parts: Iterable<BlobPart>): Promise<void> {
+    const file = `${stemOf(this.#bench.name())}-${ending}`;
+    await save(file, parts);
+    this.#card.say(`Saved as ${file}.`);
+  }
+}
+
+/** How many stations see each point, as an attribute to color by. */
+function attributeOf({ counts, rows }: Viewshed): Attribute {
+  const most = counts.reduce((a, b) => Math.max(a, b), 0);
+  const labels = Array.from({ length: most + 1 }, (_, count) =>
+    count === 0 ? "seen by none" : `seen by ${count}${count === rows.length && count > 1 ? " (all)" : ""}`,
+  );
+  return {
+    name: STATION_COLORS,
+    kind: "category",
+    values: counts,
+    labels: Object.fromEntries(labels.entries()),
+    colors: countColors(most),
+  };
+}
+
+function* csvParts(indices: Uint32Array, line: (index: number) => string): Generator<string> {
+  yield "index,x,y,z,stations\n";
+  for (let from = 0; from < indices.length; from += BATCH)
+    yield `${Array.from(indices.subarray(from, from + BATCH), line).join("\n")}\n`;
+}
