@@ -150,6 +150,11 @@ export class Inquiry {
     return answer;
   }
 
+  /** How the final answer is found with these settings. */
+  methodOf(settings: Settings): Method {
+    return viewOf(this.cloud.center, settings).method;
+  }
+
   /** The cloud's spacing in its own units. 0 if it has none. */
   get spacing(): number {
     return this.cloud.points.spacing;

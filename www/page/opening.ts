@@ -1,4 +1,4 @@
-import { LoadProblem, type MadeRequest } from "../loaders/index.ts";
+import { LoadProblem } from "../loaders/index.ts";
 import { keepForOffline } from "../offline/keep.ts";
 import { openCloud } from "../open/open-cloud.ts";
 import { LoadingSign } from "../panel/loading-sign.ts";
@@ -9,7 +9,6 @@ import { SamplePicker } from "../panel/sample-picker.ts";
 import type { Sample } from "../samples/samples.ts";
 import type { Address } from "../settings/address.ts";
 import type { Store } from "../settings/store.ts";
-import { STATION_COLORS } from "../settings/table.ts";
 import type { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
 import type { Viewer } from "../view/viewer.ts";
@@ -43,7 +42,6 @@ export class Opening {
     this.#stop();
   });
   #loading = new AbortController();
-  /** The cloud on screen, or the cloud of which a part is on screen. */
   #whole: Source | null = null;
   /** The cloud that is being loaded. */
   #source: Source | null = null;
@@ -92,30 +90,9 @@ export class Opening {
     this.#loadingSign.say(sentence);
   }
 
-  /**
-   * Shows other points of the cloud on screen, from the same place. `isWhole`: they are all of its points again.
-   */
-  async showPart(name: string, make: MadeRequest["make"], isWhole: boolean): Promise<void> {
-    const { viewer, store } = this.#parts;
-    const whole = this.#whole;
-    if (!whole || !viewer.cloud) return;
-    const { freeze, lights, color, size, fieldOfView, up } = store.current;
-    const of = whole.request.kind === "made" ? null : whole.request;
-    await this.open(
-      {
-        request: { kind: "made", name: isWhole ? whole.request.name : name, make, of: isWhole ? of : null },
-        sample: isWhole ? whole.sample : null,
-        name: isWhole ? whole.name : null,
-        view: { at: viewer.viewpoint, target: viewer.target ?? [...viewer.cloud.center] },
-        settings: {
-          ...{ freeze, lights, size, fieldOfView, up },
-          // Other points are seen by other stations.
-          ...(color === STATION_COLORS ? {} : { color }),
-        },
-        notes: [],
-      },
-      whole,
-    );
+  /** The cloud on screen, or the cloud of which a part is on screen. */
+  get whole(): Source | null {
+    return this.#whole;
   }
 
   async #show(source: Source, signal: AbortSignal): Promise<void> {

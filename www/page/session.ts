@@ -46,7 +46,8 @@ export function startSession(wishes: Wishes, first: Source): void {
   const actions = {
     name: () => opening.shownName,
     link: () => address.link(),
-    showPart: (...part: Parameters<Opening["showPart"]>) => opening.showPart(...part),
+    whole: () => opening.whole,
+    open: (source: Source, whole: Source) => opening.open(source, whole),
   };
   // A visitor whose address asks for nothing sees the introduction.
   const workshop: Workshop = new Workshop(viewer, store, actions, location.search === "");

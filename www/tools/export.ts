@@ -1,5 +1,6 @@
 import type { TimedView } from "../ask/inquiry.ts";
-import type { MadeRequest } from "../loaders/index.ts";
+import type { Wish } from "../open/open-cloud.ts";
+import type { CloudName } from "../settings/address.ts";
 import { byId } from "../controls/dom.ts";
 import { Segmented } from "../controls/segmented.ts";
 import { coordinatesAt, indexInFile } from "./figures.ts";
@@ -12,8 +13,17 @@ export interface ExportActions {
   name: () => string;
   /** An address that opens the page in its present state. `null` if no address can do that. */
   link: () => string | null;
-  /** Shows other points of the cloud on screen; see `Opening`. */
-  showPart: (name: string, make: MadeRequest["make"], isWhole: boolean) => Promise<void>;
+  /** The cloud on screen, or the cloud of which a part is on screen. */
+  whole: () => OpenedCloud | null;
+  /** Shows another cloud, which is a part of `whole`. */
+  open: (cloud: OpenedCloud, whole: OpenedCloud) => Promise<void>;
+}
+
+/** A cloud as it was opened. */
+export interface OpenedCloud extends Wish {
+  /** Its name in the address. `null`: no address can open it. */
+  name: CloudName | null;
+  notes: string[];
 }
 
 /** Saves the visible or the selected points, or the picture; copies a link to the page. */

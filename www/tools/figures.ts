@@ -1,5 +1,5 @@
 // Numbers of a cloud as texts.
-import { type Cloud, type Up, upVector } from "../cloud/cloud.ts";
+import type { Cloud } from "../cloud/cloud.ts";
 import { type Field, type Unit, valueAt } from "../cloud/facts.ts";
 
 /** A cloud with the file's own coordinates. */
@@ -45,9 +45,9 @@ function shortest(value: number, { constructor }: { constructor: unknown }): str
 }
 
 /** The part of a vector across the upward axis, and the part along it. */
-export function split(vector: readonly number[], up: Up): { horizontal: number; height: number } {
-  const height = upVector(up).reduce((sum, part, axis) => sum + part * vector[axis]!, 0);
-  const rest = upVector(up).map((part, axis) => (part === 0 ? vector[axis]! : 0));
+export function split(vector: readonly number[], upward: readonly number[]): { horizontal: number; height: number } {
+  const height = upward.reduce((sum, part, axis) => sum + part * vector[axis]!, 0);
+  const rest = upward.map((part, axis) => (part === 0 ? vector[axis]! : 0));
   return { horizontal: Math.hypot(...rest), height };
 }
 

@@ -1,7 +1,6 @@
 import { byId } from "../controls/dom.ts";
-import { pointAt, type Spot } from "./find.ts";
+import type { Spot } from "./find.ts";
 import type { Mark } from "./marks.ts";
-import { NO_POINT } from "./pick.ts";
 import type { Bench, Tool } from "./tool.ts";
 
 /** Texts on points. A text is there as long as its point is visible. */
@@ -28,14 +27,13 @@ export class Label implements Tool {
   }
 
   click(spot: Spot): void {
-    const { viewer, marks, through } = this.#bench;
-    const index = pointAt(viewer, spot, through());
+    const index = this.#bench.pointAt(spot);
     this.#drop();
-    if (index === null) {
-      this.#output.textContent = through() ? NO_POINT.any : NO_POINT.visible;
+    if (typeof index === "string") {
+      this.#output.textContent = index;
       return;
     }
-    this.#begun = { index, mark: marks.ring(index) };
+    this.#begun = { index, mark: this.#bench.marks.ring(index) };
     this.#output.textContent = `Text for point ${index}`;
     this.#form.hidden = false;
     this.#input.focus();

@@ -1,8 +1,8 @@
 import { byId } from "../controls/dom.ts";
-import { pointAt, type Spot } from "./find.ts";
+import type { Spot } from "./find.ts";
 import { measured, measuresOf, split, wayBetween } from "./figures.ts";
 import type { Mark } from "./marks.ts";
-import { NO_POINT, row } from "./pick.ts";
+import { row } from "./pick.ts";
 import type { Bench, Tool } from "./tool.ts";
 
 /**
@@ -27,10 +27,10 @@ export class Measure implements Tool {
   }
 
   click(spot: Spot): void {
-    const { viewer, marks, through } = this.#bench;
-    const index = pointAt(viewer, spot, through());
-    if (index === null) {
-      this.#output.textContent = through() ? NO_POINT.any : NO_POINT.visible;
+    const { viewer, marks } = this.#bench;
+    const index = this.#bench.pointAt(spot);
+    if (typeof index === "string") {
+      this.#output.textContent = index;
     } else if (!this.#from) {
       this.#from = { index, mark: marks.ring(index) };
       this.#output.textContent = "Now the second point.";
@@ -39,7 +39,7 @@ export class Measure implements Tool {
       const { unit } = measures;
       const way = wayBetween(viewer.scene, this.#from.index, index, measures);
       const distance = Math.hypot(...way);
-      const { horizontal, height } = split(way, this.#bench.up());
+      const { horizontal, height } = split(way, this.#bench.upward());
       this.#lines.push(marks.line(this.#from.index, index, measured(distance, unit)));
       this.#drop();
       this.#output.replaceChildren(

@@ -1,11 +1,9 @@
 import { byId } from "../controls/dom.ts";
 import { coordinatesAt, fieldText, indexInFile } from "./figures.ts";
 import { copy } from "./files.ts";
-import { pointAt, type Spot } from "./find.ts";
+import type { Spot } from "./find.ts";
 import type { Mark } from "./marks.ts";
 import type { Bench, Tool } from "./tool.ts";
-
-export const NO_POINT = { visible: "No visible point there.", any: "No point there." };
 
 /** Shows all that the file says about a clicked point: its place in the file's coordinates, and its attributes. */
 export class Pick implements Tool {
@@ -26,11 +24,11 @@ export class Pick implements Tool {
   }
 
   click(spot: Spot): void {
-    const { viewer, marks, through } = this.#bench;
-    const index = pointAt(viewer, spot, through());
+    const { viewer, marks } = this.#bench;
+    const index = this.#bench.pointAt(spot);
     this.clear();
-    if (index === null) {
-      this.#output.textContent = through() ? NO_POINT.any : NO_POINT.visible;
+    if (typeof index === "string") {
+      this.#output.textContent = index;
       return;
     }
     const { scene } = viewer;

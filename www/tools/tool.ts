@@ -1,4 +1,3 @@
-import type { Up } from "../cloud/cloud.ts";
 import type { Viewer } from "../view/viewer.ts";
 import type { Spot } from "./find.ts";
 import type { Marks } from "./marks.ts";
@@ -7,8 +6,10 @@ import type { Marks } from "./marks.ts";
 export interface Bench {
   viewer: Viewer;
   marks: Marks;
-  /** The direction that is up. */
-  up: () => Up;
+  /** The direction that is up, as a vector of length 1. */
+  upward: () => readonly [number, number, number];
+  /** The index of the point at a spot, or a sentence if there is none. */
+  pointAt: (spot: Spot) => number | string;
   /** The name of the cloud. */
   name: () => string;
   /** Selects these points, ascending. */

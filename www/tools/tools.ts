@@ -1,6 +1,7 @@
 import "../styles/tools.css";
 import "../styles/compare.css";
 import { Vector3 } from "three";
+import { upVector } from "../cloud/cloud.ts";
 import { byId } from "../controls/dom.ts";
 import { type Action, isKeyOf, pressed } from "../controls/keys.ts";
 import type { Store } from "../settings/store.ts";
@@ -41,7 +42,11 @@ export class Tools {
     const bench: Bench = {
       viewer,
       marks: this.#marks,
-      up: () => store.current.up,
+      upward: () => upVector(store.current.up),
+      pointAt: (spot) => {
+        const through = bench.through();
+        return pointAt(viewer, spot, through) ?? (through ? "No point there." : "No visible point there.");
+      },
       name: actions.name,
       isEditing: () => edits.isOwn,
       choose: (indices) => {
@@ -54,7 +59,7 @@ export class Tools {
     };
     const select: Select = new Select(bench, this.#canvas, () => this.#active === select);
     const exports = new Export(bench, () => select.indices, actions);
-    const edits: LateEdits = new LateEdits(() => bench, store, select, actions.showPart, byId("select-card"));
+    const edits: LateEdits = new LateEdits(() => bench, store, select, actions, byId("select-card"));
     this.#edits = edits;
     select.onOpen = () => {
       edits.open();

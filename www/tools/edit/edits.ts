@@ -5,8 +5,9 @@ import { prepareCloud } from "../../cloud/prepare.ts";
 import { byId } from "../../controls/dom.ts";
 import { CLASSES, CLASSIFICATION } from "../../loaders/las/classes.ts";
 import type { Store } from "../../settings/store.ts";
-import type { ExportActions } from "../export.ts";
-import { indicesWhere } from "../find.ts";
+import { STATION_COLORS } from "../../settings/table.ts";
+import type { ExportActions, OpenedCloud } from "../export.ts";
+import { indicesWhere } from "../indices.ts";
 import { button, make } from "../make.ts";
 import type { Select } from "../select.ts";
 import type { Bench } from "../tool.ts";
@@ -30,7 +31,7 @@ export class Edits {
   readonly #bench: Bench;
   readonly #store: Store;
   readonly #select: Select;
-  readonly #showPart: ExportActions["showPart"];
+  readonly #actions: ExportActions;
   readonly #class = make(
     "select",
     { "aria-label": "Class for the selected points" },
@@ -48,11 +49,11 @@ export class Edits {
   /** How many steps back all points of the file are on screen. */
   #parts = 0;
 
-  constructor(bench: Bench, store: Store, select: Select, showPart: ExportActions["showPart"], card: HTMLElement) {
+  constructor(bench: Bench, store: Store, select: Select, actions: ExportActions, card: HTMLElement) {
     this.#bench = bench;
     this.#store = store;
     this.#select = select;
-    this.#showPart = showPart;
+    this.#actions = actions;
     this.#range = rangeFields(bench, (indices) => {
       select.choose(indices);
     });
@@ -123,11 +124,26 @@ export class Edits {
     });
   }
 
+  /** Shows other points of the cloud on screen, from the same place. `isWhole`: they are all of its points again. */
   async #show(cloud: LoadedCloud, name: string, isWhole: boolean): Promise<void> {
+    const { viewer } = this.#bench;
+    const whole = this.#actions.whole();
+    if (!whole || !viewer.cloud) return;
+    const { freeze, lights, color, size, fieldOfView, up } = this.#store.current;
+    const of = whole.request.kind === "made" ? null : whole.request;
+    const source: OpenedCloud = {
+      request: { kind: "made", name, make: () => prepareCloud(cloud), of: isWhole ? of : null },
+      sample: isWhole ? whole.sample : null,
+      name: isWhole ? whole.name : null,
+      view: { at: viewer.viewpoint, target: viewer.target ?? [...viewer.cloud.center] },
+      // The colors by stations come back when the stations are asked about the other points.
+      settings: { freeze, lights, size, fieldOfView, up, ...(color === STATION_COLORS ? {} : { color }) },
+      notes: [],
+    };
     this.isOwn = true;
     this.#said.textContent = "";
     try {
-      await this.#showPart(name, () => prepareCloud(cloud), isWhole);
+      await this.#actions.open(source, whole);
       this.#said.textContent = `${number.format(cloud.positions.length / 3)} points are left.`;
     } finally {
       this.isOwn = false;

@@ -10,16 +10,10 @@ export class LateEdits {
   #edits: Edits | null = null;
   #coming = false;
 
-  constructor(
-    bench: () => Bench,
-    store: Store,
-    select: Select,
-    showPart: ExportActions["showPart"],
-    card: HTMLElement,
-  ) {
+  constructor(bench: () => Bench, store: Store, select: Select, actions: ExportActions, card: HTMLElement) {
     this.#load = async () => {
       const { Edits } = await import("./edits.ts");
-      return new Edits(bench(), store, select, showPart, card);
+      return new Edits(bench(), store, select, actions, card);
     };
   }
 

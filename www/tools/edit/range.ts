@@ -1,6 +1,6 @@
 import { button, make } from "../make.ts";
 import { coordinatesAt } from "../figures.ts";
-import { indicesWhere } from "../find.ts";
+import { indicesWhere } from "../indices.ts";
 import type { Bench } from "../tool.ts";
 
 const AXES = ["x", "y", "z"] as const;

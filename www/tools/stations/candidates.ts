@@ -1,4 +1,3 @@
-import type { Up } from "../../cloud/cloud.ts";
 import type { Viewpoint } from "../../settings/settings.ts";
 import type { Placed } from "../figures.ts";
 
@@ -9,9 +8,9 @@ const ALONG = 7;
  * Places where an instrument could stand: on a grid over the cloud, `height` above the lowest points there. Cells
  * without points have no ground to stand on.
  */
-export function candidatesOver({ cloud, positions }: Placed, up: Up, height: number): Viewpoint[] {
-  const axis = up === "z" ? 2 : 1;
-  const sign = up === "-y" ? -1 : 1;
+export function candidatesOver({ cloud, positions }: Placed, upward: readonly number[], height: number): Viewpoint[] {
+  const axis = upward.findIndex((part) => part !== 0);
+  const sign = upward[axis]!;
   const [a, b] = [0, 1, 2].filter((other) => other !== axis) as [number, number];
   const low = [0, 1, 2].map((k) => cloud.center[k]! - cloud.size[k]! / 2);
   const side = Math.max(cloud.size[a]!, cloud.size[b]!) / ALONG || 1;

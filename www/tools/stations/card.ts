@@ -120,11 +120,11 @@ export class StationCard {
       ...stations.map(({ name }, i) => {
         const row = found?.rows[i];
         const remove = button(
-          make("span", { "aria-hidden": "true" }, "×"),
+          "",
           () => {
             this.#actions.remove(i);
           },
-          { "aria-label": `Remove the station ${name}` },
+          { class: "remove", "aria-label": `Remove the station ${name}` },
         );
         return tableRow(name, row ? number.format(row.sees) : "…", row ? number.format(row.alone) : "…", remove);
       }),

@@ -1,14 +1,13 @@
-import { type Attribute, upVector } from "../../cloud/cloud.ts";
+import type { Attribute } from "../../cloud/cloud.ts";
 import { OWN_COLORS, type Viewpoint } from "../../settings/settings.ts";
 import type { Store } from "../../settings/store.ts";
 import { STATION_COLORS } from "../../settings/table.ts";
-import { viewOf } from "../../ask/question.ts";
 import { csvWord } from "../csv.ts";
 import { BATCH, save, stemOf } from "../files.ts";
 import { coordinatesAt, indexInFile, measuresOf } from "../figures.ts";
-import { indicesWhere, pointAt, type Spot } from "../find.ts";
+import type { Spot } from "../find.ts";
+import { indicesWhere } from "../indices.ts";
 import type { Mark } from "../marks.ts";
-import { NO_POINT } from "../pick.ts";
 import { plyFields, plyParts } from "../ply.ts";
 import type { Bench, Tool } from "../tool.ts";
 import { candidatesOver } from "./candidates.ts";
@@ -64,8 +63,10 @@ export class Stations implements Tool {
       savePoints: (ending) => void this.#savePoints(ending),
     });
     store.follow((now, before) => {
-      const changed =
-        JSON.stringify(viewOf([0, 0, 0], now).method) !== JSON.stringify(viewOf([0, 0, 0], before).method);
+      const { viewer } = bench;
+      if (!viewer.cloud) return;
+      const { inquiry } = viewer.scene;
+      const changed = JSON.stringify(inquiry.methodOf(now)) !== JSON.stringify(inquiry.methodOf(before));
       if (changed && this.#stations.length > 0) this.#changed();
     });
     this.#invite();
@@ -81,14 +82,13 @@ export class Stations implements Tool {
   }
 
   click(spot: Spot): void {
-    const { viewer, through, up } = this.#bench;
-    const index = pointAt(viewer, spot, through());
-    if (index === null) {
-      this.#card.say(through() ? NO_POINT.any : NO_POINT.visible);
+    const index = this.#bench.pointAt(spot);
+    if (typeof index === "string") {
+      this.#card.say(index);
       return;
     }
-    const { positions } = viewer.scene;
-    const at = upVector(up()).map((part, axis) => positions[3 * index + axis]! + part * this.#card.height);
+    const { positions } = this.#bench.viewer.scene;
+    const at = this.#bench.upward().map((part, axis) => positions[3 * index + axis]! + part * this.#card.height);
     this.#add([{ name: this.#nextName(), at: at as Viewpoint }]);
   }
 
@@ -164,11 +164,11 @@ export class Stations implements Tool {
   }
 
   async #suggest(): Promise<void> {
-    const { viewer, up } = this.#bench;
+    const { viewer, upward } = this.#bench;
     if (!viewer.cloud) return;
     const { scene } = viewer;
     const best = await this.#run(async (under) => {
-      const candidates = candidatesOver(scene, up(), this.#card.height);
+      const candidates = candidatesOver(scene, upward(), this.#card.height);
       this.#card.say(`Trying ${candidates.length} places.`);
       const counts = this.#found?.counts;
       return this.#finderNow.suggest(candidates, (i) => !counts?.[i], this.#store.current, under);

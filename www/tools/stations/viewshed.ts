@@ -1,5 +1,5 @@
 import type { Inquiry } from "../../ask/inquiry.ts";
-import { type Method, viewOf } from "../../ask/question.ts";
+import type { Method } from "../../ask/question.ts";
 import type { Settings, Viewpoint } from "../../settings/settings.ts";
 import type { Station } from "./csv.ts";
 
@@ -34,7 +34,7 @@ export class ViewshedFinder {
     const masks: Uint8Array[] = [];
     const used = new Set<string>();
     for (const [i, { at }] of stations.entries()) {
-      const { method } = viewOf(at, settings);
+      const method = this.#inquiry.methodOf(settings);
       const key = JSON.stringify([at, method]);
       used.add(key);
       const mask = this.#seen.get(key) ?? (await this.#ask(at, method, signal));
@@ -58,7 +58,7 @@ export class ViewshedFinder {
     const { points } = this.#inquiry.cloud;
     const weights = Uint8Array.from({ length: points.length }, (_, i) => Number(unseen(i)));
     const first = candidates[0]!;
-    const options = await this.#inquiry.cloud.options(viewOf(first, settings).method, first);
+    const options = await this.#inquiry.cloud.options(this.#inquiry.methodOf(settings), first);
     const { chosen, gains } = await points.placeViewpoints(candidates, { ...options, weights, count: 1, ...under });
     return chosen.length === 0 ? null : { at: candidates[chosen[0]!]!, gain: gains[0]! };
   }
