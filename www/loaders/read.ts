@@ -31,6 +31,10 @@ async function readBy(reading: Reading, base: string | null): Promise<LoadedClou
   if (start.startsWith("glTF") || (ending === "gltf" && /^\s*\{/.test(start)))
     return (await import("./gltf.ts")).readGltf(reading, base);
   if (/^ply\s/.test(start)) return (await import("./ply.ts")).readPly(reading);
+  if (start.startsWith("ASTM-E57"))
+    throw new LoadProblem(
+      `${name} is an E57 file, which this page does not read: the one reader on npm, web-e57, was tried, and it gives all points as one text. Convert the file first, with CloudCompare or with “pdal translate ${name} cloud.laz”.`,
+    );
   // A comment of any file may mention PCD.
   if (/^(#\s*\.PCD\b|VERSION\s|FIELDS\s)/.test(start) || (ending === "pcd" && /^(VERSION|FIELDS)\s/im.test(start)))
     return (await import("./pcd.ts")).readPcd(reading);

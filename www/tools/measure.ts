@@ -1,13 +1,17 @@
 import { byId } from "../controls/dom.ts";
+import { Segmented } from "../controls/segmented.ts";
 import type { Spot } from "./find.ts";
+import { make } from "./make.ts";
 import { measured, measuresOf, split, wayBetween } from "./figures.ts";
 import type { Mark } from "./marks.ts";
+import type { AreaMeasure } from "./measure/area.ts";
+import type { Profile } from "./measure/profile.ts";
 import { row } from "./pick.ts";
 import type { Bench, Tool } from "./tool.ts";
 
 /**
  * Shows the distance between two clicked points, its horizontal part and the difference of their heights, in the file's
- * units. Many distances can be shown at once.
+ * units. Many distances can be shown at once. Also measures the area of a polygon, and shows a profile.
  */
 export class Measure implements Tool {
   readonly name = "measure";
@@ -17,6 +21,12 @@ export class Measure implements Tool {
   readonly #remove = byId("measure-clear", HTMLButtonElement);
   #from: { index: number; mark: Mark } | null = null;
   #lines: Mark[] = [];
+  readonly #mode = modeChoice(() => {
+    this.clear();
+    void this.#begin();
+  });
+  /** The measure of another kind. Its code is downloaded when it is chosen. */
+  #other: AreaMeasure | Profile | null = null;
 
   constructor(bench: Bench) {
     this.#bench = bench;
@@ -31,6 +41,9 @@ export class Measure implements Tool {
     const index = this.#bench.pointAt(spot);
     if (typeof index === "string") {
       this.#output.textContent = index;
+    } else if (this.#other) {
+      this.#output.replaceChildren(...this.#other.add(index));
+      this.#remove.hidden = false;
     } else if (!this.#from) {
       this.#from = { index, mark: marks.ring(index) };
       this.#output.textContent = "Now the second point.";
@@ -55,7 +68,7 @@ export class Measure implements Tool {
   cancel(): boolean {
     const begun = this.#from !== null;
     this.#drop();
-    if (begun) this.#output.textContent = "Click two points.";
+    if (begun) this.#invite();
     return begun;
   }
 
@@ -66,13 +79,51 @@ export class Measure implements Tool {
   clear(): void {
     this.#drop();
     for (const line of this.#lines.splice(0)) line.remove();
-    this.#output.textContent = "Click two points.";
+    this.#other?.clear();
+    this.#invite();
     delete this.#output.dataset["distance"];
     this.#remove.hidden = true;
+  }
+
+  async #begin(): Promise<void> {
+    const mode = this.#mode.value;
+    if (this.#other && "element" in this.#other) this.#other.element.remove();
+    this.#other = null;
+    this.#invite();
+    try {
+      if (mode === "area") this.#other = new (await import("./measure/area.ts")).AreaMeasure(this.#bench);
+      if (mode === "profile") {
+        const profile = new (await import("./measure/profile.ts")).Profile(this.#bench);
+        byId("measure-card").append(profile.element);
+        this.#other = profile;
+      }
+    } catch {
+      this.#mode.value = "distance";
+    }
+    this.#invite();
+  }
+
+  #invite(): void {
+    this.#output.textContent = this.#other?.invitation ?? "Click two points.";
   }
 
   #drop(): void {
     this.#from?.mark.remove();
     this.#from = null;
   }
+}
+
+type Mode = "distance" | "area" | "profile";
+
+/** The choice of what is measured. It is made here, so that it is not part of the first download. */
+function modeChoice(onChange: () => void): Segmented<Mode> {
+  const choice = make("fieldset", { id: "measure-what", class: "segmented" });
+  choice.append(make("legend", { class: "unseen" }, "What is measured"));
+  for (const [i, mode] of ["distance", "area", "profile"].entries()) {
+    const input = make("input", { type: "radio", name: "measure-what", value: mode });
+    input.checked = i === 0;
+    choice.append(make("label", {}, input, mode[0]!.toUpperCase() + mode.slice(1)));
+  }
+  byId("measure-card").prepend(choice);
+  return new Segmented<Mode>("measure-what", onChange);
 }

@@ -1,0 +1,82 @@
+// Areas and profiles between clicked points, and files that the page does not read.
+import { readFileSync } from "node:fs";
+import { expect, test } from "vitest";
+import { at, clickPoint, everything, lonely, openBall, tool, visible } from "./ball.js";
+import { openReady, reached } from "./support.js";
+
+const text = (value: number, unit: string) => `${Number(value.toPrecision(6))}\u00a0${unit}`;
+
+test("an area is measured between corners: the polygon's own and the horizontal one, and its perimeter", async () => {
+  const page = await openBall();
+  const seen = await visible(page);
+  const corners = (await lonely(page, seen, seen)).slice(0, 3);
+  await tool(page, "Measure").click();
+  await page.locator("#measure-what label", { hasText: "Area" }).click();
+  await expect.poll(() => page.locator("#measure-result").textContent()).toBe("Click the corners.");
+  for (const index of corners) await clickPoint(page, index);
+  const [a, b, c] = corners.map(at) as [number[], number[], number[]];
+  const [u, v] = [b, c].map((corner) => corner.map((value, k) => value - a[k]!)) as [number[], number[]];
+  const cross = [0, 1, 2].map((k) => u[(k + 1) % 3]! * v[(k + 2) % 3]! - u[(k + 2) % 3]! * v[(k + 1) % 3]!);
+  const length = (p: number[], q: number[]) => Math.hypot(...p.map((value, k) => value - q[k]!));
+  const rows = await page
+    .locator("#measure-result span")
+    .evaluateAll((spans) => spans.map((span) => span.lastChild!.textContent!.trim()));
+  // The test looks along z, so y is up.
+  expect(rows).toEqual([
+    "3",
+    text(Math.hypot(...cross) / 2, "square units"),
+    text(Math.abs(cross[1]!) / 2, "square units"),
+    text(length(a, b) + length(b, c) + length(c, a), "units"),
+  ]);
+  expect(await page.locator("#marks .measure").count()).toBe(3);
+  await page.getByRole("button", { name: "Clear all" }).click();
+  expect(await page.locator("#marks .measure").count()).toBe(0);
+});
+
+test("a profile has the points in a strip between two points, drawn and saved", async () => {
+  const page = await openBall();
+  const seen = await visible(page);
+  const [from, to] = await lonely(page, seen, seen);
+  await tool(page, "Measure").click();
+  await page.getByLabel("Through the surface").check();
+  await page.locator("#measure-what label", { hasText: "Profile" }).click();
+  await expect.poll(() => page.locator("#measure-result").textContent()).toBe("Click both ends of the profile.");
+  await page.getByLabel("Through the surface").uncheck();
+  for (const index of [from!, to!]) await clickPoint(page, index);
+  await page.getByLabel("Through the surface").check();
+  await page.getByLabel("Width of the strip").fill("0.8");
+  await page.getByLabel("Width of the strip").press("Tab");
+  const coming = page.waitForEvent("download");
+  await page.getByRole("button", { name: "Save as CSV" }).click();
+  const lines = readFileSync(await (await coming).path(), "utf8")
+    .trim()
+    .split("\n");
+
+  const [a, b] = [at(from!), at(to!)];
+  const [dx, dz] = [b[0] - a[0], b[2] - a[2]];
+  const length = Math.hypot(dx, dz);
+  const inside = everything.flatMap((i) => {
+    const [x, z] = [at(i)[0] - a[0], at(i)[2] - a[2]];
+    const along = (x * dx + z * dz) / length;
+    const across = Math.abs(x * dz - z * dx) / length;
+    return along >= 0 && along <= length && across <= 0.4 ? [{ i, along }] : [];
+  });
+  expect(lines[0]).toBe("index,along,height,x,y,z");
+  expect(new Set(lines.slice(1).map((line) => Number(line.split(",")[0])))).toEqual(new Set(inside.map(({ i }) => i)));
+  for (const line of lines.slice(1)) {
+    const [index, along, height] = line.split(",").map(Number) as [number, number, number];
+    expect(along).toBeCloseTo(inside.find(({ i }) => i === index)!.along, 8);
+    expect(height).toBe(at(index)[1]);
+  }
+  expect(await page.locator(".profile canvas").getAttribute("aria-label")).toMatch(
+    new RegExp(`^Profile: ${inside.length} points in the strip, heights from `),
+  );
+});
+
+test("an E57 file is refused with the reader that was tried and the way out", async () => {
+  const page = await openReady("?sample=bunny");
+  await page
+    .locator("#file")
+    .setInputFiles({ name: "scan.e57", mimeType: "", buffer: Buffer.from("ASTM-E57\u0001\u0000\u0000\u0000") });
+  expect((await reached(page, "error")).sentence).toMatch(/E57.*web-e57.*pdal translate scan\.e57 cloud\.laz/);
+});
