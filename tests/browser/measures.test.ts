@@ -14,7 +14,7 @@ test("an area is measured between corners: the polygon's own and the horizontal 
   await page.locator("#measure-what label", { hasText: "Area" }).click();
   await expect.poll(() => page.locator("#measure-result").textContent()).toBe("Click the corners.");
   for (const index of corners) await clickPoint(page, index);
-  const [a, b, c] = corners.map(at) as [number[], number[], number[]];
+  const [a, b, c] = corners.map((corner) => [...at(corner)]) as [number[], number[], number[]];
   const [u, v] = [b, c].map((corner) => corner.map((value, k) => value - a[k]!)) as [number[], number[]];
   const cross = [0, 1, 2].map((k) => u[(k + 1) % 3]! * v[(k + 2) % 3]! - u[(k + 2) % 3]! * v[(k + 1) % 3]!);
   const length = (p: number[], q: number[]) => Math.hypot(...p.map((value, k) => value - q[k]!));
