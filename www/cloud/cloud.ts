@@ -1,8 +1,7 @@
 import type { Field, FileFacts } from "./facts.ts";
+import type { Values } from "./values.ts";
 
-/** Numbers of one type. They have as many bytes as in the file. */
-export type Values =
-  Int8Array | Uint8Array | Int16Array | Uint16Array | Int32Array | Uint32Array | Float32Array | Float64Array;
+export type { Values } from "./values.ts";
 
 /** The direction that is up in a file's coordinates. */
 export type Up = "y" | "z" | "-y";

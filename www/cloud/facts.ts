@@ -1,4 +1,4 @@
-import type { Values } from "./cloud.ts";
+import type { Values } from "./values.ts";
 
 /** A column of the file: a number for each point, or a single number that all points share. */
 export interface Field {
