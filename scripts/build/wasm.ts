@@ -58,11 +58,17 @@ export async function buildWasm(): Promise<void> {
   say(`WebAssembly module: ${result}`);
 }
 
+/**
+ * Less than the usual limit of 225 to 325 for putting functions into their callers. Functions in the hot loops are
+ * marked `#[inline]`, which keeps the usual limit for them.
+ */
+const SMALL = "-Cllvm-args=-inline-threshold=50";
+
 /** Flags for rustc. The wasm contains the paths of crates. The flags make them, and so the bytes, equal everywhere. */
 async function flags(): Promise<string> {
   await mustRun("cargo", ["fetch", "--locked", "--target", WASM_TARGET], FAILED);
   const sources = join(process.env["CARGO_HOME"] ?? join(homedir(), ".cargo"), "registry", "src");
   const registries = existsSync(sources) ? readdirSync(sources) : [];
   const remaps = registries.map((registry) => `--remap-path-prefix=${join(sources, registry)}=crates`);
-  return [process.env["RUSTFLAGS"] ?? "", ...remaps].join(" ").trim();
+  return [process.env["RUSTFLAGS"] ?? "", SMALL, ...remaps].join(" ").trim();
 }
