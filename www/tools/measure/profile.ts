@@ -6,7 +6,7 @@ import type { Bench } from "../tool.ts";
 
 /** The width of the strip as a share of the length of the line, until the user gives one. */
 const WIDTH = 0.02;
-const PLOT = { width: 560, height: 300, left: 64, bottom: 34, top: 12, right: 12 };
+const PLOT = { width: 560, height: 320, left: 108, bottom: 44, top: 12, right: 12 };
 
 /** The points in a strip along a line: how far along the line each one is, and how high. */
 interface Strip {
@@ -119,16 +119,16 @@ export class Profile {
     context.clearRect(0, 0, PLOT.width, PLOT.height);
     context.fillStyle = context.strokeStyle = style.color;
     context.strokeRect(PLOT.left, PLOT.top, wide, tall);
-    context.font = `20px ${style.fontFamily}`;
+    context.font = `26px ${style.fontFamily}`;
     const empty = !(high >= low);
     const text = (value: number) => String(Number(value.toPrecision(6)));
     if (!empty) {
       context.textAlign = "right";
-      context.fillText(text(high), PLOT.left - 6, PLOT.top + 16, PLOT.left - 8);
+      context.fillText(text(high), PLOT.left - 6, PLOT.top + 22, PLOT.left - 8);
       context.fillText(text(low), PLOT.left - 6, PLOT.top + tall, PLOT.left - 8);
-      context.fillText(measured(length, unit), PLOT.left + wide, PLOT.height - 8);
+      context.fillText(measured(length, unit), PLOT.left + wide, PLOT.height - 10);
       context.textAlign = "left";
-      context.fillText("0", PLOT.left, PLOT.height - 8);
+      context.fillText("0", PLOT.left, PLOT.height - 10);
     }
     context.fillStyle = style.getPropertyValue("--accent");
     for (let i = 0; i < along.length; i++) {
