@@ -33,8 +33,9 @@ test("the guide walks around, and ends at the user's own first move; an address 
   await guide.getByRole("button", { name: "Show me" }).click({ timeout: 120_000 });
   for (let i = 0; i < 2; i++) await guide.getByRole("button", { name: "Next" }).click();
   const before = await picture(page);
-  await page.waitForTimeout(1500);
-  expect(await differentPixels(page, before, await picture(page))).toBeGreaterThan(500);
+  await expect
+    .poll(async () => differentPixels(page, before, await picture(page)), { timeout: 30_000 })
+    .toBeGreaterThan(500);
   await drag(page, 60, 10);
   expect(await guide.count()).toBe(0);
   await context.close();

@@ -179,7 +179,15 @@ test.for([
     await tool(page, name).click();
     if (name === "Compare") await page.locator("#compare-figures td").first().waitFor();
     const flaws = await page.evaluate(() => {
-      const boxOf = (element: Element) => element.getBoundingClientRect();
+      // A card may be scrolled. Only its part in the picture can cover something.
+      const boxOf = (element: Element) => {
+        const { left, right, top, bottom, width, height } = element.getBoundingClientRect();
+        const card = element.closest("#tool-card, #compare-card");
+        if (!card || card === element) return { left, right, top, bottom, width, height };
+        const frame = card.getBoundingClientRect();
+        const [low, high] = [Math.max(top, frame.top), Math.min(bottom, frame.bottom)];
+        return { left, right, top: low, bottom: Math.max(low, high), width, height };
+      };
       const canvas = boxOf(document.getElementById("view")!);
       const shown = [
         ...document.querySelectorAll(

@@ -60,7 +60,7 @@ const SHARED_BELOW = 200_000;
  * With two cores, one worker answers. A second one would delay the first picture: it sorts the same points, while the
  * first picture is drawn, and a draft and the answer that goes on from it are the first worker's work alone.
  */
-const FEW_CORES = navigator.hardwareConcurrency <= 2;
+const hasFewCores = () => navigator.hardwareConcurrency <= 2;
 /** From this number of points on, all points are shown until the first answer is there. */
 const PREVIEWED_FROM = 200_000;
 
@@ -126,11 +126,11 @@ export async function openCloud(
     isWhole = false;
   };
   // The worker takes the copy. The page keeps the file's own coordinates for the tools.
+  const shared = place.shared && cloud.count < SHARED_BELOW;
   const worker = await WorkerPointCloud.create(copy, {
     signal,
     transfer: true,
-    ...(FEW_CORES ? { workers: 1 } : {}),
-    shared: place.shared && cloud.count < SHARED_BELOW,
+    ...(shared ? { shared } : hasFewCores() ? { workers: 1 } : {}),
     onProgress: (fraction) => {
       onProgress(sentence("Preparing", request.name, fraction), fraction);
       if (fraction > 0) previewCloud();

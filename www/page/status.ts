@@ -72,7 +72,9 @@ export class Status {
     });
     if (triangles) this.#element.dataset["triangles"] = String(triangles.length / 3);
     else delete this.#element.dataset["triangles"];
-    if (asked < this.#since) return;
+    // Looks only improve the answer to a view. After an error, a new question begins with another answer.
+    const isError = this.#element.dataset["state"] === "error";
+    if (asked < this.#since || (isError && kind === "looks")) return;
     this.#element.dataset["state"] = "ready";
     this.#last = { ...answer, total };
     this.describe(frozen);
