@@ -123,7 +123,16 @@ test("an element that is removed stops, one that returns starts again, one that 
 
 test("attributes and properties are followed, and invalid values are reported", async () => {
   const page = await openTwo();
-  const change = (act: () => Promise<unknown>) => hears(page, "a", "change", act);
+  // First, the looks for the last change must have come.
+  const change = async (act: () => Promise<unknown>) => {
+    let heard = -1;
+    for (let now = await changes(); now !== heard; now = await changes()) {
+      heard = now;
+      await page.waitForTimeout(400);
+    }
+    return hears(page, "a", "change", act);
+  };
+  const changes = async () => (await heardBy(page, "a", "change")).length;
   const options = async (ask: object) => inNode(positions, (cloud) => cloud.visibleFrom([1, 2, 9], ask).count);
 
   expect(
