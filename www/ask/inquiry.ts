@@ -1,6 +1,7 @@
 import { Follower, type Round } from "../../src/ts/follow/follower.ts";
 import { Overtaken } from "../../src/ts/follow/overtaken.ts";
 import { Rest } from "../../src/ts/follow/rest.ts";
+import type { Cloud } from "../cloud/cloud.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import { Ladder, PAUSE } from "./ladder.ts";
 import { askLight, type LightAnswer } from "./lights.ts";
@@ -31,6 +32,16 @@ export interface TimedView extends ViewAnswer {
   /** The time of the question (performance.now), and how long the answer took, without the time of waiting. */
   asked: number;
   milliseconds: number;
+  /** The number of points of a cloud of which only a part is in memory, and the answer in words. */
+  whole?: { total: number; sentence: string };
+}
+
+/** Points that were read for one viewpoint, with the answer about them. */
+export interface Detail {
+  cloud: Cloud;
+  positions: Float32Array | Float64Array;
+  inquiry: Inquiry;
+  answer: TimedView;
 }
 
 /** A viewpoint or a light that has not moved for this number of milliseconds is at rest. */
@@ -49,6 +60,8 @@ export class Inquiry {
   /** The exponent of the automatic radius at the viewpoint's last rest. */
   onAutomatic: (exponent: number) => void = () => undefined;
   onError: (error: unknown) => void = () => undefined;
+  /** Points to be shown instead of the cloud; `null`: the cloud again. Returns whether they are shown. */
+  onDetail: (detail: Detail | null) => boolean = () => false;
 
   /** The cloud in its worker, also for questions that are not for the picture. */
   readonly cloud: WorkerCloud;
@@ -168,6 +181,11 @@ export class Inquiry {
     this.#second.dispose();
   }
 
+  /** The answer as others are told it. */
+  protected told(view: TimedView): TimedView {
+    return view;
+  }
+
   #wantLight(question: LightQuestion, viewMoving: boolean, lightsMoving: boolean): void {
     const last = this.#lights.wanted;
     if (question.lights.length === 0) {
@@ -250,7 +268,7 @@ export class Inquiry {
     const quick = isSearched(wanted) && !isSearched(question.method);
     const view = { ...answer, kind: kindOf(question), quick, asked, milliseconds: performance.now() - begun };
     if (view.kind === "operator") this.#hull = view;
-    return view;
+    return this.told(view);
   }
 }
 

@@ -34,8 +34,21 @@ export interface LoadedCloud {
   isMesh?: boolean;
   /** Sentences about the cloud that the user has to read. */
   notes?: string[];
+  /** The octree of which these are the coarser levels, if the others are read when they are needed. */
+  streamed?: Streamed;
   /** How the cloud was measured, if the file says so: the direction that was up, and the place of the scanner. */
   taken?: { up: Up; from?: [number, number, number] };
+}
+
+/** An octree that is too large to be read as a whole. */
+export interface Streamed {
+  /** Its address, or the file itself. */
+  from: string | Blob;
+  name: string;
+  /** The number of points of all levels. */
+  points: number;
+  /** The most points that one view may hold. */
+  budget: number;
 }
 
 /** A cloud ready to draw: recentered in f32 for the graphics card. The file's own coordinates go to the hull's worker. */
@@ -54,10 +67,12 @@ export interface Cloud {
   /** Width, height and depth of the bounding box, and half its diagonal. */
   size: [number, number, number];
   radius: number;
+  /** If only its visible points are here: the number of points among which they were found. */
+  among?: number;
 }
 
 /** A cloud ready to draw, with the file's own coordinates and the loader's words about it. */
-export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "isMesh" | "notes" | "taken"> {
+export interface PreparedCloud extends Pick<LoadedCloud, "positions" | "isMesh" | "notes" | "streamed" | "taken"> {
   cloud: Cloud;
   /** A copy of the positions for the hull's worker, which keeps what it gets. */
   copy: Float32Array | Float64Array;

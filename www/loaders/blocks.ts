@@ -6,6 +6,8 @@ export interface Reading {
   name: string;
   blob: Blob;
   limit: number;
+  /** An octree with more points than this is streamed. */
+  streamFrom?: number | undefined;
   /** The progress from 0 to 1. */
   onProgress: (fraction: number) => void;
   /** Takes points that have been read, measured from the first one. */

@@ -20,6 +20,8 @@ interface ReadOptions {
   skipNonFinite: boolean;
   /** If there are more points than this, the cloud is thinned evenly. */
   limit?: number;
+  /** An octree with more points than this is streamed: only its coarser levels are read now. */
+  streamFrom?: number;
 }
 
 /** The replies: any number of progress steps and points, then the cloud or an error. `fraction` is null if it is not known. */

@@ -69,7 +69,7 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
     return { positions: new Float32Array(data), colors: null };
   }
 
-  const { limit = MAX_POINTS, skipNonFinite } = request;
+  const { limit = MAX_POINTS, streamFrom, skipNonFinite } = request;
   const check = (cloud: LoadedCloud) => checkedCloud(name, cloud, skipNonFinite);
   // Refuses texts that cannot be read as an address, and addresses that hold their own content (data:).
   if (request.kind === "url" && !URL.canParse(".", request.url))
@@ -81,7 +81,9 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
     const remote = await downloadRanges(name, request.url, downloading);
     if ("read" in remote) {
       const { readCopc } = await import("./las/copc.ts");
-      return check(await readCopc({ name, limit, onProgress: downloading, onPoints }, remote.read));
+      return check(
+        await readCopc({ name, limit, streamFrom, onProgress: downloading, onPoints }, remote.read, request.url),
+      );
     }
     blob = remote.blob;
   } else {
@@ -94,7 +96,7 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   };
   return check(
     await readFile(
-      { name, blob, limit, onProgress, onPoints },
+      { name, blob, limit, streamFrom, onProgress, onPoints },
       request.kind === "url" ? new URL(".", request.url).href : null,
     ),
   );

@@ -138,8 +138,13 @@ export async function openCloud(
   });
   onProgress(`Finding the visible points of ${request.name}.`, null);
   const another = async () => new WorkerCloud(await WorkerPointCloud.create(positions, { workers: 1 }), cloud.center);
-  const inquiry = new Inquiry(new WorkerCloud(worker, cloud.center), another, cloud.radius);
+  const points = new WorkerCloud(worker, cloud.center);
+  let inquiry = new Inquiry(points, another, cloud.radius);
   try {
+    if (loaded.streamed) {
+      const { StreamedInquiry } = await import("../stream/streamed-inquiry.ts");
+      inquiry = new StreamedInquiry(points, another, cloud, loaded.streamed);
+    }
     const answer = await inquiry.first(own.freeze ?? home.viewpoint, { ...place.settings(), ...own });
     signal.throwIfAborted();
     const opened = { cloud, positions, inquiry, home, answer, findHome: homeFrom(view), surface };

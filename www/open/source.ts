@@ -6,6 +6,8 @@ export interface FileOptions {
   skipNonFinite: boolean;
   /** The largest number of points that are shown. */
   limit?: number;
+  /** An octree with more points than this is streamed. Without it, nothing is. */
+  streamFrom?: number;
 }
 
 /** Sample files lie beside the page, or beside the element's module. `base` is the address of that page or module. */

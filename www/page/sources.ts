@@ -1,9 +1,12 @@
 import type { Wish } from "../open/open-cloud.ts";
-import { requestForAddress, requestForSample } from "../open/source.ts";
+import { type FileOptions, requestForAddress, requestForSample } from "../open/source.ts";
 import { type Sample, sampleNamed } from "../samples/samples.ts";
 import type { CloudName } from "../settings/address.ts";
+import { MAX_POINTS } from "../settings/limits.ts";
 import type { Wishes } from "../settings/read-address.ts";
 import type { AskedView } from "../view/framing.ts";
+
+type Limits = Omit<FileOptions, "skipNonFinite">;
 
 /** A cloud that the page opens. */
 export interface Source extends Wish {
@@ -26,13 +29,13 @@ export function fromSample(sample: Sample, view: AskedView | null = null): Sourc
   };
 }
 
-export function fromAddress(text: string, view: AskedView | null, limit: { limit?: number }): Source {
-  const request = requestForAddress(text, { skipNonFinite: false, ...limit });
+export function fromAddress(text: string, view: AskedView | null, limits: Limits): Source {
+  const request = requestForAddress(text, { skipNonFinite: false, ...limits });
   return { request, sample: null, name: ["src", text], view, settings: {}, notes: [] };
 }
 
-export function fromFile(file: File, notes: string[], limit: { limit?: number }): Source {
-  const request = { kind: "file", name: file.name, file, skipNonFinite: false, ...limit } as const;
+export function fromFile(file: File, notes: string[], limits: Limits): Source {
+  const request = { kind: "file", name: file.name, file, skipNonFinite: false, ...limits } as const;
   return { request, sample: null, name: null, view: null, settings: {}, notes };
 }
 
@@ -40,11 +43,13 @@ export function fromFile(file: File, notes: string[], limit: { limit?: number })
 export function firstSource(wishes: Wishes): Source {
   const { sample, src, settings, notes } = wishes;
   const view = wishes.view && { at: wishes.view, target: wishes.target };
-  const source = src === null ? fromSample(sampleNamed(sample), view) : fromAddress(src, view, limitOf(wishes));
+  const source = src === null ? fromSample(sampleNamed(sample), view) : fromAddress(src, view, limitsOf(wishes));
   return { ...source, settings, notes };
 }
 
-/** The largest number of points of a file, as the address asks for it. */
-export function limitOf({ points }: Wishes): { limit?: number } {
-  return points === null ? {} : { limit: points };
+/** The largest number of points of a file, and that from which on an octree is streamed, as the address asks for them. */
+export function limitsOf({ points, stream }: Wishes): Limits {
+  return points === null
+    ? { streamFrom: stream ?? MAX_POINTS }
+    : { limit: points, ...(stream && { streamFrom: stream }) };
 }

@@ -89,7 +89,7 @@ export class Status {
   /** Says the last answer again, since the viewpoint may have been frozen or not. */
   describe(frozen: boolean): void {
     if (!this.#last || this.#element.dataset["state"] !== "ready") return;
-    this.#say(sentenceOf(this.#last, this.#last.total, frozen));
+    this.#say(this.#last.whole?.sentence ?? sentenceOf(this.#last, this.#last.total, frozen));
   }
 
   /** Lets the next sentence be read at once. */

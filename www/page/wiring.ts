@@ -39,6 +39,9 @@ export function wire({
     handles.place();
     workshop.place();
   };
+  viewer.onDetail = () => {
+    workshop.exchange();
+  };
   viewer.onAttributes = (cloud) => {
     panel.prepare(cloud);
   };

@@ -12,6 +12,8 @@ export interface Wishes {
   target: Viewpoint | null;
   /** The most points of a file that are shown. `null`: as many as the page can show. */
   points: number | null;
+  /** An octree with more points than this is streamed. `null`: not said. */
+  stream: number | null;
   /** Whether only the picture is shown. */
   embed: boolean;
   /** The settings that are in the address. */
@@ -67,6 +69,7 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
     view: read("view", PARAMETERS.view) ?? null,
     target: read("target", PARAMETERS.target) ?? null,
     points: read("points", PARAMETERS.points) ?? null,
+    stream: read("stream", PARAMETERS.stream) ?? null,
     embed: read("embed", PARAMETERS.embed) === "1",
     settings,
     notes,

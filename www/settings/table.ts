@@ -259,6 +259,11 @@ export const PARAMETERS = {
     called: "number of points",
     otherwise: "the largest of these is used",
   }),
+  stream: parameter<number>({
+    ...wholeBetween(1, MAX_POINTS),
+    called: "number of points to stream from",
+    otherwise: "only octrees with more points than the page shows at once are streamed",
+  }),
   embed: parameter<"0" | "1">({
     ...oneOf("0", "1"),
     otherwise: "the controls are shown",

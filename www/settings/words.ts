@@ -123,6 +123,10 @@ export const PARAMETER_WORDS: Record<keyof typeof PARAMETERS, Words> = {
     is: "how many points of a file are shown at most; of a larger file an even share is shown",
     without: `${MAX_POINTS / 1e6} million`,
   },
+  stream: {
+    is: "an octree (COPC) with more points than this is streamed: nodes that are hidden are not read",
+    without: `${MAX_POINTS / 1e6} million; with \`points\`, nothing is streamed`,
+  },
   embed: {
     is: "`1` shows the picture alone, for a frame in another page",
     without: "`0`",

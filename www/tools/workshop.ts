@@ -35,6 +35,13 @@ export class Workshop {
     this.#here?.tools.clear();
   }
 
+  /** Called when other points of the same cloud are shown. Places and selections belong to the points before. */
+  exchange(): void {
+    this.clear();
+    this.#here?.plot.clear();
+    this.#here?.tools.begin();
+  }
+
   /** Called when a cloud is shown. Rejects if the tools cannot be loaded. */
   async begin(): Promise<void> {
     if (this.#here) {

@@ -255,8 +255,8 @@ export class CloudPoints {
  * The distance between neighbors if the points were spread evenly over the faces of their bounding box. It is good
  * enough for a surface, and needs no search.
  */
-function roughSpacing({ size: [x, y, z], count }: Cloud): number {
-  return Math.sqrt((2 * (x * y + y * z + z * x)) / count);
+function roughSpacing({ size: [x, y, z], count, among = count }: Cloud): number {
+  return Math.sqrt((2 * (x * y + y * z + z * x)) / among);
 }
 
 /** The least width of a point in pixels. If there are few points, it is larger, so that they can be found. */

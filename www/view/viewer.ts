@@ -1,7 +1,7 @@
 import { Matrix4, Quaternion } from "three";
 import type { LightAnswer } from "../ask/lights.ts";
 import { isSamePlace } from "../ask/question.ts";
-import type { Inquiry, TimedView } from "../ask/inquiry.ts";
+import type { Detail, Inquiry, TimedView } from "../ask/inquiry.ts";
 import type { Attribute, Cloud, Up } from "../cloud/cloud.ts";
 import type { Parts } from "./parts.ts";
 import type { KnownSurface } from "../samples/samples.ts";
@@ -56,12 +56,16 @@ export class Viewer {
   onLegend: (legend: Legend | null) => void = () => undefined;
   /** Called when a cloud has got another attribute to color by. */
   onAttributes: (cloud: Cloud) => void = () => undefined;
+  /** Called when points that were read for one viewpoint replace the cloud, or the cloud replaces them. */
+  onDetail: () => void = () => undefined;
   /** Called before each frame. */
   onFrame: () => void = () => undefined;
 
   readonly #store: Store;
   readonly #marker: ViewpointMarker;
   #shown: Shown | null = null;
+  /** The cloud, while points that were read for one viewpoint are shown instead of it. */
+  #overview: Shown | null = null;
   readonly #waiting: WaitingRoom<Shown>;
   #theme = THEMES.dark;
   #lit = false;
@@ -171,15 +175,17 @@ export class Viewer {
     if (this.#waiting.isOpen) this.#shown = this.#waiting.left;
     this.#waiting.end(false);
     if (!this.#shown) return;
-    this.#shown.inquiry.dispose();
-    const { points, mesh } = this.#shown;
-    const { solid, different, changing, extra, ghost, all } = points;
-    for (const drawn of [solid, different, changing, extra, ghost, all, mesh.mesh]) drawn.removeFromParent();
-    points.dispose();
-    mesh.dispose();
-    this.#shown = null;
+    for (const shown of [this.#shown, this.#overview]) if (shown) this.#end(shown);
+    this.#shown = this.#overview = null;
     this.#compared = false;
     this.stage.invalidate();
+  }
+
+  #end(shown: Shown): void {
+    shown.inquiry.dispose();
+    remove(shown);
+    shown.points.dispose();
+    shown.mesh.dispose();
   }
 
   /** Ends the picture and its worker. The canvas cannot be used again. */
@@ -192,17 +198,37 @@ export class Viewer {
 
   /** Shows a cloud, after `clear`. */
   show(opened: Opened): void {
-    const { cloud, inquiry, answer, home } = opened;
+    const { inquiry, answer, home } = opened;
+    const shown = (this.#shown = this.#made(opened));
+    inquiry.onDetail = (detail) => this.#exchange(shown, detail);
+    this.#lit = false;
+    this.onLight(null);
+    // In a preview the camera is there already, and the user may have moved it on.
+    this.#enter(shown, () => {
+      if (!this.#waiting.hasShown(home)) this.navigation.setHome(home.pose);
+    });
+    inquiry.onView(answer);
+    // If the worker has failed, the next answer reports the error.
+    inquiry.findAutomatic().catch(() => undefined);
+    this.#isNew = true;
+    this.#inquire();
+  }
+
+  #made(opened: Opened): Shown {
+    const { cloud, inquiry } = opened;
     const attributes = new CloudAttributes(cloud, this.#theme);
     const points = new CloudPoints(cloud, attributes, this.#theme);
     const mesh = new Surface(attributes, this.#theme);
     const change = new Change(this.stage, points);
-    this.#shown = { ...opened, attributes, points, change, mesh, frozen: null };
+    const shown: Shown = { ...opened, attributes, points, change, mesh, frozen: null };
     inquiry.onView = (next) => {
+      // Its answer may come while other points are shown instead.
+      if (this.#shown !== shown) return;
       this.#showAnswer(next);
-      this.onAnswer(next, cloud.count);
+      this.onAnswer(next, next.whole?.total ?? cloud.count);
     };
     inquiry.onLight = (light) => {
+      if (this.#shown !== shown) return;
       attributes.setBrightness(light?.brightness ?? null);
       this.#lit = light !== null;
       this.#setShading();
@@ -214,21 +240,39 @@ export class Viewer {
     inquiry.onError = (error) => {
       this.onError(error);
     };
-    this.#lit = false;
-    this.onLight(null);
+    return shown;
+  }
+
+  /** Brings a cloud into the picture. `place` may move the camera. */
+  #enter({ points, mesh }: Shown, place: () => void): void {
     this.stage.points.add(points.solid, points.different, points.changing, mesh.mesh);
     this.stage.all.add(points.all);
-    // In a preview the camera is there already, and the user may have moved it on.
-    if (!this.#waiting.hasShown(home)) this.navigation.setHome(home.pose);
+    place();
     this.#applyLook(this.#store.current);
     this.#placeMarker(this.#store.current.freeze);
     this.#setUp(this.#store.current.up);
     this.#paint(this.#store.current);
-    inquiry.onView(answer);
-    // If the worker has failed, the next answer reports the error.
-    inquiry.findAutomatic().catch(() => undefined);
-    this.#isNew = true;
-    this.#inquire();
+  }
+
+  /** Shows points that were read for the present viewpoint instead of the cloud. `null`: shows the cloud again. */
+  #exchange(overview: Shown, detail: Detail | null): boolean {
+    const before = this.#shown;
+    // While another cloud is being opened, the picture is not ours.
+    if (this.#waiting.isOpen || before === null) return false;
+    const { home, findHome } = before;
+    Object.assign(overview, { home, findHome });
+    remove(before);
+    if (before !== overview) this.#end(before);
+    this.#overview = detail && overview;
+    this.#shown = detail ? this.#made({ ...overview, ...detail }) : overview;
+    this.#compared = false;
+    // The theme may have changed meanwhile.
+    for (const part of [overview.attributes, overview.points, overview.mesh]) part.setTheme(this.#theme);
+    this.#enter(this.#shown, () => undefined);
+    this.onDetail();
+    this.#shown.inquiry.onView(this.#shown.answer);
+    this.stage.invalidate();
+    return true;
   }
 
   /** Sets an attribute by which the cloud can be colored. `null`: takes it away. */
@@ -295,11 +339,11 @@ export class Viewer {
 
   #inquire(): void {
     if (!this.#shown) return;
-    const { inquiry, change, cloud } = this.#shown;
     const settings = this.#store.current;
     const viewpoint = settings.freeze ?? this.viewpoint;
     // A new cloud is drawn before anything more is asked: the worker would take the drawing's time.
-    if (!this.#isNew) inquiry.follow(viewpoint, settings);
+    if (!this.#isNew) this.#shown.inquiry.follow(viewpoint, settings);
+    const { inquiry, change, cloud } = this.#shown;
     // A surface closes the picture itself.
     change.follow(this.#surfaceShown || isSamePlace(this.#shown.answer.question.viewpoint, viewpoint, cloud.radius));
     this.#isFinal = !inquiry.busy && change.isOver;
@@ -387,4 +431,10 @@ export class Viewer {
     // The marker must be in the picture, too, from every place of the camera.
     this.stage.setExtent(Math.max(cloud.radius, at.length() + 0.2 * cloud.radius));
   }
+}
+
+/** Takes a cloud out of the picture. */
+function remove({ points, mesh }: Shown): void {
+  const { solid, different, changing, extra, ghost, all } = points;
+  for (const drawn of [solid, different, changing, extra, ghost, all, mesh.mesh]) drawn.removeFromParent();
 }

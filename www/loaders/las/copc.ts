@@ -1,5 +1,5 @@
 import { Copc, type Hierarchy } from "copc";
-import type { LoadedCloud } from "../../cloud/cloud.ts";
+import type { LoadedCloud, Streamed } from "../../cloud/cloud.ts";
 import type { Reading } from "../blocks.ts";
 import { LoadProblem } from "../problem.ts";
 import { FormatProblem } from "../../../src/ts/formats/problem.js";
@@ -19,21 +19,32 @@ const LARGEST_PART = 1 << 28;
 /** The number of nodes that are requested ahead of the node being decompressed. */
 const AHEAD = 6;
 
+/** The most points that are shown of a streamed octree while the camera moves: soon read, and soon answered. */
+const OVERVIEW = 1_000_000;
+/** The most points that may be visible from one viewpoint of a streamed octree, with those that are being read. */
+const BUDGET = 4_000_000;
+
 const number = new Intl.NumberFormat("en-US");
 
 /**
  * Reads a cloud-optimized point cloud: an octree in which deeper nodes hold finer samples. Levels are read from the
  * coarsest on, whole ones as long as the limit allows. So the shown points are spread evenly. If the first level alone
- * is beyond the limit, its points are thinned evenly.
+ * is beyond the limit, its points are thinned evenly. `from`: where the other levels are, if they are streamed later.
  */
-export async function readCopc(reading: Omit<Reading, "blob">, read: ReadRange): Promise<LoadedCloud> {
-  const { name, limit, onProgress } = reading;
+export async function readCopc(
+  reading: Omit<Reading, "blob">,
+  read: ReadRange,
+  from: string | Blob,
+): Promise<LoadedCloud> {
+  const { name, streamFrom = Infinity, onProgress } = reading;
   const header = parseHeader(await read(0, HEAD));
   checkLazFormat(header);
   if (header.count === 0) throw new LoadProblem(`${name} holds no points.`);
+  const isStreamed = header.count > streamFrom;
+  const limit = isStreamed ? Math.min(reading.limit, streamFrom, OVERVIEW) : reading.limit;
   const { nodes, points } = await chooseNodes(name, read, limit, header.count);
   const perf = await startLazPerf(name);
-  const taker = new RecordTaker(header, reading, points);
+  const taker = new RecordTaker(header, { ...reading, limit }, points);
 
   const asked: Promise<Uint8Array>[] = [];
   const ask = (i: number) => {
@@ -57,11 +68,29 @@ export async function readCopc(reading: Omit<Reading, "blob">, read: ReadRange):
   const cloud = taker.finish();
   if (points >= header.count) return cloud;
   const shown = number.format(cloud.positions.length / 3);
+  if (isStreamed)
+    return {
+      ...cloud,
+      ...streamedFrom({ from, name, points: header.count, budget: Math.min(reading.limit, BUDGET) }, shown),
+    };
   return {
     ...cloud,
     notes: [
       `${shown} of its ${number.format(header.count)} points are shown: the points of its coarser levels.`,
       ...cloud.notes!.slice(points > limit ? 1 : 0),
+    ],
+  };
+}
+
+/** What is known of points that are the overview of an octree. The stream reads coordinates alone, so they have no more. */
+function streamedFrom(streamed: Streamed, shown: string): Partial<LoadedCloud> {
+  return {
+    colors: null,
+    attributes: [],
+    fields: [],
+    streamed,
+    notes: [
+      `Its ${number.format(streamed.points)} points are read as they are needed. While the camera moves, ${shown} points of its coarser levels are shown. When it rests, all that is visible is read, without colors and attributes.`,
     ],
   };
 }

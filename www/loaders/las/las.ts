@@ -18,7 +18,7 @@ export async function readLas(reading: Reading): Promise<LoadedCloud> {
   if (header.count === 0) throw new LoadProblem(`${name} holds no points.`);
   if (header.isCopc) {
     const { readCopc } = await import("./copc.ts");
-    return readCopc(reading, read);
+    return readCopc(reading, read, blob);
   }
   const taker = new RecordTaker(header, reading);
   if (header.compressed) {

@@ -1,0 +1,80 @@
+/// <reference lib="webworker" />
+import { init, type MergeOptions } from "hidden-point-removal";
+import { type Octree, openOctree } from "hidden-point-removal/stream";
+import type { Streamed } from "../cloud/cloud.ts";
+import { startLazPerf } from "../loaders/las/perf.ts";
+import { LoadProblem } from "../loaders/problem.ts";
+import type { StreamReply, StreamTold, StreamView } from "./protocol.ts";
+
+/** The most points that are kept for the next view. */
+const KEPT = 4_000_000;
+
+const post = (reply: StreamReply, transfer: Transferable[] = []) => {
+  self.postMessage(reply, { transfer });
+};
+
+let opening: Promise<Octree> | undefined;
+let source: Streamed | undefined;
+let running = new AbortController();
+let goOn: () => void = () => undefined;
+
+self.onmessage = ({ data: told }: MessageEvent<StreamTold>) => {
+  if (told.kind === "open") source = told.streamed;
+  else if (told.kind === "next") goOn();
+  else {
+    running.abort();
+    goOn();
+    if (told.kind === "view") void show(told.turn, told.view, (running = new AbortController()).signal);
+  }
+};
+
+/** Opens the octree for the first view. If that fails, the next view tries again. */
+function open({ from, name }: Streamed): Promise<Octree> {
+  opening ??= init()
+    .then(() => openOctree(from, { lazPerf: startLazPerf(name), cache: KEPT }))
+    .catch((error: unknown) => {
+      opening = undefined;
+      throw error;
+    });
+  return opening;
+}
+
+async function show(turn: number, view: StreamView, signal: AbortSignal): Promise<void> {
+  try {
+    const octree = await open(source!);
+    const options = { ...(await optionsFor(octree, view)), budget: source!.budget, signal };
+    for await (const step of octree.visibleFrom(view.viewpoint, options)) {
+      if (signal.aborted) return;
+      const positions = step.positions();
+      const { exact, nodes, points, radius, inversion } = step;
+      const merge: MergeOptions = radius > 0 ? { radius, inversion } : { inversion };
+      const taken = new Promise<void>((resolve) => (goOn = resolve));
+      post({ kind: "step", turn, step: { positions, exact, nodes, points, merge } }, [positions.buffer]);
+      await taken;
+    }
+    post({ kind: "end", turn });
+  } catch (error) {
+    if (!signal.aborted) post({ kind: "problem", turn, sentence: sentenceOf(error) });
+  }
+}
+
+async function optionsFor(octree: Octree, { viewpoint, method }: StreamView): Promise<MergeOptions> {
+  if (method === "automatic") return {};
+  if ("length" in method) return { radius: method.length };
+  if ("exponential" in method) {
+    const { exponential } = method;
+    return exponential === "auto" ? {} : { inversion: { exponential: exponential * (await octree.spacing()) } };
+  }
+  const { min, max } = octree.bounds;
+  const far = min.map((low, axis) =>
+    Math.max(Math.abs(low - viewpoint[axis]!), Math.abs(max[axis]! - viewpoint[axis]!)),
+  );
+  // Rounded bounds must not make the radius smaller than the distance of a point.
+  return { radius: 1.01 * Math.hypot(...far), inversion: { power: method.power } };
+}
+
+function sentenceOf(error: unknown): string {
+  if (error instanceof LoadProblem) return error.message;
+  const said = error instanceof Error ? error.message : String(error);
+  return `${source!.name} could not be read further: ${said.replace(/\.$/, "")}.`;
+}
