@@ -124,8 +124,7 @@ def compare(report, folder, count, how, kind, dtype, offset):
     report.say("|---|---|---:|---:|---:|---:|---:|")
     for inversion, answer in answers.items():
         for number, at in enumerate(VIEWPOINTS):
-            expected = whole[f"{inversion} {number}"].astype(np.uint64)
-            differences = len(np.setxor1d(answer[number], expected))
+            differences = _differences(answer[number], whole[f"{inversion} {number}"])
             report.say(
                 f"| {at} | {inversion} | {share(len(answer[number]), total)} | {share(answer.survivors[number], total)} "
                 f"| {share(answer.skipped[number], len(paths))} "
@@ -199,8 +198,7 @@ def in_sectors(report, folder, count):
     report.say("|---|---|---:|---:|---:|---:|---:|---:|---:|")
     for inversion, answer in answers.items():
         for number, at in enumerate(VIEWPOINTS):
-            expected = whole[f"{inversion} {number}"].astype(np.uint64)
-            differences = len(np.setxor1d(answer[number], expected))
+            differences = _differences(answer[number], whole[f"{inversion} {number}"])
             report.check(differences == 0, f"{at}, {inversion}: {differences} differences in sectors")
             own = answer.sectors[number]
             if not own:
@@ -305,6 +303,10 @@ def ask_whole(folder, paths, viewpoints, options):
     subprocess.run([sys.executable, HERE / "whole.py", question, answer], check=True)
     with np.load(answer) as stored:
         return dict(stored)
+
+
+def _differences(ids: np.ndarray, expected: np.ndarray) -> int:
+    return len(np.setxor1d(ids, expected.astype(np.uint64)))
 
 
 def _peaks(client):

@@ -10,7 +10,7 @@ const SEED = 7;
 const [SIZE, HOUSES] = [400, 16];
 
 /** One view of the octree. */
-export interface Row {
+interface Row {
   viewpoint: string;
   /** Shares of all points, nodes and bytes. */
   visible: number;
@@ -22,12 +22,19 @@ export interface Row {
   isEqual: boolean;
 }
 
-export interface Measured {
+interface Measured {
   points: number;
   nodes: number;
   /** The estimated spacing by the whole cloud's. */
   spacing: number;
   rows: Row[];
+}
+
+/** What the command writes. */
+interface Report {
+  table: string;
+  /** The viewpoints from which the octree answers otherwise than the town in one piece. */
+  different: string[];
 }
 
 const VIEWPOINTS: [string, [number, number, number]][] = [
@@ -38,7 +45,13 @@ const VIEWPOINTS: [string, [number, number, number]][] = [
 ];
 
 /** Streams a generated town from four viewpoints, and compares with the town in one piece. */
-export async function measure(points: number): Promise<Measured> {
+export async function report(points: number): Promise<Report> {
+  const measured = await measure(points);
+  const different = measured.rows.filter(({ isEqual }) => !isEqual).map(({ viewpoint }) => viewpoint);
+  return { table: tableOf(measured), different };
+}
+
+async function measure(points: number): Promise<Measured> {
   await init();
   const files = potreeOctree(town(points, randomNumbers(SEED), SIZE, HOUSES), { leaf: 8000, grid: 48, step: 4 });
   const whole = new PointCloud(files.positions);
@@ -89,4 +102,29 @@ function indicesOf(step: OctreeStep, { nodes }: PotreeOctree): Uint32Array {
 
 function isSame(a: Uint32Array, b: Uint32Array): boolean {
   return a.length === b.length && a.every((index, i) => index === b[i]);
+}
+
+function tableOf({ points, nodes, spacing, rows }: Measured): string {
+  const percent = (share: number) => `${(100 * share).toFixed(1)} %`;
+  const lines = rows.map((row) =>
+    [
+      row.viewpoint,
+      percent(row.visible),
+      percent(row.nodesHidden),
+      percent(row.bytesRead),
+      percent(row.bytesFirst),
+      row.steps,
+      row.isEqual ? "yes" : "NO",
+    ].join(" | "),
+  );
+  return [
+    `A town of ${points.toLocaleString("en")} points in ${nodes} nodes. The estimated spacing is ${spacing.toFixed(3)} times the whole cloud's.`,
+    "",
+    ...[
+      "viewpoint | visible | nodes not fetched | bytes read | bytes at the first step | steps | equal to one piece",
+      "---|---:|---:|---:|---:|---:|---",
+      ...lines,
+    ].map((line) => `| ${line} |`),
+    "",
+  ].join("\n");
 }

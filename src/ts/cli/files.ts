@@ -3,6 +3,7 @@ import { type FileHandle, lstat, open, readlink, rename, rm, stat } from "node:f
 import { dirname, resolve } from "node:path";
 
 import { FormatProblem } from "../formats/problem.js";
+import { allocating } from "./memory.js";
 
 const CHUNK = 1 << 24;
 
@@ -20,7 +21,7 @@ async function readWhole(name: string, onProgress: (share: number) => void): Pro
     const stats = await handle.stat();
     if (!stats.isFile()) throw new FormatProblem("it is not a regular file");
     const { size } = stats;
-    const file = room(size);
+    const file = allocating(`its ${size} bytes`, () => Buffer.allocUnsafe(size));
     let at = 0;
     while (at < size) {
       const { bytesRead } = await handle.read(file, at, Math.min(CHUNK, size - at));
@@ -52,14 +53,6 @@ export async function readAs<T>(
 /** The flag for opening without waiting. It is 0 on Windows, which has no such flag. */
 function nonBlocking(): number {
   return (constants as Partial<typeof constants>).O_NONBLOCK ?? 0;
-}
-
-function room(size: number): Buffer {
-  try {
-    return Buffer.allocUnsafe(size);
-  } catch (cause) {
-    throw new FormatProblem(`no memory for its ${size} bytes`, { cause });
-  }
 }
 
 /**

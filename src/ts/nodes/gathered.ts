@@ -1,5 +1,5 @@
 import { asError, HprError } from "../base/errors.js";
-import { allocating } from "../base/memory.js";
+import { allocating, concatenated } from "../base/memory.js";
 import { type Cloud, prepareCloud, see } from "../three/cloud.js";
 import type { Visibility } from "../cloud/visibility.js";
 import type { Place } from "../query/place.js";
@@ -162,7 +162,6 @@ export class Gathered {
   /** Reads the points of new nodes. They get the next indices. */
   #read(nodes: readonly CloudNode[], refused: Refused): Float64Array {
     const parts: (Float32Array | Float64Array)[] = [];
-    const begun = this.#length;
     for (const node of nodes) {
       if (this.#spans.has(node)) {
         continue;
@@ -177,13 +176,6 @@ export class Gathered {
         refused(asError(error), node.points);
       }
     }
-    const length = 3 * (this.#length - begun);
-    const positions = allocating(`${length / 3} points`, () => new Float64Array(length));
-    let at = 0;
-    for (const part of parts) {
-      positions.set(part, at);
-      at += part.length;
-    }
-    return positions;
+    return concatenated(parts);
   }
 }

@@ -1,3 +1,4 @@
+import { concatenated } from "../base/memory.js";
 import { Horizon } from "../cloud/horizon.js";
 import type { MergeOptions } from "../cloud/merge.js";
 import type { Visibility } from "../cloud/visibility.js";
@@ -76,13 +77,7 @@ export class NodeHorizon {
     const horizon = new Horizon(this.#viewpoint, this.#options);
     const step = Math.ceil(this.#seen.reduce((sum, { own }) => sum + own.length, 0) / MOST_POINTS);
     const parts = this.#seen.map(({ node, own }) => node.positionsOf(own.filter((_, i) => i % step === 0)));
-    const positions = new Float64Array(parts.reduce((sum, { length }) => sum + length, 0));
-    let at = 0;
-    for (const part of parts) {
-      positions.set(part, at);
-      at += part.length;
-    }
-    horizon.add(positions);
+    horizon.add(concatenated(parts));
     return horizon;
   }
 }

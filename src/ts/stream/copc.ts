@@ -1,7 +1,8 @@
 import type { Copc, Hierarchy } from "copc";
 
 import { asError, HprError } from "../base/errors.js";
-import { checkRecords, decompress, type LazPerf } from "./laz-chunk.js";
+import type { LazPerf } from "../formats/laz-perf.js";
+import { checkRecords, decompress } from "./laz-chunk.js";
 import { broken, type Part, type RangeReader, readPart } from "./source.js";
 import { childCell, type OctreeNode, Tree, triple, type Triple } from "./tree.js";
 
@@ -60,7 +61,7 @@ class CopcTree extends Tree {
       scale: corner(header.scale),
       offset: corner(header.offset),
     });
-    checkRecords(name, { format: header.pointDataRecordFormat, length: header.pointDataRecordLength });
+    checkRecords(name, { format: header.pointDataRecordFormat, rowBytes: header.pointDataRecordLength });
     this.#read = read;
     this.#library = library;
     this.#copc = copc;
@@ -71,7 +72,7 @@ class CopcTree extends Tree {
 
   async read(node: OctreeNode, signal?: AbortSignal): Promise<Float64Array<ArrayBuffer>> {
     const { name } = this.facts;
-    const { pointDataRecordFormat: format, pointDataRecordLength: length } = this.#copc.header;
+    const { pointDataRecordFormat: format, pointDataRecordLength: rowBytes } = this.#copc.header;
     const chunk = await readPart(name, this.#read, node.part, signal);
     let perf: LazPerf;
     try {
@@ -82,7 +83,7 @@ class CopcTree extends Tree {
         cause,
       });
     }
-    return this.placed(node, decompress(name, node.key, chunk, node.count, { format, length }, perf));
+    return this.placed(node, decompress(name, node.key, chunk, node.count, { format, rowBytes }, perf));
   }
 
   protected async readPage(top: OctreeNode, page: Part): Promise<void> {

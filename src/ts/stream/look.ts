@@ -4,7 +4,8 @@ import { abortError, BY_SIGNAL, whenAborted } from "../worker/abort.js";
 import type { Loaded, NodeCache } from "./cache.js";
 import type { OctreeProgress, ViewRequest } from "./options.js";
 import { NodeQueue } from "./queue.js";
-import { joined, Survivors, type VisibleNode } from "./survivors.js";
+import { concatenated } from "../base/memory.js";
+import { Survivors, type VisibleNode } from "./survivors.js";
 import { type OctreeNode, subtree, type Tree } from "./tree.js";
 
 /**
@@ -44,7 +45,7 @@ export class OctreeStep {
 
   /** x, y, z of all visible points, one after another, in the order of `visible`: a new array. */
   positions(): Float64Array<ArrayBuffer> {
-    return joined(this.visible);
+    return concatenated(this.visible.map(({ positions }) => positions));
   }
 }
 

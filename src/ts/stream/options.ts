@@ -5,7 +5,7 @@ import { readViewpoint } from "../query/positions.js";
 import type { ResolvedInversion } from "../query/view-options.js";
 import { readSignal } from "../worker/abort.js";
 import type { Fetch } from "./source.js";
-import type { LazPerf } from "./laz-chunk.js";
+import type { LazPerf } from "../formats/laz-perf.js";
 
 /** How an octree is read. */
 export interface OctreeOptions {

@@ -49,7 +49,8 @@ async function pathTo(tree: Tree, share: number): Promise<OctreeNode[]> {
   for (;;) {
     const node = path.at(-1)!;
     await tree.list(node);
-    const weights = node.children.map((child) => weightOf(child, pointsByByte(tree.root)));
+    const byByte = pointsByByte(tree.root);
+    const weights = node.children.map((child) => weightOf(child, byByte));
     const large = weights.map((weight) => (weight >= LEAST_POINTS ? weight : 0));
     let left = share * large.reduce((sum, weight) => sum + weight, 0);
     const number = large.findIndex((weight) => weight > 0 && (left -= weight) < 0);

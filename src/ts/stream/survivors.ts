@@ -1,3 +1,4 @@
+import { concatenated } from "../base/memory.js";
 import { Horizon } from "../cloud/horizon.js";
 import type { MergeOptions } from "../cloud/merge.js";
 import type { OctreeNode } from "./tree.js";
@@ -75,7 +76,7 @@ export class Survivors {
   /** Lets the waiting points join the horizon, and drops all points that it hides then. */
   grow(): void {
     if (this.#waitingCount > 0) {
-      this.#horizon.add(joined(this.#waiting));
+      this.#horizon.add(concatenated(this.#waiting.map(({ positions }) => positions)));
     }
     const all = [...this.#inside, ...this.#waiting].map((part) => this.#screened(part));
     this.#inside = all.filter(({ indices }) => indices.length > 0);
@@ -104,15 +105,4 @@ export class Survivors {
     }
     return { key, indices: left.map((k) => indices[k]!), positions: kept };
   }
-}
-
-/** The positions of several parts, one after another. */
-export function joined(parts: readonly VisibleNode[]): Float64Array<ArrayBuffer> {
-  const positions = new Float64Array(parts.reduce((sum, part) => sum + part.positions.length, 0));
-  let at = 0;
-  for (const part of parts) {
-    positions.set(part.positions, at);
-    at += part.positions.length;
-  }
-  return positions;
 }

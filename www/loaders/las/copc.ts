@@ -3,9 +3,10 @@ import type { LoadedCloud, Streamed } from "../../cloud/cloud.ts";
 import type { Reading } from "../blocks.ts";
 import { LoadProblem } from "../problem.ts";
 import { FormatProblem } from "../../../src/ts/formats/problem.js";
-import { type LasHeader, parseHeader } from "./header.ts";
+import { parseHeader } from "./header.ts";
 import { checkLazFormat, lazDamaged } from "../../../src/ts/formats/laz.js";
-import { type LazPerf, startLazPerf } from "./perf.ts";
+import { decodeChunk } from "../../../src/ts/formats/laz-perf.js";
+import { startLazPerf } from "./perf.ts";
 import { RecordTaker } from "./records.ts";
 
 /** Reads bytes of the file, which may be on the device or on a server. */
@@ -63,7 +64,13 @@ export async function readCopc(
     ask(i + AHEAD);
     if (compressed.length < node.pointDataLength)
       throw new LoadProblem(`${name} is broken: it ends before its points do.`);
-    decodeNode(perf, header, node, compressed, taker);
+    try {
+      decodeChunk(perf, compressed, node.pointCount, header, (point) => {
+        taker.take(point, 0);
+      });
+    } catch {
+      throw lazDamaged();
+    }
   }
   const cloud = taker.finish();
   if (points >= header.count) return cloud;
@@ -146,25 +153,4 @@ function depthOf(key: string): number {
 
 function isPart(offset: number, length: number): boolean {
   return offset > 0 && length > 0 && length <= LARGEST_PART;
-}
-
-function decodeNode(perf: LazPerf, header: LasHeader, node: Node, compressed: Uint8Array, taker: RecordTaker): void {
-  const { format, rowBytes } = header;
-  try {
-    const from = perf._malloc(compressed.length);
-    const to = perf._malloc(rowBytes);
-    perf.HEAPU8.set(compressed, from);
-    const decoder = new perf.ChunkDecoder();
-    decoder.open(format, rowBytes, from);
-    for (let i = 0; i < node.pointCount; i++) {
-      decoder.getPoint(to);
-      // If the memory has grown, its buffer has been replaced.
-      taker.take(new DataView(perf.HEAPU8.buffer, to, rowBytes), 0);
-    }
-    decoder.delete();
-    perf._free(from);
-    perf._free(to);
-  } catch {
-    throw lazDamaged();
-  }
 }

@@ -9,6 +9,7 @@ import {
 } from "../../formats/las.js";
 import { checkChunkTable, checkLazFormat, lasEndsEarly, lazDamaged } from "../../formats/laz.js";
 import { FormatProblem } from "../../formats/problem.js";
+import { allocating } from "../memory.js";
 import { decompressed } from "./laz.js";
 import { equalRecords, type PointFile } from "./point-file.js";
 
@@ -27,7 +28,7 @@ export async function readLas(file: Buffer): Promise<PointFile> {
   if (rows.length < count * rowBytes) throw lasEndsEarly(count);
 
   const view = new DataView(rows.buffer, rows.byteOffset, rows.byteLength);
-  const positions = roomFor(3 * count);
+  const positions = allocating(`${3 * count} coordinates`, () => new Float64Array(3 * count));
   for (let i = 0; i < count; i++) positions.set(lasPosition(header, view, i * rowBytes), 3 * i);
   const extended = extendedRecords(file, header);
   return {
@@ -48,14 +49,6 @@ async function unpacked(file: Buffer, header: LasHeader): Promise<Uint8Array> {
   } catch (cause) {
     // The decoder throws numbers, traps and aborts. Each of these means that the file is damaged.
     throw cause instanceof FormatProblem ? cause : lazDamaged();
-  }
-}
-
-function roomFor(length: number): Float64Array<ArrayBuffer> {
-  try {
-    return new Float64Array(length);
-  } catch (cause) {
-    throw new FormatProblem(`no memory for ${length} coordinates`, { cause });
   }
 }
 

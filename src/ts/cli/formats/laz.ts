@@ -1,12 +1,7 @@
 import type { LasHeader } from "../../formats/las.js";
+import type { LazFiles } from "../../formats/laz-perf.js";
 import { FormatProblem } from "../../formats/problem.js";
-
-/** The part of laz-perf (the LAZ decoder of hobu, Apache 2.0) that is used here. */
-interface LazPerf {
-  HEAPU8: Uint8Array;
-  _malloc(bytes: number): number;
-  LASZip: new () => { open(pointer: number, length: number): void; getPoint(to: number): void };
-}
+import { allocating } from "../memory.js";
 
 /** The number of points that are decompressed before they are copied. */
 const BATCH = 50_000;
@@ -14,7 +9,7 @@ const BATCH = 50_000;
 /** All points of a LAZ or COPC file in rows, in the order of the file. */
 export async function decompressed(file: Buffer, { count, rowBytes }: LasHeader): Promise<Uint8Array> {
   const perf = await startLazPerf();
-  const rows = roomFor(count * rowBytes);
+  const rows = allocating(`its ${count * rowBytes} bytes of points`, () => new Uint8Array(count * rowBytes));
   const from = perf._malloc(file.length);
   if (from === 0) throw new FormatProblem(`laz-perf has no memory for its ${file.length} bytes`);
   perf.HEAPU8.set(file, from);
@@ -31,10 +26,10 @@ export async function decompressed(file: Buffer, { count, rowBytes }: LasHeader)
 }
 
 /** The package is optional: only LAZ and COPC files need it. */
-async function startLazPerf(): Promise<LazPerf> {
+async function startLazPerf(): Promise<LazFiles> {
   // TypeScript must not look for it: its types need those of Emscripten.
   const name: string = "laz-perf";
-  let found: { createLazPerf: (options: object) => Promise<LazPerf> };
+  let found: { createLazPerf: (options: object) => Promise<LazFiles> };
   try {
     found = (await import(name)) as typeof found;
   } catch (cause) {
@@ -42,12 +37,4 @@ async function startLazPerf(): Promise<LazPerf> {
   }
   const silent = () => undefined;
   return found.createLazPerf({ print: silent, printErr: silent });
-}
-
-function roomFor(bytes: number): Uint8Array {
-  try {
-    return new Uint8Array(bytes);
-  } catch (cause) {
-    throw new FormatProblem(`no memory for its ${bytes} bytes of points`, { cause });
-  }
 }

@@ -1,4 +1,4 @@
-import { FormatProblem } from "../../formats/problem.js";
+import { allocating } from "../memory.js";
 
 /** A growing list of numbers. A plain array ends the process at some 110 million numbers. */
 export class Numbers {
@@ -24,12 +24,8 @@ export class Numbers {
   }
 
   #grow(): void {
-    try {
-      const room = new Float64Array(2 * this.#length);
-      room.set(this.#room);
-      this.#room = room;
-    } catch (cause) {
-      throw new FormatProblem(`no memory for more than ${this.#length} numbers`, { cause });
-    }
+    const room = allocating(`more than ${this.#length} numbers`, () => new Float64Array(2 * this.#length));
+    room.set(this.#room);
+    this.#room = room;
   }
 }
