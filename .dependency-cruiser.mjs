@@ -36,6 +36,7 @@ const PAGE = [
   ["samples", "samples/"],
   ["loaders", "loaders/"],
   ["ask", "ask/"],
+  ["stream", "stream/"],
   ["view", "view/"],
   ["open", "open/"],
   ["lights", "lights/"],

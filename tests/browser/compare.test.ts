@@ -28,6 +28,7 @@ import {
   type Status,
   status,
   upToDate,
+  unfold,
 } from "./support.js";
 
 const { positions: corners, cells } = createRequire(import.meta.url)("bunny") as {
@@ -285,6 +286,7 @@ test("compared with the true surface: false positives and negatives, in color, f
   const colored = await picture(page);
 
   // Another radius has the same truth. It is not traced again.
+  await unfold(page, "Advanced");
   await page.getByLabel("Exponent", { exact: true }).fill("1.5");
   const tight = await refiltered(page, first);
   const other = await figures(page, shown.text);

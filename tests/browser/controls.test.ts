@@ -12,6 +12,7 @@ import {
   refiltered,
   settled,
   status,
+  unfold,
 } from "./support.js";
 
 const SAMPLE = "?sample=dragon_res3&looks=0";
@@ -21,6 +22,7 @@ test("changing the field of view by slider, wheel or key asks nothing", async ()
   const before = await settled(page);
   const pictures = [await picture(page)];
 
+  await unfold(page, "Look");
   await page.getByLabel("Field of view", { exact: true }).fill("20");
   pictures.push(await picture(page));
   const box = (await page.locator("#view").boundingBox())!;
@@ -60,6 +62,7 @@ test("zooming, panning and keys move the viewpoint", async () => {
   expect(last).toMatchObject(await answerInNode(dragonPositions("_res3"), last));
 
   const home = await status(await openReady(SAMPLE));
+  await unfold(page, "Look");
   await page.getByLabel("Field of view", { exact: true }).fill("20");
   await page.getByRole("button", { name: "Reset view" }).click();
   expect((await refiltered(page, last)).viewpoint).toEqual(home.viewpoint);
@@ -69,6 +72,7 @@ test("zooming, panning and keys move the viewpoint", async () => {
 test("keys in the panel's fields do not move the camera", async () => {
   const page = await openReady(SAMPLE);
   const before = await settled(page);
+  await unfold(page, "Look");
   await page.getByLabel("Point size").focus();
   await page.keyboard.press("ArrowRight");
   expect(await settled(page)).toEqual(before);
@@ -130,6 +134,7 @@ test("a frozen viewpoint stays while the camera flies around, until it is releas
 test("the exponent is automatic, then the slider's, then automatic again", async () => {
   const page = await openReady(SAMPLE);
   const automatic = await settled(page);
+  await unfold(page, "Advanced");
   const slider = page.getByLabel("Exponent", { exact: true });
   const button = page.getByRole("button", { name: "Automatic" });
   expect(Number(await slider.inputValue())).toBeCloseTo(automatic.exponent, 1);
@@ -150,6 +155,7 @@ test("a larger point size covers more of the picture", async () => {
   const page = await openReady(SAMPLE);
   const before = await settled(page);
   const small = await picture(page);
+  await unfold(page, "Look");
   await page.getByLabel("Point size").fill("4");
   expect(await differentPixels(page, small, await picture(page))).toBeGreaterThan(2000);
   expect(await settled(page)).toEqual(before);
@@ -158,6 +164,7 @@ test("a larger point size covers more of the picture", async () => {
 test("choosing the original up side gives the first view again", async () => {
   const page = await openReady("?sample=room");
   const inside = await settled(page);
+  await unfold(page, "Look");
   await page.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).check();
   const turned = await refiltered(page, inside);
   expect(turned.viewpoint).not.toEqual(inside.viewpoint);

@@ -5,7 +5,7 @@ import { expect, test } from "vitest";
 import { ball, georeferencedBall, text } from "./clouds.js";
 import { choose } from "./files.js";
 import { attributedPcd, attributedPly, colorOf, glb, inMillimeters, las, table } from "./formats.js";
-import { answered, openReady, picture, differentPixels, reached, served, status } from "./support.js";
+import { answered, openReady, picture, differentPixels, reached, served, status, unfold } from "./support.js";
 
 const COUNT = 600;
 const near = ball(COUNT);
@@ -40,6 +40,7 @@ test("a cloud can be colored by intensity, class and other attributes, in every 
     expect(await choices(page), name).toEqual(["Its own colors", "One color", "Height", ...extra]);
     if (extra.length === 0) continue;
 
+    await unfold(page, "Look");
     await page.locator("#color").selectOption({ label: extra[1] });
     const entries = await page.locator("#legend li").allInnerTexts();
     const words = entries.map((entry) => entry.split(/\s*\n\s*/));
@@ -49,6 +50,7 @@ test("a cloud can be colored by intensity, class and other attributes, in every 
       [named ? "high vegetation" : "5", "200"],
       [named ? "building" : "6", "200"],
     ]);
+    await unfold(page, "Look");
     await page.locator("#color").selectOption({ label: "Intensity" });
     const ends = (await page.locator("#legend").innerText())
       .split(/\s*\n\s*/)
@@ -88,6 +90,7 @@ test("a file's own colors are drawn as they are, also 8-bit colors in 16 bits, a
   expect(r).toBeGreaterThan(6 * b);
   const own = await picture(page);
   for (const label of ["One color", "Height"]) {
+    await unfold(page, "Look");
     await page.locator("#color").selectOption({ label });
     expect(await differentPixels(page, own, await picture(page)), label).toBeGreaterThan(500);
   }
@@ -107,6 +110,7 @@ test("the address holds the choice of colors, and a message names a choice that 
   served.set("usual.las", las(far));
   const page = await openReady("?src=usual.las&color=intensity");
   expect(await page.locator("#color").inputValue()).toBe("intensity");
+  await unfold(page, "Look");
   await page.locator("#color").selectOption("classification");
   await page.waitForFunction(() => new URL(location.href).searchParams.get("color") === "classification");
   await page.reload();
@@ -134,6 +138,7 @@ test("heights are in the file's own coordinates, along the chosen up side", asyn
   expect(low).toBeGreaterThan(420);
   expect(high).toBeLessThan(490);
   expect(high! - low!).toBeGreaterThan(20);
+  await unfold(page, "Look");
   await page.locator("#up-axis").getByRole("radio", { name: "Y", exact: true }).check();
   await page.waitForFunction(() => document.querySelector("#legend .low")!.textContent.startsWith("5,403,0"));
 });
@@ -152,6 +157,7 @@ test("the samples street and tile have classes and intensity, and tile has map c
     const now = await answered(page, before);
     expect(now.total).toBeGreaterThan(least);
     expect(await choices(page)).toEqual(expect.arrayContaining(["Intensity", "Classification"]));
+    await unfold(page, "Look");
     await page.locator("#color").selectOption("classification");
     expect(await page.locator("#legend").innerText()).toContain(label);
     const colors = await page

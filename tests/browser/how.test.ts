@@ -47,7 +47,7 @@ test("the lesson shows the flip and its hull, and lights the errors against the 
   await page.getByRole("button", { name: "Automatic radius" }).click();
   await expect.poll(() => counts(page)).toEqual([seen, hidden, wrong, missed]);
   await page.keyboard.press("Escape");
-  expect(await page.locator("#how").count()).toBe(0);
+  await expect.poll(() => page.locator("#how").count()).toBe(0);
 });
 
 test("without a true surface, a radius that is too large is compared with the automatic one; on a phone, too", async () => {

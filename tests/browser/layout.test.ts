@@ -1,6 +1,6 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { openPage, openReady, PHONE, reached, refiltered, settled, status } from "./support.js";
+import { openPage, openReady, PHONE, reached, refiltered, settled, status, unfold } from "./support.js";
 
 /** Visible controls and texts that overlap, are cut off at the side, or have no name. */
 async function flaws(page: Page): Promise<string[]> {
@@ -82,15 +82,15 @@ test("on a phone the panel is a bar that opens upwards, and nothing overlaps", a
   expect(await flaws(page)).toEqual([]);
   const view = page.locator("#view");
   expect((await view.boundingBox())!.height).toBeGreaterThan(500);
-  expect(await page.getByLabel("Point size").isVisible()).toBe(false);
+  expect(await page.getByLabel("Sample", { exact: true }).isVisible()).toBe(false);
 
   const toggle = page.getByRole("button", { name: "More controls" });
   await toggle.tap();
   expect(await flaws(page)).toEqual([]);
-  expect(await page.getByLabel("Point size").isVisible()).toBe(true);
+  expect(await page.getByLabel("Sample", { exact: true }).isVisible()).toBe(true);
   expect((await view.boundingBox())!.height).toBeGreaterThan(150);
   await page.getByRole("button", { name: "Fewer controls" }).tap();
-  expect(await page.getByLabel("Point size").isVisible()).toBe(false);
+  expect(await page.getByLabel("Sample", { exact: true }).isVisible()).toBe(false);
 });
 
 test("one finger orbits", async () => {
@@ -208,6 +208,7 @@ test("with the system's own colors the chosen options are visible", async () => 
   await freeze.click();
   expect(await color()).not.toBe(before);
   // All pressed buttons have the same color.
+  await unfold(page, "Advanced");
   await page.locator("#tool-pick").click();
   const pressed = await page
     .locator('button[aria-pressed="true"]:not(#thumbnails *)')

@@ -24,12 +24,14 @@ const page = await browser.newPage({ viewport: { width: WIDTH + PANEL, height: H
 // Few and small points, so that the back shines through the front, as in any viewer.
 await page.goto(`${site.address}?sample=dragon_res3`);
 await page.locator('#status[data-state="ready"]').waitFor();
-await addStyle(page, "#tools { display: none }");
+await addStyle(page, "#tools, #marks { display: none }");
 // Moves a little closer than the page's first view.
 for (let step = 0; step < 2; step++) await page.locator("#view").press("+");
 await page.locator("#view").blur();
 // Waits for the answer to the last step.
 await page.waitForTimeout(2000);
+
+await page.locator("summary", { hasText: "Look" }).click();
 
 const halves: Half[] = [];
 for (const { label, hidden, size } of [

@@ -8,7 +8,7 @@ import { ball, rows, text } from "./clouds.js";
 import { choose } from "./files.js";
 import { gltf, inMillimeters, las } from "./formats.js";
 import { servePage } from "./site.js";
-import { answered, drag, openPage, openReady, provoke, reached, site, status, upToDate } from "./support.js";
+import { answered, drag, openPage, openReady, provoke, reached, site, status, upToDate, unfold } from "./support.js";
 
 const POINTS = text(
   rows(ball(60))
@@ -125,6 +125,7 @@ test("attributes' names stay text", async () => {
   const now = await status(page);
   await choose(page, "names.csv", Buffer.from([`x,y,z,${names.join(",")}`, ...rows].join("\n")));
   await answered(page, now);
+  await unfold(page, "Look");
   const labels = await page.locator("#color option").allTextContents();
   // The first letter is made a capital.
   for (const name of names) {

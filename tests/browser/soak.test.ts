@@ -1,7 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { countHoldings, type Holdings, holdingsOf, type MemoryUse, memoryOf } from "./holdings.js";
-import { openReady, status, upToDate } from "./support.js";
+import { openReady, status, upToDate, unfold } from "./support.js";
 
 /** Allowed growth, for compiled code and the like. If each answer left its arrays in memory, the growth would be larger. */
 const NOISE = { heap: 600_000, buffers: 60_000 };
@@ -52,6 +52,7 @@ async function press(page: Page, selector: string): Promise<void> {
 /** Switches modes on and off again. */
 async function around(page: Page): Promise<void> {
   for (const mode of ["dimmed", "shown", "off"]) await press(page, `[name="hidden"][value="${mode}"]`);
+  await unfold(page, "Look");
   for (const color of ["height", "own"]) await page.selectOption("#color", color);
   await press(page, '[name="show"][value="surface"]');
   await press(page, "#add-light");

@@ -23,6 +23,7 @@ test("a copied address shows the same cloud, camera and settings again", async (
   await unfold(page, "Method and viewpoints");
   await page.getByRole("radio", { name: "Exponential" }).check();
   await page.getByRole("radio", { name: "Dimmed" }).check();
+  await unfold(page, "Look");
   await page.getByLabel("Point size").fill("2");
   await page.getByLabel("Field of view", { exact: true }).fill("30");
   await drag(page, 90, 40);
@@ -53,7 +54,9 @@ test("a copied address shows the same cloud, camera and settings again", async (
 
 test("the address also restores the rule of the radius, the ring, noise, the frozen viewpoint and the up axis", async () => {
   const page = await openReady("?sample=bunny");
+  await unfold(page, "Look");
   await page.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).check();
+  await unfold(page, "Advanced");
   await page.getByRole("button", { name: "Best of 6" }).click();
   await unfold(page, "Method and viewpoints");
   await page.getByRole("radio", { name: "At least 2" }).check();
@@ -81,6 +84,7 @@ test("a panned camera comes back with the same target", async () => {
 
 test("at the first view and with the usual settings the address is empty", async () => {
   const page = await openReady("?sample=dragon_res4");
+  await unfold(page, "Advanced");
   await page.getByLabel("Exponent", { exact: true }).fill("2");
   await drag(page, 50, 0);
   expect(await written(page)).toMatch(/exponent=2.*view=/);

@@ -179,9 +179,12 @@ export async function upToDate(page: Page): Promise<Status> {
   return status(page);
 }
 
-/** Unfolds a section of the panel. */
+/** Unfolds a section of the panel, and the section around it. */
 export async function unfold(page: Page, title: string): Promise<void> {
-  await page.locator("summary", { hasText: title }).click();
+  const folded = page
+    .locator("#sheet details:not([open])")
+    .filter({ has: page.locator("summary", { hasText: title }) });
+  while ((await folded.count()) > 0) await folded.first().locator("> summary").click();
 }
 
 /** A mouse drag over the middle of the cloud. */

@@ -2,7 +2,7 @@ import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { type ThemeName, THEMES } from "../../www/view/theme.ts";
 import { at, clickPoint, everything, openBall, tool } from "./ball.js";
-import { EVERY_PIXEL, openPage, openReady, picture, reached, settled, status } from "./support.js";
+import { EVERY_PIXEL, openPage, openReady, picture, reached, settled, status, unfold } from "./support.js";
 
 /** Points that are surely visible: they bulge most towards the viewer. */
 const NEAREST = everything.toSorted((i, j) => at(j)[2] - at(i)[2]).slice(0, 2);
@@ -55,6 +55,7 @@ test("the page and its canvas follow the system's theme; a chosen theme stays", 
   // A chosen theme stays, is in the address, and asks no new question.
   await settled(page);
   const { refilters } = await status(page);
+  await unfold(page, "Look");
   await page.getByRole("group", { name: "Theme" }).getByRole("radio", { name: "Dark" }).check();
   expectTheme(await colors(page), name);
   await page.waitForFunction((theme) => new URLSearchParams(location.search).get("theme") === theme, name);
@@ -84,6 +85,7 @@ test("points, hidden points and the saved picture's marks have the theme's color
   const drawn: Record<string, string[]> = {};
   for (const name of ["dark", "light"] as const) {
     const page = await openBall({ colorScheme: name, ...EVERY_PIXEL });
+    await unfold(page, "Look");
     await page.locator("#color").selectOption("plain");
     await tool(page, "Measure").click();
     for (const index of NEAREST) await clickPoint(page, index);

@@ -2,7 +2,17 @@ import { readFileSync } from "node:fs";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { at, clickPoint, everything, openBall, tool, visible, within } from "./ball.js";
-import { differentPixels, drag, EVERY_PIXEL, openReady, picture, settled, status, upToDate } from "./support.js";
+import {
+  differentPixels,
+  drag,
+  EVERY_PIXEL,
+  openReady,
+  picture,
+  settled,
+  status,
+  upToDate,
+  unfold,
+} from "./support.js";
 import { addStyle } from "./site.js";
 
 const COLOR = (index: number) => [index % 256, (7 * index) % 256, 255 - (index % 256)];
@@ -200,6 +210,7 @@ test("while the WebGL context is lost, no picture is saved and a message says so
 
 test("the copied link shows the same cloud, camera and settings", async () => {
   const page = await openReady("?sample=dragon_res4", { permissions: ["clipboard-read", "clipboard-write"] });
+  await unfold(page, "Advanced");
   await page.getByLabel("Exponent", { exact: true }).fill("2.5");
   await drag(page, 80, 30);
   await settled(page);

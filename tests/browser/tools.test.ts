@@ -1,7 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { at, clickPoint, everything, lonely, MIDDLE, openBall, place, tool, visible, within } from "./ball.js";
-import { differentPixels, drag, openReady, picture, settled, status, upToDate } from "./support.js";
+import { differentPixels, drag, openReady, picture, settled, status, upToDate, unfold } from "./support.js";
 
 const [X, Y, Z] = MIDDLE;
 
@@ -49,6 +49,7 @@ test("if points are drawn large, a click on any part of a disc counts", async ()
 test("hidden points are picked only through the surface", async () => {
   const page = await openBall();
   // No visible point is drawn over these points.
+  await unfold(page, "Look");
   await page.getByLabel("Point size").fill("0.3");
   const seen = new Set(await visible(page));
   const hidden = everything.filter((i) => !seen.has(i));

@@ -35,7 +35,7 @@ export function fieldText(field: Field, index: number): string {
 }
 
 /** The shortest text for a number that was stored with four or with eight bytes. */
-function shortest(value: number, { constructor }: { constructor: unknown }): string {
+export function shortest(value: number, { constructor }: { constructor: unknown }): string {
   if (constructor !== Float32Array || !Number.isFinite(value)) return String(value);
   for (let digits = 6; digits < 9; digits++) {
     const text = String(Number(value.toPrecision(digits)));

@@ -1,9 +1,10 @@
 import { byId } from "../controls/dom.ts";
+import { remember, remembered } from "../controls/memory.ts";
 import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 
 /** The name under which this device remembers that the guide was seen or skipped. */
-const REMEMBERED = "hidden-point-removal: guide";
+const REMEMBERED = "guide";
 /** Each of the four steps takes this number of milliseconds. */
 const STEP = 5000;
 /** Radians in a millisecond, in the step that walks around. */
@@ -19,7 +20,7 @@ interface Step {
 
 /** Offers a guide of 20 seconds at the first visit. It ends as soon as the user does something else. */
 export function offerGuide(viewer: Viewer, store: Store): void {
-  if (isRemembered()) return;
+  if (remembered(REMEMBERED) !== null) return;
   const card = document.createElement("div");
   card.id = "guide";
   card.role = "group";
@@ -56,7 +57,7 @@ export function offerGuide(viewer: Viewer, store: Store): void {
   const end = () => {
     clearTimeout(timer);
     over.abort();
-    remember();
+    remember(REMEMBERED, "seen");
     // The focus must not vanish with the button.
     if (card.contains(document.activeElement)) byId("view").focus();
     card.remove();
@@ -129,21 +130,4 @@ function button(label: string): HTMLButtonElement {
   made.type = "button";
   made.textContent = label;
   return made;
-}
-
-/** A browser may refuse to store anything. Then the guide is offered at each visit. */
-function isRemembered(): boolean {
-  try {
-    return localStorage.getItem(REMEMBERED) !== null;
-  } catch {
-    return false;
-  }
-}
-
-function remember(): void {
-  try {
-    localStorage.setItem(REMEMBERED, "seen");
-  } catch {
-    // See `isRemembered`.
-  }
 }

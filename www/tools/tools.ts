@@ -10,6 +10,8 @@ import { Compare } from "./compare.ts";
 import { LateEdits } from "./edit/late-edits.ts";
 import { Export, type ExportActions } from "./export.ts";
 import { offerGuide } from "./guide.ts";
+import { Information } from "./information/information.ts";
+import { ScaleBar } from "./information/scale-bar.ts";
 import { bindKeysSheet } from "./keys.ts";
 import { Label } from "./label.ts";
 import { LateTool } from "./late-tool.ts";
@@ -33,6 +35,8 @@ export class Tools {
   readonly #compare: Compare;
   readonly #patience: Patience;
   readonly #edits: LateEdits;
+  readonly #information: Information;
+  readonly #scaleBar: ScaleBar;
   #active: Tool | null = null;
 
   constructor(viewer: Viewer, store: Store, actions: ExportActions, introduce: boolean) {
@@ -85,6 +89,8 @@ export class Tools {
       this.#goTo(spotOf(this.#canvas, event));
     });
     this.#compare = new Compare(viewer, store, introduce);
+    this.#information = new Information(bench);
+    this.#scaleBar = new ScaleBar(this.#marks.svg, viewer);
     bindKeysSheet();
     byId("tools").hidden = false;
     this.#bindKeys(viewer);
@@ -120,6 +126,8 @@ export class Tools {
     this.#patience.follow();
     this.#marks.place();
     this.#compare.place();
+    this.#information.follow();
+    this.#scaleBar.place();
   }
 
   /** Lets the active tool use a click, as soon as it is certain which points are visible. */

@@ -1,0 +1,71 @@
+import { expect, test } from "vitest";
+import { asciiPly, ball } from "./clouds.js";
+import { openReady, reached, site, unfold } from "./support.js";
+
+/** The sections of the panel that are open. */
+async function open(page: Awaited<ReturnType<typeof openReady>>): Promise<string[]> {
+  return page
+    .locator("#sheet details[open]")
+    .evaluateAll((sections) => sections.map(({ firstElementChild }) => firstElementChild!.textContent));
+}
+
+test("the first screen has a file, samples, hidden points and freeze; all other settings are folded", async () => {
+  const page = await openReady("?sample=bunny", { viewport: { width: 1440, height: 900 } });
+  expect(await open(page)).toEqual([]);
+  const seen = await page
+    .locator("#panel :is(button, select, input, summary)")
+    .evaluateAll((controls) =>
+      controls
+        .filter((control) => control.checkVisibility())
+        .map(
+          (control) => control.closest("fieldset, section, details")!.querySelector("h2, legend, summary")!.textContent,
+        ),
+    );
+  expect(new Set(seen)).toEqual(new Set(["Hidden points", "Viewpoint", "Cloud", "Information", "Look", "Advanced"]));
+});
+
+test("a section that the user has opened is open at the next visit, and a folded one stays folded", async () => {
+  const page = await openReady("?sample=bunny");
+  await unfold(page, "Advanced");
+  await page.goto(`${site.address}?sample=dragon_res4`);
+  await reached(page, "ready");
+  expect(await open(page)).toEqual(["Advanced"]);
+  await page.locator("summary", { hasText: "Advanced" }).click();
+  await page.goto(`${site.address}?sample=bunny`);
+  await reached(page, "ready");
+  expect(await open(page)).toEqual([]);
+});
+
+test.for([
+  ["radius=search", ["Advanced"]],
+  ["exponent=2", ["Advanced"]],
+  ["looks=2", ["Advanced"]],
+  ["denoise=6", ["Advanced", "Noise"]],
+  ["show=surface", ["Advanced", "Surface"]],
+  ["inversion=power", ["Advanced", "Method and viewpoints"]],
+  ["color=height", ["Look"]],
+  ["hidden=dimmed", []],
+] as const)("an address with %s opens the section that has this setting", async ([query, sections]) => {
+  const page = await openReady(`?sample=bunny&${query}`);
+  expect(await open(page)).toEqual(sections);
+  // Only the user's own choice is remembered.
+  expect(await page.evaluate(() => Object.keys(localStorage))).toEqual([]);
+});
+
+test("an own file is named above the samples, and is not one of them", async () => {
+  const page = await openReady("?sample=bunny");
+  await page.locator("#file").setInputFiles({
+    name: "mine.ply",
+    mimeType: "",
+    buffer: Buffer.from(asciiPly(ball(600))),
+  });
+  await page.locator('#status[data-total="600"]').waitFor();
+  expect(await page.locator("#own").textContent()).toBe("mine.ply");
+  const offered = await page
+    .locator("#sample option")
+    .evaluateAll((options) =>
+      options.filter((option) => !(option as HTMLOptionElement).hidden).map(({ textContent }) => textContent),
+    );
+  expect(offered.join()).not.toContain("mine");
+  expect(await page.locator("#sample").inputValue()).toBe("");
+});
