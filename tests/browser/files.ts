@@ -2,6 +2,14 @@ import type { Page } from "playwright-core";
 import { expect } from "vitest";
 import { answered, answerInNode, status } from "./support.js";
 
+/** Drops what `make` puts into the transfer on to the cloud. */
+export async function dropped(page: Page, make: (data: DataTransfer) => void): Promise<void> {
+  const transfer = await page.evaluateHandle(
+    `(() => { const data = new DataTransfer(); (${String(make)})(data); return data; })()`,
+  );
+  await page.dispatchEvent("#view", "drop", { dataTransfer: transfer });
+}
+
 /** Opens a file as the button does. */
 export async function choose(page: Page, name: string, content: Uint8Array): Promise<void> {
   await page.locator("#file").setInputFiles({ name, mimeType: "", buffer: Buffer.from(content) });

@@ -14,7 +14,8 @@ export type LoadRequest =
   | { kind: "sample"; name: string; url: string }
   | { kind: "shape"; name: string; shape: GeneratorName }
   | ({ kind: "url"; name: string; url: string } & ReadOptions)
-  | ({ kind: "file"; name: string; file: File } & ReadOptions);
+  | ({ kind: "file"; name: string; file: File } & ReadOptions)
+  | { kind: "files"; name: string; files: File[]; limit?: number };
 
 interface ReadOptions {
   skipNonFinite: boolean;

@@ -69,7 +69,15 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
     return { positions: new Float32Array(data), colors: null };
   }
 
-  const { limit = MAX_POINTS, streamFrom, skipNonFinite } = request;
+  const onProgress = (fraction: number) => {
+    progress("Reading", fraction);
+  };
+  const { limit = MAX_POINTS } = request;
+  if (request.kind === "files") {
+    const { readSeveral } = await import("./several.ts");
+    return readSeveral(request.files, { limit, onProgress, onPoints });
+  }
+  const { streamFrom, skipNonFinite } = request;
   const check = (cloud: LoadedCloud) => checkedCloud(name, cloud, skipNonFinite);
   // Refuses texts that cannot be read as an address, and addresses that hold their own content (data:).
   if (request.kind === "url" && !URL.canParse(".", request.url))
@@ -91,9 +99,6 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   }
   if (blob.size === 0) throw new LoadProblem(`${name} is empty.`);
   progress("Reading", null);
-  const onProgress = (fraction: number) => {
-    progress("Reading", fraction);
-  };
   return check(
     await readFile(
       { name, blob, limit, streamFrom, onProgress, onPoints },

@@ -70,6 +70,8 @@ export async function openCloud(
   place: Place,
 ): Promise<Ready> {
   const { signal, onProgress } = place;
+  // The ending of a file's name tells which way is up.
+  const { name } = request.kind === "files" ? request.files[0]! : request;
   // The WebAssembly is downloaded beside the cloud. If that fails, the error is reported when the cloud needs it.
   init().catch(() => undefined);
   const preview = { isShown: false };
@@ -80,13 +82,13 @@ export async function openCloud(
       onProgress(sentence(step, request.name, fraction), fraction);
     },
     (points, first) => {
-      const up = wished.up ?? usualLook(sample, request.name, 0, undefined, first).up;
+      const up = wished.up ?? usualLook(sample, name, 0, undefined, first).up;
       if (signal.aborted) return;
       preview.isShown = true;
       place.preview?.points(points, up);
     },
   );
-  const usual = usualLook(sample, request.name, cloud.count, loaded.taken?.up, cloud.center);
+  const usual = usualLook(sample, name, cloud.count, loaded.taken?.up, cloud.center);
   const { view, places, notes: farNotes } = inReachOnly(cloud, wanted, wished, place.asked);
   const own: Partial<Settings> = {
     ...usual,

@@ -16,7 +16,7 @@ import { canDraw } from "../view/can-draw.ts";
 import { Viewer } from "../view/viewer.ts";
 import { Notices, sentenceOf } from "./notices.ts";
 import { Opening } from "./opening.ts";
-import { fromFile, limitsOf, type Source } from "./sources.ts";
+import { fromFiles, limitsOf, type Source } from "./sources.ts";
 import { Status } from "./status.ts";
 import { wire } from "./wiring.ts";
 
@@ -64,7 +64,7 @@ export function startSession(wishes: Wishes, first: Source): void {
       });
   });
   onFile({
-    open: (file, notes) => void opening.open(fromFile(file, notes, limitsOf(wishes))),
+    open: (files, notes) => void opening.open(fromFiles(files, notes, limitsOf(wishes))),
     refuse: (sentence) => {
       message.show(sentence);
     },

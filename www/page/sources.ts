@@ -34,9 +34,20 @@ export function fromAddress(text: string, view: AskedView | null, limits: Limits
   return { request, sample: null, name: ["src", text], view, settings: {}, notes: [] };
 }
 
-export function fromFile(file: File, notes: string[], limits: Limits): Source {
-  const request = { kind: "file", name: file.name, file, skipNonFinite: false, ...limits } as const;
+/** One file, or several that are shown as one cloud. */
+export function fromFiles(files: File[], notes: string[], limits: Limits): Source {
+  const [file, ...others] = files as [File, ...File[]];
+  const { limit } = limits;
+  const request: Source["request"] =
+    others.length === 0
+      ? { kind: "file", name: file.name, file, skipNonFinite: false, ...limits }
+      : { kind: "files", name: nameOf(file, others), files, ...(limit !== undefined && { limit }) };
   return { request, sample: null, name: null, view: null, settings: {}, notes };
+}
+
+/** A name for several files, for use in a sentence. */
+function nameOf(file: File, others: readonly File[]): string {
+  return `${file.name} and ${others.length === 1 ? others[0]!.name : `${others.length} more files`}`;
 }
 
 /** The cloud that the page's address asks for. */

@@ -1,23 +1,23 @@
 import { byId } from "../controls/dom.ts";
 
 export interface FileActions {
-  /** `notes`: sentences that the user has to read about the file. */
-  open: (file: File, notes: string[]) => void;
+  /** `notes`: sentences that the user has to read about the files. */
+  open: (files: File[], notes: string[]) => void;
   /** Something was dropped that cannot be opened. */
   refuse: (sentence: string) => void;
 }
 
-/** Calls `open` for a file that is chosen by the button or dropped anywhere on the page. */
+/** Calls `open` for files that are chosen by the button or dropped anywhere on the page. */
 export function onFile({ open, refuse }: FileActions): void {
   const input = byId("file", HTMLInputElement);
   byId("open").addEventListener("click", () => {
     input.click();
   });
   input.addEventListener("change", () => {
-    const file = input.files?.[0];
+    const files = [...(input.files ?? [])];
     // The input is emptied, so that choosing the same file again is a change.
-    if (file) open(file, []);
     input.value = "";
+    if (files.length > 0) open(files, []);
   });
 
   const hint = byId("drop");
@@ -33,10 +33,11 @@ export function onFile({ open, refuse }: FileActions): void {
     hint.hidden = true;
     // Otherwise the browser would leave the page and open what was dropped.
     event.preventDefault();
-    const { items, files } = event.dataTransfer!;
-    const file = files[0];
-    if (!file) refuse("That is not a file; drop a file.");
-    else if (items[0]?.webkitGetAsEntry()?.isDirectory) refuse("That is a folder; drop a file.");
-    else open(file, files.length > 1 ? [`Of the ${files.length} files only the first was opened, ${file.name}.`] : []);
+    const items = [...event.dataTransfer!.items].filter(({ kind }) => kind === "file");
+    const isFolder = items.map((item) => item.webkitGetAsEntry()?.isDirectory ?? false);
+    const files = [...event.dataTransfer!.files].filter((_, i) => !isFolder[i]);
+    const folders = isFolder.filter(Boolean).length;
+    if (files.length > 0) open(files, folders > 0 ? ["A folder is left out; drop its files."] : []);
+    else refuse(folders > 0 ? "That is a folder; drop its files." : "That is not a file; drop a file.");
   });
 }
