@@ -127,9 +127,14 @@ export class Opening {
     workshop.clear();
     viewer.show(ready.opened);
     this.shownName = sample?.name ?? request.name;
-    workshop.begin().catch(() => {
-      message.show("The tools of this page could not be loaded; reload the page to try again.");
-    });
+    workshop.begin(source.marks ?? null).then(
+      (said) => {
+        if (said !== null) message.show(said);
+      },
+      () => {
+        message.show("The tools of this page could not be loaded; reload the page to try again.");
+      },
+    );
     panel.usual = ready.usual;
     address.begin(insteadOf === undefined ? name : null, ready.usual);
     if (insteadOf !== undefined) status.error(insteadOf);

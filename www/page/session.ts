@@ -38,14 +38,17 @@ export function startSession(wishes: Wishes, first: Source): void {
   const panel = new Panel(viewer, store, settings);
   const handles = new LightHandles(byId("lights"), viewer, store);
   const notices = new Notices(status, message);
-  const address: Address = new Address(
-    store,
-    () => cameraPlace(viewer, opening.askedView),
-    () => workshop.introducing,
-  );
+  const address: Address = new Address(store, {
+    camera: () => cameraPlace(viewer, opening.askedView),
+    marks: () => workshop.marks,
+    introducing: () => workshop.introducing,
+  });
   const actions = {
     name: () => opening.shownName,
     link: () => address.link(),
+    changed: () => {
+      address.touch();
+    },
     whole: () => opening.whole,
     open: (source: Source, whole: Source) => opening.open(source, whole),
   };

@@ -14,6 +14,8 @@ export interface Source extends Wish {
   name: CloudName | null;
   /** Sentences that the user has to read about it. */
   notes: string[];
+  /** The address, if it may have marks of this cloud. */
+  marks?: string;
   /** The reason why the cloud that was asked for could not be opened, if this cloud replaces it. */
   insteadOf?: string;
 }
@@ -55,7 +57,7 @@ export function firstSource(wishes: Wishes): Source {
   const { sample, src, settings, notes } = wishes;
   const view = wishes.view && { at: wishes.view, target: wishes.target };
   const source = src === null ? fromSample(sampleNamed(sample), view) : fromAddress(src, view, limitsOf(wishes));
-  return { ...source, settings, notes };
+  return { ...source, settings, notes, marks: location.search };
 }
 
 /** The largest number of points of a file, and that from which on an octree is streamed, as the address asks for them. */

@@ -20,26 +20,36 @@ interface Named {
   usual: Usual;
 }
 
+/** The parameters for marks and the selection. tools/link.ts writes and reads them. */
+export const MARK_PARAMETERS = ["measure", "label", "select"] as const;
+export type MarkParameter = (typeof MARK_PARAMETERS)[number];
+
+/** The parts of the page that are in the address beside the settings. */
+export interface Beside {
+  /** `null` for the usual place. */
+  camera: () => CameraPlace | null;
+  /** `null`: the tools are not there yet, so the address keeps its marks. */
+  marks: () => Record<MarkParameter, string[]> | null;
+  /** Whether the picture is divided only as an introduction to the page. */
+  introducing: () => boolean;
+}
+
 /** The address is written after this many milliseconds without a change. Browsers refuse to write it every frame. */
 const CALM = 300;
 
 /** Keeps the page's address up to date: a copy of it opens the same cloud, picture and settings. */
 export class Address {
-  /** `null` for the usual place. */
-  readonly #camera: () => CameraPlace | null;
+  readonly #beside: Beside;
   readonly #store: Store;
   /** `null`: a file from this device, which no address can open. */
   #cloud: Named | null = null;
   /** The address before a cloud was chosen. It comes back if that cloud cannot be opened. */
   #before: { cloud: Named | null; href: string } | null = null;
-  /** Whether the picture is divided only as an introduction to the page. */
-  readonly #introducing: () => boolean;
   #timer: ReturnType<typeof setTimeout> | undefined;
 
-  constructor(store: Store, camera: () => CameraPlace | null, introducing: () => boolean) {
+  constructor(store: Store, beside: Beside) {
     this.#store = store;
-    this.#camera = camera;
-    this.#introducing = introducing;
+    this.#beside = beside;
     store.follow(() => {
       this.touch();
     });
@@ -58,7 +68,7 @@ export class Address {
     this.#cloud = null;
     const address = new URL(location.href);
     const ofCloud = Object.values(SETTINGS).filter((row) => row.ofCloud);
-    for (const name of ["src", "view", "target", ...ofCloud.map((row) => row.parameter)])
+    for (const name of ["src", "view", "target", ...MARK_PARAMETERS, ...ofCloud.map((row) => row.parameter)])
       address.searchParams.delete(name);
     address.searchParams.set(parameter, value);
     replace(address);
@@ -93,9 +103,13 @@ export class Address {
     const { name, usual } = this.#cloud;
     const address = new URL(location.href);
     const { searchParams } = address;
-    const introducing = this.#introducing();
+    const introducing = this.#beside.introducing();
     const settings = introducing ? { ...this.#store.current, compare: null } : this.#store.current;
-    const values = { ...settingsInAddress(settings, usual), ...cameraInAddress(this.#camera()) };
+    const values = {
+      ...settingsInAddress(settings, usual),
+      ...cameraInAddress(this.#beside.camera()),
+      ...this.#beside.marks(),
+    };
     // The user has changed nothing yet. The address stays empty, so the next visit begins with the introduction, too.
     if (introducing && address.search === "" && Object.values(values).every((texts) => texts.length === 0)) return;
     searchParams.delete(name[0] === "src" ? "sample" : "src");

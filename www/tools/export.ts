@@ -13,6 +13,8 @@ export interface ExportActions {
   name: () => string;
   /** An address that opens the page in its present state. `null` if no address can do that. */
   link: () => string | null;
+  /** Must be called when something of the tools has changed that is part of the address. */
+  changed: () => void;
   /** The cloud on screen, or the cloud of which a part is on screen. */
   whole: () => OpenedCloud | null;
   /** Shows another cloud, which is a part of `whole`. */
@@ -33,12 +35,15 @@ export class Export implements Tool {
   readonly #bench: Bench;
   readonly #selected: () => Uint32Array;
   readonly #actions: ExportActions;
+  readonly #left: () => string[];
   readonly #output = byId("export-result");
   readonly #what = new Segmented<"visible" | "selection">("export-what", () => undefined);
 
-  constructor(bench: Bench, selected: () => Uint32Array, actions: ExportActions) {
+  /** `left`: the things that are too long for the link. */
+  constructor(bench: Bench, selected: () => Uint32Array, actions: ExportActions, left: () => string[]) {
     this.#bench = bench;
     this.#selected = selected;
+    this.#left = left;
     this.#actions = actions;
     this.#bind("export-ply", "ply", () => this.#ply());
     this.#bind("export-las", "las", () => this.#las());
@@ -138,9 +143,12 @@ export class Export implements Tool {
       return;
     }
     const copied = await copy(link);
-    this.#output.textContent = copied
+    const said = copied
       ? "The link is copied."
       : "The browser does not let this page copy; the link is the page’s address.";
+    const left = this.#left();
+    this.#output.textContent =
+      left.length === 0 ? said : `${said} Not in it, because an address would be too long: ${left.join(", ")}.`;
   }
 }
 

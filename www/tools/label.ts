@@ -13,14 +13,14 @@ export class Label implements Tool {
   readonly #output = byId("label-result");
   readonly #list = byId("label-list");
   #begun: { index: number; mark: Mark } | null = null;
-  #labels: Mark[] = [];
+  #labels: { index: number; text: string; mark: Mark }[] = [];
 
   constructor(bench: Bench) {
     this.#bench = bench;
     this.#form.addEventListener("submit", (event) => {
       event.preventDefault();
       const text = this.#input.value.trim();
-      if (this.#begun && text !== "") this.#add(this.#begun.index, text);
+      if (this.#begun && text !== "") this.add(this.#begun.index, text);
       this.#drop();
       byId("view").focus();
     });
@@ -51,8 +51,9 @@ export class Label implements Tool {
 
   clear(): void {
     this.#drop();
-    for (const label of this.#labels.splice(0)) label.remove();
+    for (const { mark } of this.#labels.splice(0)) mark.remove();
     this.#list.replaceChildren();
+    this.#bench.changed();
   }
 
   #drop(): void {
@@ -63,9 +64,15 @@ export class Label implements Tool {
     this.#output.textContent = "Click the point to be labeled.";
   }
 
-  #add(index: number, text: string): void {
+  /** The labels, in the order in which they were added. */
+  get texts(): readonly { index: number; text: string }[] {
+    return this.#labels;
+  }
+
+  /** Puts a text on a point. */
+  add(index: number, text: string): void {
     const mark = this.#bench.marks.note(index, text);
-    this.#labels.push(mark);
+    this.#labels.push({ index, text, mark });
     const entry = document.createElement("li");
     const name = document.createElement("span");
     name.textContent = text;
@@ -75,11 +82,13 @@ export class Label implements Tool {
     remove.ariaLabel = `Remove the label ${text}`;
     remove.addEventListener("click", () => {
       mark.remove();
-      this.#labels = this.#labels.filter((label) => label !== mark);
+      this.#labels = this.#labels.filter((label) => label.mark !== mark);
       entry.remove();
+      this.#bench.changed();
       byId("view").focus();
     });
     entry.append(name, remove);
     this.#list.append(entry);
+    this.#bench.changed();
   }
 }

@@ -20,7 +20,7 @@ export class Measure implements Tool {
   readonly #output = byId("measure-result");
   readonly #remove = byId("measure-clear", HTMLButtonElement);
   #from: { index: number; mark: Mark } | null = null;
-  #lines: Mark[] = [];
+  #lines: { ends: readonly [number, number]; mark: Mark }[] = [];
   readonly #mode = modeChoice(() => {
     this.clear();
     void this.#begin();
@@ -37,7 +37,6 @@ export class Measure implements Tool {
   }
 
   click(spot: Spot): void {
-    const { viewer, marks } = this.#bench;
     const index = this.#bench.pointAt(spot);
     if (typeof index === "string") {
       this.#output.textContent = index;
@@ -45,24 +44,37 @@ export class Measure implements Tool {
       this.#output.replaceChildren(...this.#other.add(index));
       this.#remove.hidden = false;
     } else if (!this.#from) {
-      this.#from = { index, mark: marks.ring(index) };
+      this.#from = { index, mark: this.#bench.marks.ring(index) };
       this.#output.textContent = "Now the second point.";
     } else {
-      const measures = measuresOf(viewer.cloud!);
-      const { unit } = measures;
-      const way = wayBetween(viewer.scene, this.#from.index, index, measures);
-      const distance = Math.hypot(...way);
-      const { horizontal, height } = split(way, this.#bench.upward());
-      this.#lines.push(marks.line(this.#from.index, index, measured(distance, unit)));
+      const from = this.#from.index;
       this.#drop();
-      this.#output.replaceChildren(
-        row("Distance", measured(distance, unit)),
-        row("Horizontal", measured(horizontal, unit)),
-        row("Height difference", measured(height, unit)),
-      );
-      this.#output.dataset["distance"] = String(distance);
-      this.#remove.hidden = false;
+      this.measure(from, index);
     }
+  }
+
+  /** The pairs of points whose distances are shown. */
+  get pairs(): readonly (readonly [number, number])[] {
+    return this.#lines.map(({ ends }) => ends);
+  }
+
+  /** Shows the distance between two points. */
+  measure(from: number, to: number): void {
+    const { viewer, marks } = this.#bench;
+    const measures = measuresOf(viewer.cloud!);
+    const { unit } = measures;
+    const way = wayBetween(viewer.scene, from, to, measures);
+    const distance = Math.hypot(...way);
+    const { horizontal, height } = split(way, this.#bench.upward());
+    this.#lines.push({ ends: [from, to], mark: marks.line(from, to, measured(distance, unit)) });
+    this.#output.replaceChildren(
+      row("Distance", measured(distance, unit)),
+      row("Horizontal", measured(horizontal, unit)),
+      row("Height difference", measured(height, unit)),
+    );
+    this.#output.dataset["distance"] = String(distance);
+    this.#remove.hidden = false;
+    this.#bench.changed();
   }
 
   cancel(): boolean {
@@ -78,11 +90,12 @@ export class Measure implements Tool {
 
   clear(): void {
     this.#drop();
-    for (const line of this.#lines.splice(0)) line.remove();
+    for (const { mark } of this.#lines.splice(0)) mark.remove();
     this.#other?.clear();
     this.#invite();
     delete this.#output.dataset["distance"];
     this.#remove.hidden = true;
+    this.#bench.changed();
   }
 
   async #begin(): Promise<void> {

@@ -101,6 +101,7 @@ export class Select implements Tool {
     this.#output.dataset["count"] = String(length);
     this.#remove.hidden = length === 0;
     this.onChange();
+    this.#bench.changed();
   }
 
   #line(path: Place[]): Place[] {

@@ -18,6 +18,8 @@ export interface Bench {
   isEditing: () => boolean;
   /** Whether hidden points count as well. */
   through: () => boolean;
+  /** Must be called when marks or the selection have changed: they are part of the address. */
+  changed: () => void;
   /** Runs something when the picture is final; see `Patience`. */
   whenFinal: (run: () => void, here?: boolean) => void;
 }

@@ -4,6 +4,7 @@ import { Vector3 } from "three";
 import { upVector } from "../cloud/cloud.ts";
 import { byId } from "../controls/dom.ts";
 import { type Action, isKeyOf, pressed } from "../controls/keys.ts";
+import type { MarkParameter } from "../settings/address.ts";
 import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { Compare } from "./compare.ts";
@@ -15,6 +16,7 @@ import { ScaleBar } from "./information/scale-bar.ts";
 import { bindKeysSheet } from "./keys.ts";
 import { Label } from "./label.ts";
 import { LateTool } from "./late-tool.ts";
+import { linkOf, type Marked, restore } from "./link.ts";
 import { Marks } from "./marks.ts";
 import { Measure } from "./measure.ts";
 import { Patience } from "./patience.ts";
@@ -37,6 +39,7 @@ export class Tools {
   readonly #edits: LateEdits;
   readonly #information: Information;
   readonly #scaleBar: ScaleBar;
+  readonly #marked: Marked;
   #active: Tool | null = null;
 
   constructor(viewer: Viewer, store: Store, actions: ExportActions, introduce: boolean) {
@@ -56,13 +59,22 @@ export class Tools {
       choose: (indices) => {
         select.choose(indices);
       },
+      changed: actions.changed,
       through: () => this.#through.checked,
       whenFinal: (run, here) => {
         this.#patience.whenFinal(run, here);
       },
     };
     const select: Select = new Select(bench, this.#canvas, () => this.#active === select);
-    const exports = new Export(bench, () => select.indices, actions);
+    const measure = new Measure(bench);
+    const label = new Label(bench);
+    this.#marked = { measure, label, select };
+    const exports = new Export(
+      bench,
+      () => select.indices,
+      actions,
+      () => linkOf(this.#marked).left,
+    );
     const edits: LateEdits = new LateEdits(() => bench, store, select, actions, byId("select-card"));
     this.#edits = edits;
     select.onOpen = () => {
@@ -76,7 +88,7 @@ export class Tools {
       const { Stations } = await import("./stations/stations.ts");
       return new Stations(bench, store, card);
     });
-    this.#tools = [new Pick(bench), new Measure(bench), select, new Label(bench), stations, exports];
+    this.#tools = [new Pick(bench), measure, select, label, stations, exports];
     for (const tool of this.#tools) {
       byId(`tool-${tool.name}`).addEventListener("click", () => {
         this.#toggle(tool);
@@ -100,6 +112,21 @@ export class Tools {
   /** Whether the picture is divided only as an introduction to the page. */
   get introducing(): boolean {
     return this.#compare.introducing;
+  }
+
+  /** The marks and the selection for the address. Those of a streamed cloud end when the camera moves. */
+  get marks(): Record<MarkParameter, string[]> {
+    const isStreamed = this.#viewer.cloud !== null && this.#viewer.scene.answer.whole !== undefined;
+    return isStreamed ? { measure: [], label: [], select: [] } : linkOf(this.#marked).parameters;
+  }
+
+  /** Sets the marks of an address. Returns a sentence if some of them do not suit the cloud. */
+  restore(search: string): string | null {
+    const { cloud, answer } = this.#viewer.scene;
+    const count = answer.whole ? 0 : cloud.count;
+    return restore(search, this.#marked, count)
+      ? null
+      : "Some marks or the selection in the address do not suit this cloud and are left out.";
   }
 
   /** Called before another cloud is shown. */

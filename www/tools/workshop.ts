@@ -1,5 +1,6 @@
 import type { TimedView } from "../ask/inquiry.ts";
 import { nextFrame } from "../controls/dom.ts";
+import type { MarkParameter } from "../settings/address.ts";
 import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import type { ExportActions } from "./export.ts";
@@ -12,6 +13,8 @@ export class Workshop {
   readonly #viewer: Viewer;
   #here: { tools: Tools; plot: Plot } | null = null;
   #coming = false;
+  /** An address whose marks wait for the tools. */
+  #search: string | null = null;
   readonly #introduce: boolean;
   /** The last known exponent of the automatic radius. */
   #automatic: number | null = null;
@@ -30,8 +33,14 @@ export class Workshop {
     return this.#here ? this.#here.tools.introducing : this.#introduce;
   }
 
+  /** The marks and the selection for the address. `null`: the tools are not there yet. */
+  get marks(): Record<MarkParameter, string[]> | null {
+    return this.#here && this.#search === null ? this.#here.tools.marks : null;
+  }
+
   /** Called when another cloud is about to be shown. */
   clear(): void {
+    this.#search = null;
     this.#here?.tools.clear();
   }
 
@@ -42,8 +51,21 @@ export class Workshop {
     this.#here?.tools.begin();
   }
 
-  /** Called when a cloud is shown. Rejects if the tools cannot be loaded. */
-  async begin(): Promise<void> {
+  /**
+   * Called when a cloud is shown. Rejects if the tools cannot be loaded. `search`: an address that may have marks.
+   * Resolves with a sentence if they do not suit the cloud.
+   */
+  async begin(search: string | null): Promise<string | null> {
+    this.#search = search;
+    await this.#open();
+    const here = this.#here;
+    if (!here || this.#search === null || !this.#viewer.cloud) return null;
+    const said = here.tools.restore(this.#search);
+    this.#search = null;
+    return said;
+  }
+
+  async #open(): Promise<void> {
     if (this.#here) {
       this.#here.plot.clear();
       this.#here.tools.begin();
