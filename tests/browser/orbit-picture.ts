@@ -10,24 +10,16 @@
  */
 import { writeFileSync } from "node:fs";
 import type { Page } from "playwright-core";
-import { bumpySurface } from "../bench/generators.js";
+import { fourBalls } from "./balls.js";
 import { hold, holdable, release } from "./held.js";
 import { addStyle, launchBrowser, servePage } from "./site.js";
 
 const SIZE = { width: 300, height: 260 };
-const EACH = 250_000;
-/** The middles of four bumpy balls of radius 1. The first one hides parts of the others. */
-const MIDDLES = [
-  [0, 0, 2.2],
-  [-1.6, 0.9, 0],
-  [1.7, 0.7, -0.4],
-  [0.1, -1.1, -0.8],
-];
 const FINAL = '#status[data-state="ready"][data-busy="0"]';
 /** Each press of an arrow key turns the camera by 5°. */
 const PRESSES = 6;
 
-const site = await servePage(new Map([["balls.ply", balls()]]));
+const site = await servePage(new Map([["balls.ply", fourBalls(1_000_000)]]));
 const browser = await launchBrowser();
 const context = await browser.newContext({ viewport: SIZE, reducedMotion: "reduce" });
 const page = await context.newPage();
@@ -62,18 +54,6 @@ async function open(address: string): Promise<void> {
 async function shoot(): Promise<string> {
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
   return (await page.locator("#view").screenshot({ timeout: 120_000 })).toString("base64");
-}
-
-/** A binary PLY file. */
-function balls(): Uint8Array {
-  const count = MIDDLES.length * EACH;
-  const header = `ply\nformat binary_little_endian 1.0\nelement vertex ${count}\nproperty float x\nproperty float y\nproperty float z\nend_header\n`;
-  const positions = new Float32Array(3 * count);
-  MIDDLES.forEach((middle, i) => {
-    const surface = bumpySurface(EACH, i + 1);
-    for (let k = 0; k < surface.length; k++) positions[3 * EACH * i + k] = surface[k]! + middle[k % 3]!;
-  });
-  return Buffer.concat([Buffer.from(header), new Uint8Array(positions.buffer)]);
 }
 
 function strip(canvasPage: Page, images: string[]): Promise<string> {

@@ -13,8 +13,8 @@ export class Information {
   readonly #bench: Bench;
   readonly #section = byId("info-section", HTMLDetailsElement);
   readonly #list = byId("info");
-  /** The columns that are shown. Another cloud, and another class of points, have others. */
-  #shown: readonly Field[] | null = null;
+  /** The columns that are shown: another cloud, and other classes of points, have others. Of a streamed file, its name. */
+  #shown: readonly Field[] | string | null = null;
   #upward = "";
 
   constructor(bench: Bench) {
@@ -26,8 +26,10 @@ export class Information {
     const { viewer } = this.#bench;
     if (!viewer.cloud || !this.#section.open) return;
     const upward = this.#bench.upward().join();
-    if (this.#shown === viewer.cloud.fields && this.#upward === upward) return;
-    this.#shown = viewer.cloud.fields;
+    // Each view of a streamed file shows other points of it. The list stays that of its coarser levels.
+    const shown = viewer.scene.answer.whole ? this.#bench.name() : viewer.cloud.fields;
+    if (this.#shown === shown && this.#upward === upward) return;
+    this.#shown = shown;
     this.#upward = upward;
     this.#list.replaceChildren(...this.#rows().map(([name, value]) => row(name, value)));
   }

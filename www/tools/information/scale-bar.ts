@@ -6,7 +6,7 @@ const SVG = "http://www.w3.org/2000/svg";
 /** The longest bar in CSS pixels, and its distance from the edge of the picture. */
 const LONGEST = 120;
 const EDGE = 20;
-/** On narrower pictures the tools are along the whole lower edge, so the bar is at the upper one. */
+/** In narrower windows the tools are along the whole lower edge, so the bar is at the upper one. */
 const NARROW = 760;
 
 /** A bar of a round length in the picture, as things look at the distance of the place that the camera turns around. */
@@ -46,7 +46,7 @@ export class ScaleBar {
     const width = (length * pixels) / scale[0];
     // In a frame of another page, a link is at the right.
     const right = document.body.classList.contains("embedded") ? EDGE + width : size.width - EDGE;
-    const bottom = size.width <= NARROW ? EDGE + 24 : size.height - EDGE;
+    const bottom = innerWidth <= NARROW ? EDGE + 24 : size.height - EDGE;
     for (const line of this.#lines) line.setAttribute("d", `M${right - width} ${bottom - 6}v6h${width}v-6`);
     this.#text.textContent = lengthText(length, unit);
     this.#text.setAttribute("x", String(right - width / 2));
