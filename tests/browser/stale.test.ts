@@ -102,6 +102,8 @@ test(
     served.set("clouds/four-balls.ply", fourBalls(POINTS));
     const query = "?src=clouds/four-balls.ply&up=y&view=0,1,8.5&embed=1&theme=dark&color=plain";
     const page = await openReady(query, { viewport: SIZE, deviceScaleFactor: 1 });
+    // Software drawing of millions of points takes long.
+    page.setDefaultTimeout(300_000);
     await addStyle(page, "#signs, #marks, #whole-page { display: none } #view { outline: none !important }");
     await record(page);
     for (let i = 0; i < PRESSES; i++) {

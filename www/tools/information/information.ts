@@ -26,7 +26,7 @@ export class Information {
     const { viewer } = this.#bench;
     if (!viewer.cloud || !this.#section.open) return;
     const upward = this.#bench.upward().join();
-    // Each view of a streamed file shows other points of it. The list stays that of its coarser levels.
+    // Each view of a streamed file shows other points of it. The list stays as it was first shown.
     const shown = viewer.scene.answer.whole ? this.#bench.name() : viewer.cloud.fields;
     if (this.#shown === shown && this.#upward === upward) return;
     this.#shown = shown;
