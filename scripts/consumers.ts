@@ -1,5 +1,5 @@
-// npm run consumers: tests the packed package in every bundler, page and runtime that is installed here.
-// `npm test` runs only the most common ones.
+// npm run consumers: tests the packed package in every bundler, framework, page and runtime, and writes
+// tests/consumers/MATRIX.md. npm installs the tools of most of them. `npm test` runs only those that need nothing more.
 import { build } from "./build/build.js";
 import { vitest } from "./checks/vitest.js";
 import { command } from "./lib/command.js";

@@ -99,6 +99,11 @@ export const bundlers = (visit: Visit): Consumer[] => [
   {
     name: "esbuild, wasm address given",
     version: esbuild.version,
+    glue: [
+      'import wasm from "hidden-point-removal/hpr.wasm";',
+      "init(new URL(wasm, import.meta.url))",
+      "--loader:.wasm=file worker-thread=node_modules/hidden-point-removal/dist/worker/worker-thread.js",
+    ],
     run: async () => {
       await buildWithEsbuild({
         entryPoints: { main: "explicit.js", "worker-thread": WORKER },
@@ -113,6 +118,11 @@ export const bundlers = (visit: Visit): Consumer[] => [
   {
     name: "esbuild, exported files, configure",
     version: esbuild.version,
+    glue: [
+      'hpr.configure({ wasm: "hpr.wasm", worker: "worker-thread.js" });',
+      "cp node_modules/hidden-point-removal/dist/wasm/hpr_bg.wasm built/hpr.wasm",
+      "cp node_modules/hidden-point-removal/dist/worker-thread.js built/",
+    ],
     run: async () => {
       await buildWithEsbuild({ entryPoints: ["configured.js"], format: "esm", outdir: "configured" });
       copyExported(project("esbuild", "configured"));

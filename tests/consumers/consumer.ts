@@ -14,7 +14,12 @@ export interface Consumer {
   further?: true;
   /** Why it cannot run here, if it cannot. */
   lacking?: string;
-  run: () => Promise<Answered>;
+  /** The lines that a user must write besides `init()`, as docs/BUNDLERS.md has them. */
+  glue?: readonly string[];
+  /** Installs what it needs into a folder of its own, and returns the folder. */
+  prepare?: () => string;
+  /** Builds and asks. Gets the folder, if there is one. */
+  run: (folder: string) => Promise<Answered>;
 }
 
 /** Reads the answer of a page: opens the address and waits for its `<output>`. */

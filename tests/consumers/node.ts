@@ -14,8 +14,6 @@ export const nodeScripts: Consumer[] = [
     ...(canRequire() ? {} : { lacking: "this Node cannot require ES modules" }),
   },
   script("a server that renders pages", "server-side.mjs"),
-  { ...elsewhere("Deno", ["deno", "run", "--allow-all", "--node-modules-dir=manual"]), further: true },
-  { ...elsewhere("Bun", ["bun"]), further: true },
   {
     name: "npx hidden-point-removal",
     version: process.version,
@@ -41,33 +39,18 @@ export const nodeScripts: Consumer[] = [
   },
 ];
 
-function script(
-  name: string,
-  file: string,
-  command = [process.execPath, "--no-warnings"],
-  version = process.version,
-): Consumer {
+function script(name: string, file: string): Consumer {
   return {
     name,
-    version,
+    version: process.version,
     run: () => {
-      const [program = "", ...args] = command;
-      const { stdout, stderr, status } = spawnSync(program, [...args, project("node", file)], { encoding: "utf8" });
+      const { stdout, stderr, status } = spawnSync(process.execPath, ["--no-warnings", project("node", file)], {
+        encoding: "utf8",
+      });
       if (status !== 0) throw new Error(stderr);
       return Promise.resolve(JSON.parse(stdout) as Answered);
     },
   };
-}
-
-/** The same script in another runtime, if it is installed. */
-function elsewhere(name: string, command: string[]): Consumer {
-  const { stdout, status } = spawnSync(command[0]!, ["--version"], {
-    encoding: "utf8",
-    shell: process.platform === "win32",
-  });
-  if (status !== 0)
-    return { ...script(name, "esm.mjs", command, ""), lacking: `there is no ${command[0]!} on the PATH` };
-  return script(name, "esm.mjs", command, /\d+\.\d+\.\d+/.exec(stdout)?.[0]);
 }
 
 function canRequire(): boolean {

@@ -1,12 +1,17 @@
-/** Whether Node's own modules can be imported (Deno and Bun have them too). */
-export function hasNodeModules(): boolean {
-  const { process } = globalThis as { process?: { versions?: { node?: string } } };
-  return typeof process?.versions?.node === "string";
-}
-
 interface NodeProcess {
+  versions?: { node?: string };
   cwd(): string;
   getBuiltinModule?: (name: string) => unknown;
+}
+
+/** Node's `process`. A bundler that sees the bare name may add a package of that name (Parcel installs it). */
+function nodeProcess(): NodeProcess | undefined {
+  return (globalThis as { process?: NodeProcess }).process;
+}
+
+/** Whether Node's own modules can be imported (Deno and Bun have them too). */
+export function hasNodeModules(): boolean {
+  return typeof nodeProcess()?.versions?.node === "string";
 }
 
 /**
@@ -15,7 +20,7 @@ interface NodeProcess {
  */
 export async function importNodeModule<Module>(name: `node:${string}`): Promise<Module> {
   // No bundler and no test runner changes this call. Node has it since 20.16.
-  const module = (process as NodeProcess).getBuiltinModule?.(name);
+  const module = nodeProcess()?.getBuiltinModule?.(name);
   return (module ??
     (await import(/* webpackIgnore: true */ /* turbopackIgnore: true */ /* @vite-ignore */ name))) as Module;
 }
@@ -24,7 +29,7 @@ export async function importNodeModule<Module>(name: `node:${string}`): Promise<
 export async function installedFile(name: string): Promise<string | undefined> {
   try {
     const { createRequire } = await importNodeModule<typeof import("node:module")>("node:module");
-    return createRequire(`${process.cwd()}/`).resolve(`hidden-point-removal/${name}`);
+    return createRequire(`${nodeProcess()!.cwd()}/`).resolve(`hidden-point-removal/${name}`);
   } catch {
     return undefined;
   }

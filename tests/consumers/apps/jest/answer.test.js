@@ -1,0 +1,9 @@
+import { writeFileSync } from "node:fs";
+import * as hpr from "hidden-point-removal";
+import * as worker from "hidden-point-removal/worker";
+import { answer } from "./shared/answer.js";
+
+test("answers in jsdom", async () => {
+  expect(document.body).toBeDefined();
+  writeFileSync("answer.json", JSON.stringify(await answer(hpr, worker)));
+});
