@@ -5,64 +5,9 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use hidden_point_removal::{Camera, Convention, Error, Inversion, Options, PointCloud, Within};
 
+use crate::common::cameras::{camera, shown};
 use crate::common::rng::Rng;
 use crate::common::shapes;
-
-/// A camera that looks at the origin from `from`, with axes by `convention`.
-fn camera(rng: &mut Rng, from: [f64; 3], convention: Convention) -> Camera {
-    let unit = |v: [f64; 3]| {
-        let length = (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]).sqrt();
-        v.map(|x| x / length)
-    };
-    let cross = |a: [f64; 3], b: [f64; 3]| {
-        [
-            a[1] * b[2] - a[2] * b[1],
-            a[2] * b[0] - a[0] * b[2],
-            a[0] * b[1] - a[1] * b[0],
-        ]
-    };
-    let ahead = unit(from.map(|x| -x));
-    let right = unit(cross(ahead, rng.direction()));
-    let down = cross(ahead, right);
-    let axes = match convention {
-        Convention::OpenCv => [right, down, ahead],
-        Convention::OpenGl => [right, down.map(|x| -x), ahead.map(|x| -x)],
-    };
-    let mut camera = Camera::new(500.0, 510.0, 310.0, 245.0, 640.0, 480.0);
-    camera.convention = convention;
-    for (column, axis) in axes.into_iter().chain([from]).enumerate() {
-        camera.matrix[4 * column..4 * column + 3].copy_from_slice(&axis);
-    }
-    camera
-}
-
-/// The projection in plain numbers, without the crate's code.
-fn projected(camera: &Camera, p: [f64; 3]) -> Option<([f64; 2], f64)> {
-    let m = &camera.matrix;
-    let v: [f64; 3] = core::array::from_fn(|i| p[i] - m[12 + i]);
-    let [x, mut y, mut z] = [0, 4, 8].map(|c| m[c] * v[0] + m[c + 1] * v[1] + m[c + 2] * v[2]);
-    if camera.convention == Convention::OpenGl {
-        (y, z) = (-y, -z);
-    }
-    if z <= 0.0 || z < camera.near || z > camera.far {
-        return None;
-    }
-    let (a, b) = (x / z, y / z);
-    let r2 = a * a + b * b;
-    let [k1, k2, p1, p2, k3] = camera.distortion;
-    // The radial part must grow all the way from the middle.
-    let steps = 2000;
-    let grows = |s: f64| 1.0 + 3.0 * k1 * s + 5.0 * k2 * s * s + 7.0 * k3 * s * s * s > 0.0;
-    if !(0..=steps).all(|step| grows(r2 * f64::from(step) / f64::from(steps))) {
-        return None;
-    }
-    let radial = 1.0 + k1 * r2 + k2 * r2 * r2 + k3 * r2 * r2 * r2;
-    let u = a * radial + 2.0 * p1 * a * b + p2 * (r2 + 2.0 * a * a);
-    let w = b * radial + p1 * (r2 + 2.0 * b * b) + 2.0 * p2 * a * b;
-    let (u, w) = (camera.fx * u + camera.cx, camera.fy * w + camera.cy);
-    let inside = 0.0 <= u && u < camera.width && 0.0 <= w && w < camera.height;
-    inside.then_some(([u, w], z))
-}
 
 #[test]
 fn a_camera_sees_the_view_from_its_place_cut_to_its_image() {
@@ -80,7 +25,8 @@ fn a_camera_sees_the_view_from_its_place_cut_to_its_image() {
     for (number, distortion) in distortions.into_iter().enumerate() {
         for convention in [Convention::OpenCv, Convention::OpenGl] {
             for (from, depth) in [([0.1, 0.2, 2.4], 2.0), ([0.05, 0.1, 0.15], 0.8)] {
-                let mut camera = camera(&mut rng, from, convention);
+                let ahead = from.map(|x| -x);
+                let mut camera = camera(&mut rng, from, ahead, convention);
                 camera.distortion = distortion;
                 if number == 1 {
                     (camera.near, camera.far) = (0.8 * depth, depth);
@@ -105,7 +51,9 @@ fn a_camera_sees_the_view_from_its_place_cut_to_its_image() {
                     let whole = cloud.visible_from(from, &options).unwrap();
                     let mut expected = Vec::new();
                     for &index in whole.indices() {
-                        if let Some((pixel, depth)) = projected(&camera, points[index as usize]) {
+                        let at = shown(&camera, points[index as usize]);
+                        if at.inside {
+                            let (pixel, depth) = (at.pixel, at.depth);
                             let own = seen.pixels[expected.len()];
                             let error = (0..2).map(|i| (f64::from(own[i]) - pixel[i]).abs());
                             assert!(error.fold(0.0, f64::max) < 1e-3, "{own:?}, {pixel:?}");

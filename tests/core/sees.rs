@@ -7,90 +7,11 @@ use hidden_point_removal::{
     Error, Exponential, Inversion, NonFinite, Options, PointCloud, Radius, Within,
 };
 
+use crate::common::added::{by_definition, check, choices, places};
 use crate::common::rng::Rng;
 use crate::common::scenes::{EXTREME, KINDS, Scene};
 use crate::common::shapes;
 use crate::common::structured;
-
-/// The answer by definition: a cloud with the point more.
-fn by_definition(
-    points: &[[f64; 3]],
-    place: [f64; 3],
-    viewpoint: [f64; 3],
-    options: &Options,
-) -> Result<bool, Error> {
-    let mut all = points.to_vec();
-    all.push(place);
-    let seen = PointCloud::new(&all)?.visible_from(viewpoint, options)?;
-    Ok(seen.indices().last() == Some(&(points.len() as u32)))
-}
-
-/// Places that are hard to decide: points of the cloud, on their rays, between them, at the
-/// viewpoint, beyond the cloud.
-fn places(rng: &mut Rng, scene: &Scene, count: usize) -> Vec<[f64; 3]> {
-    let (points, c) = (&scene.points, scene.viewpoint);
-    let any = |rng: &mut Rng| {
-        if points.is_empty() {
-            rng.in_ball()
-        } else {
-            rng.pick(points)
-        }
-    };
-    (0..count)
-        .map(|_| {
-            let [a, b] = [any(rng), any(rng)];
-            let between = |t: f64, from: [f64; 3], to: [f64; 3]| {
-                core::array::from_fn(|i| from[i] + (to[i] - from[i]) * t)
-            };
-            match rng.below(8) {
-                0 => a,
-                1 => c,
-                2 => between(0.5, a, b),
-                3 => between(rng.between(0.0, 1.0), a, b),
-                4 => between(rng.between(0.5, 1.5), c, a),
-                5 => between(2.0, c, a),
-                6 => between(rng.between(-1.0, 3.0), a, b),
-                _ => between(1.0 + 1e-9, c, a),
-            }
-        })
-        .collect()
-}
-
-fn check(scene: &Scene, options: &Options, places: &[[f64; 3]], title: &str) {
-    let cloud = PointCloud::new(&scene.points).unwrap();
-    for &place in places {
-        let found = cloud.sees(scene.viewpoint, &[place], options);
-        let expected = by_definition(&scene.points, place, scene.viewpoint, options);
-        // A cloud that cannot be viewed itself is refused before the point is looked at.
-        if cloud.visible_from(scene.viewpoint, options).is_ok() || found.is_ok() {
-            let found = found.map(|seen| seen[0]);
-            assert_eq!(
-                found,
-                expected,
-                "{title}: {place:?} from {:?} with {options:?} and {} points",
-                scene.viewpoint,
-                scene.points.len()
-            );
-        }
-    }
-    let answers = cloud.sees(scene.viewpoint, places, options);
-    if let Ok(answers) = answers {
-        for (&place, seen) in places.iter().zip(answers) {
-            let alone = cloud.sees(scene.viewpoint, &[place], options);
-            assert_eq!(alone, Ok(vec![seen]), "{title}: a row of places");
-        }
-    }
-}
-
-fn choices(scene: &Scene) -> [Options; 5] {
-    [
-        scene.options,
-        Options::default(),
-        Options::with_exponent(0.5),
-        Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
-        Options::with_inversion(Inversion::Power(1.7)),
-    ]
-}
 
 #[test]
 fn scenes_of_every_kind_answer_as_with_the_point_added() {
@@ -279,4 +200,28 @@ fn questions_that_make_no_sense_are_refused() {
     assert_eq!(seen, Ok(vec![false, true, false]));
     // Nothing was added.
     assert_eq!(cloud.len(), 3);
+}
+
+#[test]
+fn a_cloud_with_too_few_points_for_noise_options_refuses_every_position() {
+    let cloud = PointCloud::new(&[[0.0, 0.0, 1.0], [0.0, 1.0, 4.0]]).unwrap();
+    let bounds = Some([[-1.0; 3], [2.0; 3]]);
+    let within = Some(Within {
+        distance: None,
+        bounds,
+    });
+    let noise = [(Some(1), None), (None, Some(1))];
+    for (denoise, vote) in noise {
+        let options = Options {
+            within,
+            denoise,
+            vote,
+            ..Options::default()
+        };
+        // One point takes part, so it has no neighbor. The second position takes no part.
+        for place in [[0.0; 3], [0.0, 0.0, 9.0]] {
+            let refusal = cloud.sees([0.0, 0.0, 5.0], &[place], &options);
+            assert_eq!(refusal.unwrap_err().code(), "option", "{place:?}");
+        }
+    }
 }

@@ -13,7 +13,7 @@ mod run;
 mod shrink;
 
 use common::scenes::Scene;
-use common::{definition, flip, indices_of, sectors, structured};
+use common::{cloud_of, definition, flip, indices_of, sectors, structured};
 use run::{Run, checked, literal};
 use shrink::shrink;
 
@@ -34,7 +34,7 @@ fn main() {
             };
             let mut scene = structured::scene(&mut run.rng, (kind, shape), n);
             let in_single = run.rng.chance(2);
-            let cloud = cloud_of(&scene, in_single);
+            let cloud = cloud_of(&scene.points, in_single);
             for _ in 0..VIEWS {
                 let count = match run.rng.below(16) {
                     0..7 => 2,
@@ -46,7 +46,7 @@ fn main() {
                     if run.count_wrong(kind) {
                         println!("wrong: {kind}, {n} points, single: {in_single}: {wrong}");
                         let is_wrong = |scene: &Scene| {
-                            let cloud = cloud_of(scene, in_single);
+                            let cloud = cloud_of(&scene.points, in_single);
                             checked(|| check(&cloud, scene, count)).is_err()
                         };
                         println!("{count} sectors of {}", literal(&shrink(scene, is_wrong)));
@@ -61,18 +61,6 @@ fn main() {
         }
     }
     run.finish();
-}
-
-/// In single precision, if that is requested and can hold every coordinate.
-fn cloud_of(scene: &Scene, in_single: bool) -> PointCloud {
-    let is_single = |x: &f64| f64::from(*x as f32) == *x;
-    let cloud = if in_single && scene.points.iter().flatten().all(is_single) {
-        let points: Vec<[f32; 3]> = scene.points.iter().map(|p| p.map(|x| x as f32)).collect();
-        PointCloud::new(&points)
-    } else {
-        PointCloud::new(&scene.points)
-    };
-    cloud.expect("an acceptable cloud")
 }
 
 /// Returns whether the view was answered (`true`) or refused. The error describes a difference.

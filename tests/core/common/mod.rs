@@ -7,13 +7,18 @@
 // Each test program uses only a part of this.
 #![allow(dead_code)]
 
+pub mod added;
+pub mod cameras;
 pub mod certify;
+pub mod chosen;
 pub mod definition;
 pub mod degenerate;
 pub mod drafts;
 pub mod flip;
 pub mod lower;
 pub mod oracle;
+pub mod parts;
+pub mod placing;
 pub mod rng;
 pub mod scenes;
 pub mod sectors;
@@ -32,6 +37,18 @@ pub fn ask<P: Position>(points: &[P], viewpoint: [f64; 3], options: &Options) ->
         .expect("an acceptable cloud")
         .visible_from(viewpoint, options)
         .expect("an acceptable view")
+}
+
+/// In single precision, if that is requested and can hold every coordinate.
+pub fn cloud_of(points: &[[f64; 3]], in_single: bool) -> PointCloud {
+    let is_single = |x: &f64| f64::from(*x as f32) == *x;
+    let cloud = if in_single && points.iter().flatten().all(is_single) {
+        let points: Vec<[f32; 3]> = points.iter().map(|p| p.map(|x| x as f32)).collect();
+        PointCloud::new(&points)
+    } else {
+        PointCloud::new(points)
+    };
+    cloud.expect("an acceptable cloud")
 }
 
 /// The positions of the set bits.

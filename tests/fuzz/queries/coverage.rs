@@ -1,0 +1,76 @@
+//! Many viewpoints: the counts of single views, and the greedy choice without any shortcut.
+
+use hidden_point_removal::{Placing, PointCloud};
+
+use super::super::common::cloud_of;
+use super::super::common::placing::{best, eager, masks};
+use super::super::common::rng::Rng;
+use super::super::common::scenes::Scene;
+use super::super::common::structured;
+use super::{options, same};
+
+pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
+    let cloud = cloud_of(&scene.points, rng.chance(2));
+    let options = options(scene, rng);
+    let mut places: Vec<_> = (0..rng.below(9))
+        .map(|_| structured::viewpoint(rng, &scene.points))
+        .collect();
+    places.push(scene.viewpoint);
+    if rng.chance(2) {
+        // Equal candidates tie.
+        let again = rng.pick(&places);
+        places.insert(rng.below(places.len()), again);
+    }
+    let refusal = places
+        .iter()
+        .find_map(|&place| cloud.visible_from(place, &options).err());
+    let counts = cloud.coverage(&places, &options);
+    if refusal.is_some() {
+        return same("refusal", counts.err(), refusal);
+    }
+    let masks = masks(&cloud, &places, &options);
+    let expected =
+        (0..scene.points.len()).map(|k| masks.iter().filter(|mask| mask[k]).count() as u32);
+    same("coverage", counts, Ok(expected.collect()))?;
+    placement(&cloud, &places, &masks, &options, rng)
+}
+
+fn placement(
+    cloud: &PointCloud,
+    places: &[[f64; 3]],
+    masks: &[Vec<bool>],
+    options: &hidden_point_removal::Options,
+    rng: &mut Rng,
+) -> Result<(), String> {
+    let n = cloud.len() as u32;
+    let weights: Vec<f64> = match rng.below(4) {
+        0 => vec![1.0; n as usize],
+        1 => (0..n).map(|_| f64::from(rng.integer(0, 3)) * 0.1).collect(),
+        2 => (0..n).map(|_| rng.unit()).collect(),
+        // Sums of such weights round, and small ones vanish.
+        _ => (0..n).map(|_| 10f64.powi(rng.integer(-20, 20))).collect(),
+    };
+    let count = 1 + rng.below(4);
+    let placing = Placing {
+        count: Some(count),
+        weights: Some(&weights),
+        ..Placing::default()
+    };
+    let placed = cloud
+        .place_viewpoints(places, options, &placing)
+        .map_err(|error| error.to_string())?;
+    let (chosen, gains) = eager(masks, &weights, count);
+    same("chosen", &placed.chosen, &chosen)?;
+    same("gains", &placed.gains, &gains)?;
+    let sees = |k: usize, index: u32| masks[k][index as usize];
+    let seen = (0..n).filter(|&index| chosen.iter().any(|&k| sees(k, index)));
+    same("seen", placed.seen, seen.collect())?;
+    let unseen = (0..n).filter(|&index| (0..masks.len()).all(|k| !sees(k, index)));
+    same("unseen", placed.unseen, unseen.collect())?;
+    let (got, most) = (gains.iter().sum::<f64>(), best(masks, &weights, count));
+    let bound = 1.0 - (-1.0f64).exp();
+    if got < bound * most * (1.0 - 1e-9) {
+        return Err(format!("{count} viewpoints see {got} of {most}"));
+    }
+    Ok(())
+}

@@ -1,0 +1,21 @@
+//! Points that are not in the cloud: the answer of a cloud with the point added.
+
+use hidden_point_removal::{Inversion, Options, Radius};
+
+use super::super::common::added::{check as compare, places};
+use super::super::common::rng::Rng;
+use super::super::common::scenes::Scene;
+use super::options;
+
+pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
+    let mut options = options(scene, rng);
+    if let Inversion::Spherical = options.inversion
+        && rng.chance(4)
+    {
+        let radius = rng.pick(&[Radius::Auto, Radius::Exponent(2.0), Radius::Exponent(7.0)]);
+        options = Options { radius, ..options };
+    }
+    let places = places(rng, scene, 5);
+    compare(scene, &options, &places, "sees");
+    Ok(())
+}

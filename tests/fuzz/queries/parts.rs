@@ -1,0 +1,16 @@
+//! Sectors of a cloud in parts: together they see the whole cloud's visible points.
+
+use super::super::common::parts::compare_both;
+use super::super::common::rng::Rng;
+use super::super::common::scenes::Scene;
+use hidden_point_removal::PointCloud;
+
+pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
+    let cloud = PointCloud::new(&scene.points).map_err(|error| error.to_string())?;
+    match cloud.visible_from(scene.viewpoint, &scene.options) {
+        Ok(_) => compare_both(rng, scene.clone(), "parts"),
+        Err(error) if error.code() == "radius" => {}
+        Err(error) => return Err(error.to_string()),
+    }
+    Ok(())
+}

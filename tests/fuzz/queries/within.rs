@@ -1,0 +1,103 @@
+//! Points within limits: every answer is that of a cloud of these points alone.
+
+use hidden_point_removal::{Options, PointCloud, Sector, Within};
+
+use super::super::common::chosen::{alone, chosen, facts, only, some_choice};
+use super::super::common::cloud_of;
+use super::super::common::rng::Rng;
+use super::super::common::scenes::Scene;
+use super::{options, same};
+
+pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
+    let Scene {
+        points, viewpoint, ..
+    } = scene;
+    let plain = Options {
+        within: None,
+        ..options(scene, rng)
+    };
+    let within = some_choice(rng, scene);
+    let options = only(within, &plain);
+    let mut cloud = cloud_of(points, rng.chance(2));
+    if rng.chance(2)
+        && let Err(refusal) = cloud.prepare_for(&options)
+    {
+        let view = cloud.visible_from(*viewpoint, &options);
+        return same("refusal", view.err(), Some(refusal));
+    }
+    let single = |place: [f64; 3]| {
+        let near = chosen(points, &within, Some(place));
+        facts(
+            alone(points, &near).visible_from(place, &plain),
+            Some(&near),
+        )
+    };
+    let expected = single(*viewpoint);
+    let title = |how: &str| format!("{how} {within:?} with {plain:?}");
+    let found = facts(cloud.visible_from(*viewpoint, &options), None);
+    same(&title("view"), found, expected.clone())?;
+
+    let near = chosen(points, &within, Some(*viewpoint));
+    let mut mask = vec![false; points.len()];
+    near.iter().for_each(|&i| mask[i as usize] = true);
+    let masked = cloud.masked(&mask).map_err(|error| error.to_string())?;
+    let found = facts(masked.visible_from(*viewpoint, &plain), None);
+    same(&title("mask"), found, expected.clone())?;
+
+    let mut observer = cloud.observer();
+    let mut place = *viewpoint;
+    for _ in 0..3 {
+        let found = facts(observer.visible_from(place, &options), None);
+        same(&title("observer"), found, single(place))?;
+        place = place.map(|x| x + 1e-3 * rng.between(-1.0, 1.0));
+    }
+    match &expected {
+        Ok(view) => {
+            let count = 2 + rng.below(3) as u32;
+            let mut indices = Vec::new();
+            for number in 0..count {
+                let sector = Sector::new(number, count).expect("a sector");
+                let part = cloud.visible_in_sector(*viewpoint, &options, sector);
+                indices.extend(part.map_err(|error| error.to_string())?.into_indices());
+            }
+            indices.sort_unstable();
+            same(&title("sectors"), &indices, &view.0)?;
+            several(&cloud, scene, &within, &plain, rng)
+        }
+        Err(_) => Ok(()),
+    }
+}
+
+/// Points that at least two of three viewpoints see. Each viewpoint has its own points.
+fn several(
+    cloud: &PointCloud,
+    scene: &Scene,
+    within: &Within,
+    plain: &Options,
+    rng: &mut Rng,
+) -> Result<(), String> {
+    let places: [[f64; 3]; 3] = core::array::from_fn(|_| {
+        let nudge = rng.direction();
+        core::array::from_fn(|i| scene.viewpoint[i] + nudge[i].round())
+    });
+    let mut counts = vec![0; scene.points.len()];
+    for place in places {
+        let near = chosen(&scene.points, within, Some(place));
+        let Ok(seen) = alone(&scene.points, &near).visible_from(place, plain) else {
+            return Ok(());
+        };
+        for &k in seen.indices() {
+            counts[near[k as usize] as usize] += 1;
+        }
+    }
+    let options = only(*within, plain);
+    let counted = cloud.coverage(&places, &options);
+    same("coverage", counted, Ok(counts.clone()))?;
+    let found = cloud.visible_from_at_least(2, &places, &options);
+    let twice = (0u32..).zip(&counts).filter(|(_, count)| **count >= 2);
+    same(
+        "at least two",
+        found.map(|seen| seen.into_indices()),
+        Ok(twice.map(|(index, _)| index).collect()),
+    )
+}
