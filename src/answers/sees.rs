@@ -25,8 +25,8 @@ impl PointCloud {
     ///
     /// One hull serves all positions. With a radius, an exponent or an inversion in numbers, a
     /// position takes one walk on the hull. Where the point changes the radius, its answer is proved
-    /// from the same hull, with a look at some of the points. A new hull is made only where this proves
-    /// nothing. Looks, noise handling and searches for a radius make new hulls for each position.
+    /// from the same hull, with a look at some of the points. A new hull is made only in the rare cases
+    /// where this proves nothing. Looks, noise handling and searches for a radius make new hulls for each position.
     ///
     /// ```
     /// use hidden_point_removal::{Options, PointCloud};
@@ -97,6 +97,9 @@ impl PointCloud {
         let mut sight = Sight::new(self, viewpoint, options)?;
         for place in positions.iter() {
             let takes_part = is_finite(place) && selection.holds(place);
+            if !takes_part {
+                sight.check()?;
+            }
             seen.push(u8::from(takes_part && sight.sees(place)?));
         }
         Ok(seen)
@@ -110,6 +113,8 @@ struct Sight<'a> {
     options: &'a Options,
     /// The view of the cloud itself; `None` where each point needs a cloud of its own.
     own: Option<Own>,
+    /// Whether a view of the cloud itself is known to be refused or not.
+    is_checked: bool,
     /// Is made when a point needs it.
     growth: Option<Growth<'a>>,
 }
@@ -148,9 +153,20 @@ impl<'a> Sight<'a> {
             cloud,
             viewpoint,
             options,
+            is_checked: own.is_some(),
             own,
             growth: None,
         })
+    }
+
+    /// Refuses what a view of the cloud itself refuses. For positions that take no part.
+    #[cold]
+    fn check(&mut self) -> Result<(), Error> {
+        if !self.is_checked {
+            self.cloud.visible_from(self.viewpoint, self.options)?;
+            self.is_checked = true;
+        }
+        Ok(())
     }
 
     fn sees(&mut self, place: [f64; 3]) -> Result<bool, Error> {
@@ -223,5 +239,59 @@ impl<'a> Sight<'a> {
         };
         let (kernel, _) = resolved_kernel(inversion, self.options.radius, farthest, &radius)?;
         Ok(Some(Flip::new(self.viewpoint, kernel)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A bumpy sphere, sampled evenly.
+    fn surface() -> Vec<[f64; 3]> {
+        let point = |i: u32| {
+            let z = 1.0 - (2.0 * f64::from(i) + 1.0) / 3000.0;
+            let turn = 2.399_963 * f64::from(i);
+            let radius = 1.0 + 0.1 * libm::sin(9.0 * z + 3.0 * turn);
+            let ring = square_root(1.0 - z * z);
+            [ring * libm::cos(turn), ring * libm::sin(turn), z].map(|x| x * radius)
+        };
+        (0..3000).map(point).collect()
+    }
+
+    #[test]
+    fn one_hull_answers_under_other_radii_and_agrees_with_the_hulls_of_these() {
+        let cloud = PointCloud::new(&surface()).unwrap();
+        let viewpoint = [0.3, 0.4, 2.5];
+        let (points, blocks) = (&cloud.sequence.points, &cloud.blocks.levels[0]);
+        let flip = |radius| {
+            let options = Options::with_radius(radius);
+            cloud.view(viewpoint, &options).unwrap().flip
+        };
+        let kept = KeptHull::of(points, blocks, &flip(200.0)).unwrap();
+        for radius in [198.0, 201.0, 230.0] {
+            let flip = flip(radius);
+            let own = KeptHull::of(points, blocks, &flip).unwrap();
+            let (mut hint, mut own_hint) = (kept.first_hint(), own.first_hint());
+            let mut counts = [0; 3];
+            for i in 0..400 {
+                let turn = 7.3 * f64::from(i);
+                let size = 0.2 + 0.003 * f64::from(i);
+                // Many rays pass beside the surface.
+                let place = [
+                    libm::cos(turn),
+                    libm::sin(1.7 * turn),
+                    libm::cos(0.3 * turn),
+                ];
+                let place = place.map(|x| x * size);
+                let proved = kept.hides_otherwise(&flip, points, blocks, place, &mut hint);
+                let hides = own.hides(place, &mut own_hint);
+                if proved.is_some() {
+                    assert_eq!(proved, hides, "{place:?} with radius {radius}");
+                }
+                counts[proved.map_or(2, usize::from)] += 1;
+            }
+            let [seen, hidden, unproved] = counts;
+            assert!(seen > 60 && hidden > 100 && unproved <= 2, "{counts:?}");
+        }
     }
 }

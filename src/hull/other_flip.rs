@@ -2,8 +2,9 @@
 //! hull of that flip. The answer is proved, or it is left open.
 //!
 //! The face by which the point's ray leaves the kept hull is a guess. Its three points are flipped
-//! anew. If the flipped point is strictly inside of their triangle, K hides it there, too. If it
+//! anew. If the flipped point is strictly below their triangle, K hides it there, too. If it
 //! is farther out along the triangle's normal than all points of the cloud, it is outside of K.
+//! Otherwise the point that is farthest out makes a triangle farther out, and so on.
 
 use glam::DVec3;
 
@@ -43,31 +44,21 @@ impl KeptHull {
         let hull = self.hull()?;
         let v = DVec3::from_array(position) - flip.viewpoint();
         let ahead = v / square_root(v.length_squared());
-        let (face, _) = hull.height_along(ahead, *hint);
         let flipped = |vertex| apply(flip, points.get(hull.point(vertex) as usize));
-        if hull.is_outer(face) {
-            *hint = face;
-            let [a, b, c] = hull.corners(face)?.map(flipped);
-            let (a, b, c) = (a?, b?, c?);
-            let inside = |tail, head| side_of_origin(tail, head, q) != Sign::Negative;
-            if side_of_origin(a, b, c) != Sign::Positive {
-                return None;
-            }
-            if side_of_face(a, b, c, q) == Sign::Negative {
-                let is_hidden = inside(a, b) && inside(b, c) && inside(c, a);
-                return is_hidden.then_some(true);
-            }
-            let normal = (b - a).cross(c - a);
-            if is_farthest(normal, q, flip, points, blocks) {
-                return Some(false);
-            }
-        }
-        // The ray may pass beside all of K: then a plane through the viewpoint is between. The place
-        // is so near the viewpoint that it is below most faces.
+        // A place that is so near the viewpoint is below the face that its ray pierces, or beside all of K.
         const NEAR: f64 = 1e-6;
-        let Location::Outside(ghost) = hull.locate(ahead * (NEAR * self.reach()), *hint) else {
-            return None;
+        let ghost = match hull.locate(ahead * (NEAR * self.reach()), *hint) {
+            Location::Outside(ghost) => ghost,
+            Location::Inside(face) | Location::Boundary(face) => {
+                *hint = face;
+                if !hull.is_outer(face) {
+                    return None;
+                }
+                let [a, b, c] = hull.corners(face)?.map(flipped);
+                return climb([a?, b?, c?], q, flip, points, blocks);
+            }
         };
+        // A plane through the viewpoint is between.
         let [a, b, c] = hull.corners(ghost)?;
         let (tail, head) = match (a, b, c) {
             (ORIGIN, tail, head) | (head, ORIGIN, tail) | (tail, head, ORIGIN) => (tail, head),
@@ -75,7 +66,8 @@ impl KeptHull {
         };
         let normal = flipped(head)?.cross(flipped(tail)?);
         let outward = if normal.dot(q) < 0.0 { -normal } else { normal };
-        is_farthest(outward, q, flip, points, blocks).then_some(false)
+        let found = farthest(outward, q, flip, points, blocks);
+        matches!(found, Farthest::Given).then_some(false)
     }
 }
 
@@ -85,16 +77,61 @@ fn apply(flip: &Flip, position: [f64; 3]) -> Option<DVec3> {
     flip.apply(position)
 }
 
-/// Whether `q` is certainly farther out along `normal` than the origin and all flipped points.
-fn is_farthest(normal: DVec3, q: DVec3, flip: &Flip, points: &Points, blocks: &[Sphere]) -> bool {
+/// Goes outward from a triangle that the ray of `q` pierces, from one such triangle to the next, until `q` is
+/// below a triangle, and so hidden, or beyond all points. `None` if neither happens.
+fn climb(
+    [mut a, mut b, mut c]: [DVec3; 3],
+    q: DVec3,
+    flip: &Flip,
+    points: &Points,
+    blocks: &[Sphere],
+) -> Option<bool> {
+    // A few steps are enough, unless many points are in one plane.
+    const STEPS: usize = 20;
+    let is_beside = |tail, head| side_of_origin(tail, head, q) == Sign::Negative;
+    for _ in 0..STEPS {
+        let is_pierced = !is_beside(a, b) && !is_beside(b, c) && !is_beside(c, a);
+        if !is_pierced || side_of_origin(a, b, c) != Sign::Positive {
+            return None;
+        }
+        if side_of_face(a, b, c, q) == Sign::Negative {
+            return Some(true);
+        }
+        let p = match farthest((b - a).cross(c - a), q, flip, points, blocks) {
+            Farthest::Given => return Some(false),
+            Farthest::Point(p) => p,
+            Farthest::Unknown => return None,
+        };
+        // The ray pierces one of the triangles of p and an edge.
+        (a, b, c) = match (is_beside(a, p), is_beside(b, p), is_beside(c, p)) {
+            (true, false, _) => (a, b, p),
+            (_, true, false) => (b, c, p),
+            (false, _, true) => (c, a, p),
+            _ => return None,
+        };
+    }
+    None
+}
+
+/// Which of a given point, the origin and all flipped points is farthest out along a normal.
+enum Farthest {
+    /// The given point, certainly.
+    Given,
+    /// This flipped point, or the given point by less than the rounding.
+    Point(DVec3),
+    Unknown,
+}
+
+fn farthest(normal: DVec3, q: DVec3, flip: &Flip, points: &Points, blocks: &[Sphere]) -> Farthest {
     let normal = normal / normal.abs().max_element();
     let size = normal.abs();
-    let least = normal.dot(q) - ROUNDING * size.dot(q.abs());
+    let mut least = normal.dot(q) - ROUNDING * size.dot(q.abs());
     // The comparisons also refuse a NaN.
     if !(least > LEAST && least < f64::MAX) {
-        return false;
+        return Farthest::Unknown;
     }
     let length = square_root(normal.length_squared());
+    let mut found = Farthest::Given;
     for (block, sphere) in blocks.iter().enumerate() {
         let v = DVec3::from_array(sphere.center) - flip.viewpoint();
         let beyond = normal.dot(v) + length * sphere.radius + MARGIN * size.dot(v.abs());
@@ -110,11 +147,15 @@ fn is_farthest(normal: DVec3, q: DVec3, flip: &Flip, points: &Points, blocks: &[
         for index in block * BLOCK..points.len().min((block + 1) * BLOCK) {
             if let Some(other) = apply(flip, points.get(index)) {
                 let height = normal.dot(other) + ROUNDING * size.dot(other.abs());
-                if height >= least || height.is_nan() {
-                    return false;
+                if height.is_nan() {
+                    return Farthest::Unknown;
+                }
+                if height >= least {
+                    least = height;
+                    found = Farthest::Point(other);
                 }
             }
         }
     }
-    true
+    found
 }

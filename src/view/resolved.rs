@@ -28,9 +28,6 @@ impl PointCloud {
         if let Some(within) = options.within {
             within.check()?;
         }
-        if let Some(k) = options.denoise {
-            self.check_neighbors("denoise", k)?;
-        }
         if let Some(k) = options.vote {
             self.check_neighbors("vote", k)?;
         }

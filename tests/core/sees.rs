@@ -203,25 +203,41 @@ fn questions_that_make_no_sense_are_refused() {
 }
 
 #[test]
-fn a_cloud_with_too_few_points_for_noise_options_refuses_every_position() {
-    let cloud = PointCloud::new(&[[0.0, 0.0, 1.0], [0.0, 1.0, 4.0]]).unwrap();
-    let bounds = Some([[-1.0; 3], [2.0; 3]]);
-    let within = Some(Within {
-        distance: None,
-        bounds,
-    });
-    let noise = [(Some(1), None), (None, Some(1))];
-    for (denoise, vote) in noise {
-        let options = Options {
-            within,
-            denoise,
-            vote,
+fn a_view_that_is_refused_is_refused_for_positions_outside_of_a_choice_too() {
+    let viewpoint = [0.0, 0.0, 5.0];
+    let inside = |bounds| {
+        Some(Within {
+            distance: None,
+            bounds: Some(bounds),
+        })
+    };
+    // One point takes part, so it has no neighbor.
+    let few = (
+        vec![[0.0, 0.0, 1.0], [0.0, 1.0, 4.0]],
+        Options {
+            within: inside([[-1.0; 3], [2.0; 3]]),
+            denoise: Some(1),
             ..Options::default()
-        };
-        // One point takes part, so it has no neighbor. The second position takes no part.
-        for place in [[0.0; 3], [0.0, 0.0, 9.0]] {
-            let refusal = cloud.sees([0.0, 0.0, 5.0], &[place], &options);
-            assert_eq!(refusal.unwrap_err().code(), "option", "{place:?}");
-        }
+        },
+    );
+    // Noise removal moves a point beyond the radius.
+    let mut rng = Rng::new(3);
+    let mut ring = shapes::sphere(&mut rng, 40);
+    ring.iter_mut().for_each(|p| p[2] += 5.0);
+    let farthest = crate::common::flip::farthest(&ring, viewpoint);
+    let beyond = (
+        ring,
+        Options {
+            within: inside([[-2.0; 3], [9.0; 3]]),
+            denoise: Some(4),
+            ..Options::with_radius(farthest)
+        },
+    );
+    for ((points, options), code) in [(few, "option"), (beyond, "radius")] {
+        let cloud = PointCloud::new(&points).unwrap();
+        let refusal = cloud.visible_from(viewpoint, &options).unwrap_err();
+        assert_eq!(refusal.code(), code);
+        let outside = [[0.0, 0.0, 90.0]];
+        assert_eq!(cloud.sees(viewpoint, &outside, &options), Err(refusal));
     }
 }
