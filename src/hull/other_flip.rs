@@ -88,9 +88,8 @@ fn climb(
 ) -> Option<bool> {
     // A few steps are enough, unless many points are in one plane.
     const STEPS: usize = 20;
-    let is_beside = |tail, head| side_of_origin(tail, head, q) == Sign::Negative;
     for _ in 0..STEPS {
-        let is_pierced = !is_beside(a, b) && !is_beside(b, c) && !is_beside(c, a);
+        let is_pierced = !is_beside(a, b, q) && !is_beside(b, c, q) && !is_beside(c, a, q);
         if !is_pierced || side_of_origin(a, b, c) != Sign::Positive {
             return None;
         }
@@ -103,7 +102,7 @@ fn climb(
             Farthest::Unknown => return None,
         };
         // The ray pierces one of the triangles of p and an edge.
-        (a, b, c) = match (is_beside(a, p), is_beside(b, p), is_beside(c, p)) {
+        (a, b, c) = match (is_beside(a, p, q), is_beside(b, p, q), is_beside(c, p, q)) {
             (true, false, _) => (a, b, p),
             (_, true, false) => (b, c, p),
             (false, _, true) => (c, a, p),
@@ -111,6 +110,13 @@ fn climb(
         };
     }
     None
+}
+
+/// Whether `q` is on the right of the way from `tail` to `head`, seen from outside. Not inlined, because it is called
+/// in several places.
+#[inline(never)]
+fn is_beside(tail: DVec3, head: DVec3, q: DVec3) -> bool {
+    side_of_origin(tail, head, q) == Sign::Negative
 }
 
 /// Which of a given point, the origin and all flipped points is farthest out along a normal.
