@@ -58,6 +58,7 @@ test("the information of a LAS file: extents with its digits, spacing, coordinat
   expect(rows["Size"]).toMatch(/^[\d.]+ × [\d.]+ × [\d.]+\sm$/);
   expect(rows["Density"]).toMatch(/^\d+ per m²$/);
   expect(rows["Spacing"]).toMatch(/^0\.\d+\sm$/);
+  expect(rows["classification"]).toBe("ground, high vegetation, building");
   expect(rows["intensity"]).toMatch(/^\d+ to \d+$/);
 });
 

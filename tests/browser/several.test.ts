@@ -29,6 +29,7 @@ test("coordinates of several files do not change by a bit, and each point knows 
     fields: [
       { name: "class", values: Uint8Array.of(2, 5), labels: { 2: "ground" } },
       { name: "only here", values: Uint8Array.of(1, 1) },
+      { name: "flags", values: Uint8Array.of(7) },
       { name: "time", values: Float32Array.of(0.5) },
     ],
   };
@@ -38,6 +39,7 @@ test("coordinates of several files do not change by a bit, and each point knows 
     fields: [
       { name: "time", values: Float64Array.of(0.1) },
       { name: "class", values: Uint16Array.of(600) },
+      { name: "flags", values: Uint8Array.of(7) },
     ],
   };
   const all = merged([
@@ -51,6 +53,8 @@ test("coordinates of several files do not change by a bit, and each point knows 
   expect(all.fields).toEqual([
     { name: "file", values: Uint8Array.of(0, 0, 1), labels: { 0: "one.ply", 1: "two.las" } },
     { name: "class", values: Float64Array.of(2, 5, 600), labels: { 2: "ground" } },
+    // A number that all points share stays one number.
+    { name: "flags", values: Uint8Array.of(7) },
     { name: "time", values: Float64Array.of(0.5, 0.5, 0.1) },
   ]);
   expect(all.attributes!.map(({ name, kind }) => [name, kind])).toEqual([
@@ -109,6 +113,7 @@ test("several chosen files are one cloud; a broken one is named, and the others 
   const xs = [...BALL, ...EAST].filter((_, i) => i % 3 === 0);
   const [low, high] = [Math.min(...xs), Math.max(...xs)];
   expect(await info.textContent()).toContain(`${low.toFixed(3)} to ${high.toFixed(3)}`);
+  expect(await info.textContent()).toContain("file west.las, east.lasred");
   await unfold(page, "Look");
   await page.locator("#color").selectOption({ label: "File" });
   await expect

@@ -70,11 +70,14 @@ function joinedField(name: string, columns: readonly (readonly Field[])[], count
   const own = columns.map((fields) => fields.find((field) => field.name === name)!);
   const types = new Set(own.map(({ values }) => values.constructor as new (length: number) => Values));
   const [Type] = types.size === 1 ? types : [Float64Array];
+  const [{ values: first }] = own as [Field];
+  const isConstant = own.every(({ values }) => values.length === 1 && Object.is(values[0], first[0]));
   const whole = own.map(({ values }, i) =>
     values.length === 1 ? filled(values.constructor as new (length: number) => Values, counts[i]!, values[0]!) : values,
   );
   const labels = Object.assign({}, ...own.map((field) => field.labels ?? {})) as Record<number, string>;
-  return { name, values: joined(whole, Type!), ...(Object.keys(labels).length > 0 ? { labels } : {}) };
+  const values = isConstant && types.size === 1 ? first : joined(whole, Type!);
+  return { name, values, ...(Object.keys(labels).length > 0 ? { labels } : {}) };
 }
 
 function filled(Type: new (length: number) => Values, length: number, value: number): Values {

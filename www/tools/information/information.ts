@@ -6,6 +6,9 @@ import { row } from "../pick.ts";
 import type { Bench } from "../tool.ts";
 import { groundDensity } from "./ground.ts";
 
+/** A category with more values than this is counted. With less, its values are named. */
+const MOST_NAMED = 6;
+
 const number = new Intl.NumberFormat("en-US");
 
 /** What is known about the cloud: a section of the panel, filled while it is open. */
@@ -94,10 +97,16 @@ function endsOf({ cloud, positions }: Placed): { low: string; high: string }[] {
   });
 }
 
-/** The least and the greatest number of a column. Numbers that are not finite do not count. */
+/** The meanings of a category, or the least and the greatest number. Numbers that are not finite do not count. */
 function rangeText(field: Field): string {
-  const { values } = field;
+  const { values, labels } = field;
   if (values.length === 1) return fieldText(field, 0);
+  if (labels) {
+    const found = [...new Set(values)].sort((a, b) => a - b);
+    return found.length > MOST_NAMED
+      ? `${found.length} different`
+      : found.map((value) => labels[value] ?? String(value)).join(", ");
+  }
   let [low, high] = [Infinity, -Infinity];
   for (const value of values) {
     if (!Number.isFinite(value)) continue;
