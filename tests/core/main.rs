@@ -25,6 +25,7 @@ mod motion;
 mod noise;
 mod oracle;
 mod plane;
+mod queries;
 mod radius;
 mod reconstruct;
 mod refusals;
@@ -36,3 +37,6 @@ mod survivors;
 mod thin;
 mod union;
 mod within;
+
+#[path = "../fuzz/queries/mod.rs"]
+mod kinds_of_queries;

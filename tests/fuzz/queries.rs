@@ -12,11 +12,9 @@ mod queries;
 mod run;
 mod shrink;
 
-use common::degenerate::DEGENERATE;
 use common::rng::Rng;
-use common::scenes::{EXTREME, KINDS, Scene};
-use common::structured;
-use queries::QUERIES;
+use common::scenes::Scene;
+use queries::{QUERIES, subject};
 use run::{Run, argument, checked, literal};
 use shrink::shrink;
 
@@ -41,46 +39,4 @@ fn main() {
         }
     }
     run.finish();
-}
-
-/// A cloud of at most about `most` points, with a viewpoint and options. Most clouds are small.
-fn subject(rng: &mut Rng, most: usize) -> (&'static str, Scene) {
-    let n = match rng.below(10) {
-        0..4 => rng.below(13),
-        4..9 => 12 + rng.below(100),
-        _ => 100 + rng.below(most),
-    };
-    let (name, mut scene) = match rng.below(4) {
-        0 | 1 => {
-            let shape = rng.pick(structured::SHAPES);
-            (shape.0, structured::scene(rng, shape, n))
-        }
-        2 => {
-            let kinds = if n < 100 && rng.chance(4) {
-                EXTREME
-            } else {
-                KINDS
-            };
-            let kind = &kinds[rng.below(kinds.len())];
-            (kind.name, kind.scene(rng.bits(), n))
-        }
-        _ => {
-            let kind = &DEGENERATE[rng.below(DEGENERATE.len())];
-            (kind.name, kind.scene(rng.bits(), n.min(120)))
-        }
-    };
-    if rng.chance(6) && !scene.points.is_empty() {
-        for _ in 0..1 + rng.below(10) {
-            let copy = rng.pick(&scene.points);
-            scene.points.push(copy);
-        }
-    }
-    if rng.chance(6) {
-        // Map coordinates: the planes of lattices stay planes, because whole numbers do not round.
-        let place = [523_000.0, 4_657_000.0, 120.0];
-        let moved = |p: [f64; 3]| core::array::from_fn(|i| place[i] + p[i]);
-        scene.points.iter_mut().for_each(|p| *p = moved(*p));
-        scene.viewpoint = moved(scene.viewpoint);
-    }
-    (name, scene)
 }

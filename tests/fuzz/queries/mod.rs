@@ -1,10 +1,13 @@
 //! One file for each kind of question. Each asks a scene in a way that depends only on the random numbers.
+//! `tests/core/queries.rs` runs a short form.
 
 use hidden_point_removal::{Exponential, Inversion, Options};
 
 use super::common::chosen::{only, some_choice};
+use super::common::degenerate::DEGENERATE;
 use super::common::rng::Rng;
-use super::common::scenes::Scene;
+use super::common::scenes::{EXTREME, KINDS, Scene};
+use super::common::structured;
 
 mod camera;
 mod coverage;
@@ -36,6 +39,48 @@ const fn query(
     check: fn(&Scene, &mut Rng) -> Result<(), String>,
 ) -> Query {
     Query { name, most, check }
+}
+
+/// A cloud of at most about `most` points, with a viewpoint and options. Most clouds are small.
+pub fn subject(rng: &mut Rng, most: usize) -> (&'static str, Scene) {
+    let n = match rng.below(10) {
+        0..4 => rng.below(13),
+        4..9 => 12 + rng.below(100),
+        _ => 100 + rng.below(most),
+    };
+    let (name, mut scene) = match rng.below(4) {
+        0 | 1 => {
+            let shape = rng.pick(structured::SHAPES);
+            (shape.0, structured::scene(rng, shape, n))
+        }
+        2 => {
+            let kinds = if n < 100 && rng.chance(4) {
+                EXTREME
+            } else {
+                KINDS
+            };
+            let kind = &kinds[rng.below(kinds.len())];
+            (kind.name, kind.scene(rng.bits(), n))
+        }
+        _ => {
+            let kind = &DEGENERATE[rng.below(DEGENERATE.len())];
+            (kind.name, kind.scene(rng.bits(), n.min(120)))
+        }
+    };
+    if rng.chance(6) && !scene.points.is_empty() {
+        for _ in 0..1 + rng.below(10) {
+            let copy = rng.pick(&scene.points);
+            scene.points.push(copy);
+        }
+    }
+    if rng.chance(6) {
+        // Map coordinates: the planes of lattices stay planes, because whole numbers do not round.
+        let place = [523_000.0, 4_657_000.0, 120.0];
+        let moved = |p: [f64; 3]| core::array::from_fn(|i| place[i] + p[i]);
+        scene.points.iter_mut().for_each(|p| *p = moved(*p));
+        scene.viewpoint = moved(scene.viewpoint);
+    }
+    (name, scene)
 }
 
 /// The scene's own options, or others; sometimes for some of the points only.
