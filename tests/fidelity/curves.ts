@@ -30,7 +30,7 @@ export function curves({ name, positions, views }: Labelled, exponents = EXPONEN
   try {
     return views.map(({ viewpoint, seen }) => {
       const by = ({ name: rule, ask }: Method) => {
-        const visibility = ask({ cloud, viewpoint, middle: center, diagonal: 2 * radius });
+        const visibility = ask({ cloud, positions, viewpoint, middle: center, diagonal: 2 * radius });
         return { rule, exponent: visibility.exponent, ...errorsOf(visibility.mask(), seen) };
       };
       const at = (exponent: number) => ({

@@ -39,7 +39,7 @@ function scoredViews({ positions, views }: LidarScene): ViewScore[] {
   try {
     return views.flatMap(({ viewpoint, seen, unknowable }) =>
       FOR_LIDAR.map((method: Method) => {
-        const mask = method.ask({ cloud, viewpoint, middle: center, diagonal: 2 * radius }).mask();
+        const mask = method.ask({ cloud, positions, viewpoint, middle: center, diagonal: 2 * radius }).mask();
         const { falsePositives, falseNegatives, total } = errorsOf(mask, seen);
         const knowable = (labels: Uint8Array) => labels.filter((_, i) => unknowable[i] === 0);
         const visible = seen.reduce((sum, is) => sum + is, 0) / seen.length;

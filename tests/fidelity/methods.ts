@@ -2,9 +2,11 @@
 import { type PointCloud, ringOfViewpoints, type Visibility, type VisibilityOptions } from "hidden-point-removal";
 
 import type { Point } from "../bench/measure.js";
+import { zBuffered } from "./z-buffer.js";
 
 export interface Subject {
   cloud: PointCloud;
+  positions: Float32Array | Float64Array;
   viewpoint: Point;
   /** The target of a ring of viewpoints: the middle of the cloud. */
   middle: Point;
@@ -16,10 +18,19 @@ export interface Method {
   name: string;
   /** How many hulls it takes: one for each viewpoint or look. Hulls that choose R are not counted. */
   hulls: number;
-  ask: (subject: Subject) => Visibility;
+  ask: (subject: Subject) => Pick<Visibility, "mask" | "evaluations" | "exponent">;
 }
 
 const AROUND = 4;
+const Z_BUFFER: Method = {
+  name: "z-buffer of splats",
+  hulls: 0,
+  ask: ({ cloud, positions, viewpoint }) => ({
+    mask: () => zBuffered(positions, viewpoint, cloud.spacing),
+    evaluations: 0,
+    exponent: 0,
+  }),
+};
 const exponential: VisibilityOptions = { inversion: { exponential: "auto" } };
 
 export const AUTOMATIC = one("automatic", {});
@@ -47,6 +58,7 @@ export const METHODS: Method[] = [
     hulls: 1,
     ask: ({ cloud, viewpoint, diagonal }) => cloud.visibleFrom(viewpoint, { radius: 100 * diagonal }),
   },
+  Z_BUFFER,
 ];
 
 const DENOISED: VisibilityOptions = { denoise: 32, vote: 16 };
@@ -74,6 +86,7 @@ export const FOR_LIDAR: Method[] = [
   several("at least 2 of 5, exp(c/d)", ({ cloud }, ring) => cloud.visibleFromAtLeast(2, ring, exponential)),
   TWO_LOOKS,
   LOOKS,
+  Z_BUFFER,
 ];
 
 export function one(name: string, options: VisibilityOptions): Method {

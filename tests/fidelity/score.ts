@@ -46,7 +46,7 @@ export function score({ positions, views }: Labelled, methods: Method[], compare
   const cloud = new PointCloud(positions);
   try {
     return views.flatMap((view) => {
-      const subject: Subject = { cloud, viewpoint: view.viewpoint, middle: center, diagonal: 2 * radius };
+      const subject: Subject = { cloud, positions, viewpoint: view.viewpoint, middle: center, diagonal: 2 * radius };
       const best = compared ? (view.best ?? bestError(cloud, view)) : undefined;
       return methods.map((method) => {
         const visibility = method.ask(subject);

@@ -31,6 +31,7 @@ const STYLE = `
   figcaption { padding: 8px 12px; min-height: 18px; }
   img { display: block; }
 `;
+const LIGHT = "body { background: #c8ccd2; color: #1f2328 } figure { background: #fff }";
 
 /** Panels of one size in rows, each with its label above. */
 export async function sheet(
@@ -38,12 +39,13 @@ export async function sheet(
   panels: Panel[],
   columns: number,
   { width, height }: Size,
+  theme: "dark" | "light" = "dark",
 ): Promise<Buffer> {
   const cells = panels.map(({ label, png }) => {
     const source = `data:image/png;base64,${png.toString("base64")}`;
     return `<figure><figcaption>${label}</figcaption><img src="${source}" width="${width}" height="${height}"></figure>`;
   });
-  const html = `<style>${STYLE} body { grid-template-columns: repeat(${columns}, ${width}px) }</style>${cells.join("")}`;
+  const html = `<style>${STYLE} ${theme === "light" ? LIGHT : ""} body { grid-template-columns: repeat(${columns}, ${width}px) }</style>${cells.join("")}`;
   return studio.print(html, columns * width + 2 * (columns - 1), async (page) => {
     await page.evaluate(() => Promise.all(Array.from(document.images, (image) => image.decode())));
   });

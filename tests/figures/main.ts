@@ -11,6 +11,7 @@ import { beforeAfter } from "./before-after.js";
 import { errorPlot } from "./error-plot.js";
 import { fidelityText } from "./fidelity.js";
 import type { Figure, Maker } from "./figure.js";
+import { halo } from "./halo.js";
 import { radius } from "./radius.js";
 import { withFigures } from "./readme.js";
 import { reconstruction } from "./reconstruction.js";
@@ -20,6 +21,7 @@ import { Studio } from "./studio.js";
 const MAKERS: Record<string, Maker> = {
   "before-after": beforeAfter,
   errors: errorPlot,
+  halo,
   radius,
   reconstruction,
   shadows,

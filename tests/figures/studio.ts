@@ -50,7 +50,8 @@ export class Studio {
   async shoot(query: Query, size: Size): Promise<Shot> {
     const entries = Object.entries(query).flatMap(([name, value]) => [value].flat().map((one) => [name, String(one)]));
     // The paper has one hull.
-    const address = `?${new URLSearchParams([...entries, ["looks", "0"], ["embed", "1"]]).toString()}`;
+    const looks = "looks" in query ? [] : [["looks", "0"]];
+    const address = `?${new URLSearchParams([...entries, ...looks, ["embed", "1"]]).toString()}`;
     return this.#withPage(size, async (page) => {
       await page.goto(this.#site.address + address);
       await page
