@@ -1,5 +1,6 @@
 // The download size of each entry: bundled and minified, without the wasm.
 // tests/package/size.test.ts limits the wasm.
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { gzipSync } from "node:zlib";
 import { build } from "esbuild";
@@ -48,6 +49,12 @@ it.each([
   const size = await sizeOf(file);
   console.log(`${file}: ${size} bytes gzipped, ${size + gzipped(wasmBytes())} with the wasm`);
   expect(size).toBeLessThan(limit);
+});
+
+it("the README says how large the main entry is", async () => {
+  const readme = readFileSync(join(import.meta.dirname, "../../README.md"), "utf8");
+  const [, said] = /JavaScript of the main entry (\d+) kB/.exec(readme)!;
+  expect(Number(said)).toBe(Math.round((await sizeOf("index.js")) / 1000));
 });
 
 it("inline.js costs little more than the main entry, the worker's script and the wasm do", async () => {
