@@ -16,6 +16,7 @@ mod assertions;
 mod boxes;
 mod certain;
 mod chain;
+mod clearing;
 mod depth;
 mod dual_plane;
 mod enclosed;

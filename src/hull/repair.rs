@@ -21,8 +21,10 @@ pub(super) struct Repair {
     pub turned: Vec<FaceId>,
     /// The effort that is left for taking out vertices, in squares of their degrees.
     pub effort: usize,
-    rim: Vec<Rim>,
-    star: Vec<FaceId>,
+    /// The edges around a hole, counter-clockwise.
+    pub rim: Vec<Rim>,
+    /// The faces that the hole had.
+    pub star: Vec<FaceId>,
     ring: Vec<Rim>,
     ears: Vec<usize>,
     /// Flags of each vertex, for `Hull::settle`.
@@ -33,7 +35,7 @@ impl Hull {
     /// Mends a face that turned over. Mostly one vertex crossed the opposite edge and now
     /// lies over the neighbor. Then flipping that edge mends the face.
     ///
-    /// With `force`, vertices next to the face may be taken out, too.
+    /// With `force`, the vertices of the face are taken out together, with others around them.
     pub(super) fn unfold(
         &mut self,
         id: FaceId,
@@ -46,7 +48,7 @@ impl Hull {
         }
         let can_flip = |&edge: &HalfEdge| {
             let [[c, _, d], _] = self.surface.flipped(edge);
-            self.can_flip(edge) && !self.surface.are_joined(c, d, id)
+            self.can_flip(edge) && !self.surface.are_joined(c, d, id, &[])
         };
         // A flip that makes a ghost face is the last choice, because a ghost face fits too often.
         let is_inner = |&edge: &HalfEdge| {
@@ -70,17 +72,7 @@ impl Hull {
             return self.unfold_across(edge, repair);
         }
         if force {
-            for hub in face.vertices.into_iter().filter(|&v| v != ORIGIN) {
-                let next = self
-                    .surface
-                    .around(hub, id)
-                    .map(|(face, rim)| (rim.tail, face));
-                for (vertex, face) in next.take(MAX_DEGREE).collect::<Vec<_>>() {
-                    if self.take_out(vertex, face, repair)? {
-                        return Ok(false);
-                    }
-                }
-            }
+            return self.clear(id, repair);
         }
         Ok(false)
     }
@@ -150,7 +142,7 @@ impl Hull {
         } else {
             tail
         };
-        self.take_out(below, edge.face(), repair)
+        Ok(self.take_out(below, edge.face(), repair)? || self.clear(edge.face(), repair)?)
     }
 
     /// Whether both faces that flipping `edge` would make turn outward.
@@ -162,6 +154,7 @@ impl Hull {
     }
 
     /// Takes `vertex`, a corner of `face`, out of the surface and fills the hole by ears.
+    #[inline(never)]
     fn take_out(
         &mut self,
         vertex: Vertex,
@@ -177,6 +170,13 @@ impl Hull {
             push(&mut repair.rim, rim)?;
             push(&mut repair.star, id)?;
         }
+        self.fill(repair)
+    }
+
+    /// Fills the hole of the faces `repair.star` inside `repair.rim` by ears. Returns false, and
+    /// changes nothing, if that is not possible.
+    #[inline(never)]
+    pub(super) fn fill(&mut self, repair: &mut Repair) -> Result<bool, OutOfMemory> {
         if !(3..=MAX_DEGREE).contains(&repair.rim.len()) {
             return Ok(false);
         }
@@ -192,7 +192,7 @@ impl Hull {
         repair.ears.clear();
         reserve(&mut repair.ears, repair.rim.len())?;
         while repair.ring.len() > 2 {
-            let Some(ear) = self.ear(&repair.ring) else {
+            let Some(ear) = self.ear(&repair.ring, &repair.star) else {
                 return Ok(false);
             };
             repair.ears.push(ear);
@@ -214,7 +214,7 @@ impl Hull {
     /// An ear is a triangle of three successive vertices that turns outward and holds no other
     /// vertex of the ring. If there is no ear and the ring holds the origin, a ghost face may
     /// be cut off instead.
-    fn ear(&self, ring: &[Rim]) -> Option<usize> {
+    fn ear(&self, ring: &[Rim], hole: &[FaceId]) -> Option<usize> {
         let corners = |ear: usize| [0, 1, 2].map(|i| ring[(ear + i) % ring.len()].tail);
         if ring.len() == 3 {
             return self.vertices.may_face(corners(0)).then_some(0);
@@ -224,7 +224,7 @@ impl Hull {
             let [tail, _, head] = corners(ear);
             !self
                 .surface
-                .are_joined(tail, head, ring[ear].outside.face())
+                .are_joined(tail, head, ring[ear].outside.face(), hole)
         };
         let is_ear = |&ear: &usize| {
             let corners = corners(ear);

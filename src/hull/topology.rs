@@ -362,9 +362,25 @@ impl<T: Copy> Surface<T> {
         })
     }
 
-    /// Whether an edge joins `hub`, a vertex of `start`, to `other`.
-    pub(crate) fn are_joined(&self, hub: Vertex, other: Vertex, start: FaceId) -> bool {
-        self.around(hub, start).any(|(_, rim)| rim.tail == other)
+    /// Whether an edge that is not inside `hole`, a list of faces, joins `hub`, a vertex of `start`,
+    /// to `other`.
+    #[inline(never)]
+    pub(crate) fn are_joined(
+        &self,
+        hub: Vertex,
+        other: Vertex,
+        start: FaceId,
+        hole: &[FaceId],
+    ) -> bool {
+        self.around(hub, start).any(|(id, rim)| {
+            let is_inside = || {
+                let face = self.face(id);
+                let at = face.vertices.iter().position(|&vertex| vertex == hub);
+                let across = face.twins[at.unwrap_or(0)].face();
+                hole.contains(&id) && hole.contains(&across)
+            };
+            rim.tail == other && !is_inside()
+        })
     }
 
     /// Cuts an ear off the hole with this `rim`. The ear is the triangle of rim edge `ear` and

@@ -145,6 +145,25 @@ fn small_steps_start_from_the_last_view() {
     }
 }
 
+/// Large steps make vertices of fine bumps cross each other. No vertex of such a knot can be taken out alone.
+#[test]
+fn knots_of_turned_faces_are_cleared() {
+    let points = shapes::bumpy(&mut Rng::new(26), 40_000);
+    let cloud = PointCloud::new(&points).unwrap();
+    let options = Options::with_exponent(3.3);
+    let mut observer = cloud.observer();
+    let mut warm = 0;
+    for step in 0..=40 {
+        let angle = 0.015 * f64::from(step);
+        let viewpoint = [3.0 * libm::sin(angle), 0.5, 3.0 * libm::cos(angle)];
+        let different = difference(&cloud, &mut observer, viewpoint, &options);
+        assert_eq!(different, None, "step {step}");
+        warm += usize::from(observer.moved());
+    }
+    // Two of these only because knots are cleared.
+    assert!(warm >= 30, "{warm} of 40");
+}
+
 #[test]
 fn flat_views_and_refusals_in_between_change_nothing() {
     let mut rng = Rng::new(22);

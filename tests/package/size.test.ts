@@ -14,9 +14,9 @@ import { wasmBytes } from "./support";
 // unless the functions in the hot loops are marked #[inline]. Large functions with one caller, left as they
 // are by wasm-opt, save 1.5 kB. Compiled for size as a whole, the wasm is 4 kB (opt-level "s") or 16 kB ("z") smaller; with
 // "z", views take 3.4 times as long. Less unrolling saves 1 kB, and makes views 10 to 25 % slower. Panics without messages
-// would save 3.5 kB.
+// would save 3.5 kB. To sort the faces of a hole would cost 1.6 kB.
 it("the wasm stays small", () => {
   const bytes = wasmBytes();
-  expect(bytes.length).toBeLessThanOrEqual(328_000);
-  expect(gzipSync(bytes, { level: 9 }).length).toBeLessThanOrEqual(141_300);
+  expect(bytes.length).toBeLessThanOrEqual(330_900);
+  expect(gzipSync(bytes, { level: 9 }).length).toBeLessThanOrEqual(142_400);
 });
