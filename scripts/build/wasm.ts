@@ -62,7 +62,7 @@ export async function buildWasm(): Promise<void> {
  * Less than the usual limit of 225 to 325 for putting functions into their callers. Functions in the hot loops are
  * marked `#[inline]`, which keeps the usual limit for them.
  */
-const SMALL = "-Cllvm-args=-inline-threshold=50";
+const SMALL = "-Cllvm-args=-inline-threshold=5";
 
 /** Flags for rustc. The wasm contains the paths of crates. The flags make them, and so the bytes, equal everywhere. */
 async function flags(): Promise<string> {

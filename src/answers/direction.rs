@@ -9,16 +9,18 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
+use crate::answers::looks::Gaze;
+use crate::answers::room::Room;
 use crate::answers::visibility::Visibility;
 use crate::base::error::Error;
 use crate::base::real::square_root;
 use crate::cloud::point_cloud::PointCloud;
-use crate::cloud::spatial::Bounds;
+use crate::flip::lift::Lift;
 use crate::hull;
 use crate::view::choice;
 use crate::view::options::{Exponential, Inversion, Options, Radius};
 use crate::view::radius::{self, ChosenRadius};
-use crate::view::resolved::resolved_inversion;
+use crate::view::resolved::{looks, resolved_inversion};
 
 impl PointCloud {
     /// Which points are visible along `direction`, the direction in which an orthographic camera
@@ -28,7 +30,8 @@ impl PointCloud {
     /// R grows as a·r² with the distance r. For [`Radius::Auto`] a is 0.4·n^¼/g, with n and g as
     /// there. For [`Inversion::Exponential`] a is 1/(2c). For a given radius or exponent a is R/r²,
     /// measured from the viewpoint that lies one diagonal of the bounding box before the centroid.
-    /// The radius and exponent of the answer belong to this viewpoint.
+    /// The radius and exponent of the answer belong to this viewpoint. [`Inversion::Looks`] has a
+    /// limit, too: every look has the limit of its exponential flip.
     ///
     /// Exact for (x, y, z + a·(x² + y²)) as rounded to `f64`. Coordinates are relative to a center
     /// near the middle of the bounding box, in units of a power of two near its size, along the
@@ -64,6 +67,11 @@ impl PointCloud {
             return Ok(seen.to(options));
         }
         self.after_denoising(options, |cloud, options| {
+            if let Some(count) = looks(options)? {
+                let ahead = normalized(direction).ok_or(Error::Direction { direction })?;
+                let mut room = Room::default();
+                return cloud.seen_by_looks(&mut room, Gaze::Along(ahead), count, options);
+            }
             let (visible, chosen, inversion) = cloud.direction_marks(direction, options)?;
             let seen = cloud.answer(&visible, chosen, inversion)?;
             Ok(seen.to(options))
@@ -75,14 +83,13 @@ impl PointCloud {
         direction: [f64; 3],
         options: &Options,
     ) -> Result<(Vec<bool>, ChosenRadius, Inversion), Error> {
-        options.refuse_looks("visibleFromDirection")?;
         let ahead = normalized(direction).ok_or(Error::Direction { direction })?;
         let inversion = resolved_inversion(options, self.statistics.spacing)?;
         let (bend, chosen) = self.bend(ahead, options.radius, inversion)?;
         let lift = Lift::new(&self.bounds, ahead, bend);
         let points = &self.sequence.points;
         let lifted = |index: u32| lift.apply(points.get(index as usize));
-        let visible = hull::mark_lower_boundary(points.len() as u32, &lifted, options.draft)?;
+        let (visible, _) = hull::lower_boundary(points.len() as u32, &lifted, options.draft)?;
         Ok((self.voted(visible, options)?, chosen, inversion))
     }
 
@@ -159,45 +166,4 @@ fn normalized(direction: [f64; 3]) -> Option<DVec3> {
     // Scaled, so that squares neither overflow nor underflow.
     let direction = direction / size;
     Some(direction / square_root(direction.dot(direction)))
-}
-
-/// The map p → (x, y, z + a·(x² + y²)), with one fixed sequence of operations:
-/// v = p·k − center·k, x and y its products with the axes across, z with the
-/// direction (each summed left to right), w = z + (a/k)·(x·x + y·y).
-struct Lift {
-    right: DVec3,
-    up: DVec3,
-    ahead: DVec3,
-    /// The center in scaled coordinates.
-    center: DVec3,
-    /// k, a power of two that brings the box to a size near 1.
-    scale: f64,
-    bend: f64,
-}
-
-impl Lift {
-    fn new(bounds: &Bounds, ahead: DVec3, bend: f64) -> Self {
-        /// The largest bend. With a larger one only the lift would count. Products are still in
-        /// range.
-        const MAX_BEND: f64 = 1e50;
-        let across = ahead.cross(DVec3::AXES[ahead.abs().min_position()]);
-        let right = across / square_root(across.dot(across));
-        let (center, scale) = bounds.coarse_center();
-        Self {
-            right,
-            up: right.cross(ahead),
-            ahead,
-            center: DVec3::from_array(center),
-            scale,
-            bend: (bend / scale).min(MAX_BEND),
-        }
-    }
-
-    fn apply(&self, p: [f64; 3]) -> DVec3 {
-        let v = DVec3::from_array(p) * self.scale - self.center;
-        let x = v.dot(self.right);
-        let y = v.dot(self.up);
-        let z = v.dot(self.ahead);
-        DVec3::new(x, y, z + self.bend * (x * x + y * y))
-    }
 }

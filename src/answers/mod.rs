@@ -13,6 +13,7 @@ pub(crate) mod merge;
 pub(crate) mod observer;
 pub(crate) mod part;
 pub(crate) mod reconstruct;
+pub(crate) mod room;
 pub(crate) mod sample;
 pub(crate) mod sector;
 pub(crate) mod sees;

@@ -1,9 +1,9 @@
 //! Many views of one cloud. Each view starts from the last one.
 
+use crate::answers::room::Room;
 use crate::answers::visibility::Visibility;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
-use crate::hull::Memory;
 use crate::hull::division::Sector;
 use crate::view::options::Options;
 
@@ -29,7 +29,7 @@ use crate::view::options::Options;
 /// ```
 pub struct Observer<'a> {
     cloud: &'a PointCloud,
-    memory: Memory,
+    memory: Room,
 }
 
 impl PointCloud {
@@ -38,7 +38,7 @@ impl PointCloud {
     pub fn observer(&self) -> Observer<'_> {
         Observer {
             cloud: self,
-            memory: Memory::default(),
+            memory: Room::default(),
         }
     }
 }
@@ -61,6 +61,9 @@ impl Observer<'_> {
     /// moves. If the last view was a draft ([`Options::draft`]) of this view, this adds about
     /// `budget` points to the draft's hull. Returns whether [`Observer::visible_from`] would have
     /// no point left to add. The answer is the same, to the bit, with slices and without.
+    ///
+    /// Several looks ([`Inversion::Looks`](crate::Inversion::Looks)) need no draft. The first look
+    /// takes about `budget` points at once, then each look is one slice.
     ///
     /// # Errors
     /// As [`PointCloud::visible_from`].

@@ -3,6 +3,7 @@
 
 use glam::DVec3;
 
+use crate::answers::room::Room;
 use crate::answers::visibility::Visibility;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::error::Error;
@@ -53,13 +54,13 @@ impl PointCloud {
         options: &Options,
         sector: Sector,
     ) -> Result<Visibility, Error> {
-        self.visible_in_sector_with(&mut Memory::default(), viewpoint, options, sector)
+        self.visible_in_sector_with(&mut Room::default(), viewpoint, options, sector)
     }
 
     /// [`PointCloud::visible_in_sector`] with the memory of earlier views.
     pub(crate) fn visible_in_sector_with(
         &self,
-        memory: &mut Memory,
+        memory: &mut Room,
         viewpoint: [f64; 3],
         options: &Options,
         sector: Sector,
@@ -70,7 +71,7 @@ impl PointCloud {
 
     fn sector_of_chosen(
         &self,
-        memory: &mut Memory,
+        memory: &mut Room,
         viewpoint: [f64; 3],
         options: &Options,
         sector: Sector,

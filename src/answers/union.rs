@@ -4,12 +4,12 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
+use crate::answers::room::Room;
 use crate::answers::visibility::Visibility;
 use crate::base::allocation::{filled, with_capacity};
 use crate::base::error::{Error, in_range};
 use crate::base::real::square_root;
 use crate::cloud::point_cloud::PointCloud;
-use crate::hull;
 use crate::view::options::{Inversion, Options};
 use crate::view::radius::ChosenRadius;
 use crate::view::resolved::resolved_inversion;
@@ -133,7 +133,7 @@ impl PointCloud {
         }
         let mut views: Vec<u32> = filled(self.sequence.points.len(), 0)?;
         let mut chosen = ChosenRadius::unit(0.0);
-        let mut memory = hull::Memory::default();
+        let mut memory = Room::default();
         for &viewpoint in viewpoints {
             let (visible, radius) = self.marks(&mut memory, viewpoint, options)?;
             for (views, visible) in views.iter_mut().zip(visible) {

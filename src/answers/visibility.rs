@@ -2,7 +2,8 @@
 
 use alloc::vec::Vec;
 
-use crate::answers::looks::{scales, scores_of_indices};
+use crate::answers::looks::{Gaze, scales, scores_of_indices};
+use crate::answers::room::Room;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::bits::{bits_of, places};
 use crate::base::error::Error;
@@ -197,13 +198,13 @@ impl PointCloud {
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        self.visible_from_with(&mut hull::Memory::default(), viewpoint, options)
+        self.visible_from_with(&mut Room::default(), viewpoint, options)
     }
 
     /// [`PointCloud::visible_from`] with the memory of earlier views.
     pub(crate) fn visible_from_with(
         &self,
-        memory: &mut hull::Memory,
+        memory: &mut Room,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
@@ -214,7 +215,7 @@ impl PointCloud {
     /// The same as `visible_from_with`, for a memory that has seen the selection.
     pub(crate) fn visible_from_chosen(
         &self,
-        memory: &mut hull::Memory,
+        memory: &mut Room,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
@@ -231,7 +232,7 @@ impl PointCloud {
     #[inline(never)]
     fn visible_from_whole(
         &self,
-        memory: &mut hull::Memory,
+        memory: &mut Room,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
@@ -242,7 +243,7 @@ impl PointCloud {
             });
         }
         if let Some(count) = looks(options)? {
-            return self.seen_by_looks(memory, viewpoint, count, options);
+            return self.seen_by_looks(memory, Gaze::From(viewpoint), count, options);
         }
         let view = self.look(memory, viewpoint, options)?;
         let seen = match options.vote {
@@ -256,19 +257,22 @@ impl PointCloud {
     }
 
     /// Goes on from a draft of the same view, if `memory` holds one, with about `budget` points.
-    /// Returns whether [`PointCloud::visible_from_with`] would have no point left to add.
+    /// Looks need no draft. Returns whether [`PointCloud::visible_from_with`] would have no point left to add.
     pub(crate) fn go_on_with(
         &self,
-        memory: &mut hull::Memory,
+        memory: &mut Room,
         viewpoint: [f64; 3],
         options: &Options,
         budget: usize,
     ) -> Result<bool, Error> {
-        let is_one_hull = !options.asks_for_looks() && !options.draft;
-        if !is_one_hull || options.chooses() || options.denoise.is_some() {
+        if options.draft || options.chooses() || options.denoise.is_some() {
             return Ok(true);
         }
         memory.see(options.selection(viewpoint));
+        if let Some(count) = looks(options)? {
+            let gaze = Gaze::From(viewpoint);
+            return memory.go_on_looking(self, gaze, count, options.scores, budget);
+        }
         let view = self.view(viewpoint, options)?;
         let points = &self.sequence.points;
         let blocks = &self.blocks.levels[0];
@@ -279,7 +283,7 @@ impl PointCloud {
     /// points nor counts votes.
     fn look(
         &self,
-        memory: &mut hull::Memory,
+        memory: &mut Room,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<View, Error> {
@@ -303,14 +307,14 @@ impl PointCloud {
     }
 
     /// The answer from `count` looks.
-    fn seen_by_looks(
+    pub(crate) fn seen_by_looks(
         &self,
-        memory: &mut hull::Memory,
-        viewpoint: [f64; 3],
+        memory: &mut Room,
+        gaze: Gaze,
         count: usize,
         options: &Options,
     ) -> Result<Visibility, Error> {
-        let seen = self.look_again(memory, viewpoint, count, options.scores)?;
+        let seen = memory.look(self, gaze, count, options.scores)?;
         let scores = scores_of_indices(self, &seen.scores)?;
         let visible = self.voted(seen.visible, options)?;
         let answer = self.answer(&visible, ChosenRadius::unit(0.0), options.inversion)?;
@@ -321,12 +325,12 @@ impl PointCloud {
     /// does not denoise points.
     pub(crate) fn marks(
         &self,
-        memory: &mut hull::Memory,
+        memory: &mut Room,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<(Vec<bool>, ChosenRadius), Error> {
         if let Some(count) = looks(options)? {
-            let seen = self.look_again(memory, viewpoint, count, false)?;
+            let seen = memory.look(self, Gaze::From(viewpoint), count, false)?;
             let visible = self.voted(seen.visible, options)?;
             return Ok((visible, ChosenRadius::unit(0.0)));
         }

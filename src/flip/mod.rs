@@ -2,3 +2,4 @@
 
 pub(crate) mod inversion;
 pub(crate) mod kernel;
+pub(crate) mod lift;

@@ -14,6 +14,7 @@ use glam::DVec3;
 
 use super::chain::convex_chain;
 use super::order;
+use super::outer_faces::{Exit, OuterFaces};
 use super::topology::{Face, FaceId, Surface, Vertex};
 use crate::base::allocation::{OutOfMemory, filled, push, reserve, with_capacity};
 use crate::base::sort::sorted_places;
@@ -22,21 +23,56 @@ use crate::hull::predicates::{Sign, orient2d, side_of_face};
 /// The ghost vertex, infinitely far up.
 const ABOVE: Vertex = 0;
 
-/// Marks the points on the lower boundary among `count`. For a draft, it marks all points that
-/// are not above the boundary of one point in eight.
-pub(crate) fn mark_lower_boundary(
+/// Marks the points on the lower boundary among `count`, and returns its faces. There are none
+/// where all points lie above one line. For a draft, it marks all points that are not above the
+/// boundary of one point in eight.
+pub(crate) fn lower_boundary<'a>(
     count: u32,
-    lifted: &dyn Fn(u32) -> DVec3,
+    lifted: &'a dyn Fn(u32) -> DVec3,
     draft: bool,
-) -> Result<Vec<bool>, OutOfMemory> {
+) -> Result<(Vec<bool>, Option<LowerFaces<'a>>), OutOfMemory> {
     let mut visible = filled(count as usize, false)?;
     let seed = first_triangle(count, order::sample_step(count), lifted)
         .or_else(|| first_triangle(count, 1, lifted));
-    match seed {
-        Some(corners) => mark_in_space(count, lifted, corners, draft, &mut visible)?,
-        None => mark_upright(count, lifted, &mut visible)?,
+    let Some(corners) = seed else {
+        mark_upright(count, lifted, &mut visible)?;
+        return Ok((visible, None));
+    };
+    let (hull, last) = mark_in_space(count, lifted, corners, draft, &mut visible)?;
+    Ok((visible, Some(LowerFaces { hull, lifted, last })))
+}
+
+/// The faces of a lower boundary.
+pub(crate) struct LowerFaces<'a> {
+    hull: LowerHull,
+    lifted: &'a dyn Fn(u32) -> DVec3,
+    /// The face at which the last walk ended. The next walk starts there.
+    last: FaceId,
+}
+
+impl OuterFaces for LowerFaces<'_> {
+    fn slots(&self) -> usize {
+        self.hull.surface.slots()
     }
-    Ok(visible)
+
+    fn corners(&self, id: FaceId) -> Option<[Vertex; 3]> {
+        let face = self.hull.surface.face(id);
+        (face.is_alive() && self.hull.vertices.is_outer(face)).then_some(face.vertices)
+    }
+
+    fn points_of_vertices(&self) -> &[u32] {
+        &self.hull.vertices.points
+    }
+
+    fn exit(&mut self, point: u32) -> Exit {
+        // No point is below the boundary, so the walk ends at an outer face.
+        let (face, side) = self.hull.locate((self.lifted)(point), self.last);
+        self.last = face;
+        match side {
+            Sign::Zero => Exit::Nowhere,
+            _ => Exit::Face(face, self.hull.surface.face(face).vertices),
+        }
+    }
 }
 
 /// Positive when a, b, c are counter-clockwise seen from below.
@@ -70,13 +106,14 @@ fn first_triangle(count: u32, step: usize, lifted: &dyn Fn(u32) -> DVec3) -> Opt
         })
 }
 
+/// Returns the hull and an outer face.
 fn mark_in_space(
     count: u32,
     lifted: &dyn Fn(u32) -> DVec3,
     corners: [u32; 3],
     draft: bool,
     visible: &mut [bool],
-) -> Result<(), OutOfMemory> {
+) -> Result<(LowerHull, FaceId), OutOfMemory> {
     let mut hull = LowerHull::new(corners, lifted)?;
     // Points on the boundary now. They are visible only if they are still on it at the end.
     let mut on_boundary: Vec<u32> = Vec::new();
@@ -116,7 +153,7 @@ fn mark_in_space(
         visible[index as usize] |= side == Sign::Zero;
         hint = face;
     }
-    Ok(())
+    Ok((hull, hint))
 }
 
 struct LowerHull {

@@ -63,11 +63,14 @@ impl Memory {
     }
 
     /// Prepares for a view of these points. Forgets the last view if it was of other points.
-    pub(crate) fn see(&mut self, selection: Selection) {
-        if self.selection != selection {
+    /// Returns whether it was.
+    pub(crate) fn see(&mut self, selection: Selection) -> bool {
+        let is_other = self.selection != selection;
+        if is_other {
             self.forget();
             self.selection = selection;
         }
+        is_other
     }
 
     /// Ensures that no later view starts by moving the last hull. A view may still go on from a

@@ -43,7 +43,7 @@ mod triangles;
 pub(crate) use boxes::hides_box;
 pub(crate) use certain::certain_among;
 pub(crate) use kept::KeptHull;
-pub(crate) use lower::mark_lower_boundary;
+pub(crate) use lower::lower_boundary;
 pub(crate) use memory::Memory;
 pub(crate) use outer_boundary::{
     go_on, mark_draft, mark_visible, triangulate_visible, visible_once,

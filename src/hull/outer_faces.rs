@@ -10,8 +10,24 @@ use crate::base::allocation::OutOfMemory;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
 
-/// The outer faces of the complete hull of one view.
-pub(crate) struct OuterFaces<'a> {
+/// The outer faces of a complete hull, as its viewer sees them.
+pub(crate) trait OuterFaces {
+    /// All numbers of faces are below this.
+    fn slots(&self) -> usize;
+
+    /// The corners of a face. `None` if it is no outer face.
+    fn corners(&self, id: FaceId) -> Option<[Vertex; 3]>;
+
+    /// The point of the cloud that each vertex is, by the vertex's number. Some of the vertices
+    /// may have no outer face. The first number is the ghost vertex's, and its point has no meaning.
+    fn points_of_vertices(&self) -> &[u32];
+
+    /// Where the ray of a point that is no vertex leaves the hull.
+    fn exit(&mut self, point: u32) -> Exit;
+}
+
+/// The outer faces of the hull of one view.
+pub(crate) struct FlippedFaces<'a> {
     hull: &'a Hull,
     flipped: Flipped<'a>,
     visible: &'a [bool],
@@ -23,9 +39,9 @@ pub(crate) struct OuterFaces<'a> {
 
 /// Where the ray of a point leaves the hull.
 pub(crate) enum Exit {
-    /// Through this outer face.
-    Face(FaceId),
-    /// The point is at the viewpoint.
+    /// Through this outer face, and its corners.
+    Face(FaceId, [Vertex; 3]),
+    /// The point is at the viewpoint. For a direction: the point is exactly on the boundary.
     Nowhere,
 }
 
@@ -39,14 +55,14 @@ impl Memory {
         points: &'a Points,
         flip: &Flip,
         farthest: f64,
-    ) -> Result<Option<OuterFaces<'a>>, OutOfMemory> {
+    ) -> Result<Option<FlippedFaces<'a>>, OutOfMemory> {
         if !self.holds_hull {
             return Ok(None);
         }
         let flipped = Flipped::of(points, &[], flip);
         self.hull.cut_by(&self.on_boundary, &flipped)?;
         let first = self.hull.outer_face();
-        Ok(first.map(|first| OuterFaces {
+        Ok(first.map(|first| FlippedFaces {
             hull: &self.hull,
             inward: flip.inward(farthest),
             flipped,
@@ -56,33 +72,21 @@ impl Memory {
     }
 }
 
-impl OuterFaces<'_> {
-    /// Each outer face and its corners.
-    pub(crate) fn all(&self) -> impl Iterator<Item = (FaceId, [Vertex; 3])> + '_ {
-        let alive = self.hull.surface.alive();
-        alive
-            .filter(|(id, _)| self.hull.is_outer(*id))
-            .map(|(id, face)| (id, face.vertices))
+impl OuterFaces for FlippedFaces<'_> {
+    fn slots(&self) -> usize {
+        self.hull.surface.slots()
     }
 
-    /// The corners of an outer face.
-    pub(crate) fn corners(&self, id: FaceId) -> [Vertex; 3] {
-        self.hull.surface.face(id).vertices
+    fn corners(&self, id: FaceId) -> Option<[Vertex; 3]> {
+        let corners = self.hull.corners(id);
+        corners.filter(|_| self.hull.is_outer(id))
     }
 
-    /// The corners of an outer face as points.
-    pub(crate) fn points_of(&self, id: FaceId) -> [u32; 3] {
-        self.corners(id).map(|vertex| self.hull.point(vertex))
-    }
-
-    /// The point of the cloud that each vertex is, by the vertex's number. Some of the vertices
-    /// may have no outer face. The first number is the viewpoint's, and its point has no meaning.
-    pub(crate) fn points_of_vertices(&self) -> &[u32] {
+    fn points_of_vertices(&self) -> &[u32] {
         &self.hull.vertices.points
     }
 
-    /// Where the ray of a point that is no vertex leaves the hull.
-    pub(crate) fn exit(&mut self, point: u32) -> Exit {
+    fn exit(&mut self, point: u32) -> Exit {
         // Among points that are no vertices, the marked ones are at the viewpoint, or at the same
         // place as a vertex after the flip.
         if self.visible[point as usize] && self.flipped.get_out_of_line(point).is_none() {
@@ -96,9 +100,11 @@ impl OuterFaces<'_> {
             // The flip rounds the direction, and the ray of the unrounded one passes the hull.
             Location::Outside(_) => self.exit_of_flipped(point),
         }
-        Exit::Face(self.last)
+        Exit::Face(self.last, self.hull.surface.face(self.last).vertices)
     }
+}
 
+impl FlippedFaces<'_> {
     #[cold]
     fn exit_of_flipped(&mut self, point: u32) {
         if let Some(q) = self.flipped.get_out_of_line(point) {

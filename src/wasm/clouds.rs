@@ -13,8 +13,8 @@ use super::failure::Failure;
 use super::objects::to_js;
 use super::options::ViewOptions;
 use super::transfer::copy_in_bytes;
+use crate::answers::room::Room;
 use crate::base::allocation::push;
-use crate::hull::Memory;
 use crate::{Error, Horizon, Options, PointCloud, PointCloudNd};
 
 thread_local! {
@@ -35,7 +35,7 @@ struct LastView {
     handle: u32,
     /// Whether only masked points took part.
     masked: bool,
-    memory: Memory,
+    memory: Room,
 }
 
 #[derive(Serialize)]
@@ -181,16 +181,16 @@ pub(super) fn with_horizon<T>(
 
 /// Runs `view` with the memory of the last view; a view of another cloud, or of other points of
 /// it, is forgotten first.
-pub(super) fn with_memory<T>(handle: u32, masked: bool, view: impl FnOnce(&mut Memory) -> T) -> T {
+pub(super) fn with_memory<T>(handle: u32, masked: bool, view: impl FnOnce(&mut Room) -> T) -> T {
     LAST_VIEW.with_borrow_mut(|last| view(memory_for(last, handle, masked)))
 }
 
 #[inline(never)]
-fn memory_for(last: &mut Option<LastView>, handle: u32, masked: bool) -> &mut Memory {
+fn memory_for(last: &mut Option<LastView>, handle: u32, masked: bool) -> &mut Room {
     let last = last.get_or_insert_with(|| LastView {
         handle,
         masked,
-        memory: Memory::default(),
+        memory: Room::default(),
     });
     if (last.handle, last.masked) != (handle, masked) {
         last.memory.forget();

@@ -9,6 +9,7 @@
 //! | `build` | the cloud is built |
 //! | `cold` | a view that knows no view before it |
 //! | `exponential` | the same, with an exponential flip |
+//! | `looks` | the same, with three looks |
 //! | `draft` | the draft of such a view |
 //! | `first 0.2` | the first view after a motion by 0.2° |
 //! | `move 0.2` | three views, each 0.2° from the one before, after three such motions |
@@ -92,10 +93,13 @@ fn ask(
             }
             look(&mut observer, &views[4..], &options);
         }
-        ["cold" | "draft" | "exponential"] => {
+        ["cold" | "draft" | "exponential" | "looks"] => {
             options.draft = question == "draft";
             if question == "exponential" {
                 options.inversion = Inversion::Exponential(Exponential::default());
+            }
+            if question == "looks" {
+                options.inversion = Inversion::Looks(3);
             }
             // The first view reserves memory.
             observer.visible_from(at(180.0), &options)?;

@@ -20,6 +20,8 @@ mod illumination;
 mod invariance;
 mod inversions;
 mod looks;
+mod looks_along;
+mod looks_in_steps;
 mod merge;
 mod motion;
 mod noise;

@@ -46,6 +46,35 @@ describe("three looks", () => {
     expect(hiddenPointRemoval(sphere, farAway, { looks: 3 })).toEqual(answer);
   });
 
+  it("along a direction are those of a viewpoint far away, in a worker too", async () => {
+    const options: VisibilityOptions = { looks: 3, scores: true };
+    const answer = cloud.visibleFromDirection([0, 0, -2], options);
+    expect(answer.inversion).toEqual(cloud.visibleFrom(farAway, options).inversion);
+    expect(answer.scores).toHaveLength(3000);
+    const far = cloud.visibleFrom([0, 0, 20_000], options).mask();
+    const differing = answer.mask().filter((is, i) => is !== far[i]);
+    expect(differing.length).toBeLessThan(10);
+    using worker = await WorkerPointCloud.create(sphere, { workers: 2 });
+    expect(await worker.visibleFromDirection([0, 0, -2], options)).toEqual(answer);
+  });
+
+  it("that a signal may give up are the same, and do not keep the next question waiting", async () => {
+    const large = bumpySphere(2, 60_000);
+    using worker = await WorkerPointCloud.create(large, { workers: 1 });
+    const options: VisibilityOptions = { looks: 3, scores: true };
+    const begun = performance.now();
+    const whole = await worker.visibleFrom(farAway, options);
+    const takes = performance.now() - begun;
+    expect(await worker.visibleFrom(farAway, { ...options, signal: new AbortController().signal })).toEqual(whole);
+    const moving = new AbortController();
+    const givenUp = worker.visibleFrom(farAway, { ...options, signal: moving.signal });
+    const refused = expect(givenUp).rejects.toMatchObject({ name: "AbortError" });
+    await new Promise((resolve) => setTimeout(resolve, takes / 10));
+    moving.abort();
+    await refused;
+    expect(await worker.visibleFrom(farAway)).toEqual(new PointCloud(large).visibleFrom(farAway));
+  });
+
   it("have scores only where they are asked for, one for each index", () => {
     expect("scores" in cloud.visibleFrom(farAway, { looks: 3, scores: false })).toBe(false);
     const some = new PointCloud([...sphere.subarray(0, 3000), NaN, 0, 0], { nonFinite: "skip" });
@@ -134,7 +163,6 @@ describe("an error names the option", () => {
     [/looks.*reconstruct/, () => cloud.reconstruct(farAway, { looks: 3 })],
     [/looks.*illuminate/, () => cloud.illuminate([farAway], { looks: 3 })],
     [/looks.*illuminate/, () => cloud.illuminate([], { looks: 2 })],
-    [/looks.*visibleFromDirection/, () => cloud.visibleFromDirection([0, 0, -1], { looks: 3 })],
     [/"looks"/, () => mergeVisible(parts, farAway, { radius: 10, looks: 3 } as { radius: number })],
     [/looks.*dimension 3/, () => plane.visibleFrom([5, 5], { looks: 3 })],
   ])("%s", async (message, call) => {

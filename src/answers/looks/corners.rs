@@ -8,85 +8,88 @@ use super::part::Part;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::real::square_root;
 use crate::cloud::points::Points;
-use crate::hull::{OuterFaces, Vertex};
+use crate::hull::{FaceId, OuterFaces, Vertex};
 
 /// The vertices of one look's hull, by their numbers.
 pub(super) struct Corners {
-    /// The place before the flip, relative to the viewpoint.
-    pub places: Vec<DVec3>,
-    /// The local spacing: the mean of the vertex's two shortest edges in the hull. If an earlier
-    /// look has found a smaller one, it is that. It is infinite for vertices without outer faces.
-    pub spacing: Vec<f64>,
+    /// The corners of each outer face.
+    triangles: Vec<[Vertex; 3]>,
+    all: Vec<Corner>,
     /// The largest local spacing.
     pub widest: f64,
 }
 
+#[derive(Clone, Copy)]
+pub(super) struct Corner {
+    /// The place before the flip, relative to an origin.
+    pub place: DVec3,
+    /// The local spacing: the mean of the vertex's two shortest edges in the hull. If an earlier
+    /// look has found a smaller one, it is that. It is infinite for vertices without outer faces.
+    pub spacing: f64,
+}
+
 impl Corners {
+    /// Places are relative to `origin`.
     pub(super) fn of(
-        faces: &OuterFaces,
+        faces: &dyn OuterFaces,
         points: &Points,
         part: &Part,
-        viewpoint: DVec3,
+        origin: DVec3,
     ) -> Result<Self, OutOfMemory> {
         let numbered = faces.points_of_vertices();
-        let mut places = with_capacity(numbered.len())?;
-        // The first number is the viewpoint's.
-        places.push(DVec3::ZERO);
-        places.extend(numbered[1..].iter().map(|&own| {
-            let place = points.get(part.place(own as usize));
-            DVec3::from_array(place) - viewpoint
+        let mut all = with_capacity(numbered.len())?;
+        all.extend(numbered.iter().enumerate().map(|(vertex, &own)| Corner {
+            // The first number is the ghost vertex's.
+            place: if vertex == 0 {
+                DVec3::ZERO
+            } else {
+                let place = points.get(part.place(own as usize));
+                DVec3::from_array(place) - origin
+            },
+            spacing: f64::INFINITY,
         }));
-        let shortest = shortest_edges(faces, &places)?;
+        let mut triangles = with_capacity(faces.slots())?;
+        triangles.extend((0..faces.slots() as FaceId).filter_map(|id| faces.corners(id)));
+        let shortest = shortest_edges(&triangles, &all)?;
         let mut widest = 0.0;
-        let mut spacing = with_capacity(numbered.len())?;
-        spacing.extend(
-            numbered
-                .iter()
-                .zip(&shortest)
-                .map(|(&own, [first, second])| {
-                    let here = 0.5 * (square_root(first.squared) + square_root(second.squared));
-                    if here == f64::INFINITY {
-                        return here;
-                    }
-                    let before = part.spacing(own as usize);
-                    let spacing = if before < here { before } else { here };
-                    if spacing > widest {
-                        widest = spacing;
-                    }
-                    spacing
-                }),
-        );
+        for ((corner, &own), [first, second]) in all.iter_mut().zip(numbered).zip(&shortest) {
+            let here = 0.5 * (square_root(first.squared) + square_root(second.squared));
+            if here == f64::INFINITY {
+                continue;
+            }
+            let before = part.spacing(own as usize);
+            corner.spacing = if before < here { before } else { here };
+            if corner.spacing > widest {
+                widest = corner.spacing;
+            }
+        }
         Ok(Self {
-            places,
-            spacing,
+            triangles,
+            all,
             widest,
         })
     }
 
-    /// The mean spacing of a triangle's corners.
-    pub(super) fn size(&self, corners: [Vertex; 3]) -> f64 {
-        let [a, b, c] = corners.map(|corner| self.spacing[corner as usize]);
-        (a + b + c) / 3.0
+    /// The vertex of this number.
+    #[inline]
+    pub(super) fn at(&self, vertex: Vertex) -> Corner {
+        self.all[vertex as usize]
     }
 
     /// The mean local spacing of the neighbors of each vertex. It is NaN for vertices without
     /// outer faces.
-    pub(super) fn rings(&self, faces: &OuterFaces) -> Result<Vec<f64>, OutOfMemory> {
-        let mut sums = filled(self.spacing.len(), [0.0; 2])?;
-        for (_, [a, b, c]) in faces.all() {
+    pub(super) fn rings(&self) -> Result<Vec<f64>, OutOfMemory> {
+        let mut sums = filled(self.all.len(), [0.0; 2])?;
+        for &[a, b, c] in &self.triangles {
             for [vertex, one, other] in [[a, b, c], [b, c, a], [c, a, b]] {
                 let [sum, count] = &mut sums[vertex as usize];
-                *sum += self.spacing[one as usize] + self.spacing[other as usize];
+                *sum += self.at(one).spacing + self.at(other).spacing;
                 *count += 2.0;
             }
         }
         let mut means = with_capacity(sums.len())?;
         means.extend(sums.iter().map(|[sum, count]| sum / count));
         Ok(means)
-    }
-
-    pub(super) fn places_of(&self, corners: [Vertex; 3]) -> [DVec3; 3] {
-        corners.map(|corner| self.places[corner as usize])
     }
 }
 
@@ -98,15 +101,18 @@ struct Edge {
 }
 
 /// The two shortest edges of each vertex, the shortest first.
-fn shortest_edges(faces: &OuterFaces, places: &[DVec3]) -> Result<Vec<[Edge; 2]>, OutOfMemory> {
+fn shortest_edges(
+    triangles: &[[Vertex; 3]],
+    corners: &[Corner],
+) -> Result<Vec<[Edge; 2]>, OutOfMemory> {
     const NONE: Edge = Edge {
         squared: f64::INFINITY,
         to: 0,
     };
-    let mut shortest = filled(places.len(), [NONE; 2])?;
-    for (_, [a, b, c]) in faces.all() {
+    let mut shortest = filled(corners.len(), [NONE; 2])?;
+    for &[a, b, c] in triangles {
         for [a, b] in [[a, b], [b, c], [c, a]] {
-            let squared = (places[a as usize] - places[b as usize]).length_squared();
+            let squared = (corners[a as usize].place - corners[b as usize].place).length_squared();
             keep(&mut shortest[a as usize], Edge { squared, to: b });
             keep(&mut shortest[b as usize], Edge { squared, to: a });
         }

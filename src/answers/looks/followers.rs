@@ -3,8 +3,9 @@
 use alloc::vec::Vec;
 
 use super::look::{Verdict, Verdicts};
-use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::base::allocation::{OutOfMemory, push, with_capacity};
 use crate::cloud::neighbors::{Nearest, Neighbors};
+use crate::cloud::points::Points;
 
 /// How many of the nearest points are asked.
 const VOTERS: usize = 16;
@@ -13,17 +14,18 @@ const DECIDED: usize = 2;
 /// The number of rounds. A point that was decided in one round is asked in the next.
 const ROUNDS: usize = 2;
 
-pub(super) fn follow(verdicts: &mut Verdicts) -> Result<(), OutOfMemory> {
-    let is_open = |&(_, verdict): &(usize, &Verdict)| *verdict == Verdict::Undecided;
-    let count = verdicts.of.iter().enumerate().filter(is_open).count();
-    if count == 0 {
+pub(super) fn follow(verdicts: &mut Verdicts, points: &Points) -> Result<(), OutOfMemory> {
+    let mut open: Vec<u32> = Vec::new();
+    for point in 0..points.len() {
+        if verdicts.is_open(point) {
+            push(&mut open, point as u32)?;
+        }
+    }
+    if open.is_empty() {
         return Ok(());
     }
-    let mut open: Vec<u32> = with_capacity(count)?;
-    let undecided = verdicts.of.iter().enumerate().filter(is_open);
-    open.extend(undecided.map(|(point, _)| point as u32));
-    let mut shares: Vec<f64> = with_capacity(count)?;
-    let neighbors = Neighbors::new(verdicts.points)?;
+    let mut shares: Vec<f64> = with_capacity(open.len())?;
+    let neighbors = Neighbors::new(points)?;
     let mut nearest = Nearest::with_capacity(VOTERS)?;
     for _ in 0..ROUNDS {
         shares.clear();

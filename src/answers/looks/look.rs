@@ -1,18 +1,32 @@
 //! A look's settings, and the decisions of all looks.
 
 use alloc::vec::Vec;
+use glam::DVec3;
 
 use super::part::Part;
 use crate::base::allocation::{OutOfMemory, filled};
-use crate::cloud::points::Points;
-use crate::flip::inversion::Flip;
 
 /// The score of a point that nothing decides.
 const UNKNOWN: f64 = 0.2;
+/// How many points before and after a point, in the cloud's order, have a part in its score.
+const BESIDE: usize = 4;
+/// Their part.
+const SHARE: f32 = 0.2;
+
+/// From where a cloud is looked at.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Gaze {
+    From([f64; 3]),
+    /// Along this unit vector, from infinitely far.
+    Along(DVec3),
+}
 
 /// The settings of one look.
 pub(super) struct Look {
-    pub flip: Flip,
+    /// The viewpoint; for a direction, a place near the middle of the cloud.
+    pub origin: DVec3,
+    /// The direction of all rays. `None` where they start at the viewpoint.
+    pub ahead: Option<DVec3>,
     /// The scale c of its hull.
     pub scale: f64,
     /// The score of its vertices.
@@ -35,24 +49,20 @@ pub(super) enum Verdict {
 }
 
 /// The decisions of the looks so far.
-pub(super) struct Verdicts<'a> {
-    pub points: &'a Points,
+pub(super) struct Verdicts {
     pub of: Vec<Verdict>,
     /// Empty unless scores are asked for.
     pub scores: Vec<f32>,
 }
 
-impl<'a> Verdicts<'a> {
-    pub(super) fn new(points: &'a Points, with_scores: bool) -> Result<Self, OutOfMemory> {
-        let count = points.len();
+impl Verdicts {
+    pub(super) fn new(count: usize, with_scores: bool) -> Result<Self, OutOfMemory> {
         Ok(Self {
-            points,
             of: filled(count, Verdict::Undecided)?,
             scores: filled(if with_scores { count } else { 0 }, UNKNOWN as f32)?,
         })
     }
 
-    #[inline]
     pub(super) fn decide(&mut self, point: usize, is_visible: bool, score: f64) {
         self.of[point] = if is_visible {
             Verdict::Visible
@@ -74,15 +84,29 @@ impl<'a> Verdicts<'a> {
     }
 
     /// Decides for the points that are visible in a look without triangles: all its points are in
-    /// one plane with the viewpoint.
+    /// one plane with the viewpoint, or at it.
     pub(super) fn take_flat(&mut self, look: &Look, part: &Part, visible: &[bool]) {
         for (own, _) in visible.iter().enumerate().filter(|(_, is)| **is) {
             let point = part.place(own);
             if self.is_open(point) {
-                let is_at_viewpoint = look.flip.apply(self.points.get(point)).is_none();
-                self.decide(point, true, if is_at_viewpoint { 1.0 } else { look.score });
+                self.decide(point, true, look.score);
             }
         }
+    }
+
+    /// Mixes each score with the mean score of the points beside it. Points that follow each other
+    /// in the cloud's order are near each other in space.
+    pub(super) fn mix_scores(&mut self) -> Result<(), OutOfMemory> {
+        let own = core::mem::take(&mut self.scores);
+        self.scores = filled(own.len(), 0.0)?;
+        for (place, mixed) in self.scores.iter_mut().enumerate() {
+            let near = place.saturating_sub(BESIDE)..own.len().min(place + BESIDE + 1);
+            let others = (near.len() - 1).max(1) as f32;
+            let own_share = own[place] * (1.0 - SHARE);
+            let sum = near.fold(0.0, |sum, other| sum + own[other]);
+            *mixed = own_share + SHARE * (sum - own[place]) / others;
+        }
+        Ok(())
     }
 
     /// The answer. A point that is still undecided is hidden.

@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::base::allocation::{OutOfMemory, push};
 use crate::cloud::blocks::Blocks;
 use crate::cloud::points::Points;
 
@@ -27,10 +27,7 @@ impl Part {
         places: Vec<u32>,
         spacing: Vec<f64>,
     ) -> Result<Self, OutOfMemory> {
-        let mut some = Points::with_capacity(places.len(), points.as_given())?;
-        for &place in &places {
-            some.push(points.get(place as usize));
-        }
+        let some = points.gathered(&places)?;
         Ok(Self::Some {
             blocks: Blocks::around(&some)?,
             points: some,
@@ -39,10 +36,10 @@ impl Part {
         })
     }
 
-    /// The number of its points.
-    pub(super) fn len(&self, all: &Points) -> usize {
+    /// The number of its points, in a cloud of `all` points.
+    pub(super) fn len(&self, all: usize) -> usize {
         match self {
-            Self::All => all.len(),
+            Self::All => all,
             Self::Some { places, .. } => places.len(),
         }
     }
@@ -73,12 +70,14 @@ pub(super) struct Left {
 impl Left {
     /// The part for the next look.
     pub(super) fn part(self, points: &Points, before: &Part) -> Result<Part, OutOfMemory> {
-        let own = || (0..self.takes_part.len()).filter(|&own| self.takes_part[own]);
-        let count = own().count();
-        let mut places = with_capacity(count)?;
-        places.extend(own().map(|own| before.place(own) as u32));
-        let mut spacing = with_capacity(count)?;
-        spacing.extend(own().map(|own| self.spacing[own]));
+        let mut places = Vec::new();
+        let mut spacing = Vec::new();
+        for (own, takes_part) in self.takes_part.into_iter().enumerate() {
+            if takes_part {
+                push(&mut places, before.place(own) as u32)?;
+                push(&mut spacing, self.spacing[own])?;
+            }
+        }
         Part::of(points, places, spacing)
     }
 }

@@ -125,7 +125,7 @@ export class PointCloud {
    * By default, a is 0.4·n^¼/g, as the automatic R is 0.4·n^¼·r²/g. With `inversion: { exponential: c }`, a is 1/(2c). For a
    * given `radius` or `exponent`, a is R/d². Here d is the diagonal of the bounding box, and R is
    * measured from the viewpoint that lies at the distance d before the centroid. The answer's `radius`
-   * is R for that viewpoint. `"search"`, `"opposite"` and `power` have no limit and are refused
+   * is R for that viewpoint. `looks` have a limit, too (docs/LOOKS.md). `"search"`, `"opposite"` and `power` have no limit and are refused
    * (`option`).
    *
    * @param direction x, y, z, not zero, of any length. Needs a cloud of dimension 3.

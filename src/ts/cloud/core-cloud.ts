@@ -71,8 +71,9 @@ export class CoreCloud {
   }
 
   /**
-   * Goes on from the draft of a view, if the last question was this draft. Computes one slice, which
-   * takes some milliseconds. Returns whether nothing is left to compute before `ask`.
+   * Goes on from the draft of a view, if the last question was this draft, or with several looks.
+   * Computes one slice, which takes some milliseconds; after the first hull, a slice is a whole look.
+   * Returns whether nothing is left to compute before `ask`.
    *
    * @throws HprError as the methods of `PointCloud`.
    */

@@ -32,7 +32,7 @@ export type Request =
   /**
    * `spare` is memory for the answer's indices, if there is some. With `listing`, the indices of
    * hidden points follow those of the visible ones (see `hidden.ts`). With `sliced`, a view that
-   * goes on from a draft is computed in slices, so that it can be given up.
+   * goes on from a draft, or takes several looks, is computed in slices, so that it can be given up.
    */
   | (Query & { spare?: ArrayBuffer | undefined; listing?: boolean; sliced?: boolean });
 

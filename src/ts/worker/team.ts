@@ -103,7 +103,7 @@ export class Team {
     });
   }
 
-  /** Gives up the view that is being computed, if it goes on from a draft. Its reply says so. */
+  /** Gives up the view that is being computed, if it is computed in slices. Its reply says so. */
   abandon(): void {
     this.#members[0]?.post({ kind: "abandon" } satisfies Request, []);
   }

@@ -1,0 +1,208 @@
+//! Several looks along a direction: the limit of looks from farther and farther away.
+
+#[cfg(target_arch = "wasm32")]
+use wasm_bindgen_test::wasm_bindgen_test as test;
+
+use hidden_point_removal::{Inversion, Options, PointCloud, Visibility};
+
+use crate::common::rng::Rng;
+use crate::common::scenes::KINDS;
+use crate::common::{ask, shapes};
+
+fn looks(count: usize) -> Options {
+    Options {
+        scores: true,
+        ..Options::with_inversion(Inversion::Looks(count))
+    }
+}
+
+fn along(points: &[[f64; 3]], direction: [f64; 3], options: &Options) -> Visibility {
+    let cloud = PointCloud::new(points).unwrap();
+    cloud.visible_from_direction(direction, options).unwrap()
+}
+
+#[test]
+fn it_is_the_limit_of_receding_viewpoints() {
+    let mut rng = Rng::new(33);
+    for (shape, count) in [
+        (shapes::bumpy as fn(&mut Rng, usize) -> _, 3),
+        (shapes::ball, 2),
+        (shapes::room, 3),
+    ] {
+        let points: Vec<[f64; 3]> = shape(&mut rng, 1500);
+        let direction = rng.direction();
+        let limit = along(&points, direction, &looks(count));
+        let apart = |times: f64| {
+            let far = ask(&points, direction.map(|x| -x * times), &looks(count));
+            assert_eq!(far.looks(), limit.looks());
+            let masks = far.mask().into_iter().zip(limit.mask());
+            let scores = far.scores().iter().zip(limit.scores());
+            let differ = masks.filter(|(a, b)| a != b).count();
+            let distance = scores.map(|(a, b)| f64::from((a - b).abs())).sum::<f64>();
+            (differ as f64 / 1500.0, distance / 1500.0)
+        };
+        let [near, mid, far] = [20.0, 200.0, 20_000.0].map(apart);
+        assert!(
+            mid.0 <= 0.5 * near.0 + 0.001 && mid.1 < 0.5 * near.1,
+            "{near:?} {mid:?}"
+        );
+        assert!(far.0 < 0.003 && far.1 < 0.003, "{far:?}");
+    }
+}
+
+#[test]
+fn a_plate_hides_the_middle_of_a_wall_and_has_no_halo() {
+    let mut points = Vec::new();
+    let mut truth = Vec::new();
+    let mut rng = Rng::new(8);
+    for i in -40..=40_i32 {
+        for j in -40..=40_i32 {
+            let at = [i, j].map(|k| 0.05 * (f64::from(k) + rng.between(-0.2, 0.2)));
+            points.push([at[0], at[1], -5.0]);
+            truth.push(u8::from(at[0].abs().max(at[1].abs()) > 1.0));
+            if i.abs() <= 20 && j.abs() <= 20 {
+                points.push([0.05 * f64::from(i), 0.05 * f64::from(j), 0.0]);
+                truth.push(1);
+            }
+        }
+    }
+    let wrong = |options| {
+        let mask = along(&points, [0.0, 0.0, -1.0], &options).mask();
+        mask.iter().zip(&truth).filter(|(a, b)| a != b).count()
+    };
+    let (one, three) = (wrong(Options::default()), wrong(looks(3)));
+    assert!(3 * three < one && three < 150, "{three}, {one}");
+}
+
+#[test]
+fn neither_order_nor_duplicates_nor_changes_nor_length_change_a_bit() {
+    for kind in KINDS {
+        for (seed, n, count) in [(1, 9, 3), (2, 60, 2), (3, 400, 3)] {
+            let scene = kind.scene(seed, n);
+            let title = format!("{} with seed {seed}", kind.name);
+            let points = scene.points;
+            let mut rng = Rng::new(seed);
+            for direction in [[0.0, 0.0, -1.0], [1.0, 0.0, 0.0], rng.direction()] {
+                let options = looks(count);
+                let before = along(&points, direction, &options);
+                let longer = along(&points, direction.map(|x| 4.0 * x), &options);
+                assert_eq!(
+                    (&longer, longer.scores()),
+                    (&before, before.scores()),
+                    "{title}"
+                );
+                let reversed: Vec<_> = points.iter().rev().copied().collect();
+                let mut mask = along(&reversed, direction, &options).mask();
+                mask.reverse();
+                assert_eq!(mask, before.mask(), "{title}");
+                let twice: Vec<_> = points.iter().chain(&points).copied().collect();
+                let doubled = along(&twice, direction, &options).mask();
+                assert_eq!(doubled, [before.mask(), before.mask()].concat(), "{title}");
+                let half = points.len() / 2;
+                let mut grown = PointCloud::new(&points[..half]).unwrap();
+                grown.append(&points[half..]).unwrap();
+                let grown = grown.visible_from_direction(direction, &options).unwrap();
+                assert_eq!(
+                    (&grown, grown.scores()),
+                    (&before, before.scores()),
+                    "{title}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn degenerate_clouds_answer_as_documented() {
+    let down = [0.0, 0.0, -1.0];
+    let seen = |points: &[[f64; 3]]| {
+        let answer = along(points, down, &looks(3));
+        (answer.indices().to_vec(), answer.scores().to_vec())
+    };
+    let origin = [0.0; 3];
+    assert_eq!(seen(&[]), (vec![], vec![]));
+    assert_eq!(seen(&[origin]), (vec![0], vec![1.0]));
+    assert_eq!(seen(&[origin; 3]), (vec![0, 1, 2], vec![1.0; 3]));
+    // On one ray only the nearest is visible.
+    let ray = [[0.0, 0.0, 1.0], [0.0, 0.0, 2.0], origin];
+    assert_eq!(seen(&ray), (vec![1], vec![0.2, 1.0, 0.2]));
+    let triangle = [origin, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    assert_eq!(seen(&triangle[..2]), (vec![0, 1], vec![1.0; 2]));
+    assert_eq!(seen(&triangle).0, [0, 1, 2]);
+    let with = |p| [triangle[0], triangle[1], triangle[2], p];
+    assert_eq!(seen(&with([0.2, 0.2, -3.0])).0, [0, 1, 2]);
+    assert_eq!(seen(&with([0.3, 0.3, -0.01])).0, [0, 1, 2, 3]);
+    // A grid that the rays meet at right angles: four points of each cell are on one face.
+    let grid: Vec<_> = (0..49)
+        .map(|i| [f64::from(i % 7), f64::from(i / 7), 0.0])
+        .collect();
+    assert_eq!(seen(&grid).0.len(), 49);
+    // A coordinate as large as those of maps does not change the answer.
+    let mut rng = Rng::new(4);
+    let points: Vec<[f64; 3]> = shapes::bumpy(&mut rng, 800)
+        .into_iter()
+        .map(|p: [f64; 3]| p.map(|x| (x * 1024.0).round() / 1024.0))
+        .collect();
+    let far: Vec<_> = points
+        .iter()
+        .map(|p| [p[0] + 524_288.0, p[1] + 5_242_880.0, p[2]])
+        .collect();
+    let (near, far) = (
+        along(&points, down, &looks(3)),
+        along(&far, down, &looks(3)),
+    );
+    let differ = near
+        .mask()
+        .iter()
+        .zip(far.mask())
+        .filter(|(a, b)| **a != *b)
+        .count();
+    assert!(differ < 8, "{differ}");
+}
+
+#[test]
+fn options_that_go_with_looks_go_with_directions_too() {
+    let mut rng = Rng::new(5);
+    let points: Vec<[f64; 3]> = shapes::bumpy(&mut rng, 600);
+    let cloud = PointCloud::new(&points).unwrap();
+    let direction = [0.3, -0.5, 0.8];
+    let options = Options {
+        denoise: Some(8),
+        vote: Some(8),
+        ..looks(3)
+    };
+    let both = cloud.visible_from_direction(direction, &options).unwrap();
+    let denoised = cloud.denoised(8).unwrap();
+    let voted = Options {
+        denoise: None,
+        ..options
+    };
+    assert_eq!(
+        both,
+        denoised.visible_from_direction(direction, &voted).unwrap()
+    );
+    for (wrong, code) in [
+        (
+            Options {
+                draft: true,
+                ..looks(3)
+            },
+            "option",
+        ),
+        (
+            Options {
+                radius: hidden_point_removal::Radius::Exponent(2.0),
+                ..looks(3)
+            },
+            "option",
+        ),
+        (Options::with_inversion(Inversion::Looks(4)), "option"),
+    ] {
+        let refused = cloud.visible_from_direction(direction, &wrong).unwrap_err();
+        assert_eq!(refused.code(), code);
+    }
+    let nowhere = cloud
+        .visible_from_direction([0.0; 3], &looks(3))
+        .unwrap_err();
+    assert_eq!(nowhere.code(), "viewpoint");
+}
