@@ -4,6 +4,7 @@ import { binary, plyBody, PLY_FORMATS, plyHeader, POINTS, type Value } from "./v
 /** Faults of the header. They are the same in text and binary. A bar separates messages. Each of them is right. */
 const HEADER_FAULTS: [name: string, edit: Edit, expected: Case["expected"]][] = [
   ["other first word", ["ply", "plyx"], "it does not begin like a PLY file"],
+  ["a space before the first word", ["ply", " ply"], "it does not begin like a PLY file"],
   ["no end", ["end_header\n", ""], "|its PLY header has no end|is not a line of a PLY header"],
   ["end with more words", ["end_header", "end_header 1"], "line 11 is not a line of a PLY header"],
   ["unknown line", ["comment", "remark"], 'line 3 is not a line of a PLY header: "remark by a test"'],

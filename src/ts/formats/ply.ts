@@ -7,6 +7,8 @@ import { headerLines, type Line, wordsOf } from "./text.js";
 /** The largest size of a PLY header in bytes. */
 export const LONGEST_PLY_HEADER = 1 << 20;
 
+const SPACE = 0x20;
+
 export interface PlyHeader {
   format: "ascii" | "binary_little_endian" | "binary_big_endian";
   elements: readonly Group[];
@@ -38,7 +40,8 @@ export function readPlyHeader(start: Uint8Array, chosen?: ChosenColumns): PlyHea
     const { text, number } = line;
     const [keyword = "", ...words] = wordsOf(text);
     if (number === 1) {
-      if (text !== "ply") throw new FormatProblem("it does not begin like a PLY file");
+      // The text is trimmed, but no space may come before the word. A byte order mark may.
+      if (text !== "ply" || start[0]! <= SPACE) throw new FormatProblem("it does not begin like a PLY file");
     } else if (keyword === "format") {
       if (format !== undefined) throw lineProblem(number, "gives the PLY format a second time", text);
       format = formatIn(words, line);
