@@ -18,8 +18,8 @@ const ACTIONS: Action[] = [
     async (page, address) => {
       await page.goto(address);
       await ready(page);
-      // The choice of a color is in a folded section.
-      await page.locator("#look-section > summary").click();
+      // The choice of a color and the plot are in folded sections.
+      for (const section of ["look", "advanced"]) await page.locator(`#${section}-section > summary`).click();
       await calm(page);
     },
   ],
