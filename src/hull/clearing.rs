@@ -21,19 +21,13 @@ impl Hull {
     /// and fills the hole. Returns false, and changes nothing, if no such hole can be filled.
     #[cold]
     pub(super) fn clear(&mut self, face: FaceId, repair: &mut Repair) -> Result<bool, OutOfMemory> {
-        let mut hole = Vec::new();
-        push(&mut hole, face)?;
+        repair.star.clear();
+        push(&mut repair.star, face)?;
         for _ in 0..MOST_RINGS {
-            if !self.widen(&mut hole)? {
+            if !self.widen(&mut repair.star)? {
                 return Ok(false);
             }
-            if !self.trace(&hole, &mut repair.rim)? {
-                continue;
-            }
-            repair.star.clear();
-            reserve(&mut repair.star, hole.len())?;
-            repair.star.extend_from_slice(&hole);
-            if self.fill(repair)? {
+            if self.trace(&repair.star, &mut repair.rim)? && self.fill(repair)? {
                 return Ok(true);
             }
         }
@@ -65,7 +59,7 @@ impl Hull {
     /// that passes no vertex twice, with the origin outside or on it.
     fn trace(&self, hole: &[FaceId], rim: &mut Vec<Rim>) -> Result<bool, OutOfMemory> {
         // A hole is small, and sorting would make the wasm larger.
-        let is_inside = |edge: HalfEdge| hole.contains(&self.twin(edge).face());
+        let is_inside = |edge: HalfEdge| hole.contains(&self.surface.twin(edge).face());
         let mut first = None;
         let mut count = 0;
         for &face in hole {
@@ -87,7 +81,7 @@ impl Hull {
             if rim.len() == count || rim.iter().any(|passed| passed.tail == tail) {
                 return Ok(false);
             }
-            let outside = self.twin(edge);
+            let outside = self.surface.twin(edge);
             rim.push(Rim {
                 tail,
                 head,
@@ -95,7 +89,7 @@ impl Hull {
             });
             edge = edge.next();
             while is_inside(edge) {
-                edge = self.twin(edge).next();
+                edge = self.surface.twin(edge).next();
             }
             if edge == first {
                 break;
@@ -104,9 +98,5 @@ impl Hull {
         let meets = |vertex: Vertex| rim.iter().any(|edge| edge.tail == vertex);
         let holds = |&face: &FaceId| self.surface.face(face).vertices.contains(&ORIGIN);
         Ok(rim.len() == count && (meets(ORIGIN) || !hole.iter().any(holds)))
-    }
-
-    fn twin(&self, edge: HalfEdge) -> HalfEdge {
-        self.surface.face(edge.face()).twins[edge.edge()]
     }
 }

@@ -78,7 +78,7 @@ impl Hull {
     }
 
     fn unfold_across(&mut self, edge: HalfEdge, repair: &mut Repair) -> Result<bool, OutOfMemory> {
-        let twin = self.surface.face(edge.face()).twins[edge.edge()];
+        let twin = self.surface.twin(edge);
         self.flip(edge);
         repair.suspect(edge.face())?;
         repair.suspect(twin.face())?;
@@ -86,7 +86,7 @@ impl Hull {
     }
 
     fn flip(&mut self, edge: HalfEdge) {
-        let twin = self.surface.face(edge.face()).twins[edge.edge()];
+        let twin = self.surface.twin(edge);
         self.surface.flip(edge);
         self.renew_plane(edge.face());
         self.renew_plane(twin.face());
@@ -124,7 +124,7 @@ impl Hull {
         repair: &mut Repair,
     ) -> Result<bool, OutOfMemory> {
         if self.can_flip(edge) {
-            let twin = self.surface.face(edge.face()).twins[edge.edge()];
+            let twin = self.surface.twin(edge);
             self.flip(edge);
             // The new edge is convex.
             reserve(&mut repair.suspects, 4)?;

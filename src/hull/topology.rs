@@ -313,10 +313,16 @@ impl<T: Copy> Surface<T> {
         Ok(())
     }
 
+    /// The half-edge across an edge.
+    #[inline]
+    pub(crate) fn twin(&self, edge: HalfEdge) -> HalfEdge {
+        self.face(edge.face()).twins[edge.edge()]
+    }
+
     /// The two triangles that a flip of `edge` would make. The first one holds the edge's tail.
     pub(crate) fn flipped(&self, edge: HalfEdge) -> [[Vertex; 3]; 2] {
         let [a, b, c] = self.face(edge.face()).vertices_from(edge.edge());
-        let twin = self.face(edge.face()).twins[edge.edge()];
+        let twin = self.twin(edge);
         let [_, _, d] = self.face(twin.face()).vertices_from(twin.edge());
         [[c, a, d], [d, b, c]]
     }
