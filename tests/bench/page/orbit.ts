@@ -3,7 +3,7 @@ import type { Browser, Page } from "playwright-core";
 
 import { median, quantile, type Row, type Table } from "../report.js";
 import { traced } from "./trace.js";
-import { answered, newContext, ready, upToDate, watchedBy, watchedPage } from "./visit.js";
+import { answered, drag, newContext, ready, upToDate, watchedBy, watchedPage } from "./visit.js";
 
 const SECONDS = 8;
 /** The name of the first picture. Only this picture is also timed with its drawing. */
@@ -75,16 +75,8 @@ export async function timeOrbit(browser: Browser, address: string): Promise<Tabl
   ];
 }
 
-/** Drags around the middle of the picture without a pause. */
 async function orbit(page: Page, seconds: number): Promise<void> {
-  const box = (await page.locator("#view").boundingBox())!;
-  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
-  await page.mouse.move(x, y);
-  await page.mouse.down();
-  const end = performance.now() + 1000 * seconds;
-  for (let i = 0; performance.now() < end; i++)
-    await page.mouse.move(x + 200 * Math.sin(i / 30), y + 40 * Math.sin(i / 47));
-  await page.mouse.up();
+  await drag(page, seconds);
   await upToDate(page);
 }
 

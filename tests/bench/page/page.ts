@@ -2,6 +2,7 @@
 import { servePage, launchBrowser } from "../../browser/site.js";
 import type { Table } from "../report.js";
 import { timeActions } from "./actions.js";
+import { timeFollowing } from "./follow.js";
 import { timeOpening } from "./open.js";
 import { timeOrbit } from "./orbit.js";
 import { soak } from "./soak.js";
@@ -14,8 +15,9 @@ export interface PageMeasured {
 }
 
 export async function measurePage(wanted: { page: boolean; soak: boolean }): Promise<PageMeasured> {
+  const files = new Map<string, Uint8Array>();
   // Served like a host with long caching: the second visit requests nothing.
-  const site = await servePage(new Map(), { "cache-control": "max-age=3600" });
+  const site = await servePage(files, { "cache-control": "max-age=3600" });
   const browser = await launchBrowser();
   try {
     const { address } = site;
@@ -23,6 +25,7 @@ export async function measurePage(wanted: { page: boolean; soak: boolean }): Pro
     const page = wanted.page
       ? [
           await timeOpening(browser, address),
+          await timeFollowing(browser, address, files),
           ...(await timeOrbit(browser, address)),
           await timeActions(browser, address),
         ]

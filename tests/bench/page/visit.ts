@@ -13,7 +13,17 @@ export interface Watched {
   firstPicture?: number;
   /** For each viewpoint: when it was asked, and when the page got its answer. The frame of the answer follows later. */
   asked: Record<string, number>;
-  answered: { viewpoint: string; at: number }[];
+  answered: Answered[];
+  /** When each key was pressed. */
+  keys: number[];
+}
+
+interface Answered {
+  viewpoint: string;
+  kind: string;
+  at: number;
+  /** When the frame that shows it was done. */
+  shown: number;
 }
 
 type Watching = typeof globalThis & { watched: Watched };
@@ -28,8 +38,9 @@ export async function watchedPage(context: BrowserContext, drawing = true): Prom
     });
   }
   await page.addInitScript(() => {
-    const watched: Watched = { asked: {}, answered: [] };
+    const watched: Watched = { asked: {}, answered: [], keys: [] };
     (globalThis as Watching).watched = watched;
+    addEventListener("keydown", ({ timeStamp }) => watched.keys.push(timeStamp), { capture: true });
     const methods = Worker.prototype as unknown as Record<string, (...args: unknown[]) => void>;
     const post = methods["postMessage"]!;
     methods["postMessage"] = function (...args: unknown[]) {
@@ -54,11 +65,16 @@ export async function watchedPage(context: BrowserContext, drawing = true): Prom
       const { dataset } = document.getElementById("status") ?? {};
       if (dataset?.["refilters"] === undefined || dataset["refilters"] === refilters) return;
       refilters = dataset["refilters"];
-      watched.answered.push({ viewpoint: dataset["viewpoint"]!, at: performance.now() });
+      const { viewpoint, answer: kind } = dataset as Record<string, string>;
+      const answer = { viewpoint: viewpoint!, kind: kind!, at: performance.now(), shown: Infinity };
+      watched.answered.push(answer);
       // The second frame begins when the first one is done.
-      watched.firstPicture ??= 0;
-      if (watched.firstPicture === 0)
-        requestAnimationFrame(() => requestAnimationFrame((now) => (watched.firstPicture = now)));
+      requestAnimationFrame(() =>
+        requestAnimationFrame((now) => {
+          answer.shown = now;
+          watched.firstPicture ??= now;
+        }),
+      );
     }).observe(document, { subtree: true, attributes: true, attributeFilter: ["data-refilters"] });
   });
   return page;
@@ -84,6 +100,18 @@ export async function answered(page: Page, action: () => Promise<unknown>): Prom
   await action();
   await page.locator(`#status:not([data-refilters="${before}"])`).waitFor({ state: "attached", timeout: LONGEST_WAIT });
   await upToDate(page);
+}
+
+/** Drags around the middle of the picture without a pause. */
+export async function drag(page: Page, seconds: number): Promise<void> {
+  const box = (await page.locator("#view").boundingBox())!;
+  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  const end = performance.now() + 1000 * seconds;
+  for (let i = 0; performance.now() < end; i++)
+    await page.mouse.move(x + 200 * Math.sin(i / 30), y + 40 * Math.sin(i / 47));
+  await page.mouse.up();
 }
 
 export async function newContext(browser: Browser): Promise<BrowserContext> {
