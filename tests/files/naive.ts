@@ -206,49 +206,75 @@ function unpacked(data: Uint8Array): Uint8Array {
   return Uint8Array.from(out);
 }
 
-const AXES = [/^(x|easting)$/, /^(y|northing)$/, /^(z|height)$/];
+const AXES = [/^(x|easting|east)$/, /^(y|northing|north)$/, /^(z|height)$/];
+const UNITS = ["m", "mm", "cm", "dm", "km", "um", "ft", "in", "yd"];
 
-/** Reads tables without quotation marks. It knows only the column names that the fuzzer writes. */
+interface Head {
+  names: string[];
+  /** The columns of x, y and z. */
+  places: number[];
+  /** Tabs divide the names, so a name may hold spaces. */
+  tabs: boolean;
+}
+
+/**
+ * Reads tables without quotation marks, as docs/COMMAND.md describes them. It knows only the names of columns and the
+ * units that the fuzzer writes, and their changes.
+ */
 function table(text: string): number[] | undefined {
   if (text.includes('"')) return undefined;
   const lines = text.split(/\r\n|\r|\n/).filter((line) => !blank(line)); // prettier-ignore
   const isComment = (line: string) => /^(#|\/\/)/.test(strip(line));
   const body = lines.filter((line) => !isComment(line));
   const promised = /^[0-9]+$/.test(strip(body[0] ?? "")) ? whole(strip(body.shift()!)) : undefined;
-  let names: string[] | undefined;
-  let tabs = false;
-  let isHead = true;
+  const head = isPoint(body[0] ?? fail()) ? undefined : headOf(strip(body.shift()!));
+  if (head !== undefined && !isPoint(body[0] ?? fail(), head)) requireUnits(body.shift()!, head);
+
+  const first = body[0] ?? fail();
+  const by = dividerBelow(first, head);
+  const width = head?.names.length ?? wordsIn(first, by).length;
+  const comments = lines.slice(0, lines.indexOf(first)).filter(isComment);
+  const places = head?.places ?? commentedPlaces(comments, width, /[;,]/.test(by.source));
   const found: number[] = [];
-  let width: number | undefined;
-  let places = [0, 1, 2];
-  let divider: RegExp | undefined;
   for (const line of body) {
-    const by: RegExp = divider ?? (tabs && strip(line).includes("\t") ? /\t/ : dividerOf(strip(line)));
-    const words = (by.source === "\\t" ? line : strip(line)).split(by).map(strip);
-    if (isHead && words.filter((word) => word !== "" && isCell(word)).length < 3 && !isRow(words, names, places)) {
-      if (names === undefined) {
-        tabs = !/[;,]/.test(by.source) && strip(line).includes("\t");
-        names = namesOf(strip(line), tabs ? /\t/ : by);
-        places = placesIn(names);
-        if (places.includes(-1)) fail();
-      }
-      continue;
-    }
-    if (isHead && names === undefined) {
-      const comments = lines.slice(0, lines.indexOf(line)).filter(isComment);
-      places = commentedPlaces(comments.map(strip), words.length, /[;,]/.test(by.source));
-    }
-    isHead = false;
-    divider = by;
-    // A separator may stand at the end of each line, except the line of names.
-    if (names !== undefined && words.length === names.length + 1 && words.at(-1) === "") words.pop();
-    width ??= words.length;
-    if (words.length === width + 1 && words.at(-1) === "") words.pop();
+    const words = wordsIn(line, by, width);
     if (words.length !== width) fail();
     for (const place of places) found.push(cellIn(words[place]));
   }
-  if (found.length === 0 || (promised !== undefined && promised !== found.length / 3)) fail();
+  if (promised !== undefined && promised !== found.length / 3) fail();
   return found;
+}
+
+/** Without names, a point has three numbers. Below names, it has one word for each name, and x, y and z are numbers. */
+function isPoint(line: string, head?: Head): boolean {
+  const words = wordsIn(line, dividerBelow(line, head), head?.names.length);
+  if (head === undefined) return words.filter((word) => word !== "" && isCell(word)).length >= 3;
+  return words.length === head.names.length && head.places.every((place) => isCell(words[place]!));
+}
+
+/** Below the names, one line may give the unit of x, y and z. It has one word for each name. */
+function requireUnits(line: string, head: Head): void {
+  const words = wordsIn(line, dividerBelow(line, head), head.names.length);
+  const given = new Set(head.places.map((place) => words[place]!.toLowerCase()).filter((unit) => unit !== ""));
+  if (words.length !== head.names.length || given.size !== 1 || !UNITS.includes([...given][0]!)) fail();
+}
+
+function headOf(line: string): Head {
+  const by = dividerOf(line);
+  const tabs = !/[;,]/.test(by.source) && line.includes("\t");
+  const names = namesOf(line, tabs ? /\t/ : by);
+  return { names, places: placesIn(names) ?? fail(), tabs };
+}
+
+function dividerBelow(line: string, head: Head | undefined): RegExp {
+  return head?.tabs === true && strip(line).includes("\t") ? /\t/ : dividerOf(strip(line));
+}
+
+/** The words of a line. At the end of a line of this width, one more divider may stand. */
+function wordsIn(line: string, by: RegExp, width?: number): string[] {
+  const words = (by.source === "\\t" ? line : strip(line)).split(by).map(strip);
+  if (width !== undefined && words.length === width + 1 && words.at(-1) === "") words.pop();
+  return words;
 }
 
 function namesOf(line: string, by: RegExp): string[] {
@@ -260,26 +286,29 @@ function namesOf(line: string, by: RegExp): string[] {
   );
 }
 
-function placesIn(names: readonly string[]): number[] {
-  const exact = ["x", "y", "z"].map((axis) => names.indexOf(axis));
-  return exact.includes(-1) ? AXES.map((axis) => names.findIndex((name) => axis.test(name))) : exact;
+/** The columns of x, y and z, if there are names for all three. The names x, y and z come before all others. */
+function placesIn(names: readonly string[]): number[] | undefined {
+  const placesOf = (isAxis: (name: string) => boolean) => names.flatMap((name, i) => (isAxis(name) ? [i] : []));
+  const exact = ["x", "y", "z"].map((axis) => placesOf((name) => name === axis));
+  const found = exact.some(({ length }) => length === 0)
+    ? AXES.map((axis) => placesOf((name) => axis.test(name)))
+    : exact;
+  if (found.some(({ length }) => length === 0)) return undefined;
+  return found.every(({ length }) => length === 1) ? found.flat() : fail();
 }
 
 /** The columns of x, y and z that a comment names. Without such a comment they are the first three. */
 function commentedPlaces(comments: readonly string[], width: number, marked: boolean): number[] {
   for (const comment of comments.toReversed()) {
-    const line = strip(comment.replace(/^(#+|\/\/+)/, ""));
+    const line = strip(comment).replace(/^(#+|\/\/+)\s*/, "");
     const by = dividerOf(line);
     const tabs = !marked && !/[;,]/.test(by.source) && line.includes("\t");
     const names = namesOf(line, tabs ? /\t/ : by);
-    const places = placesIn(names);
-    if (!places.includes(-1) && names.length === width) return places;
+    const places = names.length === width ? placesIn(names) : undefined;
+    if (places !== undefined) return places;
   }
   return [0, 1, 2];
 }
-
-const isRow = (words: string[], names: string[] | undefined, places: number[]) =>
-  names !== undefined && words.length === names.length && places.every((place) => isCell(words[place]!));
 
 function dividerOf(line: string): RegExp {
   if (line.includes(";")) return /;/;
