@@ -315,7 +315,11 @@ impl PointCloud {
         options: &Options,
     ) -> Result<Visibility, Error> {
         let seen = memory.look(self, gaze, count, options.scores)?;
-        let scores = scores_of_indices(self, &seen.scores)?;
+        let scores = if options.scores {
+            scores_of_indices(self, &seen.scores)?
+        } else {
+            Vec::new()
+        };
         let visible = self.voted(seen.visible, options)?;
         let answer = self.answer(&visible, ChosenRadius::unit(0.0), options.inversion)?;
         Ok(Visibility { scores, ..answer })

@@ -6,7 +6,7 @@ use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use hidden_point_removal::{
     Error, Inversion, Lighting, Options, PointCloud, PointCloud2d, PointCloudNd, Radius, Sector,
-    Visibility, merge_visible,
+    Visibility, Within, merge_visible,
 };
 
 use crate::common::ask;
@@ -284,6 +284,30 @@ fn in_one_plane_with_the_viewpoint_each_look_sees_what_its_flat_hull_does() {
     assert_eq!(answer.mask(), expected);
     for (i, &score) in answer.scores().iter().enumerate() {
         assert_eq!(score > 0.5, expected[i] == 1, "point {i}");
+    }
+}
+
+#[test]
+fn each_index_has_a_score_if_no_point_takes_part() {
+    let points: Vec<[f64; 3]> = (0..49).map(|i| on_a_grid((i, [0.0; 3]))).collect();
+    let mut cloud = PointCloud::new(&points).unwrap();
+    let options = Options {
+        within: Some(Within {
+            distance: Some(0.0),
+            bounds: None,
+        }),
+        ..looks(3)
+    };
+    let answer = cloud.visible_from(FRONT, &options).unwrap();
+    assert_eq!(answer.scores(), [0.0; 49]);
+    let indices: Vec<u32> = (0..49).collect();
+    cloud.remove(&indices).unwrap();
+    let direction = [0.0, 0.0, -1.0];
+    for answer in [
+        cloud.visible_from(FRONT, &looks(2)).unwrap(),
+        cloud.visible_from_direction(direction, &looks(2)).unwrap(),
+    ] {
+        assert_eq!(answer.scores(), [0.0; 49]);
     }
 }
 

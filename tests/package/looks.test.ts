@@ -87,6 +87,8 @@ describe("three looks", () => {
     expect(Math.max(...scores!)).toBeLessThanOrEqual(1);
     const mean = [...indices].reduce((sum, i) => sum + scores![i]!, 0) / indices.length;
     expect(mean).toBeGreaterThan(0.8);
+    const none = some.visibleFrom(farAway, { looks: 3, scores: true, within: { distance: 0 } });
+    expect(none.scores).toEqual(new Float32Array(1001));
   });
 
   it("go with noise handling and with several viewpoints", () => {

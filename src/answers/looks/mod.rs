@@ -29,9 +29,6 @@ pub(crate) use series::{Series, scales};
 
 /// The scores of distinct points as those of the caller's indices; 0 where there is none.
 pub(crate) fn scores_of_indices(cloud: &PointCloud, scores: &[f32]) -> Result<Vec<f32>, Error> {
-    if scores.is_empty() {
-        return Ok(Vec::new());
-    }
     let mut all = filled(cloud.len(), 0.0)?;
     for (k, &score) in scores.iter().enumerate() {
         for &index in cloud.sequence.indices_of(k) {
