@@ -2,6 +2,12 @@ import type { SurveyTask } from "../query/surveys.js";
 import { failedReply, type Replies, type Reply, type Request } from "./protocol.js";
 import type { Thread } from "./thread.js";
 
+/** A refusal. Of several, the one with the lowest place is reported. */
+interface Failure {
+  place: number;
+  reply: Reply;
+}
+
 /** Deals the views of a survey out to threads, one at a time each. So none waits for another. */
 export class Dealing {
   readonly #task: SurveyTask;
@@ -10,7 +16,7 @@ export class Dealing {
   readonly #running = new Map<Thread, number>();
   /** The memory of answers that were taken. */
   readonly #spares: ArrayBuffer[] = [];
-  #failure: Reply | undefined;
+  #failure: Failure | undefined;
 
   /** @param done is called with the reply to the survey, at the end. */
   constructor(task: SurveyTask, threads: readonly Thread[], done: (reply: Reply) => void) {
@@ -22,7 +28,8 @@ export class Dealing {
   /** Gives each idle thread a view, as long as there are some. */
   deal(): void {
     while (this.#failure === undefined && this.#idle.length > 0) {
-      const next = this.#attempt(() => this.#task.next(this.#running.size));
+      // When all views are asked, no view has a higher number.
+      const next = this.#attempt(Infinity, () => this.#task.next(this.#running.size));
       if (next === undefined) break;
       const thread = this.#idle.pop()!;
       const spare = this.#spares.pop();
@@ -32,7 +39,7 @@ export class Dealing {
       thread.post(request satisfies Request, spare === undefined ? [] : [spare]);
     }
     if (this.#running.size === 0) {
-      this.#done(this.#failure ?? { value: {} });
+      this.#done(this.#failure?.reply ?? { value: {} });
     }
   }
 
@@ -43,22 +50,29 @@ export class Dealing {
     this.#idle.push(thread);
     if ("value" in reply) {
       const found = reply.value as Replies["visibleFrom"];
-      this.#attempt(() => {
+      this.#attempt(number, () => {
         this.#task.take(number, found);
       });
       this.#spares.push(found.indices.buffer);
     } else {
-      this.#failure ??= reply;
+      this.#fail(number, reply);
     }
     this.deal();
   }
 
-  #attempt<T>(act: () => T): T | undefined {
+  #attempt<T>(number: number, act: () => T): T | undefined {
     try {
       return act();
     } catch (thrown) {
-      this.#failure ??= failedReply(thrown);
+      this.#fail(number, failedReply(thrown));
       return undefined;
     }
+  }
+
+  /** Keeps the refusal of the first view, as if the views were asked in turn. A lost thread comes before all refusals. */
+  #fail(number: number, reply: Reply): void {
+    const isLost = "error" in reply && reply.error.code === "internal";
+    const place = isLost ? -1 : number;
+    if (this.#failure === undefined || place < this.#failure.place) this.#failure = { place, reply };
   }
 }
