@@ -8,6 +8,7 @@ import { flights } from "./border/flight.js";
 import { formulas, outputs, rings } from "./border/functions.js";
 import { disappearingParts, merges } from "./border/merging.js";
 import { oneShot, questions } from "./border/single.js";
+import { structured } from "./border/structured.js";
 
 interface Property {
   name: string;
@@ -40,6 +41,7 @@ export const PROPERTIES: readonly Property[] = [
   entry("rings of viewpoints", 200, rings),
   entry("arrays that answers are written into", 300, outputs),
   entry("workers that end in flight", 10, flights),
+  entry("structured clouds, here, in a worker and in several", 10, structured),
 ];
 
 /** Runs all properties in turn until the time is over. Returns how many runs found something wrong. */

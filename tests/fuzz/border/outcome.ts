@@ -39,7 +39,8 @@ function plain(answer: unknown): unknown {
   if (typeof answer !== "object" || answer === null || !("indices" in answer)) {
     return answer instanceof Float32Array ? [...answer] : answer;
   }
-  const { indices, count, radius, exponent, evaluations, inversion, triangles } = answer as Answer;
+  const { indices, count, radius, exponent, evaluations, inversion, exact } = answer as Answer;
+  const { triangles, scores, pixels, depths } = answer as Answer;
   const mask = (answer as Answer).mask();
   const seen = [...mask.keys()].filter((i) => mask[i] === 1);
   require(count === indices.length, "count is not the number of indices");
@@ -48,6 +49,9 @@ function plain(answer: unknown): unknown {
     (x) => Number.isFinite(x) && x >= 0,
   ), "a number of the answer is not finite");
   require(triangles === undefined || triangles.every((i) => mask[i] === 1), "a corner of a triangle is not visible");
+  require(scores === undefined || scores.length === mask.length, "there is not one score for each index");
+  require(pixels === undefined || pixels.length === 2 * count, "there is not one pixel for each visible point");
+  require(depths === undefined || depths.length === count, "there is not one depth for each visible point");
   return {
     indices: [...indices],
     length: mask.length,
@@ -55,7 +59,11 @@ function plain(answer: unknown): unknown {
     exponent,
     evaluations,
     inversion,
+    exact,
     ...(triangles && { triangles: [...triangles] }),
+    ...(scores && { scores: [...scores] }),
+    ...(pixels && { pixels: [...pixels] }),
+    ...(depths && { depths: [...depths] }),
   };
 }
 
@@ -66,7 +74,11 @@ interface Answer {
   exponent: number;
   evaluations: number;
   inversion: unknown;
+  exact: boolean;
   triangles?: Uint32Array;
+  scores?: Float32Array;
+  pixels?: Float32Array;
+  depths?: Float32Array;
   mask(): Uint8Array;
 }
 
@@ -93,8 +105,33 @@ export function judge(
   }
 }
 
-/** Checks that both outcomes have the same numbers, or that both are refused with the same code. */
+/** Checks that both outcomes have the same bits, or that both are refused with the same code. */
 export function agree(name: string, one: Outcome, other: Outcome): void {
-  const words = [one, other].map((it) => ("refused" in it ? it.refused : JSON.stringify(it.answer)));
-  require(words[0] === words[1], `${name}: ${words[0]} is not ${words[1]}`);
+  requireSame(
+    name,
+    ...([one, other].map((it) => ("refused" in it ? it.refused : bits(it.answer))) as [string, string]),
+  );
+}
+
+/** Checks that both outcomes have the same bits, or that both are refused with the same code and message. */
+export function agreeInWords(name: string, one: Outcome, other: Outcome): void {
+  const words = [one, other].map((it) => {
+    if (!("refused" in it)) return bits(it.answer);
+    require(it.error instanceof HprError, `${name} was refused by ${String(it.error)}`);
+    return `${it.refused}: ${it.error.message}`;
+  });
+  requireSame(name, ...(words as [string, string]));
+}
+
+function requireSame(name: string, one: string, other: string): void {
+  require(one === other, `${name}: ${one} is not ${other}`);
+}
+
+/** Text that is the same only for the same bits. JSON alone writes −0 as 0, and NaN and infinite numbers as null. */
+function bits(answer: unknown): string {
+  return JSON.stringify(answer, (_, value: unknown) =>
+    typeof value === "number" && (!Number.isFinite(value) || Object.is(value, -0))
+      ? `${Object.is(value, -0) ? "-" : ""}${value}`
+      : value,
+  );
 }
