@@ -12,6 +12,11 @@ const KINDS: [title: string, command: string, results: string][] = [
   ["Large clouds from end to end", "npm run large", "tests/soak/LARGE.md"],
   ["Two clean builds, the same bytes", "npm run reproduce", "tests/release/REPRODUCED.md"],
   ["The minimum Rust", "npm run minimum", "tests/release/MINIMUM.md"],
+  [
+    "A release, up to the point where something would be sent",
+    "npm run release -- --dry-run",
+    "tests/release/REHEARSED.md",
+  ],
 ];
 
 export const TRUST = "tests/TRUST.md";
