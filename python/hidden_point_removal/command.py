@@ -25,7 +25,8 @@ def main(arguments=None):
     tiles.add_argument("--share", type=float, default=0.02, help="the share of the points in the horizon")
     tiles.add_argument("--workers", type=int, default=1, help="processes on this machine (needs Dask)")
     tiles.add_argument("--scheduler", help="the address of a Dask scheduler")
-    tiles.add_argument("--laz", action="store_true", help="also copy each tile with a dimension `visible`")
+    tiles.add_argument("--laz", action="store_true", help="also copy each LAS, LAZ and COPC tile with a dimension `visible`; copies of COPC are "
+                       "COPC where PDAL is installed, and LAZ elsewhere")
     chosen = parser.parse_args(arguments)
     try:
         run(chosen)
@@ -36,8 +37,8 @@ def main(arguments=None):
 
 
 def run(chosen):
-    from .distributed import visible_from_tiles, write_laz, write_parquet
-    from .distributed.tiles import read_tile, tiles_in
+    from .distributed import visible_from_tiles, write_parquet
+    from .distributed.tiles import tiles_in
 
     tiles = tiles_in(chosen.folder)
     viewpoints = read_viewpoints(chosen.viewpoints)
@@ -54,6 +55,7 @@ def run(chosen):
     write_parquet(chosen.output / "visible.parquet", answers)
     report = {
         "tiles": [tile.name for tile in tiles],
+        "nodes_and_tiles": answers.tiles,
         "viewpoints": viewpoints,
         "options": answers.options,
         "visible": [len(answer) for answer in answers],
@@ -62,14 +64,31 @@ def run(chosen):
     }
     (chosen.output / "report.json").write_text(json.dumps(report, indent=2) + "\n")
     if chosen.laz:
-        first = 0
-        for tile in tiles:
-            if tile.name.lower().endswith((".laz", ".las")):
-                write_laz(tile, chosen.output / tile.name.replace(".copc.laz", ".laz"), first, answers)
-            first += len(read_tile(tile))
+        copy(tiles, answers, chosen.output)
     shutil.rmtree(work, ignore_errors=True)
     for number, count in enumerate(report["visible"]):
-        print(f"viewpoint {number}: {count} points visible, {answers.skipped[number]} of {len(tiles)} tiles skipped")
+        print(f"viewpoint {number}: {count} points visible, {answers.skipped[number]} of {answers.tiles} tiles skipped")
+
+
+def copy(tiles, answers, output):
+    """Copies each LAS, LAZ and COPC tile with the dimension `visible`."""
+    from .distributed import read_tile, write_copc, write_laz
+
+    first, names = 0, {tile.name for tile in tiles}
+    for tile in tiles:
+        name = tile.name.lower()
+        if name.endswith((".laz", ".las")):
+            laz = output / (tile.name[: -len(".copc.laz")] + ".laz" if name.endswith(".copc.laz") else tile.name)
+            if laz.name != tile.name and laz.name in names:
+                raise ValueError(f"{tile.name} cannot be copied as {laz.name}: another tile has this name")
+            write_laz(tile, laz, first, answers)
+            if laz.name != tile.name and not write_copc(laz, output / tile.name):
+                print(
+                    f"{tile.name} was copied as {laz.name}, which is not a COPC file: the program pdal is not "
+                    f"installed. It makes one: pdal translate {laz.name} {tile.name} --writers.copc.forward=all",
+                    file=sys.stderr,
+                )
+        first += len(read_tile(tile))
 
 
 def read_viewpoints(path):

@@ -61,7 +61,7 @@ def cut(points, how):
 def write(folder, tiles, kind):
     """Writes tiles as LAZ or NumPy files and returns their paths."""
     folder = Path(folder)
-    folder.mkdir(parents=True)
+    folder.mkdir(parents=True, exist_ok=True)
     paths = []
     for number, tile in enumerate(tiles):
         path = folder / f"{number:04}.{'laz' if kind == 'LAZ' else 'npy'}"

@@ -1,5 +1,6 @@
-"""The memory of this process."""
+"""The memory and the time of this process."""
 
+import time
 from pathlib import Path
 
 
@@ -13,3 +14,8 @@ def peak_memory():
     except OSError:
         return float("nan")
     return next((int(line.split()[1]) / 1024 for line in lines if line.startswith("VmHWM")), float("nan"))
+
+
+def processor_time():
+    """The processor time of this process, in seconds."""
+    return time.process_time()

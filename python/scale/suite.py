@@ -1,19 +1,18 @@
-"""Tiles against one piece: python suite.py --points 2000000 [--only PART ...] [--write]
+"""Tiles against one piece: python suite.py --points 2000000 [--only PART ...] [--write] [--keep FOLDER]
 
 Compares the answers of `visible_from_tiles` on a Dask cluster with those of one cloud, ends workers and commands in
 the middle, and measures memory and the shares of tiles that are skipped. Ends with status 1 if anything differs.
-`--write` puts each part into its section of RESULTS.md.
+`--write` puts each part into its section of RESULTS.md. With `--keep` the tiles and the finished answers of a comparison
+stay in a folder, and the same command goes on from there.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
-import logging
 import os
 import platform
 import re
-import subprocess
 import sys
 import tempfile
 import time
@@ -24,14 +23,11 @@ import numpy as np
 
 from city import UTM, VIEWPOINTS, city, cut, write
 from killed import Killer, command, kill_when_kept
-from memory import peak_memory
+from pieces import QUESTIONS, WORKERS, ask_whole, cluster, compare, differences, peaks, share
 
-from hidden_point_removal.distributed import kernels, manifest, plan, read_tile, sectors, visible_from_tiles, waves
+from hidden_point_removal.distributed import kernels, manifest, plan, read_tile, sectors, visible_from_tiles
 
 HERE = Path(__file__).parent
-#: The radius of the flipping sphere, in the units of the city.
-RADIUS = 200_000.0
-WORKERS = 2
 
 #: The ways to cut the city into tiles: title, files, precision, place.
 CASES = {
@@ -42,9 +38,14 @@ PARTS = [*CASES, "sectors", "workers", "command", "costs"]
 
 
 class Report:
-    def __init__(self):
+    """The lines of one part. `keep` stores what there is so far."""
+
+    def __init__(self, title, is_stored):
         self.lines = []
         self.wrong = 0
+        self._title = title
+        self._is_stored = is_stored
+        print(f"## {title}", flush=True)
 
     def say(self, line=""):
         print(line, flush=True)
@@ -55,112 +56,42 @@ class Report:
             self.wrong += 1
             self.say(f"**Wrong**: {what}")
 
+    def keep(self):
+        if self._is_stored:
+            store(self._title, self.lines)
+
 
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--points", type=int, default=2_000_000)
     parser.add_argument("--only", nargs="+", choices=PARTS)
     parser.add_argument("--write", action="store_true")
+    parser.add_argument("--keep", type=Path)
     asked = parser.parse_args()
     wrong = 0
     with tempfile.TemporaryDirectory(prefix="hpr-scale-") as folder:
         for part in asked.only or PARTS:
-            report = Report()
-            title = run(part, report, Path(folder) / part, asked.points)
-            wrong += report.wrong
-            if asked.write:
-                store(title, report.lines)
+            kept = asked.keep if asked.keep and part in CASES else Path(folder)
+            wrong += run(part, kept, asked.points, asked.write)
     print(f"{wrong} wrong")
     sys.exit(wrong > 0)
 
 
-def run(part, report, folder, points):
-    """Runs one part and returns its title."""
+def run(part, folder, points, is_stored):
+    """Runs one part and returns how much was wrong."""
     if part in CASES:
         name, *rest = CASES[part]
-        title = f"{name}: {points:,} points"
-        print(f"## {title}", flush=True)
-        compare(report, folder, points, part, *rest)
-        return title
-    if part == "sectors":
-        title = f"Sectors of the directions: {points:,} points"
-        print(f"## {title}", flush=True)
-        in_sectors(report, folder, points)
-        return title
-    title, check = OTHERS[part]
-    print(f"## {title}", flush=True)
-    check(report, folder)
-    return title
-
-
-def cluster():
-    from dask.distributed import Client
-
-    # A worker that was killed is no news here.
-    settings = {"dashboard_address": None, "memory_limit": 0, "silence_logs": logging.CRITICAL}
-    return Client(n_workers=WORKERS, threads_per_worker=1, **settings)
-
-
-def compare(report, folder, count, how, kind, dtype, offset):
-    """The same answers from tiles and from one piece."""
-    tiles = [(tile + offset).astype(dtype) for tile in cut(city(count), how)]
-    paths = write(folder, tiles, kind)
-    total = sum(map(len, tiles))
-    del tiles
-    sizes = np.array([path.stat().st_size for path in paths])
-    viewpoints = [(np.array(at) + offset).tolist() for at in VIEWPOINTS.values()]
-    answers = {}
-    started = time.monotonic()
-    with cluster() as client:
-        answers["exponential"] = visible_from_tiles(paths, viewpoints, client=client)
-        answers["sphere"] = visible_from_tiles(paths, viewpoints, client=client, radius=RADIUS)
-        memory = {"generator, scheduler and client": peak_memory(), **_peaks(client)}
-    seconds = time.monotonic() - started
-    asked = {name: answer.options for name, answer in answers.items()}
-    whole = ask_whole(folder, paths, viewpoints, asked)
-    report.say(f"{total:,} points in {len(paths)} tiles, {sizes.sum() / 1e6:.1f} MB. Neighboring tiles share points.")
-    report.say()
-    report.say("| viewpoint | inversion | visible | merged | tiles skipped | bytes skipped | differences |")
-    report.say("|---|---|---:|---:|---:|---:|---:|")
-    for inversion, answer in answers.items():
-        for number, at in enumerate(VIEWPOINTS):
-            differences = _differences(answer[number], whole[f"{inversion} {number}"])
-            report.say(
-                f"| {at} | {inversion} | {share(len(answer[number]), total)} | {share(answer.survivors[number], total)} "
-                f"| {share(answer.skipped[number], len(paths))} "
-                f"| {share(sizes[answer.skipped_tiles[number]].sum(), sizes.sum())} | {differences} |"
-            )
-            report.check(differences == 0, f"{at}, {inversion}: {differences} differences")
-    used, own = asked["exponential"]["inversion"]["exponential"], float(whole["automatic"])
-    off = abs(used / own - 1)
-    report.say()
-    report.say(
-        f"c = {used:.6g} from the tiles, {own:.6g} from one piece ({100 * off:.2f} % off; the whole asked with the "
-        f"recorded c gives the answers above)."
-    )
-    report.check(off < 0.02, f"c is {100 * off:.2f} % off")
-    shown = ", ".join(f"{process} {value:.0f} MB" for process, value in memory.items())
-    report.say(f"Largest memory: {shown}; one piece {float(whole['memory']):.0f} MB. {seconds:.0f} s for both questions.")
-    report.say()
-    if how == "spatial":
-        without_waves(report, paths, viewpoints, answers)
-
-
-def without_waves(report, paths, viewpoints, answers):
-    """How many tiles the horizon of the samples alone skips."""
-    first, waves.FIRST = waves.FIRST, len(paths)
-    try:
-        street = visible_from_tiles(paths, viewpoints[:1], **answers["exponential"].options)
-    finally:
-        waves.FIRST = first
-    with_waves = visible_from_tiles(paths, viewpoints[:1], **answers["exponential"].options)
-    report.say(
-        f"From the street alone, the horizon of the samples skips {share(street.skipped[0], len(paths))} of the tiles, "
-        f"and the waves of near tiles {share(with_waves.skipped[0], len(paths))}; "
-        f"{street.survivors[0]:,} and {with_waves.survivors[0]:,} points are merged."
-    )
-    report.check(np.array_equal(street[0], with_waves[0]), "the waves change the answer")
-    report.say()
+        report = Report(f"{name}: {points:,} points", is_stored)
+        compare(report, folder / f"{part} {points}", points, part, *rest)
+    elif part == "sectors":
+        report = Report(f"Sectors of the directions: {points:,} points", is_stored)
+        in_sectors(report, folder / part, points)
+    else:
+        title, check = OTHERS[part]
+        report = Report(title, is_stored)
+        check(report, folder / part)
+    report.keep()
+    return report.wrong
 
 
 @contextmanager
@@ -183,11 +114,10 @@ def in_sectors(report, folder, count):
     viewpoints = [(np.array(at) + UTM).tolist() for at in VIEWPOINTS.values()]
     with divided(count // 20), cluster() as client:
         answers = {
-            "exponential": visible_from_tiles(paths, viewpoints, client=client),
-            "sphere": visible_from_tiles(paths, viewpoints, client=client, radius=RADIUS),
+            name: visible_from_tiles(paths, viewpoints, client=client, **options) for name, options in QUESTIONS.items()
         }
-        memory = _peaks(client)
-    whole = ask_whole(folder, paths, viewpoints, {name: answer.options for name, answer in answers.items()})
+        memory = peaks(client)
+    ask_whole(folder / "whole", paths, viewpoints, {name: answer.options for name, answer in answers.items()})
     report.say(
         f"Merges take {count // 20:,} points at most, a sector has about {count // 40:,} of its own. \"Own\" is the largest "
         "share of a sector times the number of sectors. \"Held\" are the points of all sectors together, and the largest "
@@ -198,11 +128,11 @@ def in_sectors(report, folder, count):
     report.say("|---|---|---:|---:|---:|---:|---:|---:|---:|")
     for inversion, answer in answers.items():
         for number, at in enumerate(VIEWPOINTS):
-            differences = _differences(answer[number], whole[f"{inversion} {number}"])
-            report.check(differences == 0, f"{at}, {inversion}: {differences} differences in sectors")
+            different = differences(answer[number], np.load(folder / "whole" / f"{inversion} {number}.npy"))
+            report.check(different == 0, f"{at}, {inversion}: {different} differences in sectors")
             own = answer.sectors[number]
             if not own:
-                report.say(f"| {at} | {inversion} | 0 | – | – | – | – | – | {differences} |")
+                report.say(f"| {at} | {inversion} | 0 | – | – | – | – | – | {different} |")
                 continue
             every = sum(sector.own for sector in own)
             largest = max(sector.own for sector in own) * len(own) / every
@@ -210,12 +140,13 @@ def in_sectors(report, folder, count):
                 f"| {at} | {inversion} | {every:,} | {len(own)} | {largest:.2f} "
                 f"| {share(sum(sector.held for sector in own), every)} "
                 f"| {share(max(sector.held for sector in own), every)} "
-                f"| {max(sector.rounds for sector in own)} | {differences} |"
+                f"| {max(sector.rounds for sector in own)} | {different} |"
             )
             report.check(largest <= 1.5, f"{at}, {inversion}: a sector has {largest:.2f} times its share")
     report.say()
     shown = ", ".join(f"{process} {value:.0f} MB" for process, value in memory.items())
-    report.say(f"Largest memory: {shown}; one piece {float(whole['memory']):.0f} MB.")
+    whole = json.loads((folder / "whole" / "facts.json").read_text())
+    report.say(f"Largest memory: {shown}; one piece {whole['memory']:.0f} MB.")
     report.say()
 
 
@@ -295,26 +226,6 @@ def costs(report, folder):
             times.append(time.process_time() - started)
         report.say(f"| {name} | {1e6 * min(times) / len(tile):.2f} |")
     report.say()
-
-
-def ask_whole(folder, paths, viewpoints, options):
-    question, answer = folder / "question.json", folder / "answer.npz"
-    question.write_text(json.dumps({"tiles": list(map(str, paths)), "viewpoints": viewpoints, "options": options}))
-    subprocess.run([sys.executable, HERE / "whole.py", question, answer], check=True)
-    with np.load(answer) as stored:
-        return dict(stored)
-
-
-def _differences(ids: np.ndarray, expected: np.ndarray) -> int:
-    return len(np.setxor1d(ids, expected.astype(np.uint64)))
-
-
-def _peaks(client):
-    return {f"worker {number}": peak for number, peak in enumerate(client.run(peak_memory).values(), 1)}
-
-
-def share(part, whole):
-    return f"{100 * part / whole:.1f} %"
 
 
 def store(title, lines):

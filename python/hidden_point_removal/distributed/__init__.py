@@ -10,7 +10,7 @@ engine.
 from __future__ import annotations
 
 from .plan import Answers, visible_from_tiles
-from .results import write_parquet, write_laz
+from .results import write_copc, write_laz, write_parquet
 from .tiles import read_tile
 
-__all__ = ["Answers", "read_tile", "visible_from_tiles", "write_laz", "write_parquet"]
+__all__ = ["Answers", "read_tile", "visible_from_tiles", "write_copc", "write_laz", "write_parquet"]

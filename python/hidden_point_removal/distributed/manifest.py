@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from . import statistics
-from .tiles import name_of, read_tile, refuse
+from .copc import CopcNode
+from .tiles import read_tile, refuse
 
 FOLDER = ".hpr-manifest"
 VERSION = 2
@@ -47,7 +48,7 @@ def measure(tile, share):
     finite = np.isfinite(positions).all(axis=1)
     if not finite.all():
         bad = np.flatnonzero(~finite)
-        refuse("non-finite", f"{len(bad)} point(s) of {name_of(tile)} are not finite, the first at index {bad[0]}")
+        refuse("non-finite", f"{len(bad)} point(s) of {_name_of(tile)} are not finite, the first at index {bad[0]}")
     numbers = statistics.hashes(positions)
     chosen = np.flatnonzero(numbers <= statistics.bound_of(share))
     sample = positions[chosen[np.argsort(numbers[chosen], kind="stable")]]
@@ -66,15 +67,29 @@ def thinned(known, share):
     return known.sample[:within]
 
 
+def file_of(tile):
+    """The file that holds a tile. None for arrays and functions."""
+    if isinstance(tile, CopcNode):
+        return tile.path
+    return Path(tile) if isinstance(tile, (str, Path)) else None
+
+
 def identity(tile):
-    """The name, size and time of a file: text that changes with its points. None for other tiles."""
-    if not isinstance(tile, (str, Path)):
+    """The name, size and time of a tile's file: text that changes with its points. None for other tiles."""
+    path = file_of(tile)
+    if path is None:
         return None
     try:
-        status = Path(tile).stat()
+        status = path.stat()
     except OSError:
         return None
-    return f"{Path(tile).name} {status.st_size} {status.st_mtime_ns}"
+    node = f" {tile.offset}" if isinstance(tile, CopcNode) else ""
+    return f"{path.name} {status.st_size} {status.st_mtime_ns}{node}"
+
+
+def _name_of(tile):
+    """A tile in a message."""
+    return "a tile" if file_of(tile) is None else str(tile)
 
 
 def digest_of(*texts):
@@ -86,7 +101,7 @@ def _cache_path(tile, share):
     known = identity(tile)
     if known is None:
         return None
-    path = Path(tile)
+    path = file_of(tile)
     return path.parent / FOLDER / f"{path.name}.{digest_of(str(VERSION), known, repr(share))}.npz"
 
 

@@ -11,8 +11,9 @@ import numpy as np
 from hidden_point_removal import Horizon
 
 from . import kernels, manifest, statistics
+from .copc import is_copc, nodes_of
 from .engines import engine_for, tree
-from .manifest import digest_of, identity
+from .manifest import digest_of, file_of, identity
 from .sectors import visible_in_sectors
 from .tiles import refuse
 from .waves import waves_of
@@ -32,11 +33,13 @@ class Answers(list):
     `skipped` is the number of tiles, for each viewpoint, that were not needed because their box is hidden.
     `survivors` is the number of points, for each viewpoint, that were merged.
     `skipped_tiles` are the numbers of these tiles, for each viewpoint.
+    `tiles` is the number of tiles. Each node of a COPC file is one.
     `sectors` tells for each viewpoint how many points each sector had; empty lists where one merge was enough.
     """
 
-    def __init__(self, answers, options, skipped_tiles, survivors, sectors):
+    def __init__(self, answers, options, tiles, skipped_tiles, survivors, sectors):
         super().__init__(answers)
+        self.tiles = tiles
         self.sectors = sectors
         self.options = options
         self.skipped_tiles = skipped_tiles
@@ -50,7 +53,8 @@ def visible_from_tiles(tiles, viewpoints, client=None, *, share=0.02, cache=True
     The id of a point is its running number over the tiles in the order given. The answers are exactly those of one
     cloud with all points.
 
-    tiles: arrays of shape (n, 3), functions that return one, or paths of LAS, LAZ, COPC, Parquet or NumPy files.
+    tiles: arrays of shape (n, 3), functions that return one, or paths of LAS, LAZ, COPC, Parquet or NumPy files. Each
+    node of a COPC file is a tile of its own; its points keep their order in the file.
     client: a `dask.distributed.Client`. Without one, this process does the work.
     share: the share of the points that is kept in the manifest and makes the first horizon.
     cache: whether the facts of files are kept beside them, in `.hpr-manifest`.
@@ -60,7 +64,8 @@ def visible_from_tiles(tiles, viewpoints, client=None, *, share=0.02, cache=True
     options: `radius` or `inversion`, as numbers. Without them the inversion is exponential, and its scale comes from
     the spacing of all tiles. `Answers.options` records it.
 
-    Raises `HprError`: `option` for other options, and the codes of `PointCloud` for bad tiles and viewpoints.
+    Raises `HprError`: `option` for other options, `load` for a broken LAS, LAZ or COPC file, and the codes of `PointCloud` for
+    bad tiles and viewpoints.
     """
     given = {name: _plain(value) for name, value in options.items() if value is not None}
     for name in given:
@@ -81,11 +86,11 @@ def visible_from_tiles(tiles, viewpoints, client=None, *, share=0.02, cache=True
 class _Question:
     def __init__(self, engine, tiles, share, cache, progress):
         self._engine = engine
-        self._tiles = tiles
         self._cache = cache
         self._progress = progress
+        self._tiles = self._nodes(tiles)
         # The samples stay where they were made. Only counts and boxes come here.
-        self._facts = self._map(manifest.facts, [(tile, share, cache) for tile in tiles], "measure", keep=True)
+        self._facts = self._map(manifest.facts, [(tile, share, cache) for tile in self._tiles], "measure", keep=True)
         known = self._map(manifest.summary, [(fact,) for fact in self._facts], None)
         self._boxes = [box for _, box, _ in known]
         counts = [count for count, _, _ in known]
@@ -110,7 +115,13 @@ class _Question:
             sectors.append(own)
         if job is not None:
             shutil.rmtree(job, ignore_errors=True)
-        return Answers(answers, options, skipped, survivors, sectors)
+        return Answers(answers, options, len(self._tiles), skipped, survivors, sectors)
+
+    def _nodes(self, tiles):
+        """The tiles. The nodes of a COPC file take its place."""
+        files = [number for number, tile in enumerate(tiles) if is_copc(tile)]
+        listed = dict(zip(files, self._map(nodes_of, [(tiles[number],) for number in files], None), strict=True))
+        return [each for number, tile in enumerate(tiles) for each in listed.get(number, [tile])]
 
     def _map(self, kernel, calls, stage, keep=False):
         return self._engine.map(kernel, calls, stage, self._progress if stage else None, keep=keep)
@@ -221,13 +232,13 @@ class _Question:
         known = [identity(tile) for tile in self._tiles]
         if not self._cache or not known or None in known:
             return None
-        folder = Path(self._tiles[0]).parent / manifest.FOLDER
+        folder = file_of(self._tiles[0]).parent / manifest.FOLDER
         name = digest_of(str(manifest.VERSION), *sorted(known), queries.tobytes().hex())
         return folder / f"spacing.{name}.npz" if folder.is_dir() else None
 
     def _job(self, work, viewpoints, options):
         """The folder of this question. What is left of a tile depends on all tiles, viewpoints and options."""
-        files = [f"{Path(tile).resolve()} {identity(tile)}" for tile in self._tiles]
+        files = [f"{file_of(tile).resolve()} {identity(tile)}" for tile in self._tiles]
         return work / digest_of(str(manifest.VERSION), *files, json.dumps([viewpoints, options], sort_keys=True))
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import importlib
+from contextlib import contextmanager
 from pathlib import Path
 
 import numpy as np
@@ -17,6 +19,25 @@ def refuse(code, message):
     error = HprError(message)
     error.code = code
     raise error
+
+
+def broken(path, why):
+    refuse("load", f"{path} cannot be read: {why}")
+
+
+@contextmanager
+def reading(path):
+    """Refuses a LAS, LAZ or COPC file that its library cannot read."""
+    errors = [optional("laspy", path).errors.LaspyException]
+    try:
+        # Files that are not compressed need no decoder.
+        errors.append(importlib.import_module("lazrs").LazrsError)
+    except ImportError:
+        pass
+    try:
+        yield
+    except tuple(errors) as problem:
+        broken(path, problem)
 
 
 def read_tile(tile):
@@ -39,11 +60,6 @@ def read_tile(tile):
     return np.ascontiguousarray(positions)
 
 
-def name_of(tile):
-    """A tile in a message."""
-    return str(tile) if isinstance(tile, (str, Path)) else "a tile"
-
-
 def _read_file(path):
     name = path.name.lower()
     if name.endswith((".laz", ".las")):
@@ -57,24 +73,22 @@ def _read_file(path):
 
 
 def _read_las(path):
-    laspy = _optional("laspy", path)
-    with laspy.open(path) as file:
+    laspy = optional("laspy", path)
+    with reading(path), laspy.open(path) as file:
         points = file.read()
     return np.stack([np.asarray(points.x), np.asarray(points.y), np.asarray(points.z)], axis=1)
 
 
 def _read_parquet(path):
-    parquet = _optional("pyarrow.parquet", path)
+    parquet = optional("pyarrow.parquet", path)
     table = parquet.read_table(path, columns=["x", "y", "z"])
     columns = [table.column(axis).to_numpy() for axis in "xyz"]
     dtype = np.float32 if all(column.dtype == np.float32 for column in columns) else np.float64
     return np.stack([column.astype(dtype, copy=False) for column in columns], axis=1)
 
 
-def _optional(module, path):
+def optional(module, path):
     """A library that only some tiles need."""
-    import importlib
-
     try:
         return importlib.import_module(module)
     except ImportError as missing:
