@@ -171,6 +171,9 @@ def ask_whole(folder, paths, viewpoints, options):
 
 
 def differences(ids: np.ndarray, expected: np.ndarray) -> int:
+    # Both ascend, and are equal as a rule. To list differences takes minutes for 10⁷ points.
+    if np.array_equal(ids, expected):
+        return 0
     return len(np.setxor1d(ids, expected.astype(np.uint64)))
 
 

@@ -19,24 +19,28 @@ from hidden_point_removal.distributed import read_tile
 def main(question):
     folder = Path(question).parent
     asked = json.loads(Path(question).read_text())
+    facts = folder / "facts.json"
+    known = json.loads(facts.read_text()) if facts.exists() else {"processor": [], "memory": 0.0}
+    missing = [
+        (folder / f"{name} {number}.npy", viewpoint, options)
+        for name, options in asked["options"].items()
+        for number, viewpoint in enumerate(asked["viewpoints"])
+        if not (folder / f"{name} {number}.npy").exists()
+    ]
+    if not missing and "automatic" in known:
+        return
     started = time.process_time()
     tiles = [read_tile(tile) for tile in asked["tiles"]]
     positions = np.concatenate(tiles)
     del tiles
     cloud = PointCloud(positions)
-    facts = folder / "facts.json"
-    known = json.loads(facts.read_text()) if facts.exists() else {"processor": [], "memory": 0.0}
     known["opened"] = time.process_time() - started
-    for name, options in asked["options"].items():
-        for number, viewpoint in enumerate(asked["viewpoints"]):
-            path = folder / f"{name} {number}.npy"
-            if path.exists():
-                continue
-            started = time.process_time()
-            seen = cloud.visible_from(viewpoint, **options).indices
-            known["processor"].append(time.process_time() - started)
-            np.save(path, seen)
-            print(f"{time.strftime('%H:%M:%S')} one piece, {path.stem}: {known['processor'][-1]:.1f} s", file=sys.stderr)
+    for path, viewpoint, options in missing:
+        started = time.process_time()
+        seen = cloud.visible_from(viewpoint, **options).indices
+        known["processor"].append(time.process_time() - started)
+        np.save(path, seen)
+        print(f"{time.strftime('%H:%M:%S')} one piece, {path.stem}: {known['processor'][-1]:.1f} s", file=sys.stderr)
     if "automatic" not in known:
         seen = cloud.visible_from(asked["viewpoints"][0], inversion={"exponential": "auto"})
         known["automatic"] = seen.inversion["exponential"]

@@ -92,11 +92,19 @@ def merge(parts, viewpoint, options):
     if len(parts) < 2:
         return parts[0] if parts else _nothing()
     ids = merge_visible([(part.positions, part.ids) for part in parts], viewpoint, **options)
-    kept = [np.isin(part.ids, ids) for part in parts]
+    kept = [_are_among(part.ids, ids) for part in parts]
     positions = np.concatenate([part.positions[keep] for part, keep in zip(parts, kept, strict=True)])
     numbers = np.concatenate([part.ids[keep] for part, keep in zip(parts, kept, strict=True)])
     order = np.argsort(numbers, kind="stable")
     return Part(positions[order], numbers[order])
+
+
+def _are_among(some, ids):
+    """Whether each of some numbers is among the ids, which ascend. `np.isin` would sort the ids again for each part."""
+    places = np.searchsorted(ids, some)
+    found = places < len(ids)
+    found[found] = ids[places[found]] == some[found]
+    return found
 
 
 def some_of(parts, number, most):
