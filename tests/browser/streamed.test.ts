@@ -1,9 +1,9 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { expect, test } from "vitest";
-import { georeferencedBall } from "./clouds.js";
+import { georeferencedBall, rows } from "./clouds.js";
 import { drop } from "./files.js";
-import { inMillimeters } from "./formats.js";
+import { colorOf, inMillimeters } from "./formats.js";
 import { drag, inNode, openReady, refiltered, served, site, type Status, status, upToDate } from "./support.js";
 
 // Three levels with 500, 500 and 2000 points. With this limit, the overview has the first two of them.
@@ -83,11 +83,17 @@ test("with too little room for its points, a view ends as a draft, and says how 
   expect(now.visible).toBeLessThanOrEqual(600);
 });
 
-test("a point of a streamed octree can be picked, with its own coordinates", async () => {
+test("a point of a streamed octree can be picked, with its own coordinates and color", async () => {
   served.set("ranged/octree.copc.laz", content);
   const page = await openReady(`?src=ranged/octree.copc.laz&${LIMIT}&size=8`);
   await page.locator("#tool-pick").click();
   const box = (await page.locator("#view").boundingBox())!;
   await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
-  await expect.poll(() => page.locator("#pick-result").textContent()).toMatch(/512[,.]?\d{3}/);
+  const result = page.locator("#pick-result");
+  await expect.poll(() => result.textContent()).toMatch(/512[,.]?\d{3}/);
+  const place = (await result.getAttribute("data-place"))!.split(", ").map(Number);
+  const index = rows(octree).findIndex((point) => point.every((value, axis) => Math.abs(value - place[axis]!) < 6e-4));
+  expect(await result.textContent()).toContain(`color ${colorOf(index).join(" ")}`);
+  // Coordinates and colors are read. The other columns of the file are not.
+  expect(await page.locator("#color option").allTextContents()).not.toContain("intensity");
 });

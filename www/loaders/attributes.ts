@@ -53,20 +53,26 @@ function keptFields(columns: readonly { name: string; values: Values }[]): Pick<
  * Returns no colors if some are missing or all are black: then the file has the columns, but nobody has filled them in.
  */
 export function displayColors(channels: readonly [Values, Values, Values]): Uint8Array | null {
-  let largest = 0;
-  for (const values of channels) {
-    for (const value of values) {
-      if (!Number.isFinite(value)) return null;
-      if (value > largest) largest = value;
-    }
-  }
-  if (largest === 0) return null;
-  const scale = channels[0] instanceof Uint8Array ? 1 : largest <= 1 ? 255 : largest > 255 ? 255 / 65535 : 1;
+  const scale = displayScale(channels);
+  if (scale === 0) return null;
   const colors = new Uint8ClampedArray(3 * channels[0].length);
   channels.forEach((values, channel) => {
     for (let i = 0; i < values.length; i++) colors[3 * i + channel] = values[i]! * scale;
   });
   return new Uint8Array(colors.buffer);
+}
+
+/** The factor that makes bytes of colors; 0 if some are missing or all are black. */
+export function displayScale(channels: readonly Values[]): number {
+  let largest = 0;
+  for (const values of channels) {
+    for (const value of values) {
+      if (!Number.isFinite(value)) return 0;
+      if (value > largest) largest = value;
+    }
+  }
+  if (largest === 0) return 0;
+  return channels[0] instanceof Uint8Array ? 1 : largest <= 1 ? 255 : largest > 255 ? 255 / 65535 : 1;
 }
 
 function isConstant(values: Values): boolean {

@@ -28,7 +28,7 @@ class DetailInquiry extends Inquiry {
 
 /** Makes a cloud of the points of a step. All of them are visible together, as they are in the whole octree. */
 export async function detailOf(
-  { positions, exact, points, merge }: StreamStep,
+  { positions, colors, exact, points, merge }: StreamStep,
   viewpoint: Viewpoint,
   overview: Cloud,
   leader: Leader,
@@ -39,7 +39,7 @@ export async function detailOf(
   for (let i = 0; i < positions.length; i++) local[i] = positions[i]! - center[i % 3]!;
   const cloud: Cloud = {
     count: positions.length / 3,
-    colors: null,
+    colors,
     attributes: [],
     fields: [],
     // These points are not those of the file's records.

@@ -22,6 +22,8 @@ export type StreamTold =
 export interface StreamStep {
   /** x, y, z of all visible points of the nodes that were read. */
   positions: Float64Array<ArrayBuffer>;
+  /** Red, green and blue of these points, in bytes. Null if the file has no colors. */
+  colors: Uint8Array<ArrayBuffer> | null;
   exact: boolean;
   /** The numbers of nodes. */
   nodes: { read: number; hidden: number; undecided: number };

@@ -4,7 +4,7 @@ import { type Octree, openOctree } from "hidden-point-removal/stream";
 import type { Streamed } from "../cloud/cloud.ts";
 import { startLazPerf } from "../loaders/las/perf.ts";
 import { LoadProblem } from "../loaders/problem.ts";
-import type { StreamReply, StreamTold, StreamView } from "./protocol.ts";
+import type { StreamReply, StreamStep, StreamTold, StreamView } from "./protocol.ts";
 
 /** The most points that are kept for the next view. */
 const KEPT = 4_000_000;
@@ -29,9 +29,9 @@ self.onmessage = ({ data: told }: MessageEvent<StreamTold>) => {
 };
 
 /** Opens the octree for the first view. If that fails, the next view tries again. */
-function open({ from, name }: Streamed): Promise<Octree> {
+function open({ from, name, colorScale }: Streamed): Promise<Octree> {
   opening ??= init()
-    .then(() => openOctree(from, { lazPerf: startLazPerf(name), cache: KEPT }))
+    .then(() => openOctree(from, { lazPerf: startLazPerf(name), cache: KEPT, colors: colorScale !== null }))
     .catch((error: unknown) => {
       opening = undefined;
       throw error;
@@ -46,16 +46,26 @@ async function show(turn: number, view: StreamView, signal: AbortSignal): Promis
     for await (const step of octree.visibleFrom(view.viewpoint, options)) {
       if (signal.aborted) return;
       const positions = step.positions();
+      const colors = displayed(step.colors(), source!.colorScale);
       const { exact, nodes, points, radius, inversion } = step;
       const merge: MergeOptions = radius > 0 ? { radius, inversion } : { inversion };
       const taken = new Promise<void>((resolve) => (goOn = resolve));
-      post({ kind: "step", turn, step: { positions, exact, nodes, points, merge } }, [positions.buffer]);
+      post({ kind: "step", turn, step: { positions, colors, exact, nodes, points, merge } }, [
+        positions.buffer,
+        ...(colors ? [colors.buffer] : []),
+      ]);
       await taken;
     }
     post({ kind: "end", turn });
   } catch (error) {
     if (!signal.aborted) post({ kind: "problem", turn, sentence: sentenceOf(error) });
   }
+}
+
+/** Colors in bytes. */
+function displayed(colors: Uint16Array | undefined, scale: number | null): StreamStep["colors"] {
+  if (!colors || scale === null) return null;
+  return new Uint8Array(Uint8ClampedArray.from(colors, (value) => value * scale).buffer);
 }
 
 async function optionsFor(octree: Octree, { viewpoint, method }: StreamView): Promise<MergeOptions> {

@@ -1,10 +1,7 @@
-import type { OctreeNode, Tree } from "./tree.js";
+import type { NodePoints, OctreeNode, Tree } from "./tree.js";
 
-type Positions = Float64Array<ArrayBuffer>;
-
-/** The positions of a node, and the number of bytes that were read for it now. */
-export interface Loaded {
-  positions: Positions;
+/** The points of a node, and the number of bytes that were read for it now. */
+export interface Loaded extends NodePoints {
   bytes: number;
 }
 
@@ -14,7 +11,7 @@ export class NodeCache {
   /** The most points that are kept. */
   #most: number;
   /** In the order of their last use. */
-  readonly #kept = new Map<OctreeNode, Positions>();
+  readonly #kept = new Map<OctreeNode, NodePoints>();
   #points = 0;
 
   constructor(tree: Tree, most: number) {
@@ -31,14 +28,14 @@ export class NodeCache {
     if (kept !== undefined) {
       this.#kept.delete(node);
       this.#kept.set(node, kept);
-      return { positions: kept, bytes: 0 };
+      return { ...kept, bytes: 0 };
     }
     if (node.count === 0) {
-      return { positions: new Float64Array(0), bytes: 0 };
+      return { positions: new Float64Array(0), colors: undefined, bytes: 0 };
     }
-    const positions = await this.#tree.read(node, signal);
-    this.#keep(node, positions);
-    return { positions, bytes: node.part.length };
+    const points = await this.#tree.read(node, signal);
+    this.#keep(node, points);
+    return { ...points, bytes: node.part.length };
   }
 
   /** Drops all nodes, and keeps none from now on. */
@@ -48,11 +45,11 @@ export class NodeCache {
     this.#points = 0;
   }
 
-  #keep(node: OctreeNode, positions: Positions): void {
+  #keep(node: OctreeNode, points: NodePoints): void {
     if (this.#kept.has(node) || node.count > this.#most) {
       return;
     }
-    this.#kept.set(node, positions);
+    this.#kept.set(node, points);
     this.#points += node.count;
     for (const [oldest] of this.#kept) {
       if (this.#points <= this.#most) {

@@ -1,10 +1,11 @@
 import type { Copc, Hierarchy } from "copc";
 
 import { asError, HprError } from "../base/errors.js";
-import type { LazPerf } from "../formats/laz-perf.js";
-import { checkRecords, decompress } from "./laz-chunk.js";
+import type { ChunkLayout, LazPerf } from "../formats/laz-perf.js";
+import { checkRecords, decompress, hasColors } from "./laz-chunk.js";
+import type { OctreeSettings } from "./options.js";
 import { broken, type Part, type RangeReader, readPart } from "./source.js";
-import { childCell, type OctreeNode, Tree, triple, type Triple } from "./tree.js";
+import { childCell, type NodePoints, type OctreeNode, Tree, triple, type Triple } from "./tree.js";
 
 type Library = typeof import("copc");
 
@@ -12,7 +13,7 @@ type Library = typeof import("copc");
 let started: Promise<LazPerf> | undefined;
 
 /** Opens a cloud-optimized point cloud (copc.io): an octree in one LAZ file. */
-export async function openCopc(name: string, read: RangeReader, lazPerf: Promise<LazPerf> | undefined): Promise<Tree> {
+export async function openCopc(name: string, read: RangeReader, { lazPerf, colors }: OctreeSettings): Promise<Tree> {
   const library = await loadLibrary();
   let copc: Copc;
   try {
@@ -28,7 +29,7 @@ export async function openCopc(name: string, read: RangeReader, lazPerf: Promise
   const perf = lazPerf ?? (started ??= createLazPerf());
   // This error is reported when the first node is read.
   perf.catch(() => undefined);
-  return new CopcTree(name, read, library, copc, perf);
+  return new CopcTree(name, read, library, copc, perf, colors);
 }
 
 async function loadLibrary(): Promise<Library> {
@@ -43,14 +44,23 @@ class CopcTree extends Tree {
   readonly root: OctreeNode;
   readonly #read: RangeReader;
   readonly #library: Library;
-  readonly #copc: Copc;
   readonly #perf: Promise<LazPerf>;
+  readonly #layout: ChunkLayout;
+  /** Whether colors are read. */
+  readonly #isColored: boolean;
   /** The number of known pages that were not read. */
   #unread = 1;
   /** Entries of nodes that have a page of their own. */
   readonly #beside = new WeakMap<OctreeNode, Hierarchy.Node>();
 
-  constructor(name: string, read: RangeReader, library: Library, copc: Copc, perf: Promise<LazPerf>) {
+  constructor(
+    name: string,
+    read: RangeReader,
+    library: Library,
+    copc: Copc,
+    perf: Promise<LazPerf>,
+    wantsColors: boolean,
+  ) {
     const { header, info } = copc;
     const corner = (numbers: readonly number[], from = 0) => triple((axis) => numbers[from + axis]!);
     super({
@@ -61,18 +71,18 @@ class CopcTree extends Tree {
       scale: corner(header.scale),
       offset: corner(header.offset),
     });
-    checkRecords(name, { format: header.pointDataRecordFormat, rowBytes: header.pointDataRecordLength });
+    this.#layout = { format: header.pointDataRecordFormat, rowBytes: header.pointDataRecordLength };
+    checkRecords(name, this.#layout);
+    this.#isColored = wantsColors && hasColors(this.#layout);
     this.#read = read;
     this.#library = library;
-    this.#copc = copc;
     this.#perf = perf;
     this.root = this.node(keyOf(0, [0, 0, 0]), 0, [0, 0, 0]);
     this.defer(this.root, partOf(info.rootHierarchyPage));
   }
 
-  async read(node: OctreeNode, signal?: AbortSignal): Promise<Float64Array<ArrayBuffer>> {
+  async read(node: OctreeNode, signal?: AbortSignal): Promise<NodePoints> {
     const { name } = this.facts;
-    const { pointDataRecordFormat: format, pointDataRecordLength: rowBytes } = this.#copc.header;
     const chunk = await readPart(name, this.#read, node.part, signal);
     let perf: LazPerf;
     try {
@@ -83,7 +93,9 @@ class CopcTree extends Tree {
         cause,
       });
     }
-    return this.placed(node, decompress(name, node.key, chunk, node.count, { format, rowBytes }, perf));
+    const colors = this.#isColored ? new Uint16Array(3 * node.count) : undefined;
+    const integers = decompress(name, node.key, chunk, node.count, this.#layout, perf, colors);
+    return { positions: this.placed(node, integers), colors };
   }
 
   protected async readPage(top: OctreeNode, page: Part): Promise<void> {

@@ -1,6 +1,9 @@
 import { type ChunkLayout, decodeChunk, type LazPerf } from "../formats/laz-perf.js";
 import { broken } from "./source.js";
 
+/** The place of red, green and blue in a point of format 7 or 8. */
+const COLORS_AT = 30;
+
 /** The point formats of COPC: their number of bytes, and the layers of their colors. */
 const FORMATS: Partial<Record<number, { bytes: number; colors: number }>> = {
   6: { bytes: 30, colors: 0 },
@@ -18,8 +21,13 @@ export function checkRecords(name: string, { format, rowBytes }: ChunkLayout): v
   }
 }
 
+export function hasColors({ format }: ChunkLayout): boolean {
+  return FORMATS[format]!.colors > 0;
+}
+
 /**
- * Decompresses the coordinates of one chunk of points: x, y, z as integers.
+ * Decompresses the coordinates of one chunk of points: x, y, z as integers. If there is an array for colors, red, green and
+ * blue of each point are written to it.
  *
  * A chunk holds its first point, the number of its points, the size of each layer, and the layers.
  * These are checked first, since the decoder itself reads on beyond the end.
@@ -31,13 +39,17 @@ export function decompress(
   count: number,
   layout: ChunkLayout,
   perf: LazPerf,
+  colors?: Uint16Array,
 ): Int32Array {
   checkChunk(name, key, chunk, count, layout);
   const integers = new Int32Array(3 * count);
   let at = 0;
   try {
     decodeChunk(perf, chunk, count, layout, (point) => {
-      for (let axis = 0; axis < 3; axis++) integers[at++] = point.getInt32(4 * axis, true);
+      for (let axis = 0; axis < 3; axis++, at++) {
+        integers[at] = point.getInt32(4 * axis, true);
+        if (colors) colors[at] = point.getUint16(COLORS_AT + 2 * axis, true);
+      }
     });
   } catch (cause) {
     throw broken(name, `the points of node ${key} cannot be decompressed`, cause);

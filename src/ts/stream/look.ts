@@ -47,6 +47,21 @@ export class OctreeStep {
   positions(): Float64Array<ArrayBuffer> {
     return concatenated(this.visible.map(({ positions }) => positions));
   }
+
+  /**
+   * Red, green and blue of all visible points, as the file has them, in the order of `positions()`: a new array.
+   * Undefined without the option `colors` of `openOctree`, or if the file has no colors.
+   */
+  colors(): Uint16Array<ArrayBuffer> | undefined {
+    const all = new Uint16Array(3 * this.count);
+    let at = 0;
+    for (const { colors } of this.visible) {
+      if (!colors) return undefined;
+      all.set(colors, at);
+      at += colors.length;
+    }
+    return all;
+  }
 }
 
 /** What a view has done so far. */
@@ -124,11 +139,11 @@ export class Look {
     if (next === undefined) {
       return false;
     }
-    const { positions, bytes } = await this.#unlessAborted(next.loaded);
+    const loaded = await this.#unlessAborted(next.loaded);
     this.#tally.read += 1;
-    this.#tally.bytes += bytes;
-    this.#tally.points += positions.length / 3;
-    this.#survivors.add(next.node, positions);
+    this.#tally.bytes += loaded.bytes;
+    this.#tally.points += loaded.positions.length / 3;
+    this.#survivors.add(next.node, loaded);
     return true;
   }
 

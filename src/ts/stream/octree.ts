@@ -40,7 +40,9 @@ export async function openOctree(
   const settings = octreeSettings(options);
   const files = await filesOf(source, settings.fetch);
   const tree =
-    files.format === "copc" ? await openCopc(files.name, files.read, settings.lazPerf) : openPotree(files.name, files);
+    files.format === "copc"
+      ? await openCopc(files.name, files.read, settings)
+      : openPotree(files.name, files, settings.colors);
   return new Octree(tree, settings);
 }
 

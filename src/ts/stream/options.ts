@@ -16,7 +16,9 @@ export interface OctreeOptions {
    * because the address of its wasm is theirs to know. Node finds it by itself.
    */
   lazPerf?: LazPerf | Promise<LazPerf> | undefined;
-  /** The most points that are kept in memory after they were read. Default 4,000,000 (96 MB). */
+  /** Whether the colors of the points are read, too, if the octree has colors. Default false. */
+  colors?: boolean | undefined;
+  /** The most points that are kept in memory after they were read. Default 4,000,000 (96 MB, with colors 120 MB). */
   cache?: number | undefined;
 }
 
@@ -56,6 +58,7 @@ export interface OctreeProgress {
 export interface OctreeSettings {
   fetch: Fetch;
   lazPerf: Promise<LazPerf> | undefined;
+  colors: boolean;
   cache: number;
 }
 
@@ -74,18 +77,22 @@ const MOST_POINTS = 2 ** 28;
 const MOST_REQUESTS = 64;
 
 export function octreeSettings(options: unknown): OctreeSettings {
-  const given = givenOptions(options, ["fetch", "lazPerf", "cache"]);
-  const { fetch: fetcher = fetch, lazPerf } = given;
+  const given = givenOptions(options, ["fetch", "lazPerf", "colors", "cache"]);
+  const { fetch: fetcher = fetch, lazPerf, colors = false } = given;
   if (typeof fetcher !== "function") {
     throw new HprError("option", `fetch must be a function, got ${describe(fetcher)}`);
   }
   if (lazPerf !== undefined && (typeof lazPerf !== "object" || lazPerf === null)) {
     throw new HprError("option", `lazPerf must be what createLazPerf() returns, got ${describe(lazPerf)}`);
   }
+  if (typeof colors !== "boolean") {
+    throw new HprError("option", `colors must be true or false, got ${describe(colors)}`);
+  }
   return {
     // Called without an object: the platform's own fetch refuses any other.
     fetch: (url, init) => (fetcher as Fetch)(url, init),
     lazPerf: lazPerf === undefined ? undefined : Promise.resolve(lazPerf as LazPerf | Promise<LazPerf>),
+    colors,
     cache: integer(given, "cache", 0, MOST_POINTS) ?? MANY,
   };
 }

@@ -1,6 +1,6 @@
 import { describe, HprError } from "../base/errors.js";
 import { broken, type Part, type PotreeFiles, type RangeReader, readPart } from "./source.js";
-import { childCell, type OctreeNode, Tree, type TreeFacts, type Triple } from "./tree.js";
+import { childCell, type NodePoints, type OctreeNode, Tree, type TreeFacts, type Triple } from "./tree.js";
 
 /** The bytes of an entry of `hierarchy.bin`. */
 const ENTRY = 22;
@@ -13,6 +13,8 @@ interface Rows {
   length: number;
   /** The place of its position: three integers. */
   position: number;
+  /** The place of red, green and blue. Undefined if there are none, or they are not wanted. */
+  colors: number | undefined;
 }
 
 /**
@@ -21,9 +23,9 @@ interface Rows {
  * No library is used. The readers of Potree 2 (potree-core, three-loader) hand out geometries of
  * three.js in single precision and need the workers of browsers; loaders.gl reads Potree 1.
  */
-export function openPotree(name: string, { metadata, hierarchy, octree }: PotreeFiles): Tree {
-  const read = readMetadata(name, metadata);
-  return new PotreeTree(read.facts, read.rows, read.first, hierarchy, octree);
+export function openPotree(name: string, { metadata, hierarchy, octree }: PotreeFiles, wantsColors: boolean): Tree {
+  const { facts, rows, first } = readMetadata(name, metadata);
+  return new PotreeTree(facts, wantsColors ? rows : { ...rows, colors: undefined }, first, hierarchy, octree);
 }
 
 class PotreeTree extends Tree {
@@ -41,15 +43,18 @@ class PotreeTree extends Tree {
     this.defer(this.root, { offset: 0, length: first });
   }
 
-  async read(node: OctreeNode, signal?: AbortSignal): Promise<Float64Array<ArrayBuffer>> {
+  async read(node: OctreeNode, signal?: AbortSignal): Promise<NodePoints> {
     const bytes = await readPart(this.facts.name, this.#octree, node.part, signal);
-    const { length, position } = this.#rows;
+    const { length, position, colors: colorsAt } = this.#rows;
     const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
     const integers = new Int32Array(3 * node.count);
+    const colors = colorsAt === undefined ? undefined : new Uint16Array(3 * node.count);
     for (let i = 0; i < integers.length; i++) {
-      integers[i] = view.getInt32(Math.floor(i / 3) * length + position + 4 * (i % 3), true);
+      const row = Math.floor(i / 3) * length;
+      integers[i] = view.getInt32(row + position + 4 * (i % 3), true);
+      if (colors) colors[i] = view.getUint16(row + colorsAt! + 2 * (i % 3), true);
     }
-    return this.placed(node, integers);
+    return { positions: this.placed(node, integers), colors };
   }
 
   protected async readPage(top: OctreeNode, page: Part): Promise<void> {
@@ -132,6 +137,7 @@ function readMetadata(name: string, given: unknown): { facts: TreeFacts; rows: R
   }
   let length = 0;
   let position: number | undefined;
+  let colors: number | undefined;
   let bounds: TreeFacts["bounds"];
   for (const attribute of attributes) {
     if (!isCount(attribute.size)) {
@@ -142,13 +148,16 @@ function readMetadata(name: string, given: unknown): { facts: TreeFacts; rows: R
       position = length;
       bounds = isTriple(min) && isTriple(max) ? { min, max } : undefined;
     }
+    if (attribute.name === "rgb" && attribute.type === "uint16" && attribute.size === 6) {
+      colors = length;
+    }
     length += attribute.size;
   }
   if (position === undefined) {
     throw unusable("it has no attribute position of three int32");
   }
   const facts = { name, points, cube: { min: cube.min, max: cube.max }, bounds, scale, offset };
-  return { facts, rows: { length, position }, first };
+  return { facts, rows: { length, position, colors }, first };
 }
 
 function isCount(value: unknown): value is number {

@@ -1,7 +1,7 @@
 import { concatenated } from "../base/memory.js";
 import { Horizon } from "../cloud/horizon.js";
 import type { MergeOptions } from "../cloud/merge.js";
-import type { OctreeNode } from "./tree.js";
+import type { NodePoints, OctreeNode } from "./tree.js";
 
 /** The visible points of one node. */
 export interface VisibleNode {
@@ -11,6 +11,8 @@ export interface VisibleNode {
   readonly indices: Uint32Array;
   /** x, y, z of each of them. */
   readonly positions: Float64Array;
+  /** Red, green and blue of each of them, as the file has them. Undefined without the option `colors`, or if the file has none. */
+  readonly colors: Uint16Array | undefined;
 }
 
 /** The horizon grows when this many points wait to join it, or this share of the points in it. */
@@ -63,9 +65,9 @@ export class Survivors {
   }
 
   /** Takes up the points of a node that the horizon does not hide. */
-  add(node: OctreeNode, positions: Float64Array): void {
+  add(node: OctreeNode, { positions, colors }: NodePoints): void {
     const indices = Uint32Array.from({ length: positions.length / 3 }, (_, i) => i);
-    const part = this.#screened({ key: node.key, indices, positions });
+    const part = this.#screened({ key: node.key, indices, positions, colors });
     if (part.indices.length > 0) {
       this.#waiting.push(part);
       this.#waitingCount += part.indices.length;
@@ -91,18 +93,27 @@ export class Survivors {
 
   /** The same part without the points that the horizon hides. */
   #screened(part: VisibleNode): VisibleNode {
-    const { key, indices, positions } = part;
+    const { key, indices, positions, colors } = part;
     const left = this.#horizon.screen(positions);
     if (left.length === indices.length) {
       return part;
     }
-    const kept = new Float64Array(3 * left.length);
-    for (let i = 0; i < left.length; i++) {
-      const from = 3 * left[i]!;
-      kept[3 * i] = positions[from]!;
-      kept[3 * i + 1] = positions[from + 1]!;
-      kept[3 * i + 2] = positions[from + 2]!;
-    }
-    return { key, indices: left.map((k) => indices[k]!), positions: kept };
+    return {
+      key,
+      indices: left.map((k) => indices[k]!),
+      positions: threesAt(left, positions, new Float64Array(3 * left.length)),
+      colors: colors && threesAt(left, colors, new Uint16Array(3 * left.length)),
+    };
   }
+}
+
+/** Copies the three numbers of some points. */
+function threesAt<T extends Float64Array | Uint16Array>(points: Uint32Array, from: T, to: T): T {
+  for (let i = 0; i < points.length; i++) {
+    const at = 3 * points[i]!;
+    to[3 * i] = from[at]!;
+    to[3 * i + 1] = from[at + 1]!;
+    to[3 * i + 2] = from[at + 2]!;
+  }
+  return to;
 }

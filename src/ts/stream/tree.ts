@@ -27,6 +27,14 @@ export interface OctreeNode extends Box {
   pageLength: number;
 }
 
+/** The points of a node. */
+export interface NodePoints {
+  /** x, y, z of each point. */
+  positions: Float64Array<ArrayBuffer>;
+  /** Red, green and blue of each point, as the file has them. Undefined if they are not read, or the file has none. */
+  colors: Uint16Array<ArrayBuffer> | undefined;
+}
+
 /** The facts of an octree that its header gives. */
 export interface TreeFacts {
   /** For messages. */
@@ -73,8 +81,8 @@ export abstract class Tree {
 
   abstract readonly root: OctreeNode;
 
-  /** Reads and checks the positions of a listed node. */
-  abstract read(node: OctreeNode, signal?: AbortSignal): Promise<Float64Array<ArrayBuffer>>;
+  /** Reads and checks the points of a listed node. */
+  abstract read(node: OctreeNode, signal?: AbortSignal): Promise<NodePoints>;
 
   /** Reads a page: lists its node and nodes below it. */
   protected abstract readPage(node: OctreeNode, page: Part): Promise<void>;

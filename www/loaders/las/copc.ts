@@ -1,5 +1,6 @@
 import { Copc, type Hierarchy } from "copc";
 import type { LoadedCloud, Streamed } from "../../cloud/cloud.ts";
+import { displayScale } from "../attributes.ts";
 import type { Reading } from "../blocks.ts";
 import { LoadProblem } from "../problem.ts";
 import { FormatProblem } from "../../../src/ts/formats/problem.js";
@@ -78,7 +79,16 @@ export async function readCopc(
   if (isStreamed)
     return {
       ...cloud,
-      ...streamedFrom({ from, name, points: header.count, budget: Math.min(reading.limit, BUDGET) }, shown),
+      ...streamedFrom(
+        {
+          from,
+          name,
+          points: header.count,
+          budget: Math.min(reading.limit, BUDGET),
+          colorScale: cloud.colors && scaleOfColors(cloud),
+        },
+        shown,
+      ),
     };
   return {
     ...cloud,
@@ -89,15 +99,19 @@ export async function readCopc(
   };
 }
 
-/** What is known of points that are the overview of an octree. The stream reads coordinates alone, so they have no more. */
+/** The overview and the other levels have the same factor, even if some points have dark colors alone. */
+function scaleOfColors({ fields = [] }: LoadedCloud): number {
+  return displayScale(fields.filter(({ name }) => /^(red|green|blue)$/.test(name)).map(({ values }) => values));
+}
+
+/** What is known of points that are the overview of an octree. The stream reads coordinates and colors, so they have no more. */
 function streamedFrom(streamed: Streamed, shown: string): Partial<LoadedCloud> {
   return {
-    colors: null,
     attributes: [],
     fields: [],
     streamed,
     notes: [
-      `Its ${number.format(streamed.points)} points are read as they are needed. While the camera moves, ${shown} points of its coarser levels are shown. When it rests, all that is visible is read, without colors and attributes.`,
+      `Its ${number.format(streamed.points)} points are read as they are needed. While the camera moves, ${shown} points of its coarser levels are shown. When it rests, all that is visible is read, without attributes.`,
     ],
   };
 }
