@@ -1,20 +1,20 @@
 import { existsSync, readFileSync } from "node:fs";
 import { dirname, join, posix } from "node:path";
 
-/** One kind of check: its title, the command that runs it, and the file that holds its results. */
+/** One kind of check: its title, what runs it, and the file that holds its results. */
 const KINDS: [title: string, command: string, results: string][] = [
-  ["Fuzzing: clouds, moved views and divided views against the definition", "npm run fuzz", "tests/fuzz/RESULTS.md"],
-  ["Mutations of the core", "npm run mutants", "tests/mutations/RUST.md"],
-  ["Lines of the core that its tests never reach", "npm run mutants", "tests/mutations/COVERAGE.md"],
-  ["Mutations of the TypeScript", "by hand and by Stryker", "tests/mutations/TYPESCRIPT.md"],
-  ["The same bits on every platform", "npm run bits", "tests/bits/RESULTS.md"],
-  ["Re-filters all day", "npm run soak", "tests/soak/RESULTS.md"],
-  ["Large clouds from end to end", "npm run large", "tests/soak/LARGE.md"],
-  ["Two clean builds, the same bytes", "npm run reproduce", "tests/release/REPRODUCED.md"],
-  ["The minimum Rust", "npm run minimum", "tests/release/MINIMUM.md"],
+  ["Fuzzing: clouds, moved views and divided views against the definition", "`npm run fuzz`", "tests/fuzz/RESULTS.md"],
+  ["Mutations of the core", "`npm run mutants`", "tests/mutations/RUST.md"],
+  ["Lines of the core that its tests never reach", "hand, with cargo-llvm-cov", "tests/mutations/COVERAGE.md"],
+  ["Mutations of the TypeScript", "Stryker and by hand", "tests/mutations/TYPESCRIPT.md"],
+  ["The same bits on every platform", "`npm run bits`", "tests/bits/RESULTS.md"],
+  ["Re-filters all day", "`npm run soak`", "tests/soak/RESULTS.md"],
+  ["Large clouds from end to end", "`npm run large`", "tests/soak/LARGE.md"],
+  ["Two clean builds, the same bytes", "`npm run reproduce`", "tests/release/REPRODUCED.md"],
+  ["The minimum Rust", "`npm run minimum`", "tests/release/MINIMUM.md"],
   [
     "A release, up to the point where something would be sent",
-    "npm run release -- --dry-run",
+    "`npm run release -- --dry-run`",
     "tests/release/REHEARSED.md",
   ],
 ];
@@ -25,7 +25,7 @@ export const TRUST = "tests/TRUST.md";
 export function trust(root: string): string {
   const parts = KINDS.map(([title, how, results]) => {
     const body = existsSync(join(root, results)) ? withoutTitle(root, results) : "Not run yet.";
-    return `## ${title}\n\nRun by \`${how}\`; results in [${results}](${posix.relative("tests", results)}).\n\n${body}`;
+    return `## ${title}\n\nRun by ${how}; results in [${results}](${posix.relative("tests", results)}).\n\n${body}`;
   });
   return `# Trust
 
@@ -35,6 +35,10 @@ Written by \`npm run trust\` from the results of the long checks. [README.md](RE
 ## Faults found and mended
 
 ${read(root, "tests/FAULTS.md")}
+
+## What is left
+
+${read(root, "tests/LEFT.md")}
 
 ${parts.join("\n\n")}
 `;

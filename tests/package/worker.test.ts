@@ -4,7 +4,7 @@ import { runInNewContext } from "node:vm";
 import type threads from "node:worker_threads";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 
-import { OriginalWorker, replaceWorker } from "./node-workers";
+import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
 import { bumpySphere, freshPackage, problemOf, readyPackage, trappingWasm } from "./support";
 
 const { WorkerPointCloud, PointCloud, HprError } = await readyPackage();
@@ -251,6 +251,49 @@ describe("requests given up", () => {
       one.status === "fulfilled" ? "answered" : isAbort(one.reason) ? "aborted" : String(one.reason),
     );
 
+  /** Counts the messages to workers that start from now on. */
+  const counted = () => {
+    const count = { posted: 0 };
+    replaceWorker(
+      class extends OriginalWorker {
+        override postMessage(...args: Parameters<threads.Worker["postMessage"]>) {
+          count.posted += 1;
+          super.postMessage(...args);
+        }
+      },
+    );
+    return count;
+  };
+
+  it("are not sent to the worker if they were aborted while they waited", async () => {
+    const count = counted();
+    const cloud = await WorkerPointCloud.create(sphere);
+    count.posted = 0;
+    const abort = new AbortController();
+    const first = cloud.visibleFrom(farAway);
+    const second = cloud.visibleFrom([5, 0, 0], { signal: abort.signal });
+    const third = cloud.visibleFrom([0, 5, 0]);
+    abort.abort();
+    await expect(second).rejects.toThrow("abort");
+    await Promise.all([first, third]);
+    expect(count.posted).toBe(2);
+    await cloud.dispose();
+  });
+
+  it("tell the worker if they are aborted while it works", async () => {
+    const count = counted();
+    const cloud = await WorkerPointCloud.create(sphere);
+    count.posted = 0;
+    const abort = new AbortController();
+    const asked = cloud.visibleFrom(farAway, { looks: 3, signal: abort.signal });
+    abort.abort();
+    await expect(asked).rejects.toThrow("abort");
+    expect(count.posted).toBe(2);
+    const expected = new PointCloud(sphere).visibleFrom(farAway, { looks: 3 });
+    expect((await cloud.visibleFrom(farAway, { looks: 3 })).indices).toEqual(expected.indices);
+    await cloud.dispose();
+  });
+
   it("are overtaken by a newer request with `latest`", async () => {
     const cloud = await WorkerPointCloud.create(sphere);
     const asked = [1, 2, 3, 4, 5].map((z) => cloud.visibleFrom([0, 0, z + 2], { latest: true }));
@@ -418,5 +461,20 @@ describe("a worker that is gone", () => {
     const problem = await problemOf(() => WorkerPointCloud.create(sphere));
     expect(problem.code).toBe("load");
     expect(problem.message).toMatch(/worker-thread\.js/);
+  });
+
+  it("ends the workers that were started if another one could not be", async () => {
+    replaceWorker(
+      class extends CountedWorker {
+        constructor(...args: ConstructorParameters<typeof OriginalWorker>) {
+          if (running.size === 2) throw new Error("no more threads");
+          super(...args);
+        }
+      },
+    );
+    const problem = await problemOf(() => WorkerPointCloud.create(sphere, { workers: 3 }));
+    expect(problem.code).toBe("load");
+    expect(problem.message).toContain("no more threads");
+    await expect.poll(() => running.size).toBe(0);
   });
 });

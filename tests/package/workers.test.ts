@@ -212,4 +212,11 @@ describe("several workers", () => {
     expect((await cloud.visibleFrom(farAway)).indices).toEqual(new PointCloud(large).visibleFrom(farAway).indices);
     await cloud.dispose();
   });
+
+  it("are not taken by default for large clouds in a plane", async () => {
+    const cloud = await WorkerPointCloud.create(bumpySphere(3, 140_000), { dimension: 2 });
+    expect(cloud.length).toBe(210_000);
+    expect(started).toHaveLength(1);
+    await cloud.dispose();
+  });
 });
