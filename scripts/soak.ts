@@ -1,14 +1,16 @@
-// npm run soak [-- --views N --seed N]: re-filters five clouds in workers and compares answers with cold ones
-// (tests/soak/refilter.ts). Writes tests/soak/RESULTS.md. Ends with status 1 if an answer was wrong.
+// npm run soak [-- --views N --seed N]: first the long form of the page's soak (tests/browser/soak.test.ts). Then re-filters
+// five clouds in workers and compares answers with cold ones (tests/soak/refilter.ts). Writes tests/soak/RESULTS.md. Ends
+// with status 1 if the page's memory has grown, or if an answer was wrong.
 import { writeFileSync } from "node:fs";
 import { cpus } from "node:os";
 import { parseArgs } from "node:util";
 
-import { buildPackage } from "./build/package.js";
-import { buildWasm } from "./build/wasm.js";
+import { build } from "./build/build.js";
 import { command } from "./lib/command.js";
 import { load } from "./lib/load.js";
 import { inRoot } from "./lib/paths.js";
+import { run } from "./lib/run.js";
+import { setUpBrowser } from "./setup/browser.js";
 import { setUpForBuild } from "./setup/setup.js";
 
 const RESULT = "tests/soak/RESULTS.md";
@@ -24,8 +26,9 @@ await command(async () => {
   const { values } = parseArgs({ args: process.argv.slice(3), options: { views: text, seed: text } });
   const [views, seed] = [Number(values.views ?? 20_000), Number(values.seed ?? 20261122)];
   await setUpForBuild();
-  await buildWasm();
-  await buildPackage();
+  await build();
+  const browser = { HPR_CHROMIUM: await setUpBrowser(), HPR_SOAK: "1" };
+  const page = await run("vitest", ["run", "tests/browser/soak.test.ts"], { show: "results", env: browser });
   const module = await load<Refilter>("tests/soak/refilter.ts");
   const result = await module.soak(views, seed, (row) => {
     console.log(JSON.stringify(row));
@@ -40,5 +43,5 @@ await command(async () => {
   writeFileSync(inRoot(RESULT), module.report(result, lines));
   console.log(`${result.wrong} wrong (${RESULT})`);
   // Workers of the soak must not keep the process alive.
-  process.exit(result.wrong > 0 ? 1 : 0);
+  process.exit(page.ok && result.wrong === 0 ? 0 : 1);
 });

@@ -10,6 +10,7 @@ import {
   openReady,
   picture,
   refiltered,
+  said,
   settled,
   status,
   unfold,
@@ -117,7 +118,7 @@ test("a frozen viewpoint stays while the camera flies around, until it is releas
   expect(await page.locator("#sign-frozen").isVisible()).toBe(true);
   await addStyle(page, "#signs { visibility: hidden }");
   expect(await differentPixels(page, unfrozen, await picture(page))).toBe(0);
-  await expect.poll(async () => (await status(page)).sentence).toMatch(/were visible from the frozen viewpoint/);
+  await expect.poll(() => page.locator("#status").textContent()).toMatch(/were visible from the frozen viewpoint/);
   const there = await picture(page);
   await drag(page, 200, 0);
   const frozen = await settled(page);
@@ -162,7 +163,7 @@ test("a larger point size covers more of the picture", async () => {
 });
 
 test("choosing the original up side gives the first view again", async () => {
-  const page = await openReady("?sample=room");
+  const page = await openReady("?sample=room&looks=0");
   const inside = await settled(page);
   await unfold(page, "Look");
   await page.locator("#up-axis").getByRole("radio", { name: "Z", exact: true }).check();
@@ -183,7 +184,8 @@ test("the sentence has a singular and a plural", () => {
 test("the sentence is announced once, after the movement", async () => {
   const page = await openReady(SAMPLE);
   const before = await settled(page);
-  await page.waitForTimeout(1500);
+  const region = page.locator("#announcement");
+  await expect.poll(() => region.textContent()).toBe(await said(page));
   const announced = await page.evaluateHandle(() => {
     const texts: string[] = [];
     const region = document.getElementById("announcement")!;
@@ -195,7 +197,10 @@ test("the sentence is announced once, after the movement", async () => {
     await page.waitForTimeout(150);
   }
   const after = await refiltered(page, before);
-  await page.waitForTimeout(2000);
-  expect(await announced.jsonValue()).toEqual([(await status(page)).sentence]);
+  const last = await said(page);
+  await expect.poll(() => region.textContent()).toBe(last);
+  // Nothing follows.
+  await page.waitForTimeout(1000);
+  expect(await announced.jsonValue()).toEqual([last]);
   expect(after.refilters).toBeGreaterThan(before.refilters);
 });

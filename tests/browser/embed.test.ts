@@ -115,6 +115,6 @@ test("a frame whose file cannot be opened shows only the error, and no sample in
   expect(await page.locator("#message p").textContent()).toBe(sentence);
   await page.waitForTimeout(500);
   expect(total).toBeUndefined();
-  expect(await status(page)).toMatchObject({ state: "error", sentence });
+  expect(await reached(page, "error")).toMatchObject({ sentence });
   expect((await status(page)).total).toBeUndefined();
 });

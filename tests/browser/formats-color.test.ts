@@ -126,7 +126,7 @@ test("the address holds the choice of colors, and a message names a choice that 
 
   const asked = await openReady("?src=usual.las&color=mood");
   expect(await asked.locator("#message p").textContent()).toBe(
-    "It has nothing called “mood” to be colored by, so it has its usual colors.",
+    "The cloud has no “mood” to color by, so it has its usual colors.",
   );
 });
 
@@ -179,17 +179,17 @@ test("the samples street and tile have classes and intensity, and tile has map c
 });
 
 test("loading can be stopped, and the previous cloud stays", async () => {
-  const page = await openReady("?sample=bunny");
+  const page = await openReady("?sample=bunny&points=300000");
   const before = await status(page);
-  // This many points take long enough to be stopped.
-  const content = las(far, { format: 0, claimed: 30_000_000 });
+  // This many points take long enough to be stopped. Few of them are drawn meanwhile.
+  const content = las(far, { format: 0, claimed: 120_000_000 });
   await page.evaluate(
     (bytes) => {
       const points = Uint8Array.from(bytes.slice(227));
       const many = new Blob(Array.from({ length: 1000 }, () => points));
       const data = new DataTransfer();
       data.items.add(
-        new File([Uint8Array.from(bytes.slice(0, 227)), ...Array.from({ length: 50 }, () => many)], "large.las"),
+        new File([Uint8Array.from(bytes.slice(0, 227)), ...Array.from({ length: 200 }, () => many)], "large.las"),
       );
       document.getElementById("view")!.dispatchEvent(new DragEvent("drop", { dataTransfer: data, bubbles: true }));
     },

@@ -1,5 +1,17 @@
 import { expect, test } from "vitest";
-import { browser, differentPixels, drag, openReady, picture, site, status, upToDate } from "./support.js";
+import {
+  browser,
+  differentPixels,
+  drag,
+  openReady,
+  picture,
+  serveSmallDragon,
+  site,
+  status,
+  upToDate,
+} from "./support.js";
+
+serveSmallDragon();
 
 test("a first visit offers a guide, which can be stepped through or skipped, and is remembered", async () => {
   const page = await openReady("");

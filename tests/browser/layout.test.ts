@@ -1,6 +1,16 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { openPage, openReady, PHONE, reached, refiltered, settled, status, unfold } from "./support.js";
+import {
+  openPage,
+  openReady,
+  PHONE,
+  reached,
+  refiltered,
+  serveSmallDragon,
+  settled,
+  status,
+  unfold,
+} from "./support.js";
 
 /** Visible controls and texts that overlap, are cut off at the side, or have no name. */
 async function flaws(page: Page): Promise<string[]> {
@@ -105,8 +115,8 @@ test("one finger orbits", async () => {
   expect((await refiltered(page, before)).viewpoint).not.toEqual(before.viewpoint);
 });
 
-// It opens the large dragon, which takes a busy machine long.
-test("a message fits a phone", { retry: 2 }, async () => {
+test("a message fits a phone", async () => {
+  serveSmallDragon();
   const page = await openReady("?sample=unicorn", PHONE);
   expect(await page.locator("#message").isVisible()).toBe(true);
   expect(await flaws(page)).toEqual([]);

@@ -87,7 +87,7 @@ test("a host may send the policy as a header, for workers too", async () => {
   const strict = await servePage(files, { "content-security-policy": policy() });
   try {
     for (const query of ["?sample=bunny", ...[...files.keys()].map((name) => `?src=${name}`)]) {
-      const page = await openPage("", {}, async (fresh) => {
+      const page = await openPage("?sample=bunny", {}, async (fresh) => {
         await fresh.goto(strict.address + query);
         expect((await reached(fresh, "ready")).total, query).toBeGreaterThan(100);
       });

@@ -16,6 +16,7 @@ import {
   openReady,
   picture,
   reached,
+  said,
   served,
   status,
   upToDate,
@@ -157,7 +158,7 @@ test("in the page: drafts while the camera moves, one hull, then looks; each wit
   expect([draft.visible, hull.visible, looks.visible]).toEqual(counts);
   expect(now).toMatchObject({ state: "ready", busy: 0, answer: "looks", visible: counts[2], radius: 0, exponent: 0 });
   expect(now.inversion).toMatch(/^looks:[\d.e-]+,[\d.e-]+,[\d.e-]+$/);
-  expect(now.sentence).toMatch(/ are visible from here, found by 3 looks in [\d,.]+\sms\.$/);
+  expect(await said(page)).toMatch(/ are visible from here, found by 3 looks in [\d,.]+\sms\.$/);
 });
 
 /** How many pixels of a picture are the dark background. */

@@ -8,7 +8,7 @@ import { fourBalls } from "./balls.js";
 import { addStyle } from "./site.js";
 import { openReady, served, upToDate } from "./support.js";
 
-const POINTS = Number(process.env["HPR_STALE_POINTS"] ?? 300_000);
+const POINTS = Number(process.env["HPR_STALE_POINTS"] ?? 100_000);
 /** Each press of an arrow key turns the camera by 5°. */
 const PRESSES = 8;
 const SIZE = { width: 300, height: 260 };

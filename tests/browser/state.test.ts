@@ -1,10 +1,10 @@
+import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { drag, openReady, status, type Status, unfold, upToDate } from "./support.js";
+import { addressWritten, drag, openReady, status, type Status, unfold, upToDate } from "./support.js";
 
 /** The query of the address, after the page has written its last change. */
-async function written(page: Awaited<ReturnType<typeof openReady>>): Promise<string> {
-  await upToDate(page);
-  await page.waitForTimeout(800);
+async function written(page: Page): Promise<string> {
+  await addressWritten(page);
   return new URL(page.url()).search;
 }
 

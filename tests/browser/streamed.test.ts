@@ -1,10 +1,11 @@
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { georeferencedBall, rows } from "./clouds.js";
 import { drop } from "./files.js";
 import { colorOf, inMillimeters } from "./formats.js";
-import { drag, inNode, openReady, refiltered, served, site, type Status, status, upToDate } from "./support.js";
+import { drag, inNode, openReady, refiltered, said, served, site, type Status, status, upToDate } from "./support.js";
 
 // Three levels with 500, 500 and 2000 points. With this limit, the overview has the first two of them.
 const LIMIT = "stream=1100";
@@ -12,14 +13,14 @@ const octree = inMillimeters(georeferencedBall(3000));
 const content = new Uint8Array(readFileSync(join(import.meta.dirname, "fixtures", "octree.copc.laz")));
 
 /** Expects the exact answer of the whole octree, asked with the inversion that the page reports. */
-async function expectExact(now: Status): Promise<void> {
+async function expectExact(page: Page, now: Status): Promise<void> {
   expect(now).toMatchObject({ state: "ready", answer: "operator", busy: 0, total: 3000 });
   const [, scale] = /^exponential:(.+)$/.exec(now.inversion)!;
   const inversion = { exponential: Number(scale) };
   const whole = await inNode(octree, (cloud) => cloud.visibleFrom(now.viewpoint, { inversion }));
   expect(now.visible).toBe(whole.count);
   expect(now.visible).toBeGreaterThan(500);
-  expect(now.sentence).toMatch(
+  expect(await said(page)).toMatch(
     /of 3,000 points are visible from here, exactly: \d+ nodes with [\d,]+ points were read, \d+ more/,
   );
 }
@@ -28,14 +29,14 @@ test("an octree beyond the limit is streamed, and its last answer is exact, also
   served.set("ranged/octree.copc.laz", content);
   const page = await openReady(`?src=ranged/octree.copc.laz&${LIMIT}`);
   const first = await status(page);
-  await expectExact(first);
+  await expectExact(page, first);
   expect(await page.locator("#message p").textContent()).toContain("3,000 points are read as they are needed");
 
   const asked = site.asked.length;
   await drag(page, 160, 40);
   const moved = await refiltered(page, first);
   expect(moved.viewpoint).not.toEqual(first.viewpoint);
-  await expectExact(moved);
+  await expectExact(page, moved);
   // Nodes that were read before are kept. Their file is not asked again, except for nodes that were hidden.
   expect(site.asked.slice(asked).filter((name) => name.endsWith(".laz")).length).toBeLessThan(5);
 });
@@ -49,7 +50,7 @@ test("a dropped octree is streamed from the file", async () => {
     .waitFor({ state: "attached" });
   const now = await upToDate(page);
   expect(now.refilters).toBeGreaterThan(before.refilters);
-  await expectExact(now);
+  await expectExact(page, now);
 
   // Another cloud takes its place.
   await page.locator("#thumbnails").getByRole("button", { name: /bunny/i }).click();
@@ -62,7 +63,8 @@ test("a radius in the octree's units is taken, and c counts in its spacings", as
   const now = await status(await openReady(`?src=ranged/octree.copc.laz&${LIMIT}&radius=100000`));
   const whole = await inNode(octree, (cloud) => cloud.visibleFrom(now.viewpoint, { radius: 100_000 }));
   expect(now).toMatchObject({ answer: "operator", inversion: "spherical", radius: 100_000, visible: whole.count });
-  await expectExact(await status(await openReady(`?src=ranged/octree.copc.laz&${LIMIT}&inversion=exponential:0.1`)));
+  const scaled = await openReady(`?src=ranged/octree.copc.laz&${LIMIT}&inversion=exponential:0.1`);
+  await expectExact(scaled, await status(scaled));
 });
 
 test("settings that need all points are answered by the coarser levels alone, and the page says so", async () => {
@@ -70,7 +72,7 @@ test("settings that need all points are answered by the coarser levels alone, an
   const page = await openReady(`?src=ranged/octree.copc.laz&${LIMIT}&denoise=6`);
   const now = await status(page);
   expect(now).toMatchObject({ state: "ready", answer: "draft", total: 3000 });
-  expect(now.sentence).toContain("of the 1,000 points of the coarser levels are visible from here");
+  expect(await said(page)).toContain("of the 1,000 points of the coarser levels are visible from here");
   expect(await page.locator("#message p").textContent()).toContain("the coarser levels alone");
 });
 
@@ -79,7 +81,7 @@ test("with too little room for its points, a view ends as a draft, and says how 
   const page = await openReady(`?src=ranged/octree.copc.laz&${LIMIT}&points=600`);
   const now = await status(page);
   expect(now).toMatchObject({ state: "ready", answer: "draft", busy: 0, total: 3000 });
-  expect(now.sentence).toMatch(/not exact, [1-9]\d* nodes? undecided/);
+  expect(await said(page)).toMatch(/not exact, [1-9]\d* nodes? undecided/);
   expect(now.visible).toBeLessThanOrEqual(600);
 });
 

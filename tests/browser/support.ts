@@ -1,15 +1,18 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
+import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
 import { init, PointCloud, type VisibilityOptions } from "hidden-point-removal";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect, vi } from "vitest";
+import { root } from "../root.js";
 import { launchBrowser, servePage, type Site } from "./site.js";
 
 // Software rendering on a busy machine is slow. These limits only end tests that hang.
 vi.setConfig({ testTimeout: 180_000, hookTimeout: 120_000 });
 
-export const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 2 };
+/** A phone, but with a quarter of its pixels: software draws them. */
+export const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 1 };
 
 const require = createRequire(import.meta.url);
 export let site: Site;
@@ -19,6 +22,19 @@ let provoked: RegExp[] = [];
 const pages: Page[] = [];
 /** Files of the site besides the page, by name. */
 export const served = new Map<string, Uint8Array>();
+
+/** Lets the first sample of the page have 5,205 points. It is for tests about other things than its size. */
+export function serveSmallDragon(): void {
+  served.set("samples/dragon.bin", readFileSync(join(root, "www/dist/samples/dragon_res4.bin")));
+}
+
+/** Waits until the address has everything: it is written 300 ms after the last change. */
+export async function addressWritten(page: Page): Promise<URLSearchParams> {
+  await upToDate(page);
+  // A timer of the page. It runs after all that were set before it and are shorter.
+  await page.evaluate(() => new Promise((resolve) => setTimeout(resolve, 350)));
+  return new URL(page.url()).searchParams;
+}
 
 beforeAll(async () => {
   site = await servePage(served);
@@ -109,7 +125,6 @@ export interface Status {
   inversion: string;
   /** 1 while an answer to the present settings is still to come. */
   busy: number;
-  sentence: string;
 }
 
 export async function status(page: Page): Promise<Status> {
@@ -123,14 +138,23 @@ export async function status(page: Page): Promise<Status> {
       show,
       inversion,
       viewpoint: viewpoint?.split(",").map(Number),
-      sentence: element.textContent,
     } as unknown as Status;
   });
 }
 
-export async function reached(page: Page, state: "loading" | "ready" | "error"): Promise<Status> {
+/** The status and the sentence in a state. An error's sentence is there at once. */
+export async function reached(page: Page, state: "ready" | "error"): Promise<Status & { sentence: string }> {
   await page.locator(`#status[data-state="${state}"]`).waitFor({ state: "attached", timeout: 120_000 });
-  return status(page);
+  return { ...(await status(page)), sentence: (await page.locator("#status").textContent())! };
+}
+
+/** The sentence about the last answer. It changes less often than the answer, so only tests about it wait for it. */
+export async function said(page: Page): Promise<string> {
+  await page.waitForFunction(() => {
+    const { dataset, textContent } = document.getElementById("status")!;
+    return textContent.startsWith(Number(dataset["visible"]).toLocaleString("en-US"));
+  });
+  return (await page.locator("#status").textContent())!;
 }
 
 /** Waits for an answer after `before`. */
@@ -149,7 +173,7 @@ export async function refiltered(page: Page, before: Status): Promise<Status> {
   return settled(page);
 }
 
-/** The status after ten frames without a question, an answer or a new sentence. A moving camera would have asked. */
+/** The status after ten frames without a question or an answer. A moving camera would have asked. */
 export async function settled(page: Page): Promise<Status> {
   await page.evaluate(async () => {
     const { dataset } = document.getElementById("status")!;
@@ -157,10 +181,7 @@ export async function settled(page: Page): Promise<Status> {
     let last = dataset["refilters"];
     for (let quiet = 0; quiet < 10;) {
       await frame();
-      // The sentence about an answer may come a little later.
-      const count = Number(dataset["visible"]).toLocaleString("en-US");
-      const isSaid = dataset["state"] !== "ready" || document.getElementById("status")!.textContent.startsWith(count);
-      quiet = dataset["refilters"] === last && dataset["busy"] === "0" && isSaid ? quiet + 1 : 0;
+      quiet = dataset["refilters"] === last && dataset["busy"] === "0" ? quiet + 1 : 0;
       last = dataset["refilters"];
     }
   });
@@ -170,12 +191,6 @@ export async function settled(page: Page): Promise<Status> {
 /** The status after the picture shows the present settings and camera. */
 export async function upToDate(page: Page): Promise<Status> {
   await page.locator('#status[data-busy="0"]').waitFor({ state: "attached", timeout: 120_000 });
-  // The sentence about the answer may come a little later.
-  await page.waitForFunction(() => {
-    const { dataset, textContent } = document.getElementById("status")!;
-    const count = Number(dataset["visible"]).toLocaleString("en-US");
-    return dataset["busy"] === "0" && (dataset["state"] !== "ready" || textContent.startsWith(count));
-  });
   return status(page);
 }
 
