@@ -3,14 +3,14 @@ import type { Spot } from "./find.ts";
 import type { Tool } from "./tool.ts";
 
 /** A tool whose code is downloaded when it is first opened. Until then, its card says so. */
-export class LateTool implements Tool {
+export class LateTool<Late extends Tool> implements Tool {
   readonly name: Tool["name"];
   readonly uses: Tool["uses"];
-  readonly #load: (card: HTMLElement) => Promise<Tool>;
-  #tool: Tool | null = null;
-  #coming = false;
+  readonly #load: (card: HTMLElement) => Promise<Late>;
+  #tool: Late | null = null;
+  #coming: Promise<Late | null> | null = null;
 
-  constructor(name: Tool["name"], uses: Tool["uses"], load: (card: HTMLElement) => Promise<Tool>) {
+  constructor(name: Tool["name"], uses: Tool["uses"], load: (card: HTMLElement) => Promise<Late>) {
     this.name = name;
     this.uses = uses;
     this.#load = load;
@@ -21,10 +21,21 @@ export class LateTool implements Tool {
     else void this.ready();
   }
 
-  /** The tool itself. `null`: it could not be downloaded, or is being downloaded already. */
-  async ready(): Promise<Tool | null> {
-    if (this.#tool || this.#coming) return this.#tool;
-    this.#coming = true;
+  /** The tool, if it has been downloaded. */
+  get here(): Late | null {
+    return this.#tool;
+  }
+
+  /** Downloads the tool. `null`: it could not be downloaded. */
+  ready(): Promise<Late | null> {
+    this.#coming ??= this.#download().finally(() => {
+      this.#coming = null;
+    });
+    return this.#coming;
+  }
+
+  async #download(): Promise<Late | null> {
+    if (this.#tool) return this.#tool;
     const card = byId(`${this.name}-card`);
     card.textContent = "Loading …";
     try {
@@ -33,7 +44,6 @@ export class LateTool implements Tool {
     } catch {
       card.textContent = "This tool could not be loaded. Open it again to try once more.";
     }
-    this.#coming = false;
     return this.#tool;
   }
 

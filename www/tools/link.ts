@@ -1,19 +1,27 @@
-// Marks and the selection as parameters of the address. Points are named by their index in the cloud.
+// Marks, the selection and stations as parameters of the address. Points are named by their index in the cloud.
 import { MARK_PARAMETERS, type MarkParameter } from "../settings/address.ts";
+import { PLACE, POSITIVE } from "../settings/kinds.ts";
+import { gapsOf, indicesOf } from "./gaps.ts";
 import type { Label } from "./label.ts";
+import type { LateTool } from "./late-tool.ts";
 import type { Measure } from "./measure.ts";
+import { THROUGH } from "./measure/words.ts";
 import type { Select } from "./select.ts";
+import { LONGEST_NAME, type Station } from "./stations/station.ts";
+import type { Stations } from "./stations/stations.ts";
 
 /** The longest text of each parameter, in characters. Many programs cut an address after 2,000 or a little more. */
 const LONGEST = 600;
 const LONGEST_LABEL = 80;
-const RADIX = 36;
 
 /** The tools whose results are part of the address. */
 export interface Marked {
   measure: Measure;
   label: Label;
   select: Select;
+  stations: LateTool<Stations>;
+  /** Whether hidden points count as well. */
+  through: { checked: boolean };
 }
 
 export interface Link {
@@ -24,15 +32,26 @@ export interface Link {
 
 const SAID: Record<MarkParameter, string> = {
   measure: "the distances",
+  area: "the area",
+  profile: "the profile",
   label: "the labels",
   select: "the selection",
+  station: "the stations",
 };
 
-export function linkOf({ measure, label, select }: Marked): Link {
+export function noMarks(): Link["parameters"] {
+  return { measure: [], area: [], profile: [], label: [], select: [], station: [] };
+}
+
+export function linkOf({ measure, label, select, stations }: Marked): Link {
+  const { other } = measure;
   const parameters: Link["parameters"] = {
     measure: measure.pairs.map((ends) => ends.join()),
+    area: other?.mode === "area" ? [other.words] : [],
+    profile: other?.mode === "profile" ? [other.words] : [],
     label: label.texts.map(({ index, text }) => `${index},${text}`),
-    select: select.indices.length > 0 ? [gapsOf(select.indices)] : [],
+    select: select.indices.length > 0 ? [gapsOf(select.indices, LONGEST)] : [],
+    station: (stations.here?.all ?? []).map(({ name, at }) => `${at.join()},${name}`),
   };
   const left: string[] = [];
   for (const name of MARK_PARAMETERS) {
@@ -43,67 +62,127 @@ export function linkOf({ measure, label, select }: Marked): Link {
   return { parameters, left };
 }
 
-/** Sets the marks of an address. Returns whether each of them has its points in a cloud of `count` points. */
-export function restore(search: string, { measure, label, select }: Marked, count: number): boolean {
+/**
+ * Sets the marks of an address. Resolves with whether each of them suits a cloud of `count` points. `final` waits for
+ * the final picture, and resolves with whether this cloud is still on screen.
+ */
+export async function restore(
+  search: string,
+  marked: Marked,
+  count: number,
+  final: () => Promise<boolean>,
+): Promise<boolean> {
   const query = new URLSearchParams(search);
-  let isWhole = true;
-  const indexOf = (text: string | undefined) => {
-    const index = /^\d{1,10}$/.test(text ?? "") ? Number(text) : count;
-    return index < count ? index : null;
+  const asked: Asked = {
+    all: (name) => query.getAll(name).slice(0, LONGEST),
+    index: (word) => {
+      const index = /^\d{1,10}$/.test(word ?? "") ? Number(word) : count;
+      return index < count ? index : null;
+    },
   };
-  for (const text of query.getAll("measure").slice(0, LONGEST)) {
+  const done = [restoreDistances(asked, marked), restoreLabels(asked, marked), restoreSelection(asked, marked, count)];
+  // These two need code that is downloaded first.
+  done.push(await restoreOther(asked, marked, final));
+  done.push(await restoreStations(asked, marked, count, final));
+  return done.every(Boolean);
+}
+
+/** The parameters of an address. */
+interface Asked {
+  all: (name: MarkParameter) => string[];
+  /** `null`: the word is no index of a point. */
+  index: (word: string | undefined) => number | null;
+}
+
+function restoreDistances({ all, index }: Asked, { measure }: Marked): boolean {
+  let isWhole = true;
+  for (const text of all("measure")) {
     const [from, to, more] = text.split(",");
-    const ends = [indexOf(from), indexOf(to)] as const;
+    const ends = [index(from), index(to)] as const;
     if (ends[0] === null || ends[1] === null || more !== undefined) isWhole = false;
     else measure.measure(ends[0], ends[1]);
   }
-  for (const text of query.getAll("label").slice(0, LONGEST)) {
-    const comma = text.indexOf(",");
-    const index = comma < 0 ? null : indexOf(text.slice(0, comma));
-    const words = text.slice(comma + 1, comma + 1 + LONGEST_LABEL).trim();
-    if (index === null || words === "") isWhole = false;
-    else label.add(index, words);
-  }
-  const selected = query.get("select");
-  const indices = selected === null ? null : indicesOf(selected, count);
-  if (indices) select.choose(indices);
-  else if (selected !== null) isWhole = false;
   return isWhole;
 }
 
-/**
- * Writes ascending indices as gaps, to base 36. Each gap is counted from the point after the last one. "gap-more"
- * stands for a point and so many points after it: "3-4.2" are 3, 4, 5, 6, 7 and 10. Ends when the text is longer than an
- * address takes.
- */
-export function gapsOf(indices: Uint32Array): string {
-  const parts: string[] = [];
-  let next = 0;
-  let length = 0;
-  for (let i = 0; i < indices.length && length <= LONGEST + 1;) {
-    const first = indices[i]!;
-    let run = 1;
-    while (indices[i + run] === first + run) run++;
-    const part = (first - next).toString(RADIX) + (run > 1 ? `-${(run - 1).toString(RADIX)}` : "");
-    parts.push(part);
-    length += part.length + 1;
-    next = first + run;
-    i += run;
+function restoreLabels({ all, index }: Asked, { label }: Marked): boolean {
+  let isWhole = true;
+  for (const text of all("label")) {
+    const comma = text.indexOf(",");
+    const at = comma < 0 ? null : index(text.slice(0, comma));
+    const words = text.slice(comma + 1, comma + 1 + LONGEST_LABEL).trim();
+    if (at === null || words === "") isWhole = false;
+    else label.add(at, words);
   }
-  return parts.join(".");
+  return isWhole;
 }
 
-/** Reads indices that `gapsOf` has written. `null`: it is something else, or the cloud has too few points. */
-export function indicesOf(text: string, count: number): Uint32Array | null {
-  const found: number[] = [];
-  let next = 0;
-  for (const part of text.split(".")) {
-    const [, gap, more = "0"] = /^([\da-z]{1,7})(?:-([\da-z]{1,7}))?$/.exec(part) ?? [];
-    if (gap === undefined) return null;
-    const first = next + Number.parseInt(gap, RADIX);
-    next = first + Number.parseInt(more, RADIX) + 1;
-    if (next > count) return null;
-    for (let index = first; index < next; index++) found.push(index);
-  }
-  return Uint32Array.from(found);
+function restoreSelection({ all }: Asked, { select }: Marked, count: number): boolean {
+  const [text] = all("select");
+  const indices = text === undefined ? null : indicesOf(text, count);
+  if (indices) select.choose(indices);
+  return text === undefined || indices !== null;
+}
+
+/** An area or a profile. The page shows one of them at a time, so a second one is left out. */
+async function restoreOther(
+  { all, index }: Asked,
+  { measure, through }: Marked,
+  final: () => Promise<boolean>,
+): Promise<boolean> {
+  const [other, ...more] = [
+    ...all("area").map((text) => areaOf(text, index)),
+    ...all("profile").map((text) => profileOf(text, index)),
+  ];
+  if (!other) return other === undefined;
+  const put = await measure.ready(other.mode);
+  if (!(await final())) return true;
+  if (other.isThrough) through.checked = true;
+  put?.(other.indices, other.width);
+  return put !== null && more.length === 0;
+}
+
+interface Other {
+  mode: "area" | "profile";
+  indices: number[];
+  width?: number;
+  isThrough?: boolean;
+}
+
+function areaOf(text: string, index: Asked["index"]): Other | null {
+  const words = text.slice(0, LONGEST).split(",");
+  const indices = words.map(index).filter((corner) => corner !== null);
+  return indices.length < words.length || indices.length < 3 ? null : { mode: "area", indices };
+}
+
+/** "i,j,width", and `THROUGH` if it has the hidden points of its strip, too. */
+function profileOf(text: string, index: Asked["index"]): Other | null {
+  const [from, to, width, through, more] = text.split(",");
+  const indices = [index(from), index(to)].filter((end) => end !== null);
+  const wide = POSITIVE.parse(width ?? "");
+  const isThrough = through === THROUGH;
+  if (indices.length < 2 || wide === undefined || more !== undefined) return null;
+  return through === undefined || isThrough ? { mode: "profile", indices, width: wide, isThrough } : null;
+}
+
+async function restoreStations(
+  { all }: Asked,
+  { stations }: Marked,
+  count: number,
+  final: () => Promise<boolean>,
+): Promise<boolean> {
+  const places = all("station").map(stationOf);
+  const known = places.filter((station) => station !== null);
+  if (known.length === 0 || count === 0) return places.length === 0;
+  const tool = await stations.ready();
+  if (!(await final())) return true;
+  tool?.add(known);
+  return tool !== null && known.length === places.length;
+}
+
+function stationOf(text: string): Station | null {
+  const [x, y, z, ...words] = text.split(",");
+  const at = PLACE.parse([x, y, z].join());
+  const name = words.join().trim().slice(0, LONGEST_NAME);
+  return at && name !== "" ? { name, at } : null;
 }

@@ -23,7 +23,7 @@ export class Measure implements Tool {
   #lines: { ends: readonly [number, number]; mark: Mark }[] = [];
   readonly #mode = modeChoice(() => {
     this.clear();
-    void this.#begin();
+    void this.#begin(this.#mode.value);
   });
   /** The measure of another kind. Its code is downloaded when it is chosen. */
   #other: AreaMeasure | Profile | null = null;
@@ -41,8 +41,7 @@ export class Measure implements Tool {
     if (typeof index === "string") {
       this.#output.textContent = index;
     } else if (this.#other) {
-      this.#output.replaceChildren(...this.#other.add(index));
-      this.#remove.hidden = false;
+      this.#add(this.#other, index);
     } else if (!this.#from) {
       this.#from = { index, mark: this.#bench.marks.ring(index) };
       this.#output.textContent = "Now the second point.";
@@ -51,6 +50,33 @@ export class Measure implements Tool {
       this.#drop();
       this.measure(from, index);
     }
+  }
+
+  /** The area or the profile as words of the address. `null`: there is none, or it is not finished. */
+  get other(): { mode: OtherMode; words: string } | null {
+    const words = this.#other?.words ?? null;
+    return words === null ? null : { mode: this.#other!.mode, words };
+  }
+
+  /**
+   * Chooses an area or a profile. Resolves with a function that puts it on points. `null`: its code could not be
+   * downloaded. `width`: the width of a profile's strip.
+   */
+  async ready(mode: OtherMode): Promise<((indices: readonly number[], width?: number) => void) | null> {
+    this.#mode.value = mode;
+    await this.#begin(mode);
+    const other = this.#other;
+    if (other?.mode !== mode) return null;
+    return (indices, width) => {
+      // The user may have chosen something else since.
+      if (this.#other === other) for (const index of indices) this.#add(other, index, width);
+    };
+  }
+
+  #add(other: AreaMeasure | Profile, index: number, width?: number): void {
+    this.#output.replaceChildren(...other.add(index, width));
+    this.#remove.hidden = false;
+    this.#bench.changed();
   }
 
   /** The pairs of points whose distances are shown. */
@@ -98,8 +124,7 @@ export class Measure implements Tool {
     this.#bench.changed();
   }
 
-  async #begin(): Promise<void> {
-    const mode = this.#mode.value;
+  async #begin(mode: Mode): Promise<void> {
     if (this.#other && "element" in this.#other) this.#other.element.remove();
     this.#other = null;
     this.#invite();
@@ -126,7 +151,8 @@ export class Measure implements Tool {
   }
 }
 
-type Mode = "distance" | "area" | "profile";
+type OtherMode = AreaMeasure["mode"] | Profile["mode"];
+type Mode = "distance" | OtherMode;
 
 /** The choice of what is measured. It is made here, so that it is not part of the first download. */
 function modeChoice(onChange: () => void): Segmented<Mode> {

@@ -2,7 +2,7 @@ import "../styles/tools.css";
 import "../styles/compare.css";
 import { Vector3 } from "three";
 import { upVector } from "../cloud/cloud.ts";
-import { byId } from "../controls/dom.ts";
+import { byId, nextFrame } from "../controls/dom.ts";
 import { type Action, isKeyOf, pressed } from "../controls/keys.ts";
 import type { MarkParameter } from "../settings/address.ts";
 import type { Store } from "../settings/store.ts";
@@ -16,7 +16,7 @@ import { ScaleBar } from "./information/scale-bar.ts";
 import { bindKeysSheet } from "./keys.ts";
 import { Label } from "./label.ts";
 import { LateTool } from "./late-tool.ts";
-import { linkOf, type Marked, restore } from "./link.ts";
+import { linkOf, type Marked, noMarks, restore } from "./link.ts";
 import { Marks } from "./marks.ts";
 import { Measure } from "./measure.ts";
 import { Patience } from "./patience.ts";
@@ -68,7 +68,6 @@ export class Tools {
     const select: Select = new Select(bench, this.#canvas, () => this.#active === select);
     const measure = new Measure(bench);
     const label = new Label(bench);
-    this.#marked = { measure, label, select };
     const exports = new Export(
       bench,
       () => select.indices,
@@ -88,6 +87,7 @@ export class Tools {
       const { Stations } = await import("./stations/stations.ts");
       return new Stations(bench, store, card);
     });
+    this.#marked = { measure, label, select, stations, through: this.#through };
     this.#tools = [new Pick(bench), measure, select, label, stations, exports];
     for (const tool of this.#tools) {
       byId(`tool-${tool.name}`).addEventListener("click", () => {
@@ -114,19 +114,25 @@ export class Tools {
     return this.#compare.introducing;
   }
 
-  /** The marks and the selection for the address. Those of a streamed cloud end when the camera moves. */
+  /** Marks, the selection and stations for the address. Those of a streamed cloud end when the camera moves. */
   get marks(): Record<MarkParameter, string[]> {
     const isStreamed = this.#viewer.cloud !== null && this.#viewer.scene.answer.whole !== undefined;
-    return isStreamed ? { measure: [], label: [], select: [] } : linkOf(this.#marked).parameters;
+    return isStreamed ? noMarks() : linkOf(this.#marked).parameters;
   }
 
-  /** Sets the marks of an address. Returns a sentence if some of them do not suit the cloud. */
-  restore(search: string): string | null {
+  /** Sets the marks of an address. Resolves with a sentence if some of them do not suit the cloud. */
+  async restore(search: string): Promise<string | null> {
     const { cloud, answer } = this.#viewer.scene;
     const count = answer.whole ? 0 : cloud.count;
-    return restore(search, this.#marked, count)
+    const isHere = () => this.#viewer.cloud === cloud;
+    // A profile has the points of the final picture.
+    const final = async () => {
+      while (isHere() && !this.#viewer.isFinal) await nextFrame();
+      return isHere();
+    };
+    return (await restore(search, this.#marked, count, final))
       ? null
-      : "Some marks or the selection in the address do not suit this cloud and are left out.";
+      : "Some marks, stations or the selection in the address do not suit this cloud. They are left out.";
   }
 
   /** Called before another cloud is shown. */

@@ -16,12 +16,14 @@ export class Workshop {
   /** An address whose marks wait for the tools. */
   #search: string | null = null;
   readonly #introduce: boolean;
+  readonly #changed: () => void;
   /** The last known exponent of the automatic radius. */
   #automatic: number | null = null;
 
   constructor(viewer: Viewer, store: Store, actions: ExportActions, introduce: boolean) {
     this.#viewer = viewer;
     this.#introduce = introduce;
+    this.#changed = actions.changed;
     this.#load = async () => {
       const [{ Tools }, { Plot }] = await Promise.all([import("./tools.ts"), import("./plot.ts")]);
       return { tools: new Tools(viewer, store, actions, introduce), plot: new Plot(viewer, store) };
@@ -33,7 +35,7 @@ export class Workshop {
     return this.#here ? this.#here.tools.introducing : this.#introduce;
   }
 
-  /** The marks and the selection for the address. `null`: the tools are not there yet. */
+  /** Marks, the selection and stations for the address. `null`: the tools are not there yet. */
   get marks(): Record<MarkParameter, string[]> | null {
     return this.#here && this.#search === null ? this.#here.tools.marks : null;
   }
@@ -59,9 +61,12 @@ export class Workshop {
     this.#search = search;
     await this.#open();
     const here = this.#here;
-    if (!here || this.#search === null || !this.#viewer.cloud) return null;
-    const said = here.tools.restore(this.#search);
+    if (!here || search === null || this.#search !== search || !this.#viewer.cloud) return null;
+    const said = await here.tools.restore(search);
+    // Another cloud may have come.
+    if (this.#search !== search) return null;
     this.#search = null;
+    this.#changed();
     return said;
   }
 

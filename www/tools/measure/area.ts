@@ -5,6 +5,7 @@ import { row } from "../pick.ts";
 
 /** The area of a polygon through clicked points: of the polygon itself, and of its shadow on the ground. */
 export class AreaMeasure {
+  readonly mode = "area";
   readonly invitation = "Click the corners.";
   readonly #bench: Bench;
   #corners: number[] = [];
@@ -12,6 +13,11 @@ export class AreaMeasure {
 
   constructor(bench: Bench) {
     this.#bench = bench;
+  }
+
+  /** The corners, for the address. `null`: there are fewer than three. */
+  get words(): string | null {
+    return this.#corners.length < 3 ? null : this.#corners.join();
   }
 
   /** Takes a corner. Returns what is known then. */

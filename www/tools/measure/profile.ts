@@ -3,6 +3,7 @@ import { coordinatesAt, indexInFile, measured, measuresOf, split, wayBetween } f
 import { button, make, numberField } from "../make.ts";
 import type { Mark } from "../marks.ts";
 import type { Bench } from "../tool.ts";
+import { THROUGH } from "./words.ts";
 
 /** The width of the strip as a share of the length of the line, until the user gives one. */
 const WIDTH = 0.02;
@@ -14,10 +15,14 @@ interface Strip {
   along: Float64Array;
   height: Float64Array;
   length: number;
+  width: number;
+  /** Whether hidden points belong to it. */
+  isThrough: boolean;
 }
 
 /** A profile: the heights of the points in a strip between two clicked points. */
 export class Profile {
+  readonly mode = "profile";
   readonly invitation = "Click both ends of the profile.";
   readonly element: HTMLElement;
   readonly #bench: Bench;
@@ -32,6 +37,7 @@ export class Profile {
     this.#bench = bench;
     this.#width.input.addEventListener("change", () => {
       this.#find();
+      bench.changed();
     });
     this.#more = make(
       "div",
@@ -41,9 +47,21 @@ export class Profile {
       button("Save as CSV", () => void this.#save()),
     );
     this.element = this.#more;
+    // The plot has the colors of the theme in which it was drawn.
+    new MutationObserver(() => {
+      if (this.#strip) this.#plot(this.#strip);
+    }).observe(document.documentElement, { attributeFilter: ["data-theme"] });
   }
 
-  add(index: number): Node[] {
+  /** Both ends, the width and whether hidden points belong to it, for the address. `null`: it is not finished. */
+  get words(): string | null {
+    if (!this.#strip || !(this.#strip.width > 0)) return null;
+    const { width, isThrough } = this.#strip;
+    return [...this.#ends, width, ...(isThrough ? [THROUGH] : [])].join();
+  }
+
+  /** Takes an end. Returns what is known then. `width`: the width of the strip. */
+  add(index: number, width?: number): Node[] {
     if (this.#ends.length === 2) this.clear();
     this.#ends.push(index);
     const [from, to] = this.#ends;
@@ -56,7 +74,7 @@ export class Profile {
     const measures = measuresOf(viewer.cloud!);
     const { horizontal } = split(wayBetween(viewer.scene, from!, to, measures), this.#bench.upward());
     this.#mark = this.#bench.marks.line(from!, to, measured(horizontal, measures.unit));
-    this.#width.input.value = String(Number((WIDTH * horizontal).toPrecision(2)));
+    this.#width.input.value = String(width ?? Number((WIDTH * horizontal).toPrecision(2)));
     this.#more.hidden = false;
     return [document.createTextNode(this.#find())];
   }
@@ -78,8 +96,9 @@ export class Profile {
     const flat = (way: readonly number[]) => way.map((value, axis) => (upward[axis] === 0 ? value : 0));
     const line = flat(wayBetween(scene, from, to, measures));
     const length = Math.hypot(...line);
-    const half = Math.abs(this.#width.input.valueAsNumber) / 2 || 0;
-    const among = through() ? null : scene.visible;
+    const width = Math.abs(this.#width.input.valueAsNumber) || 0;
+    const isThrough = through();
+    const among = isThrough ? null : scene.visible;
     const count = among?.length ?? scene.cloud.count;
     const found: { index: number; along: number; height: number }[] = [];
     for (let k = 0; k < count; k++) {
@@ -88,7 +107,7 @@ export class Profile {
       const along = length > 0 ? flat(way).reduce((sum, value, axis) => sum + value * line[axis]!, 0) / length : 0;
       if (along < 0 || along > length) continue;
       const across = Math.sqrt(Math.max(0, Math.hypot(...flat(way)) ** 2 - along ** 2));
-      if (across > half) continue;
+      if (across > width / 2) continue;
       const height = upward.reduce(
         (sum, part, axis) => sum + part * measures.scale[axis]! * scene.positions[3 * index + axis]!,
         0,
@@ -101,13 +120,16 @@ export class Profile {
       along: Float64Array.from(found, ({ along }) => along),
       height: Float64Array.from(found, ({ height }) => height),
       length,
+      width,
+      isThrough,
     };
-    const said = `${found.length.toLocaleString("en-US")} points in the strip`;
-    this.#plot(this.#strip, said);
-    return said;
+    this.#plot(this.#strip);
+    return saidOf(this.#strip);
   }
 
-  #plot({ along, height, length }: Strip, said: string): void {
+  #plot(strip: Strip): void {
+    const { along, height, length } = strip;
+    const said = saidOf(strip);
     const [low, high] = height.reduce(
       ([a, b], value) => [Math.min(a, value), Math.max(b, value)],
       [Infinity, -Infinity],
@@ -157,4 +179,8 @@ export class Profile {
       yield `${lines.join("\n")}\n`;
     }
   }
+}
+
+function saidOf({ indices: { length } }: Strip): string {
+  return `${length.toLocaleString("en-US")} ${length === 1 ? "point" : "points"} in the strip`;
 }

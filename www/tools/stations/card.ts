@@ -1,5 +1,5 @@
 import { button, make, numberField, tableRow } from "../make.ts";
-import type { Station } from "./csv.ts";
+import type { Station } from "./station.ts";
 import type { Viewshed } from "./viewshed.ts";
 
 export interface StationActions {
@@ -27,10 +27,11 @@ export class StationCard {
     make(
       "thead",
       {},
-      make("tr", {}, ...["Station", "Sees", "Alone"].map((text) => make("th", { scope: "col" }, text)), make("td")),
+      make("tr", {}, ...["Station", "Sees", "Only it"].map((text) => make("th", { scope: "col" }, text)), make("td")),
     ),
     this.#body,
   );
+  readonly #meanings = make("ul", { class: "meanings", "aria-label": "Colors" });
   readonly #unseen = make("p", { class: "note", id: "stations-unseen" });
   readonly #bar = make("progress", { max: "1", "aria-label": "Finding what the stations see" });
   readonly #work: HTMLElement;
@@ -52,7 +53,8 @@ export class StationCard {
     this.#select = button("Select these", actions.selectUnseen);
     this.#clear = button("Remove all", actions.clear, { hidden: true });
     this.#suggest = button("Suggest one", actions.suggest, {
-      title: "The place on a grid over the ground from which most points are seen that no station sees",
+      title:
+        "Tries places on a grid over the ground. Takes the place that sees most of the points that no station sees.",
     });
     this.#results = make(
       "div",
@@ -70,6 +72,7 @@ export class StationCard {
       this.#said,
       this.#table,
       this.#work,
+      this.#meanings,
       this.#unseen,
       this.#results,
       this.#height.row,
@@ -115,7 +118,7 @@ export class StationCard {
   /** `found`: `null` as long as it is not known what the stations see. */
   show(stations: readonly Station[], found: Viewshed | null): void {
     this.#table.hidden = this.#clear.hidden = stations.length === 0;
-    this.#results.hidden = this.#unseen.hidden = found === null;
+    this.#results.hidden = this.#unseen.hidden = this.#meanings.hidden = found === null;
     this.#body.replaceChildren(
       ...stations.map(({ name }, i) => {
         const row = found?.rows[i];
@@ -135,5 +138,17 @@ export class StationCard {
     this.#unseen.textContent = `No station sees ${number.format(found.unseen)} of ${number.format(total)} points (${share}).`;
     this.#unseen.dataset["count"] = String(found.unseen);
     this.#select.hidden = found.unseen === 0;
+  }
+
+  /** Says what the colors of the points mean. Of many colors, only the first two and the last one. */
+  explain(meanings: readonly { label: string; color: string }[]): void {
+    const some = meanings.filter((_, i) => meanings.length <= 4 || i < 2 || i === meanings.length - 1);
+    this.#meanings.replaceChildren(
+      ...some.map(({ label, color }) => {
+        const swatch = make("i");
+        swatch.style.background = color;
+        return make("li", {}, swatch, label);
+      }),
+    );
   }
 }

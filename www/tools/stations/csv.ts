@@ -1,14 +1,6 @@
 import { columnsOf } from "../csv.ts";
 import type { Viewpoint } from "../../settings/settings.ts";
-
-/** A place from which a scanner or a camera looks. */
-export interface Station {
-  name: string;
-  at: Viewpoint;
-}
-
-/** More stations would make the list too long, and the colors too many to tell apart. */
-export const MOST_STATIONS = 50;
+import { LONGEST_NAME, type Station } from "./station.ts";
 
 /**
  * Reads stations from lines of name, x, y and z, or of x, y and z. The first line may hold names of columns; then they
@@ -25,7 +17,7 @@ export function readStations(text: string): Station[] {
     const at = axes.map((column) => (words[column] ? Number(words[column]) : NaN));
     if (!at.every(Number.isFinite))
       throw new Error(`Line ${line} is not a name and three numbers x, y, z: “${words.join(", ").slice(0, 40)}”.`);
-    return { name: words[title]?.slice(0, 40) || `S${i + 1}`, at: at as Viewpoint };
+    return { name: words[title]?.slice(0, LONGEST_NAME) || `S${i + 1}`, at: at as Viewpoint };
   });
   if (stations.length === 0) throw new Error("The file has no lines of name, x, y, z.");
   return stations;

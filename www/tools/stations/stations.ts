@@ -1,4 +1,3 @@
-import type { Attribute } from "../../cloud/cloud.ts";
 import { OWN_COLORS, type Viewpoint } from "../../settings/settings.ts";
 import type { Store } from "../../settings/store.ts";
 import { STATION_COLORS } from "../../settings/table.ts";
@@ -12,8 +11,9 @@ import { plyFields, plyParts } from "../ply.ts";
 import type { Bench, Tool } from "../tool.ts";
 import { candidatesOver } from "./candidates.ts";
 import { StationCard } from "./card.ts";
-import { MOST_STATIONS, readStations, type Station } from "./csv.ts";
 import { countColors } from "./colors.ts";
+import { readStations } from "./csv.ts";
+import { MOST_STATIONS, type Station } from "./station.ts";
 import { type Under, type Viewshed, ViewshedFinder } from "./viewshed.ts";
 
 const INVITATION = "Click where a station stands.";
@@ -40,7 +40,7 @@ export class Stations implements Tool {
     this.#card = new StationCard(card, {
       here: () => {
         if (bench.viewer.cloud)
-          this.#add([{ name: this.#nextName(), at: store.current.freeze ?? bench.viewer.viewpoint }]);
+          this.add([{ name: this.#nextName(), at: store.current.freeze ?? bench.viewer.viewpoint }]);
       },
       read: (file) => void this.#read(file),
       suggest: () => void this.#suggest(),
@@ -72,13 +72,17 @@ export class Stations implements Tool {
     this.#invite();
   }
 
-  /** The places, for a link to the page. */
-  get places(): readonly Station[] {
+  /** The stations, in the order in which they were added. */
+  get all(): readonly Station[] {
     return this.#stations;
   }
 
-  place(stations: readonly Station[]): void {
-    this.#add(stations);
+  add(stations: readonly Station[]): void {
+    const room = MOST_STATIONS - this.#stations.length;
+    this.#stations = [...this.#stations, ...stations.slice(0, room)];
+    this.#changed(
+      stations.length > room ? `The page takes ${MOST_STATIONS} stations. The others are left out.` : undefined,
+    );
   }
 
   click(spot: Spot): void {
@@ -89,7 +93,7 @@ export class Stations implements Tool {
     }
     const { positions } = this.#bench.viewer.scene;
     const at = this.#bench.upward().map((part, axis) => positions[3 * index + axis]! + part * this.#card.height);
-    this.#add([{ name: this.#nextName(), at: at as Viewpoint }]);
+    this.add([{ name: this.#nextName(), at: at as Viewpoint }]);
   }
 
   cancel(): boolean {
@@ -132,17 +136,9 @@ export class Stations implements Tool {
     return `S${i}`;
   }
 
-  #add(stations: readonly Station[]): void {
-    const room = MOST_STATIONS - this.#stations.length;
-    this.#stations = [...this.#stations, ...stations.slice(0, room)];
-    this.#changed(
-      stations.length > room ? `The page takes ${MOST_STATIONS} stations; the others are left out.` : undefined,
-    );
-  }
-
   async #read(file: File): Promise<void> {
     try {
-      this.#add(readStations(await file.text()));
+      this.add(readStations(await file.text()));
     } catch (error) {
       this.#card.say((error as Error).message);
     }
@@ -151,6 +147,7 @@ export class Stations implements Tool {
   /** Asks again, since there are other stations. */
   #changed(note?: string): void {
     this.#show(null);
+    this.#bench.changed();
     if (this.#stations.length === 0) {
       this.#running?.abort();
       this.#card.say(INVITATION);
@@ -179,7 +176,7 @@ export class Stations implements Tool {
       return;
     }
     this.#suggested++;
-    this.#add([{ name: `Suggested ${this.#suggested}`, at: best.at }]);
+    this.add([{ name: `Suggested ${this.#suggested}`, at: best.at }]);
   }
 
   get #finderNow(): ViewshedFinder {
@@ -199,7 +196,7 @@ export class Stations implements Tool {
       return await ask({ signal, onProgress });
     } catch (error) {
       if (running === this.#running)
-        this.#card.say(signal.aborted ? "Stopped." : `It could not be found: ${(error as Error).message}.`);
+        this.#card.say(signal.aborted ? "Stopped." : `The answer could not be found: ${(error as Error).message}.`);
       return undefined;
     } finally {
       if (running === this.#running) {
@@ -216,7 +213,9 @@ export class Stations implements Tool {
     this.#pins = this.#stations.map(({ name, at }) => marks.pin(at, name));
     this.#card.show(this.#stations, found);
     if (found) {
-      viewer.setAttribute(STATION_COLORS, attributeOf(found));
+      const { labels, colors, ...attribute } = colorsOf(found);
+      viewer.setAttribute(STATION_COLORS, { ...attribute, labels: Object.fromEntries(labels.entries()), colors });
+      this.#card.explain(labels.map((label, count) => ({ label, color: colors[count]! })));
       this.#store.change({ color: STATION_COLORS });
     } else if (this.#stations.length === 0 && this.#store.current.color === STATION_COLORS) {
       this.#store.change({ color: OWN_COLORS });
@@ -258,19 +257,13 @@ export class Stations implements Tool {
   }
 }
 
-/** How many stations see each point, as an attribute to color by. */
-function attributeOf({ counts, rows }: Viewshed): Attribute {
+/** How many stations see each point: the values, and the label and the color of each count. */
+function colorsOf({ counts, rows }: Viewshed) {
   const most = counts.reduce((a, b) => Math.max(a, b), 0);
   const labels = Array.from({ length: most + 1 }, (_, count) =>
     count === 0 ? "seen by none" : `seen by ${count}${count === rows.length && count > 1 ? " (all)" : ""}`,
   );
-  return {
-    name: STATION_COLORS,
-    kind: "category",
-    values: counts,
-    labels: Object.fromEntries(labels.entries()),
-    colors: countColors(most),
-  };
+  return { name: STATION_COLORS, kind: "category" as const, values: counts, labels, colors: countColors(most) };
 }
 
 function* csvParts(indices: Uint32Array, line: (index: number) => string): Generator<string> {

@@ -1,7 +1,7 @@
 import type { Inquiry } from "../../ask/inquiry.ts";
 import type { Method } from "../../ask/question.ts";
 import type { Settings, Viewpoint } from "../../settings/settings.ts";
-import type { Station } from "./csv.ts";
+import type { Station } from "./station.ts";
 
 /** What the stations see together. */
 export interface Viewshed {
