@@ -66,7 +66,7 @@ const sheetOfKeys: Step = {
   },
 };
 
-const lesson: Step = {
+export const LESSON: Step = {
   name: "how it works",
   act: async (page) => {
     await page.keyboard.press("Escape");
@@ -75,7 +75,7 @@ const lesson: Step = {
   },
 };
 
-const refused: Step = {
+export const REFUSED: Step = {
   name: "a file that is refused",
   act: async (page) => {
     await page.keyboard.press("Escape");
@@ -86,7 +86,7 @@ const refused: Step = {
   },
 };
 
-const underWay: Step = {
+export const LOADING: Step = {
   name: "loading, to be stopped",
   act: async (page) => {
     // The answer never comes.
@@ -110,7 +110,7 @@ export const VISITS: Visit[] = [
     name: "1280 × 800",
     query: `?${SMALL}&hidden=dimmed`,
     options: WIDE,
-    steps: [first, unfolded, ...tools, sheetOfKeys, lesson, refused, underWay],
+    steps: [first, unfolded, ...tools, sheetOfKeys, LESSON, REFUSED, LOADING],
   },
   { name: "390 × 844", query: `?${SMALL}`, options: PHONE, steps: [first, sheet, unfolded] },
   { name: "in another page", query: `?${SMALL}&embed=1`, options: WIDE, steps: [first] },

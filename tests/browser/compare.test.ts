@@ -244,7 +244,9 @@ test("compared with the z-buffer: the counts follow its definition, live, and th
   expect(there.of).toBeLessThan(600);
   await expect.poll(async () => (await figures(page)).of).toBe(there.of);
   expect(await figures(page)).toMatchObject(there);
-  expect(await page.locator("#compare-result").textContent()).toContain(`Of the ${there.of} points in the picture`);
+  expect(await page.locator("#compare-result").textContent()).toContain(
+    `Shares of the ${there.of} points in the picture`,
+  );
 
   // 1.75 spacings of a ball of radius 2 with 600 points are about 0.5 units.
   await page.locator("#splat-auto").click();
@@ -330,7 +332,7 @@ test("compared with the true surface, looks stand beside the one hull, with the 
   expect(wrong + missed).toBeLessThan(hullWrong + hullMissed);
   expect(await page.locator("#compare-figures tr").nth(1).innerText()).toMatch(/^3 looks\s/);
   expect(await page.locator("#compare-result").textContent()).toMatch(
-    /together [\d.]+\s% are wrong, with one hull [\d.]+\s%\.$/,
+    /Together [\d.]+\s% are wrong, with one hull [\d.]+\s%\.$/,
   );
 });
 
@@ -356,12 +358,12 @@ test("if no surface is known, the choice is disabled and says why", async () => 
   served.set("clouds/ball.ply", binaryPly(ball(300), "float", true));
   const page = await openReady("?src=clouds/ball.ply&compare=0.5&against=surface&looks=0", SMALL);
   expect(await page.locator("#message p").textContent()).toBe(
-    "There is no true surface to compare with, so the comparison is with all points. It is known of samples, and of PLY and OBJ meshes that are shown whole.",
+    "There is no true surface to compare with, so the comparison is with all points. A true surface is known only for samples, and for PLY and OBJ meshes that are shown whole.",
   );
   expect(await page.getByLabel("True surface").isDisabled()).toBe(true);
   expect(await page.getByRole("radio", { name: "All points" }).isChecked()).toBe(true);
   expect(await page.locator("#against-note").textContent()).toBe(
-    "No true surface. It is known of samples, and of PLY and OBJ meshes that are shown whole.",
+    "No true surface. A true surface is known only for samples, and for PLY and OBJ meshes that are shown whole.",
   );
   await expect.poll(() => page.url()).not.toContain("against");
 

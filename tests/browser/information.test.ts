@@ -47,6 +47,7 @@ test("the length of the scale bar is 1, 2 or 5 times a power of ten, with a fitt
   );
   expect(lengthText(5000, foot)).toBe("5,000\u00a0ft");
   expect(lengthText(0.05, null)).toBe("0.05\u00a0units");
+  expect(lengthText(1, null)).toBe("1\u00a0unit");
 });
 
 test("the information of a LAS file: extents with its digits, spacing, coordinate system and columns", async () => {
@@ -66,7 +67,7 @@ test("a file without a coordinate system says so, and its lengths have no unit",
   served.set("clouds/ball.ply", asciiPly(ball(600)));
   const page = await openReady("?src=clouds/ball.ply");
   const rows = await information(page);
-  expect(rows).toMatchObject({ File: "ball.ply", Coordinates: "No system in the file" });
+  expect(rows).toMatchObject({ File: "ball.ply", Coordinates: "The file names no system" });
   expect(rows["Size"]).toMatch(/units$/);
   expect(rows["Density"]).toBeUndefined();
 

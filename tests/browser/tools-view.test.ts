@@ -10,6 +10,7 @@ import {
   PHONE,
   picture,
   refiltered,
+  serveSmallDragon,
   settled,
   status,
   unfold,
@@ -73,10 +74,11 @@ test("the divider shows all points to its left and visible ones to its right, by
 });
 
 test("the bare page opens divided until the camera is first moved, and stays divided if the address asks for it", async () => {
+  serveSmallDragon();
   const page = await openReady();
   const divider = page.locator("#divider");
   expect(await divider.isVisible()).toBe(true);
-  expect(await page.locator("#compare-note span").first().textContent()).toBe("All 437,645 points");
+  expect(await page.locator("#compare-note span").first().textContent()).toBe("All 5,205 points");
   const before = await status(page);
   await drag(page, 60, 0);
   await refiltered(page, before);
@@ -172,7 +174,7 @@ test.for([
   { viewport: { width: 761, height: 600 } },
   PHONE,
   { ...PHONE, viewport: { width: 320, height: 600 } },
-])("every tool fits the canvas and covers no other ($viewport.width px)", async (options) => {
+])("every tool has its place and covers no other ($viewport.width px)", async (options) => {
   const page = await openReady("?sample=dragon_res4&against=zbuffer", options);
   expect(await tool(page, "Full screen").isVisible()).toBe(true);
   for (const name of ["Compare", "Pick", "Measure", "Select", "Label", "Export"]) {
@@ -188,7 +190,8 @@ test.for([
         const [low, high] = [Math.max(top, frame.top), Math.min(bottom, frame.bottom)];
         return { left, right, top: low, bottom: Math.max(low, high), width, height };
       };
-      const canvas = boxOf(document.getElementById("view")!);
+      // On a phone the tools may be under the canvas.
+      const [canvas, stage] = ["view", "stage"].map((id) => boxOf(document.getElementById(id)!));
       const shown = [
         ...document.querySelectorAll(
           "#tool-bar button, #tool-card button, #tool-card label, #tool-card output, #compare-card :is(button, label), #compare-note span",
@@ -197,8 +200,9 @@ test.for([
       const found: string[] = [];
       for (const [i, a] of shown.entries()) {
         const box = boxOf(a);
-        if (box.left < canvas.left || box.right > canvas.right || box.bottom > canvas.bottom || box.top < canvas.top)
-          found.push(`${a.textContent} leaves the canvas`);
+        const place = (a.closest("#tools") ? stage : canvas)!;
+        if (box.left < place.left || box.right > place.right || box.bottom > place.bottom || box.top < place.top)
+          found.push(`${a.textContent} leaves its place`);
         if (a.matches("#tool-bar button") && (box.width < 44 || box.height < 44))
           found.push(`${a.textContent} is too small`);
         if (a.scrollWidth > a.clientWidth + 1 && a.matches("button")) found.push(`${a.textContent} is cut off`);
@@ -216,6 +220,29 @@ test.for([
     // Cards are seen one at a time.
     if (name === "Compare") await tool(page, name).click();
   }
+});
+
+test("on a phone held upright, no card covers the cloud, and the cloud stays when a card says something else", async () => {
+  const page = await openReady("?sample=bunny", PHONE);
+  const boxes = () =>
+    page.evaluate(() => {
+      const [view, card] = ["view", "tool-card"].map((id) => document.getElementById(id)!.getBoundingClientRect());
+      return { height: view!.height, isUnder: card!.top >= view!.bottom };
+    });
+  await tool(page, "Pick").tap();
+  const { height, isUnder } = await boxes();
+  expect(isUnder).toBe(true);
+  expect(height).toBeGreaterThan(300);
+  for (const name of ["Pick", "Measure", "Select", "Label", "Stations"]) {
+    if (name !== "Pick") await tool(page, name).tap();
+    await page.locator("#view").press("Enter");
+    expect(await boxes(), name).toEqual({ height, isUnder });
+  }
+  // The cross for keyboards is in the middle of the picture.
+  const cross = await page.locator("#stage").evaluate((stage) => getComputedStyle(stage, "::after").top);
+  expect(Number.parseFloat(cross)).toBeCloseTo(height / 2 - 10, 0);
+  await tool(page, "Stations").tap();
+  expect((await boxes()).height).toBeGreaterThan(500);
 });
 
 test("a finger picks and labels; a long label stays in the picture, and its Remove button can be pressed", async () => {

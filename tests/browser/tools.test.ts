@@ -235,10 +235,10 @@ test("a lasso around nothing says that it has found nothing", async () => {
   await tool(page, "Select").click();
   await page.locator("#select-shape label", { hasText: "Box" }).click();
   await dragBox(page, { left: box.x + 5, top: box.y + 5, right: box.x + 40, bottom: box.y + 40 });
-  expect(await page.locator("#select-result").textContent()).toBe("No visible point in it.");
+  expect(await page.locator("#select-result").textContent()).toBe("No visible point inside.");
   await page.getByLabel("Through the surface").check();
   await dragBox(page, { left: box.x + 5, top: box.y + 5, right: box.x + 40, bottom: box.y + 40 });
-  expect(await page.locator("#select-result").textContent()).toBe("No point in it.");
+  expect(await page.locator("#select-result").textContent()).toBe("No point inside.");
 });
 
 test("a double click goes to the point: it gets into the middle of the picture, at half its distance", async () => {

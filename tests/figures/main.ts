@@ -16,6 +16,7 @@ import { radius } from "./radius.js";
 import { withFigures } from "./readme.js";
 import { reconstruction } from "./reconstruction.js";
 import { shadows } from "./shadows.js";
+import { takeScreens } from "./screens.js";
 import { Studio } from "./studio.js";
 
 const MAKERS: Record<string, Maker> = {
@@ -29,14 +30,15 @@ const MAKERS: Record<string, Maker> = {
 /** Documents that are written, not drawn. */
 const FIDELITY = "fidelity";
 const ACCESSIBILITY = "accessibility";
+/** Pictures of the page in every mode, which are not kept. Only drawn when they are asked for. */
+const PAGE = "page";
 const FOLDER = join(root, "tests", "figures");
 
-const names = process.argv.length > 2 ? process.argv.slice(2) : [...Object.keys(MAKERS), FIDELITY, ACCESSIBILITY];
-const unknown = names.find((name) => name !== FIDELITY && name !== ACCESSIBILITY && !(name in MAKERS));
+const ALL = [...Object.keys(MAKERS), FIDELITY, ACCESSIBILITY];
+const names = process.argv.length > 2 ? process.argv.slice(2) : ALL;
+const unknown = names.find((name) => name !== PAGE && !ALL.includes(name));
 if (unknown !== undefined) {
-  console.error(
-    `There is no figure named ${unknown}. There are: ${[...Object.keys(MAKERS), FIDELITY, ACCESSIBILITY].join(", ")}.`,
-  );
+  console.error(`There is no figure named ${unknown}. There are: ${[...ALL, PAGE].join(", ")}.`);
   process.exit(2);
 }
 await init();
@@ -45,6 +47,11 @@ if (names.includes(FIDELITY)) await measureFidelity();
 if (names.includes(ACCESSIBILITY))
   await withStudio(async (studio) => {
     write("../../docs/ACCESSIBILITY.md", await accessibilityText(studio));
+  });
+
+if (names.includes(PAGE))
+  await withStudio(async (studio) => {
+    console.error(`The pictures are in ${await takeScreens(studio)}`);
   });
 
 async function measureFidelity(): Promise<void> {

@@ -120,7 +120,7 @@ function joinedColors(clouds: readonly LoadedCloud[]): Uint8Array | null {
 function colorNote(parts: readonly Named[]): string[] {
   const without = parts.filter(({ cloud }) => cloud.colors === null);
   if (without.length === 0 || without.length === parts.length) return [];
-  return [`Gray stands for no color: ${list.format(without.map(({ name }) => name))}.`];
+  return [`Files without colors are gray: ${list.format(without.map(({ name }) => name))}.`];
 }
 
 /** Facts that hold for all files. */

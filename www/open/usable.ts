@@ -4,7 +4,7 @@ import type { KnownSurface, Sample } from "../samples/samples.ts";
 import { type Against, OWN_COLORS } from "../settings/settings.ts";
 import { colorChoices } from "../view/colors.ts";
 
-const NO_SURFACE = "It is known of samples, and of PLY and OBJ meshes that are shown whole.";
+const NO_SURFACE = "A true surface is known only for samples, and for PLY and OBJ meshes that are shown whole.";
 
 /**
  * The color if it suits this cloud, else the cloud's own colors. A color of the last cloud or of the address may not
@@ -12,7 +12,7 @@ const NO_SURFACE = "It is known of samples, and of PLY and OBJ meshes that are s
  */
 export function usableColor(color: string, cloud: Cloud, asked: boolean): { color: string; notes: string[] } {
   if (colorChoices(cloud).some(({ value }) => value === color)) return { color, notes: [] };
-  const notes = asked ? [`It has nothing called “${color}” to be colored by, so it has its usual colors.`] : [];
+  const notes = asked ? [`The cloud has no “${color}” to color by, so it has its usual colors.`] : [];
   return { color: OWN_COLORS, notes };
 }
 

@@ -3,9 +3,9 @@ import { canLook, type Looks } from "../settings/settings.ts";
 import type { Store } from "../settings/store.ts";
 
 const NOTES: Record<Looks, string> = {
-  0: "The operator of the paper.",
-  2: "Two hulls, each trusted where it is sure: fewer errors at silhouettes. One hull while the camera moves.",
-  3: "Three hulls, each trusted where it is sure: fewer errors at silhouettes. One hull while the camera moves.",
+  0: "As in the paper.",
+  2: "Two hulls. Each decides where it is sure: fewer errors at silhouettes. While the camera moves, one hull answers.",
+  3: "Three hulls. Each decides where it is sure: fewer errors at silhouettes. While the camera moves, one hull answers.",
 };
 
 /** Explains the choice of looks, and says when there is none. */

@@ -9,8 +9,8 @@ type Choice = "auto" | "search" | "opposite" | "hand";
 
 const NOTES: Record<Choice, string> = {
   auto: "",
-  search: "The best of 6 hulls, by looking back along the same rays. When the view rests.",
-  opposite: "The paper’s rule, from the opposite side: about 40 hulls. When the view rests.",
+  search: "Tries 6 hulls when the view rests, and takes the best one.",
+  opposite: "Looks from the opposite side, too, when the view rests: about 40 hulls.",
   hand: "Exponent: log₁₀ of radius ÷ farthest distance. The mark is the automatic one.",
 };
 

@@ -26,4 +26,4 @@ export function sentenceOfOverview(count: number, shown: number, total: number):
 
 /** Why only the overview answers. */
 export const ONLY_OVERVIEW =
-  "This is the answer about the coarser levels alone. The other levels are read for visible points from one viewpoint, without noise handling, lights, an exponent, or a radius or power that is searched.";
+  "This answer is about the coarser levels alone. The other levels are read only for visible points from one viewpoint, without noise handling, lights, an exponent, or a searched radius or power.";

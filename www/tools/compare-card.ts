@@ -105,7 +105,7 @@ export class CompareCard {
       beyond > 0
         ? ` Outside the picture, ${nameOf(ours)} ${ours.kind === "looks" ? "see" : "sees"} ${number.format(beyond)} more.`
         : "";
-    this.#result.textContent = `Of the ${number.format(picture.inside)} points in the picture. The z-buffer knows only these.${more}`;
+    this.#result.textContent = `Shares of the ${number.format(picture.inside)} points in the picture. The z-buffer knows no others.${more}`;
     return {
       left: `Z-buffer: ${number.format(picture.visible)}`,
       right: `${nameOf(ours)}: ${number.format(onlyOurs)}`,
@@ -140,7 +140,7 @@ export class CompareCard {
       truth.milliseconds,
     );
     const before = hull ? `, with one hull ${percent(hull.wrong + hull.missed, total)}` : "";
-    this.#result.textContent = `Of all ${number.format(total)} points; together ${percent(wrong + missed, total)} are wrong${before}.`;
+    this.#result.textContent = `Shares of all ${number.format(total)} points. Together ${percent(wrong + missed, total)} are wrong${before}.`;
     return { left: `True: ${number.format(truth.visible)}`, right: `${nameOf(ours)}: ${number.format(onlyOurs)}` };
   }
 

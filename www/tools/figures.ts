@@ -77,6 +77,7 @@ export function measured(value: number, unit: Unit | null, power: 1 | 2 = 1): st
     Math.abs(digits) >= 1e7 || Math.abs(digits) < 1e-6
       ? String(digits)
       : digits.toLocaleString("en-US", { useGrouping: false, maximumFractionDigits: 12 });
-  const name = unit ? unit.name : power === 2 ? "square units" : "units";
+  const one = text === "1" ? "unit" : "units";
+  const name = unit ? unit.name : power === 2 ? `square ${one}` : one;
   return `${text}\u00a0${name}${power === 2 && unit ? "²" : ""}`;
 }

@@ -86,21 +86,20 @@ function stepsOf(viewer: Viewer, store: Store): Step[] {
       },
     },
     {
-      words: "These are the points that cannot be seen from here, drawn through the others.",
+      words: "The purple points cannot be seen from here. They are drawn through the others.",
       begin: () => {
         store.change({ compare: null, hidden: "shown" });
       },
     },
     {
-      words:
-        "Now the viewpoint is frozen and the camera walks around: there is nothing where the viewpoint saw nothing.",
+      words: "Now the viewpoint is frozen and the camera walks around. Gaps are places that could not be seen.",
       begin: () => {
         store.change({ hidden: "off", freeze: viewer.viewpoint });
       },
       walks: true,
     },
     {
-      words: "Your turn: drag to look around. The answer follows. You can open a file of your own.",
+      words: "Your turn: drag to look around. The visible points follow. You can also open your own file.",
       begin: () => {
         leave(viewer, store);
       },

@@ -18,7 +18,7 @@ export class Pick implements Tool {
     this.#bench = bench;
     this.#copy.addEventListener("click", () => {
       void copy(this.#output.dataset["place"]!).then((copied) => {
-        this.#copy.textContent = copied ? "Copied" : "The browser forbids it";
+        this.#copy.textContent = copied ? "Copied" : "The browser does not allow it";
       });
     });
   }

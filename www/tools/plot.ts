@@ -82,7 +82,7 @@ export class Plot {
     this.#drawing.dataset["points"] = String(points.length);
     this.#drawing.ariaLabel = `Visible share by exponent: ${points.map(({ exponent, share }) => `${exponent}: ${percent(share)}`).join(", ") || "not yet known"}`;
     this.#note.textContent =
-      "Exponent: log₁₀ of radius ÷ farthest distance. Dashed: the automatic one. A click chooses.";
+      "Exponent: log₁₀ of radius ÷ farthest distance. The dashed line is the automatic one. Click to choose one.";
   }
 }
 

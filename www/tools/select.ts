@@ -43,7 +43,7 @@ export class Select implements Tool {
             event.shiftKey ? joined(this.#chosen, found) : event.altKey ? without(this.#chosen, found) : found,
           );
           if (path.length > 1 && found.length === 0)
-            this.#output.textContent = bench.through() ? "No point in it." : "No visible point in it.";
+            this.#output.textContent = bench.through() ? "No point inside." : "No visible point inside.";
         });
       },
     });

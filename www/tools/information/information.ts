@@ -48,7 +48,7 @@ export class Information {
       ["Points", pointsText(cloud, answer.whole?.total)],
       ...["x", "y", "z"].map((axis, i): [string, string] => [axis, `${ends[i]!.low} to ${ends[i]!.high}`]),
       ...(crs?.isAngular ? [] : this.#lengths()),
-      ["Coordinates", crs?.name ?? "No system in the file"],
+      ["Coordinates", crs?.name ?? "The file names no system"],
       ...cloud.fields.map((field): [string, string] => [field.name.replaceAll("_", " "), rangeText(field)]),
       ...(cloud.facts.dropped ? [["Not kept", `${cloud.facts.dropped} more columns`] as [string, string]] : []),
     ];

@@ -44,9 +44,10 @@ export class ScaleBar {
     const { unit, scale } = measuresOf(cloud);
     const length = roundLength((LONGEST / pixels) * scale[0]);
     const width = (length * pixels) / scale[0];
-    // In a frame of another page, a link is at the right.
-    const right = document.body.classList.contains("embedded") ? EDGE + width : size.width - EDGE;
-    const bottom = innerWidth <= NARROW ? EDGE + 24 : size.height - EDGE;
+    // In a frame of another page, a link is at the right, and signs are at the top.
+    const isEmbedded = document.body.classList.contains("embedded");
+    const right = isEmbedded ? EDGE + width : size.width - EDGE;
+    const bottom = innerWidth <= NARROW && !isEmbedded ? EDGE + 24 : size.height - EDGE;
     for (const line of this.#lines) line.setAttribute("d", `M${right - width} ${bottom - 6}v6h${width}v-6`);
     this.#text.textContent = lengthText(length, unit);
     this.#text.setAttribute("x", String(right - width / 2));
@@ -73,5 +74,5 @@ export function lengthText(length: number, unit: Unit | null): string {
   const value = Number((length / (shown?.meters ?? 1)).toPrecision(1));
   const text =
     value >= 1e6 || value < 1e-4 ? String(value) : value.toLocaleString("en-US", { maximumFractionDigits: 6 });
-  return `${text}\u00a0${shown?.name ?? unit?.name ?? "units"}`;
+  return `${text}\u00a0${shown?.name ?? unit?.name ?? (text === "1" ? "unit" : "units")}`;
 }
