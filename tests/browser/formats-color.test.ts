@@ -131,7 +131,7 @@ test("the address holds the choice of colors, and a message names a choice that 
 });
 
 test("heights are in the file's own coordinates, along the chosen up side", async () => {
-  const page = await openReady("?sample=tile&color=height");
+  const page = await openReady("?sample=tile&color=height&looks=0");
   const ends = async () =>
     (await page.locator("#legend").innerText()).split(/\s*\n\s*/).map((number) => Number(number.replaceAll(",", "")));
   const [low, high] = await ends();
@@ -148,7 +148,7 @@ test("the samples street and tile have classes and intensity, and tile has map c
     ["street", 150_000, "behind glass"],
     ["tile", 200_000, "high vegetation"],
   ] as const) {
-    const page = await openReady("?sample=bunny");
+    const page = await openReady("?sample=bunny&looks=0");
     const before = await status(page);
     await page
       .locator("#thumbnails")

