@@ -49,7 +49,7 @@ fn surfaces_answer_as_with_the_point_added_when_the_radius_follows_it() {
     for shape in kinds {
         for viewpoint in [[0.1, 0.2, 0.05], [2.5, 1.0, 3.0]] {
             let scene = Scene {
-                points: shape(&mut rng, 2500),
+                points: shape(&mut rng, 1000),
                 viewpoint,
                 options: Options::default(),
             };

@@ -92,7 +92,7 @@ fn a_few_points_off_the_plane_are_no_exception() {
 #[test]
 fn sectors_and_moved_views_of_thin_clouds_are_the_whole_and_the_cold_one() {
     for (name, shape) in SHAPES {
-        let cloud = PointCloud::new(&cloud(shape, 4, 2000)).unwrap();
+        let cloud = PointCloud::new(&cloud(shape, 4, 800)).unwrap();
         let options = Options::with_exponent(2.0);
         let mut observer = cloud.observer();
         for viewpoint in viewpoints() {
