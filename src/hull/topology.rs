@@ -252,7 +252,7 @@ impl<T: Copy> Surface<T> {
         edges: [HalfEdge; COUNT],
     ) -> Result<(), OutOfMemory> {
         for edge in edges {
-            let outside = self.face(edge.face()).twins[edge.edge()];
+            let outside = self.twin(edge);
             push(&mut self.horizon, outside)?;
         }
         Ok(())
