@@ -1,5 +1,6 @@
 //! Repeatable random numbers for unit tests.
 
+use alloc::vec::Vec;
 use glam::DVec3;
 
 pub(crate) struct Random(u64);
@@ -30,5 +31,16 @@ impl Random {
                 return v.normalize();
             }
         }
+    }
+
+    /// Points on a bumpy surface around the origin, in the order of their longitude.
+    pub(crate) fn bumpy(&mut self, count: usize) -> Vec<[f64; 3]> {
+        let place = |_| {
+            let u = self.direction();
+            ((1.0 + 1.5 * u.x * u.y * u.z) * u).to_array()
+        };
+        let mut places: Vec<[f64; 3]> = (0..count).map(place).collect();
+        places.sort_by_key(|p| (f64::atan2(p[1], p[0]) * 6.0) as i64 * 100 + (p[2] * 9.0) as i64);
+        places
     }
 }

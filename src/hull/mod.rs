@@ -18,6 +18,8 @@ mod certain;
 mod chain;
 mod clearing;
 mod depth;
+#[cfg(test)]
+mod divided;
 mod dual_plane;
 mod enclosed;
 mod exact_sum;
@@ -29,6 +31,8 @@ mod locate;
 mod lower;
 mod memory;
 mod motion;
+#[cfg(test)]
+mod moves;
 mod order;
 mod other_flip;
 mod outer_boundary;

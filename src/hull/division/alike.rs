@@ -94,3 +94,96 @@ impl Alike {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::random::Random;
+
+    const SPREAD: f64 = 0.2;
+    const SIN: f64 = 0.7 * SPREAD;
+
+    /// Eight bundles of eight narrow cones, and the cones of the bundles.
+    fn tree(random: &mut Random) -> Vec<Vec<Cone>> {
+        let mut levels = [Vec::new(), Vec::new()];
+        for _ in 0..8 {
+            let axis = random.direction();
+            let mut bundle = Vec::new();
+            for _ in 0..FANOUT {
+                let u = (axis + 0.2 * random.direction()).normalize();
+                let ends =
+                    [0; 3].map(|_| random.between(1.0, 2.0) * (u + 0.1 * random.direction()));
+                levels[0].push(Cone::around(&ends));
+                bundle.extend(ends);
+            }
+            levels[1].push(Cone::around(&bundle));
+        }
+        levels.into()
+    }
+
+    /// Asks for a plane. Returns how many nodes were visited.
+    fn ask(alike: &mut Alike, plane: (DVec3, f64), levels: &[Vec<Cone>]) -> u32 {
+        let visited = core::cell::Cell::new(0);
+        let is_empty = |level: usize, node: usize| {
+            visited.set(visited.get() + 1);
+            [(1, 3), (0, 8)].contains(&(level, node))
+        };
+        let length = plane.0.length();
+        alike.turn_to(plane, length, levels, is_empty).unwrap();
+        visited.get()
+    }
+
+    #[test]
+    fn the_leaves_are_those_that_reach_a_plane_that_is_alike() {
+        let mut random = Random::new(7);
+        let levels = tree(&mut random);
+        let mut found = 0;
+        for _ in 0..2000 {
+            let mut alike = Alike::new(SPREAD, 2).unwrap();
+            let m = random.between(0.2, 3.0) * random.direction();
+            let limit = m.length() * random.between(0.8, 1.9);
+            assert!(ask(&mut alike, (m, limit), &levels) >= 8);
+            let reaches = |cone: &Cone| {
+                let wide = cone.widened((1.0 - SIN * SIN).sqrt(), SIN);
+                wide.bound(m.normalize(), 1.0) >= limit / m.length() * (1.0 - SIN * SIN)
+            };
+            let mut leaves = alike.leaves.clone();
+            leaves.sort_unstable();
+            let expected: Vec<u32> = (0..64)
+                .filter(|&leaf| leaf / 8 != 3 && leaf != 8)
+                .filter(|&leaf| reaches(&levels[0][leaf as usize]))
+                .filter(|&leaf| reaches(&levels[1][leaf as usize / 8]))
+                .collect();
+            assert_eq!(leaves, expected);
+            found += leaves.len();
+        }
+        assert!((2000..60_000).contains(&found), "{found}");
+    }
+
+    #[test]
+    fn planes_that_are_alike_share_a_search() {
+        let mut random = Random::new(8);
+        let levels = tree(&mut random);
+        for _ in 0..200 {
+            let mut alike = Alike::new(SPREAD, 2).unwrap();
+            let u = random.direction();
+            let across = u.any_orthonormal_vector();
+            let limit = random.between(0.5, 1.5);
+            let turned = |sin: f64| f64::sqrt(1.0 - sin * sin) * u + sin * across;
+            let [first, second] = [0; 2].map(|_| random.between(0.2, 5.0));
+            assert!(ask(&mut alike, (first * u, first * limit), &levels) > 0);
+            let mut visits = |sin: f64, lower: f64| {
+                let plane = (second * turned(sin), second * limit * lower);
+                ask(&mut alike, plane, &levels)
+            };
+            assert_eq!(visits(0.99 * SIN, 1.0), 0);
+            assert_eq!(visits(0.0, 1.0 - 0.99 * SIN * SIN), 0);
+            assert_eq!(visits(0.99 * SIN, 9.0), 0);
+            assert!(visits(0.0, 1.0 - 1.01 * SIN * SIN) > 0);
+            assert!(visits(1.01 * SIN, 1.0) > 0);
+        }
+        // Very wide leaves do not make planes alike that are far from each other.
+        let alike = Alike::new(5.0, 2).unwrap();
+        assert_eq!(alike.turn, (0.75f64.sqrt(), 0.5));
+    }
+}

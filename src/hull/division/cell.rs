@@ -189,6 +189,10 @@ mod tests {
         assert_eq!(widest_axis(&items), 0);
         let items = [pair(0.3 * DVec3::Z, 9), pair(0.5 * DVec3::Y, 1)].concat();
         assert_eq!(widest_axis(&items), 2);
+        // The spread is about the mean, which is far from the middle here.
+        let near = |x, y| item(DVec3::new(x, y, 0.0), 1);
+        assert_eq!(widest_axis(&[near(0.9, 0.05), near(0.5, -0.05)]), 0);
+        assert_eq!(widest_axis(&[near(0.9, 0.2), near(0.8, -0.2)]), 1);
     }
 
     #[test]

@@ -170,6 +170,16 @@ mod tests {
         }
     }
 
+    /// Of a single place, too, the bounds are larger than any rounding.
+    #[test]
+    fn bounds_have_a_margin() {
+        let cone = Cone::of(&sphere(2.0 * DVec3::X, 0.0), DVec3::ZERO, DIAMETER);
+        assert!((MARGIN..2.0 * MARGIN).contains(&cone.spread()));
+        let m = 3.0 * DVec3::X;
+        let above = cone.bound(m, 3.0) / (3.0 * 18.0) - 1.0;
+        assert!(above > 0.5 * MARGIN && above < 2.0 * MARGIN);
+    }
+
     #[test]
     fn near_spheres_are_everywhere() {
         let everywhere = |center, radius| {

@@ -148,3 +148,118 @@ fn cone_of([low, high]: &Corners, flip: &Flip) -> Cone {
     };
     cone
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::random::Random;
+    use crate::cloud::points::Points;
+    use crate::flip::kernel::Kernel;
+
+    const RADIUS: f64 = 10.0;
+
+    /// Boxes around the viewpoint, in the order of their longitude.
+    fn boxes(random: &mut Random, viewpoint: DVec3) -> Vec<Corners> {
+        let mut centers: Vec<DVec3> = (0..600).map(|_| random.direction()).collect();
+        centers.sort_by(|u, v| f64::atan2(u.y, u.x).total_cmp(&f64::atan2(v.y, v.x)));
+        let corners = |u: DVec3| {
+            let center = viewpoint + random.between(2.0, 5.0) * u;
+            let half = DVec3::from_array([0; 3].map(|_| random.between(0.0, 0.2)));
+            [(center - half).to_array(), (center + half).to_array()]
+        };
+        centers.into_iter().map(corners).collect()
+    }
+
+    /// The corners of a box and its point nearest to the viewpoint.
+    fn places(&[low, high]: &Corners, viewpoint: DVec3) -> Vec<[f64; 3]> {
+        let corner = |k: usize| core::array::from_fn(|axis| [low, high][k >> axis & 1][axis]);
+        let nearest = viewpoint.clamp(DVec3::from_array(low), DVec3::from_array(high));
+        (0..8).map(corner).chain([nearest.to_array()]).collect()
+    }
+
+    fn above(elsewhere: &mut Elsewhere, plane: (DVec3, f64)) -> Vec<u32> {
+        let mut found = Vec::new();
+        let answer = elsewhere.above(plane, &mut |number| found.push(number));
+        answer.unwrap();
+        found.sort_unstable();
+        found
+    }
+
+    #[test]
+    fn the_cone_of_a_box_is_tight() {
+        let mut random = Random::new(5);
+        let viewpoint = DVec3::new(1.0, -2.0, 0.5);
+        let flip = Flip::new(viewpoint.to_array(), Kernel::Spherical { radius: RADIUS });
+        for corners in boxes(&mut random, viewpoint) {
+            let cone = cone_of(&corners, &flip);
+            let places = places(&corners, viewpoint);
+            let directions: Vec<DVec3> = (places[..8].iter())
+                .map(|&p| (DVec3::from_array(p) - viewpoint).normalize())
+                .collect();
+            let axis = directions.iter().sum::<DVec3>().normalize();
+            assert!(cone.axis.distance(axis) < 1e-9);
+            let cosines = directions.iter().map(|u| axis.dot(*u));
+            assert!((cone.cos - cosines.fold(1.0, f64::min)).abs() < 1e-9);
+            let longest = flip.apply(places[8]).unwrap().length();
+            assert!(cone.reach >= longest && cone.reach < longest + 1e-9);
+        }
+        // The distance is rounded, and a steep flip makes much of that.
+        let flip = Flip::new([0.0; 3], Kernel::Exponential { scale: 150.0 });
+        let cone = cone_of(&[[1.0, 0.0, 0.0], [1.1, 0.1, 0.1]], &flip);
+        assert!(cone.reach > flip.most_beyond(1.0));
+        let around = [[-1.0, -1.0, 0.0], [2.0, 1.0, 1.0]];
+        assert_eq!(cone_of(&around, &flip).reach, f64::INFINITY);
+    }
+
+    #[test]
+    fn every_box_with_a_point_above_a_plane_is_found() {
+        let mut random = Random::new(6);
+        let viewpoint = DVec3::new(-1.0, 0.3, 2.0);
+        let flip = Flip::new(viewpoint.to_array(), Kernel::Spherical { radius: RADIUS });
+        let mut boxes = boxes(&mut random, viewpoint);
+        // The viewpoint is in this box.
+        boxes[300] = [
+            (viewpoint - DVec3::ONE).to_array(),
+            (viewpoint + DVec3::ONE).to_array(),
+        ];
+        let mut elsewhere = Elsewhere::new(&boxes, &flip).unwrap();
+        assert_eq!(elsewhere.len(), 600);
+        let mut most = 0;
+        for _ in 0..4 {
+            for (number, corners) in (0..).zip(&boxes).filter(|(number, _)| *number != 300) {
+                for place in places(corners, viewpoint) {
+                    let q = flip.apply(place).unwrap();
+                    let m = random.between(0.1, 4.0) * (q.normalize() + 0.3 * random.direction());
+                    let limit = m.dot(q) * random.between(0.98, 1.0);
+                    let found = above(&mut elsewhere, (m, limit));
+                    assert!(found.contains(&number) && found.contains(&300));
+                    let reaches = |&box_: &u32| {
+                        let cone = cone_of(&boxes[box_ as usize], &flip);
+                        cone.bound(m, m.length()) >= limit
+                    };
+                    assert!(found.iter().all(reaches));
+                    most = most.max(found.len());
+                }
+            }
+        }
+        assert!((20..500).contains(&most), "{most}");
+        let all: Vec<u32> = (0..600).collect();
+        for limit in [0.0, -1.0] {
+            assert_eq!(above(&mut elsewhere, (DVec3::X, limit)), all);
+        }
+    }
+
+    /// Planes are certain for flipped points of the cloud. A nearer point flips too far.
+    #[test]
+    fn boxes_nearer_than_the_cloud_are_above_every_plane() {
+        let flip = Flip::new([0.0; 3], Kernel::Exponential { scale: 3.0 });
+        let flip = flip.rescaled_for(&Points::Double(alloc::vec![[1.0, 0.0, 0.0]]));
+        let near = |x: f64| [[x, 0.0, 0.0], [x + 0.01, 0.01, 0.01]];
+        let mut elsewhere = Elsewhere::new(&[near(1.0), near(0.2), near(2.0)], &flip).unwrap();
+        assert_eq!(elsewhere.everywhere, [1]);
+        let m = -DVec3::X;
+        assert_eq!(above(&mut elsewhere, (m, 1.0)), [1]);
+        let q = flip.apply([1.0, 0.0, 0.0]).unwrap();
+        assert_eq!(above(&mut elsewhere, (q, q.dot(q))), [0, 1]);
+    }
+}

@@ -190,14 +190,7 @@ mod tests {
 
     /// Points on a bumpy surface in the order of their longitude, and most of them far.
     fn far(random: &mut Random, flip: &Flip) -> (Points, Far, Vec<bool>) {
-        let mut places: Vec<[f64; 3]> = (0..POINTS)
-            .map(|_| {
-                let u = random.direction();
-                ((1.0 + 1.5 * u.x * u.y * u.z) * u).to_array()
-            })
-            .collect();
-        places.sort_by_key(|p| (f64::atan2(p[1], p[0]) * 6.0) as i64 * 100 + (p[2] * 9.0) as i64);
-        let points = Points::Double(places);
+        let points = Points::Double(random.bumpy(POINTS));
         let blocks = Blocks::around(&points).unwrap();
         let cone = |sphere| Cone::of(sphere, flip.viewpoint(), 20.0);
         let levels = blocks
@@ -215,6 +208,35 @@ mod tests {
         (points, far, is_far)
     }
 
+    /// The far point with the largest m·q of at least the limit.
+    fn highest((m, limit): (DVec3, f64), flipped: &Flipped, is_far: &[bool]) -> Option<u32> {
+        let heights = (0..POINTS as u32)
+            .filter(|k| is_far[*k as usize])
+            .map(|k| (flipped.get(k).map_or(0.0, |q| m.dot(q)), k));
+        let higher = |best: (f64, Option<u32>), (height, k)| {
+            let is_higher = height > best.0 || height == best.0 && best.1.is_none();
+            if is_higher { (height, Some(k)) } else { best }
+        };
+        heights.fold((limit, None), higher).1
+    }
+
+    /// Blocks are opened by the first plane that they may be above.
+    #[test]
+    fn the_first_question_finds_points_too() {
+        let mut random = Random::new(4);
+        let flip = Flip::new([0.0, 0.1, 0.2], Kernel::Spherical { radius: 10.0 });
+        for _ in 0..20 {
+            let (points, mut far, is_far) = far(&mut random, &flip);
+            let flipped = Flipped::of(&points, &[], &flip);
+            for _ in 0..5 {
+                let q = flipped.get(random.below(POINTS as u64) as u32).unwrap();
+                let plane = (q, q.dot(q) * random.between(0.9, 1.0));
+                let expected = highest(plane, &flipped, &is_far);
+                assert_eq!(far.most_in_the_way(plane, &flipped).unwrap(), expected);
+            }
+        }
+    }
+
     #[test]
     fn the_point_that_is_most_in_the_way_is_found() {
         let mut random = Random::new(3);
@@ -230,19 +252,9 @@ mod tests {
                 _ => m + 0.002 * random.direction(),
             };
             let limit = random.between(0.97, 1.03);
-            let heights = (0..POINTS as u32).filter(|k| is_far[*k as usize]).map(|k| {
-                let height = flipped.get(k).map_or(0.0, |q| m.dot(q));
-                (height, k)
-            });
-            let highest = heights.fold((limit, None), |best, (height, k)| {
-                if height >= best.0 {
-                    (height, Some(k))
-                } else {
-                    best
-                }
-            });
+            let expected = highest((m, limit), &flipped, &is_far);
             let asked = far.most_in_the_way((m, limit), &flipped).unwrap();
-            assert_eq!(asked, highest.1, "round {round}");
+            assert_eq!(asked, expected, "round {round}");
             found[usize::from(asked.is_some())] += 1;
             if let Some(index) = asked.filter(|_| round % 3 == 0) {
                 far.take(index);

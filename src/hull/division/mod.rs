@@ -14,6 +14,8 @@ mod cell;
 mod cone;
 mod elsewhere;
 mod far;
+#[cfg(test)]
+mod tests;
 
 pub(crate) use self::elsewhere::Elsewhere;
 
