@@ -60,3 +60,22 @@ pub(crate) fn push<T>(items: &mut Vec<T>, item: T) -> Result<(), OutOfMemory> {
     items.push(item);
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn room_is_made_for_all_items_that_come() {
+        for (present, more) in [(0, 1), (3, 5), (8, 100)] {
+            let mut items = filled(present, 0u8).unwrap();
+            reserve(&mut items, more).unwrap();
+            assert!(items.capacity() >= present + more);
+            let room = items.capacity();
+            reserve(&mut items, room - present).unwrap();
+            assert_eq!(items.capacity(), room);
+        }
+        let mut items = filled(3, 0u8).unwrap();
+        assert!(reserve(&mut items, usize::MAX).is_err());
+    }
+}

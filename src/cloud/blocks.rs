@@ -131,3 +131,51 @@ fn around_runs(
     }
     Ok(around)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::random::Random;
+
+    #[test]
+    fn spheres_hold_their_points_and_are_not_larger_than_their_boxes() {
+        let points = Points::Double(Random::new(1).bumpy(5000));
+        let blocks = Blocks::around(&points).unwrap();
+        let counts: Vec<usize> = blocks.levels.iter().map(Vec::len).collect();
+        assert_eq!(counts, [79, 10, 2]);
+        let mut run = BLOCK;
+        for (level, spheres) in blocks.levels.iter().enumerate() {
+            for (node, sphere) in spheres.iter().enumerate() {
+                let mut bounds = Bounds::EMPTY;
+                for index in node * run..points.len().min((node + 1) * run) {
+                    let p = points.get(index);
+                    bounds.include(p);
+                    let v = DVec3::from_array(p) - DVec3::from_array(sphere.center);
+                    assert!(v.length() <= sphere.radius);
+                }
+                if level == 0 {
+                    assert!(sphere.radius < 0.5 * bounds.diagonal() + 1e-9);
+                }
+            }
+            run *= FANOUT;
+        }
+    }
+
+    #[test]
+    fn the_farthest_distance_is_that_of_a_point() {
+        let mut random = Random::new(2);
+        let points = Points::Double(random.bumpy(3000));
+        let blocks = Blocks::around(&points).unwrap();
+        for round in 0..300 {
+            let size = [0.0, 0.3, 2.0, 1e4][round % 4];
+            let viewpoint = size * random.direction();
+            let distance = |p: [f64; 3]| {
+                let v = DVec3::from_array(p) - viewpoint;
+                square_root(v.dot(v))
+            };
+            let farthest = points.iter().map(distance).fold(0.0, f64::max);
+            let found = blocks.farthest_distance(&points, viewpoint.to_array());
+            assert_eq!(found, Ok(farthest));
+        }
+    }
+}

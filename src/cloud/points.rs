@@ -186,3 +186,18 @@ pub(crate) fn checked_len(count: usize) -> Result<usize, Error> {
     }
     Ok(count)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_points_than_a_cloud_may_hold_are_refused() {
+        for count in [0, MAX_POINTS - 1, MAX_POINTS] {
+            assert_eq!(checked_len(count), Ok(count));
+        }
+        for count in [MAX_POINTS + 1, MAX_POINTS + 2, usize::MAX] {
+            assert_eq!(checked_len(count), Err(Error::TooManyPoints { count }));
+        }
+    }
+}

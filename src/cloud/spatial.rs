@@ -257,4 +257,14 @@ mod tests {
             assert!(corners.is_sorted_by(|a, b| a < b), "{low}..{high}");
         }
     }
+
+    #[test]
+    fn points_beyond_the_last_cell_belong_to_it() {
+        assert_eq!([-1.0, 0.0, 5.9].map(cell), [0, 0, 5]);
+        let last = (1 << BITS) - 1;
+        assert_eq!(
+            [f64::from(last), f64::from(last) + 1.0, 1e300].map(cell),
+            [last; 3]
+        );
+    }
 }

@@ -81,3 +81,17 @@ pub(crate) fn moments(weights: &[f64], number: &dyn Fn(usize) -> f64) -> [f64; 2
     }
     [mean, squares / total]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn moments_are_the_mean_and_the_variance() {
+        assert_eq!(moments(&[], &|_| unreachable!()), [0.0, 0.0]);
+        // Far from 0, so that squares of the numbers themselves would lose the variance.
+        let numbers = [4e8 + 2.0, 4e8 - 1.0, 4e8 + 8.0];
+        let weights = [1.0, 2.0, 1.0];
+        assert_eq!(moments(&weights, &|i| numbers[i]), [4e8 + 2.0, 13.5]);
+    }
+}

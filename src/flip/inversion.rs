@@ -235,4 +235,79 @@ mod tests {
         assert_eq!(exponential.apply([0.0; 3]), None);
         assert!(exponential.apply([1e-150, 0.0, 0.0]).is_some());
     }
+
+    /// Kernels of every kind, for points 0.5 to 50 away.
+    const KERNELS: [Kernel; 4] = [
+        Kernel::Spherical { radius: 60.0 },
+        Kernel::Power {
+            gamma: 2.5,
+            unit: 3.0,
+        },
+        Kernel::Exponential { scale: 0.02 },
+        Kernel::Exponential { scale: 30.0 },
+    ];
+
+    #[test]
+    fn ratios_are_just_above_the_factor() {
+        for kernel in KERNELS {
+            let flip = Flip::new([1.0, 0.0, -2.0], kernel);
+            for step in 1..=100 {
+                let v = 0.5 * f64::from(step) * DVec3::new(0.36, -0.48, 0.8);
+                let (far, near) = flip.ratio(v);
+                let excess = far / near / kernel.factor(v.length()) - 1.0;
+                assert!((-1e-15..1e-5).contains(&excess), "{kernel:?}, {excess}");
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_beyond_a_distance_flips_farther_than_the_bound() {
+        for kernel in KERNELS {
+            let flip = Flip::new([0.0; 3], kernel);
+            for step in 1..=100 {
+                let distance = 0.5 * f64::from(step);
+                let length = flip.apply([0.0, distance, 0.0]).unwrap().length();
+                let bound = flip.most_beyond(distance);
+                assert!(bound > length && bound < length * (1.0 + 1e-10) + 1e-9);
+            }
+        }
+        for kernel in &KERNELS[1..] {
+            assert_eq!(Flip::new([0.0; 3], *kernel).most_beyond(0.0), f64::INFINITY);
+        }
+    }
+
+    #[test]
+    fn a_power_of_two_moves_points_inward() {
+        for kernel in KERNELS {
+            let flip = Flip::new([0.0; 3], kernel);
+            let inward = flip.inward(50.0);
+            let share = inward / kernel.factor(50.0);
+            assert!(share > 0.25 && share <= 0.5, "{kernel:?}, {share}");
+            assert_eq!(inward, power_of_two_below(inward));
+        }
+    }
+
+    #[test]
+    fn extreme_flips_are_rescaled_where_that_is_exact() {
+        let one = |x: f64| Points::Double(alloc::vec![[x, 0.0, 0.0]]);
+        let scale = |kernel, x| Flip::new([0.0; 3], kernel).rescaled_for(&one(x)).scale;
+        let power = Kernel::Power {
+            gamma: 3.0,
+            unit: 1.0,
+        };
+        assert_eq!(scale(power, 1e-5), 1.0);
+        // |q| is 1e40, and 1e-40.
+        assert!((scale(power, 1e-20) * 1e40).log2().abs() < 1.0);
+        assert!((scale(power, 1e20) * 1e-40).log2().abs() < 1.0);
+        // No point flips: nothing is scaled.
+        assert_eq!(scale(power, 0.0), 1.0);
+        assert_eq!(scale(sphere(1e-40), 1e-40), 2f64.powi(131));
+        let flip = |scale| Flip {
+            scale,
+            ..Flip::new([0.0; 3], sphere(1.0))
+        };
+        assert!(flip(1.0).scales_exactly([0.3, 0.0, 0.0]));
+        assert!(flip(0.5).scales_exactly([0.3, 0.0, 0.0]));
+        assert!(!flip(f64::MIN_POSITIVE).scales_exactly([0.3, 0.4, 1.2]));
+    }
 }

@@ -88,7 +88,7 @@ impl Share<'_> {
 
     /// Whether a face is one of own vertices, an outer face, and no far point is seen in its
     /// directions.
-    fn is_clear(&self, id: FaceId) -> bool {
+    pub(super) fn is_clear(&self, id: FaceId) -> bool {
         let face = self.hull.surface.face(id);
         let is_own = face
             .vertices
@@ -103,7 +103,7 @@ impl Share<'_> {
 
     /// The ghost faces, and a face in each part of the directions where far points may be seen.
     /// Empty if such a face is in doubt.
-    fn outside(&self) -> Result<Vec<FaceId>, OutOfMemory> {
+    pub(super) fn outside(&self) -> Result<Vec<FaceId>, OutOfMemory> {
         let mut faces = Vec::new();
         let is_ghost = |id: &FaceId| {
             let corners = self.hull.corners(*id);

@@ -18,8 +18,6 @@ mod certain;
 mod chain;
 mod clearing;
 mod depth;
-#[cfg(test)]
-mod divided;
 mod dual_plane;
 mod enclosed;
 mod exact_sum;

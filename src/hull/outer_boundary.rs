@@ -135,7 +135,7 @@ pub(crate) fn go_on(
 /// Three points that start a hull in space. `None` if all points are in one plane with the
 /// viewpoint.
 #[inline(never)]
-fn seed(flipped: &Flipped) -> Option<[(u32, DVec3); 3]> {
+pub(super) fn seed(flipped: &Flipped) -> Option<[(u32, DVec3); 3]> {
     if flipped.flip.keeps_in_plane(flipped.points) {
         return None;
     }

@@ -32,6 +32,9 @@
 //!   and a face does not turn. When the list is empty, a vertex that is not marked has no
 //!   outer face: its ray stays in K beyond it.
 
+#[cfg(test)]
+mod tests;
+
 use alloc::vec::Vec;
 
 use super::depth::DepthMap;
@@ -185,15 +188,21 @@ impl Share<'_> {
         }
     }
 
-    /// Decides about all vertices of the hull that are the sector's own.
-    #[inline(never)]
-    fn settle_vertices(&mut self) -> Result<(), OutOfMemory> {
+    /// Notes which vertices are the sector's own.
+    fn open_own_vertices(&mut self) -> Result<(), OutOfMemory> {
         let count = self.hull.vertex_count();
         self.open_vertices.try_reserve_exact(count)?;
         // The origin is no point of the cloud.
         self.open_vertices.push(false);
         self.open_vertices
             .extend((1..count).map(|v| self.division.owns(self.hull.point(v as Vertex))));
+        Ok(())
+    }
+
+    /// Decides about all vertices of the hull that are the sector's own.
+    #[inline(never)]
+    fn settle_vertices(&mut self) -> Result<(), OutOfMemory> {
+        self.open_own_vertices()?;
         let mut open = self.mark_enclosed()?;
         // Every open face is in `open`. The list may also hold numbers of other faces.
         while let Some(face) = open.pop() {

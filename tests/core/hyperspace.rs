@@ -185,6 +185,7 @@ fn order_and_duplicates_change_nothing_and_changes_are_as_anew() {
         (cloud.len(), cloud.dimension(), cloud.is_empty()),
         (150, 4, false)
     );
+    assert!(PointCloudNd::new(4, &[]).unwrap().is_empty());
 }
 
 #[test]
