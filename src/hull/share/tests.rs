@@ -117,6 +117,34 @@ fn sectors_of_clusters_give_the_whole_answer() {
     compare("outside", &places, [0.0, 0.3, 2.5], 40.0);
 }
 
+/// Points that flip exactly on to the edges of an octahedron, with numbers that no operation rounds. All
+/// are visible, though only its corners are vertices.
+#[test]
+fn points_on_the_boundary_belong_to_their_sectors() {
+    let mut places: Vec<[f64; 3]> = Vec::new();
+    for axis in 0..3 {
+        for sign in [3.0, -3.0] {
+            let mut corner = [0.0; 3];
+            corner[axis] = sign;
+            places.push(corner);
+        }
+    }
+    for axis in 0..3 {
+        for [x, y] in [[3.0, 4.0], [4.0, -3.0], [-4.0, 3.0], [-3.0, -4.0]] {
+            let mut on_edge = [0.0; 3];
+            on_edge[axis] = x;
+            on_edge[(axis + 1) % 3] = y;
+            places.push(on_edge);
+        }
+    }
+    compare("octahedron", &places, [0.0; 3], 5.0);
+    let points = Points::Double(places);
+    let flip = Flip::new([0.0; 3], Kernel::Spherical { radius: 5.0 });
+    let mut memory = Memory::default();
+    mark_visible(&points, &[], &flip, None, &mut memory).unwrap();
+    assert_eq!(memory.visible(), [true; 18]);
+}
+
 /// A ring face has own corners, is outer, and no far point is seen in its directions. The search for
 /// faces that far points see starts at all ghost faces and in each cap beyond a side of the cell.
 #[test]
