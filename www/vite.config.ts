@@ -7,6 +7,7 @@ import { offline } from "./build/offline-plugin.ts";
 import { policy } from "./build/policy-plugin.ts";
 import { samples } from "./build/samples-plugin.ts";
 import { ownShadersOnly } from "./build/three-plugin.ts";
+import { noUnusedMethods } from "./build/unused-methods-plugin.ts";
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
@@ -14,5 +15,5 @@ export default defineConfig({
   ...COMMON,
   root: here("."),
   build: { outDir: here("dist"), emptyOutDir: true, target: "es2022", chunkSizeWarningLimit: 900 },
-  plugins: [ownShadersOnly(), samples(), html(), ahead(), policy(), offline()],
+  plugins: [ownShadersOnly(), noUnusedMethods(), samples(), html(), ahead(), policy(), offline()],
 });
