@@ -121,19 +121,31 @@ test("the cloud and the WebAssembly are asked for before the part of the page th
     expect(begun.files.filter((address) => address.includes(`/assets/${name}`))).not.toEqual([]);
 });
 
-test("points of a large sample are on screen before its first answer", async () => {
+test("points of a large sample are on screen before its first answer, with fewer pixels", async () => {
   const page = await openPage("?sample=dragon", {}, async (opened) => {
     await opened.addInitScript(() => {
       const methods = WebGL2RenderingContext.prototype as unknown as Record<string, (...given: number[]) => void>;
       const own = methods["drawElements"]!;
-      methods["drawElements"] = function (this: unknown, ...given: number[]) {
-        if (given[1]! > 10_000)
-          performance.mark(`drawn in state ${document.getElementById("status")!.dataset["state"]}`);
+      methods["drawElements"] = function (this: WebGL2RenderingContext, ...given: number[]) {
+        if (given[1]! > 10_000) {
+          const { state } = document.getElementById("status")!.dataset;
+          performance.mark(`drawn in state ${state}`, { detail: this.canvas.width });
+        }
         own.apply(this, given);
       };
     });
   });
   await reached(page, "ready");
-  const drawn = await page.evaluate(() => performance.getEntriesByName("drawn in state loading").length);
-  expect(drawn).toBeGreaterThan(0);
+  await upToDate(page);
+  const [before, after] = await page.evaluate(() =>
+    ["loading", "ready"].map((state) => {
+      const marks = performance.getEntriesByName(`drawn in state ${state}`) as PerformanceMark[];
+      return marks.map(({ detail }) => detail as number);
+    }),
+  );
+  const whole = await page.evaluate(() => {
+    return document.querySelector<HTMLCanvasElement>("#view")!.clientWidth * devicePixelRatio;
+  });
+  expect(new Set(before)).toEqual(new Set([Math.floor(whole / 2)]));
+  expect(new Set(after)).toEqual(new Set([Math.floor(whole)]));
 });

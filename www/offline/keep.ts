@@ -1,8 +1,8 @@
 /// <reference types="vite/client" />
 
 /**
- * Stores the page for offline use, after it shows its first cloud, so that nothing delays this cloud. `sample`: the
- * address of the cloud that is shown.
+ * Stores the page for offline use. Call it when the first cloud is on screen, so that nothing delays this cloud.
+ * `sample`: the address of the cloud that is shown.
  */
 export function keepForOffline(sample: string | null): void {
   keep(sample).catch(() => {

@@ -1,3 +1,4 @@
+import { nextFrame } from "../controls/dom.ts";
 import { LoadProblem } from "../loaders/index.ts";
 import { keepForOffline } from "../offline/keep.ts";
 import { openCloud } from "../open/open-cloud.ts";
@@ -138,7 +139,12 @@ export class Opening {
     panel.usual = ready.usual;
     address.begin(insteadOf === undefined ? name : null, ready.usual);
     if (insteadOf !== undefined) status.error(insteadOf);
-    keepForOffline(request.kind === "sample" ? request.url : null);
+    // The second frame begins when the first one, with the picture, is on screen.
+    void nextFrame()
+      .then(nextFrame)
+      .then(() => {
+        keepForOffline(request.kind === "sample" ? request.url : null);
+      });
     if (sample) this.#picker.showSample(sample);
     else this.#picker.showOwn(request.name);
   }

@@ -16,9 +16,12 @@ export interface Previewed {
   look: Pick<Settings, "size" | "fieldOfView" | "up">;
 }
 
-/** The answer to so many points comes within a second. Until then an even share is shown, which is drawn faster. */
+/**
+ * The answer to fewer points comes within a second. Until then an even share of them is shown, with fewer pixels. Where the
+ * processor draws, a whole picture would delay the answer.
+ */
 const SOON = 600_000;
-const SHARE = 60_000;
+const SHARE = 40_000;
 
 /**
  * The picture while a cloud is being read and prepared: the points so far, then the whole cloud as any viewer shows it. The
@@ -65,6 +68,7 @@ export class WaitingRoom<Left> {
     const step = cloud.count < SOON ? Math.ceil(cloud.count / SHARE) : 1;
     this.#points.all.geometry.setIndex(new BufferAttribute(everyNth(step, cloud.count), 1));
     this.#stage.all.add(this.#points.all);
+    this.#stage.setCoarse(step > 1);
     // Fewer points are wider, so that they close the surface all the same.
     this.#stage.setPointWidth(this.#points.setPointSize(look.size * Math.sqrt(step)));
     this.#stage.setFieldOfView(look.fieldOfView);
@@ -83,6 +87,7 @@ export class WaitingRoom<Left> {
   end(comesBack: boolean): void {
     if (!this.isOpen) return;
     this.isOpen = false;
+    this.#stage.setCoarse(false);
     this.#empty();
     this.#showOthers(true);
     if (comesBack) {
