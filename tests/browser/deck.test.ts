@@ -207,6 +207,28 @@ it("takes the eye of a geospatial camera, in meters and in degrees, with a matri
   expect(await inPage(({ errors }) => errors)).toEqual(["option"]);
 });
 
+it("does not refuse a new view with the layers before it, although the next frame comes late", async () => {
+  await inPage((page) => {
+    page.answers.length = 0;
+    page.lookFrom([11.57, 48.14], [30, -50, 500], {});
+    setTimeout(() => {
+      page.lookFrom([11.57, 48.14], [30, -50, 500], {
+        coordinateSystem: "meter-offsets",
+        coordinateOrigin: [11.57, 48.14, 0],
+      });
+    }, 100);
+    // The page is blocked for longer than a refusal has to last.
+    requestAnimationFrame(() =>
+      requestAnimationFrame(() => {
+        const end = performance.now() + 500;
+        while (performance.now() < end);
+      }),
+    );
+  });
+  await reached(({ answers }) => answers.at(-1)?.answer === "operator");
+  expect(await inPage(({ errors }) => errors)).toEqual([]);
+});
+
 /** How many points are in one list only: those on the brink, where the conversion rounds. */
 function differences(a: number[], b: number[]): number {
   const [inA, inB] = [new Set(a), new Set(b)];

@@ -2,8 +2,7 @@ import { CompositeLayer, type DefaultProps, type Layer, type UpdateParameters } 
 import { DataFilterExtension } from "@deck.gl/extensions";
 import { PointCloudLayer, type PointCloudLayerProps } from "@deck.gl/layers";
 
-import { asError } from "../base/errors.js";
-import { HprError } from "../base/errors.js";
+import { asError, HprError } from "../base/errors.js";
 import type { AnswerKind } from "../follow/gaze.js";
 import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings } from "../query/follow-options.js";
 import { givenOptions, pick } from "../query/options.js";
@@ -79,7 +78,10 @@ const filter = new DataFilterExtension({ filterSize: 1 });
 const VISIBLE: [number, number] = [0.5, 1.5];
 /** deck.gl shows a layer this view before the first true one. */
 const NO_VIEW_YET = "DEFAULT-INITIAL-VIEWPORT";
-/** If the page changes its layers and its view at once, the new layers meet the earlier view first. In milliseconds. */
+/**
+ * If the page changes its layers and its view, one of them may meet the other's state before. A refusal lasts if it is still
+ * there after so many milliseconds, and after deck.gl has drawn two more frames: on a busy machine frames come late.
+ */
 const LASTING = 200;
 
 /**
@@ -158,12 +160,13 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       return;
     }
     this.setState({ refusal: error.message, mask: undefined, data: undefined });
-    setTimeout(() => {
+    const report = () => {
       const layer = this.getCurrentLayer() as this | null;
       if (layer?.state.refusal === error.message) {
         layer.raiseError(error, "");
       }
-    }, LASTING);
+    };
+    setTimeout(() => requestAnimationFrame(() => requestAnimationFrame(report)), LASTING);
   }
 
   #look({ dataChanged, updateTriggersChanged: triggers }: Update["changeFlags"]): void {
