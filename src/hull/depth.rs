@@ -12,7 +12,8 @@ use glam::DVec3;
 
 use super::flipped::Flipped;
 use super::incremental::Hull;
-use super::locate::larger;
+use super::locate::{larger, smaller};
+use super::rasterize::Spot;
 use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, reserve};
 use crate::base::real::square_root;
@@ -45,27 +46,30 @@ const HEIGHT_ERROR: f64 = 64.0 * ROUNDING;
 
 /// The cells of one face of the cube.
 #[derive(Default)]
-struct Window {
-    x: f64,
-    y: f64,
+pub(super) struct Window {
+    pub x: f64,
+    pub y: f64,
     /// Cells along x; none in an unused window.
-    columns: usize,
-    rows: usize,
+    pub columns: usize,
+    pub rows: usize,
     /// Index of the first corner.
-    first: usize,
+    pub first: usize,
 }
 
 /// The map; the module's description explains it. Its memory is kept from view to view.
 #[derive(Default)]
 pub(super) struct DepthMap {
-    windows: [Window; 6],
-    cells_per_unit: f64,
-    /// An upper bound of w at each corner; infinite where w is in doubt.
-    heights: Vec<f64>,
+    pub(super) windows: [Window; 6],
+    pub(super) cells_per_unit: f64,
+    /// An upper bound of w at each corner; infinite where w is in doubt. While the map is made, it
+    /// is 0 where it must be found.
+    pub(super) heights: Vec<f64>,
     /// How far K certainly reaches in the direction of each corner, and in the cells beside it.
     reaches: Vec<f64>,
     /// Where the rounded z·w is below this number, the exact one is below 1.
     limit: f64,
+    /// Where the hull's vertices are seen.
+    pub(super) spots: Vec<Spot>,
 }
 
 impl DepthMap {
@@ -119,6 +123,9 @@ impl DepthMap {
         self.heights.resize(corners, f64::INFINITY);
         self.reaches.resize(corners, 0.0);
         self.want_corners(flipped, wanted);
+        if hull.compact.is_used() {
+            self.rasterize(hull)?;
+        }
         for side in 0..self.windows.len() {
             if self.windows[side].columns > 0 {
                 face = self.fill_window(side, hull, face);
@@ -293,7 +300,7 @@ impl DepthMap {
         })
     }
 
-    /// Finds the wanted heights at the corners of one side.
+    /// Finds the wanted heights at the corners of one side, or takes those that are found already.
     #[inline(never)]
     fn fill_window(&mut self, side: usize, hull: &Hull, mut face: FaceId) -> FaceId {
         let Window {
@@ -305,6 +312,7 @@ impl DepthMap {
         } = self.windows[side];
         let cell = 1.0 / self.cells_per_unit;
         let shrink = shrink(cell);
+        let is_rasterized = hull.compact.is_used();
         let mut row_start = face;
         // The largest relative change from a corner to the next.
         let mut steepest = 0.0;
@@ -313,17 +321,23 @@ impl DepthMap {
             let mut is_start = true;
             for column in 0..=columns {
                 let place = first + row * (columns + 1) + column;
-                if self.heights[place] > 0.0 {
+                let found = self.heights[place];
+                if found == f64::INFINITY {
                     continue;
                 }
                 let x = left + column as f64 * cell;
                 let y = bottom + row as f64 * cell;
-                let height;
                 let corner = direction(side, x, y);
-                (face, height) = hull.height_along(corner, face);
-                if core::mem::take(&mut is_start) {
-                    row_start = face;
-                }
+                let height = if is_rasterized {
+                    if found > 0.0 { found } else { f64::INFINITY }
+                } else {
+                    let (pierced, height) = hull.height_along(corner, face);
+                    face = pierced;
+                    if core::mem::take(&mut is_start) {
+                        row_start = face;
+                    }
+                    height
+                };
                 let mut compare = |other: f64| {
                     let change = (height - other).abs();
                     // An infinite height says nothing about the change.
@@ -351,7 +365,7 @@ impl DepthMap {
 
 /// The side of the cube that `v` points to, the place (x, y) there, and z.
 #[inline]
-fn place(v: DVec3) -> (usize, f64, f64, f64) {
+pub(super) fn place(v: DVec3) -> (usize, f64, f64, f64) {
     let a = v.abs();
     if a.z >= a.x && a.z >= a.y {
         let inverse = 1.0 / a.z;
@@ -376,7 +390,7 @@ fn place(v: DVec3) -> (usize, f64, f64, f64) {
 }
 
 /// (x, y) on a side of the cube.
-fn direction(side: usize, x: f64, y: f64) -> DVec3 {
+pub(super) fn direction(side: usize, x: f64, y: f64) -> DVec3 {
     let z = if side % 2 == 0 { 1.0 } else { -1.0 };
     match side / 2 {
         0 => DVec3::new(x, y, z),
@@ -456,10 +470,4 @@ fn cell_size(extents: &Extents, count: usize) -> Option<f64> {
 /// 1 − ½ΣΣλᵢλⱼ|uᵢ − uⱼ|², and ½ΣΣλᵢλⱼ is at most ⅜.
 fn shrink(cell: f64) -> f64 {
     square_root(larger(1.0 - 0.75 * cell * cell, 0.0)) * (1.0 - HEIGHT_ERROR)
-}
-
-/// `f64::min` without the function call that WebAssembly makes for it.
-#[inline]
-fn smaller(a: f64, b: f64) -> f64 {
-    if b < a { b } else { a }
 }

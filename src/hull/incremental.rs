@@ -12,6 +12,7 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
+use super::compact::Compact;
 use super::dual_plane::{Plane, Spoke};
 use super::topology::{Face, FaceId, Surface, Vertex};
 use crate::base::allocation::{OutOfMemory, reserve};
@@ -27,6 +28,7 @@ pub(super) struct Hull {
     pub vertices: Vertices,
     /// How its vertices and faces are numbered.
     pub numbers: Numbers,
+    pub compact: Compact,
 }
 
 /// How the vertices and faces of a hull are numbered.
@@ -84,6 +86,12 @@ impl Vertices {
         Plane::through(self.at(a), self.at(b), self.at(c), self.reach)
     }
 
+    /// The same, not inlined, for callers that run rarely.
+    #[inline(never)]
+    pub(super) fn plane_out_of_line(&self, corners: [Vertex; 3]) -> Plane {
+        self.plane(corners)
+    }
+
     #[inline]
     pub(super) fn at(&self, vertex: Vertex) -> DVec3 {
         self.positions[vertex as usize]
@@ -105,6 +113,15 @@ impl Vertices {
 
     #[cold]
     fn exact_side(&self, face: &Face<Plane>, q: DVec3) -> Sign {
+        // The plane may be missing.
+        let Plane { m, error } = self.plane_out_of_line(face.vertices);
+        let above = m.dot(q) - 1.0;
+        if above > error {
+            return Sign::Positive;
+        }
+        if above < -error {
+            return Sign::Negative;
+        }
         let [a, b, c] = face.vertices.map(|v| self.at(v));
         side_of_face(a, b, c, q)
     }
@@ -129,7 +146,8 @@ impl Vertices {
     #[cold]
     pub(super) fn turns_outward(&self, vertices: [Vertex; 3]) -> bool {
         let [a, b, c] = vertices.map(|v| self.at(v));
-        side_of_origin(a, b, c) == Sign::Positive
+        !self.plane_out_of_line(vertices).is_exact_only()
+            || side_of_origin(a, b, c) == Sign::Positive
     }
 }
 
@@ -156,6 +174,7 @@ impl Hull {
             vertices.add(point, q)?;
         }
         self.numbers = Numbers::AsMade;
+        self.compact.stop();
         self.surface.reserve(count);
         self.surface
             .start(ORIGIN, [1, 2, 3], |corners| vertices.plane(corners))?;
@@ -200,6 +219,9 @@ impl Hull {
         self.surface.fill_cavity(vertex, spoke, |tail, head| {
             Plane::between(tail, head, apex, reach)
         })?;
+        if self.compact.is_used() {
+            self.note_fan()?;
+        }
         let is_outer = |&id: &FaceId| self.vertices.is_outer(self.surface.face(id));
         let outer = self.surface.fan().iter().rev().copied().find(is_outer);
         Ok(outer.expect("a new vertex is on the outer boundary"))
@@ -216,6 +238,16 @@ impl Hull {
     /// Marks the visible vertices. A vertex is visible when one of its faces is outer. If all
     /// its faces are ghost or edge-on faces, its ray stays in K beyond it.
     pub(super) fn mark_outer_vertices(&self, visible: &mut [bool]) {
+        if self.compact.is_used() {
+            for (id, corners) in self.compact.alive() {
+                if self.compact.is_outward(id) || self.vertices.is_outer(self.surface.face(id)) {
+                    for vertex in corners {
+                        visible[self.vertices.points[vertex as usize] as usize] = true;
+                    }
+                }
+            }
+            return;
+        }
         for (_, face) in self.surface.alive() {
             if self.vertices.is_outer(face) {
                 for vertex in face.vertices {

@@ -197,7 +197,7 @@ impl Hull {
 
     /// Decides for the outer face that the ray of `q` pierces.
     #[inline]
-    fn decide(&self, id: FaceId, q: DVec3) -> Location {
+    pub(super) fn decide(&self, id: FaceId, q: DVec3) -> Location {
         let face = self.surface.face(id);
         match self.vertices.side(face, q) {
             Sign::Positive => Location::Outside(id),
@@ -225,4 +225,10 @@ impl Hull {
 #[inline]
 pub(super) fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
+}
+
+/// `f64::min` without the function call that WebAssembly makes for it.
+#[inline]
+pub(super) fn smaller(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
 }

@@ -137,7 +137,7 @@ impl Memory {
         let count = flipped.len() as u32;
         for round in order::coarse_rounds() {
             for index in round.indices(count) {
-                hint = self.add(index, flipped, [hint, hint])?;
+                hint = self.add(index, flipped, hint, None)?;
                 self.witnesses[index as usize] = hint;
             }
         }
@@ -180,7 +180,7 @@ impl Memory {
             budget = budget.saturating_sub(8 + added.count_ones() as usize);
             self.witnesses[run.start as usize..run.end as usize].fill(hint);
             for index in points_at(run.start, added) {
-                hint = self.add(index, flipped, [hint, hint])?;
+                hint = self.add(index, flipped, hint, None)?;
                 self.witnesses[index as usize] = hint;
             }
         }
@@ -199,7 +199,7 @@ impl Memory {
         let mut hint = 0;
         for round in order::coarse_rounds().chain([order::last_round()]) {
             for (_, index) in plane.sorted(round, flipped)? {
-                hint = self.add(index, flipped, [hint, hint])?;
+                hint = self.add(index, flipped, hint, None)?;
                 self.witnesses[index as usize] = hint;
             }
         }
@@ -235,7 +235,7 @@ impl Memory {
             let added = self.depth.not_hidden(flipped, run.start, open);
             for index in points_at(run.start, added) {
                 let witness = self.witnesses[index as usize];
-                hint = self.add(index, flipped, [hint, witness])?;
+                hint = self.add(index, flipped, hint, Some(witness))?;
                 self.witnesses[index as usize] = hint;
             }
         }
@@ -243,21 +243,25 @@ impl Memory {
         Ok(())
     }
 
-    /// Locates a point from the better of two hints. Makes it a vertex if it is outside. Returns
-    /// a face near it.
+    /// Locates a point from `hint`. Makes it a vertex if it is outside. Returns a face near it. In a
+    /// moved hull `witness` is the face near which the point was located last.
     #[inline(never)]
     fn add(
         &mut self,
         index: u32,
         flipped: &Flipped,
-        [hint, other]: [FaceId; 2],
+        hint: FaceId,
+        witness: Option<FaceId>,
     ) -> Result<FaceId, OutOfMemory> {
         let Some(q) = flipped.get(index) else {
             push(&mut self.on_boundary, index)?;
             return Ok(hint);
         };
-        let hint = self.hull.nearer_hint(q, hint, other);
-        Ok(match self.hull.locate(q, hint) {
+        let location = match witness {
+            None => self.hull.locate(q, hint),
+            Some(witness) => self.hull.locate_again(q, hint, witness),
+        };
+        Ok(match location {
             Location::Outside(face) => self.hull.insert(index, q, face)?,
             Location::Boundary(face) => {
                 push(&mut self.on_boundary, index)?;
@@ -272,7 +276,10 @@ impl Memory {
         #[cfg(debug_assertions)]
         self.hull.assert_is_hull();
         self.holds_hull = true;
-        self.mark_boundary(flipped)
+        self.mark_boundary(flipped)?;
+        #[cfg(debug_assertions)]
+        self.hull.assert_is_listed();
+        Ok(())
     }
 
     /// Marks the added points that are on the hull's boundary. A point that was found exactly on
@@ -280,6 +287,7 @@ impl Memory {
     /// always visible.
     #[inline(never)]
     pub(super) fn mark_boundary(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
+        self.hull.list_new()?;
         self.hull.mark_outer_vertices(&mut self.visible);
         let Some(mut hint) = self.hull.outer_face() else {
             return Ok(());
@@ -287,7 +295,7 @@ impl Memory {
         for &index in &self.on_boundary {
             self.visible[index as usize] = match flipped.get_out_of_line(index) {
                 None => true,
-                Some(q) => match self.hull.locate_out_of_line(q, hint) {
+                Some(q) => match self.hull.locate_again(q, hint, hint) {
                     Location::Boundary(face) => {
                         hint = face;
                         true

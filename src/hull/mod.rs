@@ -10,6 +10,7 @@
 
 pub(crate) mod division;
 
+mod aim;
 mod around;
 #[cfg(debug_assertions)]
 mod assertions;
@@ -17,6 +18,7 @@ mod boxes;
 mod certain;
 mod chain;
 mod clearing;
+mod compact;
 mod depth;
 mod dual_plane;
 mod enclosed;
@@ -36,6 +38,7 @@ mod other_flip;
 mod outer_boundary;
 mod outer_faces;
 mod predicates;
+mod rasterize;
 mod renumber;
 mod repair;
 mod share;

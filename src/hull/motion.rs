@@ -16,7 +16,6 @@ use glam::DVec3;
 
 use super::flipped::Flipped;
 use super::incremental::{Hull, Numbers, ORIGIN, Vertices};
-use super::locate::larger;
 use super::repair::Repair;
 use super::topology::{FaceId, HalfEdge, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
@@ -54,6 +53,7 @@ impl Hull {
             self.renumber(flipped.len(), witnesses)?;
             self.numbers = Numbers::InOrder;
         }
+        self.use_corners()?;
         self.vertices.reach = flipped.reach();
         let points = self.vertices.points.iter().skip(1);
         for (position, &point) in self.vertices.positions.iter_mut().skip(1).zip(points) {
@@ -102,6 +102,7 @@ impl Hull {
         if self.numbers == Numbers::AsMade {
             self.numbers = Numbers::Moved;
         }
+        self.list_new()?;
         self.settle(repair, is_vertex)
     }
 
@@ -146,24 +147,26 @@ impl Hull {
         repair.turned.clear();
         repair.suspects.clear();
         for slot in 0..self.surface.slots() as FaceId {
-            let face = self.surface.face_mut(slot);
-            if !face.is_alive() {
+            let Some(corners) = self.surroundings(slot) else {
+                continue;
+            };
+            let plane = self.vertices.plane(corners.own);
+            if self.compact.is_used() {
+                self.compact.note_plane(slot, &plane);
+            } else {
+                self.surface.face_mut(slot).data = plane;
+            }
+            // All three neighbors are computed, so each edge is looked at from both sides. A branch
+            // that cannot be predicted would cost more. The largest height would be such a branch
+            // in WebAssembly, where no instruction selects a floating-point number without one.
+            let limit = 1.0 - plane.error;
+            let is_below = |apex| plane.m.dot(self.vertices.at(apex)) < limit;
+            let [first, second, third] = corners.across.map(is_below);
+            if first & second & third {
                 continue;
             }
-            face.data = self.vertices.plane(face.vertices);
-            let face = *face;
-            // All three neighbors are computed, so each edge is looked at from both sides. An
-            // unpredictable branch would cost more.
-            let heights = face.twins.map(|twin| {
-                let across = self.surface.face(twin.face());
-                let apex = across.vertices[(twin.edge() + 2) % 3];
-                face.data.m.dot(self.vertices.at(apex)) - 1.0
-            });
-            let highest = larger(larger(heights[0], heights[1]), heights[2]);
-            if highest < -face.data.error {
-                continue;
-            }
-            if self.vertices.is_turned(&face) {
+            let face = *self.surface.face(slot);
+            if plane.is_exact_only() && self.vertices.is_turned(&face) {
                 if repair.turned.len() == most_turned {
                     return Ok(false);
                 }
@@ -208,15 +211,15 @@ impl Hull {
         }));
         const USED: u8 = 1 << 4;
         let mut pierced = 0;
-        for (_, face) in self.surface.alive() {
-            let [a, b, c] = face.vertices.map(|v| sides[v as usize]);
-            if a & b & c & !USED == 0 && !face.vertices.contains(&ORIGIN) {
-                match contains(face.vertices.map(|v| self.vertices.at(v)), ray) {
+        for corners in self.triangles() {
+            let [a, b, c] = corners.map(|v| sides[v as usize]);
+            if a & b & c & !USED == 0 && !corners.contains(&ORIGIN) {
+                match contains(corners.map(|v| self.vertices.at(v)), ray) {
                     Some(inside) => pierced += u32::from(inside),
                     None => return Ok(false),
                 }
             }
-            for vertex in face.vertices {
+            for vertex in corners {
                 sides[vertex as usize] |= USED;
             }
         }

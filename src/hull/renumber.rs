@@ -85,6 +85,7 @@ impl Hull {
         points.extend(ranks.members());
         positions.truncate(points.len());
         free.clear();
+        self.compact.stop();
         Ok(())
     }
 }

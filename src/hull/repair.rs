@@ -79,23 +79,24 @@ impl Hull {
 
     fn unfold_across(&mut self, edge: HalfEdge, repair: &mut Repair) -> Result<bool, OutOfMemory> {
         let twin = self.surface.twin(edge);
-        self.flip(edge);
+        self.flip(edge)?;
         repair.suspect(edge.face())?;
         repair.suspect(twin.face())?;
         Ok(true)
     }
 
-    fn flip(&mut self, edge: HalfEdge) {
+    fn flip(&mut self, edge: HalfEdge) -> Result<(), OutOfMemory> {
         let twin = self.surface.twin(edge);
         self.surface.flip(edge);
-        self.renew_plane(edge.face());
-        self.renew_plane(twin.face());
+        self.renew_plane(edge.face())?;
+        self.renew_plane(twin.face())
     }
 
     #[inline(never)]
-    fn renew_plane(&mut self, id: FaceId) {
+    fn renew_plane(&mut self, id: FaceId) -> Result<(), OutOfMemory> {
         let face = self.surface.face_mut(id);
-        face.data = self.vertices.plane(face.vertices);
+        face.data = self.vertices.plane_out_of_line(face.vertices);
+        self.note_new(id)
     }
 
     /// Whether the surface is reflex at an edge between faces that turn outward.
@@ -125,7 +126,7 @@ impl Hull {
     ) -> Result<bool, OutOfMemory> {
         if self.can_flip(edge) {
             let twin = self.surface.twin(edge);
-            self.flip(edge);
+            self.flip(edge)?;
             // The new edge is convex.
             reserve(&mut repair.suspects, 4)?;
             for face in [edge.face(), twin.face()] {
@@ -201,7 +202,7 @@ impl Hull {
         for i in 0..repair.ears.len() {
             let (ear, slot) = (repair.ears[i], repair.star[i]);
             self.surface.cut_ear(&mut repair.rim, ear, slot);
-            self.renew_plane(slot);
+            self.renew_plane(slot)?;
             repair.suspect(slot)?;
         }
         for &slot in &repair.star[repair.ears.len()..] {
@@ -257,7 +258,7 @@ impl Vertices {
     /// Whether a face with these corners would turn the right way.
     #[inline(never)]
     fn may_face(&self, corners: [Vertex; 3]) -> bool {
-        !self.plane(corners).is_exact_only() || self.turns_right(corners)
+        !self.plane_out_of_line(corners).is_exact_only() || self.turns_right(corners)
     }
 
     #[cold]

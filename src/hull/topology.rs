@@ -10,7 +10,7 @@ pub(crate) type Vertex = u32;
 pub(crate) type FaceId = u32;
 
 /// No vertex at all: marks a face that is not part of the surface.
-const NONE: u32 = u32::MAX;
+pub(super) const NONE: u32 = u32::MAX;
 
 /// Edge `edge` of face `face`: from `vertices[edge]` to `vertices[(edge + 1) % 3]`.
 ///
