@@ -2,10 +2,11 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { gzipSync } from "node:zlib";
 
+import { optimize } from "./build/optimize.js";
 import { buildWasm } from "./build/wasm.js";
 import { command } from "./lib/command.js";
 import { inRoot } from "./lib/paths.js";
-import { mustRun, Problem } from "./lib/run.js";
+import { mustRun } from "./lib/run.js";
 import { setUpForBuild } from "./setup/setup.js";
 import { WASM_TARGET } from "./setup/rust.js";
 import { largest, type Part, partsOf } from "./size/parts.js";
@@ -31,15 +32,8 @@ async function named(): Promise<string> {
   const bindgen = ["--target", "bundler", "--keep-debug", "--out-name", "hpr", "--out-dir", folder, compiled];
   await mustRun("wasm-bindgen", bindgen, FAILED);
   const module = inRoot("target", "size", "hpr_bg.wasm");
-  await mustRun("wasm-opt", [...optimizations(), "-g", module, "-o", module], FAILED);
+  await optimize(module, FAILED, true);
   return module;
-}
-
-/** What wasm-pack passes to wasm-opt. */
-function optimizations(): string[] {
-  const [, list] = /^wasm-opt = (\[.*\])$/m.exec(readFileSync(inRoot("Cargo.toml"), "utf8")) ?? [];
-  if (list === undefined) throw new Problem("Cargo.toml has no line of options for wasm-opt.");
-  return JSON.parse(list) as string[];
 }
 
 function document(released: Uint8Array, parts: Part[]): string {

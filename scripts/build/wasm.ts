@@ -7,6 +7,7 @@ import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
 import { WASM_TARGET } from "../setup/rust.js";
 import { easeGlue } from "./glue.js";
+import { optimize } from "./optimize.js";
 
 const FAILED = "The WebAssembly module could not be built";
 
@@ -23,6 +24,8 @@ export async function buildWasm(): Promise<void> {
       "tools/wasm",
       "scripts/build/wasm.ts",
       "scripts/build/glue.ts",
+      "scripts/build/optimize.ts",
+      "scripts/build/panics.ts",
       "package-lock.json",
     ],
     ignore: ["src/ts", "tools/wasm/target"],
@@ -33,8 +36,7 @@ export async function buildWasm(): Promise<void> {
     // bundler: this glue lets the package start the wasm itself, and start another copy
     // after a trap. No other glue does. hpr.js would start the wasm, so it is left out.
     // The types of hpr.js also fit hpr_bg.js.
-    // no-install: wasm-pack would download tools. The project's tools are on the PATH,
-    // and wasm-opt comes from the npm package binaryen.
+    // no-install: wasm-pack would download tools. The project's tools are on the PATH.
     const args = [
       "--log-level",
       "error",
@@ -48,6 +50,7 @@ export async function buildWasm(): Promise<void> {
     ];
     args.push("--out-dir", "target/wasm-pack", "--out-name", "hpr", "--", "--features", "wasm", "--locked");
     await mustRun("wasm-pack", args, FAILED, { env: { RUSTFLAGS: await flags() } });
+    await optimize(inRoot("target/wasm-pack/hpr_bg.wasm"), FAILED);
     mkdirSync(inRoot("src/ts/wasm"), { recursive: true });
     for (const file of GLUE) {
       const built = file === "hpr_bg.d.ts" ? "hpr.d.ts" : file;

@@ -18,7 +18,7 @@ const OUTSIDE: [part: string, names: RegExp][] = [
 
 /** The parts of a module, the largest first. */
 export function partsOf({ functions, exported, data }: WasmSections): Part[] {
-  const groups = new Map<string, Uint8Array[]>([["constants and messages of panics", [data]]]);
+  const groups = new Map<string, Uint8Array[]>([["constants", [data]]]);
   for (const { name, bytes } of functions) {
     const part = exported.has(name) ? BINDINGS : partOf(name);
     groups.set(part, [...(groups.get(part) ?? []), bytes]);

@@ -19,13 +19,14 @@ mod space;
 mod transfer;
 mod views;
 
-use alloc::boxed::Box;
-use alloc::string::ToString;
-use std::panic;
+#[cfg(debug_assertions)]
+use {alloc::boxed::Box, alloc::string::ToString, std::panic};
 
 use wasm_bindgen::prelude::*;
 
-/// Runs once for each instance: a panic prints its message before it traps.
+/// Runs once for each instance of a development build: a panic prints its message before it traps. A
+/// released module traps without a message.
+#[cfg(debug_assertions)]
 #[wasm_bindgen(start)]
 fn start() {
     panic::set_hook(Box::new(|info| {

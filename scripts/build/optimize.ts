@@ -1,0 +1,19 @@
+import { readFileSync, writeFileSync } from "node:fs";
+
+import { mustRun } from "../lib/run.js";
+import { withoutMessages } from "./panics.js";
+
+const OPTIONS = [
+  "-Oz",
+  // Nothing is at the lowest 1024 addresses but the far end of the stack, so offsets may be folded into loads and stores.
+  "--low-memory-unused",
+  "--converge",
+  // A large function with one caller stays a function: in a huge function, the numbers of variables take two bytes.
+  "--one-caller-inline-max-function-size=40",
+];
+
+/** Shrinks a module as wasm-bindgen made it, in place. It must have names, and keeps them if `keepsNames`. */
+export async function optimize(module: string, failed: string, keepsNames = false): Promise<void> {
+  writeFileSync(module, withoutMessages(readFileSync(module)));
+  await mustRun("wasm-opt", [...OPTIONS, ...(keepsNames ? ["-g"] : []), module, "-o", module], failed);
+}
