@@ -7,6 +7,9 @@
 //! values at the four corners. A point with z·w < 1 is in K, and K goes on beyond it. So the
 //! point is hidden, now and for every larger K.
 
+#[cfg(test)]
+mod tests;
+
 use alloc::vec::Vec;
 use glam::DVec3;
 
