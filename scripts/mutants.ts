@@ -1,6 +1,7 @@
-// npm run mutants -- [--files PATH]... [--shard K/N] [--quick] [--tests NAME]... [--jobs N]: changes one place of the
-// core at a time and checks that a test fails. All mutants are compiled into one program. Mutants that were tried before
-// are not tried again, so the command can be stopped at any time. Writes tests/mutations/rust.tsv and the table of RUST.md.
+// npm run mutants -- [--files PATH]... [--shard K/N] [--quick] [--tests NAME]... [--open] [--jobs N]: changes one place
+// of the core at a time and checks that a test fails. All mutants are compiled into one program. Mutants that were tried
+// before are not tried again, so the command can be stopped at any time. Writes tests/mutations/rust.tsv and the table of
+// RUST.md.
 import { parseArgs } from "node:util";
 
 import { command } from "./lib/command.js";
@@ -18,7 +19,7 @@ import { measureTests } from "./mutants/tests.js";
 import { Trial } from "./mutants/try.js";
 
 await command(async () => {
-  const { files, shard, choice, jobs } = askedFor(process.argv.slice(3));
+  const { files, shard, choice, open, jobs } = askedFor(process.argv.slice(3));
   await setUpRust();
   await setUpLinker();
   await setUpCargoMutants();
@@ -35,7 +36,8 @@ await command(async () => {
     else if (results.get(mutant.key) === "unviable") results.delete(mutant.key);
   }
   const isAll = !choice.quick;
-  const isDue = ({ key }: Mutant) => results.get(key) === undefined || (isAll && results.get(key) === "open");
+  const isDue = ({ key }: Mutant) =>
+    (!open && results.get(key) === undefined) || (isAll && results.get(key) === "open");
   const due = [...chosen].filter((mutant) => isDue(mutant) && placed.has(numberOf.get(mutant)!));
   const tests = due.length === 0 ? [] : await measureTests(paths, choice);
 
@@ -59,12 +61,15 @@ interface Asked {
   /** Every mutant whose place in the list has this remainder. */
   shard: { part: number; count: number };
   choice: Choice;
+  /** Whether only mutants are tried that earlier tests missed. */
+  open: boolean;
   /** How many mutants are tried at a time. */
   jobs: number;
 }
 
 function askedFor(args: string[]): Asked {
-  const usage = "npm run mutants -- [--files src/hull]... [--shard 0/8] [--quick] [--tests sectors::]... [--jobs 2]";
+  const usage =
+    "npm run mutants -- [--files src/hull]... [--shard 0/8] [--quick] [--tests sectors::]... [--open] [--jobs 2]";
   try {
     const text = { type: "string" } as const;
     const options = {
@@ -72,14 +77,16 @@ function askedFor(args: string[]): Asked {
       shard: text,
       quick: { type: "boolean" },
       tests: { ...text, multiple: true },
+      open: { type: "boolean" },
       jobs: text,
     } as const;
     const given = parseArgs({ args, options }).values;
-    const { files = ["src"], shard = "0/1", quick = false, tests: names = [], jobs = "1" } = given;
+    const { files = ["src"], shard = "0/1", quick = false, tests: names = [], open = false, jobs = "1" } = given;
     const [, part, count] = /^(\d+)\/(\d+)$/.exec(shard) ?? [];
     if (part === undefined || Number(part) >= Number(count)) throw new Error(`--shard ${shard} is no part of a whole.`);
     if (!/^[1-9]\d?$/.test(jobs)) throw new Error(`--jobs ${jobs} is no number from 1 to 99.`);
-    return { files, shard: { part: Number(part), count: Number(count) }, choice: { quick, names }, jobs: Number(jobs) };
+    const choice = { quick, names };
+    return { files, shard: { part: Number(part), count: Number(count) }, choice, open, jobs: Number(jobs) };
   } catch (error) {
     throw new Problem(`${(error as Error).message}\n${usage}`);
   }

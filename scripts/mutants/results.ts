@@ -6,9 +6,9 @@ import type { Mutant } from "./list.js";
 
 /**
  * The results of a mutant. `unreached`: no test reaches its place. `open`: the quick tests missed it, and the others
- * have not run yet.
+ * have not run yet. `explained`: the report says why no test can find it. This is written by hand.
  */
-export const RESULTS = ["caught", "timeout", "unviable", "missed", "unreached", "open"] as const;
+export const RESULTS = ["caught", "timeout", "unviable", "explained", "missed", "unreached", "open"] as const;
 export type Result = (typeof RESULTS)[number];
 
 const FOLDER = "tests/mutations";
