@@ -3,6 +3,9 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
+use super::flipped::Flipped;
+use super::incremental::ORIGIN;
+use super::topology::{FaceId, Vertex};
 use super::{Memory, mark_visible};
 use crate::base::random::Random;
 use crate::cloud::points::Points;
@@ -74,5 +77,61 @@ fn a_viewpoint_leaves_a_cloud_and_enters_it() {
             }
             assert!(moved >= 80, "{count} points, {radius}: {moved}");
         }
+    }
+}
+
+/// Takes the vertices of a face out of the last hull, and mends it. Returns false if there is no hole
+/// that can be filled. Puts the points that were taken out back, and expects the same answer.
+fn clear(memory: &mut Memory, flipped: &Flipped, face: FaceId) -> bool {
+    let alive = |memory: &Memory| memory.hull.surface.alive().count();
+    let before = (alive(memory), memory.hull.surface.face(face).vertices);
+    let answer = memory.visible.clone();
+    memory.repair.effort = 10_000;
+    memory.repair.suspects.clear();
+    if !memory.hull.clear(face, &mut memory.repair).unwrap() {
+        assert_eq!(before.0, alive(memory));
+        return false;
+    }
+    let faces = memory.hull.surface.alive().map(|(_, face)| face.vertices);
+    let present: Vec<Vertex> = faces.flatten().collect();
+    for vertex in before.1 {
+        assert!(vertex == ORIGIN || !present.contains(&vertex));
+    }
+    while let Some(edge) = memory.repair.suspects.pop() {
+        if memory.hull.is_reflex(edge) {
+            assert!(memory.hull.make_convex(edge, &mut memory.repair).unwrap());
+        }
+    }
+    memory.hull.assert_is_hull();
+    memory.visible.fill(false);
+    for (_, face) in memory.hull.surface.alive() {
+        for vertex in face.vertices.into_iter().filter(|v| *v != ORIGIN) {
+            memory.visible[memory.hull.point(vertex) as usize] = true;
+        }
+    }
+    memory.add_to_moved_hull(flipped).unwrap();
+    memory.finish(flipped).unwrap();
+    assert_eq!(memory.visible, answer);
+    true
+}
+
+#[test]
+fn a_face_is_cleared_out_of_a_hull() {
+    let mut random = Random::new(30);
+    let points = Points::Double(random.bumpy(800));
+    for (viewpoint, cleared) in [([0.0, 0.5, 2.5], 110), ([0.1, 0.2, 0.1], 145)] {
+        let flip = Flip::new(viewpoint, Kernel::Spherical { radius: 100.0 });
+        let flipped = Flipped::of(&points, &[], &flip);
+        let mut memory = Memory::default();
+        mark_visible(&points, &[], &flip, None, &mut memory).unwrap();
+        let mut times = 0;
+        for _ in 0..150 {
+            let slots = memory.hull.surface.slots() as u64;
+            let face = random.below(slots) as FaceId;
+            if memory.hull.corners(face).is_some() {
+                times += u32::from(clear(&mut memory, &flipped, face));
+            }
+        }
+        assert!(times >= cleared, "{times}");
     }
 }
