@@ -290,4 +290,29 @@ mod tests {
             assert_eq!(first_zero(positive), f64::INFINITY, "{positive:?}");
         }
     }
+
+    #[test]
+    fn the_first_zero_is_found_wherever_the_others_are() {
+        let none = f64::INFINITY;
+        for zeros in [
+            [1.2, 1.5, none],
+            [1.2, 1.5, 1.7],
+            [1.2, 1.5, -3.0],
+            [-0.3, -2.0, 40.0],
+            [-0.5, 0.25, 0.26],
+            [0.7, none, none],
+            [-1.0, -2.0, none],
+            [3e4, 4e5, -1.0],
+        ] {
+            // The product of 1 - x/z over the zeros.
+            let [a, b, c] = zeros.map(|z| -1.0 / z);
+            let found = first_zero([1.0, a + b + c, a * b + b * c + c * a, a * b * c]);
+            let first = zeros.into_iter().filter(|z| *z > 0.0).fold(none, f64::min);
+            assert!(
+                found == first || (found / first - 1.0).abs() < 1e-9,
+                "{zeros:?}: {found}"
+            );
+        }
+        assert_eq!(first_zero([1.0, 0.0, 0.0, 0.0]), none);
+    }
 }

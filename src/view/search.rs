@@ -179,4 +179,12 @@ mod tests {
         assert_eq!(summit(3.0, 2.0, 4.0), BRACKET);
         assert_eq!(summit(2.0, 2.0, 2.0), 0.0);
     }
+
+    #[test]
+    fn points_at_both_viewpoints_have_no_radius() {
+        for least in [0.0, f64::INFINITY, f64::NAN] {
+            let radius = opposite(least, 1.0, &mut |_| panic!("nothing is seen"));
+            assert!(radius.is_ok_and(|radius| radius.is_none()));
+        }
+    }
 }
