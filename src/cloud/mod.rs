@@ -4,6 +4,7 @@
 
 pub(crate) mod blocks;
 pub(crate) mod growth;
+mod hilbert;
 pub(crate) mod neighbors;
 pub(crate) mod point_cloud;
 pub(crate) mod points;

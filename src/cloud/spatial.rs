@@ -5,10 +5,9 @@
 //! ties on the curve. It does not depend on the order of the input, or on earlier changes of
 //! the cloud. So everything that is computed in this order is reproducible to the bit.
 
+use super::hilbert::{BITS, hilbert_key};
 use crate::base::real::floor;
 
-/// Bits per axis; three axes fill 63 bits of the key.
-const BITS: u32 = 21;
 /// Cells along an axis.
 const CELLS: f64 = (1u32 << BITS) as f64;
 
@@ -81,10 +80,13 @@ impl Bounds {
     pub(crate) fn gap_squared(&self, other: &Self) -> f64 {
         let mut sum = 0.0;
         for axis in 0..3 {
-            let gap = (self.min[axis] - other.max[axis])
-                .max(other.min[axis] - self.max[axis])
-                .max(0.0);
-            sum += gap * gap;
+            // At most one of the two is positive. Comparisons, as above.
+            let (after, before) = (
+                self.min[axis] - other.max[axis],
+                other.min[axis] - self.max[axis],
+            );
+            let gap = if after > before { after } else { before };
+            sum += if gap > 0.0 { gap * gap } else { 0.0 };
         }
         sum
     }
@@ -133,7 +135,7 @@ impl HilbertCurve {
     /// The key of `p` among all points; equal points have equal keys.
     #[inline(never)]
     pub(crate) fn key(&self, p: [f64; 3]) -> u64 {
-        interleave(to_hilbert(self.cells(p).map(cell)))
+        hilbert_key(self.cells(p).map(cell))
     }
 
     /// The key of `p` among the points of one cell, along a curve inside the cell. A single far
@@ -141,7 +143,7 @@ impl HilbertCurve {
     #[inline(never)]
     pub(crate) fn key_in_cell(&self, p: [f64; 3]) -> u64 {
         let inside = |cells: f64| cell((cells - f64::from(cell(cells))) * CELLS);
-        interleave(to_hilbert(self.cells(p).map(inside)))
+        hilbert_key(self.cells(p).map(inside))
     }
 
     #[inline(never)]
@@ -171,51 +173,6 @@ fn cell(cells: f64) -> u32 {
 fn power_of_two_above(x: f64) -> f64 {
     const FRACTION: u64 = (1 << 52) - 1;
     f64::from_bits((x.max(f64::MIN_POSITIVE).to_bits() + FRACTION) & !FRACTION)
-}
-
-/// Skilling's transform ("Programming the Hilbert curve", 2004): coordinates to
-/// the transposed Hilbert index, whose interleaved bits are the key.
-fn to_hilbert(mut x: [u32; 3]) -> [u32; 3] {
-    let mut bit = 1 << (BITS - 1);
-    while bit > 1 {
-        let below = bit - 1;
-        for axis in 0..3 {
-            if x[axis] & bit != 0 {
-                x[0] ^= below;
-            } else {
-                let swap = (x[0] ^ x[axis]) & below;
-                x[0] ^= swap;
-                x[axis] ^= swap;
-            }
-        }
-        bit >>= 1;
-    }
-    x[1] ^= x[0];
-    x[2] ^= x[1];
-    let mut gray = 0;
-    let mut bit = 1 << (BITS - 1);
-    while bit > 1 {
-        if x[2] & bit != 0 {
-            gray ^= bit - 1;
-        }
-        bit >>= 1;
-    }
-    x.map(|axis| axis ^ gray)
-}
-
-#[inline]
-fn interleave(x: [u32; 3]) -> u64 {
-    spread(x[0]) << 2 | spread(x[1]) << 1 | spread(x[2])
-}
-
-/// Puts two zero bits between any two of the low 21 bits.
-fn spread(x: u32) -> u64 {
-    let mut x = u64::from(x);
-    x = (x | x << 32) & 0x001f_0000_0000_ffff;
-    x = (x | x << 16) & 0x001f_0000_ff00_00ff;
-    x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
-    x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
-    (x | x << 2) & 0x1249_2492_4924_9249
 }
 
 #[cfg(test)]
