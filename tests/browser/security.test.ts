@@ -53,7 +53,9 @@ test("the policy allows only the page's own scripts and its own inline script", 
     provoke(/security policy|Content Security Policy|404/);
     const refused = await page.evaluate(async (markup) => {
       const directives = new Set<string>();
-      addEventListener("securitypolicyviolation", ({ effectiveDirective }) => directives.add(effectiveDirective));
+      document.addEventListener("securitypolicyviolation", ({ effectiveDirective }) =>
+        directives.add(effectiveDirective),
+      );
       const script = document.createElement("script");
       script.textContent = "window.hacked = 1";
       const holder = document.createElement("div");

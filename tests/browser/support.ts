@@ -91,7 +91,7 @@ export async function openPage(
 
 /** Runs in the page. Anything that its security policy refuses is an error of the test. */
 function reportViolations(): void {
-  addEventListener("securitypolicyviolation", ({ effectiveDirective, blockedURI, sourceFile, lineNumber }) => {
+  document.addEventListener("securitypolicyviolation", ({ effectiveDirective, blockedURI, sourceFile, lineNumber }) => {
     console.error(`security policy: ${effectiveDirective} refuses ${blockedURI} in ${sourceFile}:${lineNumber}`);
   });
 }
