@@ -1,3 +1,4 @@
+import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import {
   answered,
@@ -7,12 +8,30 @@ import {
   openReady,
   refiltered,
   said,
-  settled,
   status,
   upToDate,
 } from "./support.js";
 
-test("the page opens on the dragon, and every answer while orbiting is the package's own", async () => {
+/** How many frames are drawn until the next answer. */
+function framesToAnswer(page: Page): Promise<number> {
+  return page.evaluate(
+    () =>
+      new Promise((resolve) => {
+        const refilters = () => Number(document.getElementById("status")!.dataset["refilters"]);
+        const start = refilters();
+        let count = 0;
+        requestAnimationFrame(function frame() {
+          if (refilters() > start) resolve(count);
+          else {
+            count++;
+            requestAnimationFrame(frame);
+          }
+        });
+      }),
+  );
+}
+
+test("the page opens on the dragon, goes on drawing while it is asked, and every answer is the package's own", async () => {
   const positions = dragonPositions();
   const page = await openReady();
   const first = await status(page);
@@ -28,7 +47,11 @@ test("the page opens on the dragon, and every answer while orbiting is the packa
   await new Promise((resolve) => setTimeout(resolve, 500));
   expect(new URL(page.url()).search).toBe("");
 
+  const frames = framesToAnswer(page);
   await drag(page, 180, 40);
+  // At least one whole frame between a question and its answer: the page never waits for the hull.
+  expect(await frames).toBeGreaterThan(1);
+  // Then the newest viewpoint is answered.
   const second = await refiltered(page, first);
   await expect.poll(() => new URL(page.url()).search).toMatch(/^\?sample=dragon&view=[^&]+$/);
   expect(second.refilters).toBeGreaterThan(first.refilters);
@@ -39,31 +62,6 @@ test("the page opens on the dragon, and every answer while orbiting is the packa
   await drag(page, -90, 120);
   const third = await refiltered(page, second);
   expect(third).toMatchObject(await answerInNode(positions, third));
-});
-
-test("while the worker is busy the page goes on drawing, and then the newest viewpoint is answered", async () => {
-  const page = await openReady();
-  const before = await settled(page);
-  const frames = page.evaluate(
-    () =>
-      new Promise<number>((resolve) => {
-        const refilters = () => Number(document.getElementById("status")!.dataset["refilters"]);
-        const start = refilters();
-        let count = 0;
-        requestAnimationFrame(function frame() {
-          if (refilters() > start) resolve(count);
-          else {
-            count++;
-            requestAnimationFrame(frame);
-          }
-        });
-      }),
-  );
-  await drag(page, 150, 0);
-  // At least one whole frame between a question and its answer: the page never waits for the hull.
-  expect(await frames).toBeGreaterThan(1);
-  const after = await refiltered(page, before);
-  expect(after).toMatchObject(await answerInNode(dragonPositions(), after));
 });
 
 test("a slow question from an old viewpoint does not delay the next answer", async () => {
