@@ -92,7 +92,7 @@ const MODES: Mode[] = [
   { name: "light", query: `${DRAGON}&light=0.2,0.3,0.2&light=-0.2,0.3,0.1&soft=0.1` },
   { name: "at least two", query: `${DRAGON}&viewpoints=two` },
   { name: "best of six", query: `${DRAGON}&radius=search` },
-  { name: "frozen", query: `${DRAGON}&freeze=0.2,0.3,0.4&hidden=dimmed` },
+  { name: "frozen", query: `${DRAGON}&freeze=-0.5,0.3,0.1&hidden=dimmed` },
   { name: "stations", query: "?sample=bunny&station=0,5,20,North&station=15,6,0,East", act: press("Stations") },
   { name: "pick", query: "?sample=tile", act: pick },
   { name: "measure", query: "?sample=bunny&measure=100,900&measure=300,1200", act: press("Measure") },

@@ -1,3 +1,4 @@
+import "../styles/keys.css";
 import { byId } from "../controls/dom.ts";
 import { isKeyOf } from "../controls/keys.ts";
 

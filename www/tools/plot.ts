@@ -1,3 +1,4 @@
+import "../styles/plot.css";
 import { isAutomatic } from "../ask/question.ts";
 import { Curve } from "../ask/curve.ts";
 import type { TimedView } from "../ask/inquiry.ts";

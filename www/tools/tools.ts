@@ -1,4 +1,6 @@
 import "../styles/tools.css";
+import "../styles/tool-card.css";
+import "../styles/divider.css";
 import "../styles/compare.css";
 import { Vector3 } from "three";
 import { upVector } from "../cloud/cloud.ts";
