@@ -24,3 +24,9 @@ pub(crate) fn floor(x: f64) -> f64 {
         libm::floor(x)
     }
 }
+
+/// `f64::max` without the function call that WebAssembly makes for it; neither number may be NaN.
+#[inline]
+pub(crate) fn larger(a: f64, b: f64) -> f64 {
+    if b > a { b } else { a }
+}

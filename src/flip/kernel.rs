@@ -59,5 +59,11 @@ impl Kernel {
 }
 
 fn exponential(scale: f64, d: f64) -> f64 {
-    libm::exp((scale / d).min(MAX_EXPONENT))
+    let exponent = scale / d;
+    // Not `min`, for which WebAssembly calls a function.
+    libm::exp(if exponent < MAX_EXPONENT {
+        exponent
+    } else {
+        MAX_EXPONENT
+    })
 }
