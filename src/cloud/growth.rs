@@ -60,8 +60,9 @@ impl<'a> Growth<'a> {
             return Ok(cloud.statistics);
         }
         let spacings = self.spacings(place, position)?;
-        let samples = Statistics::of_samples(spacings, &|sample, samples| {
-            let sampled = sampled_place(sample, samples, points.len() + 1);
+        let longer = points.len() + 1;
+        let samples = Statistics::of_samples(spacings, longer, &bounds, &|sample, samples| {
+            let sampled = sampled_place(sample, samples, longer);
             if sampled == place {
                 position
             } else {
@@ -70,7 +71,6 @@ impl<'a> Growth<'a> {
         })?;
         // The centroid would take a pass over the cloud. No automatic rule needs it.
         Ok(Statistics {
-            count: points.len() + 1,
             centroid: cloud.statistics.centroid,
             ..samples
         })

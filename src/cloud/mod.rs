@@ -3,6 +3,7 @@
 //! surface, spheres around blocks, choices of points.
 
 pub(crate) mod blocks;
+pub(crate) mod filling;
 pub(crate) mod growth;
 mod hilbert;
 pub(crate) mod neighbors;

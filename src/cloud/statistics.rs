@@ -10,7 +10,7 @@ use crate::base::real::square_root;
 use crate::cloud::neighbors::{Nearest, Neighbor, Neighbors};
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
-use crate::cloud::surface;
+use crate::cloud::{filling, surface};
 
 /// The spacing of a point is its mean distance from this many nearest points.
 pub(crate) const NEIGHBORS: usize = 6;
@@ -27,7 +27,8 @@ pub(crate) struct Statistics {
     /// Mean distance to the 6 nearest other points (to all others where there
     /// are fewer), averaged over an even sample; 0 below two points.
     pub spacing: f64,
-    /// The gap of the sampled spacings, see [`surface::gap`]; 0 below two points.
+    /// The gap of the sampled spacings, see [`surface::gap`], and [`filling::widening`]; 0 below
+    /// two points.
     pub gap: f64,
     /// The mean place of the surface: the sampled points, weighted by the area for which each
     /// stands.
@@ -52,32 +53,42 @@ impl Statistics {
             }
         }
         let centroid = core::array::from_fn(|axis| corner[axis] + sum[axis] / n as f64);
-        let samples = Self::of_samples(sampled_spacings(points)?, &|sample, samples| {
-            points.get(sampled_place(sample, samples, n))
-        })?;
+        let samples =
+            Self::of_samples(sampled_spacings(points)?, n, bounds, &|sample, samples| {
+                points.get(sampled_place(sample, samples, n))
+            })?;
         Ok(Self {
-            count: n,
             centroid,
             ..samples
         })
     }
 
-    /// Everything but the count and the centroid, from the spacings of sampled points. `point`
-    /// gives a sampled point by its number and the number of samples.
+    /// Everything but the centroid, from the spacings of sampled points of a cloud of `count`.
+    /// `point` gives a sampled point by its number and the number of samples.
     #[inline(never)]
     pub(crate) fn of_samples(
         spacings: Vec<f64>,
+        count: usize,
+        bounds: &Bounds,
         point: &dyn Fn(usize, usize) -> [f64; 3],
     ) -> Result<Self, OutOfMemory> {
         let spacing = surface::mean(&spacings);
-        let spacings = surface::cut_off(spacings)?;
-        let gap = surface::gap(&spacings);
+        let longest = surface::longest(&spacings)?;
+        let samples = spacings.len();
+        let point = |sample| point(sample, samples);
+        // The points of clouds of two dimensions are on curves, which fill nothing.
+        let widening = if bounds.min[2] < bounds.max[2] {
+            filling::widening(&spacings, longest, count, &point)
+        } else {
+            1.0
+        };
+        let spacings = surface::cut_off(spacings, longest);
+        let gap = surface::gap(&spacings) * widening;
         let areas = surface::into_areas(spacings);
-        let axes: [[f64; 2]; 3] = core::array::from_fn(|axis| {
-            surface::moments(&areas, &|sample| point(sample, areas.len())[axis])
-        });
+        let axes: [[f64; 2]; 3] =
+            core::array::from_fn(|axis| surface::moments(&areas, &|sample| point(sample)[axis]));
         Ok(Self {
-            count: 0,
+            count,
             centroid: [0.0; 3],
             spacing,
             gap,

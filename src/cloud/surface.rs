@@ -19,18 +19,22 @@ pub(crate) fn mean(spacings: &[f64]) -> f64 {
     total / spacings.len().max(1) as f64
 }
 
-/// Cuts off the longest spacings.
-pub(crate) fn cut_off(mut spacings: Vec<f64>) -> Result<Vec<f64>, OutOfMemory> {
+/// The spacing at which longer ones are cut off; infinite where there are none.
+pub(crate) fn longest(spacings: &[f64]) -> Result<f64, OutOfMemory> {
     // The bits of numbers that are not negative are in their order.
     let mut sorted: Vec<(u64, u32)> = with_capacity(spacings.len())?;
     sorted.extend(spacings.iter().map(|spacing| (spacing.to_bits(), 0)));
     sort_keyed(&mut sorted);
-    if let Some(&(bits, _)) = sorted.get(spacings.len() * PERCENTILE / 100) {
-        for spacing in &mut spacings {
-            *spacing = spacing.min(f64::from_bits(bits));
-        }
+    let at = sorted.get(spacings.len() * PERCENTILE / 100);
+    Ok(at.map_or(f64::INFINITY, |&(bits, _)| f64::from_bits(bits)))
+}
+
+/// Cuts off the spacings that are longer.
+pub(crate) fn cut_off(mut spacings: Vec<f64>, longest: f64) -> Vec<f64> {
+    for spacing in &mut spacings {
+        *spacing = spacing.min(longest);
     }
-    Ok(spacings)
+    spacings
 }
 
 /// The gap: the mean of s³ ÷ the square of the mean of s. It is the spacing if all points have the

@@ -9,8 +9,9 @@ pub enum Radius {
     /// From the cloud's sampling and the viewpoint: R = 0.4·n^¼·r²/g, never below the
     /// farthest distance. n is the number of distinct points. g = mean(s³)/mean(s)², where s is the
     /// mean distance of a point from its 6 nearest points: the cloud's spacing where sampling is
-    /// even, and more where it is not. r² is the mean square of the distances from the viewpoint, in
-    /// which each point counts s² times, as the area for which it stands.
+    /// even, and more where it is not. g is up to 32 times larger where the points leave much of
+    /// what they span empty (`docs/VISIBLE.md`). r² is the mean square of the distances from the
+    /// viewpoint, in which each point counts s² times, as the area for which it stands.
     #[default]
     Auto,
     /// By antipodal search around the closed form of [`Radius::Auto`], with six hulls. A look

@@ -115,9 +115,9 @@ pub(crate) fn automatic(statistics: &Statistics, viewpoint: [f64; 3], farthest: 
 }
 
 /// R = 0.4·n^¼·r²/g, with n the number of distinct points, r the root-mean-square distance of the
-/// surface from the viewpoint and g the gap between its samples (see `surface`). A denser or more
-/// distant cloud needs a larger sphere. r² is |C − middle|² + variance. So no pass over the points
-/// is needed, and R moves smoothly with the viewpoint, inside the cloud too.
+/// surface from the viewpoint and g the gap between its samples (see `surface` and `filling`). A
+/// denser or more distant cloud needs a larger sphere. r² is |C − middle|² + variance. So no pass
+/// over the points is needed, and R moves smoothly with the viewpoint, inside the cloud too.
 pub(crate) fn closed_form(count: usize, r_squared: f64, gap: f64, farthest: f64) -> f64 {
     if count < 2 || gap == 0.0 || farthest == 0.0 {
         return farthest;

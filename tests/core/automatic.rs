@@ -1,9 +1,10 @@
-//! The automatic radius: R = 0.4·n^¼·r²/g, never below the farthest distance.
+//! The automatic radius: R = 0.4·n^¼·r²/g, never below the farthest distance. g is wider where the
+//! surface has wide places without points.
 
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use hidden_point_removal::{Options, PointCloud, Radius};
+use hidden_point_removal::{Options, PointCloud, PointCloud2d, Radius};
 
 use crate::common::ask;
 use crate::common::flip::{distance, farthest};
@@ -218,4 +219,72 @@ fn an_overflow_is_clamped() {
     let (radius, exponent) = automatic(&far, [1e153, 0.0, 0.0]);
     assert!((2.0 * radius).is_finite() && radius >= 1e153 && exponent.is_finite());
     assert_eq!(ask(&far, [1e153, 0.0, 0.0], &Options::default()).count(), 3);
+}
+
+/// `count` points along a tube around a circle, in rounds of `around` points.
+fn tube(count: usize, around: usize, thickness: f64) -> impl Iterator<Item = [f64; 3]> {
+    (0..count * around).map(move |i| {
+        let along = (i / around) as f64 / count as f64 * std::f64::consts::TAU;
+        let angle = (i % around) as f64 / around as f64 * std::f64::consts::TAU;
+        let away = 1.0 + thickness * angle.cos();
+        [
+            away * along.cos(),
+            away * along.sin(),
+            thickness * angle.sin(),
+        ]
+    })
+}
+
+#[test]
+fn flat_sides_without_points_make_the_sphere_smaller() {
+    // A tin whose lids have points at their rims only: two thin rings, one above the other.
+    let ring = |height: f64| tube(900, 2, 0.002).map(move |[x, y, z]| [x, y, z + height]);
+    let tin: Vec<_> = ring(0.0).chain(ring(0.25)).collect();
+    let viewpoint = [0.5, 1.0, 4.0];
+    let (radius, _) = automatic(&tin, viewpoint);
+    let expected = expected(&tin, viewpoint);
+    assert!(radius < 0.2 * expected, "{radius}, {expected}");
+    assert!(radius > 0.9 / 32.0 * expected, "{radius}, {expected}");
+    // Neither the order nor a power of two changes it, and a shift hardly does.
+    let mut shuffled = tin.clone();
+    Rng::new(3).shuffle(&mut shuffled);
+    assert_eq!(
+        automatic(&shuffled, viewpoint).0.to_bits(),
+        radius.to_bits()
+    );
+    for scale in [2f64.powi(-300), 2f64.powi(200)] {
+        let scaled: Vec<_> = tin.iter().map(|p| p.map(|x| x * scale)).collect();
+        let (scaled, _) = automatic(&scaled, viewpoint.map(|x| x * scale));
+        assert_eq!((scaled / scale).to_bits(), radius.to_bits());
+    }
+    // The same in a plane is a cloud of two dimensions, whose curves fill nothing.
+    let flat: Vec<[f64; 2]> = tin.iter().map(|&[x, y, _]| [x, y]).collect();
+    let seen = PointCloud2d::new(&flat).unwrap();
+    let chosen = seen.auto_radius([0.5, 4.0], Radius::Auto).unwrap();
+    let flat: Vec<_> = flat.iter().map(|&[x, y]| [x, y, 0.0]).collect();
+    let expected = self::expected(&flat, [0.5, 4.0, 0.0]);
+    assert!((chosen.radius / expected - 1.0).abs() < 1e-9);
+}
+
+#[test]
+fn surfaces_with_points_everywhere_are_taken_as_they_are() {
+    let viewpoint = [1.0, 2.0, 30.0];
+    let ball = |seed| shapes::sphere(&mut Rng::new(seed), 700).into_iter();
+    // Two balls, and ten, with much nothing between them.
+    let row = |count: usize, apart: f64| -> Vec<[f64; 3]> {
+        let at = |k: usize| ball(k as u64).map(move |[x, y, z]| [x + apart * k as f64, y, z]);
+        (0..count).flat_map(at).collect()
+    };
+    for points in [row(1, 0.0), row(2, 20.0), row(2, 500.0)] {
+        let (radius, _) = automatic(&points, viewpoint);
+        let expected = expected(&points, viewpoint);
+        assert!(
+            (radius / expected - 1.0).abs() < 1e-9,
+            "{radius}, {expected}"
+        );
+    }
+    // More than are measured.
+    let points = row(10, 30.0);
+    let off = automatic(&points, viewpoint).0 / expected(&points, viewpoint);
+    assert!((off - 1.0).abs() < 0.05, "{off}");
 }

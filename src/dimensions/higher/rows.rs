@@ -179,7 +179,8 @@ impl Rows {
         let mut spacings = with_capacity(samples)?;
         spacings.extend((0..samples).map(|sample| self.spacing_at(place(sample))));
         measures.spacing = surface::mean(&spacings);
-        let spacings = surface::cut_off(spacings)?;
+        let longest = surface::longest(&spacings)?;
+        let spacings = surface::cut_off(spacings, longest);
         measures.gap = surface::gap(&spacings);
         let areas = surface::into_areas(spacings);
         for axis in 0..self.dimension {
