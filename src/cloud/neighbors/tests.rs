@@ -36,6 +36,8 @@ fn the_nearest_points_are_found() {
         compare(&points, most, 431);
     }
     compare(&Points::Double(Random::new(2).bumpy(5)), 9, 1);
+    // So many that the leaves around a point have no room.
+    compare(&Points::Double(Random::new(3).bumpy(6000)), 2500, 997);
 }
 
 /// In a lattice most neighbors are as far as others.

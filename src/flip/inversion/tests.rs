@@ -102,6 +102,10 @@ fn extreme_flips_are_rescaled_where_that_is_exact() {
     // |q| is 1e40, and 1e-40.
     assert!((scale(power, 1e-20) * 1e40).log2().abs() < 1.0);
     assert!((scale(power, 1e20) * 1e-40).log2().abs() < 1.0);
+    for x in [1e-20, 1e20] {
+        let once = Flip::new([0.0; 3], power).rescaled_for(&one(x));
+        assert_eq!(once.rescaled_for(&one(x)), once);
+    }
     // No point flips: nothing is scaled.
     assert_eq!(scale(power, 0.0), 1.0);
     assert_eq!(scale(sphere(1e-40), 1e-40), 2f64.powi(131));
