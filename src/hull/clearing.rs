@@ -24,7 +24,8 @@ impl Hull {
         repair.star.clear();
         push(&mut repair.star, face)?;
         for _ in 0..MOST_RINGS {
-            if !self.widen(&mut repair.star)? {
+            // To look for faces of a hole costs less than to look for an ear.
+            if !self.widen(&mut repair.star)? || !repair.spend(repair.star.len() / 2) {
                 return Ok(false);
             }
             if self.trace(&repair.star, &mut repair.rim)? && self.fill(repair)? {

@@ -34,8 +34,8 @@ const MOST_FORCED: usize = 32;
 const FACES_PER_FLIP: usize = 2;
 /// Edge flips that a repair of even the smallest hull may take.
 const FEWEST_FLIPS: usize = 64;
-/// The effort that a repair may spend on taking out vertices, in squares of their degrees: one
-/// for each face, and this many more.
+/// The effort that a repair may spend on taking out vertices, in squares of their degrees and of
+/// half the faces of cleared holes: one for each face, and this many more.
 const SPARE_EFFORT: usize = 1000;
 
 impl Hull {
@@ -85,7 +85,7 @@ impl Hull {
             }
             repair.turned.truncate(kept);
             if kept > before / 2 {
-                if forced == MOST_FORCED {
+                if forced == MOST_FORCED || repair.effort == 0 {
                     return Ok(false);
                 }
                 forced += 1;

@@ -19,7 +19,8 @@ pub(super) struct Repair {
     pub suspects: Vec<HalfEdge>,
     /// Faces that the motion turned over.
     pub turned: Vec<FaceId>,
-    /// The effort that is left for taking out vertices, in squares of their degrees.
+    /// The effort that is left for taking out vertices, in squares of their degrees and of half
+    /// the faces of cleared holes. The repair is given up at 0.
     pub effort: usize,
     /// The edges around a hole, counter-clockwise.
     pub rim: Vec<Rim>,
@@ -181,11 +182,9 @@ impl Hull {
         if !(3..=MAX_DEGREE).contains(&repair.rim.len()) {
             return Ok(false);
         }
-        let squared = repair.rim.len() * repair.rim.len();
-        let Some(rest) = repair.effort.checked_sub(squared) else {
+        if !repair.spend(repair.rim.len()) {
             return Ok(false);
-        };
-        repair.effort = rest;
+        }
         // The plan is made first. If there is no plan, nothing has changed.
         repair.ring.clear();
         reserve(&mut repair.ring, repair.rim.len())?;
@@ -280,6 +279,14 @@ impl Vertices {
 }
 
 impl Repair {
+    /// Spends the square of the `size` of a hole. If too little is left, none is left
+    /// afterwards.
+    pub(super) fn spend(&mut self, size: usize) -> bool {
+        let rest = self.effort.checked_sub(size * size);
+        self.effort = rest.unwrap_or(0);
+        rest.is_some()
+    }
+
     /// Lists all edges of a face, to be looked at again.
     #[inline]
     fn suspect(&mut self, face: FaceId) -> Result<(), OutOfMemory> {
