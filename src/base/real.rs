@@ -30,3 +30,9 @@ pub(crate) fn floor(x: f64) -> f64 {
 pub(crate) fn larger(a: f64, b: f64) -> f64 {
     if b > a { b } else { a }
 }
+
+/// `f64::min`, likewise.
+#[inline]
+pub(crate) fn smaller(a: f64, b: f64) -> f64 {
+    if b < a { b } else { a }
+}

@@ -4,8 +4,9 @@
 use glam::DVec3;
 
 use super::incremental::{Hull, ORIGIN};
-use super::locate::{Location, smaller};
+use super::locate::Location;
 use super::topology::{FaceId, Vertex};
+use crate::base::real::smaller;
 
 /// After this many steps a walk is given up.
 const PATIENCE: usize = 64;

@@ -15,11 +15,10 @@ use glam::DVec3;
 
 use super::flipped::Flipped;
 use super::incremental::Hull;
-use super::locate::{larger, smaller};
 use super::rasterize::Spot;
 use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, reserve};
-use crate::base::real::square_root;
+use crate::base::real::{larger, smaller, square_root};
 use crate::cloud::blocks::{BLOCK, Sphere};
 
 /// A map is made only for this many points or more. Fewer points are located faster than a

@@ -6,6 +6,7 @@ use glam::DVec3;
 use super::dual_plane::Plane;
 use super::incremental::Hull;
 use super::topology::{Face, FaceId, HalfEdge};
+use crate::base::real::larger;
 use crate::hull::predicates::Sign;
 
 /// After this many steps a walk looks for a better start.
@@ -219,16 +220,4 @@ impl Hull {
         }
         location
     }
-}
-
-/// `f64::max` without the function call that WebAssembly makes for it.
-#[inline]
-pub(super) fn larger(a: f64, b: f64) -> f64 {
-    if b > a { b } else { a }
-}
-
-/// `f64::min` without the function call that WebAssembly makes for it.
-#[inline]
-pub(super) fn smaller(a: f64, b: f64) -> f64 {
-    if b < a { b } else { a }
 }

@@ -26,11 +26,10 @@ use self::cell::{Cell, Item};
 use self::cone::{Cone, MARGIN};
 use self::far::Far;
 use crate::base::allocation::{OutOfMemory, with_capacity};
-use crate::base::real::square_root;
+use crate::base::real::{larger, square_root};
 use crate::cloud::blocks::{BLOCK, Blocks};
 use crate::cloud::points::Points;
 use crate::hull::flipped::Flipped;
-use crate::hull::locate::larger;
 
 /// One of several sectors that a view is divided into.
 ///
