@@ -15,7 +15,6 @@ use glam::DVec3;
 
 use super::flipped::Flipped;
 use super::incremental::Hull;
-use super::rasterize::Spot;
 use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, reserve};
 use crate::base::real::{larger, smaller, square_root};
@@ -57,6 +56,11 @@ pub(super) struct Window {
     /// Index of the first corner.
     pub first: usize,
 }
+
+/// The side of the cube where a vertex is seen, and the column and the row of its cell there. The
+/// window's first corner is one cell from 0. All three are in one number, so that two vertices are
+/// compared at once.
+pub(super) type Spot = u64;
 
 /// The map; the module's description explains it. Its memory is kept from view to view.
 #[derive(Default)]

@@ -27,6 +27,7 @@ mod flat;
 mod flipped;
 mod incremental;
 mod kept;
+mod listing;
 mod locate;
 mod lower;
 mod memory;

@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::depth::{DepthMap, Window, direction, place};
+use super::depth::{DepthMap, Spot, Window, direction, place};
 use super::dual_plane::Plane;
 use super::incremental::Hull;
 use super::topology::Vertex;
@@ -18,10 +18,6 @@ const FEW_COLUMNS: u32 = 4;
 /// The faces may have so many rows for each corner of the map, and for each face. Only thin faces in
 /// bad places have more.
 const MOST_ROWS: usize = 4;
-/// The side of the cube where a vertex is seen, and the column and the row of its cell there. The
-/// window's first corner is one cell from 0. All three are in one number, so that two vertices are
-/// compared at once.
-pub(super) type Spot = u64;
 /// The lowest bit of the side.
 const SIDE: u32 = 60;
 /// The lowest bit of the column.
