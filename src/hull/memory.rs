@@ -23,6 +23,10 @@ const FEW_HIDDEN: usize = 2;
 /// After so many repairs that failed in a row, the pause before the next one grows no more.
 const MOST_FAILURES: u32 = 5;
 
+/// A motion is slower, and moves again, where this many times fewer edges are reflex than where a repair
+/// failed.
+const MUCH_SLOWER: f64 = 3.0;
+
 /// The last view's hull, and room for the hull of the next view. Its content never changes
 /// an answer, as long as it is only used for one sequence of points.
 #[derive(Default)]
@@ -42,6 +46,8 @@ pub(crate) struct Memory {
     failures: u32,
     /// How many views that could be moved start with a new hull instead.
     pause: u32,
+    /// The share of reflex edges where a repair failed last.
+    failed_share: f64,
     /// The flip of the last draft, if `hull` is its hull and `depth` its map. The next view may go
     /// on from there.
     pub(super) drafted: Option<Flip>,
@@ -101,11 +107,12 @@ impl Memory {
     /// Moves the last view's hull to this view, if that is faster than a new hull. The vertices
     /// of the moved hull are marked as visible. Returns whether the hull was moved.
     pub(super) fn move_hull(&mut self, flipped: &Flipped) -> Result<bool, OutOfMemory> {
-        if !self.hull.looks_alike(flipped) {
+        let Some(share) = self.hull.reflex_share(flipped) else {
             return Ok(false);
-        }
-        // A repair that fails costs much, and the next one is likely to fail, too.
-        if self.pause > 0 {
+        };
+        // A repair that fails costs much, and the next one is likely to fail, too. A slower motion
+        // is not: far fewer edges are reflex.
+        if self.pause > 0 && share * MUCH_SLOWER > self.failed_share {
             self.pause -= 1;
             return Ok(false);
         }
@@ -117,10 +124,12 @@ impl Memory {
         )?;
         if moved {
             self.failures = 0;
+            self.pause = 0;
         } else {
             self.visible.fill(false);
             self.failures = MOST_FAILURES.min(self.failures + 1);
             self.pause = (1 << self.failures) - 1;
+            self.failed_share = share;
         }
         #[cfg(debug_assertions)]
         if moved {

@@ -39,7 +39,7 @@ const FEWEST_FLIPS: usize = 64;
 const SPARE_EFFORT: usize = 1000;
 
 impl Hull {
-    /// Becomes the hull of its vertices as `flipped` now, if it [`looks_alike`](Self::looks_alike).
+    /// Becomes the hull of its vertices as `flipped` now.
     /// Returns false where a new hull must be started; the old hull is unusable then.
     pub(super) fn move_to(
         &mut self,
@@ -106,12 +106,13 @@ impl Hull {
         self.settle(repair, is_vertex)
     }
 
-    /// Whether, in a sample, few faces turned over and few edges became reflex. This is
-    /// computed with roundings, because it only decides which way is faster.
-    pub(super) fn looks_alike(&self, flipped: &Flipped) -> bool {
+    /// The share of reflex edges in a sample, if the views are close: few faces turned over, and few
+    /// edges became reflex. This is computed with roundings, because it only decides which way is
+    /// faster.
+    pub(super) fn reflex_share(&self, flipped: &Flipped) -> Option<f64> {
         let slots = self.surface.slots();
         if slots == 0 {
-            return false;
+            return None;
         }
         let at = |vertex: Vertex| flipped.get_out_of_line(self.vertices.points[vertex as usize]);
         let [mut faces, mut turned, mut reflex] = [0; 3];
@@ -121,7 +122,7 @@ impl Hull {
                 continue;
             }
             let [Some(a), Some(b), Some(c)] = face.vertices.map(at) else {
-                return false;
+                return None;
             };
             let normal = (a - c).cross(b - c);
             let height = normal.dot(c);
@@ -134,7 +135,8 @@ impl Hull {
                 }
             }
         }
-        turned * FEW_TURNED <= faces && reflex * FEW_REFLEX <= 3 * faces
+        let is_close = turned * FEW_TURNED <= faces && reflex * FEW_REFLEX <= 3 * faces;
+        is_close.then(|| reflex as f64 / faces.max(1) as f64)
     }
 
     /// Computes each face's plane in the new view. Lists turned faces and reflex edges. Stops and

@@ -21,13 +21,12 @@ export function tasksFor(cloud: Cloud): Task[] {
   const at = orbit(cloud);
   return EXPONENTS.map((exponent) => {
     const moves = large && exponent !== 3 ? [] : STEPS;
-    const length = large ? 5 : 10;
     return {
       exponent,
       viewpoint: at(0),
       away: at(180),
       runs: large ? 3 : 9,
-      paths: moves.map((step) => Array.from({ length: length + 1 }, (_, i) => at(i * step))),
+      paths: moves.map((step) => Array.from({ length: 11 }, (_, i) => at(i * step))),
     };
   });
 }
