@@ -24,9 +24,9 @@ export function withoutMessages(module: Uint8Array): Uint8Array {
     if (id !== SECTION.code) return [Uint8Array.of(id), withLength(bytes)];
     const bodies = section.list(() => section.bytes());
     const changed = bodies.map((body, i) => withLength(panics.has(imported + i) ? TRAP : body));
-    return [Uint8Array.of(id), withLength(joined([encoded(bodies.length), ...changed]))];
+    return [Uint8Array.of(id), withLength(Buffer.concat([encoded(bodies.length), ...changed]))];
   });
-  return joined([module.subarray(0, HEADER), ...sections.flat()]);
+  return Buffer.concat([module.subarray(0, HEADER), ...sections.flat()]);
 }
 
 /** Bytes of the magic number and of the version. */
@@ -49,7 +49,7 @@ function namesOf(module: Uint8Array): Map<number, string> {
 }
 
 function withLength(bytes: Uint8Array): Uint8Array {
-  return joined([encoded(bytes.length), bytes]);
+  return Buffer.concat([encoded(bytes.length), bytes]);
 }
 
 /** A number as WebAssembly writes it: seven bits a byte, the lowest first. */
@@ -57,14 +57,4 @@ function encoded(value: number): Uint8Array {
   const bytes = [];
   for (; value > 127; value >>>= 7) bytes.push((value & 127) | 128);
   return Uint8Array.of(...bytes, value);
-}
-
-function joined(parts: Uint8Array[]): Uint8Array {
-  const whole = new Uint8Array(parts.reduce((sum, { length }) => sum + length, 0));
-  let at = 0;
-  for (const part of parts) {
-    whole.set(part, at);
-    at += part.length;
-  }
-  return whole;
 }
