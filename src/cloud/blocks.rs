@@ -6,7 +6,7 @@ use glam::DVec3;
 
 use crate::base::allocation::{OutOfMemory, reserve, with_capacity};
 use crate::base::error::Error;
-use crate::base::real::{larger, square_root};
+use crate::base::real::{larger, smaller, square_root};
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
 
@@ -125,8 +125,7 @@ fn around_runs(
             let v = DVec3::from_array(inner.center) - DVec3::from_array(center);
             // Where squares underflow, the sum of the coordinates is an upper bound.
             let tiny = v.abs().element_sum();
-            let tiny = if tiny < 1e-150 { tiny } else { 1e-150 };
-            let distance = larger(square_root(v.dot(v)), tiny);
+            let distance = larger(square_root(v.dot(v)), smaller(1e-150, tiny));
             radius = larger(radius, (distance + inner.radius) * (1.0 + MARGIN));
         }
         around.push(Sphere { center, radius });

@@ -4,6 +4,8 @@
 //!
 //! pow and exp come from `libm` in every build, so that all of them round alike.
 
+use crate::base::real::smaller;
+
 /// The new distance |q| of a point at distance d from the viewpoint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Kernel {
@@ -59,11 +61,5 @@ impl Kernel {
 }
 
 fn exponential(scale: f64, d: f64) -> f64 {
-    let exponent = scale / d;
-    // Not `min`, for which WebAssembly calls a function.
-    libm::exp(if exponent < MAX_EXPONENT {
-        exponent
-    } else {
-        MAX_EXPONENT
-    })
+    libm::exp(smaller(MAX_EXPONENT, scale / d))
 }
