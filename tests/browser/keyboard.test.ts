@@ -101,6 +101,8 @@ test.for([
     });
     await page.locator("#tool-bar").getByRole("button", { name: "Label" }).click();
     await page.locator("#view").press("Enter");
+    // The label takes the focus when its point is found.
+    await expect.poll(() => page.evaluate(() => document.activeElement?.id)).toBe("label-text");
     const expected = await usable(page);
     expect(expected.length).toBeGreaterThan(45);
     // From the beginning of the page.
