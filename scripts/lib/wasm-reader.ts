@@ -1,5 +1,5 @@
 /** The numbers of sections. */
-export const SECTION = { custom: 0, import: 2, export: 7, code: 10, data: 11 } as const;
+export const SECTION = { custom: 0, import: 2, memory: 5, export: 7, code: 10, data: 11 } as const;
 
 const FUNCTION_NAMES = 1;
 

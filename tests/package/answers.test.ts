@@ -2,7 +2,8 @@ import { runInNewContext } from "node:vm";
 import { setFlagsFromString } from "node:v8";
 import { describe, expect, it } from "vitest";
 
-import { bumpySphere, bunny, cappedWasm, freshPackage, pointsAt, randomNumbers, readyPackage } from "./support";
+import { cappedWasm } from "./capped-wasm";
+import { bumpySphere, bunny, freshPackage, pointsAt, randomNumbers, readyPackage } from "./support";
 
 const { PointCloud, hiddenPointRemoval } = await readyPackage();
 

@@ -3,7 +3,8 @@ import { setFlagsFromString } from "node:v8";
 import { runInNewContext } from "node:vm";
 import { afterEach, describe, expect, it, vi } from "vitest";
 
-import { bumpySphere, cappedWasm, freshPackage, problemOf, wasmBytes } from "./support";
+import { cappedWasm } from "./capped-wasm";
+import { bumpySphere, freshPackage, problemOf, wasmBytes } from "./support";
 
 const farAway = [0, 0, 5];
 const points = bumpySphere(9, 20_000);

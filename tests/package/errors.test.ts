@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 
-import { bumpySphere, cappedWasm, freshPackage, problemOf, readyPackage, wasmBytes } from "./support";
+import { cappedWasm } from "./capped-wasm";
+import { bumpySphere, freshPackage, problemOf, readyPackage, wasmBytes } from "./support";
 
 const hpr = await readyPackage();
 const { PointCloud, hiddenPointRemoval, HprError } = hpr;

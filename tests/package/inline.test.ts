@@ -2,7 +2,8 @@ import { readFileSync } from "node:fs";
 import { gunzipSync } from "node:zlib";
 import { afterEach, describe, expect, it, vi } from "vitest";
 
-import { bumpySphere, freshPackage, problemOf, trappingWasm, wasmBytes } from "./support";
+import { bumpySphere, freshPackage, problemOf, wasmBytes } from "./support";
+import { trappingWasm } from "./trapping-wasm";
 
 const sphere = bumpySphere(1, 500);
 const farAway = [0, 0, 5];

@@ -2,7 +2,9 @@
 import { afterEach, beforeEach, expect, it } from "vitest";
 
 import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
-import { bumpySphere, cappedWasm, freshPackage, problemOf, readyPackage, trappingWasm } from "./support";
+import { cappedWasm } from "./capped-wasm";
+import { bumpySphere, freshPackage, problemOf, readyPackage } from "./support";
+import { trappingWasm } from "./trapping-wasm";
 
 const { WorkerPointCloud, PointCloud } = await readyPackage();
 

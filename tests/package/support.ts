@@ -1,6 +1,5 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import binaryen from "binaryen";
 import { vi } from "vitest";
 
 const require = createRequire(import.meta.url);
@@ -19,24 +18,6 @@ export async function readyPackage() {
   const hpr = await freshPackage();
   await hpr.init();
   return hpr;
-}
-
-/** The package's wasm, but one of its exported functions traps. */
-export function trappingWasm(name: string): Uint8Array<ArrayBuffer> {
-  const module = binaryen.readBinary(wasmBytes());
-  const { value } = binaryen.getExportInfo(module.getExport(name));
-  const { params, results } = binaryen.getFunctionInfo(module.getFunction(value));
-  module.removeFunction(value);
-  module.addFunction(value, params, results, [], module.unreachable());
-  return new Uint8Array(module.emitBinary());
-}
-
-/** The package's wasm, but its memory cannot grow beyond this many pages of 64 KiB. */
-export function cappedWasm(pages: number): Uint8Array<ArrayBuffer> {
-  const module = binaryen.readBinary(wasmBytes());
-  const capped = binaryen.parseText(module.emitText().replace(/\(memory (\S+) (\d+)\)/, `(memory $1 $2 ${pages})`));
-  capped.setFeatures(module.getFeatures());
-  return new Uint8Array(capped.emitBinary());
 }
 
 /** Random numbers in [0, 1) that are the same for the same seed (mulberry32). */

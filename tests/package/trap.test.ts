@@ -1,6 +1,7 @@
 import { afterEach, describe, expect, it, vi } from "vitest";
 
-import { bumpySphere, freshPackage, problemOf, readyPackage, trappingWasm, wasmBytes } from "./support";
+import { bumpySphere, freshPackage, problemOf, readyPackage, wasmBytes } from "./support";
+import { trappingWasm } from "./trapping-wasm";
 
 const sphere = bumpySphere(1, 500);
 const farAway = [0, 0, 5];

@@ -5,7 +5,8 @@ import type threads from "node:worker_threads";
 import { afterEach, beforeEach, describe, expect, it } from "vitest";
 
 import { CountedWorker, OriginalWorker, replaceWorker, running } from "./node-workers";
-import { bumpySphere, freshPackage, problemOf, readyPackage, trappingWasm } from "./support";
+import { bumpySphere, freshPackage, problemOf, readyPackage } from "./support";
+import { trappingWasm } from "./trapping-wasm";
 
 const { WorkerPointCloud, PointCloud, HprError } = await readyPackage();
 
