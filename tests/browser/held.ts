@@ -1,46 +1,65 @@
 import type { Page } from "playwright-core";
 
+interface Gate {
+  /** Holds back the questions to the package's workers from this one on. The page's first worker has the number 0. */
+  hold: (from: number) => void;
+  release: () => void;
+  /** How many questions are held back. */
+  held: () => number;
+}
+
 /** Lets a test hold back the questions to the package's workers. Pass it to `openPage`. */
 export async function holdable(page: Page): Promise<void> {
   await page.addInitScript(() => {
     const waiting: (() => void)[] = [];
-    const state = { held: false };
+    let first = Infinity;
+    let made = 0;
     Object.assign(globalThis, {
-      hold: () => {
-        state.held = true;
+      hold: (from: number) => {
+        first = from;
       },
       release: () => {
-        state.held = false;
+        first = Infinity;
         for (const send of waiting.splice(0)) send();
       },
-    });
+      held: () => waiting.length,
+    } satisfies Gate);
     globalThis.Worker = class extends Worker {
-      readonly #isPackage: boolean;
+      readonly #number: number;
 
       constructor(script: string | URL, options?: WorkerOptions) {
         super(script, options);
-        this.#isPackage = String(script).includes("worker-thread");
+        this.#number = String(script).includes("worker-thread") ? made++ : -1;
       }
 
       override postMessage(message: unknown, options?: Transferable[] | StructuredSerializeOptions): void {
         const send = () => {
           super.postMessage(message, options as StructuredSerializeOptions);
         };
-        if (this.#isPackage && state.held) waiting.push(send);
+        if (this.#number >= first) waiting.push(send);
         else send();
       }
     };
   });
 }
 
-export async function hold(page: Page): Promise<void> {
-  await page.evaluate(() => {
-    (globalThis as unknown as { hold: () => void }).hold();
-  });
+/** Holds back what the page asks from now on: all of it, or only what it asks other workers than the first. */
+export async function hold(page: Page, workers: "all" | "others" = "all"): Promise<void> {
+  await page.evaluate(
+    (from) => {
+      (globalThis as unknown as Gate).hold(from);
+    },
+    workers === "all" ? 0 : 1,
+  );
+}
+
+/** Waits until a question is held back. */
+export async function heldBack(page: Page): Promise<void> {
+  await page.waitForFunction(() => (globalThis as unknown as Gate).held() > 0);
 }
 
 export async function release(page: Page): Promise<void> {
   await page.evaluate(() => {
-    (globalThis as unknown as { release: () => void }).release();
+    (globalThis as unknown as Gate).release();
   });
 }

@@ -180,7 +180,8 @@ test("while an answer for a new place is awaited, no shadow of the old viewpoint
   const page = await openReady("?sample=dragon_res2&theme=dark", {}, holdable);
   expect(await page.locator("#sign-work").isVisible()).toBe(false);
   await hold(page);
-  for (let i = 0; i < 18; i++) await page.locator("#view").press("ArrowLeft");
+  // By 90°: a drag over the whole height turns the camera once around.
+  await drag(page, (await page.locator("#view").boundingBox())!.height / 4, 0);
   await page.locator("#view").blur();
   await page.locator("#sign-work").waitFor();
   const waiting = await status(page);
@@ -226,7 +227,7 @@ test("the points of a file are drawn before the first answer, and its name and t
   const page = await openPage("?src=clouds/early.ply&theme=dark", {}, async (fresh) => {
     await holdable(fresh);
     await fresh.addInitScript(() => {
-      (globalThis as unknown as { hold: () => void }).hold();
+      (globalThis as unknown as { hold: (from: number) => void }).hold(0);
     });
   });
   const sign = page.locator("#loading-sign");
