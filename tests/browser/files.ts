@@ -42,7 +42,10 @@ export async function stillAnswers(page: Page, number: number, of: number): Prom
   expect(await refiltered(page, before)).toMatchObject({ state: "ready", total: 1839 });
 }
 
-/** Opens files by button and drop in turn. Each opens without a message, and its answer equals the package's. */
+/**
+ * Opens files by button and drop in turn. Each opens without a message, and its answer equals the package's. The page must
+ * not take looks (`looks=0`): they would be a second answer, which may come while the next file is opened.
+ */
 export async function openInTurn(
   page: Page,
   files: readonly [name: string, content: Uint8Array, positions: Float32Array | Float64Array][],

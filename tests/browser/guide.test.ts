@@ -37,27 +37,27 @@ test("a first visit offers a guide, which can be stepped through or skipped, and
   expect(await guide.count()).toBe(0);
 });
 
-// A busy machine may draw no frame during the step that walks.
-test(
-  "the guide walks around, and ends at the user's own first move; an address that asks for something has none",
-  { retry: 2 },
-  async () => {
-    const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, deviceScaleFactor: 0.5 });
-    const page = await context.newPage();
-    await page.goto(site.address);
-    const guide = page.getByRole("group", { name: "Guide" });
-    await guide.getByRole("button", { name: "Show me" }).click({ timeout: 120_000 });
-    for (let i = 0; i < 2; i++) await guide.getByRole("button", { name: "Next" }).click();
-    const before = await picture(page);
-    await expect
-      .poll(async () => differentPixels(page, before, await picture(page)), { timeout: 30_000 })
-      .toBeGreaterThan(500);
-    await drag(page, 60, 10);
-    expect(await guide.count()).toBe(0);
-    await context.close();
+test("the guide walks around, and ends at the user's own first move; an address that asks for something has none", async () => {
+  const context = await browser.newContext({ viewport: { width: 1000, height: 700 }, deviceScaleFactor: 0.5 });
+  const page = await context.newPage();
+  // A step ends only by a click. A busy machine may take longer for two pictures than the step lasts.
+  await page.addInitScript(() => {
+    const own = setTimeout;
+    Object.assign(globalThis, {
+      setTimeout: (act: () => void, delay = 0) => own(act, delay === 5000 ? 1_000_000 : delay),
+    });
+  });
+  await page.goto(site.address);
+  const guide = page.getByRole("group", { name: "Guide" });
+  await guide.getByRole("button", { name: "Show me" }).click({ timeout: 120_000 });
+  for (let i = 0; i < 2; i++) await guide.getByRole("button", { name: "Next" }).click();
+  const before = await picture(page);
+  await expect.poll(async () => differentPixels(page, before, await picture(page))).toBeGreaterThan(500);
+  await drag(page, 60, 10);
+  expect(await guide.count()).toBe(0);
+  await context.close();
 
-    const asked = await openReady("?sample=bunny");
-    await asked.locator("#tool-bar").waitFor();
-    expect(await asked.getByRole("group", { name: "Guide" }).count()).toBe(0);
-  },
-);
+  const asked = await openReady("?sample=bunny");
+  await asked.locator("#tool-bar").waitFor();
+  expect(await asked.getByRole("group", { name: "Guide" }).count()).toBe(0);
+});
