@@ -18,11 +18,10 @@ export async function openBall(
   options: BrowserContextOptions = {},
   view: readonly number[] = FRONT,
   file = binaryPly(positions, "double", true),
+  prepare?: (page: Page) => Promise<void>,
 ): Promise<Page> {
   served.set("clouds/utm.ply", file);
-  const page = await openReady(`?src=clouds/utm.ply&up=y&view=${view.join()}&target=${MIDDLE.join()}`, options);
-  await upToDate(page);
-  return page;
+  return openReady(`?src=clouds/utm.ply&up=y&view=${view.join()}&target=${MIDDLE.join()}`, options, prepare);
 }
 
 export const at = (index: number): [number, number, number] => [
@@ -31,13 +30,25 @@ export const at = (index: number): [number, number, number] => [
   positions[3 * index + 2]!,
 ];
 
+interface Place {
+  x: number;
+  y: number;
+}
+
 /** Where a point is on the screen, seen from FRONT. */
-export async function place(page: Page, index: number): Promise<{ x: number; y: number }> {
+export async function place(page: Page, index: number): Promise<Place> {
+  return (await places(page))(index);
+}
+
+/** Tells where points are on the screen, as long as the picture has its size. */
+export async function places(page: Page): Promise<(index: number) => Place> {
   const box = (await page.locator("#view").boundingBox())!;
-  const [x, y, z] = at(index);
-  const ahead = DISTANCE - (z - Z);
-  const pixels = box.height / 2 / Math.tan(Math.PI / 8) / ahead;
-  return { x: box.x + box.width / 2 + (x - X) * pixels, y: box.y + box.height / 2 - (y - Y) * pixels };
+  return (index) => {
+    const [x, y, z] = at(index);
+    const ahead = DISTANCE - (z - Z);
+    const pixels = box.height / 2 / Math.tan(Math.PI / 8) / ahead;
+    return { x: box.x + box.width / 2 + (x - X) * pixels, y: box.y + box.height / 2 - (y - Y) * pixels };
+  };
 }
 
 export async function clickPoint(page: Page, index: number): Promise<void> {
@@ -53,10 +64,11 @@ export async function visible(page: Page): Promise<number[]> {
 
 /** The points of `among` that are far from all other points of `rivals` in the picture. */
 export async function lonely(page: Page, among: number[], rivals: number[]): Promise<number[]> {
-  const places = new Map(await Promise.all(rivals.map(async (i) => [i, await place(page, i)] as const)));
+  const placeOf = await places(page);
+  const taken = rivals.map((i) => ({ i, ...placeOf(i) }));
   return among.filter((i) => {
-    const own = places.get(i)!;
-    return rivals.every((j) => j === i || Math.hypot(own.x - places.get(j)!.x, own.y - places.get(j)!.y) > 12);
+    const own = placeOf(i);
+    return taken.every((other) => other.i === i || Math.hypot(own.x - other.x, own.y - other.y) > 12);
   });
 }
 
@@ -69,11 +81,9 @@ export async function within(
   among: number[],
   box: { left: number; top: number; right: number; bottom: number },
 ): Promise<number[]> {
-  const inside = await Promise.all(
-    among.map(async (i) => {
-      const { x, y } = await place(page, i);
-      return x > box.left && x < box.right && y > box.top && y < box.bottom;
-    }),
-  );
-  return among.filter((_, i) => inside[i]);
+  const placeOf = await places(page);
+  return among.filter((i) => {
+    const { x, y } = placeOf(i);
+    return x > box.left && x < box.right && y > box.top && y < box.bottom;
+  });
 }

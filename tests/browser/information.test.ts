@@ -72,8 +72,8 @@ test("a file without a coordinate system says so, and its lengths have no unit",
   expect(rows["Density"]).toBeUndefined();
 
   // Another cloud has other information.
-  await page.locator("#sample").selectOption("tile");
-  await expect.poll(() => page.locator("#info").textContent()).toContain("File tile");
+  await page.locator("#sample").selectOption("rings");
+  await expect.poll(() => page.locator("#info").textContent()).toContain("File rings");
 });
 
 test("the scale bar is as long as it says, follows the zoom, and is in the saved picture's marks", async () => {

@@ -57,9 +57,8 @@ test("the download for the first cloud, with three.js, wasm and workers, is at m
 test.for([{ viewport: { width: 1280, height: 800 } }, PHONE])(
   "nothing shifts while the page loads ($viewport.width px)",
   async (options) => {
-    const page = await openPage("", options);
-    // The observer must run before anything is drawn, so this test opens the page itself.
-    await page.addInitScript(() => {
+    // The observer must run before anything is drawn.
+    const observe = () => {
       const shifts: { value: number; what: string[] }[] = [];
       Object.assign(window, { shifts });
       new PerformanceObserver((list) => {
@@ -75,8 +74,10 @@ test.for([{ viewport: { width: 1280, height: 800 } }, PHONE])(
           });
         }
       }).observe({ type: "layout-shift", buffered: true });
+    };
+    const page = await openPage(SMALL, options, async (fresh) => {
+      await fresh.addInitScript(observe);
     });
-    await page.goto(site.address + SMALL);
     await reached(page, "ready");
     await upToDate(page);
     await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
@@ -89,7 +90,7 @@ test.for([{ viewport: { width: 1280, height: 800 } }, PHONE])(
 );
 
 test("the cloud and the WebAssembly are asked for before the part of the page that draws has run", async () => {
-  const page = await openPage("?sample=dragon_res2", {}, async (opened) => {
+  const page = await openPage("?sample=dragon_res4", {}, async (opened) => {
     await opened.addInitScript(() => {
       type Methods = Record<string, (...given: unknown[]) => unknown>;
       const before = (methods: Methods, name: string, note: (first: unknown) => void) => {
@@ -122,7 +123,7 @@ test("the cloud and the WebAssembly are asked for before the part of the page th
 });
 
 test("points of a large sample are on screen before its first answer, with fewer pixels", async () => {
-  const page = await openPage("?sample=dragon", {}, async (opened) => {
+  const page = await openPage("?sample=dragon&looks=0", {}, async (opened) => {
     await opened.addInitScript(() => {
       const methods = WebGL2RenderingContext.prototype as unknown as Record<string, (...given: number[]) => void>;
       const own = methods["drawElements"]!;
