@@ -6,7 +6,6 @@ use glam::DVec3;
 use super::dual_plane::Plane;
 use super::incremental::Hull;
 use super::topology::{Face, FaceId, HalfEdge};
-use crate::base::real::larger;
 use crate::hull::predicates::Sign;
 
 /// After this many steps a walk looks for a better start.
@@ -49,24 +48,15 @@ impl Hull {
             if height - 1.0 > error {
                 return Location::Outside(id);
             }
-            let mut steepest = id;
-            let mut steepest_height = f64::NEG_INFINITY;
-            let mut steepest_error = 0.0;
-            let mut bound = f64::NEG_INFINITY;
-            for twin in face.twins {
-                let neighbor = &self.surface.face(twin.face()).data;
-                let h = neighbor.m.dot(q);
-                bound = larger(bound, h + neighbor.error);
-                if h > steepest_height {
-                    steepest = twin.face();
-                    steepest_height = h;
-                    steepest_error = neighbor.error;
-                }
-            }
-            if steepest_height - height > steepest_error + error {
-                id = steepest;
-                height = steepest_height;
-            } else if height > 0.0 && bound < height - error {
+            let neighbors = face.twins.map(|twin| twin.face());
+            let planes = neighbors.map(|neighbor| self.surface.face(neighbor).data);
+            let heights = planes.map(|plane| plane.m.dot(q));
+            let steepest = index_of_largest(heights);
+            let certain = planes.map(|plane| plane.error + error);
+            if heights[steepest] - height > certain[steepest] {
+                id = neighbors[steepest];
+                height = heights[steepest];
+            } else if height > 0.0 && are_below(heights, planes, height - error) {
                 // m·q is certainly lower for all three neighbors.
                 return self.decide(id, q);
             } else if let Some(twin) = self.crossed_edge(face, q, step) {
@@ -220,4 +210,20 @@ impl Hull {
         }
         location
     }
+}
+
+/// The first place of the largest number. Which one is larger is as good as random along a walk.
+/// A processor that guesses a branch is wrong half of the time, so there is none.
+#[inline]
+fn index_of_largest([a, b, c]: [f64; 3]) -> usize {
+    let is_third = (c > a) & (c > b);
+    let is_second = (b > a) & !is_third;
+    usize::from(is_second) + 2 * usize::from(is_third)
+}
+
+/// Whether m·q of all three planes is certainly below `limit`.
+#[inline]
+fn are_below([a, b, c]: [f64; 3], planes: [Plane; 3], limit: f64) -> bool {
+    let [of_a, of_b, of_c] = planes.map(|plane| plane.error);
+    (a + of_a < limit) & (b + of_b < limit) & (c + of_c < limit)
 }
