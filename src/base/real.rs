@@ -36,3 +36,20 @@ pub(crate) fn larger(a: f64, b: f64) -> f64 {
 pub(crate) fn smaller(a: f64, b: f64) -> f64 {
     if b < a { b } else { a }
 }
+
+/// x where it is positive, else 0. WebAssembly engines make a branch of a choice between floats,
+/// and no processor can guess it, so the sign bit itself clears the other bits.
+#[inline]
+pub(crate) fn positive_part(x: f64) -> f64 {
+    let bits = x.to_bits();
+    let sign = (bits as i64 >> 63) as u64;
+    f64::from_bits(bits & !sign)
+}
+
+/// The square root of the largest of three squares, without a branch: numbers that are not negative
+/// are in the order of their bits.
+#[inline]
+pub(crate) fn root_of_largest([a, b, c]: [f64; 3]) -> f64 {
+    let bits = a.to_bits().max(b.to_bits()).max(c.to_bits());
+    square_root(f64::from_bits(bits))
+}

@@ -6,7 +6,7 @@
 //! the cloud. So everything that is computed in this order is reproducible to the bit.
 
 use super::hilbert::{BITS, hilbert_key};
-use crate::base::real::floor;
+use crate::base::real::{floor, positive_part};
 
 /// Cells along an axis.
 const CELLS: f64 = (1u32 << BITS) as f64;
@@ -80,13 +80,11 @@ impl Bounds {
     pub(crate) fn gap_squared(&self, other: &Self) -> f64 {
         let mut sum = 0.0;
         for axis in 0..3 {
-            // At most one of the two is positive. Comparisons, as above.
-            let (after, before) = (
-                self.min[axis] - other.max[axis],
-                other.min[axis] - self.max[axis],
-            );
-            let gap = if after > before { after } else { before };
-            sum += if gap > 0.0 { gap * gap } else { 0.0 };
+            // At most one of the two is positive.
+            let after = positive_part(self.min[axis] - other.max[axis]);
+            let before = positive_part(other.min[axis] - self.max[axis]);
+            let gap = after + before;
+            sum += gap * gap;
         }
         sum
     }

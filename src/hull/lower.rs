@@ -14,7 +14,7 @@ use glam::DVec3;
 
 use super::chain::convex_chain;
 use super::order;
-use super::outer_faces::{Exit, OuterFaces};
+use super::outer_faces::{Exit, OuterFaces, border_of};
 use super::topology::{Face, FaceId, Surface, Vertex};
 use crate::base::allocation::{OutOfMemory, filled, push, reserve, with_capacity};
 use crate::base::sort::sorted_places;
@@ -58,6 +58,12 @@ impl OuterFaces for LowerFaces<'_> {
     fn corners(&self, id: FaceId) -> Option<[Vertex; 3]> {
         let face = self.hull.surface.face(id);
         (face.is_alive() && self.hull.vertices.is_outer(face)).then_some(face.vertices)
+    }
+
+    fn border(&self, id: FaceId, pass: &mut dyn FnMut([Vertex; 2])) {
+        let surface = &self.hull.surface;
+        let is_outer = |face| self.hull.vertices.is_outer(surface.face(face));
+        border_of(surface, id, &is_outer, pass);
     }
 
     fn points_of_vertices(&self) -> &[u32] {

@@ -5,7 +5,7 @@ use super::flipped::Flipped;
 use super::incremental::Hull;
 use super::locate::Location;
 use super::memory::Memory;
-use super::topology::{FaceId, Vertex};
+use super::topology::{FaceId, Surface, Vertex};
 use crate::base::allocation::OutOfMemory;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
@@ -17,6 +17,9 @@ pub(crate) trait OuterFaces {
 
     /// The corners of a face. `None` if it is no outer face.
     fn corners(&self, id: FaceId) -> Option<[Vertex; 3]>;
+
+    /// Passes the edges that a face, which is no outer face, has in common with outer faces.
+    fn border(&self, id: FaceId, pass: &mut dyn FnMut([Vertex; 2]));
 
     /// The point of the cloud that each vertex is, by the vertex's number. Some of the vertices
     /// may have no outer face. The first number is the ghost vertex's, and its point has no meaning.
@@ -73,6 +76,23 @@ impl Memory {
     }
 }
 
+/// The edges that the face `id` of `surface` has in common with outer faces.
+pub(super) fn border_of<T: Copy>(
+    surface: &Surface<T>,
+    id: FaceId,
+    is_outer: &dyn Fn(FaceId) -> bool,
+    pass: &mut dyn FnMut([Vertex; 2]),
+) {
+    let face = surface.face(id);
+    if face.is_alive() {
+        for (edge, twin) in face.twins.iter().enumerate() {
+            if is_outer(twin.face()) {
+                pass([face.vertices[edge], face.vertices[(edge + 1) % 3]]);
+            }
+        }
+    }
+}
+
 impl OuterFaces for FlippedFaces<'_> {
     fn slots(&self) -> usize {
         self.hull.surface.slots()
@@ -81,6 +101,10 @@ impl OuterFaces for FlippedFaces<'_> {
     fn corners(&self, id: FaceId) -> Option<[Vertex; 3]> {
         let corners = self.hull.corners(id);
         corners.filter(|_| self.hull.is_outer(id))
+    }
+
+    fn border(&self, id: FaceId, pass: &mut dyn FnMut([Vertex; 2])) {
+        border_of(&self.hull.surface, id, &|face| self.hull.is_outer(face), pass);
     }
 
     fn points_of_vertices(&self) -> &[u32] {

@@ -49,11 +49,21 @@ impl Corners {
             spacing: f64::INFINITY,
         }));
         let mut triangles = with_capacity(faces.slots())?;
-        triangles.extend((0..faces.slots() as FaceId).filter_map(|id| faces.corners(id)));
-        let shortest = shortest_edges(&triangles, &all)?;
+        let mut shortest = filled(all.len(), Shortest::NONE)?;
+        for id in 0..faces.slots() as FaceId {
+            match faces.corners(id) {
+                Some(corners) => triangles.push(corners),
+                None => faces.border(id, &mut |edge| measure(edge, &all, &mut shortest)),
+            }
+        }
+        for &[a, b, c] in &triangles {
+            for edge in [[a, b], [b, c], [c, a]] {
+                measure(edge, &all, &mut shortest);
+            }
+        }
         let mut widest = 0.0;
-        for ((corner, &own), [first, second]) in all.iter_mut().zip(numbered).zip(&shortest) {
-            let here = 0.5 * (square_root(first.squared) + square_root(second.squared));
+        for ((corner, &own), shortest) in all.iter_mut().zip(numbered).zip(&shortest) {
+            let here = shortest.mean();
             if here == f64::INFINITY {
                 continue;
             }
@@ -93,43 +103,34 @@ impl Corners {
     }
 }
 
-/// An edge of a vertex: the vertex at its other end, and its squared length.
+/// The squared lengths of a vertex's two shortest edges, as the bits of the numbers: a comparison
+/// of whole numbers needs no branch, and these comparisons cannot be guessed.
 #[derive(Clone, Copy)]
-struct Edge {
-    squared: f64,
-    to: Vertex,
+struct Shortest([u64; 2]);
+
+impl Shortest {
+    const NONE: Self = Self([f64::INFINITY.to_bits(); 2]);
+
+    #[inline]
+    fn keep(&mut self, squared: u64) {
+        let [first, second] = self.0;
+        self.0 = [first.min(squared), second.min(first.max(squared))];
+    }
+
+    fn mean(self) -> f64 {
+        let [first, second] = self.0.map(|squared| square_root(f64::from_bits(squared)));
+        0.5 * (first + second)
+    }
 }
 
-/// The two shortest edges of each vertex, the shortest first.
-fn shortest_edges(
-    triangles: &[[Vertex; 3]],
-    corners: &[Corner],
-) -> Result<Vec<[Edge; 2]>, OutOfMemory> {
-    const NONE: Edge = Edge {
-        squared: f64::INFINITY,
-        to: 0,
-    };
-    let mut shortest = filled(corners.len(), [NONE; 2])?;
-    for &[a, b, c] in triangles {
-        for [a, b] in [[a, b], [b, c], [c, a]] {
-            let squared = (corners[a as usize].place - corners[b as usize].place).length_squared();
-            keep(&mut shortest[a as usize], Edge { squared, to: b });
-            keep(&mut shortest[b as usize], Edge { squared, to: a });
-        }
-    }
-    Ok(shortest)
-}
-
-/// Most edges come twice, once from each of their faces. They count once.
-fn keep(shortest: &mut [Edge; 2], edge: Edge) {
-    let [first, second] = shortest;
-    if edge.squared >= second.squared || edge.to == first.to {
-        return;
-    }
-    if edge.squared < first.squared {
-        *second = *first;
-        *first = edge;
-    } else {
-        *second = edge;
+/// Notes the length of an edge at both ends. An edge comes twice, in both directions. The direction
+/// from the smaller number counts.
+#[inline]
+fn measure([tail, head]: [Vertex; 2], corners: &[Corner], shortest: &mut [Shortest]) {
+    if tail < head {
+        let [tail, head] = [tail, head].map(|vertex| vertex as usize);
+        let squared = (corners[tail].place - corners[head].place).length_squared();
+        shortest[tail].keep(squared.to_bits());
+        shortest[head].keep(squared.to_bits());
     }
 }

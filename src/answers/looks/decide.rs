@@ -7,7 +7,7 @@ use super::corners::{Corner, Corners};
 use super::look::{Look, Verdicts};
 use super::part::{Left, Part};
 use crate::base::allocation::{OutOfMemory, filled};
-use crate::base::real::{larger, square_root};
+use crate::base::real::{root_of_largest, square_root};
 use crate::cloud::points::Points;
 use crate::hull::{Exit, FaceId, OuterFaces, Vertex};
 
@@ -52,10 +52,7 @@ impl Triangle {
             normal,
             height: normal.dot(a),
             size,
-            longest: square_root(larger(
-                larger(ab.length_squared(), bc.length_squared()),
-                ca.length_squared(),
-            )),
+            longest: root_of_largest([ab, bc, ca].map(DVec3::length_squared)),
         }
     }
 
