@@ -247,17 +247,20 @@ impl Best {
     /// Adds a point, if it is among the nearest.
     #[inline]
     fn offer(&mut self, new: Neighbor, points: &Points) {
-        let nearer = |other: &Neighbor| other.squared < new.squared;
-        let mut slot = self.found.partition_point(nearer);
-        while slot < self.found.len() && self.found[slot].wins_tie(&new, points) {
-            slot += 1;
+        let comes_after = |other: &Neighbor| {
+            other.squared > new.squared || new.wins_tie(other, points)
+        };
+        if self.found.len() < self.most {
+            self.found.push(new);
+        } else if !self.found.last().is_some_and(comes_after) {
+            return;
         }
-        if self.found.len() == self.most {
-            if slot == self.most {
-                return;
-            }
-            self.found.pop();
+        // The last one makes room. Few have to move, so a loop is faster than a copy of memory.
+        let mut slot = self.found.len() - 1;
+        while slot > 0 && comes_after(&self.found[slot - 1]) {
+            self.found[slot] = self.found[slot - 1];
+            slot -= 1;
         }
-        self.found.insert(slot, new);
+        self.found[slot] = new;
     }
 }
