@@ -109,23 +109,18 @@ impl Hull {
         let mut face = self.surface.face(id);
         let mut height = face.data.m.dot(direction);
         for _ in 0..PATIENCE {
-            let mut steepest = id;
-            let mut steepest_height = height;
-            for twin in face.twins {
-                let h = self.surface.face(twin.face()).data.m.dot(direction);
-                if h > steepest_height {
-                    steepest = twin.face();
-                    steepest_height = h;
-                }
-            }
-            if steepest == id {
+            let neighbors = face.twins.map(|twin| twin.face());
+            let planes = neighbors.map(|neighbor| self.surface.face(neighbor).data);
+            let heights = planes.map(|plane| plane.m.dot(direction));
+            let steepest = index_of_largest(heights);
+            if heights[steepest] <= height {
                 let bound = height * (1.0 + 2.0 * face.data.error + ROUNDING);
                 let certain = height > 0.0 && self.is_pierced(face, direction, height);
                 return (id, if certain { bound } else { f64::INFINITY });
             }
-            id = steepest;
+            id = neighbors[steepest];
             face = self.surface.face(id);
-            height = steepest_height;
+            height = heights[steepest];
         }
         (id, f64::INFINITY)
     }
