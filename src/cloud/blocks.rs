@@ -116,9 +116,8 @@ fn around_runs(
 ) -> Result<Vec<Sphere>, OutOfMemory> {
     let mut around: Vec<Sphere> = with_capacity(count.div_ceil(run))?;
     for start in (0..count).step_by(run) {
-        let mut bounds = Bounds::EMPTY;
         let end = count.min(start + run);
-        (start..end).for_each(|k| bounds.include(sphere(k).center));
+        let bounds = Bounds::around((start..end).map(|k| sphere(k).center));
         let center = core::array::from_fn(|axis| bounds.min[axis] * 0.5 + bounds.max[axis] * 0.5);
         let mut radius = 0.0f64;
         for inner in (start..end).map(sphere) {

@@ -36,11 +36,8 @@ impl<'a> Neighbors<'a> {
     pub(crate) fn new(points: &'a Points) -> Result<Self, OutOfMemory> {
         let mut level: Vec<Bounds> = with_capacity(points.len().div_ceil(LEAF))?;
         for start in (0..points.len()).step_by(LEAF) {
-            let mut bounds = Bounds::EMPTY;
-            for index in start..points.len().min(start + LEAF) {
-                bounds.include(points.get(index));
-            }
-            level.push(bounds);
+            let leaf = start..points.len().min(start + LEAF);
+            level.push(Bounds::around(leaf.map(|index| points.get(index))));
         }
         let mut levels = Vec::new();
         while level.len() > FANOUT {
@@ -247,9 +244,8 @@ impl Best {
     /// Adds a point, if it is among the nearest.
     #[inline]
     fn offer(&mut self, new: Neighbor, points: &Points) {
-        let comes_after = |other: &Neighbor| {
-            other.squared > new.squared || new.wins_tie(other, points)
-        };
+        let comes_after =
+            |other: &Neighbor| other.squared > new.squared || new.wins_tie(other, points);
         if self.found.len() < self.most {
             self.found.push(new);
         } else if !self.found.last().is_some_and(comes_after) {

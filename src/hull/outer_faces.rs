@@ -104,7 +104,12 @@ impl OuterFaces for FlippedFaces<'_> {
     }
 
     fn border(&self, id: FaceId, pass: &mut dyn FnMut([Vertex; 2])) {
-        border_of(&self.hull.surface, id, &|face| self.hull.is_outer(face), pass);
+        border_of(
+            &self.hull.surface,
+            id,
+            &|face| self.hull.is_outer(face),
+            pass,
+        );
     }
 
     fn points_of_vertices(&self) -> &[u32] {

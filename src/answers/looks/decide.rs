@@ -160,12 +160,14 @@ impl Verdicts {
     /// Decides a point whose ray leaves the hull by surface, `depth` longest edges before it.
     fn judge(&mut self, point: usize, depth: f64) {
         // A triangle that is seen edge-on hides the point: its depth is infinite or NaN.
-        let far = depth / HALF;
-        let score = SURE / (1.0 + far * far);
-        self.decide(
-            point,
-            depth <= BEHIND,
-            if score > 0.0 { score } else { 0.0 },
-        );
+        let is_visible = depth <= BEHIND;
+        if self.scores.is_empty() {
+            self.decide(point, is_visible, 0.0);
+        } else {
+            let far = depth / HALF;
+            let score = SURE / (1.0 + far * far);
+            let score = if score > 0.0 { score } else { 0.0 };
+            self.decide(point, is_visible, score);
+        }
     }
 }
