@@ -12,6 +12,11 @@
 //!          surface was found. So nothing here can make an answer wrong: in doubt, the
 //!          view starts with a new hull.
 
+#[cfg(test)]
+mod scenes;
+#[cfg(test)]
+mod tests;
+
 use glam::DVec3;
 
 use super::flipped::Flipped;

@@ -296,3 +296,22 @@ impl Repair {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn effort_is_spent_in_squares_until_none_is_left() {
+        let mut repair = Repair {
+            effort: 100,
+            ..Repair::default()
+        };
+        assert!(repair.spend(6));
+        assert!(repair.spend(8));
+        assert_eq!(repair.effort, 0);
+        repair.effort = 100;
+        assert!(!repair.spend(11));
+        assert_eq!(repair.effort, 0);
+    }
+}

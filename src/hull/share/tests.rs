@@ -12,6 +12,7 @@ use crate::flip::inversion::Flip;
 use crate::flip::kernel::Kernel;
 use crate::hull::division::Sector;
 use crate::hull::incremental::ORIGIN;
+use crate::hull::predicates::Sign;
 use crate::hull::{mark_visible, outer_boundary};
 
 /// Sector `number` of `count`, where every third point of the sample is visible.
@@ -145,6 +146,66 @@ fn points_on_the_boundary_belong_to_their_sectors() {
     assert_eq!(memory.visible(), [true; 18]);
 }
 
+/// A share whose hull holds the near points.
+fn near_share<'a>(memory: &'a mut Memory, flipped: &'a Flipped, division: Division) -> Share<'a> {
+    let corners = outer_boundary::seed(flipped).unwrap();
+    let room = flipped.len();
+    memory.hull.start(corners, flipped.reach(), room).unwrap();
+    memory.clear_marks(room).unwrap();
+    let mut share = Share {
+        hull: &mut memory.hull,
+        flipped,
+        division,
+        visible: &mut memory.visible,
+        hint: 0,
+        open_vertices: Vec::new(),
+        on_boundary: Vec::new(),
+    };
+    share.add_near(u64::MAX).unwrap();
+    share
+}
+
+/// The viewpoint is just inside of a large face: the middle of a cap may lie beyond this face. Then no
+/// ring is looked for.
+#[test]
+fn sectors_behind_a_near_face_give_the_whole_answer() {
+    let mut random = Random::new(15);
+    let depth = 1e-6;
+    let mut places: Vec<[f64; 3]> = (0..3000)
+        .map(|_| {
+            let u = random.direction();
+            let x = u.x.abs().max(depth);
+            (random.between(1.0, 1.1) * DVec3::new(x, u.y, u.z)).to_array()
+        })
+        .collect();
+    let corners = 3000..3006;
+    places.extend(corners.clone().map(|k| {
+        let (sine, cosine) = f64::from(k).sin_cos();
+        [-depth, cosine, sine]
+    }));
+    compare("just inside", &places, [0.0; 3], 10.0);
+    let points = Points::Double(places);
+    let flip = Flip::new([0.0; 3], Kernel::Spherical { radius: 10.0 });
+    let flipped = Flipped::of(&points, &[], &flip);
+    let mut doubtful = 0;
+    for number in 0..7 {
+        let mut memory = Memory::default();
+        let division = division(&points, [0.0; 3], 10.0, [number, 7]);
+        let mut share = near_share(&mut memory, &flipped, division);
+        for corner in corners.clone() {
+            share.add(corner).unwrap();
+        }
+        let hull = &share.hull;
+        let outer = || hull.surface.alive().filter(|(id, _)| hull.is_outer(*id));
+        let is_beyond = |q| outer().any(|(_, face)| hull.vertices.side(face, q) == Sign::Positive);
+        if share.division.outside().any(is_beyond) {
+            assert!(share.outside().unwrap().is_empty());
+            doubtful += 1;
+        }
+    }
+    assert!(doubtful >= 5, "{doubtful} of 7 sectors are in doubt");
+}
+
 /// A ring face has own corners, is outer, and no far point is seen in its directions. The search for
 /// faces that far points see starts at all ghost faces and in each cap beyond a side of the cell.
 #[test]
@@ -155,19 +216,8 @@ fn rings_are_made_of_clear_faces() {
         let flipped = Flipped::of(&points, &[], &flip);
         for number in 0..3 {
             let mut memory = Memory::default();
-            let corners = outer_boundary::seed(&flipped).unwrap();
-            memory.hull.start(corners, flipped.reach(), 6000).unwrap();
-            memory.clear_marks(points.len()).unwrap();
-            let mut share = Share {
-                hull: &mut memory.hull,
-                flipped: &flipped,
-                division: division(&points, viewpoint, 40.0, [number, 3]),
-                visible: &mut memory.visible,
-                hint: 0,
-                open_vertices: Vec::new(),
-                on_boundary: Vec::new(),
-            };
-            share.add_near(u64::MAX).unwrap();
+            let division = division(&points, viewpoint, 40.0, [number, 3]);
+            let mut share = near_share(&mut memory, &flipped, division);
             share.open_own_vertices().unwrap();
             let mut clear = 0;
             for (id, face) in share.hull.surface.alive() {
