@@ -124,7 +124,10 @@ export interface Audit {
   poor: string[];
 }
 
-/** Runs axe-core on the page: all rules in one theme. The other theme differs only in colors, so there only the rules about colors. */
+/**
+ * Runs axe-core on the page: all rules in the dark theme. The light theme differs only in colors, so there only the rules
+ * about colors. The theme of the page comes first, since each change draws the cloud again.
+ */
 export async function audit(page: Page): Promise<Audit[]> {
   if (!(await page.evaluate("'axe' in window"))) await page.evaluate(axe.source);
   const auditIn = async (theme: "dark" | "light", runOnly: RunOnly): Promise<Audit> => {
@@ -136,10 +139,15 @@ export async function audit(page: Page): Promise<Audit[]> {
     );
     return { theme, result, poor: await poorContrast(page) };
   };
-  return [
-    await auditIn("light", { type: "rule", values: COLOR_RULES }),
-    await auditIn("dark", { type: "tag", values: TAGS }),
-  ];
+  const rules: Record<Audit["theme"], RunOnly> = {
+    light: { type: "rule", values: COLOR_RULES },
+    dark: { type: "tag", values: TAGS },
+  };
+  const isDark = (await page.locator(':root[data-theme="dark"]').count()) > 0;
+  const audits: Audit[] = [];
+  for (const theme of isDark ? (["dark", "light"] as const) : (["light", "dark"] as const))
+    audits.push(await auditIn(theme, rules[theme]));
+  return audits;
 }
 
 /**

@@ -79,23 +79,27 @@ test("a plain sentence names each parameter of the address that cannot be met", 
 let usual: Status | undefined;
 
 test.for([
-  ["exponent=400", /exponent in the address is not a number from 0 to 6/],
-  ["view=1e300,0,0", /view in the address is too far away/],
-  ["view=1e19,0,0", /view in the address is too far away/],
-  ["freeze=1e300,0,0", /frozen viewpoint in the address is too far away/],
-  ["light=1e300,0,0&light=0,1e20,0", /light in the address is too far away/],
-  ["denoise=101", /denoise in the address is not an integer from 0 to 100/],
   [
-    "points=1.5",
-    /number of points in the address is not an integer from 1 to 10000000, so the largest of these is used/,
+    "exponent=400&view=1e300,0,0&freeze=1e300,0,0&light=1e300,0,0&light=0,1e20,0&denoise=101&points=1.5",
+    [
+      /exponent in the address is not a number from 0 to 6/,
+      /view in the address is too far away/,
+      /frozen viewpoint in the address is too far away/,
+      /light in the address is too far away/,
+      /denoise in the address is not an integer from 0 to 100/,
+      /number of points in the address is not an integer from 1 to 10000000, so the largest of these is used/,
+    ],
   ],
-  ["src=", /names no file after “src=”/],
-] as const)("?%s is refused with a note, and the sample is seen as usual", async ([query, note]) => {
+  ["view=1e19,0,0&src=", [/view in the address is too far away/, /names no file after “src=”/]],
+] as const)("?%s: each is refused with a note, and the sample is seen as usual", async ([query, notes]) => {
   usual ??= await status(await openReady("?sample=bunny"));
   const page = await openReady(`?sample=bunny&${query}`);
   const { state, total, visible, viewpoint } = usual;
-  expect(await settled(page)).toMatchObject({ state, total, visible, viewpoint });
-  expect(await page.locator("#message").textContent()).toMatch(note);
+  const now = await settled(page);
+  expect(now).toMatchObject({ state, total, visible, viewpoint });
+  expect(now.lights).toBeUndefined();
+  const message = await page.locator("#message").textContent();
+  for (const note of notes) expect(message).toMatch(note);
 });
 
 test("if the exponent cannot be used and a radius is given, the radius is used, and the message says so", async () => {

@@ -1,6 +1,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { differentPixels, openReady, PHONE } from "./support.js";
+import { asciiPly, ball } from "./clouds.js";
+import { differentPixels, openReady, PHONE, served } from "./support.js";
 
 async function openLesson(page: Page): Promise<void> {
   await page.getByRole("button", { name: "Show how it works" }).click();
@@ -51,7 +52,8 @@ test("the lesson shows the flip and its hull, and lights the errors against the 
 });
 
 test("without a true surface, a radius that is too large is compared with the automatic one; on a phone, too", async () => {
-  const page = await openReady("?sample=tile&looks=0", PHONE);
+  served.set("clouds/ball.ply", asciiPly(ball(5000)));
+  const page = await openReady("?src=clouds/ball.ply&looks=0", PHONE);
   await page.getByRole("button", { name: "More controls" }).click();
   await openLesson(page);
   expect((await counts(page)).slice(2)).toEqual([0, 0]);

@@ -9,7 +9,7 @@ import { openReady, status, upToDate, unfold } from "./support.js";
 
 const IS_LONG = process.env["HPR_SOAK"] === "1";
 /** How often everything is done before the memory is measured for the first time, and how often afterwards. */
-const { rounds, steps, clouds } = IS_LONG ? { rounds: 2, steps: 30, clouds: 3 } : { rounds: 1, steps: 15, clouds: 1 };
+const { rounds, steps, clouds } = IS_LONG ? { rounds: 2, steps: 30, clouds: 3 } : { rounds: 1, steps: 10, clouds: 1 };
 
 /** Allowed growth, for compiled code and the like. If each answer left its arrays in memory, the growth would be larger. */
 const NOISE = { heap: 600_000, buffers: 60_000 };

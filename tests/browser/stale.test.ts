@@ -10,7 +10,7 @@ import { openReady, served, upToDate } from "./support.js";
 
 const POINTS = Number(process.env["HPR_STALE_POINTS"] ?? 100_000);
 /** Each press of an arrow key turns the camera by 5°. */
-const PRESSES = 8;
+const PRESSES = 5;
 const SIZE = { width: 300, height: 260 };
 
 interface Frame {

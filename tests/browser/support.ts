@@ -173,13 +173,13 @@ export async function refiltered(page: Page, before: Status): Promise<Status> {
   return settled(page);
 }
 
-/** The status after ten frames without a question or an answer. A moving camera would have asked. */
+/** The status after three frames without a question or an answer. In each frame a camera that has moved asks. */
 export async function settled(page: Page): Promise<Status> {
   await page.evaluate(async () => {
     const { dataset } = document.getElementById("status")!;
     const frame = () => new Promise((resolve) => requestAnimationFrame(resolve));
     let last = dataset["refilters"];
-    for (let quiet = 0; quiet < 10;) {
+    for (let quiet = 0; quiet < 3;) {
       await frame();
       quiet = dataset["refilters"] === last && dataset["busy"] === "0" ? quiet + 1 : 0;
       last = dataset["refilters"];
