@@ -131,3 +131,94 @@ impl Samples<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use alloc::vec::Vec;
+
+    /// Points one apart, along the rim of a square or row by row.
+    fn rim(side: usize) -> Vec<[f64; 3]> {
+        let place = |k: usize| {
+            let along = (k % side) as f64;
+            let far = side as f64;
+            let [x, y] = match k / side {
+                0 => [along, 0.0],
+                1 => [far, along],
+                2 => [far - along, far],
+                _ => [0.0, far - along],
+            };
+            [x, y, 0.5 * x]
+        };
+        (0..4 * side).map(place).collect()
+    }
+
+    fn rectangle(columns: usize, rows: usize) -> Vec<[f64; 3]> {
+        let place = |k: usize| [(k % columns) as f64, (k / columns) as f64, 7.0];
+        (0..columns * rows).map(place).collect()
+    }
+
+    fn widened(points: &[[f64; 3]], unit: f64, sampled: f64) -> f64 {
+        let spacings: Vec<f64> = points.iter().map(|_| unit).collect();
+        let count = (sampled * points.len() as f64) as usize;
+        let far = [523_000.0, 4_657_000.0, 120.0];
+        let point = |k: usize| core::array::from_fn(|i| far[i] + unit * points[k][i]);
+        widening(&spacings, unit, count, &point)
+    }
+
+    #[test]
+    fn gaps_are_wider_where_samples_leave_what_they_span_empty() {
+        assert_eq!(widened(&rectangle(60, 40), 0.25, 1.0), 1.0);
+        for (side, wider) in [(5, 5.886), (6, 14.213), (7, 30.166)] {
+            let near = |a: f64, b: f64| (a / b - 1.0).abs() < 1e-3;
+            for unit in [0.25, 4.0] {
+                assert!(near(widened(&rim(side), unit, 1.0), wider));
+                let fewer = widened(&rim(side), unit, 1.25);
+                assert!(near(fewer, (wider / 1.25f64.powi(5)).max(1.0)));
+            }
+        }
+        // Each region is one of these rims.
+        let apart = |k: usize| move |[x, y, z]: [f64; 3]| [x, y + 100.0 * k as f64, z];
+        let rims: Vec<[f64; 3]> = (0..RUNS)
+            .flat_map(|k| rim(7).into_iter().map(apart(k)))
+            .collect();
+        let one = widened(&rim(7), 0.25, 1.0);
+        assert!((widened(&rims, 0.25, 1.0) / one - 1.0).abs() < 1e-6);
+        assert_eq!(widened(&rim(7), 0.25, 0.9), WIDEST);
+    }
+
+    #[test]
+    fn runs_span_a_twelfth_of_a_rectangle() {
+        let points = rectangle(30, 20);
+        let mut spacings: Vec<f64> = points.iter().map(|_| 2.0).collect();
+        let two = |k: usize| {
+            let [x, y, z] = points[k % 600];
+            [x, y, z + 1000.0 * (k / 600) as f64]
+        };
+        spacings.extend_from_within(..);
+        let samples = Samples {
+            spacings: &spacings,
+            longest: 4.0,
+            point: &two,
+        };
+        let area = 30.0 * 20.0 / 12.0 / 16.0;
+        let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.01;
+        let one = samples.span(600..1200);
+        assert!(
+            near(one.area, area) && near(one.stands_for, 150.0),
+            "{} {}",
+            one.area,
+            one.stands_for
+        );
+        assert_eq!(samples.span(0..1200).cut, 600);
+        assert!(near(samples.parts(0..1200, 1), 2.0 * area));
+        // Longer spacings than the longest stand for one square each, and their places do not count.
+        let samples = Samples {
+            spacings: &spacings,
+            longest: 1.5,
+            point: &two,
+        };
+        assert_eq!(samples.span(0..600).stands_for, 600.0);
+        assert_eq!(samples.span(0..600).area, 0.0);
+    }
+}

@@ -165,3 +165,46 @@ fn farthest(normal: DVec3, q: DVec3, flip: &Flip, points: &Points, blocks: &[Sph
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::random::Random;
+    use crate::cloud::blocks::Blocks;
+    use crate::flip::kernel::Kernel;
+
+    #[test]
+    fn another_flip_is_answered_as_by_its_own_hull() {
+        let mut random = Random::new(61);
+        let points = Points::Double(random.bumpy(1500));
+        let blocks = Blocks::around(&points).unwrap();
+        let spheres = &blocks.levels[0];
+        for viewpoint in [[0.05, 0.1, -0.1], [0.0, 0.5, 2.5]] {
+            let [first, second] =
+                [30.0, 12.0].map(|radius| Flip::new(viewpoint, Kernel::Spherical { radius }));
+            let kept = KeptHull::of(&points, spheres, &first).unwrap();
+            let other = KeptHull::of(&points, spheres, &second).unwrap();
+            let [mut hint, mut other_hint] = [kept.first_hint(), other.first_hint()];
+            let mut answers = [0; 3];
+            for round in 0..1000 {
+                let far = random.between(0.5, 1.5);
+                let place = match round % 2 {
+                    0 => DVec3::from_array(points.get(random.below(1500) as usize)) * far.sqrt(),
+                    _ => random.direction() * far,
+                };
+                let expected = other.hides(place.to_array(), &mut other_hint).unwrap();
+                let answer =
+                    kept.hides_otherwise(&second, &points, spheres, place.to_array(), &mut hint);
+                assert!(
+                    answer.is_none_or(|hides| hides == expected),
+                    "{place}: {answer:?}"
+                );
+                answers[answer.map_or(2, usize::from)] += 1;
+            }
+            assert!(
+                answers[0] > 200 && answers[1] > 400 && answers[2] == 0,
+                "{answers:?}"
+            );
+        }
+    }
+}

@@ -71,3 +71,44 @@ fn the_map_hides_most_hidden_points_and_no_others() {
         }
     }
 }
+
+/// A moving hull fills the corners inside its faces, a new hull walks from corner to corner.
+#[test]
+fn faces_give_the_heights_that_walks_find() {
+    let mut random = Random::new(16);
+    let surface = Points::Double(random.bumpy(5000));
+    let ball = (0..5000).map(|_| (random.between(0.3, 1.0) * random.direction()).to_array());
+    let ball = Points::Double(ball.collect());
+    for (points, viewpoint, radius) in [
+        (&surface, [0.02, -0.01, 0.03], 60.0),
+        (&surface, [2.0, 0.5, -1.5], 60.0),
+        (&ball, [0.02, -0.01, 0.03], 2.0),
+        (&ball, [0.3, 0.2, -0.1], 1.5),
+        (&ball, [2.0, 0.5, -1.5], 4.0),
+    ] {
+        let flip = Flip::new(viewpoint, Kernel::Spherical { radius });
+        let flipped = Flipped::of(points, &[], &flip);
+        let [walked, filled] = [false, true].map(|lists| {
+            let mut memory = Memory::default();
+            mark_visible(points, &[], &flip, None, &mut memory).unwrap();
+            if lists {
+                memory.hull.use_corners().unwrap();
+            }
+            let mut map = DepthMap::default();
+            map.make(&memory.hull, &flipped, points.len(), &|_| true)
+                .unwrap();
+            map.heights
+        });
+        assert_eq!(walked.len(), filled.len());
+        let [mut known, mut missed] = [0; 2];
+        for (&height, &other) in walked.iter().zip(&filled) {
+            if height < f64::INFINITY && other < f64::INFINITY {
+                assert!((other / height - 1.0).abs() < 1e-9, "{height} {other}");
+            }
+            known += u32::from(height < f64::INFINITY);
+            missed += u32::from(height < f64::INFINITY && other == f64::INFINITY);
+        }
+        assert!(known > 50, "{known} of {}", walked.len());
+        assert_eq!(missed, 0, "of {known}");
+    }
+}
