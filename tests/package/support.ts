@@ -1,6 +1,7 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { vi } from "vitest";
+import "./same-bytes";
 
 const require = createRequire(import.meta.url);
 
