@@ -1,10 +1,8 @@
 // The adapter for three.js in a browser: the points on the screen, and the points that a ray meets.
 import type { Browser, Page } from "playwright-core";
-import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
 import { serveModules } from "./modules.js";
 import { launchBrowser } from "./site.js";
-
-vi.setConfig({ testTimeout: 180_000, hookTimeout: 120_000 });
 
 let browser: Browser;
 

@@ -1,12 +1,10 @@
 // The layer for deck.gl: its filter values, and the points that are drawn and picked.
 import type { Browser, Page } from "playwright-core";
-import { afterAll, beforeAll, beforeEach, expect, it, vi } from "vitest";
+import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
 import { builtPage } from "./built.js";
 import type { DeckPage } from "./deck/page.js";
 import { serveModules } from "./modules.js";
 import { launchBrowser } from "./site.js";
-
-vi.setConfig({ testTimeout: 120_000, hookTimeout: 120_000 });
 
 let browser: Browser;
 let site: Awaited<ReturnType<typeof serveModules>>;

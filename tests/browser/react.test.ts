@@ -1,12 +1,10 @@
 // The hook and the component for React, in a canvas that draws on demand.
 import type { Browser, Page } from "playwright-core";
-import { afterAll, beforeAll, beforeEach, expect, it, vi } from "vitest";
+import { afterAll, beforeAll, beforeEach, expect, it } from "vitest";
 import { builtPage } from "./built.js";
 import { serveModules } from "./modules.js";
 import type { App } from "./react/page.js";
 import { launchBrowser } from "./site.js";
-
-vi.setConfig({ testTimeout: 120_000, hookTimeout: 120_000 });
 
 let browser: Browser;
 let site: Awaited<ReturnType<typeof serveModules>>;
@@ -37,7 +35,7 @@ type Test = (app: App) => boolean;
 
 /** Waits until `test` is true in the page. */
 async function reached(test: Test): Promise<void> {
-  await page.waitForFunction(`(${test.toString()})(globalThis.app)`, undefined, { timeout: 30_000 });
+  await page.waitForFunction(`(${test.toString()})(globalThis.app)`, undefined, { timeout: 60_000 });
 }
 
 function inPage<T>(look: (app: App) => T): Promise<T> {

@@ -9,8 +9,6 @@ import { builtFrom } from "./built.js";
 import { serveModules } from "./modules.js";
 import { launchBrowser } from "./site.js";
 
-vi.setConfig({ testTimeout: 120_000, hookTimeout: 120_000 });
-
 let browser: Browser;
 let site: Awaited<ReturnType<typeof serveModules>>;
 

@@ -4,12 +4,9 @@ import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
 import { init, PointCloud, type VisibilityOptions } from "hidden-point-removal";
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
-import { afterAll, afterEach, beforeAll, expect, vi } from "vitest";
+import { afterAll, afterEach, beforeAll, expect } from "vitest";
 import { root } from "../root.js";
 import { launchBrowser, servePage, type Site } from "./site.js";
-
-// Software rendering on a busy machine is slow. These limits only end tests that hang.
-vi.setConfig({ testTimeout: 180_000, hookTimeout: 120_000 });
 
 /** A phone, but with a quarter of its pixels: software draws them. */
 export const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true, deviceScaleFactor: 1 };
@@ -77,6 +74,8 @@ export async function openPage(
     reducedMotion: "reduce",
     ...options,
   });
+  // Software draws on a busy machine, so this limit only ends what hangs.
+  context.setDefaultTimeout(120_000);
   const page = await context.newPage();
   pages.push(page);
   page.on("console", (message) => {

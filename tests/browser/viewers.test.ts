@@ -1,13 +1,11 @@
 // Published viewers of tiles. Through the filter they must draw the same points as one cloud.
 import type { Browser, Page } from "playwright-core";
 import type { BufferAttribute, Object3D, Points } from "three";
-import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
+import { afterAll, beforeAll, describe, expect, it } from "vitest";
 
 import { serveModules } from "./modules.js";
 import { launchBrowser } from "./site.js";
 import { cloud, type Files, potreeFiles, tilesFiles } from "./tiles.js";
-
-vi.setConfig({ testTimeout: 120_000, hookTimeout: 120_000 });
 
 interface Modules {
   three: typeof import("three");
