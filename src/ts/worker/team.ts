@@ -27,7 +27,6 @@ export class Team {
   #progress: number[] = [];
   /** The survey that is being answered. */
   #dealing: Dealing | undefined;
-  #over = false;
 
   private constructor(events: ThreadEvents) {
     this.#events = events;
@@ -49,7 +48,8 @@ export class Team {
           this.#message(own.thread, message);
         },
         died: (cause) => {
-          this.#died(cause);
+          // The team needs all of its members: each answers only its part of a view.
+          this.#events.died(cause);
         },
       });
       return own.thread;
@@ -117,14 +117,10 @@ export class Team {
 
   /** Ends all threads, which frees their memory. After that, nothing is reported. */
   async end(): Promise<void> {
-    this.#over = true;
     await Promise.all(this.#members.map((thread) => thread.end()));
   }
 
   #message(from: Thread | undefined, message: unknown): void {
-    if (this.#over) {
-      return;
-    }
     if (message === READY) {
       this.#starting -= 1;
       if (this.#starting === 0) {
@@ -147,14 +143,6 @@ export class Team {
     this.#missing -= 1;
     if (this.#missing === 0) {
       this.#events.message(this.#combined());
-    }
-  }
-
-  /** The team needs all of its members: each answers only its part of a view. */
-  #died(cause: unknown): void {
-    if (!this.#over) {
-      this.#over = true;
-      this.#events.died(cause);
     }
   }
 
@@ -191,7 +179,7 @@ export class Team {
     }
     try {
       const isView = asked?.kind === "visibleFrom" || asked?.kind === "visibleFromCamera";
-      return { value: isView && values.length > 1 ? this.#sectors.joined(values as Part[], asked.spare) : values[0] };
+      return { value: isView ? this.#sectors.joined(values as Part[], asked.spare) : values[0] };
     } catch (thrown) {
       return failedReply(thrown);
     }
