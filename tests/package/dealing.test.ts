@@ -136,7 +136,7 @@ it("a survey that waits is overtaken by a newer one with `latest`, and tells its
   scripted[0]!.answers({ radius: 4, exponent: 0, evaluations: 0 });
   await running;
   await dealt();
-  expect(scripted.map(({ posted }) => posted.at(-1)!.viewpoint)).toEqual([
+  expect(scripted.map(({ posted }) => posted.at(-1)!["viewpoint"])).toEqual([
     [0, 0, 1],
     [0, 0, 7],
   ]);

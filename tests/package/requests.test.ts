@@ -89,6 +89,16 @@ describe("requests", () => {
     expect(sent()).toHaveLength(1);
   });
 
+  it("of a stream have a viewpoint of the cloud's own dimension", async () => {
+    const flat = await heldBy(1, WorkerPointCloud.create(points, { dimension: 2 }), 150);
+    const stream = flat.follow();
+    stream.look([1, 2]);
+    await until(() => sent().length === 1);
+    expect(sent()[0]).toMatchObject({ kind: "visibleFrom", viewpoint: [1, 2, 0] });
+    stream.dispose();
+    await flat.dispose();
+  });
+
   it("of every method ask for what the method is given", async () => {
     const cloud = await cloudInOne();
     const triangles = new Uint32Array(0);
