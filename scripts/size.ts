@@ -10,7 +10,7 @@ import { mustRun } from "./lib/run.js";
 import { setUpForBuild } from "./setup/setup.js";
 import { WASM_TARGET } from "./setup/rust.js";
 import { largest, type Part, partsOf } from "./size/parts.js";
-import { sectionsOf } from "./size/sections.js";
+import { contentOf } from "./size/content.js";
 
 const RESULT = "docs/SIZE.md";
 const FAILED = "The WebAssembly module with names could not be made";
@@ -18,10 +18,10 @@ const FAILED = "The WebAssembly module with names could not be made";
 await command(async () => {
   await setUpForBuild();
   await buildWasm();
-  const sections = sectionsOf(readFileSync(await named()));
+  const content = contentOf(readFileSync(await named()));
   const released = readFileSync(inRoot("src/ts/wasm/hpr_bg.wasm"));
-  writeFileSync(inRoot(RESULT), document(released, partsOf(sections)));
-  for (const { name, bytes } of largest(sections.functions, 40)) console.log(`${bytes.length}\t${name}`);
+  writeFileSync(inRoot(RESULT), document(released, partsOf(content)));
+  for (const { name, bytes } of largest(content.functions, 40)) console.log(`${bytes.length}\t${name}`);
   console.log(RESULT);
 });
 

@@ -1,4 +1,4 @@
-import { functionNames, Reader, SECTION } from "../lib/wasm-reader.js";
+import { functionNames, HEADER, Reader, SECTION, sectionsOf } from "../lib/wasm-reader.js";
 
 /** The functions of Rust's libraries that a failed check calls, and that make and print its message. */
 const PANICS =
@@ -27,17 +27,6 @@ export function withoutMessages(module: Uint8Array): Uint8Array {
     return [Uint8Array.of(id), withLength(Buffer.concat([encoded(bodies.length), ...changed]))];
   });
   return Buffer.concat([module.subarray(0, HEADER), ...sections.flat()]);
-}
-
-/** Bytes of the magic number and of the version. */
-const HEADER = 8;
-
-function sectionsOf(module: Uint8Array): { id: number; bytes: Uint8Array }[] {
-  const reader = new Reader(module);
-  reader.skip(HEADER);
-  const sections = [];
-  while (!reader.done) sections.push({ id: reader.number(), bytes: reader.bytes() });
-  return sections;
 }
 
 function namesOf(module: Uint8Array): Map<number, string> {

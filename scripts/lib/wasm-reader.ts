@@ -1,7 +1,24 @@
 /** The numbers of sections. */
 export const SECTION = { custom: 0, import: 2, memory: 5, export: 7, code: 10, data: 11 } as const;
 
+/** Bytes of the magic number and of the version, before the first section. */
+export const HEADER = 8;
+
 const FUNCTION_NAMES = 1;
+
+export interface Section {
+  id: number;
+  bytes: Uint8Array;
+}
+
+/** The sections of a module, in their order. */
+export function sectionsOf(module: Uint8Array): Section[] {
+  const reader = new Reader(module);
+  reader.skip(HEADER);
+  const sections = [];
+  while (!reader.done) sections.push({ id: reader.number(), bytes: reader.bytes() });
+  return sections;
+}
 
 /** The names of functions, by their numbers. `section` is the rest of the custom section "name". */
 export function functionNames(section: Reader): Map<number, string> {

@@ -1,6 +1,6 @@
 import { gzipSync } from "node:zlib";
 
-import type { WasmFunction, WasmSections } from "./sections.js";
+import type { WasmFunction, WasmContent } from "./content.js";
 
 /** A part of the wasm: its bytes, and by how much the gzipped wasm would shrink without it. */
 export interface Part {
@@ -17,7 +17,7 @@ const OUTSIDE: [part: string, names: RegExp][] = [
 ];
 
 /** The parts of a module, the largest first. */
-export function partsOf({ functions, exported, data }: WasmSections): Part[] {
+export function partsOf({ functions, exported, data }: WasmContent): Part[] {
   const groups = new Map<string, Uint8Array[]>([["constants", [data]]]);
   for (const { name, bytes } of functions) {
     const part = exported.has(name) ? BINDINGS : partOf(name);

@@ -1,4 +1,4 @@
-import { functionNames, Reader, SECTION } from "../lib/wasm-reader.js";
+import { functionNames, Reader, SECTION, sectionsOf } from "../lib/wasm-reader.js";
 
 /** One function of a WebAssembly module, with the bytes of its code. */
 export interface WasmFunction {
@@ -6,7 +6,7 @@ export interface WasmFunction {
   bytes: Uint8Array;
 }
 
-export interface WasmSections {
+export interface WasmContent {
   functions: WasmFunction[];
   /** The names of what JavaScript can call. */
   exported: Set<string>;
@@ -15,17 +15,14 @@ export interface WasmSections {
 }
 
 /** Splits a module that has a name section into its functions and its data. */
-export function sectionsOf(module: Uint8Array): WasmSections {
-  const reader = new Reader(module);
-  reader.skip(8);
+export function contentOf(module: Uint8Array): WasmContent {
   let imported = 0;
   let bodies: Uint8Array[] = [];
   let names = new Map<number, string>();
   let exported = new Set<string>();
   let data: Uint8Array = new Uint8Array();
-  while (!reader.done) {
-    const id = reader.number();
-    const section = new Reader(reader.bytes());
+  for (const { id, bytes } of sectionsOf(module)) {
+    const section = new Reader(bytes);
     // All imports are functions: the glue imports no memory and no table.
     if (id === SECTION.import) imported = section.number();
     else if (id === SECTION.export) exported = new Set(section.list(() => exportedName(section)));
@@ -33,7 +30,7 @@ export function sectionsOf(module: Uint8Array): WasmSections {
     else if (id === SECTION.data) data = section.rest();
     else if (id === SECTION.custom && section.text() === "name") names = functionNames(section);
   }
-  const functions = bodies.map((bytes, i) => ({ name: names.get(imported + i) ?? "", bytes }));
+  const functions = bodies.map((body, i) => ({ name: names.get(imported + i) ?? "", bytes: body }));
   return { functions, exported, data };
 }
 
