@@ -436,17 +436,17 @@ fn survey(flipped: &Flipped, wanted: &dyn Fn(u32) -> bool) -> (Extents, Sides) {
         let (side, x, y, _) = place(q);
         let include = |sides: &mut Sides| {
             let [[left, bottom], [right, top]] = &mut sides[side];
-            *left = left.min(x);
-            *bottom = bottom.min(y);
-            *right = right.max(x);
-            *top = top.max(y);
+            *left = smaller(*left, x);
+            *bottom = smaller(*bottom, y);
+            *right = larger(*right, x);
+            *top = larger(*top, y);
         };
         include(&mut extents.sides);
         if is_wanted {
             include(&mut wanted_sides);
         }
-        extents.shortest = extents.shortest.min(q.dot(q));
-        extents.longest = extents.longest.max(q.dot(q));
+        extents.shortest = smaller(extents.shortest, q.dot(q));
+        extents.longest = larger(extents.longest, q.dot(q));
     }
     (extents, wanted_sides)
 }
