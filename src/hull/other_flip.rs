@@ -168,6 +168,8 @@ fn farthest(normal: DVec3, q: DVec3, flip: &Flip, points: &Points, blocks: &[Sph
 
 #[cfg(test)]
 mod tests {
+    use alloc::vec::Vec;
+
     use super::*;
     use crate::base::random::Random;
     use crate::cloud::blocks::Blocks;
@@ -206,5 +208,49 @@ mod tests {
                 "{answers:?}"
             );
         }
+    }
+
+    /// The points of many blocks are left out together. The answer is compared with a look at every
+    /// point.
+    #[test]
+    fn the_farthest_point_is_found_whichever_blocks_are_left_out() {
+        let mut random = Random::new(62);
+        let points = Points::Double(random.bumpy(3000));
+        let blocks = Blocks::around(&points).unwrap();
+        let mut answers = [0; 2];
+        for viewpoint in [[0.0, 0.5, 2.5], [0.05, 0.1, -0.1], [0.9, 0.7, 0.0]] {
+            let flip = Flip::new(viewpoint, Kernel::Spherical { radius: 9.0 });
+            let all: Vec<DVec3> = (0..points.len())
+                .filter_map(|index| apply(&flip, points.get(index)))
+                .collect();
+            for round in 0..400 {
+                let normal = random.direction();
+                let own = all[random.below(all.len() as u64) as usize];
+                let q = own * random.between(0.9, 1.3);
+                let height = |place: DVec3| normal.dot(place);
+                let highest = all
+                    .iter()
+                    .map(|&place| height(place))
+                    .fold(f64::MIN, f64::max);
+                if height(q) < 0.1 {
+                    continue;
+                }
+                match farthest(normal, q, &flip, &points, &blocks.levels[0]) {
+                    Farthest::Given => {
+                        answers[0] += 1;
+                        assert!(height(q) > highest, "round {round}");
+                    }
+                    Farthest::Point(place) => {
+                        answers[1] += 1;
+                        assert!(
+                            height(place) == highest && highest > height(q),
+                            "round {round}"
+                        );
+                    }
+                    Farthest::Unknown => panic!("round {round}"),
+                }
+            }
+        }
+        assert!(answers.iter().all(|&count| count > 50), "{answers:?}");
     }
 }
