@@ -6,6 +6,7 @@ use glam::DVec3;
 use super::dual_plane::Plane;
 use super::incremental::Hull;
 use super::topology::{Face, FaceId, HalfEdge};
+use crate::base::real::larger;
 use crate::hull::predicates::Sign;
 
 /// After this many steps a walk looks for a better start.
@@ -48,18 +49,47 @@ impl Hull {
             if height - 1.0 > error {
                 return Location::Outside(id);
             }
-            let neighbors = face.twins.map(|twin| twin.face());
-            let planes = neighbors.map(|neighbor| self.surface.face(neighbor).data);
-            let heights = planes.map(|plane| plane.m.dot(q));
-            let steepest = index_of_largest(heights);
-            let certain = planes.map(|plane| plane.error + error);
-            if heights[steepest] - height > certain[steepest] {
-                id = neighbors[steepest];
-                height = heights[steepest];
-            } else if height > 0.0 && are_below(heights, planes, height - error) {
-                // m·q is certainly lower for all three neighbors.
-                return self.decide(id, q);
-            } else if let Some(twin) = self.crossed_edge(face, q, step) {
+            if cfg!(target_family = "wasm") {
+                let neighbors = face.twins.map(|twin| twin.face());
+                let planes = neighbors.map(|neighbor| self.surface.face(neighbor).data);
+                let heights = planes.map(|plane| plane.m.dot(q));
+                let steepest = index_of_largest(heights);
+                let certain = planes.map(|plane| plane.error + error);
+                if heights[steepest] - height > certain[steepest] {
+                    id = neighbors[steepest];
+                    height = heights[steepest];
+                    continue;
+                }
+                if height > 0.0 && are_below(heights, planes, height - error) {
+                    // m·q is certainly lower for all three neighbors.
+                    return self.decide(id, q);
+                }
+            } else {
+                // The same. Native code chooses between floats without a branch.
+                let mut steepest = id;
+                let mut steepest_height = f64::NEG_INFINITY;
+                let mut steepest_error = 0.0;
+                let mut bound = f64::NEG_INFINITY;
+                for twin in face.twins {
+                    let neighbor = &self.surface.face(twin.face()).data;
+                    let h = neighbor.m.dot(q);
+                    bound = larger(bound, h + neighbor.error);
+                    if h > steepest_height {
+                        steepest = twin.face();
+                        steepest_height = h;
+                        steepest_error = neighbor.error;
+                    }
+                }
+                if steepest_height - height > steepest_error + error {
+                    id = steepest;
+                    height = steepest_height;
+                    continue;
+                }
+                if height > 0.0 && bound < height - error {
+                    return self.decide(id, q);
+                }
+            }
+            if let Some(twin) = self.crossed_edge(face, q, step) {
                 id = twin.face();
                 let face = self.surface.face(id);
                 // The plane of a ghost or edge-on face is the plane of this
