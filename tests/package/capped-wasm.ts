@@ -1,13 +1,10 @@
-import { Reader, SECTION } from "../../scripts/lib/wasm-reader";
+import { HEADER, Reader, SECTION } from "../../scripts/lib/wasm-reader";
 import { wasmBytes } from "./support";
-
-/** The bytes before the first section. */
-const HEAD = 8;
 
 /** The package's wasm, but its memory cannot grow beyond this many pages of 64 KiB. */
 export function cappedWasm(pages: number): Uint8Array<ArrayBuffer> {
   const wasm = wasmBytes();
-  const reader = new Reader(wasm.subarray(HEAD));
+  const reader = new Reader(wasm.subarray(HEADER));
   while (!reader.done) {
     const start = wasm.length - reader.rest().length;
     const section = reader.number();
