@@ -65,7 +65,8 @@ impl Hull {
                     return self.decide(id, q);
                 }
             } else {
-                // The same. Native code chooses between floats without a branch.
+                // The same. Native code chooses between floats without a branch. One function for both
+                // made the walk in WebAssembly much slower: all was computed before it was needed.
                 let mut steepest = id;
                 let mut steepest_height = f64::NEG_INFINITY;
                 let mut steepest_error = 0.0;

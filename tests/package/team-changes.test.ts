@@ -19,6 +19,13 @@ const cloudIn = (workers: number) => heldBy(workers, WorkerPointCloud.create(poi
 /** The newest request to each worker. */
 const newest = () => scripted.map(({ posted }) => posted.at(-1)!);
 
+/** The cloud goes on: each worker answers the next view. */
+async function expectAnswer(cloud: Awaited<ReturnType<typeof cloudIn>>) {
+  const view = cloud.visibleFrom(farAway);
+  for (const worker of scripted) worker.answers(found([], 100));
+  expect((await view).count).toBe(0);
+}
+
 describe("a refusal", () => {
   it("of one worker is the refusal of the view; of several, the first", async () => {
     const cloud = await cloudIn(3);
@@ -27,9 +34,7 @@ describe("a refusal", () => {
     scripted[0]!.answers(found([], 100));
     scripted[1]!.refuses("too-large", "second");
     expect(await problemOf(() => refused)).toMatchObject({ code: "too-large", message: "second" });
-    const again = cloud.visibleFrom(farAway);
-    for (const worker of scripted) worker.answers(found([], 100));
-    expect((await again).count).toBe(0);
+    await expectAnswer(cloud);
   });
 
   it("is the answer if there is no memory to join the parts", async () => {
@@ -38,9 +43,7 @@ describe("a refusal", () => {
     // No array is long enough for the marks of so many points.
     for (const worker of scripted) worker.answers(found([], 2 ** 50));
     expect(await problemOf(() => refused)).toMatchObject({ code: "too-large" });
-    const again = cloud.visibleFrom(farAway);
-    for (const worker of scripted) worker.answers(found([], 100));
-    expect((await again).count).toBe(0);
+    await expectAnswer(cloud);
   });
 
   it("of a worker that is lost comes first, and ends the cloud", async () => {
