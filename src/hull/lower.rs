@@ -61,9 +61,7 @@ impl OuterFaces for LowerFaces<'_> {
     }
 
     fn border(&self, id: FaceId, pass: &mut dyn FnMut([Vertex; 2])) {
-        let surface = &self.hull.surface;
-        let is_outer = |face| self.hull.vertices.is_outer(surface.face(face));
-        border_of(surface, id, &is_outer, pass);
+        border_of(&self.hull.surface, id, self, pass);
     }
 
     fn points_of_vertices(&self) -> &[u32] {

@@ -76,17 +76,17 @@ impl Memory {
     }
 }
 
-/// The edges that the face `id` of `surface` has in common with outer faces.
+/// Passes the edges that the face `id` of `surface` has in common with its outer `faces`.
 pub(super) fn border_of<T: Copy>(
     surface: &Surface<T>,
     id: FaceId,
-    is_outer: &dyn Fn(FaceId) -> bool,
+    faces: &dyn OuterFaces,
     pass: &mut dyn FnMut([Vertex; 2]),
 ) {
     let face = surface.face(id);
     if face.is_alive() {
         for (edge, twin) in face.twins.iter().enumerate() {
-            if is_outer(twin.face()) {
+            if faces.corners(twin.face()).is_some() {
                 pass([face.vertices[edge], face.vertices[(edge + 1) % 3]]);
             }
         }
@@ -104,12 +104,7 @@ impl OuterFaces for FlippedFaces<'_> {
     }
 
     fn border(&self, id: FaceId, pass: &mut dyn FnMut([Vertex; 2])) {
-        border_of(
-            &self.hull.surface,
-            id,
-            &|face| self.hull.is_outer(face),
-            pass,
-        );
+        border_of(&self.hull.surface, id, self, pass);
     }
 
     fn points_of_vertices(&self) -> &[u32] {
