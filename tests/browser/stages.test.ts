@@ -209,17 +209,54 @@ test("the picture is the same whether it has faded or changed at once", async ()
   expect(await differentPixels(page, pictures[0]!, pictures[1]!)).toBe(0);
 });
 
+/** Presses keys over the picture, all of them before the next frame. */
+async function pressTogether(page: Page, ...keys: string[]): Promise<void> {
+  await page.locator("#view").evaluate((canvas, names) => {
+    for (const key of names) canvas.dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+  }, keys);
+}
+
 test("a click that comes before the final answer waits for it, unless the camera moves on", async () => {
   const page = await openReady("?sample=dragon_res3", {}, holdable);
   await page.locator("#tool-pick").click();
+  const result = page.locator("#pick-result");
+  const picked = () => result.getAttribute("data-index");
   await hold(page);
   await page.locator("#view").press("ArrowLeft");
   await page.locator('#status[data-busy="1"]').waitFor({ state: "attached" });
   await page.locator("#view").press("Enter");
-  expect(await page.locator("#pick-result").textContent()).toBe("Click a point.");
+  expect(await result.textContent()).toBe("Click a point.");
   await release(page);
-  const picked = () => page.locator("#pick-result").getAttribute("data-index");
   await expect.poll(picked).toMatch(/^\d+$/);
+
+  await page.locator("#view").press("Escape");
+  await hold(page);
+  await pressTogether(page, "ArrowLeft", "Enter", "ArrowLeft");
+  await release(page);
+  await upToDate(page);
+  expect(await picked()).toBeNull();
+});
+
+test("a click between a move and the next frame waits for the answer as well", async () => {
+  const page = await openReady("?sample=dragon_res3");
+  await page.locator("#tool-pick").click();
+  await pressTogether(page, "ArrowLeft", "Enter");
+  await upToDate(page);
+  expect(await page.locator("#pick-result").getAttribute("data-index")).toMatch(/^\d+$/);
+});
+
+test("a click between a move and the next frame finds the point that this frame shows there", async () => {
+  // The viewpoint stays, so the answer is final at once.
+  const page = await openReady("?sample=dragon_res3&freeze=0.1,0.2,0.3");
+  await page.locator("#tool-pick").click();
+  const picked = () => page.locator("#pick-result").getAttribute("data-index");
+  await pressTogether(page, "ArrowLeft", "Enter");
+  const first = await picked();
+  expect(first).toMatch(/^\d+$/);
+  await picture(page);
+  await page.locator("#view").press("Escape");
+  await page.locator("#view").press("Enter");
+  expect(await picked()).toBe(first);
 });
 
 test("the points of a file are drawn before the first answer, and its name and the progress are over them", async () => {

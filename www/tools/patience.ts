@@ -11,6 +11,8 @@ export class Patience {
 
   /** Runs something as soon as the picture is final. `here`: gives it up if the camera moves on before. */
   whenFinal(run: () => void, here = true): void {
+    // Until the next frame, orbit controls leave the matrix of a moved camera half-way: at its new place, but not turned.
+    this.#viewer.stage.camera.updateMatrixWorld();
     if (this.#viewer.isFinal) run();
     else this.#waiting = { run, from: here ? this.#camera : null };
   }
