@@ -365,7 +365,7 @@ impl PointCloud {
         })?;
         let mut answer = Visibility::new(indices, self.len(), chosen, inversion);
         if let Inversion::Looks(count) = inversion {
-            let scales = scales(count, self.statistics.spacing);
+            let scales = scales(count, &self.statistics);
             answer.looks = with_capacity(count)?;
             answer.looks.extend_from_slice(&scales[..count]);
         }

@@ -27,8 +27,10 @@ pub(crate) struct Statistics {
     /// Mean distance to the 6 nearest other points (to all others where there
     /// are fewer), averaged over an even sample; 0 below two points.
     pub spacing: f64,
-    /// The gap of the sampled spacings, see [`surface::gap`], and [`filling::widening`]; 0 below
-    /// two points.
+    /// How many times wider gaps are than the spacings tell, see [`filling::widening`]; 0 without
+    /// points.
+    pub widening: f64,
+    /// The gap of the sampled spacings, see [`surface::gap`], times `widening`; 0 below two points.
     pub gap: f64,
     /// The mean place of the surface: the sampled points, weighted by the area for which each
     /// stands.
@@ -91,6 +93,7 @@ impl Statistics {
             count,
             centroid: [0.0; 3],
             spacing,
+            widening,
             gap,
             middle: axes.map(|[mean, _]| mean),
             variance: axes.iter().map(|[_, variance]| variance).sum(),

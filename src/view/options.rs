@@ -57,8 +57,8 @@ pub enum Inversion {
     /// The smaller c is, the more points are visible. On a surface that faces the viewer it
     /// acts like R = d²/2c.
     Exponential(Exponential),
-    /// 2 or 3 looks: exact hulls of exp(c/d), with c from large to small in units of the
-    /// cloud's spacing. Each look decides only the points that it is sure of. The answer has
+    /// 2 or 3 looks: exact hulls of exp(c/d), with c from large to small. It follows from the
+    /// cloud's spacing, and from how much its points leave empty. Each look decides only the points that it is sure of. The answer has
     /// fewer errors than that of one hull, but it is not the operator of the paper: see
     /// [`PointCloud::visible_from`]. R has no meaning here, so the radius must be
     /// [`Radius::Auto`].

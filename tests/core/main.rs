@@ -22,6 +22,7 @@ mod inversions;
 mod looks;
 mod looks_along;
 mod looks_in_steps;
+mod looks_uneven;
 mod merge;
 mod motion;
 mod noise;

@@ -13,7 +13,7 @@ const sphere = bumpySphere(1, 3000);
 const farAway = [0, 0, 5];
 const cloud = new PointCloud(sphere);
 
-/** An answer of the reference, which is in Python, for the bunny of 1,839 points. */
+/** An answer of the reference, which is in Python. */
 interface Reference {
   viewpoint: number[];
   /** One bit for each point. The first point is in the highest bit. */
@@ -21,13 +21,29 @@ interface Reference {
   /** One byte for each point: the score times 255. */
   scores: string;
 }
-const references = JSON.parse(
-  readFileSync(fileURLToPath(new URL("../fidelity/three-looks-of-bunny.json", import.meta.url)), "utf8"),
-) as Reference[];
+/** The bunny of 1,839 points, and a vase whose points are near each other in rings, and far from ring to ring. */
+const references = [
+  ["bunny", bunny()],
+  ["rings", rings(16, 300)],
+].flatMap(([name, positions]) => {
+  const file = fileURLToPath(new URL(`../fidelity/three-looks-of-${name as string}.json`, import.meta.url));
+  const answers = JSON.parse(readFileSync(file, "utf8")) as Reference[];
+  return answers.map((answer) => ({ name, positions: positions as Float32Array, ...answer }));
+});
+
+function rings(rows: number, corners: number): Float32Array {
+  return Float32Array.from({ length: 3 * rows * corners }, (_, i) => {
+    const [row, along] = [Math.floor(i / 3 / corners), Math.floor(i / 3) % corners];
+    const up = (row + 0.5) / rows;
+    const around = (2 * Math.PI * (along + 0.618 * row)) / corners;
+    const away = 0.6 + 0.3 * Math.sin(9 * up);
+    return [away * Math.cos(around), away * Math.sin(around), 2 * up][i % 3]!;
+  });
+}
 
 describe("three looks", () => {
-  it.each(references)("agree with the readable reference from $viewpoint", ({ viewpoint, visible, scores }) => {
-    const answer = new PointCloud(bunny()).visibleFrom(viewpoint, { looks: 3, scores: true });
+  it.each(references)("of $name agree with the readable reference", ({ positions, viewpoint, visible, scores }) => {
+    const answer = new PointCloud(positions).visibleFrom(viewpoint, { looks: 3, scores: true });
     const bits = Buffer.from(visible, "base64");
     const mask = answer.mask();
     const differing = mask.filter((is, i) => is !== ((bits[i >> 3]! >> (7 - (i & 7))) & 1));

@@ -6,13 +6,12 @@ use glam::DVec3;
 use super::corners::{Corner, Corners};
 use super::look::{Look, Verdicts};
 use super::part::{Left, Part};
+use super::triangle::Triangle;
 use crate::base::allocation::{OutOfMemory, filled};
-use crate::base::real::{root_of_largest, square_root};
+use crate::base::real::square_root;
 use crate::cloud::points::Points;
-use crate::hull::{Exit, FaceId, OuterFaces, Vertex};
+use crate::hull::{Exit, OuterFaces, Vertex};
 
-/// A triangle of the hull is surface if its longest edge is at most this many local spacings.
-const SOLID: f64 = 4.0;
 /// Surface hides a point that lies farther behind it, along the ray, than this share of the
 /// triangle's longest edge.
 const BEHIND: f64 = 0.45;
@@ -29,45 +28,6 @@ const HALF: f64 = 0.6;
 /// long, where the triangle is no surface.
 const FAR: f64 = 0.05;
 
-/// An outer face of a look's hull, with its corners back in their places.
-struct Triangle {
-    face: FaceId,
-    normal: DVec3,
-    /// normal·x on the plane of the triangle.
-    height: f64,
-    /// The mean local spacing of the corners.
-    size: f64,
-    longest: f64,
-}
-
-impl Triangle {
-    fn of(face: FaceId, vertices: [Vertex; 3], corners: &Corners) -> Self {
-        let [a, b, c] = vertices.map(|vertex| corners.at(vertex));
-        let size = (a.spacing + b.spacing + c.spacing) / 3.0;
-        let [a, b, c] = [a.place, b.place, c.place];
-        let (ab, bc, ca) = (b - a, c - b, a - c);
-        let normal = ab.cross(c - a);
-        Self {
-            face,
-            normal,
-            height: normal.dot(a),
-            size,
-            longest: root_of_largest([ab, bc, ca].map(DVec3::length_squared)),
-        }
-    }
-
-    /// How far behind the triangle's plane a place is, along its ray. It is NaN where the plane is
-    /// seen edge-on. The place is relative to the viewpoint, unless all rays go `ahead`.
-    fn behind(&self, place: DVec3, ahead: Option<DVec3>) -> f64 {
-        let Some(ahead) = ahead else {
-            // Where the plane crosses the ray, in units of the place's distance.
-            let crossing = self.height / self.normal.dot(place);
-            return (1.0 - crossing) * square_root(place.length_squared());
-        };
-        (self.normal.dot(place) - self.height) / self.normal.dot(ahead)
-    }
-}
-
 impl Verdicts {
     /// Lets a look decide the points that it is sure of. Returns the points that take part in the
     /// next look: those that are undecided, and the corners of the triangles before them.
@@ -81,6 +41,11 @@ impl Verdicts {
     ) -> Result<Left, OutOfMemory> {
         let corners = Corners::of(faces, points, part, look.origin)?;
         let mut left = self.take_vertices(look, faces, part, &corners)?;
+        let longest = match self.longest {
+            Some(longest) => longest,
+            None => self.longest_of_surface(look, points, faces, part, &corners, &left)?,
+        };
+        self.longest = Some(longest);
         let mut last: Option<Triangle> = None;
         for own in 0..left.spacing.len() {
             let point = part.place(own);
@@ -102,7 +67,7 @@ impl Verdicts {
             };
             let place = DVec3::from_array(points.get(point)) - look.origin;
             let behind = triangle.behind(place, look.ahead);
-            if triangle.longest <= SOLID * triangle.size {
+            if triangle.longest <= longest * triangle.size {
                 self.judge(point, behind / triangle.longest);
             } else if look.is_last && behind > triangle.longest {
                 self.decide(point, false, FAR);

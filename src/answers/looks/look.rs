@@ -53,6 +53,9 @@ pub(super) struct Verdicts {
     pub of: Vec<Verdict>,
     /// Empty unless scores are asked for.
     pub scores: Vec<f32>,
+    /// How long the triangles of a surface are at most (`surface`). The first look that has
+    /// triangles finds it.
+    pub longest: Option<f64>,
 }
 
 impl Verdicts {
@@ -60,6 +63,7 @@ impl Verdicts {
         Ok(Self {
             of: filled(count, Verdict::Undecided)?,
             scores: filled(if with_scores { count } else { 0 }, UNKNOWN as f32)?,
+            longest: None,
         })
     }
 

@@ -18,6 +18,8 @@ mod followers;
 mod look;
 mod part;
 mod series;
+mod surface;
+mod triangle;
 
 use alloc::vec::Vec;
 

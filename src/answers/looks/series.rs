@@ -9,26 +9,29 @@ use crate::base::allocation::OutOfMemory;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::points::Points;
+use crate::cloud::statistics::Statistics;
 use crate::flip::inversion::Flip;
 use crate::flip::kernel::Kernel;
 use crate::flip::lift::Lift;
 use crate::hull::{self, Memory, OuterFaces};
 use crate::view::resolved::check_viewpoint;
 
-/// The scale c of each look as a share of the cloud's spacing, from tight to loose. Two looks
-/// leave out the middle one. Twice or half of any of these values changes the error little.
+/// The scale c of each look as a share of the cloud's spacing × widening, from tight to loose. Two
+/// looks leave out the middle one. Twice or half of any of these values changes the error little.
 const SHARES: [f64; 3] = [0.28, 0.07, 0.02];
 /// The highest score of a hull vertex, by look.
 const SCORES: [f64; 3] = [1.0, 1.0, 0.9];
 
-/// The c of each of `count` looks at a cloud of this spacing. The remaining numbers are 0.
-pub(crate) fn scales(count: usize, spacing: f64) -> [f64; 3] {
+/// The c of each of `count` looks at a cloud with these statistics. The remaining numbers are 0.
+pub(crate) fn scales(count: usize, statistics: &Statistics) -> [f64; 3] {
+    // Where samples leave much empty, gaps are wider than the spacing.
+    let gap = statistics.spacing * statistics.widening;
     // Without a spacing there is one point at most, and any scale gives the same answer.
-    let spacing = if spacing > 0.0 { spacing } else { 1.0 };
+    let gap = if gap > 0.0 { gap } else { 1.0 };
     let mut scales = [0.0; 3];
     for (number, scale) in scales.iter_mut().take(count).enumerate() {
         let share = SHARES[place(count, number)];
-        *scale = (share * spacing).clamp(f64::MIN_POSITIVE, f64::MAX);
+        *scale = (share * gap).clamp(f64::MIN_POSITIVE, f64::MAX);
     }
     scales
 }
@@ -174,7 +177,7 @@ impl Series {
         Look {
             origin,
             ahead,
-            scale: scales(self.count, cloud.statistics.spacing)[self.next],
+            scale: scales(self.count, &cloud.statistics)[self.next],
             score: SCORES[place(self.count, self.next)],
             is_last: self.next + 1 == self.count,
         }

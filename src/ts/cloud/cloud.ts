@@ -93,9 +93,9 @@ export class PointCloud {
 
   /**
    * The mean distance of a point to its 6 nearest neighbors, in the cloud's units. The automatic
-   * scales c of `exponential` and `looks` are shares of it. It is measured at 2048 distinct points
-   * (512 above three dimensions), or at all points if there are fewer. It is 0 for fewer than two
-   * points.
+   * scale c of `exponential` is a share of it. So are those of `looks`, unless the points leave much
+   * of what they span empty. It is measured at 2048 distinct points (512 above three dimensions), or
+   * at all points if there are fewer. It is 0 for fewer than two points.
    */
   get spacing(): number {
     return this.#core.size.spacing;
