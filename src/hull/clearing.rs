@@ -1,38 +1,94 @@
 //! Clears a knot of turned faces out of a surface that is being repaired.
 //!
 //! Where many vertices crossed each other, no vertex can be taken out alone: the hole that it
-//! leaves has turned over, too. So all vertices of a turned face are taken out at once. If their
-//! hole cannot be filled either, the vertices around it follow.
+//! leaves has turned over, too. So a larger hole is made: of a turned face and its neighbors, or of
+//! all faces around its vertices. Where edges of the hole's rim cross each other, seen from the
+//! viewpoint, no triangles fill it. Then the faces across these edges are added to the hole. At last
+//! the vertices around it follow.
 
 use alloc::vec::Vec;
 
-use super::incremental::{Hull, ORIGIN};
-use super::repair::Repair;
+use super::incremental::{Hull, ORIGIN, Vertices};
+use super::repair::{MAX_DEGREE, Repair};
 use super::topology::{FaceId, HalfEdge, Rim, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
 
 /// How often the vertices around a hole are taken out, too.
 const MOST_RINGS: usize = 4;
+/// How many holes are tried, each larger than the one before.
+const MOST_HOLES: usize = 8;
 /// The most faces of a hole.
 const MOST_FACES: usize = 256;
 
 impl Hull {
-    /// Takes the vertices of a face out of the surface, with as many around them as must follow,
-    /// and fills the hole. Returns false, and changes nothing, if no such hole can be filled.
+    /// Takes the vertices of a face out of the surface, with as many faces around them as must
+    /// follow, and fills the hole. Returns false, and changes nothing, if no such hole can be filled.
     #[cold]
     pub(super) fn clear(&mut self, face: FaceId, repair: &mut Repair) -> Result<bool, OutOfMemory> {
         repair.star.clear();
         push(&mut repair.star, face)?;
         for _ in 0..MOST_RINGS {
-            // To look for faces of a hole costs less than to look for an ear.
-            if !self.widen(&mut repair.star)? || !repair.spend(repair.star.len() / 2) {
+            if !self.widen(&mut repair.star)? {
                 return Ok(false);
             }
-            if self.trace(&repair.star, &mut repair.rim)? && self.fill(repair)? {
+            if self.fill_or_grow(repair)? {
                 return Ok(true);
             }
         }
         Ok(false)
+    }
+
+    /// Fills a hole of a face, of its neighbors, and of as many faces as must follow. Its vertices
+    /// may stay. Returns false, and changes nothing, if no such hole can be filled.
+    #[cold]
+    pub(super) fn untie(&mut self, face: FaceId, repair: &mut Repair) -> Result<bool, OutOfMemory> {
+        repair.star.clear();
+        push(&mut repair.star, face)?;
+        for twin in self.surface.face(face).twins {
+            if !repair.star.contains(&twin.face()) {
+                push(&mut repair.star, twin.face())?;
+            }
+        }
+        self.fill_or_grow(repair)
+    }
+
+    /// Fills the hole `repair.star`. As long as this is not possible, because edges of its rim cross
+    /// each other, the hole grows. Returns false if there is still a hole.
+    #[inline(never)]
+    fn fill_or_grow(&mut self, repair: &mut Repair) -> Result<bool, OutOfMemory> {
+        for _ in 0..MOST_HOLES {
+            // To look for faces of a hole costs less than to look for an ear.
+            if !repair.spend(repair.star.len() / 2) || !self.trace(&repair.star, &mut repair.rim)? {
+                return Ok(false);
+            }
+            if self.fill(repair)? {
+                return Ok(true);
+            }
+            if !self.grow(repair)? {
+                return Ok(false);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Adds the faces across those edges of the rim that prevent that the hole is filled: edges that
+    /// cross each other, and edges of faces that have turned over. Returns false if there are none.
+    fn grow(&self, repair: &mut Repair) -> Result<bool, OutOfMemory> {
+        let Repair { rim, star, .. } = repair;
+        if rim.len() > MAX_DEGREE {
+            return Ok(false);
+        }
+        let before = star.len();
+        for edge in &*rim {
+            let id = edge.outside.face();
+            let crosses = |other: &Rim| self.vertices.cross(edge, other);
+            let prevents =
+                self.vertices.is_turned(self.surface.face(id)) || rim.iter().any(crosses);
+            if prevents && !star.contains(&id) {
+                push(star, id)?;
+            }
+        }
+        Ok(star.len() > before && star.len() <= MOST_FACES)
     }
 
     /// Adds all faces around the vertices of a hole to it. Returns false if they are too many.
@@ -102,8 +158,25 @@ impl Hull {
     }
 }
 
+impl Vertices {
+    /// Whether two edges without a common vertex cross each other, seen from the viewpoint.
+    fn cross(&self, first: &Rim, second: &Rim) -> bool {
+        let [a, b, c, d] = [first.tail, first.head, second.tail, second.head];
+        if [a, b].contains(&c) || [a, b].contains(&d) || [a, b, c, d].contains(&ORIGIN) {
+            return false;
+        }
+        let side = self.is_left(a, b, c);
+        // Edges on opposite sides of the viewpoint differ in the last comparison.
+        side != self.is_left(a, b, d)
+            && side == self.is_left(c, d, b)
+            && side != self.is_left(c, d, a)
+    }
+}
+
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
     use crate::base::random::Random;
     use crate::cloud::points::Points;
@@ -137,6 +210,47 @@ mod tests {
     fn corners_but(hull: &Hull, faces: &[FaceId], inner: Vertex) -> Vec<Vertex> {
         let all = faces.iter().flat_map(|&id| hull.surface.face(id).vertices);
         all.filter(|&v| v != inner).collect()
+    }
+
+    /// Whether the arcs of two edges meet in a direction strictly inside both.
+    fn meet([a, b, c, d]: [DVec3; 4]) -> bool {
+        let (first, second) = (a.cross(b), c.cross(d));
+        let between = |normal: DVec3, tail: DVec3, head: DVec3, u: DVec3| {
+            normal.dot(tail.cross(u)) > 0.0 && normal.dot(u.cross(head)) > 0.0
+        };
+        let common = first.cross(second);
+        [common, -common]
+            .into_iter()
+            .any(|u| between(first, a, b, u) && between(second, c, d, u))
+    }
+
+    #[test]
+    fn edges_cross_where_their_arcs_meet() {
+        let mut random = Random::new(52);
+        let edge = |tail, head| Rim {
+            tail,
+            head,
+            outside: HalfEdge::new(0, 0),
+        };
+        let [mut crossed, mut opposite] = [0; 2];
+        for _ in 0..4000 {
+            let corners: [DVec3; 4] = core::array::from_fn(|_| random.direction());
+            let vertices = Vertices {
+                positions: [DVec3::ZERO].into_iter().chain(corners).collect(),
+                ..Vertices::default()
+            };
+            let expected = meet(corners);
+            assert_eq!(vertices.cross(&edge(1, 2), &edge(3, 4)), expected);
+            assert_eq!(vertices.cross(&edge(4, 3), &edge(1, 2)), expected);
+            // Edges that share a vertex, or have the viewpoint as an end, do not cross.
+            assert!(!vertices.cross(&edge(1, 2), &edge(2, 3)));
+            assert!(!vertices.cross(&edge(1, 2), &edge(3, 1)));
+            assert!(!vertices.cross(&edge(1, 2), &edge(3, ORIGIN)));
+            let [a, b, c, d] = corners;
+            crossed += u32::from(expected);
+            opposite += u32::from(meet([a, b, -c, -d]));
+        }
+        assert!(crossed > 300 && opposite > 300, "{crossed}, {opposite}");
     }
 
     #[test]

@@ -13,6 +13,8 @@
 //!          view starts with a new hull.
 
 #[cfg(test)]
+mod knots;
+#[cfg(test)]
 mod scenes;
 #[cfg(test)]
 mod tests;
@@ -26,9 +28,11 @@ use super::topology::{FaceId, HalfEdge, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::hull::predicates::{Sign, side_of_origin};
 
-/// A new hull is faster than mending the old one where more than one face in this many has turned
-/// over.
+/// A new hull is faster than mending the old one where more than one face in this many of a sample
+/// has turned over.
 const FEW_TURNED: usize = 120;
+/// The same for all faces. A sample that has missed so many is rare.
+const MOST_TURNED: usize = 80;
 /// A new hull is faster where more than one edge in this many has become reflex.
 const FEW_REFLEX: usize = 25;
 /// How many faces of the last hull are looked at, to find out whether the views are close.
@@ -40,7 +44,8 @@ const FACES_PER_FLIP: usize = 2;
 /// Edge flips that a repair of even the smallest hull may take.
 const FEWEST_FLIPS: usize = 64;
 /// The effort that a repair may spend on taking out vertices, in squares of their degrees and of
-/// half the faces of cleared holes: one for each face, and this many more.
+/// half the faces of cleared holes: so much for each face, and `SPARE_EFFORT` more.
+const EFFORT_PER_FACE: usize = 2;
 const SPARE_EFFORT: usize = 1000;
 
 impl Hull {
@@ -69,11 +74,11 @@ impl Hull {
         }
         let sum = self.vertices.positions.iter().sum::<DVec3>();
         self.vertices.inner = sum / self.vertices.positions.len() as f64;
-        let most_turned = self.surface.slots() / FEW_TURNED;
+        let most_turned = self.surface.slots() / MOST_TURNED;
         if !self.renew_planes(most_turned, repair)? {
             return Ok(false);
         }
-        repair.effort = self.surface.slots() + SPARE_EFFORT;
+        repair.effort = EFFORT_PER_FACE * self.surface.slots() + SPARE_EFFORT;
         let mut flips_left = self.surface.slots() / FACES_PER_FLIP + FEWEST_FLIPS;
         // The neighbors of a face may prevent its repair. Then it is tried again after they are
         // mended, in the end with more force.
@@ -90,7 +95,9 @@ impl Hull {
             }
             repair.turned.truncate(kept);
             if kept > before / 2 {
-                if forced == MOST_FORCED || repair.effort == 0 {
+                // Without a change, the same would fail again.
+                let is_stuck = forced > 0 && kept == before;
+                if is_stuck || forced == MOST_FORCED || repair.effort == 0 {
                     return Ok(false);
                 }
                 forced += 1;

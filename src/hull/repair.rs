@@ -9,8 +9,10 @@ use super::topology::{Face, FaceId, HalfEdge, Rim, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::hull::predicates::{Sign, side_of_face, side_of_origin};
 
-/// The largest link of a vertex that is taken out.
-const MAX_DEGREE: usize = 64;
+/// The most edges around a hole that is filled.
+pub(super) const MAX_DEGREE: usize = 128;
+/// A vertex with more neighbors is not taken out at first, because that takes long.
+const FEW_NEIGHBORS: usize = 16;
 
 /// Buffers kept from view to view.
 #[derive(Default)]
@@ -64,8 +66,12 @@ impl Hull {
         if let Some(edge) = inner {
             return self.unfold_across(edge, repair);
         }
+        let most = if force { MAX_DEGREE } else { FEW_NEIGHBORS };
+        if force && self.untie(id, repair)? {
+            return Ok(true);
+        }
         for vertex in face.vertices {
-            if self.take_out(vertex, id, repair)? {
+            if self.take_out(vertex, id, most, repair)? {
                 return Ok(true);
             }
         }
@@ -144,7 +150,8 @@ impl Hull {
         } else {
             tail
         };
-        Ok(self.take_out(below, edge.face(), repair)? || self.clear(edge.face(), repair)?)
+        Ok(self.take_out(below, edge.face(), MAX_DEGREE, repair)?
+            || self.clear(edge.face(), repair)?)
     }
 
     /// Whether both faces that flipping `edge` would make turn outward.
@@ -161,6 +168,7 @@ impl Hull {
         &mut self,
         vertex: Vertex,
         face: FaceId,
+        most: usize,
         repair: &mut Repair,
     ) -> Result<bool, OutOfMemory> {
         if vertex == ORIGIN {
@@ -171,6 +179,9 @@ impl Hull {
         for (id, rim) in self.surface.around(vertex, face) {
             push(&mut repair.rim, rim)?;
             push(&mut repair.star, id)?;
+            if repair.star.len() > most {
+                return Ok(false);
+            }
         }
         self.fill(repair)
     }
@@ -272,9 +283,16 @@ impl Vertices {
 
     /// Whether the ray of `vertex` misses the face of these corners.
     fn is_aside(&self, [a, b, c]: [Vertex; 3], vertex: Vertex) -> bool {
-        [[a, b], [b, c], [c, a]].into_iter().any(|[tail, head]| {
-            side_of_origin(self.at(tail), self.at(head), self.at(vertex)) == Sign::Negative
-        })
+        [[a, b], [b, c], [c, a]]
+            .into_iter()
+            .any(|[tail, head]| self.is_left(head, tail, vertex))
+    }
+
+    /// Whether `vertex` is strictly to the left of an edge, seen from outside.
+    #[inline(never)]
+    pub(super) fn is_left(&self, tail: Vertex, head: Vertex, vertex: Vertex) -> bool {
+        let [tail, head, q] = [tail, head, vertex].map(|v| self.at(v));
+        side_of_origin(tail, head, q) == Sign::Positive
     }
 }
 

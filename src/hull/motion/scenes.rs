@@ -68,8 +68,29 @@ pub(super) fn rough(directions: &[DVec3], noise: f64, random: &mut Random) -> Ve
         .collect()
 }
 
+/// Puts the vertices of a hull where `q` says, as a motion does before it looks at the faces.
+pub(super) fn place(hull: &mut Hull, q: &[DVec3]) {
+    let Vertices {
+        positions, points, ..
+    } = &mut hull.vertices;
+    for (position, &point) in positions.iter_mut().zip(&*points).skip(1) {
+        *position = q[point as usize];
+    }
+    hull.vertices.inner = hull.vertices.positions.iter().sum::<DVec3>();
+}
+
 /// Moves points over the edges opposite to them, so that faces turn over.
 pub(super) fn push_over(q: &mut [DVec3], hull: &Hull, points: impl Iterator<Item = u32>) {
+    push_past(q, hull, points, 0.2);
+}
+
+/// Moves points past the edges opposite to them, by so many times their distances from the edges.
+pub(super) fn push_past(
+    q: &mut [DVec3],
+    hull: &Hull,
+    points: impl Iterator<Item = u32>,
+    times: f64,
+) {
     let of = |v: Vertex| hull.vertices.points[v as usize];
     for point in points {
         let mut faces = hull.surface.alive().map(|(_, face)| face.vertices);
@@ -82,6 +103,6 @@ pub(super) fn push_over(q: &mut [DVec3], hull: &Hull, points: impl Iterator<Item
         let middle = others.map(|p| q[p as usize]).sum::<DVec3>() / 2.0;
         let place = &mut q[point as usize];
         let length = place.length();
-        *place = length * (middle + 0.2 * (middle - *place)).normalize();
+        *place = length * (middle + times * (middle - *place)).normalize();
     }
 }
