@@ -29,7 +29,7 @@ use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::hull::predicates::{Sign, side_of_origin};
 
 /// A new hull is faster than mending the old one where more than one face in this many of a sample
-/// has turned over.
+/// has turned over, and one more.
 const FEW_TURNED: usize = 120;
 /// The same for all faces. A sample that has missed so many is rare.
 const MOST_TURNED: usize = 80;
@@ -37,6 +37,14 @@ const MOST_TURNED: usize = 80;
 const FEW_REFLEX: usize = 25;
 /// How many faces of the last hull are looked at, to find out whether the views are close.
 const SAMPLE: usize = 1024;
+/// At most one face in so many, because a small hull is made in a short time.
+const LEAST_STEP: usize = 8;
+/// The faces are looked at in so many rounds, each over the whole hull. After a round it may be clear
+/// that the views are not close.
+const ROUNDS: usize = 16;
+/// A round may find so many more turned faces and reflex edges by chance.
+const CHANCE_TURNED: usize = 4;
+const CHANCE_REFLEX: usize = 20;
 /// A repair that made little progress with force so many times is given up.
 const MOST_FORCED: usize = 32;
 /// A repair that flips more than one edge in this many faces is given up.
@@ -123,31 +131,35 @@ impl Hull {
     /// faster.
     pub(super) fn reflex_share(&self, flipped: &Flipped) -> Option<f64> {
         let slots = self.surface.slots();
-        if slots == 0 {
-            return None;
-        }
+        let step = sample_step(slots);
         let at = |vertex: Vertex| flipped.get_out_of_line(self.vertices.points[vertex as usize]);
         let [mut faces, mut turned, mut reflex] = [0; 3];
-        for slot in (0..slots).step_by(slots.div_ceil(SAMPLE)) {
-            let face = self.surface.face(slot as FaceId);
-            if !face.is_alive() || face.vertices.contains(&ORIGIN) {
-                continue;
-            }
-            let [Some(a), Some(b), Some(c)] = face.vertices.map(at) else {
-                return None;
-            };
-            let normal = (a - c).cross(b - c);
-            let height = normal.dot(c);
-            faces += 1;
-            turned += usize::from(height <= 0.0);
-            for twin in face.twins {
-                let [_, _, apex] = self.surface.face(twin.face()).vertices_from(twin.edge());
-                if apex != ORIGIN {
-                    reflex += usize::from(at(apex).is_some_and(|q| normal.dot(q) > height));
+        for round in 0..ROUNDS {
+            for slot in (round * step..slots).step_by(ROUNDS * step) {
+                let face = self.surface.face(slot as FaceId);
+                if !face.is_alive() || face.vertices.contains(&ORIGIN) {
+                    continue;
+                }
+                let [Some(a), Some(b), Some(c)] = face.vertices.map(at) else {
+                    return None;
+                };
+                let normal = (a - c).cross(b - c);
+                let height = normal.dot(c);
+                faces += 1;
+                turned += usize::from(height <= 0.0);
+                for twin in face.twins {
+                    let [_, _, apex] = self.surface.face(twin.face()).vertices_from(twin.edge());
+                    if apex != ORIGIN {
+                        reflex += usize::from(at(apex).is_some_and(|q| normal.dot(q) > height));
+                    }
                 }
             }
+            let many_turned = turned > faces / FEW_TURNED + CHANCE_TURNED;
+            if many_turned || reflex > 3 * faces / FEW_REFLEX + CHANCE_REFLEX {
+                return None;
+            }
         }
-        let is_close = turned * FEW_TURNED <= faces && reflex * FEW_REFLEX <= 3 * faces;
+        let is_close = turned <= faces / FEW_TURNED + 1 && reflex * FEW_REFLEX <= 3 * faces;
         is_close.then(|| reflex as f64 / faces.max(1) as f64)
     }
 
@@ -248,6 +260,11 @@ impl Hull {
         }
         Ok(pierced == 1)
     }
+}
+
+/// One in so many faces is in the sample.
+fn sample_step(slots: usize) -> usize {
+    slots.div_ceil(SAMPLE).max(LEAST_STEP)
 }
 
 /// Whether `ray` is strictly inside the cone of the corners; `None` on its border.

@@ -13,13 +13,13 @@ use crate::hull::dual_plane::Plane;
 use crate::hull::predicates::side_of_face;
 use crate::hull::topology::Face;
 
-/// The number of faces without the viewpoint, of those that turned over, and of reflex edges, each seen from
-/// both sides.
+/// The number of sampled faces without the viewpoint, of those that turned over, and of their reflex edges.
 fn count(hull: &Hull, q: &[DVec3]) -> [usize; 3] {
     let at = |v: Vertex| q[hull.point(v) as usize];
     let [mut faces, mut turned, mut reflex] = [0; 3];
-    for (_, face) in hull.surface.alive() {
-        if face.vertices.contains(&ORIGIN) {
+    let step = sample_step(hull.surface.slots());
+    for (id, face) in hull.surface.alive() {
+        if face.vertices.contains(&ORIGIN) || id as usize % step > 0 {
             continue;
         }
         let [a, b, c] = face.vertices.map(at);
@@ -38,18 +38,20 @@ fn count(hull: &Hull, q: &[DVec3]) -> [usize; 3] {
 fn views_are_close_where_few_faces_turn_over_and_few_edges_are_reflex() {
     let mut random = Random::new(41);
     for least_z in [-1.0, 0.2] {
-        let u = directions(400, &mut random, least_z);
+        let u = directions(3200, &mut random, least_z);
         let before = rough(&u, 0.0, &mut random);
         let hull = hull_of(&before).hull;
-        assert!(hull.surface.slots() <= SAMPLE);
         let mut far = [0; 3];
         let mut close = 0;
-        let rougher = (0..20).map(|step| (0.004 * f64::from(step), 0));
-        for (noise, pushed) in rougher.chain((0..20).map(|pushed| (0.0, pushed))) {
+        let rougher = (0..20).map(|step| (5e-4 * f64::from(step), 0));
+        for (noise, pushed) in rougher.chain((0..20).map(|pushed| (0.0, 8 * pushed))) {
             let mut q = rough(&u, noise, &mut random);
             push_over(&mut q, &hull, 0..pushed);
             let [faces, turned, reflex] = count(&hull, &q);
-            let verdicts = [turned * FEW_TURNED > faces, reflex * FEW_REFLEX > 3 * faces];
+            let verdicts = [
+                turned > faces / FEW_TURNED + 1,
+                reflex * FEW_REFLEX > 3 * faces,
+            ];
             let share = with_flipped(&q, |flipped| hull.reflex_share(flipped));
             match verdicts {
                 [false, false] => {
@@ -66,6 +68,31 @@ fn views_are_close_where_few_faces_turn_over_and_few_edges_are_reflex() {
             close >= 2 && far.into_iter().all(|views| views >= 5),
             "{close} {far:?}"
         );
+    }
+}
+
+/// Faces of the sample's first round are enough to know that much has changed. As many faces of the last round
+/// are fewer than those that a close view may have.
+#[test]
+fn a_round_of_many_turned_faces_ends_the_survey() {
+    let mut random = Random::new(47);
+    let u = directions(4200, &mut random, -1.0);
+    let before = rough(&u, 0.0, &mut random);
+    let hull = hull_of(&before).hull;
+    let slots = hull.surface.slots();
+    let step = sample_step(slots);
+    for (round, is_close) in [(0, false), (ROUNDS - 1, true)] {
+        let mut q = before.clone();
+        let faces = (round * step..slots).step_by(ROUNDS * step);
+        for face in faces.take(CHANCE_TURNED + 1) {
+            let corners = hull.surface.face(face as FaceId).vertices;
+            let [a, b, c] = corners.map(|v| hull.point(v) as usize);
+            q[a] = q[a].length() * (0.6 * (q[b] + q[c]) - 0.2 * q[a]).normalize();
+        }
+        let [faces, turned, _] = count(&hull, &q);
+        assert!(turned > CHANCE_TURNED && turned * FEW_TURNED <= faces);
+        let share = with_flipped(&q, |flipped| hull.reflex_share(flipped));
+        assert_eq!(share.is_some(), is_close, "round {round}");
     }
 }
 
