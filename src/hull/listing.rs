@@ -7,7 +7,7 @@ use super::topology::{FaceId, HalfEdge, NONE, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
 
 /// A hull of fewer faces fits into the caches. Then stored planes save more time than the list does.
-const MANY: usize = 120_000;
+pub(super) const MANY: usize = 120_000;
 /// In debug builds smaller hulls than this use the list, too: most tests are about small clouds.
 const TESTED: usize = 20_000;
 

@@ -23,6 +23,7 @@ use glam::DVec3;
 
 use super::flipped::Flipped;
 use super::incremental::{Hull, Numbers, ORIGIN, Vertices};
+use super::listing::MANY;
 use super::repair::Repair;
 use super::topology::{FaceId, HalfEdge, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
@@ -35,6 +36,8 @@ const FEW_TURNED: usize = 120;
 const MOST_TURNED: usize = 80;
 /// A new hull is faster where more than one edge in this many has become reflex.
 const FEW_REFLEX: usize = 25;
+/// The same for a hull that does not fit into the caches: its repair waits for memory.
+const FEW_REFLEX_OF_MANY: usize = 32;
 /// How many faces of the last hull are looked at, to find out whether the views are close.
 const SAMPLE: usize = 1024;
 /// At most one face in so many, because a small hull is made in a short time.
@@ -132,6 +135,11 @@ impl Hull {
     pub(super) fn reflex_share(&self, flipped: &Flipped) -> Option<f64> {
         let slots = self.surface.slots();
         let step = sample_step(slots);
+        let few_reflex = if slots < MANY {
+            FEW_REFLEX
+        } else {
+            FEW_REFLEX_OF_MANY
+        };
         let at = |vertex: Vertex| flipped.get_out_of_line(self.vertices.points[vertex as usize]);
         let [mut faces, mut turned, mut reflex] = [0; 3];
         for round in 0..ROUNDS {
@@ -155,11 +163,11 @@ impl Hull {
                 }
             }
             let many_turned = turned > faces / FEW_TURNED + CHANCE_TURNED;
-            if many_turned || reflex > 3 * faces / FEW_REFLEX + CHANCE_REFLEX {
+            if many_turned || reflex > 3 * faces / few_reflex + CHANCE_REFLEX {
                 return None;
             }
         }
-        let is_close = turned <= faces / FEW_TURNED + 1 && reflex * FEW_REFLEX <= 3 * faces;
+        let is_close = turned <= faces / FEW_TURNED + 1 && reflex * few_reflex <= 3 * faces;
         is_close.then(|| reflex as f64 / faces.max(1) as f64)
     }
 

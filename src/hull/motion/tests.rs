@@ -71,6 +71,34 @@ fn views_are_close_where_few_faces_turn_over_and_few_edges_are_reflex() {
     }
 }
 
+/// The repair of a large hull is given up at fewer reflex edges than that of a small one.
+#[test]
+fn views_of_a_large_hull_must_be_closer() {
+    let mut random = Random::new(48);
+    let u = directions(60_500, &mut random, -1.0);
+    let hull = hull_of(&rough(&u, 0.0, &mut random)).hull;
+    assert!(hull.surface.slots() >= MANY);
+    let mut verdicts = [0; 3];
+    for step in 1..24 {
+        let q = rough(&u, 1e-5 * f64::from(step), &mut random);
+        let [faces, turned, reflex] = count(&hull, &q);
+        assert_eq!(turned, 0);
+        let share = with_flipped(&q, |flipped| hull.reflex_share(flipped));
+        if reflex * FEW_REFLEX_OF_MANY <= 3 * faces {
+            assert_eq!(share, Some(reflex as f64 / faces as f64));
+            verdicts[0] += 1;
+        } else {
+            assert_eq!(share, None);
+            verdicts[if reflex * FEW_REFLEX <= 3 * faces {
+                1
+            } else {
+                2
+            }] += 1;
+        }
+    }
+    assert!(verdicts.into_iter().all(|views| views > 1), "{verdicts:?}");
+}
+
 /// Faces of the sample's first round are enough to know that much has changed. As many faces of the last round
 /// are fewer than those that a close view may have.
 #[test]
