@@ -48,8 +48,8 @@ pub(crate) struct Memory {
     pause: u32,
     /// The share of reflex edges where a repair failed last.
     failed_share: f64,
-    /// The flip of the last draft, if `hull` is its hull and `depth` its map. The next view may go
-    /// on from there.
+    /// The flip of the last draft, if `visible` holds its points and `hull` its hull, to which points
+    /// of the last round may have been added. The next view may go on from there.
     pub(super) drafted: Option<Flip>,
     /// How many runs of the last round are in `hull` already.
     pub(super) runs_added: usize,
@@ -160,20 +160,14 @@ impl Memory {
             .make(&self.hull, flipped, flipped.len(), &|_| true)
     }
 
-    /// Forgets the map if the flip is slow: the map would flip most points of the last round once
-    /// more, which takes longer than to locate them.
-    pub(super) fn forget_slow_map(&mut self, flip: &Flip) {
-        if !flip.is_fast() {
-            self.depth.clear();
-        }
-    }
-
-    /// Adds the points of the last round. Stops after about `budget` points. Returns whether all
-    /// are added.
+    /// Adds the points of the last round that the map does not hide. After a draft, these are the
+    /// points that it shows, and no point is tested again. Stops after about `budget` points.
+    /// Returns whether all are added.
     #[inline(never)]
     pub(super) fn add_last_round(
         &mut self,
         flipped: &Flipped,
+        is_drafted: bool,
         mut budget: usize,
     ) -> Result<bool, OutOfMemory> {
         let Some(mut hint) = self.hull.outer_face() else {
@@ -184,7 +178,11 @@ impl Memory {
                 return Ok(false);
             }
             self.runs_added += 1;
-            let added = self.depth.not_hidden(flipped, run.start, LAST_ROUND);
+            let added = if is_drafted {
+                bits_of(&self.visible[run.start as usize..run.end as usize]) & LAST_ROUND
+            } else {
+                self.depth.not_hidden(flipped, run.start, LAST_ROUND)
+            };
             // To test a block takes about as long as to add a few points.
             budget = budget.saturating_sub(8 + added.count_ones() as usize);
             self.witnesses[run.start as usize..run.end as usize].fill(hint);

@@ -26,14 +26,14 @@ pub(crate) fn mark_visible(
     memory: &mut Memory,
 ) -> Result<(), OutOfMemory> {
     let flipped = Flipped::of(points, blocks, flip);
-    memory.clear_marks(points.len())?;
     let drafted = memory.drafted.take();
     if division.is_none() && drafted == Some(*flip) {
         memory.moved = false;
-        memory.forget_slow_map(flip);
-        memory.add_last_round(&flipped, usize::MAX)?;
+        memory.add_last_round(&flipped, true, usize::MAX)?;
+        memory.clear_marks(points.len())?;
         return memory.finish(&flipped);
     }
+    memory.clear_marks(points.len())?;
     let held = core::mem::take(&mut memory.holds_hull);
     memory.moved = held && division.is_none() && memory.move_hull(&flipped)?;
     if memory.moved {
@@ -55,11 +55,14 @@ pub(crate) fn mark_visible(
         return share::mark_visible(memory, &flipped, division);
     } else {
         memory.add_coarse_rounds(&flipped)?;
+        // Where the flip is slow, the map would flip most points of the last round once more, which
+        // takes longer than to locate them.
         if flip.is_fast() {
             memory.make_map(&flipped)?;
+        } else {
+            memory.depth.clear();
         }
-        memory.forget_slow_map(flip);
-        memory.add_last_round(&flipped, usize::MAX)?;
+        memory.add_last_round(&flipped, false, usize::MAX)?;
     }
     memory.finish(&flipped)?;
     keep_own(division, memory)
@@ -82,20 +85,20 @@ pub(crate) fn mark_draft(
     flip: &Flip,
     memory: &mut Memory,
 ) -> Result<(), OutOfMemory> {
-    let flipped = Flipped::of(points, blocks, flip);
-    if memory.drafted != Some(*flip) || memory.runs_added > 0 {
-        memory.forget();
-        let Some(corners) = seed(&flipped) else {
-            return mark_visible(points, blocks, flip, None, memory);
-        };
-        memory.hull.start(corners, flipped.reach(), points.len())?;
-        if Around::of(&corners, &flipped).is_some() {
-            return mark_visible(points, blocks, flip, None, memory);
-        }
-        memory.add_coarse_rounds(&flipped)?;
-        memory.make_map(&flipped)?;
-        memory.drafted = Some(*flip);
+    if memory.drafted == Some(*flip) {
+        return Ok(());
     }
+    let flipped = Flipped::of(points, blocks, flip);
+    memory.forget();
+    let Some(corners) = seed(&flipped) else {
+        return mark_visible(points, blocks, flip, None, memory);
+    };
+    memory.hull.start(corners, flipped.reach(), points.len())?;
+    if Around::of(&corners, &flipped).is_some() {
+        return mark_visible(points, blocks, flip, None, memory);
+    }
+    memory.add_coarse_rounds(&flipped)?;
+    memory.make_map(&flipped)?;
     memory.moved = false;
     memory.clear_marks(points.len())?;
     memory.mark_boundary(&flipped)?;
@@ -107,6 +110,7 @@ pub(crate) fn mark_draft(
             memory.visible[index as usize] = true;
         }
     }
+    memory.drafted = Some(*flip);
     Ok(())
 }
 
@@ -124,8 +128,7 @@ pub(crate) fn go_on(
         return Ok(true);
     }
     let flipped = Flipped::of(points, blocks, flip);
-    memory.forget_slow_map(flip);
-    let added = memory.add_last_round(&flipped, budget);
+    let added = memory.add_last_round(&flipped, true, budget);
     if added.is_err() {
         memory.forget();
     }

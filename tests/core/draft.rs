@@ -5,7 +5,8 @@
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
 use hidden_point_removal::{
-    Error, Exponential, Inversion, Lighting, Options, PointCloud, Radius, Visibility, merge_visible,
+    Error, Exponential, Inversion, Lighting, Observer, Options, PointCloud, Radius, Sector,
+    Visibility, Within, merge_visible,
 };
 
 use crate::common::drafts::fault;
@@ -130,6 +131,86 @@ fn what_was_asked_before_changes_no_draft() {
         }
         let found = fault(&cloud, &mut observer, walk.viewpoint, &walk.options);
         assert_eq!(found, None, "step {step}, {:?}", walk.options);
+    }
+}
+
+#[test]
+fn other_questions_may_come_between_a_draft_and_its_exact_view() {
+    let points = shapes::bumpy(&mut Rng::new(10), MANY);
+    let cloud = PointCloud::new(&points).expect("an acceptable cloud");
+    let (here, elsewhere) = ([0.3, 1.2, 2.4], [-2.0, 1.0, 0.5]);
+    let looks = Options::with_inversion(Inversion::Looks(3));
+    let near = Options {
+        within: Some(Within {
+            distance: Some(2.4),
+            bounds: None,
+        }),
+        ..Options::default()
+    };
+    type Between<'a> = &'a dyn Fn(&mut Observer, &Options);
+    let other_view = |at, options: Options| {
+        let cloud = &cloud;
+        move |observer: &mut Observer, _: &Options| {
+            let seen = observer.visible_from(at, &options).unwrap();
+            assert_eq!(seen, cloud.visible_from(at, &options).unwrap());
+        }
+    };
+    let between: [(&str, Between); 10] = [
+        ("nothing", &|_, _| {}),
+        ("its draft", &|observer, options| {
+            let draft = observer.visible_from(here, &drafted(*options)).unwrap();
+            assert_eq!(draft, cloud.visible_from(here, &drafted(*options)).unwrap());
+        }),
+        (
+            "a draft from elsewhere",
+            &other_view(elsewhere, drafted(Options::default())),
+        ),
+        (
+            "an exact view from elsewhere",
+            &other_view(elsewhere, Options::default()),
+        ),
+        (
+            "a draft with another radius",
+            &other_view(here, drafted(Options::with_exponent(1.0))),
+        ),
+        (
+            "an exact view with another radius",
+            &other_view(here, Options::with_exponent(1.0)),
+        ),
+        ("a draft of a part", &other_view(here, drafted(near))),
+        ("slices from elsewhere", &|observer, options| {
+            assert!(observer.go_on(elsewhere, options, 100).unwrap());
+        }),
+        ("a begun look", &|observer, _| {
+            observer.go_on(here, &looks, 100).unwrap();
+        }),
+        ("a sector", &|observer, options| {
+            let sector = Sector::new(1, 3).unwrap();
+            let seen = observer.visible_in_sector(here, options, sector).unwrap();
+            let alone = cloud.visible_in_sector(here, options, sector).unwrap();
+            assert_eq!(seen, alone);
+        }),
+    ];
+    for options in inversions() {
+        let exact = cloud.visible_from(here, &options).unwrap();
+        for (title, between) in between {
+            for slices in [0, 1, 3] {
+                let mut observer = cloud.observer();
+                observer.visible_from(here, &drafted(options)).unwrap();
+                for _ in 0..slices {
+                    observer.go_on(here, &options, MANY / 16).unwrap();
+                }
+                between(&mut observer, &options);
+                observer.go_on(here, &options, MANY / 16).unwrap();
+                let seen = observer.visible_from(here, &options).unwrap();
+                let title = format!("{title} after {slices} slices, {options:?}");
+                assert_eq!(seen, exact, "{title}");
+                // The next view may start from this one.
+                let beside = here.map(|x| x + 0.003);
+                let moved = observer.visible_from(beside, &options).unwrap();
+                assert_eq!(moved, cloud.visible_from(beside, &options).unwrap());
+            }
+        }
     }
 }
 
