@@ -53,6 +53,8 @@ pub(crate) struct Memory {
     pub(super) drafted: Option<Flip>,
     /// How many runs of the last round are in `hull` already.
     pub(super) runs_added: usize,
+    /// The face near the last point of these runs.
+    reached: FaceId,
     /// The choice of points in the last view.
     selection: Selection,
 }
@@ -162,7 +164,9 @@ impl Memory {
 
     /// Adds the points of the last round that the map does not hide. After a draft, these are the
     /// points that it shows, and no point is tested again. Stops after about `budget` points.
-    /// Returns whether all are added.
+    /// Returns whether all are added. To stop and to go on changes nothing, not even how faces are
+    /// numbered: where a ray passes exactly through an edge, the first outer face chooses the
+    /// triangle.
     #[inline(never)]
     pub(super) fn add_last_round(
         &mut self,
@@ -173,8 +177,12 @@ impl Memory {
         let Some(mut hint) = self.hull.outer_face() else {
             return Ok(true);
         };
+        if self.runs_added > 0 {
+            hint = self.reached;
+        }
         for run in order::runs(flipped.len() as u32).skip(self.runs_added) {
             if budget == 0 {
+                self.reached = hint;
                 return Ok(false);
             }
             self.runs_added += 1;

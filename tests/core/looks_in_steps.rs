@@ -49,6 +49,32 @@ fn slices_change_no_bit() {
 }
 
 #[test]
+fn slices_choose_the_same_triangle_where_a_ray_passes_through_an_edge() {
+    // Two squares of rows, seen from a point of a row: the rays to all others pass through it.
+    let square = |height: f64| {
+        let side = |k: usize| (k % 125) as f64 / 125.0;
+        (0..500).map(move |k| match k / 125 {
+            0 => [side(k), 0.0, height + 0.3 * side(k)],
+            1 => [1.0, side(k), height + 0.3],
+            2 => [1.0 - side(k), 1.0, height + 0.3 * (1.0 - side(k))],
+            _ => [0.0, 1.0 - side(k), height],
+        })
+    };
+    let points: Vec<[f64; 3]> = square(0.0).chain(square(-0.5)).collect();
+    let cloud = PointCloud::new(&points).unwrap();
+    for (from, count) in [(140, 2), (148, 3), (188, 3), (204, 2)] {
+        let viewpoint = points[from];
+        let whole = cloud.visible_from(viewpoint, &looks(count)).unwrap();
+        for budget in [1, 100] {
+            let mut observer = cloud.observer();
+            let (sliced, _) = in_slices(&mut observer, viewpoint, &looks(count), budget);
+            assert_eq!(sliced, whole, "from {from}, slices of {budget}");
+            assert_eq!(sliced.scores(), whole.scores(), "from {from}");
+        }
+    }
+}
+
+#[test]
 fn other_questions_may_come_between_slices() {
     let scene = KINDS[0].scene(7, 2500);
     let cloud = PointCloud::new(&scene.points).unwrap();
