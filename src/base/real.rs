@@ -46,6 +46,12 @@ pub(crate) fn positive_part(x: f64) -> f64 {
     f64::from_bits(bits & !sign)
 }
 
+/// The largest normal power of two not above the positive number `x`, or the
+/// smallest normal one.
+pub(crate) fn power_of_two_below(x: f64) -> f64 {
+    f64::from_bits(x.max(f64::MIN_POSITIVE).to_bits() & 0x7ff0_0000_0000_0000)
+}
+
 /// The square root of the largest of three squares, without a branch: numbers that are not negative
 /// are in the order of their bits.
 #[inline]

@@ -13,7 +13,7 @@ mod tests;
 
 use glam::DVec3;
 
-use crate::base::real::square_root;
+use crate::base::real::{power_of_two_below, square_root};
 use crate::cloud::points::Points;
 
 use crate::flip::kernel::Kernel;
@@ -190,10 +190,4 @@ impl Flip {
         let flipped = points.iter().filter_map(|p| self.apply(p));
         flipped.fold(0.0, |largest, q| largest.max(q.abs().max_element()))
     }
-}
-
-/// The largest normal power of two not above the positive number `x`, or the
-/// smallest normal one.
-fn power_of_two_below(x: f64) -> f64 {
-    f64::from_bits(x.max(f64::MIN_POSITIVE).to_bits() & 0x7ff0_0000_0000_0000)
 }

@@ -42,6 +42,11 @@ impl Lift {
         self.center / self.scale
     }
 
+    /// A power of two that brings the cloud to a size near 1.
+    pub(crate) fn scale(&self) -> f64 {
+        self.scale
+    }
+
     pub(crate) fn apply(&self, p: [f64; 3]) -> DVec3 {
         let v = DVec3::from_array(p) * self.scale - self.center;
         let x = v.dot(self.right);

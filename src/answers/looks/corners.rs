@@ -4,6 +4,7 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
+use super::look::Look;
 use super::part::Part;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::real::square_root;
@@ -21,7 +22,7 @@ pub(super) struct Corners {
 
 #[derive(Clone, Copy)]
 pub(super) struct Corner {
-    /// The place before the flip, relative to an origin.
+    /// The [place](Look::place) before the flip.
     pub place: DVec3,
     /// The local spacing: the mean of the vertex's two shortest edges in the hull. If an earlier
     /// look has found a smaller one, it is that. It is infinite for vertices without outer faces.
@@ -29,12 +30,11 @@ pub(super) struct Corner {
 }
 
 impl Corners {
-    /// Places are relative to `origin`.
     pub(super) fn of(
         faces: &dyn OuterFaces,
         points: &Points,
         part: &Part,
-        origin: DVec3,
+        look: &Look,
     ) -> Result<Self, OutOfMemory> {
         let numbered = faces.points_of_vertices();
         let mut all = with_capacity(numbered.len())?;
@@ -43,8 +43,7 @@ impl Corners {
             place: if vertex == 0 {
                 DVec3::ZERO
             } else {
-                let place = points.get(part.place(own as usize));
-                DVec3::from_array(place) - origin
+                look.place(points.get(part.place(own as usize)))
             },
             spacing: f64::INFINITY,
         }));

@@ -1,7 +1,6 @@
 //! How a look decides: by its hull's vertices and triangles, back in their places.
 
 use alloc::vec::Vec;
-use glam::DVec3;
 
 use super::corners::{Corner, Corners};
 use super::look::{Look, Verdicts};
@@ -39,7 +38,7 @@ impl Verdicts {
         faces: &mut dyn OuterFaces,
         part: &Part,
     ) -> Result<Left, OutOfMemory> {
-        let corners = Corners::of(faces, points, part, look.origin)?;
+        let corners = Corners::of(faces, points, part, look)?;
         let mut left = self.take_vertices(look, faces, part, &corners)?;
         let longest = match self.longest {
             Some(longest) => longest,
@@ -65,7 +64,7 @@ impl Verdicts {
                 Some(triangle) if triangle.face == face => triangle,
                 _ => Triangle::of(face, vertices, &corners),
             };
-            let place = DVec3::from_array(points.get(point)) - look.origin;
+            let place = look.place(points.get(point));
             let behind = triangle.behind(place, look.ahead);
             if triangle.longest <= longest * triangle.size {
                 self.judge(point, behind / triangle.longest);
@@ -93,7 +92,8 @@ impl Verdicts {
         corners: &Corners,
     ) -> Result<Left, OutOfMemory> {
         let numbered = faces.points_of_vertices();
-        let rings = if look.scale < RING * corners.widest || !self.scores.is_empty() {
+        let scale = look.scale * look.unit;
+        let rings = if scale < RING * corners.widest || !self.scores.is_empty() {
             corners.rings()?
         } else {
             // The ring of every vertex is narrow enough.
@@ -111,9 +111,7 @@ impl Verdicts {
             }
             left.spacing[own as usize] = spacing;
             let point = part.place(own as usize);
-            let width = rings
-                .get(vertex)
-                .map_or(0.0, |ring| RING * ring / look.scale);
+            let width = rings.get(vertex).map_or(0.0, |ring| RING * ring / scale);
             if self.is_open(point) && width <= 1.0 {
                 let score = look.score * (1.0 - LESS_SURE * square_root(width));
                 self.decide(point, true, score);

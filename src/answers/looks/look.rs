@@ -25,13 +25,24 @@ pub(crate) enum Gaze {
 pub(super) struct Look {
     /// The viewpoint; for a direction, a place near the middle of the cloud.
     pub origin: DVec3,
+    /// A power of two by which places relative to the origin are scaled. In units of the cloud's
+    /// size, products of three lengths and their squares neither overflow nor underflow.
+    pub unit: f64,
     /// The direction of all rays. `None` where they start at the viewpoint.
     pub ahead: Option<DVec3>,
-    /// The scale c of its hull.
+    /// The scale c of its hull, not in these units.
     pub scale: f64,
     /// The score of its vertices.
     pub score: f64,
     pub is_last: bool,
+}
+
+impl Look {
+    /// A place relative to the origin, scaled.
+    #[inline]
+    pub(super) fn place(&self, point: [f64; 3]) -> DVec3 {
+        (DVec3::from_array(point) - self.origin) * self.unit
+    }
 }
 
 /// The answer of several looks, for each distinct point.

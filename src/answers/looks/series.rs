@@ -7,6 +7,7 @@ use super::look::{Gaze, Look, Seen, Verdicts};
 use super::part::Part;
 use crate::base::allocation::OutOfMemory;
 use crate::base::error::Error;
+use crate::base::real::power_of_two_below;
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::points::Points;
 use crate::cloud::statistics::Statistics;
@@ -123,9 +124,10 @@ impl Series {
         memory: &mut Memory,
         budget: usize,
     ) -> Result<Outcome, Error> {
-        let look = self.look(cloud, DVec3::from_array(viewpoint), None);
         let points = &cloud.sequence.points;
         let farthest = cloud.blocks.farthest_distance(points, viewpoint)?;
+        let mut look = self.look(cloud, DVec3::from_array(viewpoint), None);
+        look.unit = power_of_two_below((1.0 / farthest).min(f64::MAX));
         let (own, blocks) = match &self.part {
             Part::All => (points, &cloud.blocks),
             Part::Some { points, blocks, .. } => (points, blocks),
@@ -159,6 +161,7 @@ impl Series {
         let mut look = self.look(cloud, DVec3::ZERO, Some(ahead));
         let lift = Lift::new(&cloud.bounds, ahead, 0.5 / look.scale);
         look.origin = lift.middle();
+        look.unit = lift.scale();
         let points = &cloud.sequence.points;
         let own = match &self.part {
             Part::All => points,
@@ -176,6 +179,7 @@ impl Series {
     fn look(&self, cloud: &PointCloud, origin: DVec3, ahead: Option<DVec3>) -> Look {
         Look {
             origin,
+            unit: 1.0,
             ahead,
             scale: scales(self.count, &cloud.statistics)[self.next],
             score: SCORES[place(self.count, self.next)],

@@ -3,7 +3,6 @@
 //! far from each other. Then all triangles are long.
 
 use alloc::vec::Vec;
-use glam::DVec3;
 
 use super::corners::Corners;
 use super::look::{Look, Verdicts};
@@ -61,7 +60,7 @@ impl Verdicts {
                 continue;
             };
             let triangle = Triangle::of(face, vertices, corners);
-            let place = DVec3::from_array(points.get(part.place(own))) - look.origin;
+            let place = look.place(points.get(part.place(own)));
             if triangle.is_facing(place, look.ahead) {
                 // The bits of numbers that are not negative are in their order.
                 let length = triangle.longest / triangle.size;
