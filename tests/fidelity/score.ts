@@ -51,7 +51,8 @@ export function score({ positions, views }: Labelled, methods: Method[], compare
       return methods.map((method) => {
         const visibility = method.ask(subject);
         const errors = errorsOf(visibility.mask(), view.seen);
-        const ratio = best === undefined ? {} : { ratio: errors.total / best };
+        // Where the best R is never wrong, a ratio says nothing.
+        const ratio = best === undefined || best === 0 ? {} : { ratio: errors.total / best };
         return { method: method.name, ...errors, ...ratio, hulls: method.hulls + visibility.evaluations };
       });
     });

@@ -8,6 +8,7 @@ import { bunny36k, type Cloud, dragon, sharedFile } from "../bench/clouds.js";
 import { direction, seeded } from "../bench/generators.js";
 import type { Point } from "../bench/measure.js";
 import { bounds } from "../bench/views.js";
+import { later } from "./later.js";
 import { dragonMesh, type MeshPoints, RayTracer } from "./rays.js";
 import { bumpySphere, room, scatter, torus } from "./shapes.js";
 import { decimated, type Half, HALVES, uneven } from "./uneven.js";
@@ -101,6 +102,11 @@ export async function* unevenly(half: Half): AsyncGenerator<Labelled> {
   const [file, share] = half === HALVES[0] ? (["dragon_res3", 0.3] as const) : (["dragon_res2", 0.12] as const);
   const { name, mesh } = await decimated(file, dragonMesh(file), share);
   yield fromOutside(name, mesh, mesh);
+}
+
+/** Surfaces that were made after all rules had been chosen. */
+export function* madeLater(): Generator<Labelled> {
+  for (const { name, mesh, points } of later()) yield fromOutside(name, mesh, points ?? mesh);
 }
 
 /** A viewpoint between the furniture, in meters. */

@@ -146,7 +146,7 @@ function geometryOf({ positions, triangles }: Mesh): BufferGeometry {
 }
 
 /** The mesh without normals, with one point for each place, and without triangles that have no area. */
-function welded(geometry: BufferGeometry): Mesh {
+export function welded(geometry: BufferGeometry): Mesh {
   const bare = new BufferGeometry();
   bare.setAttribute("position", geometry.getAttribute("position"));
   bare.setIndex(geometry.getIndex());

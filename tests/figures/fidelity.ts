@@ -15,7 +15,8 @@ How often the library is wrong about what a viewpoint sees, by every way of aski
   exponents 0.05 apart; 4 viewpoints from 2.5 and 4 from 1.3 radii of the box's corner sphere, 8 between the furniture of the room
 - unevenly sampled surfaces: the corners of long, thin triangles, patches of other density, decimated scans; made and ray-traced here,
   in two halves of other shapes, proportions and seeds. The automatic R was chosen on the first half and on other clouds; the
-  second half was seen meanwhile
+  second half was seen meanwhile. The shapes that were made later come from \`tests/fidelity/later.ts\`: nobody had seen them when the
+  last rule was chosen
 - the room has surfaces millimeters apart, a rug on the floor and books on a shelf, which points centimeters apart cannot tell
   from one another; hence its false positives, even with the best R
 - 5 viewpoints: the viewpoint and a ring of 4 around it at 5 % of its distance from the middle of the box
