@@ -78,11 +78,13 @@ impl Statistics {
         let longest = surface::longest(&spacings)?;
         let samples = spacings.len();
         let point = |sample| point(sample, samples);
-        // The points of clouds of two dimensions are on curves, which fill nothing.
-        let widening = if bounds.min[2] < bounds.max[2] {
-            filling::widening(&spacings, longest, count, &point)
-        } else {
+        // The points of clouds of two dimensions are on curves, which fill nothing. Clouds in a plane
+        // x = const or y = const are like those in a plane z = const.
+        let is_flat = (0..3).any(|axis| bounds.min[axis] >= bounds.max[axis]);
+        let widening = if is_flat {
             1.0
+        } else {
+            filling::widening(&spacings, longest, count, &point)
         };
         let spacings = surface::cut_off(spacings, longest);
         let gap = surface::gap(&spacings) * widening;

@@ -97,6 +97,29 @@ fn it_is_the_closed_form_of_distances_and_spacings() {
 }
 
 #[test]
+fn a_flat_cloud_has_the_same_radius_in_every_coordinate_plane() {
+    // Rings far apart: in space, they would leave much of what they span empty.
+    let ring = |i: usize| {
+        let (away, turn) = ((i / 1000 + 1) as f64, (i % 1000) as f64 * 0.00628);
+        [away * libm::cos(turn), away * libm::sin(turn), 2.0]
+    };
+    let points: Vec<[f64; 3]> = (0..8000).map(ring).collect();
+    let turned = |by: usize, [x, y, z]: [f64; 3]| {
+        let mut place = [x, y, z];
+        place.rotate_right(by);
+        place
+    };
+    let radii = [0, 1, 2].map(|by| {
+        let points: Vec<_> = points.iter().map(|&p| turned(by, p)).collect();
+        automatic(&points, turned(by, [1.0, 2.0, 30.0])).0
+    });
+    for radius in radii {
+        // Sums in another order round otherwise.
+        assert!((radius / radii[0] - 1.0).abs() < 0.05, "{radii:?}");
+    }
+}
+
+#[test]
 fn two_thousand_points_are_measured_completely() {
     let points = shapes::bumpy(&mut Rng::new(11), 2000);
     for viewpoint in [[0.0, 0.0, 2.5], [0.1, 0.2, -0.1], [100.0, 0.0, 0.0]] {
