@@ -18,6 +18,17 @@ const FEW: usize = 32;
 /// is compiled once.
 type Keyed = (u64, u32);
 
+/// The percentile of numbers that are not negative: of a hundred, the one with `percent` before it.
+/// `None` where there are no numbers.
+pub(crate) fn percentile(numbers: &[f64], percent: usize) -> Result<Option<f64>, OutOfMemory> {
+    // The bits of such numbers are in their order.
+    let mut sorted: Vec<Keyed> = with_capacity(numbers.len())?;
+    sorted.extend(numbers.iter().map(|number| (number.to_bits(), 0)));
+    sort_keyed(&mut sorted);
+    let at = sorted.get(numbers.len() * percent / 100);
+    Ok(at.map(|&(bits, _)| f64::from_bits(bits)))
+}
+
 /// Sorts by the number. The order of items with equal numbers is unspecified.
 #[inline(never)]
 pub(crate) fn sort_keyed(items: &mut [Keyed]) {

@@ -5,8 +5,8 @@
 
 use alloc::vec::Vec;
 
-use crate::base::allocation::{OutOfMemory, with_capacity};
-use crate::base::sort::sort_keyed;
+use crate::base::allocation::OutOfMemory;
+use crate::base::sort::percentile;
 
 /// The percentile of the spacings at which longer ones are cut off. Otherwise a few stray points
 /// far from the surface would decide.
@@ -21,12 +21,7 @@ pub(crate) fn mean(spacings: &[f64]) -> f64 {
 
 /// The spacing at which longer ones are cut off; infinite where there are none.
 pub(crate) fn longest(spacings: &[f64]) -> Result<f64, OutOfMemory> {
-    // The bits of numbers that are not negative are in their order.
-    let mut sorted: Vec<(u64, u32)> = with_capacity(spacings.len())?;
-    sorted.extend(spacings.iter().map(|spacing| (spacing.to_bits(), 0)));
-    sort_keyed(&mut sorted);
-    let at = sorted.get(spacings.len() * PERCENTILE / 100);
-    Ok(at.map_or(f64::INFINITY, |&(bits, _)| f64::from_bits(bits)))
+    Ok(percentile(spacings, PERCENTILE)?.unwrap_or(f64::INFINITY))
 }
 
 /// Cuts off the spacings that are longer.

@@ -9,7 +9,7 @@ use super::look::{Look, Verdicts};
 use super::part::{Left, Part};
 use super::triangle::Triangle;
 use crate::base::allocation::{OutOfMemory, push};
-use crate::base::sort::sort_keyed;
+use crate::base::sort::percentile;
 use crate::cloud::points::Points;
 use crate::hull::{Exit, OuterFaces};
 
@@ -45,7 +45,7 @@ impl Verdicts {
             open += usize::from(is_open(own));
         }
         let step = open.div_ceil(SAMPLES);
-        let mut lengths: Vec<(u64, u32)> = Vec::new();
+        let mut lengths: Vec<f64> = Vec::new();
         let mut before = step / 2;
         for own in 0..all {
             if !is_open(own) {
@@ -62,14 +62,11 @@ impl Verdicts {
             let triangle = Triangle::of(face, vertices, corners);
             let place = look.place(points.get(part.place(own)));
             if triangle.is_facing(place, look.ahead) {
-                // The bits of numbers that are not negative are in their order.
-                let length = triangle.longest / triangle.size;
-                push(&mut lengths, (length.to_bits(), 0))?;
+                push(&mut lengths, triangle.longest / triangle.size)?;
             }
         }
-        sort_keyed(&mut lengths);
-        let usual = lengths.get(lengths.len() * PERCENTILE / 100);
-        let longest = usual.map_or(0.0, |&(bits, _)| LONGER * f64::from_bits(bits));
+        let usual = percentile(&lengths, PERCENTILE)?;
+        let longest = usual.map_or(0.0, |usual| LONGER * usual);
         Ok(if longest > LEAST { longest } else { LEAST })
     }
 }
