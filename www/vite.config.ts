@@ -6,8 +6,6 @@ import { html } from "./build/html-plugin.ts";
 import { offline } from "./build/offline-plugin.ts";
 import { policy } from "./build/policy-plugin.ts";
 import { samples } from "./build/samples-plugin.ts";
-import { ownShadersOnly } from "./build/three-plugin.ts";
-import { noUnusedMethods } from "./build/unused-methods-plugin.ts";
 
 const here = (path: string) => fileURLToPath(new URL(path, import.meta.url));
 
@@ -15,5 +13,5 @@ export default defineConfig({
   ...COMMON,
   root: here("."),
   build: { outDir: here("dist"), emptyOutDir: true, target: "es2022", chunkSizeWarningLimit: 900 },
-  plugins: [ownShadersOnly(), noUnusedMethods(), samples(), html(), ahead(), policy(), offline()],
+  plugins: [samples(), html(), ahead(), policy(), offline()],
 });

@@ -49,7 +49,6 @@ export class ViewpointMarker {
   #lines: LineSegments<BufferGeometry, ShaderMaterial> | null = null;
   readonly #at = new Vector3();
   #size = 0;
-  // The page has no shaders of three.js's own materials (build/three-plugin.ts).
   readonly #material = new ShaderMaterial({ vertexShader, fragmentShader, uniforms: { color: { value: null } } });
 
   constructor(parent: Object3D) {
