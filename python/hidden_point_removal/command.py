@@ -31,9 +31,14 @@ def main(arguments=None):
     try:
         run(chosen)
     except (HprError, OSError, ImportError, ValueError) as error:
-        sys.exit(f"hidden-point-removal: {error}")
+        sys.exit(f"hidden-point-removal: {printable(str(error))}")
     except KeyboardInterrupt:
         sys.exit(130)
+
+
+def printable(text):
+    """The text in one line. Names and rows of files may hold characters that would command a terminal."""
+    return "".join(letter if letter.isprintable() else "?" for letter in text)
 
 
 def run(chosen):
@@ -83,11 +88,11 @@ def copy(tiles, answers, output):
                 raise ValueError(f"{tile.name} cannot be copied as {laz.name}: another tile has this name")
             write_laz(tile, laz, first, answers)
             if laz.name != tile.name and not write_copc(laz, output / tile.name):
-                print(
+                said = (
                     f"{tile.name} was copied as {laz.name}, which is not a COPC file: the program pdal is not "
-                    f"installed. It makes one: pdal translate {laz.name} {tile.name} --writers.copc.forward=all",
-                    file=sys.stderr,
+                    f"installed. It makes one: pdal translate {laz.name} {tile.name} --writers.copc.forward=all"
                 )
+                print(printable(said), file=sys.stderr)
         first += len(read_tile(tile))
 
 

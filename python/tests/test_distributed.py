@@ -178,9 +178,9 @@ def test_a_bad_command_says_why(tmp_path):
     missing = run(str(tmp_path), "--from", str(tmp_path / "none.csv"), "-o", str(tmp_path / "out"))
     assert missing.returncode != 0 and "no tiles" in missing.stderr
     np.save(tmp_path / "a.npy", town(10))
-    (tmp_path / "bad.csv").write_text("x,y,z\n1,2,three\n")
+    (tmp_path / "bad.csv").write_text("x,y,z\n1,2,th\x1b[2Jree\n")
     bad = run(str(tmp_path), "--from", str(tmp_path / "bad.csv"), "-o", str(tmp_path / "out"))
-    assert bad.returncode != 0 and "row 1" in bad.stderr
+    assert bad.returncode != 0 and "row 1" in bad.stderr and "\x1b" not in bad.stderr
 
 
 def test_a_cluster_answers_alike(tmp_path):

@@ -104,9 +104,9 @@ pub struct Options {
     /// their choice takes longer. There is also no draft where the whole hull is needed
     /// ([`Error::NoDraft`]).
     pub draft: bool,
-    /// The number of points that take part, as an even sample. The answer is the same as that of
-    /// a cloud of the sampled points alone, with its own spacing and farthest distance. Equal
-    /// points are all sampled, or none of them. The sample depends on the set of points alone. A
+    /// The number of distinct places that take part, as an even sample: equal points are all
+    /// sampled, or none of them. The answer is the same as that of a cloud of the sampled points
+    /// alone, with its own spacing and farthest distance. The sample depends on the set of points alone. A
     /// smaller sample is part of a larger one. Each query chooses the sample again, unless the
     /// cloud is [prepared](crate::PointCloud::prepare_for) for it.
     pub sample: Option<usize>,

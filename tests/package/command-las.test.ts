@@ -84,6 +84,24 @@ describe("the visible points of a LAS file are a LAS file", () => {
     expect([evlrCount, out.subarray(evlrOffset).equals(record)]).toEqual([1, true]);
   });
 
+  it("a viewpoint in other coordinates is noted", () => {
+    write("far.las", las(georeferencedBall(600)));
+    write("far.csv", `name,x,y,z\nnear,${VIEWPOINT.join(",")}\nfar,1,1,1\nfarther,0,0,-1000\n`);
+    const said = (...args: string[]) => run("far.las", ...args, "-o", "far.idx").stderr.split("\n", 2);
+    const [note, summary] = said("--from", "1,1,1.5");
+    expect(note).toMatch(/^note: the viewpoint is 5,400,000 units from the cloud, whose extent is [\d,.]+$/);
+    expect(summary).toMatch(/^\d+ of 600 points are visible$/);
+    const [first] = said("--viewpoints", "far.csv");
+    expect(first).toMatch(/^note: the viewpoint far is .* \(of 3 viewpoints, 2 are as far\)$/);
+    const matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1];
+    write(
+      "far.json",
+      JSON.stringify({ matrix, convention: "opencv", fx: 9, fy: 9, cx: 9, cy: 9, width: 20, height: 20 }),
+    );
+    expect(said("--camera", "far.json")[0]).toMatch(/^note: the camera is 5,400,000 units/);
+    expect(said("--from", VIEWPOINT.join(","))[0]).toMatch(/^\d+ of 600 points/);
+  });
+
   it("as indices, too", () => {
     filtered("list.laz", fixture("ball-14.laz"), "list.idx");
     expect(lines("list.idx")).toEqual([...visible].map(String));
@@ -134,7 +152,10 @@ describe("a LAS file that cannot be read", () => {
       expect(status).toBe(2);
       return stderr;
     };
-    expect(refused("ball.laz", "--from", "0,0,5", "-o", "out.laz")).toMatch(/must be a file like ball\.laz \(\.las\)/);
+    expect(refused("ball.laz", "--from", "0,0,5", "-o", "out.laz")).toMatch(
+      /out\.laz must end with \.las: such points are read from \.laz, but not written/,
+    );
+    expect(refused("ball.laz", "--from", "0,0,5", "-o", "out.ply")).toMatch(/out\.ply must end with \.las, since/);
     expect(refused("scan.e57", "--from", "0,0,5", "-o", "out.las")).toMatch(/web-e57 was tried.*pdal translate/);
     expect(refused("ball.laz", "--from", "0,0,5", "-o", "out.las", "--columns", "1,2,3")).toMatch(/no meaning/);
   });

@@ -1,15 +1,6 @@
 // The command for files, run as npx runs it.
 import { spawnSync } from "node:child_process";
-import {
-  existsSync,
-  lstatSync,
-  mkdirSync,
-  readdirSync,
-  readFileSync,
-  rmSync,
-  symlinkSync,
-  writeFileSync,
-} from "node:fs";
+import { existsSync, mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import { gunzipSync } from "node:zlib";
@@ -306,21 +297,6 @@ describe("the rest", () => {
     const { stdout, status } = run("--help");
     expect(status).toBe(0);
     expect(stdout.toString()).toMatch(/^Usage: hidden-point-removal IN --from/);
-  });
-
-  it("a file may be replaced by its visible points", () => {
-    writeFileSync(inScratch("same.xyz"), "0 0 1\n0 0 2\n");
-    expect(run("same.xyz", "--from=0,0,5", "--output", "same.xyz").status).toBe(0);
-    expect(readFileSync(inScratch("same.xyz"), "utf8")).toBe("0 0 2\n");
-  });
-
-  it("the target of a link is replaced, and stays as private as it was", () => {
-    writeFileSync(inScratch("private.xyz"), "0 0 1\n0 0 2\n", { mode: 0o600 });
-    symlinkSync("private.xyz", inScratch("link.xyz"));
-    expect(run("link.xyz", "--from", "0,0,5", "-o", "link.xyz").status).toBe(0);
-    expect(lstatSync(inScratch("link.xyz")).isSymbolicLink()).toBe(true);
-    expect(readFileSync(inScratch("private.xyz"), "utf8")).toBe("0 0 2\n");
-    expect(lstatSync(inScratch("private.xyz")).mode & 0o777).toBe(0o600);
   });
 
   it("a bar is drawn on a terminal only, fits into it, and is taken away", () => {

@@ -145,6 +145,24 @@ it("a sample answers as a cloud of its points, until the cloud changes", () => {
   cloud.dispose();
 });
 
+it("a sample counts distinct places, and takes all points at each of them", () => {
+  const [part, count] = [positions.subarray(0, 3 * 400), 100];
+  const once = new PointCloud(part);
+  // The point i stands there i % 4 + 1 times.
+  const owners = Array.from({ length: 400 }, (_, i) => Array<number>(1 + (i % 4)).fill(i)).flat();
+  const often = new PointCloud(Float32Array.from(owners.flatMap((i) => [...part.subarray(3 * i, 3 * i + 3)])));
+  for (const exponent of [12, 1]) {
+    const options = { sample: count, exponent };
+    const seen = new Set(once.visibleFrom([0, 0, 0], options).indices);
+    const expected = owners.flatMap((owner, index) => (seen.has(owner) ? [index] : []));
+    expect([...often.visibleFrom([0, 0, 0], options).indices]).toEqual(expected);
+    // With the larger exponent, all that take part are visible from the middle.
+    expect(exponent < 12 || (seen.size === count && expected.length > count)).toBe(true);
+  }
+  once.dispose();
+  often.dispose();
+});
+
 it("workers give the same drafts and samples", async () => {
   const cloud = new PointCloud(positions);
   for (const workers of [1, 2]) {

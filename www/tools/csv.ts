@@ -16,8 +16,8 @@ export function columnsOf(text: string): TableLine[] {
   }));
 }
 
-/** A word of a CSV file, in quotes if it needs them. A leading sign would be a formula in a spreadsheet. */
+/** A word of a CSV file, in quotes if it needs them. A leading sign, also after blanks, would be a formula in a spreadsheet. */
 export function csvWord(word: string): string {
-  const safe = /^[=+@-]/.test(word) ? `'${word}` : word;
-  return /[",\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
+  const safe = /^\s*[=+@\-\uff1d\uff0b\uff20\uff0d]|^[\t\r\n]/.test(word) ? `'${word}` : word;
+  return /[",;\t\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
 }

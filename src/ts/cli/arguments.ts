@@ -30,6 +30,8 @@ export interface Settings {
   threshold: number | undefined;
   /** Undefined for the columns that the file itself names. */
   columns: ChosenColumns | undefined;
+  /** Whether the output may replace an input. */
+  overwrite: boolean;
   /** Whether the progress is reported without a terminal, too. */
   progress: boolean;
 }
@@ -79,6 +81,7 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
     options,
     threshold,
     columns: values.columns === undefined ? undefined : readColumns(values.columns),
+    overwrite: values.overwrite === true,
     progress: values.progress === true,
   };
 }
@@ -105,6 +108,7 @@ function parsed(args: string[]) {
         denoise: { type: "string" },
         vote: { type: "string" },
         columns: { type: "string" },
+        overwrite: { type: "boolean" },
         progress: { type: "boolean" },
         help: { type: "boolean", short: "h" },
         version: { type: "boolean" },

@@ -1,11 +1,18 @@
-import { constants, rmSync } from "node:fs";
+import { constants, rmSync, write } from "node:fs";
 import { type FileHandle, lstat, open, readlink, rename, rm, stat } from "node:fs/promises";
 import { dirname, resolve } from "node:path";
+import { promisify } from "node:util";
 
 import { FormatProblem } from "../formats/problem.js";
 import { allocating } from "./memory.js";
 
 const CHUNK = 1 << 24;
+
+/** The number that every program has for its standard output. */
+export const STANDARD_OUTPUT = 1;
+
+/** The name of a file that this program has open already. /dev/stdout is a link to such a name. */
+const OPEN_FILE = /^\/(?:dev|proc\/self)\/fd\/(\d+)$/;
 
 /** A file that breaks the rules of its format. */
 export class InputProblem extends Error {}
@@ -62,9 +69,7 @@ function nonBlocking(): number {
  */
 export async function writeWhole(name: string, parts: Iterable<Uint8Array>): Promise<void> {
   if (name === "-") {
-    // An error also comes as an event, which ends the process if nobody listens to it.
-    process.stdout.on("error", () => undefined);
-    for (const chunk of gathered(parts)) await print(chunk);
+    await print(parts);
     return;
   }
   try {
@@ -82,6 +87,10 @@ function reason(error: unknown): string {
 
 async function writeNamed(name: string, parts: Iterable<Uint8Array>): Promise<void> {
   const place = await linkedFrom(name);
+  if (typeof place === "number") {
+    await (place === STANDARD_OUTPUT ? print(parts) : writeOpen(place, parts));
+    return;
+  }
   const present = await stat(place).catch(() => undefined);
   if (present === undefined || present.isFile()) {
     await replace(place, parts, present === undefined ? undefined : present.mode & 0o777);
@@ -94,13 +103,18 @@ async function writeNamed(name: string, parts: Iterable<Uint8Array>): Promise<vo
   }
 }
 
-/** Follows all links, and returns the place of the file. The file may not exist yet. */
-async function linkedFrom(name: string): Promise<string> {
+/**
+ * Follows all links, and returns the place of the file, or the number of an open file. The file may
+ * not exist yet.
+ */
+export async function linkedFrom(name: string): Promise<string | number> {
   let place = name;
   for (let links = 0; links < 40; links++) {
+    const open = OPEN_FILE.exec(place);
+    if (open !== null) return Number(open[1]);
     const stats = await lstat(place).catch(() => undefined);
     if (stats?.isSymbolicLink() !== true) return place;
-    // A link below /proc stands for an open file, which may have no name.
+    // A link of another process stands for its open file, which may have no name.
     if ((await stat(place).catch(() => undefined))?.isFile() === false) return place;
     place = resolve(dirname(place), await readlink(place));
   }
@@ -159,13 +173,24 @@ function onSignals(cleanUp: () => void): () => void {
   return stop;
 }
 
-function print(chunk: Uint8Array): Promise<void> {
-  return new Promise((done, fail) => {
-    process.stdout.write(chunk, (error) => {
-      if (error) fail(error);
-      else done();
+async function print(parts: Iterable<Uint8Array>): Promise<void> {
+  // An error also comes as an event, which ends the process if nobody listens to it.
+  process.stdout.on("error", () => undefined);
+  for (const chunk of gathered(parts)) {
+    await new Promise<void>((done, fail) => {
+      process.stdout.write(chunk, (error) => {
+        if (error) fail(error);
+        else done();
+      });
     });
-  });
+  }
+}
+
+/** Writes where the open file stands. Opening its name again would begin at its start. */
+async function writeOpen(file: number, parts: Iterable<Uint8Array>): Promise<void> {
+  for (const chunk of gathered(parts)) {
+    for (let at = 0; at < chunk.length;) at += (await promisify(write)(file, chunk, at)).bytesWritten;
+  }
 }
 
 async function writeAll(handle: FileHandle, parts: Iterable<Uint8Array>): Promise<void> {

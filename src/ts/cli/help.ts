@@ -34,6 +34,7 @@ What to write:
                        default follows from OUT: an ending like IN's is points, .idx indices,
                        .mask and .npy a mask; with --camera, a table or .npy is pixels
                        All but points are text, one line each, or NumPy arrays (.npy)
+  --overwrite          OUT may be the same file as IN, CAMERA or PLACES
   --progress           reports the progress, also if standard error is not a terminal
   -h, --help           shows this
   --version            shows the version

@@ -4,14 +4,17 @@ import { readFileSync } from "node:fs";
 import { extname } from "node:path";
 
 import { HprError } from "../base/errors.js";
+import { printable } from "../formats/problem.js";
 import { type Answer, ask, type Question } from "./ask.js";
 import { NAME, readArguments, type Settings } from "./arguments.js";
+import { farNote } from "./far.js";
 import { readAs, writeWhole } from "./files.js";
 import { FORMATS } from "./formats/formats.js";
 import { pointsWritten, type PointFile } from "./formats/point-file.js";
 import { HELP } from "./help.js";
 import { numbersWritten } from "./numbers.js";
 import { isNumpy } from "./output-format.js";
+import { checkOutputs } from "./outputs.js";
 import { cameraIn, viewpointsIn } from "./places.js";
 import { Progress } from "./progress.js";
 import { UsageProblem } from "./values.js";
@@ -24,7 +27,7 @@ async function main(args: string[]): Promise<number> {
     settings = readArguments(args);
   } catch (error) {
     if (!(error instanceof UsageProblem)) throw error;
-    console.error(`hidden-point-removal: ${error.message} (--help shows how)`);
+    say(`hidden-point-removal: ${error.message} (--help shows how)`);
     return 2;
   }
   if (settings === "help" || settings === "version") {
@@ -35,19 +38,25 @@ async function main(args: string[]): Promise<number> {
   try {
     const summary = await filter(settings, progress);
     progress.done();
-    console.error(summary);
+    say(summary);
     return 0;
   } catch (error) {
     progress.done();
-    console.error(`hidden-point-removal: ${reason(error)}`);
+    say(`hidden-point-removal: ${reason(error)}`);
     // The numbers of an option may be wrong for this cloud only.
-    return error instanceof HprError && error.code === "option" ? 2 : 1;
+    return error instanceof UsageProblem || (error instanceof HprError && error.code === "option") ? 2 : 1;
   }
 }
 
+/** Says one line on standard error. Names and words of files in it cannot command the terminal. */
+function say(line: string): void {
+  console.error(printable(line));
+}
+
 async function filter(settings: Settings, progress: Progress): Promise<string> {
-  const { input, columns } = settings;
+  const { input, columns, overwrite } = settings;
   const question = await questionOf(settings);
+  await checkOutputs({ inputs: [input, ...placeFiles(settings)], outputs: outputsOf(settings, question), overwrite });
   const onRead = (share: number) => {
     progress.show(0.2 * share, "reading");
   };
@@ -55,6 +64,11 @@ async function filter(settings: Settings, progress: Progress): Promise<string> {
     progress.show(0.2, "understanding");
     return FORMATS[extname(input).toLowerCase()]!.read(bytes, columns);
   });
+  const note = farNote(file.positions, question);
+  if (note !== undefined) {
+    progress.done();
+    say(note);
+  }
   const seen: string[] = [];
   let skipped = 0;
   const onAsked = (share: number, doing: string) => {
@@ -84,8 +98,21 @@ async function questionOf({ place, options, threshold, format }: Settings): Prom
   return { ...asked, kind: place.each ? "each" : format === "counts" ? "coverage" : "any", viewpoints };
 }
 
+function placeFiles({ place }: Settings): string[] {
+  if ("camera" in place) return [place.camera];
+  return "viewpoints" in place ? [place.viewpoints] : [];
+}
+
+function outputsOf({ output }: Settings, question: Question): string[] {
+  return question.kind === "each" ? question.viewpoints.map(({ name }) => named(output, name)) : [output];
+}
+
+function named(output: string, name: string | undefined): string {
+  return name === undefined ? output : output.replaceAll(NAME, () => name);
+}
+
 async function write({ output, format }: Settings, file: PointFile, answer: Answer): Promise<void> {
-  const name = answer.name === undefined ? output : output.replaceAll(NAME, () => answer.name!);
+  const name = named(output, answer.name);
   const parts =
     format === "points" ? pointsWritten(file, answer.indices) : numbersWritten(format, answer, isNumpy(output));
   await writeWhole(name, parts);

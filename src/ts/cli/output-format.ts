@@ -25,9 +25,11 @@ export function chosenFormat(
   if (output === "-") return chosen ?? "points";
   if (chosen === undefined || (chosen === "points" && !isLike)) {
     const like = FORMATS[is]!.written.join(", ");
+    if (Object.hasOwn(FORMATS, wanted) && FORMATS[wanted] === FORMATS[is])
+      throw new UsageProblem(`${output} must end with ${like}: such points are read from ${wanted}, but not written`);
     throw new UsageProblem(
       chosen === undefined
-        ? `${output} must be a file like ${input} (${like}), since formats are not converted; --format can name something else than points`
+        ? `${output} must end with ${like}, since formats are not converted; --format can name something else than points`
         : `${output} must end with ${like}: points are written in the format of ${input}`,
     );
   }

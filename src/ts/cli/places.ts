@@ -1,6 +1,6 @@
 // Reads the files that say from where: a camera, or many viewpoints.
 import { HprError } from "../base/errors.js";
-import { FormatProblem, lineProblem } from "../formats/problem.js";
+import { FormatProblem, lineProblem, printable } from "../formats/problem.js";
 import { TableRows } from "../formats/table.js";
 import { cell, isComment, separatorOf, split } from "../formats/table-words.js";
 import { trimmed } from "../formats/text.js";
@@ -49,17 +49,22 @@ export function viewpointsIn(file: Buffer, inFileNames: boolean): NamedViewpoint
     const column = bareName ? 0 : (names?.bare.indexOf("name") ?? -1);
     const name = column < 0 ? String(found.length + 1) : point.words[column]!;
     if (!point.position.every(Number.isFinite)) throw lineProblem(number, "has a coordinate that is not finite", text);
-    if (inFileNames && (/[/\\\0]/.test(name) || name === "" || known.has(name)))
-      throw lineProblem(
-        number,
-        known.has(name) ? "has a name a second time" : "has a name that no file can have",
-        text,
-      );
-    known.add(name);
+    if (inFileNames) {
+      if (!isFileName(name)) throw lineProblem(number, "has a name that no file can have", text);
+      // Some file systems do not tell capitals from small letters.
+      const same = name.normalize("NFC").toLowerCase();
+      if (known.has(same)) throw lineProblem(number, "has a name a second time", text);
+      known.add(same);
+    }
     found.push({ name, viewpoint: [...point.position] });
   }
   rows.finish();
   return found;
+}
+
+/** Whether a name can stand in the name of a file on every system, and leads to no other folder. */
+function isFileName(name: string): boolean {
+  return name === printable(name) && !/^\.{0,2}$|[/\\<>:"|?*]/.test(name);
 }
 
 /** Whether a line is a name and three numbers. A name that is a number itself needs a line of names above. */

@@ -44,6 +44,7 @@ export class Progress {
     }, 500).unref();
   }
 
+  /** Takes the bar away. The next progress draws it again. */
   done(): void {
     clearInterval(this.#timer);
     if (this.#timer !== undefined) this.#screen?.write("\r\x1b[K");

@@ -5,10 +5,18 @@ export class FormatProblem extends Error {
 
 const LONGEST_QUOTE = 60;
 
-/** Quotes a line of a file for a message. It is shortened, and control characters are replaced. */
+/** Quotes a line of a file for a message. It is shortened. */
 export function quoted(text: string): string {
   const short = text.length > LONGEST_QUOTE ? `${text.slice(0, LONGEST_QUOTE)}…` : text;
-  return `"${short.replace(/[\u0000-\u001f\u007f-\u009f]/g, "?")}"`;
+  return `"${printable(short)}"`;
+}
+
+/**
+ * A text in one line. Control characters, which would command a terminal, marks of the direction of
+ * writing, which would show it in another order, and halves of characters are replaced.
+ */
+export function printable(text: string): string {
+  return text.replace(/[\p{Cc}\p{Cs}\p{Zl}\p{Zp}\p{Bidi_Control}]/gu, "?");
 }
 
 /** @param says what is wrong, for example "has 2 values, and its header promises 3" */

@@ -80,9 +80,10 @@ export interface VisibilityOptions {
    */
   draft?: boolean | undefined;
   /**
-   * Uses only an even sample of about this number of points, at least 1. The answer is the same as
-   * for a cloud of only the sampled points, with that cloud's spacing and farthest distance. The
-   * sample depends only on the set of points. A smaller sample is part of a larger one.
+   * Uses only an even sample of this number of distinct places, at least 1: all points at a place
+   * are in the sample, or none. The answer is the same as for a cloud of only the sampled points,
+   * with that cloud's spacing and farthest distance. The sample depends only on the set of points.
+   * A smaller sample is part of a larger one.
    */
   sample?: number | undefined;
   /**

@@ -1,0 +1,56 @@
+// Notes viewpoints that are so far from the cloud that their coordinates are probably of another system.
+import type { Question } from "./ask.js";
+
+/** How many extents of the cloud a viewpoint may be from it. The cloud then fills half a degree of the view. */
+const FAR = 100;
+
+/** Undefined if all viewpoints are near enough. */
+export function farNote(positions: Float32Array | Float64Array, question: Question): string | undefined {
+  const box = boxOf(positions);
+  const extent = Math.hypot(...box.map(([low, high]) => high - low));
+  const viewpoints = viewpointsOf(question);
+  const far = viewpoints
+    .map(({ name, viewpoint }) => ({ name, distance: distanceTo(box, viewpoint) }))
+    .filter(({ distance }) => extent > 0 && distance > FAR * extent);
+  const [first] = far;
+  if (first === undefined) return undefined;
+  const others = far.length > 1 ? ` (of ${viewpoints.length} viewpoints, ${far.length} are as far)` : "";
+  return `note: ${first.name} is ${said(first.distance)} units from the cloud, whose extent is ${said(extent)}${others}`;
+}
+
+function viewpointsOf(question: Question): { name: string; viewpoint: readonly number[] }[] {
+  switch (question.kind) {
+    case "view":
+      return [{ name: "the viewpoint", viewpoint: question.viewpoint }];
+    case "camera": {
+      const { matrix } = question.camera;
+      return [{ name: "the camera", viewpoint: [matrix[12]!, matrix[13]!, matrix[14]!] }];
+    }
+    default:
+      return question.viewpoints.map(({ name, viewpoint }) => ({ name: `the viewpoint ${name}`, viewpoint }));
+  }
+}
+
+type Range = [low: number, high: number];
+
+/** The least and the largest x, y and z. Numbers that are not finite do not count. */
+function boxOf(positions: Float32Array | Float64Array): Range[] {
+  const box = [0, 1, 2].map((): Range => [Infinity, -Infinity]);
+  for (let i = 0; i < positions.length; i++) {
+    const value = positions[i]!;
+    const range = box[i % 3]!;
+    if (!Number.isFinite(value)) continue;
+    if (value < range[0]) range[0] = value;
+    if (value > range[1]) range[1] = value;
+  }
+  return box;
+}
+
+function distanceTo(box: readonly Range[], viewpoint: readonly number[]): number {
+  return Math.hypot(...box.map(([low, high], axis) => Math.max(low - viewpoint[axis]!, 0, viewpoint[axis]! - high)));
+}
+
+/** Two digits are enough, with commas between the thousands. */
+function said(length: number): string {
+  return length.toLocaleString("en", { maximumSignificantDigits: 2 });
+}
