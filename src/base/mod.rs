@@ -2,6 +2,7 @@
 //! that may be refused, square roots without `std`, and the only sort.
 
 pub(crate) mod allocation;
+pub(crate) mod beat;
 pub(crate) mod bits;
 pub(crate) mod error;
 pub(crate) mod limit;

@@ -7,6 +7,7 @@
 use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::base::beat;
 
 /// A digit's bits, and how many different digits there are.
 const BITS: u32 = 8;
@@ -35,6 +36,7 @@ pub(crate) fn sort_keyed(items: &mut [Keyed]) {
     if items.len() < FEW {
         return sort_few(items);
     }
+    beat::steps(items.len() / 64);
     // The highest bits in which the keys differ make the digit.
     let one = items[0].0;
     let different = items.iter().fold(0, |bits, (key, _)| bits | key ^ one);

@@ -11,6 +11,7 @@ use alloc::vec::Vec;
 use core::ops::Range;
 
 use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::base::beat;
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
 
@@ -59,6 +60,7 @@ impl<'a> Neighbors<'a> {
     /// Fills `nearest` with the nearest other points of point `query`. It takes as many as it has
     /// room for, or all of them. It is fast if the query before was in the same leaf or near it.
     pub(crate) fn find(&self, query: usize, nearest: &mut Nearest) {
+        beat::step();
         let Nearest { best, around } = nearest;
         best.found.clear();
         // The points next to the query in the spatial order come first. So a small bound is known

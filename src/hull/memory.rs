@@ -12,6 +12,7 @@ use super::order::{self, LAST_ROUND, points_at};
 use super::repair::Repair;
 use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, push};
+use crate::base::beat;
 use crate::base::bits::bits_of;
 use crate::cloud::selection::Selection;
 use crate::flip::inversion::Flip;
@@ -147,7 +148,8 @@ impl Memory {
         let mut hint = 0;
         let count = flipped.len() as u32;
         for round in order::coarse_rounds() {
-            for index in round.indices(count) {
+            for (at, index) in round.indices(count).enumerate() {
+                beat::step_at(at);
                 hint = self.add(index, flipped, hint, None)?;
                 self.witnesses[index as usize] = hint;
             }
@@ -185,6 +187,7 @@ impl Memory {
                 self.reached = hint;
                 return Ok(false);
             }
+            beat::step();
             self.runs_added += 1;
             let added = if is_drafted {
                 bits_of(&self.visible[run.start as usize..run.end as usize]) & LAST_ROUND
@@ -213,7 +216,8 @@ impl Memory {
         self.start_witnesses(flipped.len())?;
         let mut hint = 0;
         for round in order::coarse_rounds().chain([order::last_round()]) {
-            for (_, index) in plane.sorted(round, flipped)? {
+            for (at, (_, index)) in plane.sorted(round, flipped)?.into_iter().enumerate() {
+                beat::step_at(at);
                 hint = self.add(index, flipped, hint, None)?;
                 self.witnesses[index as usize] = hint;
             }

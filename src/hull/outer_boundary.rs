@@ -11,6 +11,7 @@ use super::memory::Memory;
 use super::predicates::{Sign, side_of_origin};
 use super::{flat, order, share};
 use crate::base::allocation::OutOfMemory;
+use crate::base::beat;
 use crate::cloud::blocks::Sphere;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
@@ -103,6 +104,7 @@ pub(crate) fn mark_draft(
     memory.clear_marks(points.len())?;
     memory.mark_boundary(&flipped)?;
     for run in order::runs(points.len() as u32) {
+        beat::step();
         let shown = memory
             .depth
             .not_hidden(&flipped, run.start, order::LAST_ROUND);

@@ -45,6 +45,7 @@ use super::memory::Memory;
 use super::order::{EIGHTH, LAST_ROUND, points_at};
 use super::topology::{FaceId, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
+use crate::base::beat;
 use crate::cloud::blocks::BLOCK;
 use crate::hull::division::Division;
 
@@ -120,6 +121,7 @@ impl Share<'_> {
     #[inline(never)]
     fn add_near(&mut self, places: u64) -> Result<(), OutOfMemory> {
         for block in 0..self.division.block_count() {
+            beat::step();
             let start = (block * BLOCK) as u32;
             for index in points_at(start, self.division.near(block) & places) {
                 if index % SAMPLE != 0 {
@@ -135,6 +137,7 @@ impl Share<'_> {
     fn add_last_round(&mut self, depth: &DepthMap) -> Result<(), OutOfMemory> {
         for block in 0..self.division.block_count() {
             let start = (block * BLOCK) as u32;
+            beat::step();
             let mut places = self.division.near(block) & LAST_ROUND;
             if places != 0 {
                 places = depth.not_hidden(self.flipped, start, places);
@@ -207,6 +210,7 @@ impl Share<'_> {
         // Every open face is in `open`. The list may also hold numbers of other faces.
         while let Some(face) = open.pop() {
             while self.is_open(face) {
+                beat::step();
                 let Some(index) = self.in_the_way(face)? else {
                     self.mark(face);
                     break;

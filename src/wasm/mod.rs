@@ -6,6 +6,7 @@
 //! runs, and trap where memory is refused.
 
 mod answer;
+mod beats;
 mod cloud_options;
 mod clouds;
 mod failure;

@@ -7,6 +7,7 @@ use super::look::{Look, Verdicts};
 use super::part::{Left, Part};
 use super::triangle::Triangle;
 use crate::base::allocation::{OutOfMemory, filled};
+use crate::base::beat;
 use crate::base::real::square_root;
 use crate::cloud::points::Points;
 use crate::hull::{Exit, OuterFaces, Vertex};
@@ -47,6 +48,7 @@ impl Verdicts {
         self.longest = Some(longest);
         let mut last: Option<Triangle> = None;
         for own in 0..left.spacing.len() {
+            beat::step_at(own);
             let point = part.place(own);
             if !self.is_open(point) {
                 continue;

@@ -9,6 +9,7 @@ use super::look::{Look, Verdicts};
 use super::part::{Left, Part};
 use super::triangle::Triangle;
 use crate::base::allocation::{OutOfMemory, push};
+use crate::base::beat;
 use crate::base::sort::percentile;
 use crate::cloud::points::Points;
 use crate::hull::{Exit, OuterFaces};
@@ -42,6 +43,7 @@ impl Verdicts {
         let all = left.spacing.len();
         let mut open = 0;
         for own in 0..all {
+            beat::step_at(own);
             open += usize::from(is_open(own));
         }
         let step = open.div_ceil(SAMPLES);

@@ -12,6 +12,7 @@
 use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, filled, push, reserve, with_capacity};
+use crate::base::beat;
 
 /// The tolerance of m·q − 1: the distance from the plane relative to the plane's own distance.
 pub(super) const TOLERANCE: f64 = 1e-10;
@@ -146,6 +147,7 @@ impl<'a> Solver<'a> {
             return Ok(false); // At the viewpoint once flipped: no ray leaves there.
         }
         for _ in 0..MOST_STEPS {
+            beat::steps(1 + self.points.len() / 64);
             self.find_plane();
             let beyond = match self.farthest_beyond(self.likely.iter().copied()) {
                 Some(point) => point,

@@ -112,7 +112,8 @@ export class Sight {
     return {
       ask: () => {
         this.#unread = undefined;
-        return WorkerPointCloud.create(read(), { shared: true });
+        // If the worker is lost, the positions are read again.
+        return WorkerPointCloud.create(read().slice(), { shared: true, transfer: true });
       },
       use: (cloud) => {
         this.#cloud = cloud;

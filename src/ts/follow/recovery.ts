@@ -15,7 +15,8 @@ const USUAL: RecoveryTimes = { delays: [0, 200, 1000], pause: 1000, longPause: 3
 /**
  * Decides when a cloud that was lost with its worker is made again. The first time this is done at
  * once. If the next worker dies before it has answered, the delays grow. After the last delay, the
- * cloud is made again only while somebody wants an answer, and with pauses.
+ * cloud is made again only while somebody wants an answer, and with pauses. A worker that hangs counts as
+ * one that dies, except that the first loss in a row alone has a delay.
  */
 export class Recovery {
   readonly #makeAgain: () => void;
@@ -46,7 +47,10 @@ export class Recovery {
     if (!(error instanceof HprError) || error.code !== "internal") {
       return false;
     }
-    const delay = this.#times.delays[this.#losses++];
+    // A worker that hangs costs more time than one that dies, so it is replaced only once.
+    const isSlow = error.cause instanceof DOMException && error.cause.name === "TimeoutError" && this.#losses > 0;
+    const delay = isSlow ? undefined : this.#times.delays[this.#losses];
+    this.#losses += 1;
     this.#isLost = true;
     this.#lostAt = performance.now();
     if (delay !== undefined) {

@@ -106,6 +106,8 @@ export abstract class SurveyTask {
   readonly #viewpoints: number[][];
   #wanted: number[];
   readonly #progress: ((fraction: number) => void) | undefined;
+  /** The views that were asked and are not answered yet. */
+  readonly #asked = new Set<number>();
   #taken = 0;
   #isStopped = () => false;
 
@@ -121,6 +123,12 @@ export abstract class SurveyTask {
     this.#isStopped = isStopped;
   }
 
+  /** Asks the views again that were asked and not answered, because whoever was asked is gone. */
+  resume(): void {
+    this.#wanted.push(...this.#asked);
+    this.#asked.clear();
+  }
+
   /** The next viewpoint, if one is known. `running` views have no answer yet. */
   next(running: number): { number: number; viewpoint: number[] } | undefined {
     if (this.#isStopped()) {
@@ -130,10 +138,15 @@ export abstract class SurveyTask {
       this.#wanted = this.more();
     }
     const number = this.#wanted.pop();
-    return number === undefined ? undefined : { number, viewpoint: this.#viewpoints[number]! };
+    if (number === undefined) {
+      return undefined;
+    }
+    this.#asked.add(number);
+    return { number, viewpoint: this.#viewpoints[number]! };
   }
 
   take(number: number, found: Found): void {
+    this.#asked.delete(number);
     this.add(number, found);
     this.#taken += 1;
     // Views that are asked again do not count.

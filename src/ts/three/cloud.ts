@@ -1,5 +1,6 @@
 import { PointCloud } from "../cloud/cloud.js";
 import type { Visibility } from "../cloud/visibility.js";
+import { allocating } from "../base/memory.js";
 import { runningInstance } from "../instance/instance.js";
 import { init } from "../loader.js";
 import type { Place } from "../query/place.js";
@@ -21,7 +22,9 @@ export function prepareCloud(
 ): Cloud | Promise<Cloud> {
   const { inWorker, dim, nonFinite } = options;
   if (inWorker) {
-    return WorkerPointCloud.create(numbers, { nonFinite, shared: true, transfer: own }).then((cloud) => {
+    // The positions are read again if the worker is lost, so the cloud need not keep them.
+    const given = own ? numbers : allocating("a copy of the positions", () => numbers.slice());
+    return WorkerPointCloud.create(given, { nonFinite, shared: true, transfer: true }).then((cloud) => {
       if (dim) listHiddenToo(cloud);
       return cloud;
     });

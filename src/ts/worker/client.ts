@@ -66,7 +66,8 @@ export interface WorkerPointCloudOptions extends PointCloudOptions {
   /**
    * Moves the whole ArrayBuffer of the positions to the worker instead of copying them. After that,
    * the caller's array and every other view of that buffer are empty. Works only for a Float32Array
-   * or Float64Array that is not in shared memory. Default false.
+   * or Float64Array that is not in shared memory. Otherwise the page keeps the copy, so that workers that
+   * hang can be replaced. Default false.
    */
   transfer?: boolean | undefined;
   /**
@@ -79,7 +80,7 @@ export interface WorkerPointCloudOptions extends PointCloudOptions {
   /**
    * Puts the cloud into one worker that it shares with all other clouds created with `shared`. This
    * is for pages with many clouds. The worker answers the requests of its clouds in turn. Excludes
-   * `workers`. The worker ends with the last of its clouds. If it dies, all of its clouds are lost.
+   * `workers`. The worker ends with the last of its clouds. If it dies, all of them are lost.
    * Default false.
    */
   shared?: boolean | undefined;
@@ -118,8 +119,10 @@ const REQUEST_OPTIONS = ["latest", "signal"] as const;
  * returns a promise. Nothing needs to be initialized. Only if the wasm file is in an unusual place,
  * call `init()` with its address first: the worker uses the same wasm as the page.
  *
- * If a worker dies, all pending and later calls are rejected with `internal`. No copy of the
- * positions is kept, so the cloud is lost. A new cloud gets new workers.
+ * If a worker dies, all pending and later calls are rejected with `internal`. The cloud is lost, and a new
+ * cloud gets new workers. A worker that computes says so about every half second. If it is silent for
+ * 20 seconds in which the page runs, it is replaced once and asked again; if its successor is silent, too, or
+ * if the positions were given away (`transfer`), the calls are rejected with `internal`.
  */
 export class WorkerPointCloud {
   /** The same as {@link WorkerPointCloud.dispose}, on platforms that have `Symbol.dispose`. */
@@ -182,7 +185,7 @@ export class WorkerPointCloud {
       throw abortError(BY_SIGNAL);
     }
     const own = toOwn(positions, settings.stride, transfer);
-    const queue = new RequestQueue();
+    const queue = new RequestQueue(!transfer);
     try {
       return await untilAborted(signal, WorkerPointCloud.#build(queue, own, settings, workers, progress));
     } catch (error) {

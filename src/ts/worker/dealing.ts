@@ -21,6 +21,7 @@ export class Dealing {
   /** @param done is called with the reply to the survey, at the end. */
   constructor(task: SurveyTask, threads: readonly Thread[], done: (reply: Reply) => void) {
     this.#task = task;
+    task.resume();
     this.#idle = [...threads];
     this.#done = done;
   }

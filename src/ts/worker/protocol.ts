@@ -5,8 +5,8 @@ import type { Query } from "../query/queries.js";
 import type { SurveyTask } from "../query/surveys.js";
 
 /**
- * The messages between the page and its worker. First, the worker says `"ready"` once. After that,
- * each request about a cloud gets one reply, and the next request about that cloud is sent only
+ * The messages between the page and its worker. First, the worker says `"ready"` once. While it computes, it
+ * says `"beat"` about every half second. After `"ready"`, each request about a cloud gets one reply, and the next request about that cloud is sent only
  * after the reply. The first request is `create`. The last one is `forget`, and nobody waits for
  * its reply.
  */
@@ -57,6 +57,11 @@ export const WITH_INDICES: Readonly<Record<KindWithIndices, true>> = {
   reconstruct: true,
 };
 
+/** Whether the worker replies to a request. */
+export function isReplied({ kind }: Request): boolean {
+  return kind !== "abandon" && kind !== "forget";
+}
+
 export type Reply<Value = unknown> =
   { value: Value } | { error: { code: HprErrorCode; message: string } } | { abandoned: true };
 
@@ -67,6 +72,8 @@ export interface Letter<Content = unknown> {
 }
 
 export const READY = "ready";
+/** A sign of life, in the middle of a computation. */
+export const BEAT = "beat";
 
 /** The share of a request that is done, from 0 to 1. */
 export interface Progress {

@@ -1,5 +1,5 @@
 import type { Answers } from "../query/answers.js";
-import { HprError } from "../base/errors.js";
+import { asError, HprError } from "../base/errors.js";
 import type { Query, QueryKind } from "../query/queries.js";
 import { Spares } from "../cloud/spares.js";
 import { abortError, BY_SIGNAL, whenAborted } from "./abort.js";
@@ -7,7 +7,7 @@ import { isListing } from "./listing.js";
 import { isProgress, READY, type Replies, type Reply, type Request, WITH_INDICES } from "./protocol.js";
 import { Team } from "./team.js";
 import { startError } from "./start-thread.js";
-import type { ThreadEvents } from "./thread.js";
+import type { GuestEvents } from "./thread.js";
 
 type Kind = Request["kind"];
 
@@ -27,22 +27,36 @@ interface Pending extends AskOptions {
   reject: (reason: Error) => void;
   /** Stops the waiting for an abort. */
   forget?: () => void;
+  /** Whether this was asked before, of workers that hung. */
+  isAgain?: boolean;
 }
+
+/** The requests that make a cloud what it is. */
+type Change = Extract<Request, { kind: "create" | "append" | "remove" }>;
 
 /**
  * The requests to one team of workers. The team gets one request at a time. So a request that still
  * waits here can be dropped at no cost.
  */
-export class RequestQueue implements ThreadEvents {
+export class RequestQueue implements GuestEvents {
   #team: Team | undefined;
+  #workers: number | "shared" = 1;
+  /** The changes that were made, so that the cloud can be made again. Undefined: it cannot. */
+  #changes: Change[] | undefined;
   #ready = false;
   #running: Pending | undefined;
   #waiting: Pending[] = [];
   #closed: Error | undefined;
   readonly #spares = new Spares();
 
+  /** `keeps`: whether it keeps a copy of all positions, to make the cloud again if its workers hang. */
+  constructor(keeps: boolean) {
+    this.#changes = keeps ? [] : undefined;
+  }
+
   /** Starts this number of workers, which act as one, or joins the shared worker. */
   async start(workers: number | "shared"): Promise<void> {
+    this.#workers = workers;
     const team = await Team.start(workers, this);
     if (this.#closed !== undefined) {
       await team.end();
@@ -97,6 +111,7 @@ export class RequestQueue implements ThreadEvents {
   async close(reason: Error): Promise<void> {
     this.#closed = reason;
     this.#spares.clear();
+    this.#changes = undefined;
     const pending = this.#running === undefined ? this.#waiting : [this.#running, ...this.#waiting];
     this.#running?.forget?.();
     this.#running = undefined;
@@ -131,6 +146,34 @@ export class RequestQueue implements ThreadEvents {
     );
   }
 
+  /** Starts other workers, once, and asks the same again. */
+  hung(): void {
+    const [team, asked, changes] = [this.#team, this.#running, this.#changes];
+    if (changes === undefined || asked?.isAgain === true) {
+      void this.close(hungError());
+      return;
+    }
+    this.#team = this.#running = undefined;
+    this.#ready = false;
+    void team?.end();
+    this.#changes = [];
+    const failed = (error: unknown) => {
+      void this.close(asError(error));
+    };
+    const again = changes.map((request): Pending => ({
+      request,
+      isAgain: true,
+      resolve: () => undefined,
+      reject: failed,
+    }));
+    if (asked !== undefined) {
+      asked.forget?.();
+      again.push({ ...asked, isAgain: true });
+    }
+    this.#waiting.unshift(...again);
+    this.start(this.#workers).catch(failed);
+  }
+
   #settle(reply: Reply): void {
     const request = this.#running;
     this.#running = undefined;
@@ -140,6 +183,9 @@ export class RequestQueue implements ThreadEvents {
       return;
     }
     if ("value" in reply) {
+      if (isChange(request?.request)) {
+        this.#changes?.push(request.request);
+      }
       request?.resolve(reply.value);
       return;
     }
@@ -171,7 +217,7 @@ export class RequestQueue implements ThreadEvents {
               listing: isListing(owner),
               sliced: signal !== undefined,
             } as Request)
-          : request,
+          : this.#toGive(request),
       );
       if (signal !== undefined) {
         next.forget = whenAborted(signal, () => {
@@ -179,6 +225,22 @@ export class RequestQueue implements ThreadEvents {
           this.#team?.abandon();
         });
       }
+    }
+  }
+
+  /** The request as it is given away: its arrays are lost then. */
+  #toGive(request: Request): Request {
+    if (!isChange(request) || this.#changes === undefined) {
+      return request;
+    }
+    try {
+      return request.kind === "remove"
+        ? { ...request, indices: request.indices.slice() }
+        : { ...request, positions: request.positions.slice() };
+    } catch {
+      // There is no memory for a copy.
+      this.#changes = undefined;
+      return request;
     }
   }
 
@@ -190,4 +252,15 @@ export class RequestQueue implements ThreadEvents {
       reject(abortError("overtaken by a newer request"));
     }
   }
+}
+
+function isChange(request: Request | undefined): request is Change {
+  return request?.kind === "create" || request?.kind === "append" || request?.kind === "remove";
+}
+
+/** The loss of workers that hang. Its cause tells it from other losses. */
+function hungError(): HprError {
+  const cause = new DOMException("the worker owed a reply for too long", "TimeoutError");
+  const message = "the worker gave no sign of life for 20 seconds, although the page ran; create a new cloud to go on";
+  return new HprError("internal", message, { cause });
 }

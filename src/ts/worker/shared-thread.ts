@@ -1,6 +1,7 @@
-import { type Letter, READY } from "./protocol.js";
+import { BEAT, isProgress, isReplied, type Letter, READY, type Request } from "./protocol.js";
+import { Pulse } from "./pulse.js";
 import { startThread } from "./start-thread.js";
-import type { Thread, ThreadEvents } from "./thread.js";
+import type { GuestEvents, Thread, ThreadEvents } from "./thread.js";
 
 /**
  * A thread in which several clouds live. Each cloud uses it like a thread of its own. The thread
@@ -13,6 +14,9 @@ class SharedThread implements ThreadEvents {
   #over = false;
   #next = 0;
   readonly #closed: () => void;
+  readonly #pulse = new Pulse(() => {
+    this.#hung();
+  });
 
   private constructor(closed: () => void) {
     this.#closed = closed;
@@ -28,14 +32,17 @@ class SharedThread implements ThreadEvents {
     return this.#over;
   }
 
-  join(events: ThreadEvents): Thread {
+  join(events: GuestEvents): Thread {
     const number = this.#next++;
-    this.#guests.set(number, { events, busy: false });
+    const guest: Guest = { events, busy: false, owed: 0 };
+    this.#guests.set(number, guest);
     if (this.#ready) {
       queueMicrotask(() => this.#guests.get(number)?.events.message(READY));
     }
     return {
       post: (content, transfer) => {
+        guest.owed += isReplied(content as Request) ? 1 : 0;
+        this.#expect();
         this.#thread?.post({ cloud: number, content } satisfies Letter, transfer);
       },
       setBusy: (busy) => {
@@ -46,6 +53,10 @@ class SharedThread implements ThreadEvents {
   }
 
   message(message: unknown): void {
+    this.#pulse.heard();
+    if (message === BEAT) {
+      return;
+    }
     if (message === READY) {
       this.#ready = true;
       for (const { events } of this.#present()) {
@@ -55,18 +66,39 @@ class SharedThread implements ThreadEvents {
     }
     const { cloud, content } = message as Letter;
     // Nobody waits for the last reply to a cloud that has left.
-    this.#guests.get(cloud)?.events.message(content);
+    const guest = this.#guests.get(cloud);
+    if (guest !== undefined) {
+      guest.owed -= isProgress(content) ? 0 : 1;
+      this.#expect();
+      guest.events.message(content);
+    }
   }
 
   died(cause: unknown): void {
+    this.#end(({ events }) => {
+      events.died(cause);
+    });
+  }
+
+  #hung(): void {
+    this.#end(({ events }) => {
+      events.hung();
+    });
+    void this.#thread?.end();
+  }
+
+  #end(tell: (guest: Guest) => void): void {
     if (this.#over) {
       return;
     }
     this.#over = true;
+    this.#pulse.expect(false);
     this.#closed();
-    for (const { events } of this.#present()) {
-      events.died(cause);
-    }
+    this.#present().forEach(tell);
+  }
+
+  #expect(): void {
+    this.#pulse.expect(!this.#over && this.#present().some(({ owed }) => owed > 0));
   }
 
   /** A copy of the present list: a cloud may leave while it is told something. */
@@ -86,6 +118,7 @@ class SharedThread implements ThreadEvents {
     if (!this.#guests.delete(number)) {
       return;
     }
+    this.#expect();
     if (this.#guests.size > 0 && !this.#over) {
       this.#thread?.post({ cloud: number, content: { kind: "forget" } } satisfies Letter, []);
       this.#setBusy(number, false);
@@ -100,14 +133,16 @@ class SharedThread implements ThreadEvents {
 }
 
 interface Guest {
-  events: ThreadEvents;
+  events: GuestEvents;
   busy: boolean;
+  /** The number of requests without a reply. */
+  owed: number;
 }
 
 let common: Promise<SharedThread> | undefined;
 
 /** A place in a thread: in a thread of its own, or in the shared thread. */
-export async function joinThread(shared: boolean, events: ThreadEvents): Promise<Thread> {
+export async function joinThread(shared: boolean, events: GuestEvents): Promise<Thread> {
   if (!shared) {
     return (await SharedThread.start(() => undefined)).join(events);
   }

@@ -4,7 +4,7 @@ import { Dealing } from "./dealing.js";
 import { failedReply, isProgress, READY, type Reply, type Request } from "./protocol.js";
 import { type Part, Sectors } from "./sectors.js";
 import { joinThread } from "./shared-thread.js";
-import type { Thread, ThreadEvents } from "./thread.js";
+import type { GuestEvents, Thread } from "./thread.js";
 
 /**
  * Threads that hold the same cloud, each in its own wasm instance, and act as one. A request to the
@@ -13,7 +13,7 @@ import type { Thread, ThreadEvents } from "./thread.js";
  * answer of exactly one member.
  */
 export class Team {
-  readonly #events: ThreadEvents;
+  readonly #events: GuestEvents;
   #members: Thread[] = [];
   #starting = 0;
   readonly #sectors = new Sectors();
@@ -28,12 +28,12 @@ export class Team {
   /** The survey that is being answered. */
   #dealing: Dealing | undefined;
 
-  private constructor(events: ThreadEvents) {
+  private constructor(events: GuestEvents) {
     this.#events = events;
   }
 
   /** Uses its own threads, or else one thread that other teams share. */
-  static async start(size: number | "shared", events: ThreadEvents): Promise<Team> {
+  static async start(size: number | "shared", events: GuestEvents): Promise<Team> {
     const team = new Team(events);
     await team.#start(size === "shared" ? 1 : size, size === "shared");
     return team;
@@ -50,6 +50,9 @@ export class Team {
         died: (cause) => {
           // The team needs all of its members: each answers only its part of a view.
           this.#events.died(cause);
+        },
+        hung: () => {
+          this.#events.hung();
         },
       });
       return own.thread;

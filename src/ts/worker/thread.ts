@@ -1,7 +1,13 @@
-/** What a thread reports. After `died` it reports nothing more. */
+/** What a thread reports. After `died` or `hung` it reports nothing more. */
 export interface ThreadEvents {
   message(message: unknown): void;
   died(cause: unknown): void;
+}
+
+/** What the user of a thread hears besides. */
+export interface GuestEvents extends ThreadEvents {
+  /** The thread owes a reply and has given no sign of life for long. It is ended. */
+  hung(): void;
 }
 
 /** A worker of the browser or of Node, behind one interface. */

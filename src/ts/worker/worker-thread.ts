@@ -4,10 +4,38 @@ import { requireInstance } from "../instance/instance.js";
 import { importNodeModule } from "../base/node.js";
 import { initSync } from "../instance/start.js";
 import type { Query } from "../query/queries.js";
-import { failedReply, type Letter, type Progress, READY, type Replies, type Reply, type Request } from "./protocol.js";
+import {
+  BEAT,
+  failedReply,
+  type Letter,
+  type Progress,
+  READY,
+  type Replies,
+  type Reply,
+  type Request,
+} from "./protocol.js";
 import { nextTask } from "./next-task.js";
 
 type Post = (message: unknown, transfer: ArrayBuffer[]) => void;
+
+/** The milliseconds between two signs of life. */
+const BEATS = 500;
+let isListening = false;
+
+/** Says from inside of long computations that this worker is alive. It cannot answer meanwhile. */
+function listenToBeats(post: Post): void {
+  let last = performance.now();
+  const beat = () => {
+    const now = performance.now();
+    if (now - last >= BEATS) {
+      last = now;
+      post(BEAT, []);
+    }
+  };
+  requireInstance().call((bindings) => {
+    bindings.onBeat(beat);
+  });
+}
 
 /** The clouds by the numbers that they have outside. */
 const clouds = new Map<number, CoreCloud>();
@@ -16,6 +44,10 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
   const { cloud: number, content: request } = letter;
   if (request.kind === "create") {
     initSync(request.module);
+    if (!isListening) {
+      isListening = true;
+      listenToBeats(post);
+    }
     const report = (progress: number) => {
       if (request.reporting) {
         post({ cloud: number, content: { progress } satisfies Progress } satisfies Letter, []);
