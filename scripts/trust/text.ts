@@ -3,7 +3,7 @@ import { dirname, join, posix } from "node:path";
 
 /** One kind of check: its title, what runs it, and the file that holds its results. */
 const KINDS: [title: string, command: string, results: string][] = [
-  ["Fuzzing: clouds, moved views and divided views against the definition", "`npm run fuzz`", "tests/fuzz/RESULTS.md"],
+  ["Fuzzing: clouds and divided views against the definition", "`npm run fuzz`", "tests/fuzz/RESULTS.md"],
   ["Mutations of the core", "`npm run mutants`", "tests/mutations/RUST.md"],
   ["Lines of the core that its tests never reach", "hand, with cargo-llvm-cov", "tests/mutations/COVERAGE.md"],
   ["Mutations of the TypeScript", "Stryker and by hand", "tests/mutations/TYPESCRIPT.md"],

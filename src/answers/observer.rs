@@ -1,4 +1,4 @@
-//! Many views of one cloud. Each view starts from the last one.
+//! Many views of one cloud, which share memory. An exact view goes on from its draft.
 
 use crate::answers::room::Room;
 use crate::answers::visibility::Visibility;
@@ -9,10 +9,9 @@ use crate::view::options::Options;
 
 /// Looks at a cloud from one viewpoint after another.
 ///
-/// A view from near the last viewpoint starts from the last hull, which is faster. A view from
-/// elsewhere takes as long as [`PointCloud::visible_from`]. The answers are the same, to the
-/// bit. The observer keeps about 150 bytes for each visible point. The second move in a row takes
-/// about 60 bytes more for each visible point, for a moment.
+/// The views share memory, and an exact view goes on from its draft. The answers are those of
+/// [`PointCloud::visible_from`], to the bit. The observer keeps about 150 bytes for each visible
+/// point.
 ///
 /// ```
 /// use hidden_point_removal::{Options, PointCloud};
@@ -91,13 +90,7 @@ impl Observer<'_> {
             .visible_in_sector_with(&mut self.memory, viewpoint, options, sector)
     }
 
-    /// Whether the last view started from the view before it.
-    #[must_use]
-    pub fn moved(&self) -> bool {
-        self.memory.moved()
-    }
-
-    /// Forgets the last view. The next view starts with a new hull. The memory stays reserved.
+    /// Forgets the last view. The memory stays reserved.
     pub fn forget(&mut self) {
         self.memory.forget();
     }

@@ -288,20 +288,12 @@ impl PointCloud {
         options: &Options,
     ) -> Result<View, Error> {
         let view = self.view(viewpoint, options)?;
-        // The hull of one kind of flip is no start for another kind.
-        let is_spherical = view.inversion == Inversion::Spherical;
-        if !is_spherical {
-            memory.forget_moves();
-        }
         let points = &self.sequence.points;
         let blocks = &self.blocks.levels[0];
         if options.draft {
             hull::mark_draft(points, blocks, &view.flip, memory)?;
         } else {
             hull::mark_visible(points, blocks, &view.flip, None, memory)?;
-        }
-        if !is_spherical {
-            memory.forget_moves();
         }
         Ok(view)
     }

@@ -47,35 +47,18 @@ impl Hull {
         }
     }
 
-    /// Panics unless the list of corners, if it is used, is the surface's, and the faces that it calls
-    /// outward turn outward.
-    pub(super) fn assert_is_listed(&self) {
-        if !self.compact.is_used() {
-            return;
-        }
-        assert_eq!(self.compact.faces.len(), self.surface.slots());
-        for (id, listed) in (0..).zip(&self.compact.faces) {
-            let face = self.surface.face(id);
-            assert_eq!(listed.is_alive(), face.is_alive(), "face {id}");
-            if !face.is_alive() {
-                continue;
-            }
-            assert_eq!(listed.own, face.vertices, "the corners of face {id}");
-            for (twin, across) in face.twins.into_iter().zip(listed.across) {
-                let [_, _, apex] = self.surface.face(twin.face()).vertices_from(twin.edge());
-                assert_eq!(across, apex, "across an edge of face {id}");
-            }
-            assert!(
-                !self.compact.is_outward(id) || self.is_outer(id),
-                "face {id}"
-            );
-            let kept = face.data;
-            let plane = self.vertices.plane(face.vertices);
-            assert!(
-                kept.is_exact_only() || kept.m == plane.m,
-                "an old plane at face {id}"
-            );
-        }
+    /// Whether the surface is reflex at an edge between faces that turn outward.
+    fn is_reflex(&self, edge: HalfEdge) -> bool {
+        let face = self.surface.face(edge.face());
+        let twin = face.twins[edge.edge()];
+        let across = self.surface.face(twin.face());
+        // The plane of a face without the origin is enough to decide.
+        let (face, [_, _, apex]) = if face.vertices.contains(&ORIGIN) {
+            (across, face.vertices_from(edge.edge()))
+        } else {
+            (face, across.vertices_from(twin.edge()))
+        };
+        self.vertices.side(face, self.vertices.at(apex)) == Sign::Positive
     }
 
     fn turns_inward(&self, vertices: [u32; 3]) -> bool {

@@ -47,35 +47,28 @@ const HEIGHT_ERROR: f64 = 64.0 * ROUNDING;
 
 /// The cells of one face of the cube.
 #[derive(Default)]
-pub(super) struct Window {
-    pub x: f64,
-    pub y: f64,
+struct Window {
+    x: f64,
+    y: f64,
     /// Cells along x; none in an unused window.
-    pub columns: usize,
-    pub rows: usize,
+    columns: usize,
+    rows: usize,
     /// Index of the first corner.
-    pub first: usize,
+    first: usize,
 }
-
-/// The side of the cube where a vertex is seen, and the column and the row of its cell there. The
-/// window's first corner is one cell from 0. All three are in one number, so that two vertices are
-/// compared at once.
-pub(super) type Spot = u64;
 
 /// The map; the module's description explains it. Its memory is kept from view to view.
 #[derive(Default)]
 pub(super) struct DepthMap {
-    pub(super) windows: [Window; 6],
-    pub(super) cells_per_unit: f64,
+    windows: [Window; 6],
+    cells_per_unit: f64,
     /// An upper bound of w at each corner; infinite where w is in doubt. While the map is made, it
     /// is 0 where it must be found.
-    pub(super) heights: Vec<f64>,
+    heights: Vec<f64>,
     /// How far K certainly reaches in the direction of each corner, and in the cells beside it.
     reaches: Vec<f64>,
     /// Where the rounded z·w is below this number, the exact one is below 1.
     limit: f64,
-    /// Where the hull's vertices are seen.
-    pub(super) spots: Vec<Spot>,
 }
 
 impl DepthMap {
@@ -129,9 +122,6 @@ impl DepthMap {
         self.heights.resize(corners, f64::INFINITY);
         self.reaches.resize(corners, 0.0);
         self.want_corners(flipped, wanted);
-        if hull.compact.is_used() {
-            self.rasterize(hull)?;
-        }
         for side in 0..self.windows.len() {
             if self.windows[side].columns > 0 {
                 face = self.fill_window(side, hull, face);
@@ -306,7 +296,7 @@ impl DepthMap {
         })
     }
 
-    /// Finds the wanted heights at the corners of one side, or takes those that are found already.
+    /// Finds the wanted heights at the corners of one side.
     #[inline(never)]
     fn fill_window(&mut self, side: usize, hull: &Hull, mut face: FaceId) -> FaceId {
         let Window {
@@ -318,7 +308,6 @@ impl DepthMap {
         } = self.windows[side];
         let cell = 1.0 / self.cells_per_unit;
         let shrink = shrink(cell);
-        let is_rasterized = hull.compact.is_used();
         let mut row_start = face;
         // The largest relative change from a corner to the next.
         let mut steepest = 0.0;
@@ -327,23 +316,17 @@ impl DepthMap {
             let mut is_start = true;
             for column in 0..=columns {
                 let place = first + row * (columns + 1) + column;
-                let found = self.heights[place];
-                if found == f64::INFINITY {
+                if self.heights[place] == f64::INFINITY {
                     continue;
                 }
                 let x = left + column as f64 * cell;
                 let y = bottom + row as f64 * cell;
                 let corner = direction(side, x, y);
-                let height = if is_rasterized {
-                    if found > 0.0 { found } else { f64::INFINITY }
-                } else {
-                    let (pierced, height) = hull.height_along(corner, face);
-                    face = pierced;
-                    if core::mem::take(&mut is_start) {
-                        row_start = face;
-                    }
-                    height
-                };
+                let (pierced, height) = hull.height_along(corner, face);
+                face = pierced;
+                if core::mem::take(&mut is_start) {
+                    row_start = face;
+                }
                 let mut compare = |other: f64| {
                     let change = (height - other).abs();
                     // An infinite height says nothing about the change.
@@ -371,7 +354,7 @@ impl DepthMap {
 
 /// The side of the cube that `v` points to, the place (x, y) there, and z.
 #[inline]
-pub(super) fn place(v: DVec3) -> (usize, f64, f64, f64) {
+fn place(v: DVec3) -> (usize, f64, f64, f64) {
     let a = v.abs();
     if a.z >= a.x && a.z >= a.y {
         let inverse = 1.0 / a.z;
@@ -396,7 +379,7 @@ pub(super) fn place(v: DVec3) -> (usize, f64, f64, f64) {
 }
 
 /// (x, y) on a side of the cube.
-pub(super) fn direction(side: usize, x: f64, y: f64) -> DVec3 {
+fn direction(side: usize, x: f64, y: f64) -> DVec3 {
     let z = if side % 2 == 0 { 1.0 } else { -1.0 };
     match side / 2 {
         0 => DVec3::new(x, y, z),

@@ -12,7 +12,6 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::compact::Compact;
 use super::dual_plane::{Plane, Spoke};
 use super::topology::{Face, FaceId, Surface, Vertex};
 use crate::base::allocation::{OutOfMemory, reserve};
@@ -21,26 +20,11 @@ use crate::hull::predicates::{Sign, side_of_face, side_of_origin};
 /// The ghost vertex.
 pub(super) const ORIGIN: Vertex = 0;
 
-/// A hull under construction, or the last hull, which is kept for its memory and for `motion`.
+/// A hull under construction, or the last hull, which is kept for its memory.
 #[derive(Default)]
 pub(super) struct Hull {
     pub surface: Surface<Plane>,
     pub vertices: Vertices,
-    /// How its vertices and faces are numbered.
-    pub numbers: Numbers,
-    pub compact: Compact,
-}
-
-/// How the vertices and faces of a hull are numbered.
-#[derive(Clone, Copy, Default, PartialEq, Eq)]
-pub(super) enum Numbers {
-    /// In the order in which they were made.
-    #[default]
-    AsMade,
-    /// The same, in a hull that was moved since. If it moves again, it gets other numbers.
-    Moved,
-    /// Along the order of the points.
-    InOrder,
 }
 
 #[derive(Default)]
@@ -49,12 +33,8 @@ pub(super) struct Vertices {
     pub positions: Vec<DVec3>,
     /// The point of the cloud that each vertex is; unused for the origin.
     pub points: Vec<u32>,
-    /// Numbers that no face uses any more.
-    pub free: Vec<Vertex>,
     /// [`Flip::reach`](crate::flip::inversion::Flip::reach).
     pub reach: f64,
-    /// A direction that every ghost face turns away from; only used while moving.
-    pub inner: DVec3,
 }
 
 impl Vertices {
@@ -67,29 +47,17 @@ impl Vertices {
     /// Gives a vertex number to the point `point`, which is flipped to `q`.
     #[inline]
     pub(super) fn add(&mut self, point: u32, q: DVec3) -> Result<Vertex, OutOfMemory> {
-        if let Some(vertex) = self.free.pop() {
-            self.positions[vertex as usize] = q;
-            self.points[vertex as usize] = point;
-            return Ok(vertex);
-        }
         self.reserve(1)?;
         self.positions.push(q);
         self.points.push(point);
         Ok((self.positions.len() - 1) as Vertex)
     }
 
-    #[inline(always)]
     pub(super) fn plane(&self, [a, b, c]: [Vertex; 3]) -> Plane {
         if a == ORIGIN || b == ORIGIN || c == ORIGIN {
             return Plane::EXACT_ONLY;
         }
         Plane::through(self.at(a), self.at(b), self.at(c), self.reach)
-    }
-
-    /// The same, not inlined, for callers that run rarely.
-    #[inline(never)]
-    pub(super) fn plane_out_of_line(&self, corners: [Vertex; 3]) -> Plane {
-        self.plane(corners)
     }
 
     #[inline]
@@ -113,15 +81,6 @@ impl Vertices {
 
     #[cold]
     fn exact_side(&self, face: &Face<Plane>, q: DVec3) -> Sign {
-        // The plane may be missing.
-        let Plane { m, error } = self.plane_out_of_line(face.vertices);
-        let above = m.dot(q) - 1.0;
-        if above > error {
-            return Sign::Positive;
-        }
-        if above < -error {
-            return Sign::Negative;
-        }
         let [a, b, c] = face.vertices.map(|v| self.at(v));
         side_of_face(a, b, c, q)
     }
@@ -144,10 +103,9 @@ impl Vertices {
     /// Whether three vertices are counter-clockwise, seen from outside towards the origin. The
     /// answer is exact.
     #[cold]
-    pub(super) fn turns_outward(&self, vertices: [Vertex; 3]) -> bool {
+    fn turns_outward(&self, vertices: [Vertex; 3]) -> bool {
         let [a, b, c] = vertices.map(|v| self.at(v));
-        !self.plane_out_of_line(vertices).is_exact_only()
-            || side_of_origin(a, b, c) == Sign::Positive
+        side_of_origin(a, b, c) == Sign::Positive
     }
 }
 
@@ -164,7 +122,6 @@ impl Hull {
         let vertices = &mut self.vertices;
         vertices.positions.clear();
         vertices.points.clear();
-        vertices.free.clear();
         vertices.reach = reach;
         vertices
             .reserve(4 + count / 2)
@@ -173,8 +130,6 @@ impl Hull {
         for (point, q) in corners {
             vertices.add(point, q)?;
         }
-        self.numbers = Numbers::AsMade;
-        self.compact.stop();
         self.surface.reserve(count);
         self.surface
             .start(ORIGIN, [1, 2, 3], |corners| vertices.plane(corners))?;
@@ -219,9 +174,6 @@ impl Hull {
         self.surface.fill_cavity(vertex, spoke, |tail, head| {
             Plane::between(tail, head, apex, reach)
         })?;
-        if self.compact.is_used() {
-            self.note_fan()?;
-        }
         let is_outer = |&id: &FaceId| self.vertices.is_outer(self.surface.face(id));
         let outer = self.surface.fan().iter().rev().copied().find(is_outer);
         Ok(outer.expect("a new vertex is on the outer boundary"))
@@ -238,16 +190,6 @@ impl Hull {
     /// Marks the visible vertices. A vertex is visible when one of its faces is outer. If all
     /// its faces are ghost or edge-on faces, its ray stays in K beyond it.
     pub(super) fn mark_outer_vertices(&self, visible: &mut [bool]) {
-        if self.compact.is_used() {
-            for (id, corners) in self.compact.alive() {
-                if self.compact.is_outward(id) || self.vertices.is_outer(self.surface.face(id)) {
-                    for vertex in corners {
-                        visible[self.vertices.points[vertex as usize] as usize] = true;
-                    }
-                }
-            }
-            return;
-        }
         for (_, face) in self.surface.alive() {
             if self.vertices.is_outer(face) {
                 for vertex in face.vertices {

@@ -112,22 +112,6 @@ impl Hull {
         self.locate(q, hint)
     }
 
-    /// The better of two faces to start a walk at. `hint` is an outer face; `other` is a number
-    /// that was kept over insertions. This number may now be unused. Its face may also be far
-    /// away, a ghost face or a face seen edge-on. So it is checked first.
-    #[inline]
-    pub(super) fn nearer_hint(&self, q: DVec3, hint: FaceId, other: FaceId) -> FaceId {
-        if hint == other || !self.is_sound(other) {
-            return hint;
-        }
-        let height = |id| self.surface.face(id).data.m.dot(q);
-        if height(other) > height(hint) {
-            other
-        } else {
-            hint
-        }
-    }
-
     /// An upper bound of m·`direction` over the dual planes m of all outer faces, and the face to
     /// start the next walk at. K contains `direction` divided by this bound. The bound is infinite
     /// where it is in doubt, or where no outer face lies in this direction. The length of
@@ -214,7 +198,7 @@ impl Hull {
 
     /// Decides for the outer face that the ray of `q` pierces.
     #[inline]
-    pub(super) fn decide(&self, id: FaceId, q: DVec3) -> Location {
+    fn decide(&self, id: FaceId, q: DVec3) -> Location {
         let face = self.surface.face(id);
         match self.vertices.side(face, q) {
             Sign::Positive => Location::Outside(id),

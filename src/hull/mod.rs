@@ -10,15 +10,12 @@
 
 pub(crate) mod division;
 
-mod aim;
 mod around;
 #[cfg(debug_assertions)]
 mod assertions;
 mod boxes;
 mod certain;
 mod chain;
-mod clearing;
-mod compact;
 mod depth;
 mod dual_plane;
 mod enclosed;
@@ -27,21 +24,14 @@ mod flat;
 mod flipped;
 mod incremental;
 mod kept;
-mod listing;
 mod locate;
 mod lower;
 mod memory;
-mod motion;
-#[cfg(test)]
-mod moves;
 mod order;
 mod other_flip;
 mod outer_boundary;
 mod outer_faces;
 mod predicates;
-mod rasterize;
-mod renumber;
-mod repair;
 mod share;
 mod topology;
 mod triangles;

@@ -1,5 +1,5 @@
-//! Finds the points on the outer boundary. There are four ways: the last hull is moved, a new
-//! hull is started, the view is divided, or all points are in one plane with the viewpoint.
+//! Finds the points on the outer boundary. There are four ways: the hull of a draft is completed, a
+//! new hull is started, the view is divided, or all points are in one plane with the viewpoint.
 
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -29,18 +29,12 @@ pub(crate) fn mark_visible(
     let flipped = Flipped::of(points, blocks, flip);
     let drafted = memory.drafted.take();
     if division.is_none() && drafted == Some(*flip) {
-        memory.moved = false;
         memory.add_last_round(&flipped, true, usize::MAX)?;
         memory.clear_marks(points.len())?;
         return memory.finish(&flipped);
     }
     memory.clear_marks(points.len())?;
-    let held = core::mem::take(&mut memory.holds_hull);
-    memory.moved = held && division.is_none() && memory.move_hull(&flipped)?;
-    if memory.moved {
-        memory.add_to_moved_hull(&flipped)?;
-        return memory.finish(&flipped);
-    }
+    memory.holds_hull = false;
     let Some(corners) = seed(&flipped) else {
         let flipped = |index| flipped.get_out_of_line(index);
         flat::mark_visible(points.len() as u32, &flipped, &mut memory.visible)?;
@@ -100,7 +94,6 @@ pub(crate) fn mark_draft(
     }
     memory.add_coarse_rounds(&flipped)?;
     memory.make_map(&flipped)?;
-    memory.moved = false;
     memory.clear_marks(points.len())?;
     memory.mark_boundary(&flipped)?;
     for run in order::runs(points.len() as u32) {

@@ -63,7 +63,6 @@ impl Memory {
             return Ok(None);
         }
         let flipped = Flipped::of(points, &[], flip);
-        self.hull.complete_planes();
         self.hull.cut_by(&self.on_boundary, &flipped)?;
         let first = self.hull.outer_face();
         Ok(first.map(|first| FlippedFaces {

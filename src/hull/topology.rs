@@ -62,7 +62,7 @@ impl<T> Face<T> {
     }
 
     /// The vertices, beginning with the tail of `edge`.
-    #[inline]
+    #[cfg(debug_assertions)]
     pub(crate) fn vertices_from(&self, edge: usize) -> [Vertex; 3] {
         turned(self.vertices, edge)
     }
@@ -85,19 +85,10 @@ fn turned<I: Copy>(items: [I; 3], first: usize) -> [I; 3] {
     [items[first], items[next], items[last]]
 }
 
-/// An edge of a hole: its tail, its head, and the half-edge outside of the hole
-/// that runs the other way.
-#[derive(Clone, Copy)]
-pub(crate) struct Rim {
-    pub tail: Vertex,
-    pub head: Vertex,
-    pub outside: HalfEdge,
-}
-
 /// A closed triangulated surface whose faces can be replaced.
 pub(crate) struct Surface<T> {
-    pub(super) faces: Vec<Face<T>>,
-    pub(super) free: Vec<FaceId>,
+    faces: Vec<Face<T>>,
+    free: Vec<FaceId>,
     cavity: Vec<FaceId>,
     /// The edges of the faces around the cavity. They run the other way.
     horizon: Vec<HalfEdge>,
@@ -146,11 +137,6 @@ impl<T: Copy> Surface<T> {
     pub(crate) fn reserve(&mut self, faces: usize) {
         let more = faces.saturating_sub(self.faces.len());
         let _ = self.faces.try_reserve_exact(more);
-    }
-
-    #[inline]
-    pub(crate) fn face_mut(&mut self, id: FaceId) -> &mut Face<T> {
-        &mut self.faces[id as usize]
     }
 
     #[inline]
@@ -317,116 +303,5 @@ impl<T: Copy> Surface<T> {
     #[inline]
     pub(crate) fn twin(&self, edge: HalfEdge) -> HalfEdge {
         self.face(edge.face()).twins[edge.edge()]
-    }
-
-    /// The two triangles that a flip of `edge` would make. The first one holds the edge's tail.
-    pub(crate) fn flipped(&self, edge: HalfEdge) -> [[Vertex; 3]; 2] {
-        let [a, b, c] = self.face(edge.face()).vertices_from(edge.edge());
-        let twin = self.twin(edge);
-        let [_, _, d] = self.face(twin.face()).vertices_from(twin.edge());
-        [[c, a, d], [d, b, c]]
-    }
-
-    /// Replaces an edge by the other diagonal of its two triangles. The first triangle of
-    /// [`Surface::flipped`] takes the slot of the edge's face, the second one the slot of the
-    /// twin's face. The common edge is the last edge of both. The data of both slots stay as
-    /// they were.
-    pub(crate) fn flip(&mut self, edge: HalfEdge) {
-        let [first, second] = self.flipped(edge);
-        let slot = edge.face();
-        let f = *self.face(slot);
-        let twin = f.twins[edge.edge()];
-        let other = twin.face();
-        let g = *self.face(other);
-        let [_, bc, ca] = f.twins_from(edge.edge());
-        let [_, ad, db] = g.twins_from(twin.edge());
-        self.put(slot, first, [ca, ad, HalfEdge::new(other, 2)]);
-        self.put(other, second, [db, bc, HalfEdge::new(slot, 2)]);
-    }
-
-    /// The faces around vertex `hub`, counter-clockwise from `start`, which is one of them.
-    /// Returns the number of each face, and its edge opposite to the hub as an edge of a hole.
-    pub(crate) fn around(
-        &self,
-        hub: Vertex,
-        start: FaceId,
-    ) -> impl Iterator<Item = (FaceId, Rim)> + '_ {
-        let mut next = Some(start);
-        core::iter::from_fn(move || {
-            let id = next?;
-            let face = self.face(id);
-            let at = face.vertices.iter().position(|&vertex| vertex == hub)?;
-            let [_, tail, head] = face.vertices_from(at);
-            let [_, outside, across] = face.twins_from(at);
-            next = Some(across.face()).filter(|&id| id != start);
-            let rim = Rim {
-                tail,
-                head,
-                outside,
-            };
-            Some((id, rim))
-        })
-    }
-
-    /// Whether an edge that is not inside `hole`, a list of faces, joins `hub`, a vertex of `start`,
-    /// to `other`.
-    #[inline(never)]
-    pub(crate) fn are_joined(
-        &self,
-        hub: Vertex,
-        other: Vertex,
-        start: FaceId,
-        hole: &[FaceId],
-    ) -> bool {
-        self.around(hub, start).any(|(id, rim)| {
-            let is_inside = || {
-                let face = self.face(id);
-                let at = face.vertices.iter().position(|&vertex| vertex == hub);
-                let across = face.twins[at.unwrap_or(0)].face();
-                hole.contains(&id) && hole.contains(&across)
-            };
-            rim.tail == other && !is_inside()
-        })
-    }
-
-    /// Cuts an ear off the hole with this `rim`. The ear is the triangle of rim edge `ear` and
-    /// the next rim edge. It is put into the dead slot `slot`, and the rim closes behind it. If
-    /// the hole is only that triangle, the hole is filled and the rim's last edge is left as it
-    /// was. The slot's data stay as they were.
-    pub(crate) fn cut_ear(&mut self, rim: &mut Vec<Rim>, ear: usize, slot: FaceId) {
-        let next = (ear + 1) % rim.len();
-        let (first, second) = (rim[ear], rim[next]);
-        let vertices = [first.tail, first.head, second.head];
-        let closing = if rim.len() == 3 {
-            rim[(ear + 2) % 3].outside
-        } else {
-            // This edge is not linked yet. The face that takes this rim edge links it.
-            HalfEdge::new(slot, 2)
-        };
-        self.put(slot, vertices, [first.outside, second.outside, closing]);
-        rim[ear] = Rim {
-            tail: first.tail,
-            head: second.head,
-            outside: HalfEdge::new(slot, 2),
-        };
-        rim.remove(next);
-    }
-
-    /// Takes a face's slot out of the surface. Later faces may use it.
-    pub(crate) fn free(&mut self, slot: FaceId) -> Result<(), OutOfMemory> {
-        reserve(&mut self.free, 1)?;
-        self.faces[slot as usize].vertices[0] = NONE;
-        self.free.push(slot);
-        Ok(())
-    }
-
-    /// Writes a face and links the faces across its edges back to it.
-    fn put(&mut self, slot: FaceId, vertices: [Vertex; 3], twins: [HalfEdge; 3]) {
-        let face = self.face_mut(slot);
-        face.vertices = vertices;
-        face.twins = twins;
-        for (edge, twin) in (0..).zip(twins) {
-            self.faces[twin.face() as usize].twins[twin.edge()] = HalfEdge::new(slot, edge);
-        }
     }
 }

@@ -29,7 +29,7 @@ pub(super) enum Cloud {
     Horizon(Box<Horizon>),
 }
 
-/// The hull of the last view, from which the next one may start. All clouds share one, so that
+/// The hull of the last view. An exact view goes on from its draft. All clouds share one, so that
 /// many clouds take no more memory.
 struct LastView {
     handle: u32,

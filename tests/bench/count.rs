@@ -11,8 +11,6 @@
 //! | `exponential` | the same, with an exponential flip |
 //! | `looks` | the same, with three looks |
 //! | `draft` | the draft of such a view |
-//! | `first 0.2` | the first view after a motion by 0.2° |
-//! | `move 0.2` | three views, each 0.2° from the one before, after three such motions |
 //!
 //! Only `counted` counts. Valgrind writes one file for each question:
 //! `valgrind --tool=callgrind --toggle-collect='*counted*' --dump-after=count_instructions::counted`
@@ -20,7 +18,7 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use hidden_point_removal::{Exponential, Inversion, Observer, Options, PointCloud, Position};
+use hidden_point_removal::{Exponential, Inversion, Options, PointCloud, Position};
 
 mod raw;
 use raw::{orbit, points};
@@ -80,20 +78,8 @@ fn ask(
     mut options: Options,
 ) -> Result<()> {
     let mut observer = cloud.observer();
-    match *question.split(' ').collect::<Vec<_>>() {
-        ["first", step] => {
-            observer.visible_from(at(0.0), &options)?;
-            look(&mut observer, &[at(step.parse()?)], &options);
-        }
-        ["move", step] => {
-            let step: f64 = step.parse()?;
-            let views = [0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0].map(|number| at(number * step));
-            for view in &views[..4] {
-                observer.visible_from(*view, &options)?;
-            }
-            look(&mut observer, &views[4..], &options);
-        }
-        ["cold" | "draft" | "exponential" | "looks"] => {
+    match question {
+        "cold" | "draft" | "exponential" | "looks" => {
             options.draft = question == "draft";
             if question == "exponential" {
                 options.inversion = Inversion::Exponential(Exponential::default());
@@ -104,19 +90,14 @@ fn ask(
             // The first view reserves memory.
             observer.visible_from(at(180.0), &options)?;
             observer.forget();
-            look(&mut observer, &[at(0.0)], &options);
+            let viewpoint = at(0.0);
+            counted(&mut || {
+                black_box(observer.visible_from(viewpoint, &options)).expect("a view");
+            });
         }
         _ => return Err(USAGE.into()),
     }
     Ok(())
-}
-
-fn look(observer: &mut Observer, views: &[[f64; 3]], options: &Options) {
-    counted(&mut || {
-        for &view in views {
-            black_box(observer.visible_from(view, options)).expect("a view");
-        }
-    });
 }
 
 #[inline(never)]

@@ -40,9 +40,8 @@ const native: Engine = {
 };
 
 /** The task as one line of text, in the form that native.rs reads. */
-function taskLine({ exponent, runs, viewpoint, paths }: Task): string {
-  const groups = [[exponent, runs, ...viewpoint], ...paths.map((path) => path.flat())];
-  return groups.map((numbers) => numbers.join(" ")).join(" / ");
+function taskLine({ exponent, runs, viewpoint }: Task): string {
+  return [exponent, runs, ...viewpoint].join(" ");
 }
 
 function wasmInNode(name: string, wasm: string): Engine {

@@ -20,7 +20,7 @@ export async function timeSizes(engines: Engine[]): Promise<Table> {
     const cloud = bumpy(name);
     const [usual] = tasksFor(cloud) as [Task];
     const exponent = exponentForShare(cloud, usual.viewpoint);
-    const outcomes = await measureAll(cloud, [{ ...usual, exponent, paths: [] }], engines);
+    const outcomes = await measureAll(cloud, [{ ...usual, exponent }], engines);
     const points = cloud.positions.length / 3;
     const row: Row = { cloud: name, source: cloud.source, points, exponent: exponent.toFixed(4) };
     for (const [engine, [outcome]] of outcomes) {

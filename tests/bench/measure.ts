@@ -13,8 +13,6 @@ export interface Task {
   away: Point;
   /** How many cold queries are timed. */
   runs: number;
-  /** Each path starts with a viewpoint that is not timed. The viewpoints of the motion follow, step by step. */
-  paths: Point[][];
 }
 
 /** Milliseconds and answers. check.ts checks the answers. */
@@ -24,12 +22,6 @@ export interface Outcome {
   visible: number;
   radius: number;
   /** The digest of the visible set, see `digestOf`. */
-  digest: string;
-  paths: { moving: Answer[]; cold: Answer[] }[];
-}
-
-export interface Answer {
-  milliseconds: number;
   digest: string;
 }
 
@@ -71,21 +63,7 @@ function outcomeOf(cloud: PointCloud, task: Task): Omit<Outcome, "build"> {
   if (digests.size !== 1) throw new Error(`${runs} cold queries at exponent ${exponent} gave ${digests.size} answers`);
   const { visible, radius, digest } = queries[0]!;
 
-  // Paths share viewpoints. Each viewpoint is asked cold once.
-  const known = new Map<string, Answer>();
-  const coldAt = (point: Point): Answer => {
-    const key = point.join();
-    const answer = known.get(key) ?? coldQuery(cloud, task, point);
-    known.set(key, answer);
-    return answer;
-  };
-  const paths = task.paths.map(([from, ...path]) => {
-    const cold = path.map(coldAt);
-    cloud.visibleFrom(from!, { exponent });
-    const moving = path.map((point) => query(cloud, point, exponent));
-    return { moving, cold };
-  });
-  return { cold: queries.map(({ milliseconds }) => milliseconds), visible, radius, digest, paths };
+  return { cold: queries.map(({ milliseconds }) => milliseconds), visible, radius, digest };
 }
 
 function coldQuery(cloud: PointCloud, { away, exponent }: Task, viewpoint: Point) {

@@ -1,20 +1,17 @@
 //! Times the native build: `bench_native FILE f32|f64 < TASKS`
 //!
 //! FILE holds raw little-endian x y z. Each line of TASKS is a question with one exponent,
-//! `EXPONENT RUNS x y z`. In the same line, paths may follow, `/ x y z x y z …`: a viewpoint
-//! that is not timed, and then the viewpoints of the motion. The answer to each line is one line
-//! of JSON, the `Outcome` of measure.ts. That file explains the measurements.
+//! `EXPONENT RUNS x y z`. The answer to each line is one line of JSON, the `Outcome` of measure.ts.
+//! That file explains the measurements.
 //!
 //! `bench_native FILE f32|f64 sectors < TASKS` times divided views instead. It asks one sector after
 //! another, each with a memory of its own that earlier views have reserved. The answer to each line
 //! is the `Divided` of sectors.ts.
 
-use std::collections::HashMap;
-use std::fmt::Write;
 use std::io::{BufRead, stdin};
 use std::time::Instant;
 
-use hidden_point_removal::{Observer, Options, PointCloud, Position, Sector, Visibility};
+use hidden_point_removal::{Options, PointCloud, Position, Sector, Visibility};
 
 #[expect(dead_code, reason = "the tasks name the viewpoints")]
 mod raw;
@@ -39,16 +36,13 @@ fn answer_all<P: Position>(positions: &[P], divided: bool) {
     let answer = if divided { divided_outcome } else { outcome };
     for line in stdin().lock().lines() {
         let line = line.expect("TASKS can be read");
-        println!("{}", answer(positions, &line).expect("a string grows"));
+        println!("{}", answer(positions, &line));
     }
 }
 
 /// The least milliseconds of the whole view and of each sector.
-fn divided_outcome<P: Position>(positions: &[P], line: &str) -> Result<String, std::fmt::Error> {
-    let numbers: Vec<f64> = line
-        .split_whitespace()
-        .map(|x| x.parse().expect("a number"))
-        .collect();
+fn divided_outcome<P: Position>(positions: &[P], line: &str) -> String {
+    let numbers = numbers(line);
     let [exponent, runs, x, y, z] = numbers[..] else {
         panic!("a task is EXPONENT RUNS x y z");
     };
@@ -70,117 +64,51 @@ fn divided_outcome<P: Position>(positions: &[P], line: &str) -> Result<String, s
         let times: Vec<f64> = (0..count).map(|number| least(number, count)).collect();
         format!("{times:?}")
     });
-    Ok(format!(
+    format!(
         r#"{{"whole":{:?},"sectors":[{}]}}"#,
         least(0, 1),
         divided.join(",")
-    ))
+    )
 }
 
-/// An answer with its time.
-#[derive(Clone)]
-struct Answer {
-    milliseconds: f64,
-    digest: String,
-}
-
-fn outcome<P: Position>(positions: &[P], line: &str) -> Result<String, std::fmt::Error> {
-    let groups: Vec<Vec<f64>> = line
-        .split('/')
-        .map(|group| {
-            let numbers = group.split_whitespace();
-            numbers.map(|x| x.parse().expect("a number")).collect()
-        })
-        .collect();
-    let [exponent, runs, x, y, z] = groups[0][..] else {
-        panic!("a task starts with EXPONENT RUNS x y z");
+fn outcome<P: Position>(positions: &[P], line: &str) -> String {
+    let numbers = numbers(line);
+    let [exponent, runs, x, y, z] = numbers[..] else {
+        panic!("a task is EXPONENT RUNS x y z");
     };
     let options = Options::with_exponent(exponent);
     // As in measure.ts, the observer already holds the memory that a query needs.
     let (cloud, build) = timed(|| PointCloud::new(positions).expect("a valid cloud"));
     let mut observer = cloud.observer();
-    let mut cold = |viewpoint| {
-        observer.forget();
-        query(&mut observer, viewpoint, &options)
+    let mut query = || {
+        let view = timed(|| observer.visible_from([x, y, z], &options));
+        (view.0.expect("a valid view"), view.1)
     };
-
-    let mut answers = Vec::new();
-    let (mut view, _) = cold([x, y, z]); // Not counted.
-    for _ in 0..runs as usize {
-        let (again, answer) = cold([x, y, z]);
-        assert!(again == view, "two cold queries gave different answers");
-        view = again;
-        answers.push(answer);
-    }
-
-    let mut known: HashMap<[u64; 3], Answer> = HashMap::new();
-    let mut out = String::new();
-    write!(
-        out,
-        r#"{{"build":[{build:?}],"cold":{:?},"visible":{},"radius":{:?},"digest":"{}","paths":["#,
-        answers.iter().map(|a| a.milliseconds).collect::<Vec<_>>(),
+    let (view, _) = query(); // Not counted.
+    let cold: Vec<f64> = (0..runs as usize)
+        .map(|_| {
+            let (again, milliseconds) = query();
+            assert!(again == view, "two queries gave different answers");
+            milliseconds
+        })
+        .collect();
+    format!(
+        r#"{{"build":[{build:?}],"cold":{cold:?},"visible":{},"radius":{:?},"digest":"{}"}}"#,
         view.count(),
         view.radius(),
         digest_of(&view),
-    )?;
-    for (i, path) in groups[1..].iter().enumerate() {
-        let path: Vec<[f64; 3]> = path.chunks_exact(3).map(|p| [p[0], p[1], p[2]]).collect();
-        let cold: Vec<Answer> = path[1..]
-            .iter()
-            .map(|&point| {
-                let key = point.map(f64::to_bits);
-                known.entry(key).or_insert_with(|| cold(point).1).clone()
-            })
-            .collect();
-        let mut walker = cloud.observer();
-        query(&mut walker, path[0], &options);
-        let moving: Vec<Answer> = path[1..]
-            .iter()
-            .map(|&point| query(&mut walker, point, &options).1)
-            .collect();
-        let comma = if i == 0 { "" } else { "," };
-        write!(
-            out,
-            r#"{comma}{{"moving":{},"cold":{}}}"#,
-            json(&moving),
-            json(&cold)
-        )?;
-    }
-    out.push_str("]}");
-    Ok(out)
-}
-
-fn json(answers: &[Answer]) -> String {
-    let answer = |a: &Answer| {
-        format!(
-            r#"{{"milliseconds":{:?},"digest":"{}"}}"#,
-            a.milliseconds, a.digest
-        )
-    };
-    format!(
-        "[{}]",
-        answers.iter().map(answer).collect::<Vec<_>>().join(",")
     )
-}
-
-fn query(observer: &mut Observer, viewpoint: [f64; 3], options: &Options) -> (Visibility, Answer) {
-    let (view, milliseconds) = timed(|| {
-        observer
-            .visible_from(viewpoint, options)
-            .expect("a valid view")
-    });
-    let digest = digest_of(&view);
-    let answer = Answer {
-        milliseconds,
-        digest,
-    };
-    (view, answer)
 }
 
 fn timed<T>(work: impl FnOnce() -> T) -> (T, f64) {
     let start = Instant::now();
     let result = work();
     (result, start.elapsed().as_secs_f64() * 1e3)
+}
+
+fn numbers(line: &str) -> Vec<f64> {
+    let numbers = line.split_whitespace();
+    numbers.map(|x| x.parse().expect("a number")).collect()
 }
 
 /// FNV-1a over 32-bit words, twice with different constants; measure.ts has the same.

@@ -6,7 +6,7 @@ import { CLOUDS } from "./clouds.js";
 export const USAGE = `npm run bench -- [WHAT…] [--clouds NAME,NAME…] [--peers] [--json] [--write]
 
 WHAT, by default --speed, --drafts and --workers:
-  --speed      cold queries and a moving viewpoint, natively, in Node and in Chromium;
+  --speed      cold queries, natively, in Node and in Chromium;
                three.js and quickhull3d on the same flipped points
   --drafts     early answers and samples against cold ones
   --workers    two workers against one, on a million points

@@ -14,7 +14,7 @@ pub fn points<T: Copy, const SIZE: usize>(bytes: &[u8], read: fn([u8; SIZE]) -> 
         .collect()
 }
 
-/// The viewpoint after so many degrees of the motion.
+/// The viewpoint after so many degrees of the orbit.
 pub fn orbit<P: Position>(points: &[P], distance: f64) -> impl Fn(f64) -> [f64; 3] {
     let [mut low, mut high] = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
     for point in points {

@@ -1,4 +1,4 @@
-// The time of a query: cold, moving, and compared with the hulls of other libraries.
+// The time of a query, also compared with the hulls of other libraries.
 import { PointCloud } from "hidden-point-removal";
 
 import { checkAnswers, WrongAnswer } from "./check.js";
@@ -7,18 +7,17 @@ import type { Engine } from "./engines.js";
 import { digestOf, type Outcome, type Task } from "./measure.js";
 import { compareWithPeer, PEER_LIMIT_MS, type Peer, type PeerResult, type View } from "./peers.js";
 import { median, type Row, type Table } from "./report.js";
-import { STEPS, tasksFor } from "./views.js";
+import { tasksFor } from "./views.js";
 
-/** Makes three tables of all clouds. Throws at the first wrong answer. */
+/** Makes two tables of all clouds. Throws at the first wrong answer. */
 export async function timeQueries(clouds: Iterable<Cloud>, engines: Engine[], peers: Peer[]): Promise<Table[]> {
-  const [cold, moving, others]: Row[][] = [[], [], []];
+  const [cold, others]: Row[][] = [[], []];
   for (const cloud of clouds) {
     const tasks = tasksFor(cloud);
     const measured = await measureAll(cloud, tasks, engines);
     tasks.forEach((task, t) => {
       const outcomes = [...measured].map(([engine, all]) => [engine, all[t]!] as const);
       cold!.push(coldRow(cloud, task, outcomes));
-      if (task.paths.length > 0) moving!.push(...outcomes.map((of) => movingRow(cloud, task, ...of)));
       const taking = peers.filter((peer) => peer.takes(cloud));
       if (taking.length === 0) return;
       const view = viewOf(cloud, task, outcomes[0]![1]);
@@ -30,7 +29,6 @@ export async function timeQueries(clouds: Iterable<Cloud>, engines: Engine[], pe
   }
   return [
     { title: "Cold queries", note: COLD, rows: cold! },
-    { title: "Moving viewpoint", note: MOVING, rows: moving! },
     { title: "Other hulls on the same flipped points", note: PEERS, rows: others! },
   ];
 }
@@ -39,9 +37,6 @@ const COLD =
   "Median milliseconds of one query on one core, after a view from the other side, so that nothing of " +
   "the last view helps. Building (in Node) is not counted. The viewpoint is 2.5 bounding radii away; for the room it is inside. All engines gave the same visible set and radius, " +
   "to the bit.";
-const MOVING =
-  "Median milliseconds of a query one step (so many degrees, seen from the cloud's center) after the last one, " +
-  "and how many times faster that is than the cold queries from the same viewpoints, all of which gave the same visible sets.";
 const PEERS =
   "Milliseconds of the hull alone (Open3D flips by itself and returns a mesh), and how many times longer that takes than " +
   "the whole cold query, flip included. The last column counts labels that differ: exact arithmetic decided for this " +
@@ -75,18 +70,6 @@ function coldRow(cloud: Cloud, { exponent }: Task, outcomes: Outcomes): Row {
     "build ms": median(build),
     ...Object.fromEntries(outcomes.map(([engine, { cold }]) => [`${engine} ms`, median(cold)])),
   };
-}
-
-function movingRow(cloud: Cloud, { exponent }: Task, engine: string, { paths }: Outcome): Row {
-  const row: Row = { cloud: cloud.name, points: cloud.positions.length / 3, exponent, engine };
-  const milliseconds = (answers: Outcome["paths"][number]["cold"]): number =>
-    median(answers.map((answer) => answer.milliseconds));
-  row["cold ms"] = milliseconds(paths.flatMap(({ cold }) => cold));
-  paths.forEach(({ moving, cold }, p) => {
-    row[`${STEPS[p]!}° ms`] = milliseconds(moving);
-    row[`× faster at ${STEPS[p]!}°`] = milliseconds(cold) / milliseconds(moving);
-  });
-  return row;
 }
 
 /** Asks a timed question again for its whole answer. It must be equal to the timed answer. */

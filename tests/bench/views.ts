@@ -1,13 +1,11 @@
 // The viewpoints, by one rule for all clouds. They lie on a sphere around the center of the
-// cloud's box. The first lies in the direction (0.36, 0.48, 0.8). From there a motion follows
+// cloud's box. The first lies in the direction (0.36, 0.48, 0.8). From there an orbit follows
 // a great circle, so that its steps are angles seen from the center. Each cloud has its own
 // radius of the sphere.
 import type { Cloud } from "./clouds.js";
 import type { Point, Task } from "./measure.js";
 
 export const EXPONENTS = [2, 3, 4];
-/** Degrees from one viewpoint of a motion to the next. */
-export const STEPS = [0.2, 1, 3, 10];
 
 const FROM: Point = [0.36, 0.48, 0.8];
 /** The horizontal direction at a right angle to `FROM`. */
@@ -20,18 +18,16 @@ export function tasksFor(cloud: Cloud): Task[] {
   const large = cloud.positions.length / 3 >= LARGE;
   const at = orbit(cloud);
   return EXPONENTS.map((exponent) => {
-    const moves = large && exponent !== 3 ? [] : STEPS;
     return {
       exponent,
       viewpoint: at(0),
       away: at(180),
       runs: large ? 3 : 9,
-      paths: moves.map((step) => Array.from({ length: 11 }, (_, i) => at(i * step))),
     };
   });
 }
 
-/** The viewpoint after this many degrees of the motion. */
+/** The viewpoint after this many degrees of the orbit. */
 export function orbit(cloud: Cloud): (degrees: number) => Point {
   const { center, radius } = bounds(cloud);
   return (degrees) => {

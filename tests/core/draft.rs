@@ -121,7 +121,7 @@ fn what_was_asked_before_changes_no_draft() {
     for step in 0..60 {
         walk.step(&mut rng);
         if rng.chance(3) {
-            // A moved view, or a draft without an exact answer after it.
+            // An exact view, or a draft without an exact answer after it.
             let options = Options {
                 draft: rng.chance(2),
                 ..walk.options
@@ -205,10 +205,6 @@ fn other_questions_may_come_between_a_draft_and_its_exact_view() {
                 let seen = observer.visible_from(here, &options).unwrap();
                 let title = format!("{title} after {slices} slices, {options:?}");
                 assert_eq!(seen, exact, "{title}");
-                // The next view may start from this one.
-                let beside = here.map(|x| x + 0.003);
-                let moved = observer.visible_from(beside, &options).unwrap();
-                assert_eq!(moved, cloud.visible_from(beside, &options).unwrap());
             }
         }
     }

@@ -24,7 +24,6 @@ mod looks_along;
 mod looks_in_steps;
 mod looks_uneven;
 mod merge;
-mod motion;
 mod noise;
 mod oracle;
 mod plane;

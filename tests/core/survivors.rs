@@ -45,28 +45,6 @@ fn sectors_of_views_with_votes_and_denoising_give_the_whole_answer() {
 }
 
 #[test]
-fn an_observer_that_forgets_starts_anew() {
-    let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(2), 600)).unwrap();
-    let mut observer = cloud.observer();
-    let mut moved = || {
-        let view = observer.visible_from([0.0, 0.5, 3.0], &Options::default());
-        assert_eq!(
-            view,
-            cloud.visible_from([0.0, 0.5, 3.0], &Options::default())
-        );
-        let moved = observer.moved();
-        if moved {
-            observer.forget();
-        }
-        moved
-    };
-    assert_eq!(
-        [moved(), moved(), moved(), moved()],
-        [false, true, false, true]
-    );
-}
-
-#[test]
 fn a_cloud_that_is_prepared_twice_answers_alike() {
     let points = shapes::bumpy(&mut Rng::new(3), 600);
     let options = Options {

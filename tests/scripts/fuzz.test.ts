@@ -5,8 +5,8 @@ import { askedFor } from "../../scripts/fuzz/arguments.js";
 import { runFuzzer, tallyIn } from "../../scripts/fuzz/run.js";
 
 it("takes minutes, a seed and one fuzzer", () => {
-  const args = ["--minutes", "0.5", "--seed", "7", "--only", "motion"];
-  expect(askedFor(args, ["motion"])).toEqual({ minutes: 0.5, seed: 7, only: "motion" });
+  const args = ["--minutes", "0.5", "--seed", "7", "--only", "drafts"];
+  expect(askedFor(args, ["drafts"])).toEqual({ minutes: 0.5, seed: 7, only: "drafts" });
 });
 
 it.each([
@@ -14,10 +14,10 @@ it.each([
   [["--minutes", "ten"], /--minutes is ten/],
   [["--seed", "1.5"], /--seed is 1.5, which is no whole number/],
   [["--seed", "9007199254740993"], /--seed is 9007199254740993/],
-  [["--only", "nothing"], /There is no fuzzer "nothing"\. There are: motion\./],
+  [["--only", "nothing"], /There is no fuzzer "nothing"\. There are: drafts\./],
   [["--hours", "1"], /hours/],
 ])("refuses %j", (args, says) => {
-  expect(() => askedFor(args, ["motion"])).toThrow(says);
+  expect(() => askedFor(args, ["drafts"])).toThrow(says);
 });
 
 it("reads the last line, or adds up the lines of a fuzzer that prints several", () => {

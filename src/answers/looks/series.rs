@@ -144,9 +144,6 @@ impl Series {
                 return Ok(Outcome::Begun);
             }
         }
-        // Each hull is a new one, or one that was begun. Where points are on one sphere, several
-        // choices of triangles are right. The choice must not depend on earlier questions.
-        memory.forget_moves();
         hull::mark_visible(own, blocks, &flip, None, memory)?;
         let verdicts = &mut self.verdicts;
         let outcome = match memory.outer_faces(own, &flip, farthest)? {

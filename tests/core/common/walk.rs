@@ -1,6 +1,6 @@
-//! Viewpoints that move by steps of all sizes. Each answer is compared with a cold answer.
+//! Viewpoints that move by steps of all sizes.
 
-use hidden_point_removal::{Observer, Options, PointCloud, Radius};
+use hidden_point_removal::{Options, Radius};
 
 use super::flip::{distance, farthest};
 use super::rng::Rng;
@@ -118,37 +118,4 @@ impl<'a> Walk<'a> {
 fn part(rng: &mut Rng) -> f64 {
     let digits = rng.below(10) as i32;
     (0..digits).fold(rng.between(0.1, 0.5), |part, _| part * 0.1)
-}
-
-/// The difference between an observer and a cold view, if there is one.
-pub fn difference(
-    cloud: &PointCloud,
-    observer: &mut Observer,
-    viewpoint: [f64; 3],
-    options: &Options,
-) -> Option<String> {
-    let warm = observer.visible_from(viewpoint, options);
-    let cold = cloud.visible_from(viewpoint, options);
-    let (warm, cold) = match (warm, cold) {
-        (Ok(warm), Ok(cold)) => (warm, cold),
-        (Err(warm), Err(cold)) if warm.to_string() == cold.to_string() => return None,
-        (warm, cold) => {
-            let [warm, cold] = [warm, cold].map(|answer| answer.map(|visible| visible.count()));
-            return Some(format!("{warm:?} visible, but {cold:?}"));
-        }
-    };
-    let numbers = [&warm, &cold].map(|a| [a.radius(), a.exponent()].map(f64::to_bits));
-    if warm == cold && numbers[0] == numbers[1] {
-        return None;
-    }
-    let masks = [&warm, &cold].map(|answer| answer.mask());
-    let wrong = (0..masks[0].len()).filter(|&i| masks[0][i] != masks[1][i]);
-    let wrong: Vec<usize> = wrong.collect();
-    Some(format!(
-        "{} points differ, the first are {:?}; moved: {}, radius {:e}",
-        wrong.len(),
-        &wrong[..wrong.len().min(10)],
-        observer.moved(),
-        cold.radius()
-    ))
 }
