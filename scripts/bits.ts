@@ -1,28 +1,19 @@
 // npm run bits: builds one corpus of questions for every platform that this machine can run, and runs it
-// there. All answers must have the same bits. Writes tests/bits/RESULTS.md; ends with status 1 on a difference.
-import { readFileSync, writeFileSync } from "node:fs";
-
+// there. All answers must have the same bits. Ends with status 1 on a difference.
 import { answersIn, answersOn, firstDifference } from "./bits/corpus.js";
 import type { Answers } from "./bits/corpus.js";
 import { PLATFORMS } from "./bits/platforms.js";
 import type { Platform } from "./bits/platforms.js";
 import { command } from "./lib/command.js";
-import { findOnPath, inRoot } from "./lib/paths.js";
+import { findOnPath } from "./lib/paths.js";
 import { Problem, run, say } from "./lib/run.js";
 import { setUpLinker } from "./setup/linker.js";
 import { setUpRust } from "./setup/rust.js";
 
-const RESULT = "tests/bits/RESULTS.md";
-
-interface Row {
-  platform: string;
-  cells: string[];
-}
-
 await command(async () => {
   await setUpRust();
   await setUpLinker();
-  const rows: Row[] = [];
+  const rows: string[] = [];
   const skipped = new Map(PLATFORMS.map(([name]) => [name, "not run, because the command ended earlier"]));
   let expected: Answers | undefined;
   for (const [name, prepare] of PLATFORMS) {
@@ -37,16 +28,14 @@ await command(async () => {
       expected ??= answers;
       const verdict = judge(expected, answers);
       if (verdict !== "equal") process.exitCode = 1;
-      const seconds = ran === undefined ? "" : ran.seconds.toFixed(1);
-      const cells = [runBy(platform), seconds, String(answers?.cases.size ?? ""), `\`${answers?.all ?? ""}\``, verdict];
-      rows.push({ platform: `${name} (\`${[platform.target, ...platform.build.slice(2)].join(" ")}\`)`, cells });
+      const seconds = ran === undefined ? "" : `${ran.seconds.toFixed(1)} s`;
+      const target = [platform.target, ...platform.build.slice(2)].join(" ");
+      rows.push([verdict, answers?.all, `${name} (${target})`, runBy(platform), seconds].join("  "));
       say(`${name}: ${verdict}`);
     }
-    // The file is written after each platform, so that a run that ends early keeps its rows.
-    const versions = await versionsOfTools();
-    writeFileSync(inRoot(RESULT), report(versions, rows, skipped, expected?.cases.size ?? 0));
   }
-  console.log(`\n${readFileSync(inRoot(RESULT), "utf8")}\n${RESULT}`);
+  for (const [name, reason] of skipped) rows.push(`skipped: ${name}: ${reason}`);
+  console.log(`\n${await versionsOfTools()}; ${expected?.cases.size ?? 0} cases\n${rows.join("\n")}`);
 });
 
 /** The platform, or the reason why this machine cannot run it. */
@@ -78,24 +67,4 @@ async function versionsOfTools(): Promise<string> {
   };
   const qemu = findOnPath("qemu-aarch64") === undefined ? [] : [await version("qemu-aarch64", "--version")];
   return [await version("rustc", "--version"), ...qemu, `Node ${process.version}`].join("; ");
-}
-
-function report(versions: string, rows: Row[], skipped: Map<string, string>, cases: number): string {
-  const table = rows.map(({ platform, cells }) => `| ${[platform, ...cells].join(" | ")} |`);
-  const reasons = [...skipped].map(([name, reason]) => `- ${name}: ${reason}`);
-  return `# The same bits everywhere
-
-Written by \`npm run bits\` on ${new Date().toISOString().slice(0, 10)}, with ${versions}.
-
-One corpus of ${cases} cases (\`corpus.rs\`): all kinds of scenes of the core's tests, thin clouds, tiny and huge
-units, map coordinates, 12 to 20,000 points; every inversion, rule of the radius and kind of question. The digest
-covers all visible sets, meshes, brightness, scores and radii. Dimensions 4 and higher are not promised to the bit and
-are left out. "Optimized" is the profile \`quick\`: the profile of a release, without optimization across crates.
-
-| platform | run by | seconds | cases | digest of all | |
-|---|---|---:|---:|---|---|
-${table.join("\n")}
-
-Skipped:${reasons.length === 0 ? " nothing." : `\n\n${reasons.join("\n")}`}
-`;
 }

@@ -1,6 +1,5 @@
 // npm run large [-- --points N]...: one large cloud from end to end (tests/soak/large.ts), 10 and 30 million points if
-// no number is given. Writes tests/soak/LARGE.md.
-import { writeFileSync } from "node:fs";
+// no number is given.
 import { cpus, loadavg, totalmem } from "node:os";
 import { parseArgs } from "node:util";
 
@@ -11,8 +10,6 @@ import { load } from "./lib/load.js";
 import { inRoot } from "./lib/paths.js";
 import { Problem } from "./lib/run.js";
 import { setUpForBuild } from "./setup/setup.js";
-
-const RESULT = "tests/soak/LARGE.md";
 
 interface Stage {
   name: string;
@@ -47,9 +44,8 @@ await command(async () => {
       console.log(`${seconds.toFixed(1).padStart(7)} s  ${peak?.toFixed(0) ?? "?"} MB  ${name}: ${result}`);
     });
     parts.push(`## ${count.toLocaleString("en")} points\n\n${table(stages)}`);
-    writeFileSync(inRoot(RESULT), `${head()}\n${parts.join("\n\n")}\n`);
   }
-  console.log(RESULT);
+  console.log(`${head()}\n${parts.join("\n\n")}`);
 });
 
 function head(): string {

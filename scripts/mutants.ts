@@ -1,93 +1,47 @@
-// npm run mutants -- [--files PATH]... [--shard K/N] [--quick] [--tests NAME]... [--open] [--jobs N]: changes one place
-// of the core at a time and checks that a test fails. All mutants are compiled into one program. Mutants that were tried
-// before are not tried again, so the command can be stopped at any time. Writes tests/mutations/rust.tsv and the table of
-// RUST.md.
-import { parseArgs } from "node:util";
+// npm run mutants -- rust [--in-diff FILE] [--file PATH]…, or
+// npm run mutants -- typescript --mutate src/ts/follow/newest.ts --testFiles tests/package/follow.test.ts
+// Changes one place of the code at a time and reports the changes that no test finds: cargo-mutants for the core,
+// Stryker for TypeScript. All further arguments go to them. What the tests import from the package is mutated in dist.
+import { existsSync } from "node:fs";
+import { join } from "node:path";
 
 import { command } from "./lib/command.js";
-import { Problem } from "./lib/run.js";
-import { inOrder } from "./lib/schedule.js";
+import { findOnPath, inRoot, toolsRoot } from "./lib/paths.js";
+import { Problem, mustRun, say } from "./lib/run.js";
 import { setUpLinker } from "./setup/linker.js";
 import { setUpRust } from "./setup/rust.js";
-import { setUpCargoMutants } from "./mutants/install.js";
-import type { Mutant } from "./mutants/list.js";
-import { listMutants } from "./mutants/list.js";
-import { buildPrograms } from "./mutants/programs.js";
-import { readResults, saveResults, writeTable } from "./mutants/results.js";
-import type { Choice } from "./mutants/tests.js";
-import { measureTests } from "./mutants/tests.js";
-import { Trial } from "./mutants/try.js";
+
+const CARGO_MUTANTS = "27.1.0";
+const STRYKER = "9.5.1";
 
 await command(async () => {
-  const { files, shard, choice, open, jobs } = askedFor(process.argv.slice(3));
-  await setUpRust();
-  await setUpLinker();
-  await setUpCargoMutants();
-  const every = await listMutants();
-  const inShard = every.filter((_, index) => index % shard.count === shard.part);
-  // Files are tried in the order in which they are named.
-  const chosen = new Set(files.flatMap((path) => inShard.filter(({ file }) => file.startsWith(path))));
-
-  const results = readResults();
-  const { paths, placed, unviable } = await buildPrograms();
-  const numberOf = new Map(every.map((mutant, index) => [mutant, index + 1]));
-  for (const mutant of every) {
-    if (unviable.has(numberOf.get(mutant)!)) results.set(mutant.key, "unviable");
-    else if (results.get(mutant.key) === "unviable") results.delete(mutant.key);
-  }
-  const isAll = !choice.quick;
-  const isDue = ({ key }: Mutant) =>
-    (!open && results.get(key) === undefined) || (isAll && results.get(key) === "open");
-  const due = [...chosen].filter((mutant) => isDue(mutant) && placed.has(numberOf.get(mutant)!));
-  const tests = due.length === 0 ? [] : await measureTests(paths, choice);
-
-  console.log(`${due.length} of ${chosen.size} mutants to try`);
-  const trial = new Trial(tests);
-  const tries = due.map((mutant) => ({ title: mutant.name, ...mutant }));
-  const numbers = new Map(due.map((mutant) => [mutant.key, numberOf.get(mutant)!]));
-  await inOrder(tries, jobs, async ({ name, file, key }) => {
-    const result = await trial.run(numbers.get(key)!, file, choice);
-    results.set(key, result);
-    console.log(`${result.padEnd(9)} ${name}`);
-    saveResults(results, every);
-  });
-  saveResults(results, every);
-  writeTable(results, every);
+  const [language, ...args] = process.argv.slice(3);
+  if (language === "rust") await rust(args);
+  else if (language === "typescript") await typescript(args);
+  else throw new Problem("Say which code is to be changed: npm run mutants -- rust, or npm run mutants -- typescript.");
 });
 
-interface Asked {
-  /** The beginnings of the paths of the files. */
-  files: string[];
-  /** Every mutant whose place in the list has this remainder. */
-  shard: { part: number; count: number };
-  choice: Choice;
-  /** Whether only mutants are tried that earlier tests missed. */
-  open: boolean;
-  /** How many mutants are tried at a time. */
-  jobs: number;
+async function rust(args: string[]): Promise<void> {
+  await setUpRust();
+  await setUpLinker();
+  if (findOnPath("cargo-mutants") === undefined) {
+    say(`Building cargo-mutants ${CARGO_MUTANTS} (some minutes)…`);
+    const folders = ["--root", toolsRoot, "--target-dir", join(toolsRoot, "mutants")];
+    const what = ["install", "cargo-mutants", "--version", CARGO_MUTANTS, "--locked", "--debug", ...folders];
+    await mustRun("cargo", what, "cargo-mutants could not be built", { env: { CARGO_PROFILE_DEV_DEBUG: "0" } });
+  }
+  await mustRun("cargo", ["mutants", "--output", inRoot("target"), ...args], "Some changes are found by no test");
 }
 
-function askedFor(args: string[]): Asked {
-  const usage =
-    "npm run mutants -- [--files src/hull]... [--shard 0/8] [--quick] [--tests sectors::]... [--open] [--jobs 2]";
-  try {
-    const text = { type: "string" } as const;
-    const options = {
-      files: { ...text, multiple: true },
-      shard: text,
-      quick: { type: "boolean" },
-      tests: { ...text, multiple: true },
-      open: { type: "boolean" },
-      jobs: text,
-    } as const;
-    const given = parseArgs({ args, options }).values;
-    const { files = ["src"], shard = "0/1", quick = false, tests: names = [], open = false, jobs = "1" } = given;
-    const [, part, count] = /^(\d+)\/(\d+)$/.exec(shard) ?? [];
-    if (part === undefined || Number(part) >= Number(count)) throw new Error(`--shard ${shard} is no part of a whole.`);
-    if (!/^[1-9]\d?$/.test(jobs)) throw new Error(`--jobs ${jobs} is no number from 1 to 99.`);
-    const choice = { quick, names };
-    return { files, shard: { part: Number(part), count: Number(count) }, choice, open, jobs: Number(jobs) };
-  } catch (error) {
-    throw new Problem(`${(error as Error).message}\n${usage}`);
+/** Stryker is no development dependency, because it would bring 155 packages that `npm test` never uses. */
+async function typescript(args: string[]): Promise<void> {
+  const folder = join(toolsRoot, "stryker");
+  if (!existsSync(folder)) {
+    say(`Installing Stryker ${STRYKER}…`);
+    const what = [`@stryker-mutator/core@${STRYKER}`, `@stryker-mutator/vitest-runner@${STRYKER}`];
+    // Without its own Vitest, it finds the project's.
+    const options = ["--no-save", "--no-package-lock", "--legacy-peer-deps", "--no-audit", "--no-fund"];
+    await mustRun("npm", ["install", "--prefix", folder, ...options, ...what], "Stryker could not be installed");
   }
+  await mustRun(join(folder, "node_modules/.bin/stryker"), ["run", ...args], "Stryker could not run");
 }

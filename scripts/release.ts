@@ -1,8 +1,7 @@
 // npm run release -- [--dry-run] [--untested]: publishes crate and package of one version.
 //
 // It checks that the repository is ready, runs the tests, rehearses both publications, dates the
-// changelog, commits, tags, and publishes. A dry run ends before anything is sent. It only writes
-// tests/release/REHEARSED.md.
+// changelog, commits, tags, and publishes. A dry run ends before anything is sent.
 import { readFileSync, writeFileSync } from "node:fs";
 import { parseArgs } from "node:util";
 
@@ -13,12 +12,11 @@ import { Problem, mustRun, run } from "./lib/run.js";
 import { dated, sectionOf } from "./release/changelog.js";
 import { provenanceRefusals } from "./release/provenance.js";
 import { refusals } from "./release/refusals.js";
-import { rehearse, report } from "./release/rehearsal.js";
+import { rehearse } from "./release/rehearsal.js";
 import { statedVersions } from "./release/version.js";
 import { setUpForBuild } from "./setup/setup.js";
 
 const CHANGELOG = inRoot("CHANGELOG.md");
-const REHEARSED = "tests/release/REHEARSED.md";
 
 await command(async () => {
   const { dryRun, untested } = asked();
@@ -29,7 +27,7 @@ await command(async () => {
   await setUpForBuild();
   if (untested) await build();
   else await mustRun("npm", ["test"], "The tests failed, so nothing was released", { show: "results" });
-  const rehearsals = await rehearse();
+  await rehearse();
 
   const today = new Date().toISOString().slice(0, 10);
   const { body = "" } = sectionOf(readFileSync(CHANGELOG, "utf8"), version) ?? {};
@@ -47,12 +45,6 @@ await command(async () => {
     );
     const missing = provenanceRefusals(root);
     if (missing.length > 0) console.log(`\nIt would refuse from here, since:\n${list(missing)}`);
-    const { output } = await run("git", ["log", "-1", "--format=%h, %as"], { show: "nothing" });
-    writeFileSync(
-      inRoot(REHEARSED),
-      report({ version, commit: output.trim(), untested, rehearsals, commands, missing }),
-    );
-    console.log(REHEARSED);
     return;
   }
   writeFileSync(CHANGELOG, dated(readFileSync(CHANGELOG, "utf8"), version, today));

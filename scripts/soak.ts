@@ -1,19 +1,15 @@
 // npm run soak [-- --views N --seed N]: first the long form of the page's soak (tests/browser/soak.test.ts). Then re-filters
-// five clouds in workers and compares answers with cold ones (tests/soak/refilter.ts). Writes tests/soak/RESULTS.md. Ends
+// five clouds in workers and compares answers with cold ones (tests/soak/refilter.ts). Ends
 // with status 1 if the page's memory has grown, or if an answer was wrong.
-import { writeFileSync } from "node:fs";
 import { cpus } from "node:os";
 import { parseArgs } from "node:util";
 
 import { build } from "./build/build.js";
 import { command } from "./lib/command.js";
 import { load } from "./lib/load.js";
-import { inRoot } from "./lib/paths.js";
 import { run } from "./lib/run.js";
 import { setUpBrowser } from "./setup/browser.js";
 import { setUpForBuild } from "./setup/setup.js";
-
-const RESULT = "tests/soak/RESULTS.md";
 
 /** The functions of tests/soak/refilter.ts, which is compiled when it is run. */
 interface Refilter {
@@ -40,8 +36,7 @@ await command(async () => {
     `versions: Node ${process.versions.node}`,
     `run: \`npm run soak -- --views ${views} --seed ${seed}\``,
   ];
-  writeFileSync(inRoot(RESULT), module.report(result, lines));
-  console.log(`${result.wrong} wrong (${RESULT})`);
+  console.log(module.report(result, lines));
   // Workers of the soak must not keep the process alive.
   process.exit(page.ok && result.wrong === 0 ? 0 : 1);
 });

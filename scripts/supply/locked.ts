@@ -7,7 +7,7 @@ const NPM = "https://registry.npmjs.org/";
 
 /** The entries of the lock files that have no checksum or do not come from the two registries. */
 export function notLocked(): string[] {
-  const locks = ["Cargo.lock", "tools/wasm/Cargo.lock", "tools/mutants/Cargo.lock"];
+  const locks = ["Cargo.lock", "tools/wasm/Cargo.lock"];
   return [...locks.flatMap(crates), ...packages()];
 }
 
@@ -20,7 +20,7 @@ function crates(file: string): string[] {
       // The project's own crates have no source.
       .filter(
         ({ name, source, sum }) =>
-          !/^(hidden-point-removal|hpr-wasm-tools|hpr-mutants)$/.test(name) && !(source === CRATES_IO && sum),
+          !/^(hidden-point-removal|hpr-wasm-tools)$/.test(name) && !(source === CRATES_IO && sum),
       )
       .map(({ name, source = "no source" }) => `${file}: ${name} (${source})`)
   );

@@ -1,8 +1,6 @@
 // npm run bench. Its arguments are in options.ts.
 //
 // Milliseconds are medians of one run on one machine; compare ratios.
-import { writeFileSync } from "node:fs";
-import { join } from "node:path";
 
 import { init } from "hidden-point-removal";
 
@@ -18,7 +16,6 @@ import { describeMachine } from "./machine.js";
 import { measureMemory } from "./memory.js";
 import { timeNodes } from "./nodes.js";
 import { type BenchOptions, readOptions, USAGE } from "./options.js";
-import { root } from "./paths.js";
 import { measurePage } from "./page/page.js";
 import { peers } from "./peers.js";
 import { markdown, type Table } from "./report.js";
@@ -50,11 +47,7 @@ const wanted = { page: options.sections.has("page"), soak: options.sections.has(
 const demo = wanted.page || wanted.soak ? await measurePage(wanted) : undefined;
 
 const machine = describeMachine(demo?.chromium ?? browser?.version, others);
-const reports = { "RESULTS.md": tables, "PAGE.md": demo?.page ?? [], "SOAK.md": demo?.soak ?? [] };
-for (const [file, reported] of Object.entries(reports)) {
-  if (reported.length > 0 && options.write) writeFileSync(join(root, "tests", "bench", file), textOf(reported));
-}
-const all = Object.values(reports).flat();
+const all = [...tables, ...(demo?.page ?? []), ...(demo?.soak ?? [])];
 console.log(options.json ? JSON.stringify({ machine, tables: all }, undefined, 2) : textOf(all));
 
 function textOf(tables: Table[]): string {

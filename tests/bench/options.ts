@@ -23,8 +23,7 @@ WHAT, by default --speed, --drafts and --workers:
   --clouds     only these of --speed's clouds:
                ${Object.keys(CLOUDS).join(", ")}
   --peers      also SciPy (Qhull) and Open3D, installed into target/ (needs Python 3 with pip)
-  --json       prints JSON instead of tables
-  --write      writes the tables to tests/bench, too: to RESULTS.md, or PAGE.md and SOAK.md`;
+  --json       prints JSON instead of tables`;
 
 const SECTIONS = [
   "speed",
@@ -47,7 +46,6 @@ export interface BenchOptions {
   clouds: string[];
   peers: boolean;
   json: boolean;
-  write: boolean;
 }
 
 /** Throws an Error that says what is wrong with the arguments. */
@@ -66,7 +64,7 @@ export function readOptions(args: string[]): BenchOptions {
     fidelity: flag,
     all: flag,
   };
-  const options = { ...flags, peers: flag, json: flag, write: flag, clouds: { type: "string" } } as const;
+  const options = { ...flags, peers: flag, json: flag, clouds: { type: "string" } } as const;
   const { values } = parseArgs({ args, options });
   const asked = SECTIONS.filter((section) => values[section] || (values.all && !ALONE.has(section)));
   const clouds = values.clouds?.split(",") ?? Object.keys(CLOUDS);
@@ -78,6 +76,5 @@ export function readOptions(args: string[]): BenchOptions {
     clouds,
     peers: values.peers || values.all,
     json: values.json,
-    write: values.write,
   };
 }

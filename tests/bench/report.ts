@@ -1,4 +1,4 @@
-// Tables as Markdown, for the screen or for RESULTS.md.
+// Tables as Markdown.
 export type Row = Record<string, string | number>;
 
 export interface Table {

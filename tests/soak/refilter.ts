@@ -228,7 +228,7 @@ async function memory(): Promise<Pick<Row, "process" | "objects" | "buffers">> {
   return { process: resident, objects, buffers };
 }
 
-/** The results, as the tables of RESULTS.md. */
+/** The results, as tables. */
 export function report({ rows, clouds, growth, wrong }: Soak, lines: readonly string[]): string {
   const number = (x: number, digits = 0) =>
     x.toLocaleString("en-US", { minimumFractionDigits: digits, maximumFractionDigits: digits });
