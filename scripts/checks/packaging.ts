@@ -11,7 +11,9 @@ import { vitest } from "./vitest.js";
 
 /** All files that a user of the npm package gets. */
 const WANTED =
-  /^(dist\/.+\.(js|d\.ts|wasm)|docs\/[^/]+\.(md|png)|(python\/)?README\.md|(ARCHITECTURE|CHANGELOG|CONTRIBUTING|SECURITY|THIRD_PARTY)\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
+  /^(dist\/.+\.(js|d\.ts|wasm)|docs\/[A-Z]+\.md|docs\/before-after\.png|(README|CHANGELOG|THIRD_PARTY)\.md|LICENSE-MIT|LICENSE-APACHE|package\.json)$/;
+/** Documents of README.md about the repository. A user of the package does not need them. */
+const OF_THE_REPOSITORY = /^(examples|python)\b|^docs\/(PAGE|MEASURED)|^(ARCHITECTURE|CONTRIBUTING|SECURITY)/;
 const INDISPENSABLE = [
   "dist/index.js",
   "dist/index.d.ts",
@@ -57,7 +59,7 @@ async function npmPackage(): Promise<Outcome> {
   const missing = INDISPENSABLE.filter((file) => !files.includes(file));
   if (unwanted.length > 0) print(`Would be published, but should not: ${unwanted.join(", ")}\n`);
   if (missing.length > 0) print(`Would not be published, but should: ${missing.join(", ")}\n`);
-  const broken = linksIn("README.md").filter((file) => !files.includes(file));
+  const broken = linksIn("README.md").filter((file) => !files.includes(file) && !OF_THE_REPOSITORY.test(file));
   if (broken.length > 0) print(`README.md links to files that would not be published: ${broken.join(", ")}\n`);
   print(`${files.length} files\n`);
   const found = [unwanted, missing, broken].map(({ length }) => (length === 0 ? PASS : FAIL));

@@ -6,6 +6,7 @@
  */
 import { mkdirSync, writeFileSync } from "node:fs";
 import type { Page } from "playwright-core";
+import sharp from "sharp";
 import { addStyle, launchBrowser, servePage } from "./site.js";
 
 const WIDTH = 470;
@@ -44,7 +45,8 @@ for (const { label, hidden, size } of [
 }
 const file = new URL("../../docs/before-after.png", import.meta.url);
 mkdirSync(new URL(".", file), { recursive: true });
-writeFileSync(file, Buffer.from(await sideBySide(page, halves), "base64"));
+const picture = sharp(Buffer.from(await sideBySide(page, halves), "base64"));
+writeFileSync(file, await picture.png({ palette: true, colors: 32, dither: 0 }).toBuffer());
 await browser.close();
 site.close();
 
