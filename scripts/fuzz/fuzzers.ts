@@ -17,6 +17,7 @@ export interface Fuzzer {
 const FUNCTIONS: Record<string, { file: string; name: string }> = {
   files: { file: "tests/fuzz/files.ts", name: "fuzzFiles" },
   border: { file: "tests/fuzz/border.ts", name: "fuzzBorder" },
+  stream: { file: "tests/fuzz/stream.ts", name: "fuzzStream" },
   workers: { file: "tests/fuzz/workers.ts", name: "fuzzWorkers" },
 };
 

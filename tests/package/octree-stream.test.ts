@@ -6,7 +6,7 @@ import type { AddressInfo } from "node:net";
 import { join } from "node:path";
 import { promisify } from "node:util";
 import type { LazPerf, Octree, OctreeStep, OctreeViewOptions, PotreeFiles } from "hidden-point-removal/stream";
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 
 import { georeferencedBall, rows } from "../browser/clouds";
 import { colorOf, inMillimeters } from "../browser/formats";
@@ -98,10 +98,11 @@ describe("the last step", () => {
   it("answers an octree of one point, and one without points", async () => {
     const one = await lastOf(await opened(potreeOctree([1, 2, 3])), [0, 0, 0]);
     expect([one.exact, one.count, [...one.positions()]]).toEqual([true, 1, [1, 2, 3]]);
-    const { metadata } = files;
-    const none = await openOctree({ ...readersOf(files).files, metadata: { ...metadata, points: 0 } });
+    const metadata = { ...files.metadata, points: 0, hierarchy: { firstChunkSize: 22 } };
+    const nothing = { metadata, hierarchy: countedRanges(new Uint8Array(22)).read, octree: countedRanges(new Uint8Array(0)).read }; // prettier-ignore
+    const none = await openOctree(nothing);
     const last = await lastOf(none, [0, 0, 0]);
-    expect([last.exact, last.count, last.nodes]).toEqual([true, 0, { read: 0, hidden: 0, undecided: 0 }]);
+    expect([last.exact, last.count, last.nodes]).toEqual([true, 0, { read: 1, hidden: 0, undecided: 0 }]);
   });
 
   it("uses the scale c of the whole cloud, estimated within 2 %, and records it", async () => {
@@ -216,7 +217,12 @@ describe("another viewpoint", () => {
     expect(next.bytes).toBeLessThan(first.bytes / 10);
     expect(new Set(asked.map(([from]) => from)).size).toBe(asked.length);
     expect(octree.cached).toBe(asked.reduce((sum, [from, to]) => sum + (to - from) / 13, 0));
+    // A view that goes on after the end keeps nothing, either.
+    const running = octree.visibleFrom(ABOVE, exponential);
+    await running.next();
     octree.dispose();
+    expect(octree.cached).toBe(0);
+    expect((await running.next()).done).toBe(false);
     expect(octree.cached).toBe(0);
     expect((await refusal(() => stepsOf(octree, STREET)))[0]).toBe("disposed");
     expect((await refusal(() => octree.spacing()))[0]).toBe("disposed");
@@ -280,6 +286,15 @@ describe("colors", () => {
   });
 });
 
+it("says what to install if the package copc is missing", async () => {
+  vi.doMock("copc", () => {
+    throw new Error("no such package");
+  });
+  const [code, message] = await refusal(() => openOctree(new Blob([new Uint8Array(9)])));
+  vi.doUnmock("copc");
+  expect([code, message]).toEqual(["load", expect.stringMatching(/COPC needs the package copc: npm install copc \(/)]);
+});
+
 describe("a broken octree of Potree is refused", () => {
   const small = potreeOctree(town(3000, randomNumbers(3)), { leaf: 200 });
   const changed = (change: (copy: PotreeOctree) => void) => {
@@ -291,6 +306,9 @@ describe("a broken octree of Potree is refused", () => {
   it.each<[string, (copy: PotreeOctree) => void, RegExp]>([
     ["a wrong number of points", ({ hierarchy }) => { view(hierarchy).setUint32(2, 7, true); }, /node r is listed with 7 points, but has \d+ bytes/],
     ["more points than its header gives", ({ metadata }) => { metadata["points"] = 100; }, /list more points than the 100 of its header/],
+    ["no points by its header", ({ metadata }) => { metadata["points"] = 0; }, /list more points than the 0 of its header/],
+    ["fewer points than its header gives", ({ metadata }) => { metadata["points"] = 3001; }, /its nodes list 3000 points, but its header gives 3001/],
+    ["a node of an unknown type", ({ hierarchy }) => { view(hierarchy).setUint8(22, 9); }, /node r\d is listed with the unknown type 9/],
     ["a point outside of its node", ({ octree }) => { view(octree).setInt32(13 * 5, 2 ** 30, true); }, /point 5 of node r lies outside/],
     ["a cut file", (copy) => { copy.octree = copy.octree.subarray(0, 1000); }, /it may be cut off/],
     ["a cut list of nodes", (copy) => { copy.hierarchy = copy.hierarchy.subarray(0, 30); }, /it may be cut off/],
@@ -372,6 +390,7 @@ describe("COPC", () => {
       [changed((copy) => { view(copy).setInt32(entry + 24, 20, true); }), /too few for a chunk/],
       [changed((copy) => { view(copy).setInt32(entry + 24, -1, true); }), /a part of -1 bytes/],
       [changed((copy) => { view(copy).setInt32(entry, 9, true); }), /does not list it/],
+      [changed((copy) => { view(copy).setInt32(entry + 36, 5, true); }), /lists a node that is not below it/],
       [changed((copy) => { view(copy).setInt32(1023, 2 ** 30, true); }), /lies outside of the node's box/],
       [bytes.subarray(0, 46_000), /is broken/],
       [bytes.subarray(0, 300), /not a COPC file/],
@@ -396,7 +415,7 @@ describe("COPC", () => {
     const open = (options: object) => refusal(() => openOctree("https://example.org/a.laz", options));
     expect(await open(answering(200))).toEqual(["load", expect.stringMatching(/does not answer range requests/)]);
     expect(await open(answering(404))).toEqual(["load", expect.stringMatching(/server answered 404/)]);
-    const silent = { fetch: () => Promise.reject(new TypeError("no network")) };
+    const silent = { fetch: () => Promise.reject(new TypeError("no network")), retries: 0 };
     expect(await open(silent)).toEqual(["load", expect.stringMatching(/could not be fetched: no network/)]);
     const text = await refusal(() => openOctree("https://example.org/metadata.json", answering(200)));
     expect(text).toEqual(["load", expect.stringMatching(/is not a JSON file/)]);
@@ -461,7 +480,8 @@ it("refuses bad arguments before anything is read", async () => {
   expect((await refusal(() => stepsOf(octree, [0, 0])))[0]).toBe("viewpoint");
   expect((await refusal(() => stepsOf(octree, [0, 0, NaN])))[0]).toBe("viewpoint");
   expect((await refusal(() => stepsOf(octree, STREET, { radius: 10 })))[0]).toBe("radius");
-  for (const source of [3, null, "http://[", { metadata: {} }]) {
+  const attributes = { ...readersOf(files).files, metadata: { ...files.metadata, attributes: [null] } };
+  for (const source of [3, null, "http://[", { metadata: {} }, attributes]) {
     expect((await refusal(() => openOctree(loose(source))))[0]).toBe("option");
   }
   for (const given of [{ fetch: 3 }, { lazPerf: 3 }, { cache: -1 }, { cash: 1 }]) {

@@ -29,9 +29,14 @@ self.onmessage = ({ data: told }: MessageEvent<StreamTold>) => {
 };
 
 /** Opens the octree for the first view. If that fails, the next view tries again. */
-function open({ from, name, colorScale }: Streamed): Promise<Octree> {
+function open({ from, name, colorScale, points }: Streamed): Promise<Octree> {
   opening ??= init()
     .then(() => openOctree(from, { lazPerf: startLazPerf(name), cache: KEPT, colors: colorScale !== null }))
+    .then((octree) => {
+      // The coarser levels on the page are those of the file that was opened first.
+      if (octree.points !== points) throw new LoadProblem(`${name} has changed. Open it again.`);
+      return octree;
+    })
     .catch((error: unknown) => {
       opening = undefined;
       throw error;

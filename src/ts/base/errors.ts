@@ -27,7 +27,7 @@ export type HprErrorCode =
  * | `option` | unknown, out of range, or excluding another one |
  * | `too-large` | more points than supported, or memory refused; everything else goes on working |
  * | `not-initialised` | a synchronous call before `init()` has resolved |
- * | `load` | the wasm (or the worker) could not be fetched, compiled or started; an octree that cannot be fetched or is broken |
+ * | `load` | the wasm (or the worker) could not be fetched, compiled or started; an octree that cannot be fetched, is broken or has changed |
  * | `disposed` | use after `dispose()`, or of an answer whose `indices` were recycled or transferred away |
  * | `internal` | a trap inside the wasm, or a worker that died |
  */

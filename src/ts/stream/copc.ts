@@ -48,8 +48,6 @@ class CopcTree extends Tree {
   readonly #layout: ChunkLayout;
   /** Whether colors are read. */
   readonly #isColored: boolean;
-  /** The number of known pages that were not read. */
-  #unread = 1;
   /** Entries of nodes that have a page of their own. */
   readonly #beside = new WeakMap<OctreeNode, Hierarchy.Node>();
 
@@ -99,7 +97,7 @@ class CopcTree extends Tree {
   }
 
   protected async readPage(top: OctreeNode, page: Part): Promise<void> {
-    const { name, points } = this.facts;
+    const { name } = this.facts;
     const bytes = await readPart(name, this.#read, page);
     let listed: Hierarchy.Subtree;
     try {
@@ -113,15 +111,15 @@ class CopcTree extends Tree {
     if (own === undefined) {
       throw broken(name, `the page of node ${top.key} does not list it`);
     }
-    this.#unread -= 1;
-    this.#add(top, own, listed);
-    if (this.#unread === 0 && this.listed !== points) {
-      throw broken(name, `its nodes list ${this.listed} points, but its header gives ${points}`);
+    const reached = new Set([top.key]);
+    this.#add(top, own, listed, reached);
+    if ([listed.nodes, listed.pages].some((entries) => Object.keys(entries).some((key) => !reached.has(key)))) {
+      throw broken(name, `the page of node ${top.key} lists a node that is not below it`);
     }
   }
 
   /** Adds a node that a page lists, and those below it. */
-  #add(node: OctreeNode, own: Hierarchy.Node, listed: Hierarchy.Subtree): void {
+  #add(node: OctreeNode, own: Hierarchy.Node, listed: Hierarchy.Subtree, reached: Set<string>): void {
     node.page = undefined;
     node.count = own.pointCount;
     node.part = { offset: own.pointDataOffset, length: own.pointDataLength };
@@ -133,14 +131,14 @@ class CopcTree extends Tree {
       if (page === undefined && entry === undefined) {
         continue;
       }
+      reached.add(key);
       const child = this.node(key, node.depth + 1, cell);
       node.children.push(child);
       if (page !== undefined) {
         this.defer(child, partOf(page));
-        this.#unread += 1;
         if (entry !== undefined) this.#beside.set(child, entry);
       } else {
-        this.#add(child, entry!, listed);
+        this.#add(child, entry!, listed, reached);
       }
     }
   }

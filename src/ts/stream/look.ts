@@ -1,6 +1,6 @@
 import type { MergeOptions } from "../cloud/merge.js";
 import type { ResolvedInversion } from "../query/view-options.js";
-import { abortError, BY_SIGNAL, whenAborted } from "../worker/abort.js";
+import { untilAborted, whenAborted } from "../worker/abort.js";
 import type { Loaded, NodeCache } from "./cache.js";
 import type { OctreeProgress, ViewRequest } from "./options.js";
 import { NodeQueue } from "./queue.js";
@@ -112,8 +112,9 @@ export class Look {
         this.#end.abort();
       });
     try {
-      if (this.#tree.facts.points > 0) {
-        this.#queue.push(this.#tree.root);
+      const { facts, root } = this.#tree;
+      if (facts.points > 0 || root.pageLength > 0) {
+        this.#queue.push(root);
       }
       while (await this.#readNext()) {
         onProgress(this.#progress());
@@ -139,7 +140,7 @@ export class Look {
     if (next === undefined) {
       return false;
     }
-    const loaded = await this.#unlessAborted(next.loaded);
+    const loaded = await untilAborted(this.#end.signal, next.loaded);
     this.#tally.read += 1;
     this.#tally.bytes += loaded.bytes;
     this.#tally.points += loaded.positions.length / 3;
@@ -158,7 +159,7 @@ export class Look {
         this.#skip(node);
         continue;
       }
-      await this.#unlessAborted(this.#tree.list(node));
+      await untilAborted(this.#end.signal, this.#tree.list(node));
       if (!this.#hasRoomFor(node)) {
         this.#queue.push(node);
         // The nodes that are coming may be hidden when they are here.
@@ -211,17 +212,6 @@ export class Look {
 
   #step(isLast: boolean): OctreeStep {
     return new OctreeStep(this.#tally, this.#undecided(), this.#survivors.visible, isLast, this.#merge);
-  }
-
-  async #unlessAborted<T>(promise: Promise<T>): Promise<T> {
-    const { signal } = this.#end;
-    try {
-      const value = await promise;
-      signal.throwIfAborted();
-      return value;
-    } catch (error) {
-      throw signal.aborted ? abortError(BY_SIGNAL) : error;
-    }
   }
 }
 

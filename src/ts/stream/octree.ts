@@ -38,7 +38,7 @@ export async function openOctree(
   options?: OctreeOptions,
 ): Promise<Octree> {
   const settings = octreeSettings(options);
-  const files = await filesOf(source, settings.fetch);
+  const files = await filesOf(source, settings);
   const tree =
     files.format === "copc"
       ? await openCopc(files.name, files.read, settings)

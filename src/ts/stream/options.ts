@@ -4,7 +4,7 @@ import { givenOptions, integer, pick } from "../query/options.js";
 import { readViewpoint } from "../query/positions.js";
 import type { ResolvedInversion } from "../query/view-options.js";
 import { readSignal } from "../worker/abort.js";
-import type { Fetch } from "./source.js";
+import type { Fetch, Network } from "./request.js";
 import type { LazPerf } from "../formats/laz-perf.js";
 
 /** How an octree is read. */
@@ -20,6 +20,10 @@ export interface OctreeOptions {
   colors?: boolean | undefined;
   /** The most points that are kept in memory after they were read. Default 4,000,000 (96 MB, with colors 120 MB). */
   cache?: number | undefined;
+  /** How often a request to an address is repeated after an answer 429 or 5xx or a broken connection. Default 3. */
+  retries?: number | undefined;
+  /** After this number of milliseconds without a byte, a request to an address is given up. Default 30,000. */
+  timeout?: number | undefined;
 }
 
 /** How the visible points of an octree are computed. */
@@ -55,8 +59,7 @@ export interface OctreeProgress {
   bytes: number;
 }
 
-export interface OctreeSettings {
-  fetch: Fetch;
+export interface OctreeSettings extends Network {
   lazPerf: Promise<LazPerf> | undefined;
   colors: boolean;
   cache: number;
@@ -75,9 +78,12 @@ export interface ViewRequest {
 const MANY = 4_000_000;
 const MOST_POINTS = 2 ** 28;
 const MOST_REQUESTS = 64;
+const MOST_RETRIES = 100;
+/** The longest time that timers take. */
+const LONGEST_TIMEOUT = 2 ** 31 - 1;
 
 export function octreeSettings(options: unknown): OctreeSettings {
-  const given = givenOptions(options, ["fetch", "lazPerf", "colors", "cache"]);
+  const given = givenOptions(options, ["fetch", "lazPerf", "colors", "cache", "retries", "timeout"]);
   const { fetch: fetcher = fetch, lazPerf, colors = false } = given;
   if (typeof fetcher !== "function") {
     throw new HprError("option", `fetch must be a function, got ${describe(fetcher)}`);
@@ -94,6 +100,8 @@ export function octreeSettings(options: unknown): OctreeSettings {
     lazPerf: lazPerf === undefined ? undefined : Promise.resolve(lazPerf as LazPerf | Promise<LazPerf>),
     colors,
     cache: integer(given, "cache", 0, MOST_POINTS) ?? MANY,
+    retries: integer(given, "retries", 0, MOST_RETRIES) ?? 3,
+    timeout: integer(given, "timeout", 1, LONGEST_TIMEOUT) ?? 30_000,
   };
 }
 

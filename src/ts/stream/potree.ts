@@ -78,6 +78,9 @@ class PotreeTree extends Tree {
   #readEntry(node: OctreeNode, view: DataView, at: number, isTop: boolean): OctreeNode[] {
     const { name } = this.facts;
     const type = view.getUint8(at);
+    if (type > LISTED_ELSEWHERE) {
+      throw broken(name, `node ${node.key} is listed with the unknown type ${type}`);
+    }
     const mask = view.getUint8(at + 1);
     const count = view.getUint32(at + 2, true);
     const part = { offset: Number(view.getBigInt64(at + 6, true)), length: Number(view.getBigInt64(at + 14, true)) };
@@ -114,7 +117,7 @@ interface Metadata {
   offset: Triple;
   boundingBox: { min: Triple; max: Triple };
   hierarchy: { firstChunkSize: number };
-  attributes: { name: string; type: string; size: number; min: unknown; max: unknown }[];
+  attributes: (Partial<Record<"name" | "type" | "size" | "min" | "max", unknown>> | null)[];
 }
 
 function readMetadata(name: string, given: unknown): { facts: TreeFacts; rows: Rows; first: number } {
@@ -140,8 +143,8 @@ function readMetadata(name: string, given: unknown): { facts: TreeFacts; rows: R
   let colors: number | undefined;
   let bounds: TreeFacts["bounds"];
   for (const attribute of attributes) {
-    if (!isCount(attribute.size)) {
-      throw unusable(`its attribute ${describe(attribute.name)} has no size`);
+    if (!isCount(attribute?.size)) {
+      throw unusable(`its attribute ${describe(attribute?.name)} has no size`);
     }
     if (attribute.name === "position" && attribute.type === "int32" && attribute.size === 12) {
       const { min, max } = attribute;

@@ -1,4 +1,7 @@
 import { asError, describe, HprError, typeTag } from "../base/errors.js";
+import { untilAborted } from "../worker/abort.js";
+import { RemoteFile, type Together } from "./remote.js";
+import type { Network } from "./request.js";
 
 /**
  * Reads the bytes of a file from one offset up to another. The result is shorter only if the file
@@ -14,9 +17,6 @@ export interface PotreeFiles {
   octree: RangeReader;
 }
 
-/** The part of `fetch` that is used. */
-export type Fetch = (url: string, init?: RequestInit) => Promise<Response>;
-
 /** The files of an octree, and how messages name them. */
 export type Files = { name: string } & ({ format: "copc"; read: RangeReader } | ({ format: "potree" } & PotreeFiles));
 
@@ -25,19 +25,26 @@ export type Files = { name: string } & ({ format: "copc"; read: RangeReader } | 
  *
  * @throws HprError `option`, `load`.
  */
-export async function filesOf(source: unknown, fetcher: Fetch): Promise<Files> {
+export async function filesOf(source: unknown, network: Network): Promise<Files> {
   if (typeof source === "string" || source instanceof URL) {
-    return filesAt(String(source), fetcher);
+    return filesAt(String(source), network);
   }
   if (typeof source === "function") {
     return { format: "copc", name: "the COPC file", read: source as RangeReader };
   }
   if (typeTag(source) === "Blob" || typeTag(source) === "File") {
     const blob = source as Blob;
-    const read: RangeReader = async (from, to) => new Uint8Array(await blob.slice(from, to).arrayBuffer());
-    return { format: "copc", name: blob instanceof File ? blob.name : "the COPC file", read };
+    const name = blob instanceof File ? blob.name : "the COPC file";
+    return { format: "copc", name, read: (from, to) => slice(name, blob, from, to) };
   }
   const { metadata, hierarchy, octree } = (source ?? {}) as Partial<PotreeFiles>;
+  const { attributes } = (metadata ?? {}) as { attributes?: unknown };
+  if (
+    Array.isArray(attributes) &&
+    attributes.some((attribute) => typeof attribute !== "object" || attribute === null)
+  ) {
+    throw new HprError("option", "the attributes of the metadata must be objects");
+  }
   if (metadata !== undefined && typeof hierarchy === "function" && typeof octree === "function") {
     return { format: "potree", name: "the Potree octree", metadata, hierarchy, octree };
   }
@@ -47,22 +54,45 @@ export async function filesOf(source: unknown, fetcher: Fetch): Promise<Files> {
   );
 }
 
-async function filesAt(address: string, fetcher: Fetch): Promise<Files> {
+/** The system refuses to read a file that has changed on the device. */
+async function slice(name: string, blob: Blob, from: number, to: number): Promise<Uint8Array> {
+  try {
+    return new Uint8Array(await blob.slice(from, to).arrayBuffer());
+  } catch (cause) {
+    const why = `the file has changed, or it cannot be read (${asError(cause).message})`;
+    throw new HprError("load", `${name} cannot be read any further: ${why}; open it again`, { cause });
+  }
+}
+
+async function filesAt(address: string, network: Network): Promise<Files> {
   const base = (globalThis as { location?: { href: string } }).location?.href;
   if (!URL.canParse(address, base)) {
     throw new HprError("option", `the source must be the address of a file, got ${describe(address)}`);
   }
   const url = new URL(address, base);
+  const together: Together = {};
+  const file = new RemoteFile(url.href, network, together);
   if (!url.pathname.endsWith(".json")) {
-    return { format: "copc", name: url.href, read: rangesOf(url.href, fetcher) };
+    return { format: "copc", name: url.href, read: (...range) => file.read(...range) };
   }
-  const beside = (name: string) => {
+  const beside = (name: string): RangeReader => {
     const other = new URL(name, url);
     // Signed addresses carry their signature in the query.
     other.search = url.search;
-    return rangesOf(other.href, fetcher);
+    const part = new RemoteFile(other.href, network, together);
+    // Its first answer belongs to the metadata, if these are still the same afterwards.
+    let isSame: Promise<unknown> | undefined;
+    return async (from, to, signal) => {
+      const bytes = await part.read(from, to, signal);
+      isSame ??= file.whole().catch((error: unknown) => {
+        isSame = undefined;
+        throw error;
+      });
+      await untilAborted(signal, isSame);
+      return bytes;
+    };
   };
-  const metadata = await json(url.href, fetcher);
+  const metadata = parsed(url.href, await file.whole());
   return {
     format: "potree",
     name: url.href,
@@ -72,48 +102,12 @@ async function filesAt(address: string, fetcher: Fetch): Promise<Files> {
   };
 }
 
-async function json(url: string, fetcher: Fetch): Promise<unknown> {
-  const response = await ask(url, fetcher, {});
+function parsed(url: string, bytes: Uint8Array): unknown {
   try {
-    return (await response.json()) as unknown;
+    return JSON.parse(new TextDecoder().decode(bytes)) as unknown;
   } catch (cause) {
     throw new HprError("load", `${url} is not a JSON file`, { cause });
   }
-}
-
-function rangesOf(url: string, fetcher: Fetch): RangeReader {
-  return async (from, to, signal) => {
-    const headers = { Range: `bytes=${from}-${to - 1}` };
-    const response = await ask(url, fetcher, { headers, ...(signal && { signal }) });
-    if (response.status !== 206) {
-      await response.body?.cancel();
-      throw new HprError("load", `${url} cannot be read in parts: its server does not answer range requests`);
-    }
-    try {
-      return new Uint8Array(await response.arrayBuffer());
-    } catch (cause) {
-      throw refused(url, cause, signal);
-    }
-  };
-}
-
-async function ask(url: string, fetcher: Fetch, init: RequestInit): Promise<Response> {
-  let response: Response;
-  try {
-    response = await fetcher(url, init);
-  } catch (cause) {
-    throw refused(url, cause, init.signal ?? undefined);
-  }
-  if (!response.ok) {
-    await response.body?.cancel();
-    throw new HprError("load", `${url} could not be fetched: the server answered ${response.status}`);
-  }
-  return response;
-}
-
-function refused(url: string, cause: unknown, signal: AbortSignal | undefined): Error {
-  const error = asError(cause);
-  return signal?.aborted ? error : new HprError("load", `${url} could not be fetched: ${error.message}`, { cause });
 }
 
 /** Reads a range that must be complete. */

@@ -65,6 +65,8 @@ export abstract class Tree {
   readonly #pages = new Set<number>();
   readonly #listing = new Map<OctreeNode, Promise<void>>();
   #listed = 0;
+  /** The number of known pages that were not read. */
+  #unread = 0;
 
   protected constructor(facts: TreeFacts) {
     const { name, scale, offset, cube, bounds } = facts;
@@ -87,11 +89,6 @@ export abstract class Tree {
   /** Reads a page: lists its node and nodes below it. */
   protected abstract readPage(node: OctreeNode, page: Part): Promise<void>;
 
-  /** The number of points of all nodes that are listed so far. */
-  get listed(): number {
-    return this.#listed;
-  }
-
   /** Lists a node, if it is not listed yet. Several callers may wait for one page. */
   async list(node: OctreeNode): Promise<void> {
     const { page } = node;
@@ -112,6 +109,11 @@ export abstract class Tree {
   async #readPage(node: OctreeNode, page: Part): Promise<void> {
     await this.readPage(node, page);
     this.#pages.add(page.offset);
+    this.#unread -= 1;
+    const { name, points } = this.facts;
+    if (this.#unread === 0 && this.#listed !== points) {
+      throw broken(name, `its nodes list ${this.#listed} points, but its header gives ${points}`);
+    }
   }
 
   /** Counts the points of nodes that were listed. */
@@ -143,6 +145,7 @@ export abstract class Tree {
 
   /** Notes that a page of its own lists the node. */
   protected defer(node: OctreeNode, page: Part): void {
+    this.#unread += 1;
     node.page = page;
     node.pageLength = page.length;
   }
