@@ -9,21 +9,10 @@
 
 use std::error::Error;
 use std::io::{BufWriter, Write};
-use std::process::ExitCode;
 
 use hidden_point_removal::{Options, PointCloud};
 
-fn main() -> ExitCode {
-    match filter() {
-        Ok(()) => ExitCode::SUCCESS,
-        Err(error) => {
-            eprintln!("{error}");
-            ExitCode::FAILURE
-        }
-    }
-}
-
-fn filter() -> Result<(), Box<dyn Error>> {
+fn main() -> Result<(), Box<dyn Error>> {
     let mut args = std::env::args().skip(1);
     let (Some(file), Some(viewpoint)) = (args.next(), args.next()) else {
         return Err("usage: filter_xyz CLOUD.xyz X,Y,Z".into());

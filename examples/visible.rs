@@ -1,40 +1,27 @@
-//! Writes the visible points of a raw cloud to a file that other programs can read:
-//! `cargo run --release --example visible -- FILE X,Y,Z EXPONENT OUT`
-//!
-//! FILE holds little-endian `f32` x y z. OUT receives the indices of the visible points,
-//! ascending, as little-endian `u32`. The program prints the radius.
+//! Which points of a sphere can be seen from above, and which from a ring of viewpoints?
+//! `cargo run --release --example visible`
 
-use std::error::Error;
+use hidden_point_removal::{Error, Options, PointCloud};
 
-use hidden_point_removal::{Options, PointCloud};
-
-fn main() -> Result<(), Box<dyn Error>> {
-    let args: Vec<String> = std::env::args().skip(1).collect();
-    let [file, viewpoint, exponent, out] = args.as_slice() else {
-        return Err("usage: visible FILE X,Y,Z EXPONENT OUT".into());
-    };
-    let positions: Vec<[f32; 3]> = std::fs::read(file)?
-        .chunks_exact(12)
-        .map(|p| {
-            core::array::from_fn(|i| f32::from_le_bytes(core::array::from_fn(|b| p[4 * i + b])))
+fn main() -> Result<(), Error> {
+    let positions: Vec<[f64; 3]> = (0..10_000)
+        .map(|i| {
+            let z = 1.0 - (2 * i + 1) as f64 / 10_000.0;
+            let (r, turn) = ((1.0 - z * z).sqrt(), 2.399963 * i as f64);
+            [r * turn.cos(), r * turn.sin(), z]
         })
         .collect();
-    let viewpoint = viewpoint
-        .split(',')
-        .map(str::parse)
-        .collect::<Result<Vec<f64>, _>>()?;
-    let viewpoint: [f64; 3] = viewpoint
-        .try_into()
-        .map_err(|_| "three coordinates are needed")?;
-
     let cloud = PointCloud::new(&positions)?;
-    let visible = cloud.visible_from(viewpoint, &Options::with_exponent(exponent.parse()?))?;
-    let bytes: Vec<u8> = visible
-        .indices()
-        .iter()
-        .flat_map(|i| i.to_le_bytes())
-        .collect();
-    std::fs::write(out, bytes)?;
-    println!("{:?}", visible.radius());
+
+    let visible = cloud.visible_from([0.0, 0.0, 5.0], &Options::default())?;
+    println!("{} of {} points", visible.count(), cloud.len()); // → 4118 of 10000 points
+
+    // A wider sphere keeps more points: R is the farthest distance times 10^exponent.
+    let wide = cloud.visible_from([0.0, 0.0, 5.0], &Options::with_exponent(4.0))?;
+    println!("{}", wide.count() > visible.count()); // → true
+
+    // A viewpoint that is no number is refused.
+    let refused = cloud.visible_from([f64::NAN, 0.0, 0.0], &Options::default());
+    println!("{}", refused.is_err()); // → true
     Ok(())
 }

@@ -22,6 +22,12 @@ def test_the_readme_runs():
     subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
 
 
+def test_the_example_prints_the_lines_in_its_comments():
+    example = ROOT / "examples" / "visible.py"
+    printed = subprocess.run([sys.executable, example], check=True, capture_output=True, text=True).stdout
+    assert printed.splitlines() == re.findall(r"# → (.*)", example.read_text())
+
+
 @pytest.mark.parametrize("module", ["ray", "pyspark"])
 def test_the_examples_of_other_engines_run(module, tmp_path):
     """They are checked as Python where the engine is missing."""

@@ -1,5 +1,4 @@
-// Every snippet of the README and of docs/ is run: JavaScript here and in recipes.test.ts,
-// Rust as documentation tests of the crate. Every command that a document names belongs to
+// Every snippet of the README and of docs/ is run: JavaScript here, Rust as documentation tests of the crate. Every command that a document names belongs to
 // the project, and every link leads to a file.
 import { spawnSync } from "node:child_process";
 import { existsSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
@@ -10,7 +9,15 @@ import { describe, expect, test } from "vitest";
 import { blocks, printed, promised, root, scratchFor } from "./snippets";
 
 const DOCUMENTS = [
-  ...["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "www/README.md", "tests/README.md", "python/README.md"],
+  ...[
+    "README.md",
+    "ARCHITECTURE.md",
+    "CONTRIBUTING.md",
+    "www/README.md",
+    "tests/README.md",
+    "python/README.md",
+    "examples/README.md",
+  ],
   ...readdirSync(join(root, "docs"))
     .filter((name) => name.endsWith(".md"))
     .map((name) => `docs/${name}`),
@@ -41,8 +48,7 @@ test("README.md has at most 180 lines and ARCHITECTURE.md at most 90", () => {
 });
 
 describe("commands", () => {
-  const commands = DOCUMENTS.filter((document) => document !== "docs/RECIPES.md")
-    .flatMap((document) => blocks(document, "sh"))
+  const commands = DOCUMENTS.flatMap((document) => blocks(document, "sh"))
     .flatMap((block) => block.split("\n"))
     .map((line) => line.replace(/#.*/, "").trim())
     .filter((line) => line !== "");

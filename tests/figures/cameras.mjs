@@ -1,4 +1,4 @@
-// Draws docs/street.png and docs/room.png: node examples/pictures.mjs (after npm run build).
+// Draws docs/street.png and docs/room.png: node tests/figures/cameras.mjs (after npm run build).
 import sharp from "sharp";
 import { cameraFromPose, init, PointCloud } from "hidden-point-removal";
 
