@@ -13,7 +13,7 @@ await command(async () => {
   await build();
   await mustRun(
     "cargo",
-    ["build", "--locked", "--release", "--example", "bench_native"],
+    ["build", "--locked", "--release", "--package", "hpr-tests", "--bin", "bench_native"],
     "The native benchmark does not build",
   );
   await mustRun("tsc", ["-p", "tests/bench"], "The benchmarks do not compile");

@@ -20,13 +20,13 @@ await command(async () => {
   );
   const chosen = fuzzers.filter(({ title }) => only === undefined || title === only);
   await setUpForBuild();
-  if (chosen.some(({ example }) => example === undefined)) {
+  if (chosen.some(({ program }) => program === undefined)) {
     await buildWasm();
     await buildPackage();
   }
-  const examples = chosen.flatMap(({ example }) => (example === undefined ? [] : ["--example", example]));
-  if (examples.length > 0) {
-    const args = ["build", "--locked", "--profile", "fuzz", ...examples];
+  const programs = chosen.flatMap(({ program }) => (program === undefined ? [] : ["--bin", program]));
+  if (programs.length > 0) {
+    const args = ["build", "--locked", "--profile", "fuzz", "--package", "hpr-tests", ...programs];
     await mustRun("cargo", args, "The fuzzers do not build");
   }
 

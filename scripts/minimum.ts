@@ -8,11 +8,12 @@ import { Problem, mustRun, run } from "./lib/run.js";
 import { setUpLinker } from "./setup/linker.js";
 import { BARE_TARGET } from "./setup/rust.js";
 
-const NO_STD = ["rustc", "--locked", "--lib", "--crate-type", "rlib", "--no-default-features", "--target", BARE_TARGET];
+const NO_STD = ["build", "--locked", "--lib", "--no-default-features", "--target", BARE_TARGET];
 const CHECKS: [what: string, args: string[]][] = [
   ["the crate", ["build", "--locked", "--lib"]],
   ["the crate without std", NO_STD],
   ["examples", ["build", "--locked", "--examples"]],
+  ["fuzzers, benchmarks", ["build", "--locked", "--package", "hpr-tests", "--bins"]],
   ["tests", ["test", "--locked", "--profile", "quick", "--lib", "--test", "core"]],
 ];
 

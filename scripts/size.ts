@@ -27,7 +27,7 @@ await command(async () => {
 
 /** The module as released, but with the names of its functions. Returns its path. */
 async function named(): Promise<string> {
-  const compiled = inRoot("target", WASM_TARGET, "release", "hidden_point_removal.wasm");
+  const compiled = inRoot("target", WASM_TARGET, "release", "hpr.wasm");
   const folder = inRoot("target", "size");
   const bindgen = ["--target", "bundler", "--keep-debug", "--out-name", "hpr", "--out-dir", folder, compiled];
   await mustRun("wasm-bindgen", bindgen, FAILED);

@@ -12,12 +12,12 @@ export interface Answers {
 /** Builds the corpus for a platform and runs it. Returns its output, or undefined if it failed. */
 export async function answersOn(platform: Platform): Promise<{ output: string; seconds: number } | undefined> {
   const { target, build, env, runner } = platform;
-  const args = ["build", "--locked", "--example", "bits_corpus", "--target", target, ...build];
+  const args = ["build", "--locked", "--package", "hpr-tests", "--bin", "bits_corpus", "--target", target, ...build];
   const built = await run("cargo", args, { env: { ...env, CARGO_TARGET_DIR: inRoot("target", "bits") } });
   if (!built.ok) return undefined;
   const folder = build.includes("dev") ? "debug" : "quick";
   const file = `bits_corpus${target.startsWith("wasm32") ? ".wasm" : process.platform === "win32" ? ".exe" : ""}`;
-  const [program, ...rest] = [...runner, inRoot("target", "bits", target, folder, "examples", file)];
+  const [program, ...rest] = [...runner, inRoot("target", "bits", target, folder, file)];
   const start = performance.now();
   const { ok, output } = await run(program, rest, { show: "nothing" });
   if (!ok) console.error(output.trimEnd().split("\n").slice(-20).join("\n"));

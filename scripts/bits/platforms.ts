@@ -40,7 +40,6 @@ const ARM32: Machine = {
   linker: { program: "arm-linux-gnueabihf-gcc", package: "gcc-arm-linux-gnueabihf" },
 };
 const WASI = "wasm32-wasip1";
-// A crate without std cannot be built as a cdylib. On targets with musl, cargo builds no cdylib.
 const NO_STD = ["--no-default-features"];
 
 /** Every platform, with the function that prepares it. A `Problem` says why this machine cannot run it. */

@@ -41,6 +41,7 @@ export async function buildWasm(): Promise<void> {
       "--log-level",
       "error",
       "build",
+      "src/cdylib",
       "--target",
       "bundler",
       "--release",
@@ -48,7 +49,7 @@ export async function buildWasm(): Promise<void> {
       "no-install",
       "--no-pack",
     ];
-    args.push("--out-dir", "target/wasm-pack", "--out-name", "hpr", "--", "--features", "wasm", "--locked");
+    args.push("--out-dir", inRoot("target/wasm-pack"), "--out-name", "hpr", "--", "--locked");
     await mustRun("wasm-pack", args, FAILED, { env: { RUSTFLAGS: await flags() } });
     await optimize(inRoot("target/wasm-pack/hpr_bg.wasm"), FAILED);
     mkdirSync(inRoot("src/ts/wasm"), { recursive: true });

@@ -6,6 +6,16 @@ import { checkCommand, counted, sum } from "./check.js";
 import { roomsCheck } from "./rooms.js";
 
 const DENY_WARNINGS = ["--", "-D", "warnings"];
+const NO_STD = "--no-default-features";
+
+/** The builds of tests/consumers/crate. The bare target has no std. */
+const KINDS_OF_USERS = [
+  [],
+  [NO_STD],
+  ["--target", WASM_TARGET],
+  ["--target", WASM_TARGET, NO_STD],
+  ["--target", BARE_TARGET, NO_STD],
+];
 
 export const rustChecks: Check[] = [
   {
@@ -30,28 +40,30 @@ export const rustChecks: Check[] = [
       }),
   },
   {
-    title: "Rust: no_std",
+    title: "Rust: a crate that depends on this one",
     part: "core",
     needs: [SETUP],
     locks: "debug",
-    run: () => {
-      // Without std there is no allocator to link a cdylib with, so only the rlib is built.
-      const rlib = ["rustc", "--locked", "--lib", "--crate-type", "rlib", "--no-default-features"];
-      return checkCommand("cargo", [...rlib, "--target", BARE_TARGET]);
+    run: async () => {
+      const outcomes: Outcome[] = [];
+      for (const args of KINDS_OF_USERS) {
+        outcomes.push(await checkCommand("cargo", ["build", "--locked", "--package", "dependent", ...args]));
+      }
+      return sum(outcomes);
     },
   },
   {
     title: "Rust: formatting",
     part: "format",
     needs: [SETUP],
-    run: () => checkCommand("cargo", ["fmt", "--check"]),
+    run: () => checkCommand("cargo", ["fmt", "--all", "--check"]),
   },
   {
     title: "Rust: lints, every target and feature",
     part: "lint",
     needs: [SETUP],
     locks: "debug",
-    run: () => checkCommand("cargo", ["clippy", "--locked", "--all-targets", "--all-features", ...DENY_WARNINGS]),
+    run: () => checkCommand("cargo", ["clippy", "--locked", "--workspace", "--all-targets", "--all-features", ...DENY_WARNINGS]),
   },
   {
     title: "Rust: lints, WebAssembly",

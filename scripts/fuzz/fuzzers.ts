@@ -8,8 +8,8 @@ import { inRoot } from "../lib/paths.js";
  */
 export interface Fuzzer {
   title: string;
-  /** The Rust example, if the fuzzer is a Rust example. */
-  example?: string;
+  /** The Rust program, if the fuzzer is one. */
+  program?: string;
   command: string[];
 }
 
@@ -21,17 +21,17 @@ const FUNCTIONS: Record<string, { file: string; name: string }> = {
   workers: { file: "tests/fuzz/workers.ts", name: "fuzzWorkers" },
 };
 
-/** Every Rust example `fuzz_…` of Cargo.toml, and the functions whose file exists. */
+/** Every Rust program `fuzz_…` of tests/Cargo.toml, and the functions whose file exists. */
 export function allFuzzers(): Fuzzer[] {
-  const examples = [...readFileSync(inRoot("Cargo.toml"), "utf8").matchAll(/^name = "fuzz_(\w+)"$/gm)];
-  const inRust = examples.map(([, title]) => rust(title!));
+  const programs = [...readFileSync(inRoot("tests/Cargo.toml"), "utf8").matchAll(/^name = "fuzz_(\w+)"$/gm)];
+  const inRust = programs.map(([, title]) => rust(title!));
   const functions = Object.entries(FUNCTIONS).filter(([, { file }]) => existsSync(inRoot(file)));
   return [...inRust, ...functions.map(([title, { file, name }]) => typescript(title, file, name))];
 }
 
 function rust(title: string): Fuzzer {
-  const example = `fuzz_${title}`;
-  return { title, example, command: [inRoot("target", "fuzz", "examples", example)] };
+  const program = `fuzz_${title}`;
+  return { title, program, command: [inRoot("target", "fuzz", program)] };
 }
 
 function typescript(title: string, file: string, name: string): Fuzzer {

@@ -32,9 +32,9 @@ const native: Engine = {
   name: "native",
   takes: () => true,
   measure(cloud, tasks) {
-    const example = join(root, "target", "release", "examples", "bench_native");
+    const program = join(root, "target", "release", "bench_native");
     const input = tasks.map(taskLine).join("\n");
-    const lines = ask(example, writeCloud(cloud), { input })!.trim().split("\n");
+    const lines = ask(program, writeCloud(cloud), { input })!.trim().split("\n");
     return Promise.resolve(lines.map((line) => JSON.parse(line) as Outcome));
   },
 };

@@ -21,9 +21,9 @@ export function timeSectors(): Table {
   for (const name of NAMES) {
     const cloud = CLOUDS[name]!()!;
     console.error(`${name}: sectors…`);
-    const example = join(root, "target", "release", "examples", "bench_native");
+    const program = join(root, "target", "release", "bench_native");
     const input = EXPONENTS.map((exponent) => [exponent, RUNS, ...orbit(cloud)(0)].join(" ")).join("\n");
-    const lines = ask(example, [...writeCloud(cloud), "sectors"], { input })!
+    const lines = ask(program, [...writeCloud(cloud), "sectors"], { input })!
       .trim()
       .split("\n");
     lines.forEach((line, i) => {

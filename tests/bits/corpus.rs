@@ -1,4 +1,4 @@
-//! Asks the same questions on every platform: `cargo run --profile quick --example bits_corpus`.
+//! Asks the same questions on every platform: `cargo run --profile quick --package hpr-tests --bin bits_corpus`.
 //!
 //! Prints one line for each case, `name digest count radius`: a digest of the whole answer, how
 //! many points are visible (or lit), and the bits of the radius (`-` if the answer has none). The

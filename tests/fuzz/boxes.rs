@@ -1,5 +1,5 @@
 //! Boxes that a horizon hides, compared with 1,000 points of each box:
-//! `cargo run --profile fuzz --example fuzz_boxes -- --minutes 5 [--seed N]`
+//! `cargo run --profile fuzz --package hpr-tests --bin fuzz_boxes -- --minutes 5 [--seed N]`
 //!
 //! A box that is proved hidden must hold no point that the horizon does not hide. Of the boxes of
 //! which all points are hidden, nine in ten must be proved. `run` explains the output.

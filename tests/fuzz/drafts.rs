@@ -1,5 +1,5 @@
 //! Compares drafts with exact answers:
-//! `cargo run --profile fuzz --example fuzz_drafts -- --minutes 5 [--seed N]`
+//! `cargo run --profile fuzz --package hpr-tests --bin fuzz_drafts -- --minutes 5 [--seed N]`
 //!
 //! Viewpoints walk around, in and through clouds of every kind, with every inversion. Each
 //! view is asked as a draft first. Then the exact answer goes on from the draft. Both are

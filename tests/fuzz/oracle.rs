@@ -1,5 +1,5 @@
 //! Compares answers for small clouds with the definition:
-//! `cargo run --profile fuzz --example fuzz_oracle -- --minutes 5 [--seed N] [--kind TEXT]`
+//! `cargo run --profile fuzz --package hpr-tests --bin fuzz_oracle -- --minutes 5 [--seed N] [--kind TEXT]`
 //!
 //! Mostly degenerate clouds of every kind under every inversion. Each cloud is asked for its
 //! visible points, and every second cloud also for a consequence of them (`Aspect`). `run`

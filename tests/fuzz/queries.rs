@@ -1,5 +1,5 @@
 //! What can be asked besides a view, compared with views alone:
-//! `cargo run --profile fuzz --example fuzz_queries -- --minutes 5 [--seed N] [--query NAME]`
+//! `cargo run --profile fuzz --package hpr-tests --bin fuzz_queries -- --minutes 5 [--seed N] [--query NAME]`
 //!
 //! Cameras, points that are not in the cloud (`sees`), points within limits, coverage and placement,
 //! several looks, sectors of a cloud in parts. The clouds are walls, lattices, duplicates, planes through the

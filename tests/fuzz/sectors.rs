@@ -1,5 +1,5 @@
 //! Divided views compared with whole views:
-//! `cargo run --profile fuzz --example fuzz_sectors -- --minutes 5 [--seed N]`
+//! `cargo run --profile fuzz --package hpr-tests --bin fuzz_sectors -- --minutes 5 [--seed N]`
 //!
 //! Rooms, lattices, planes and lines, from viewpoints that lie in them, in 2 to 64
 //! sectors, in single and double precision. For small clouds the whole view is also compared
