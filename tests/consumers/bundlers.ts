@@ -1,7 +1,8 @@
 import { execFileSync } from "node:child_process";
-import { copyFileSync, readdirSync, writeFileSync } from "node:fs";
+import { copyFileSync, cpSync, mkdtempSync, readdirSync, realpathSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
-import { join } from "node:path";
+import { tmpdir } from "node:os";
+import { join, parse } from "node:path";
 import { pathToFileURL } from "node:url";
 import * as esbuild from "esbuild";
 import * as vite from "vite";
@@ -72,6 +73,29 @@ export const bundlers = (visit: Visit): Consumer[] => [
       if (files.some((file) => file.endsWith(".wasm"))) throw new Error("a .wasm file was emitted");
       await using site = await serve(project("vite-inline", "built"));
       return await visit(`${site.address}index.html`);
+    },
+  },
+  {
+    name: "Vite, a server that is one bundle",
+    version: vite.version,
+    run: async () => {
+      const folder = await buildServerWithVite("esm");
+      // The working directory says nothing about where the package is.
+      return answerOf(join(folder, "esm.js"), parse(folder).root);
+    },
+  },
+  {
+    name: "Vite, ./inline, a server that is one bundle, without node_modules",
+    version: vite.version,
+    run: async () => {
+      const folder = realpathSync(mkdtempSync(join(tmpdir(), "hpr-server-")));
+      try {
+        cpSync(await buildServerWithVite("inline"), folder, { recursive: true });
+        writeFileSync(join(folder, "package.json"), JSON.stringify({ type: "module" }));
+        return answerOf(join(folder, "inline.js"), folder);
+      } finally {
+        rmSync(folder, { recursive: true });
+      }
     },
   },
   {
@@ -147,9 +171,7 @@ export const bundlers = (visit: Visit): Consumer[] => [
     version: esbuild.version,
     run: async () => {
       await buildWithEsbuild({ entryPoints: ["../node/esm.mjs"], format: "esm", platform: "node", outdir: "server" });
-      return JSON.parse(
-        execFileSync(process.execPath, ["server/esm.js"], { cwd: project("esbuild"), encoding: "utf8" }),
-      ) as Answered;
+      return answerOf("server/esm.js", project("esbuild"));
     },
   },
 ];
@@ -167,6 +189,22 @@ function copyExported(folder: string): void {
 
 async function buildWithVite(outDir: string, base: string, root = "vite"): Promise<void> {
   await vite.build({ ...BARE, root: project(root), base, build: { outDir, target: "es2022" } });
+}
+
+/** Bundles a script of the folder `node` with all packages in it. Returns the folder of the bundle. */
+async function buildServerWithVite(name: string): Promise<string> {
+  const [root, outDir] = [project("node"), `server-${name}`];
+  await vite.build({
+    ...BARE,
+    root,
+    ssr: { noExternal: true },
+    build: { ssr: `${name}.mjs`, outDir, target: "es2022", rollupOptions: { output: { entryFileNames: "[name].js" } } },
+  });
+  return join(root, outDir);
+}
+
+function answerOf(script: string, cwd: string): Answered {
+  return JSON.parse(execFileSync(process.execPath, [script], { cwd, encoding: "utf8" })) as Answered;
 }
 
 async function buildWithWebpack(directory: string, publicPath: string): Promise<void> {

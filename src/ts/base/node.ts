@@ -25,12 +25,18 @@ export async function importNodeModule<Module>(name: `node:${string}`): Promise<
     (await import(/* webpackIgnore: true */ /* turbopackIgnore: true */ /* @vite-ignore */ name))) as Module;
 }
 
-/** The path of a file that this package exports, found from the working directory. */
-export async function installedFile(name: string): Promise<string | undefined> {
-  try {
-    const { createRequire } = await importNodeModule<typeof import("node:module")>("node:module");
-    return createRequire(`${nodeProcess()!.cwd()}/`).resolve(`hidden-point-removal/${name}`);
-  } catch {
-    return undefined;
+/**
+ * The path of a file that this package exports, found from the module that asks, or else from the working
+ * directory. The module is inside a bundle if a bundler moved it, and a bundler may have changed its address.
+ */
+export async function installedFile(name: string, asking: string | undefined): Promise<string | undefined> {
+  const { createRequire } = await importNodeModule<typeof import("node:module")>("node:module");
+  for (const place of [asking, `${nodeProcess()!.cwd()}/`]) {
+    try {
+      if (place !== undefined) return createRequire(place).resolve(`hidden-point-removal/${name}`);
+    } catch {
+      // It is not there, or the place is no file.
+    }
   }
+  return undefined;
 }

@@ -55,7 +55,7 @@ export async function compileOwn(address: () => URL): Promise<WasmModule> {
     own = address();
     return await compile(own);
   } catch (error) {
-    const file = hasNodeModules() ? await installedFile("hpr.wasm") : undefined;
+    const file = hasNodeModules() ? await installedFile("hpr.wasm", own?.href) : undefined;
     if (file !== undefined) {
       return compile(file);
     }

@@ -80,5 +80,5 @@ async function scriptInNode(): Promise<{ script: string | URL; isText: boolean }
   const own = new URL("./worker-thread.js", here);
   // A bundle for a server does not have the file beside it, or has put an address of the site in its place.
   const isHere = own.protocol === "file:" && existsSync(own);
-  return { script: isHere ? own : ((await installedFile("worker-thread.js")) ?? own), isText: false };
+  return { script: isHere ? own : ((await installedFile("worker-thread.js", here)) ?? own), isText: false };
 }
