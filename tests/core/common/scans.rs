@@ -5,11 +5,15 @@ use std::io::Read;
 use std::path::Path;
 
 fn read(path: &str) -> Vec<u8> {
-    // The manifest of the repository includes this file, and that of tests.
-    let folders = Path::new(env!("CARGO_MANIFEST_DIR")).ancestors();
-    let files = folders.map(|folder| folder.join("node_modules").join(path));
-    let found = files.map(std::fs::read).find_map(Result::ok);
-    found.unwrap_or_else(|| panic!("{path} is missing: run `npm ci --ignore-scripts` first"))
+    let path = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("node_modules")
+        .join(path);
+    std::fs::read(&path).unwrap_or_else(|error| {
+        panic!(
+            "{} is missing ({error}): run `npm ci --ignore-scripts` first",
+            path.display()
+        )
+    })
 }
 
 /// The vertices of a gzipped ASCII PLY file whose first properties are x, y, z.
