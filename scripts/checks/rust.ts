@@ -63,7 +63,8 @@ export const rustChecks: Check[] = [
     part: "lint",
     needs: [SETUP],
     locks: "debug",
-    run: () => checkCommand("cargo", ["clippy", "--locked", "--workspace", "--all-targets", "--all-features", ...DENY_WARNINGS]),
+    run: () =>
+      checkCommand("cargo", ["clippy", "--locked", "--workspace", "--all-targets", "--all-features", ...DENY_WARNINGS]),
   },
   {
     title: "Rust: lints, WebAssembly",

@@ -198,7 +198,12 @@ async function buildServerWithVite(name: string): Promise<string> {
     ...BARE,
     root,
     ssr: { noExternal: true },
-    build: { ssr: `${name}.mjs`, outDir, target: "es2022", rollupOptions: { output: { entryFileNames: "[name].js" } } },
+    build: {
+      ssr: `${name}.mjs`,
+      outDir,
+      target: "es2022",
+      rolldownOptions: { output: { entryFileNames: "[name].js" } },
+    },
   });
   return join(root, outDir);
 }
