@@ -11,12 +11,13 @@ use crate::camera;
 use crate::failure::{option, refused};
 use crate::options::{self, Asked};
 use crate::placement::Placement;
+use crate::shared::Shared;
 use crate::visibility::Visibility;
 
 /// A point cloud, prepared for visibility queries.
-#[pyclass(module = "hidden_point_removal")]
+#[pyclass(frozen, module = "hidden_point_removal")]
 pub struct PointCloud {
-    cloud: core::PointCloud,
+    cloud: Shared<core::PointCloud>,
 }
 
 impl PointCloud {
@@ -27,12 +28,10 @@ impl PointCloud {
         mask: Option<Vec<bool>>,
         query: impl Send + FnOnce(&core::PointCloud) -> Result<T, core::Error>,
     ) -> PyResult<T> {
-        let cloud = &self.cloud;
-        py.detach(|| match mask {
+        self.cloud.ask(py, |cloud| match mask {
             Some(mask) => query(&cloud.masked(&mask)?),
             None => query(cloud),
         })
-        .map_err(|error| refused(py, error))
     }
 
     fn view(
@@ -67,21 +66,23 @@ impl PointCloud {
             Points::Double(points) => core::PointCloud::with_non_finite(points, choice),
         });
         let cloud = made.map_err(|error| refused(py, error))?;
-        Ok(Self { cloud })
+        Ok(Self {
+            cloud: Shared::new(cloud),
+        })
     }
 
-    fn __len__(&self) -> usize {
-        self.cloud.len()
-    }
-
-    #[getter]
-    fn skipped(&self) -> usize {
-        self.cloud.skipped()
+    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
+        self.cloud.get(py, core::PointCloud::len)
     }
 
     #[getter]
-    fn spacing(&self) -> f64 {
-        self.cloud.spacing()
+    fn skipped(&self, py: Python<'_>) -> PyResult<usize> {
+        self.cloud.get(py, core::PointCloud::skipped)
+    }
+
+    #[getter]
+    fn spacing(&self, py: Python<'_>) -> PyResult<f64> {
+        self.cloud.get(py, core::PointCloud::spacing)
     }
 
     #[pyo3(signature = (viewpoint, **options))]
@@ -262,7 +263,7 @@ impl PointCloud {
         let lights = places(lights, "lights")?;
         let Asked { options, mask } = options::read(py, options)?;
         let corners = triangles
-            .map(|given| corners(given, self.cloud.len()))
+            .map(|given| corners(given, self.__len__(py)?))
             .transpose()?;
         let lighting = Lighting {
             triangles: corners.as_deref(),
@@ -275,26 +276,22 @@ impl PointCloud {
         Ok(brightness.into_pyarray(py))
     }
 
-    fn append(&mut self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<()> {
+    fn append(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<()> {
         let positions = Positions::read(positions, "positions")?;
         let points = positions.points();
-        let cloud = &mut self.cloud;
-        py.detach(|| match points {
+        self.cloud.change(py, |cloud| match points {
             Points::Single(points) => cloud.append(points),
             Points::Double(points) => cloud.append(points),
         })
-        .map_err(|error| refused(py, error))
     }
 
-    fn remove(&mut self, py: Python<'_>, indices_: &Bound<'_, PyAny>) -> PyResult<()> {
+    fn remove(&self, py: Python<'_>, indices_: &Bound<'_, PyAny>) -> PyResult<()> {
         let removed = indices(indices_, "indices")?;
-        let cloud = &mut self.cloud;
-        py.detach(|| cloud.remove(&removed))
-            .map_err(|error| refused(py, error))
+        self.cloud.change(py, |cloud| cloud.remove(&removed))
     }
 
-    fn __repr__(&self) -> String {
-        format!("PointCloud({} points)", self.cloud.len())
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        Ok(format!("PointCloud({} points)", self.__len__(py)?))
     }
 }
 

@@ -8,11 +8,12 @@ use pyo3::types::PyDict;
 use crate::arrays::{Points, Positions, place};
 use crate::failure::{problem, refused};
 use crate::options;
+use crate::shared::Shared;
 
 /// The hull of some points of a cloud, as seen from one viewpoint.
-#[pyclass(module = "hidden_point_removal")]
+#[pyclass(frozen, module = "hidden_point_removal")]
 pub struct Horizon {
-    horizon: core::Horizon,
+    horizon: Shared<core::Horizon>,
 }
 
 #[pymethods]
@@ -28,18 +29,18 @@ impl Horizon {
         let options = options::read_without_cloud(py, options)?;
         let horizon =
             core::Horizon::new(viewpoint, &options).map_err(|error| refused(py, error))?;
-        Ok(Self { horizon })
+        Ok(Self {
+            horizon: Shared::new(horizon),
+        })
     }
 
-    fn add(&mut self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<()> {
+    fn add(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<()> {
         let positions = Positions::read(positions, "positions")?;
         let points = positions.points();
-        let horizon = &mut self.horizon;
-        py.detach(|| match points {
+        self.horizon.change(py, |horizon| match points {
             Points::Single(points) => horizon.add(points),
             Points::Double(points) => horizon.add(points),
         })
-        .map_err(|error| refused(py, error))
     }
 
     fn screen<'py>(
@@ -49,12 +50,11 @@ impl Horizon {
     ) -> PyResult<Bound<'py, PyArray1<u32>>> {
         let positions = Positions::read(positions, "positions")?;
         let points = positions.points();
-        let horizon = &self.horizon;
-        let left = py.detach(|| match points {
+        let left = self.horizon.ask(py, |horizon| match points {
             Points::Single(points) => horizon.screen(points),
             Points::Double(points) => horizon.screen(points),
-        });
-        Ok(left.map_err(|error| refused(py, error))?.into_pyarray(py))
+        })?;
+        Ok(left.into_pyarray(py))
     }
 
     fn hides_box(
@@ -68,13 +68,11 @@ impl Horizon {
                 .map_err(|error| problem(py, "option", error.value(py).to_string()))
         };
         let (min, max) = (corner(min, "min")?, corner(max, "max")?);
-        let horizon = &self.horizon;
-        py.detach(|| horizon.hides_box(min, max))
-            .map_err(|error| refused(py, error))
+        self.horizon.ask(py, |horizon| horizon.hides_box(min, max))
     }
 
     fn visible<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
-        let points = self.horizon.visible().map_err(|error| refused(py, error))?;
+        let points = self.horizon.ask(py, core::Horizon::visible)?;
         let count = points.len();
         points.into_flattened().into_pyarray(py).reshape([count, 3])
     }

@@ -9,6 +9,7 @@ mod options;
 mod parts;
 mod placement;
 mod share;
+mod shared;
 mod visibility;
 
 use pyo3::prelude::*;
