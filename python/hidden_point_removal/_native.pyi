@@ -31,6 +31,8 @@ class Options(TypedDict):
     """Two or three hulls, each trusted where it is sure. Excludes radius, exponent, inversion and draft."""
     scores: NotRequired[bool | None]
     """With `looks` only: the answer then has a score for each index."""
+    thickness: NotRequired[float | Literal["auto"] | None]
+    """With `looks` only: how far behind the surface before it a point may be seen. Default "auto", by the noise."""
     denoise: NotRequired[int | None]
     """Each point is projected on the plane of its k nearest points before the view."""
     vote: NotRequired[int | None]
@@ -136,6 +138,9 @@ class PointCloud:
     @property
     def spacing(self) -> float:
         """The mean distance of a point to its 6 nearest points."""
+    @property
+    def noise(self) -> float:
+        """How far measured points lie off their surface: one standard deviation; 0 where nothing tells of noise."""
     def visible_from(self, viewpoint: ArrayLike, **options: Unpack[Options]) -> Visibility:
         """The points that can be seen from a viewpoint (paper, section 3, algorithm 1)."""
     def visible_from_direction(self, direction: ArrayLike, **options: Unpack[Options]) -> Visibility:

@@ -85,6 +85,11 @@ impl PointCloud {
         self.cloud.get(py, core::PointCloud::spacing)
     }
 
+    #[getter]
+    fn noise(&self, py: Python<'_>) -> PyResult<f64> {
+        self.cloud.noise().map_err(|error| refused(py, error))
+    }
+
     #[pyo3(signature = (viewpoint, **options))]
     fn visible_from(
         &self,

@@ -7,12 +7,13 @@ use pyo3::types::{PyBool, PyDict};
 
 use crate::failure::option;
 
-const NAMES: [&str; 10] = [
+const NAMES: [&str; 11] = [
     "radius",
     "exponent",
     "inversion",
     "looks",
     "scores",
+    "thickness",
     "denoise",
     "vote",
     "draft",
@@ -75,6 +76,7 @@ pub fn read(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Asked
                     inversion(py, &value)?
                 };
             }
+            "thickness" => options.thickness = thickness(py, &value)?,
             "denoise" => options.denoise = Some(count(py, &name, &value)?),
             "vote" => options.vote = Some(count(py, &name, &value)?),
             "sample" => options.sample = Some(count(py, &name, &value)?),
@@ -84,6 +86,17 @@ pub fn read(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Asked
         }
     }
     Ok(asked)
+}
+
+/// Reads a number, or "auto".
+fn thickness(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
+    if value.extract::<&str>().is_ok_and(|word| word == "auto") {
+        return Ok(None);
+    }
+    let wrong = || format!("thickness must be a number or \"auto\", got {}", shown(value));
+    number(value)
+        .map(Some)
+        .ok_or_else(|| option(py, wrong()))
 }
 
 /// Reads a distance and a box into the options. Returns the mask.

@@ -3,12 +3,12 @@
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 
 use crate::base::allocation::with_capacity;
 use crate::base::error::{Error, in_range};
-use crate::base::real::square_root;
 use crate::cloud::neighbors::{Nearest, Neighbors};
+use crate::cloud::plane::{least_axis, outer_product};
 use crate::cloud::point_cloud::{PointCloud, Voters};
 use crate::cloud::points::Points;
 use crate::view::options::Options;
@@ -87,6 +87,7 @@ impl PointCloud {
                 cloud.prepare_view(None, &options)
             });
         }
+        self.keep_survey(options)?;
         match options.vote {
             Some(k) if k <= MOST_KEPT => {
                 if self.kept.voters.as_ref().is_none_or(|voters| voters.k != k) {
@@ -129,22 +130,19 @@ impl PointCloud {
 
     /// Every distinct point and its `k` nearest other points vote on whether it is visible.
     pub(crate) fn vote(&self, k: usize, visible: &[bool]) -> Result<Vec<bool>, Error> {
-        let mut voted: Vec<bool> = with_capacity(visible.len())?;
         if let Some(voters) = self.kept.voters.as_ref().filter(|voters| voters.k == k) {
-            voted.extend((0..visible.len()).map(|point| {
-                let others = &voters.others[point * voters.each..][..voters.each];
-                is_voted(point, others.iter().copied(), visible)
-            }));
-        } else {
-            self.for_each_neighborhood("vote", k, &mut |point, nearest| {
-                let others = nearest.found().iter().map(|other| other.index);
-                voted.push(is_voted(point, others, visible));
-            })?;
+            return voters.vote(visible);
         }
+        let mut voted: Vec<bool> = with_capacity(visible.len())?;
+        self.for_each_neighborhood("vote", k, &mut |point, nearest| {
+            let others = nearest.found().iter().map(|other| other.index);
+            voted.push(is_voted(point, others, visible));
+        })?;
         Ok(voted)
     }
 
-    fn voters(&self, k: usize) -> Result<Voters, Error> {
+    /// The `k` nearest other points of every distinct point.
+    pub(crate) fn voters(&self, k: usize) -> Result<Voters, Error> {
         let points = self.sequence.points.len();
         let each = k.min(points.saturating_sub(1));
         let mut others: Vec<u32> = with_capacity(points.saturating_mul(each))?;
@@ -180,6 +178,18 @@ impl PointCloud {
     }
 }
 
+impl Voters {
+    /// Every distinct point and its neighbors vote on whether it is visible.
+    pub(crate) fn vote(&self, visible: &[bool]) -> Result<Vec<bool>, Error> {
+        let mut voted: Vec<bool> = with_capacity(visible.len())?;
+        voted.extend((0..visible.len()).map(|point| {
+            let others = &self.others[point * self.each..][..self.each];
+            is_voted(point, others.iter().copied(), visible)
+        }));
+        Ok(voted)
+    }
+}
+
 fn is_voted(point: usize, others: impl ExactSizeIterator<Item = u32>, visible: &[bool]) -> bool {
     let voters = others.len() + 1;
     let seen =
@@ -208,50 +218,10 @@ fn on_plane(p: [f64; 3], nearest: &Nearest, points: &Points) -> [f64; 3] {
     if moved.is_finite() { moved } else { p }.to_array()
 }
 
-fn outer_product(v: DVec3) -> DMat3 {
-    DMat3::from_cols(v * v.x, v * v.y, v * v.z)
-}
-
-/// The unit eigenvector of the smallest eigenvalue of a symmetric matrix, by Jacobi's
-/// rotations. They need square roots only, so the bits are the same everywhere.
-fn least_axis(mut matrix: DMat3) -> DVec3 {
-    /// Sweeps converge quadratically; a few are enough.
-    const SWEEPS: usize = 12;
-    let trace = matrix.col(0)[0] + matrix.col(1)[1] + matrix.col(2)[2];
-    let negligible = 1e-18 * trace;
-    let mut axes = DMat3::IDENTITY;
-    for _ in 0..SWEEPS {
-        let mut done = true;
-        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
-            let off = matrix.col(i)[j];
-            if off.abs() <= negligible {
-                continue;
-            }
-            done = false;
-            let theta = (matrix.col(j)[j] - matrix.col(i)[i]) / (2.0 * off);
-            let sign = if theta < 0.0 { -1.0 } else { 1.0 };
-            let tangent = sign / (theta.abs() + square_root(theta * theta + 1.0));
-            let cos = 1.0 / square_root(tangent * tangent + 1.0);
-            let sin = tangent * cos;
-            let mut rotation = DMat3::IDENTITY;
-            rotation.col_mut(i)[i] = cos;
-            rotation.col_mut(j)[j] = cos;
-            rotation.col_mut(j)[i] = sin;
-            rotation.col_mut(i)[j] = -sin;
-            matrix = rotation.transpose() * matrix * rotation;
-            axes *= rotation;
-        }
-        if done {
-            break;
-        }
-    }
-    let values = DVec3::new(matrix.col(0)[0], matrix.col(1)[1], matrix.col(2)[2]);
-    axes.col(values.min_position())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::real::square_root;
     use crate::cloud::points::Given;
     use crate::cloud::sequence::Sequence;
     use crate::cloud::spatial::{Bounds, HilbertCurve};
@@ -283,34 +253,5 @@ mod tests {
                 assert!((a - b).abs() < 1e-2 * (1.0 + tilt), "{left:?}");
             }
         }
-    }
-
-    #[test]
-    fn the_least_axis_is_found_in_any_frame() {
-        let axes = [
-            DVec3::new(2.0, -1.0, 0.5).normalize(),
-            DVec3::new(1.0, 1.0, -2.0).normalize(),
-        ];
-        let [u, v] = axes;
-        let v = (v - u * u.dot(v)).normalize();
-        let w = u.cross(v);
-        let with = |[a, b, c]: [f64; 3]| {
-            outer_product(u) * a + outer_product(v) * b + outer_product(w) * c
-        };
-        for [a, b, c] in [
-            [5.0, 3.0, 1.0],
-            [1.0, 1.0, 0.0],
-            [1e9, 1.0, 1e-9],
-            [2.0, 2.0, 1.999],
-        ] {
-            let axis = least_axis(with([a, b, c]));
-            assert!(axis.cross(w).length() < 1e-6, "{axis} for {a}, {b}, {c}");
-            assert!((axis.length() - 1.0).abs() < 1e-14);
-        }
-        assert_eq!(least_axis(DMat3::ZERO), DVec3::X);
-        assert_eq!(
-            least_axis(DMat3::from_diagonal(DVec3::new(3.0, 0.0, 1.0))),
-            DVec3::Y
-        );
     }
 }

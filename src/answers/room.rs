@@ -1,19 +1,21 @@
 //! What one view leaves for the next one.
 
+use alloc::sync::Arc;
 use core::ops::{Deref, DerefMut};
 
-use super::looks::{Gaze, Seen, Series};
+use super::looks::{Question, Seen, Series};
 use crate::base::error::Error;
-use crate::cloud::point_cloud::PointCloud;
+use crate::cloud::point_cloud::{PointCloud, Survey};
 use crate::cloud::selection::Selection;
 use crate::hull::Memory;
 
-/// The hull of the last view, and looks that were begun. Its content never changes an answer, as
+/// The hull of the last view, looks that were begun, and what is known of noise. Its content never changes an answer, as
 /// long as it is only used for one sequence of points.
 #[derive(Default)]
 pub(crate) struct Room {
     hull: Memory,
     looks: Option<Series>,
+    survey: Option<Arc<Survey>>,
 }
 
 impl Room {
@@ -21,28 +23,38 @@ impl Room {
     pub(crate) fn forget(&mut self) {
         self.hull.forget();
         self.looks = None;
+        self.survey = None;
     }
 
     /// Prepares for a view of these points. Forgets the last view if it was of other points.
     pub(crate) fn see(&mut self, selection: Selection) {
         if self.hull.see(selection) {
             self.looks = None;
+            self.survey = None;
         }
     }
 
-    /// Looks `count` times at `cloud`. Goes on from the same looks if they were begun.
-    pub(crate) fn look(
-        &mut self,
-        cloud: &PointCloud,
-        gaze: Gaze,
-        count: usize,
-        with_scores: bool,
-    ) -> Result<Seen, Error> {
-        while !self.go_on_looking(cloud, gaze, count, with_scores, usize::MAX)? {}
+    /// Looks at `cloud` as the question says. Goes on from the same looks if they were begun.
+    pub(crate) fn look(&mut self, cloud: &PointCloud, question: Question) -> Result<Seen, Error> {
+        while !self.go_on_looking(cloud, question, usize::MAX)? {}
         match self.looks.take() {
-            Some(series) => Ok(series.finish()?),
+            Some(series) => series.finish(cloud),
             None => Err(Error::OutOfMemory),
         }
+    }
+
+    /// What is known of the cloud's noise. It is the same for all viewpoints.
+    fn survey(
+        &mut self,
+        cloud: &PointCloud,
+        question: Question,
+    ) -> Result<Option<Arc<Survey>>, Error> {
+        if self.survey.is_none() || question.thickness == Some(0.0) {
+            let survey = cloud.noise_survey(question.thickness)?;
+            self.survey = survey.clone().or(self.survey.take());
+            return Ok(survey);
+        }
+        Ok(self.survey.clone())
     }
 
     /// Does a part of the work of [`Room::look`]. The hull of the first look takes about `budget`
@@ -50,15 +62,13 @@ impl Room {
     pub(crate) fn go_on_looking(
         &mut self,
         cloud: &PointCloud,
-        gaze: Gaze,
-        count: usize,
-        with_scores: bool,
+        question: Question,
         budget: usize,
     ) -> Result<bool, Error> {
         let begun = self.looks.take();
-        let series = match begun.filter(|series| series.is_of(gaze, count, with_scores)) {
+        let series = match begun.filter(|series| series.is_of(question)) {
             Some(series) => series,
-            None => Series::new(cloud, gaze, count, with_scores)?,
+            None => Series::new(cloud, self.survey(cloud, question)?, question)?,
         };
         let series = self.looks.insert(series);
         let is_done = series.step(cloud, &mut self.hull, budget);

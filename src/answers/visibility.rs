@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use crate::answers::looks::{Gaze, scales, scores_of_indices};
+use crate::answers::looks::{Gaze, Question, even_scales, scores_of_indices};
 use crate::answers::room::Room;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::bits::{bits_of, places};
@@ -270,8 +270,8 @@ impl PointCloud {
         }
         memory.see(options.selection(viewpoint));
         if let Some(count) = looks(options)? {
-            let gaze = Gaze::From(viewpoint);
-            return memory.go_on_looking(self, gaze, count, options.scores, budget);
+            let question = question(Gaze::From(viewpoint), count, options);
+            return memory.go_on_looking(self, question, budget);
         }
         let view = self.view(viewpoint, options)?;
         let points = &self.sequence.points;
@@ -306,7 +306,7 @@ impl PointCloud {
         count: usize,
         options: &Options,
     ) -> Result<Visibility, Error> {
-        let seen = memory.look(self, gaze, count, options.scores)?;
+        let seen = memory.look(self, question(gaze, count, options))?;
         let scores = if options.scores {
             scores_of_indices(self, &seen.scores)?
         } else {
@@ -314,7 +314,13 @@ impl PointCloud {
         };
         let visible = self.voted(seen.visible, options)?;
         let answer = self.answer(&visible, ChosenRadius::unit(0.0), options.inversion)?;
-        Ok(Visibility { scores, ..answer })
+        let mut looks = with_capacity(count)?;
+        looks.extend_from_slice(&seen.scales[..count]);
+        Ok(Visibility {
+            scores,
+            looks,
+            ..answer
+        })
     }
 
     /// Whether each distinct point is visible, and the radius that was chosen. It counts votes but
@@ -326,7 +332,7 @@ impl PointCloud {
         options: &Options,
     ) -> Result<(Vec<bool>, ChosenRadius), Error> {
         if let Some(count) = looks(options)? {
-            let seen = memory.look(self, Gaze::From(viewpoint), count, false)?;
+            let seen = memory.look(self, question(Gaze::From(viewpoint), count, options))?;
             let visible = self.voted(seen.visible, options)?;
             return Ok((visible, ChosenRadius::unit(0.0)));
         }
@@ -357,7 +363,7 @@ impl PointCloud {
         })?;
         let mut answer = Visibility::new(indices, self.len(), chosen, inversion);
         if let Inversion::Looks(count) = inversion {
-            let scales = scales(count, &self.statistics);
+            let scales = even_scales(count, &self.statistics);
             answer.looks = with_capacity(count)?;
             answer.looks.extend_from_slice(&scales[..count]);
         }
@@ -375,6 +381,15 @@ impl PointCloud {
             ..Options::default()
         };
         Ok(self.view(viewpoint, &options)?.chosen)
+    }
+}
+
+fn question(gaze: Gaze, count: usize, options: &Options) -> Question {
+    Question {
+        gaze,
+        count,
+        with_scores: options.scores,
+        thickness: options.thickness,
     }
 }
 

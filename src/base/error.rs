@@ -105,6 +105,9 @@ pub enum Error {
     /// [`Options::scores`](crate::Options::scores) without
     /// [`Inversion::Looks`](crate::Inversion::Looks).
     ScoresWithoutLooks,
+    /// [`Options::thickness`](crate::Options::thickness) without
+    /// [`Inversion::Looks`](crate::Inversion::Looks).
+    ThicknessWithoutLooks,
     /// Scores were asked for together with an option or a question that has none.
     ScoresWith {
         /// The option or question.
@@ -198,6 +201,7 @@ impl Error {
             | Self::NoLimit { .. }
             | Self::LooksWith { .. }
             | Self::ScoresWithoutLooks
+            | Self::ThicknessWithoutLooks
             | Self::ScoresWith { .. }
             | Self::SampleWith { .. }
             | Self::BoundsInvalid
@@ -250,6 +254,9 @@ impl fmt::Display for Error {
             }
             Self::LooksWith { other } => write!(f, "looks cannot be combined with {other}"),
             Self::ScoresWithoutLooks => write!(f, "scores can be asked for only with looks"),
+            Self::ThicknessWithoutLooks => {
+                write!(f, "thickness can be given only with looks")
+            }
             Self::ScoresWith { other } => write!(f, "scores cannot be combined with {other}"),
             Self::NoLimit { option } => write!(
                 f,

@@ -2,12 +2,14 @@
 //! that does not depend on the viewpoint.
 
 use alloc::boxed::Box;
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 use core::fmt;
 
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::error::Error;
 use crate::cloud::blocks::Blocks;
+use crate::cloud::noise::Noise;
 use crate::cloud::points::{Given, Position, checked_len, is_finite};
 use crate::cloud::selection::Selection;
 use crate::cloud::sequence::Sequence;
@@ -55,6 +57,8 @@ pub(crate) struct Kept {
     /// The cloud without noise, and the number of neighbors that made its planes.
     pub denoised: Option<(usize, Box<PointCloud>)>,
     pub voters: Option<Voters>,
+    pub noise: Option<Arc<Noise>>,
+    pub survey: Option<Arc<Survey>>,
     /// The cloud of the sampled points, and the number of points that were asked for.
     pub sampled: Option<(usize, Box<PointCloud>)>,
     /// The cloud of the points within a box, or within a distance from a viewpoint.
@@ -62,6 +66,20 @@ pub(crate) struct Kept {
     /// The cloud of the points that a mask marks, with one byte for each index.
     #[cfg(feature = "wasm")]
     pub masked: Option<(Vec<u8>, Box<PointCloud>)>,
+}
+
+/// The noise of a cloud, and the cloud without it where noise is even.
+pub(crate) struct Survey {
+    pub noise: Arc<Noise>,
+    pub smooth: Option<Smooth>,
+}
+
+/// A cloud whose points moved to the planes of their neighbors.
+pub(crate) struct Smooth {
+    pub cloud: Box<PointCloud>,
+    pub noise: Noise,
+    /// The neighbors that vote on the answer, where noise is large.
+    pub voters: Option<Voters>,
 }
 
 /// The `each` nearest other points of every point: `k` of them, or fewer in a small cloud.

@@ -88,7 +88,9 @@ impl Flip {
         const ROUNDING: f64 = 1e-12;
         let length = match self.kernel {
             Kernel::Spherical { radius } => 2.0 * radius * (1.0 + ROUNDING) - distance,
-            Kernel::Power { .. } | Kernel::Exponential { .. } if distance > 0.0 => {
+            Kernel::Power { .. } | Kernel::Exponential { .. } | Kernel::Growing { .. }
+                if distance > 0.0 =>
+            {
                 self.kernel.length(distance) * (1.0 + ROUNDING)
             }
             _ => f64::INFINITY,
@@ -135,7 +137,9 @@ impl Flip {
         match self.kernel {
             // The extent is known if the flip was rescaled before.
             _ if self.extent < f64::INFINITY => {}
-            Kernel::Exponential { .. } => self.extent = self.length_of_nearest(points),
+            Kernel::Exponential { .. } | Kernel::Growing { .. } => {
+                self.extent = self.length_of_nearest(points);
+            }
             Kernel::Power { .. } => self.extent = self.largest_coordinate(points),
             Kernel::Spherical { .. } | Kernel::Antipodal { .. } => {}
         }

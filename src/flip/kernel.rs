@@ -18,6 +18,12 @@ pub(crate) enum Kernel {
     Power { gamma: f64, unit: f64 },
     /// |q| = exp(c/d).
     Exponential { scale: f64 },
+    /// |q| = exp(∫c(d)/d²), where c(d) is `scale`·(d/D)^β, with 0 < β ≤ 1 and D = `farthest`.
+    Growing {
+        scale: f64,
+        farthest: f64,
+        power: f64,
+    },
 }
 
 /// The largest exponent for `exp`. All points with a larger one go equally far.
@@ -32,6 +38,7 @@ impl Kernel {
             Self::Antipodal { radius } => (2.0 * radius + d) / d,
             Self::Power { gamma, unit } => libm::pow(d / unit, -gamma),
             Self::Exponential { scale } => exponential(scale, d) / d,
+            Self::Growing { .. } => self.length(d) / d,
         }
     }
 
@@ -40,6 +47,11 @@ impl Kernel {
     pub(crate) fn length(&self, d: f64) -> f64 {
         match *self {
             Self::Exponential { scale } => exponential(scale, d),
+            Self::Growing {
+                scale,
+                farthest,
+                power,
+            } => growing(scale / farthest, d / farthest, power),
             _ => self.factor(d) * d,
         }
     }
@@ -55,11 +67,23 @@ impl Kernel {
     pub(crate) fn radius(&self) -> Option<f64> {
         match *self {
             Self::Spherical { radius } | Self::Antipodal { radius } => Some(radius),
-            Self::Power { .. } | Self::Exponential { .. } => None,
+            Self::Power { .. } | Self::Exponential { .. } | Self::Growing { .. } => None,
         }
     }
 }
 
 fn exponential(scale: f64, d: f64) -> f64 {
     libm::exp(smaller(MAX_EXPONENT, scale / d))
+}
+
+/// exp(c·(t^(β−1) − 1)/(1 − β)), which is t^(−c) for β = 1.
+fn growing(scale: f64, t: f64, power: f64) -> f64 {
+    let less = 1.0 - power;
+    let log = -libm::log(t);
+    let grown = if less > 0.0 {
+        libm::expm1(less * log) / less
+    } else {
+        log
+    };
+    libm::exp(smaller(MAX_EXPONENT, scale * grown))
 }

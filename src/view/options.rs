@@ -97,6 +97,11 @@ pub struct Options {
     /// [`Visibility::scores`](crate::Visibility::scores). Scores need [`Inversion::Looks`] and a
     /// single viewpoint.
     pub scores: bool,
+    /// With [`Inversion::Looks`]: how far behind the surface before it a point may lie and still be
+    /// seen, in the cloud's units; at least 0. Without a number it follows from the cloud's noise
+    /// ([`PointCloud::noise`](crate::PointCloud::noise)), and even noise is removed before the view,
+    /// as with `denoise`. 0 stands for a surface without thickness.
+    pub thickness: Option<f64>,
     /// Whether to give an early answer. It contains all visible points, with the same radius,
     /// and some hidden points. Points that it leaves out are certainly hidden. It takes about
     /// half of the time. With an [`Observer`](crate::Observer), the same view without `draft`

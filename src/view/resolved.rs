@@ -126,6 +126,9 @@ pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inve
     if options.scores {
         return Err(Error::ScoresWithoutLooks);
     }
+    if options.thickness.is_some() {
+        return Err(Error::ThicknessWithoutLooks);
+    }
     match options.inversion {
         Inversion::Spherical => Ok(Inversion::Spherical),
         Inversion::Power(power) => {
@@ -164,9 +167,13 @@ pub(crate) fn looks(options: &Options) -> Result<Option<usize>, Error> {
             if options.draft {
                 return Err(Error::LooksWith { other: "draft" });
             }
+            if let Some(thickness) = options.thickness {
+                in_range("thickness", thickness, 0.0, f64::MAX)?;
+            }
             Ok(Some(count))
         }
         _ if options.scores => Err(Error::ScoresWithoutLooks),
+        _ if options.thickness.is_some() => Err(Error::ThicknessWithoutLooks),
         _ => Ok(None),
     }
 }

@@ -117,10 +117,22 @@ pub(super) fn with_view<T>(
 ) -> Result<T, Failure> {
     let mask = choices.mask();
     let neighbors = options.denoise.or(options.vote);
-    if mask.is_some() || options.within.is_some() || neighbors.or(options.sample).is_some() {
+    let is_chosen = mask.is_some() || options.within.is_some();
+    if is_chosen || options.asks_for_looks() || neighbors.or(options.sample).is_some() {
         prepare(handle, viewpoint, mask.as_ref(), options)?;
     }
     with_cloud(handle, |cloud| query(part(cloud, mask.is_some())))
+}
+
+/// How far measured points lie off their surface.
+#[wasm_bindgen]
+pub fn noise(handle: u32) -> Result<f64, JsValue> {
+    let noise = CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {
+        Some(Some(Cloud::Space(cloud))) => cloud.keep_noise().map_err(Failure::from),
+        Some(Some(_)) => Ok(0.0),
+        _ => Err(Failure::DISPOSED),
+    });
+    Ok(noise?)
 }
 
 /// The cloud, or the part of it that the last mask left.

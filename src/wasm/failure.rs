@@ -89,6 +89,7 @@ impl From<Error> for Failure {
                 ("looksWith", [0.0; 3])
             }
             Error::ScoresWithoutLooks => ("scoresWithoutLooks", [0.0; 3]),
+            Error::ThicknessWithoutLooks => ("thicknessWithoutLooks", [0.0; 3]),
             Error::ScoresWith { other } => {
                 named = other;
                 ("scoresWith", [0.0; 3])

@@ -26,6 +26,8 @@ extern "C" {
     #[wasm_bindgen(method, getter)]
     fn scores(this: &ViewOptions) -> bool;
     #[wasm_bindgen(method, getter)]
+    fn thickness(this: &ViewOptions) -> f64;
+    #[wasm_bindgen(method, getter)]
     fn draft(this: &ViewOptions) -> bool;
     #[wasm_bindgen(method, getter)]
     fn sample(this: &ViewOptions) -> f64;
@@ -56,6 +58,8 @@ impl ViewOptions {
             denoise: number(self.denoise()),
             vote: number(self.vote()),
             scores: self.scores(),
+            // A negative number stands for none.
+            thickness: Some(self.thickness()).filter(|thickness| *thickness >= 0.0),
             draft: self.draft(),
             sample: number(self.sample()),
             within: self.within().map(|given| {

@@ -38,7 +38,7 @@ pub fn go_on(
         return Ok(true);
     }
     let view = options.read();
-    let done = with_cloud(handle, |cloud| {
+    let done = with_view(handle, Some([x, y, z]), options, &view, |cloud| {
         with_memory(handle, false, |memory| {
             cloud.go_on_with(memory, [x, y, z], &view, budget as usize)
         })

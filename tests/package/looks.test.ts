@@ -5,7 +5,7 @@ import { fileURLToPath } from "node:url";
 import { afterAll, describe, expect, it } from "vitest";
 
 import type { VisibilityOptions } from "hidden-point-removal";
-import { bumpySphere, bunny, problemOf, readyPackage } from "./support";
+import { bumpySphere, bunny, problemOf, randomNumbers, readyPackage } from "./support";
 
 const { hiddenPointRemoval, mergeVisible, PointCloud, WorkerPointCloud } = await readyPackage();
 
@@ -133,6 +133,31 @@ describe("three looks", () => {
   });
 });
 
+describe("a surface with noise", () => {
+  const random = randomNumbers(4);
+  // The sum of twelve uniform numbers is nearly normal.
+  const normal = () => Array.from({ length: 12 }, random).reduce((sum, x) => sum + x, -6);
+  const rough = bumpySphere(1, 6000).map((x) => x + 0.015 * normal());
+
+  it("is seen as if it had none, in a worker too", async () => {
+    const noisy = new PointCloud(rough);
+    expect(new PointCloud(sphere).noise).toBe(0);
+    expect(noisy.noise).toBeGreaterThan(0.005);
+    const at = (options: VisibilityOptions) => noisy.visibleFrom(farAway, { looks: 3, ...options }).indices;
+    const auto = at({});
+    expect(auto.length).toBeGreaterThan(1.2 * at({ thickness: 0 }).length);
+    expect(at({ thickness: "auto" })).toEqual(auto);
+    expect(at({ thickness: 0.2 }).length).toBeGreaterThan(at({ thickness: 0 }).length);
+
+    const other = await WorkerPointCloud.create(rough);
+    expect(await other.noise).toBe(noisy.noise);
+    expect((await other.visibleFrom(farAway, { looks: 3 })).indices).toEqual(auto);
+    noisy.remove(auto);
+    expect(noisy.noise).not.toBe(await other.noise);
+    await other.dispose();
+  });
+});
+
 describe("in a worker", () => {
   const opened: { dispose(): void }[] = [];
   afterAll(() => {
@@ -175,6 +200,11 @@ describe("an error names the option", () => {
     [/looks and inversion/, view({ looks: 3, inversion: "spherical" })],
     [/inversion.*"looks"/, view({ inversion: { looks: [1, 2] } })],
     [/scores.*only with looks/, view({ scores: true })],
+    [/thickness.*only with looks/, view({ thickness: 0.1 })],
+    [/thickness.*at least 0.*-1/, view({ looks: 3, thickness: -1 })],
+    [/thickness.*NaN/, view({ looks: 3, thickness: NaN })],
+    [/thickness.*Infinity/, view({ looks: 3, thickness: Infinity })],
+    [/thickness.*"thin"/, view({ looks: 3, thickness: "thin" })],
     [/scores.*true or false.*1/, view({ looks: 3, scores: 1 })],
     [/scores.*several viewpoints/, () => cloud.visibleFromAny([farAway], { looks: 3, scores: true })],
     [/scores.*several viewpoints/, () => cloud.visibleFromAtLeast(1, [farAway], { looks: 3, scores: true })],

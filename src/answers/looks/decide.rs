@@ -68,10 +68,12 @@ impl Verdicts {
             };
             let place = look.place(points.get(point));
             let behind = triangle.behind(place, look.ahead);
+            // A surface with a thickness hides what is behind all of it.
+            let depth = behind / (triangle.longest + look.thickness() / BEHIND);
             if triangle.longest <= longest * triangle.size {
-                self.judge(point, behind / triangle.longest);
+                self.judge(point, depth);
             } else if look.is_last && behind > triangle.longest {
-                self.decide(point, false, FAR);
+                self.decide(point, depth <= BEHIND, FAR);
             } else {
                 left.takes_part[own] = true;
                 let numbered = faces.points_of_vertices();
@@ -94,8 +96,10 @@ impl Verdicts {
         corners: &Corners,
     ) -> Result<Left, OutOfMemory> {
         let numbered = faces.points_of_vertices();
-        let scale = look.scale * look.unit;
-        let rings = if scale < RING * corners.widest || !self.scores.is_empty() {
+        let ring = RING * look.tuning.ring;
+        let is_even = look.tuning.growth == 0.0;
+        let is_wide = look.scale * look.unit >= ring * corners.widest;
+        let rings = if !(is_even && is_wide && self.scores.is_empty()) {
             corners.rings()?
         } else {
             // The ring of every vertex is narrow enough.
@@ -107,13 +111,15 @@ impl Verdicts {
             spacing: filled(count, f64::INFINITY)?,
         };
         for (vertex, &own) in numbered.iter().enumerate().skip(1) {
-            let Corner { spacing, .. } = corners.at(vertex as Vertex);
+            let Corner { spacing, place } = corners.at(vertex as Vertex);
             if spacing == f64::INFINITY {
                 continue;
             }
             left.spacing[own as usize] = spacing;
             let point = part.place(own as usize);
-            let width = rings.get(vertex).map_or(0.0, |ring| RING * ring / scale);
+            let width = rings
+                .get(vertex)
+                .map_or(0.0, |mean| ring * mean / look.scale_at(place));
             if self.is_open(point) && width <= 1.0 {
                 let score = look.score * (1.0 - LESS_SURE * square_root(width));
                 self.decide(point, true, score);

@@ -4,7 +4,9 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use super::part::Part;
+use super::tuning::Tuning;
 use crate::base::allocation::{OutOfMemory, filled};
+use crate::base::real::square_root;
 
 /// The score of a point that nothing decides.
 const UNKNOWN: f64 = 0.2;
@@ -30,8 +32,11 @@ pub(super) struct Look {
     pub unit: f64,
     /// The direction of all rays. `None` where they start at the viewpoint.
     pub ahead: Option<DVec3>,
-    /// The scale c of its hull, not in these units.
+    /// The scale c of its hull, not in these units; at the farthest distance if it grows.
     pub scale: f64,
+    pub tuning: Tuning,
+    /// The largest distance of a point from the viewpoint.
+    pub farthest: f64,
     /// The score of its vertices.
     pub score: f64,
     pub is_last: bool,
@@ -43,6 +48,21 @@ impl Look {
     pub(super) fn place(&self, point: [f64; 3]) -> DVec3 {
         (DVec3::from_array(point) - self.origin) * self.unit
     }
+
+    /// The scale c for a [place](Self::place), in its units.
+    pub(super) fn scale_at(&self, place: DVec3) -> f64 {
+        let scale = self.scale * self.unit;
+        if self.tuning.growth == 0.0 {
+            return scale;
+        }
+        let range = square_root(place.length_squared()) / (self.farthest * self.unit);
+        scale * libm::pow(range, self.tuning.growth)
+    }
+
+    /// How far behind a surface a point may be besides what its triangles allow, in these units.
+    pub(super) fn thickness(&self) -> f64 {
+        self.tuning.thickness * self.unit
+    }
 }
 
 /// The answer of several looks, for each distinct point.
@@ -50,6 +70,8 @@ pub(crate) struct Seen {
     pub visible: Vec<bool>,
     /// From 0 to 1; empty unless asked for.
     pub scores: Vec<f32>,
+    /// The scale c of each look; 0 for looks that were not taken.
+    pub scales: [f64; 3],
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -133,6 +155,7 @@ impl Verdicts {
         Ok(Seen {
             visible,
             scores: self.scores,
+            scales: [0.0; 3],
         })
     }
 }

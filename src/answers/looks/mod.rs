@@ -12,14 +12,18 @@
 //!          look decides follows its neighbors (`followers`). The looks may be taken in several steps
 //!          (`series`).
 
+mod aside;
 mod corners;
 mod decide;
 mod followers;
 mod look;
 mod part;
+mod rays;
 mod series;
 mod surface;
+mod survey;
 mod triangle;
+mod tuning;
 
 use alloc::vec::Vec;
 
@@ -27,7 +31,7 @@ use crate::base::allocation::filled;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
 pub(crate) use look::{Gaze, Seen};
-pub(crate) use series::{Series, scales};
+pub(crate) use series::{Question, Series, even_scales};
 
 /// The scores of distinct points as those of the caller's indices; 0 where there is none.
 pub(crate) fn scores_of_indices(cloud: &PointCloud, scores: &[f32]) -> Result<Vec<f32>, Error> {

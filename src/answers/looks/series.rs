@@ -1,14 +1,16 @@
 //! The looks of one view, step by step, so that a viewer can give them up when its camera moves.
 
+use alloc::sync::Arc;
 use glam::DVec3;
 
 use super::followers::follow;
 use super::look::{Gaze, Look, Seen, Verdicts};
 use super::part::Part;
+use super::tuning::Tuning;
 use crate::base::allocation::OutOfMemory;
 use crate::base::error::Error;
 use crate::base::real::power_of_two_below;
-use crate::cloud::point_cloud::PointCloud;
+use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
 use crate::cloud::points::Points;
 use crate::cloud::statistics::Statistics;
 use crate::flip::inversion::Flip;
@@ -17,36 +19,43 @@ use crate::flip::lift::Lift;
 use crate::hull::{self, Memory, OuterFaces};
 use crate::view::resolved::check_viewpoint;
 
-/// The scale c of each look as a share of the cloud's spacing × widening, from tight to loose. Two
-/// looks leave out the middle one. Twice or half of any of these values changes the error little.
-const SHARES: [f64; 3] = [0.28, 0.07, 0.02];
 /// The highest score of a hull vertex, by look.
 const SCORES: [f64; 3] = [1.0, 1.0, 0.9];
-
-/// The c of each of `count` looks at a cloud with these statistics. The remaining numbers are 0.
-pub(crate) fn scales(count: usize, statistics: &Statistics) -> [f64; 3] {
-    // Where samples leave much empty, gaps are wider than the spacing.
-    let gap = statistics.spacing * statistics.widening;
-    // Without a spacing there is one point at most, and any scale gives the same answer.
-    let gap = if gap > 0.0 { gap } else { 1.0 };
-    let mut scales = [0.0; 3];
-    for (number, scale) in scales.iter_mut().take(count).enumerate() {
-        let share = SHARES[place(count, number)];
-        *scale = (share * gap).clamp(f64::MIN_POSITIVE, f64::MAX);
-    }
-    scales
-}
 
 /// The place, among the three looks, of look `number` of `count`.
 fn place(count: usize, number: usize) -> usize {
     if count == 2 { 2 * number } else { number }
 }
 
+/// The c of each of `count` looks at a cloud with these statistics, without noise and range. The
+/// remaining numbers are 0.
+pub(crate) fn even_scales(count: usize, statistics: &Statistics) -> [f64; 3] {
+    scales_of(count, &Tuning::plain(statistics))
+}
+
+fn scales_of(count: usize, tuning: &Tuning) -> [f64; 3] {
+    let mut scales = [0.0; 3];
+    for (number, scale) in scales.iter_mut().take(count).enumerate() {
+        *scale = tuning.scales[place(count, number)];
+    }
+    scales
+}
+
+/// What looks are asked for.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct Question {
+    pub gaze: Gaze,
+    pub count: usize,
+    pub with_scores: bool,
+    pub thickness: Option<f64>,
+}
+
 /// Looks that may not all be taken yet.
 pub(crate) struct Series {
-    gaze: Gaze,
-    count: usize,
-    with_scores: bool,
+    question: Question,
+    survey: Option<Arc<Survey>>,
+    tuning: Tuning,
+    farthest: f64,
     verdicts: Verdicts,
     /// The points of the next look.
     part: Part,
@@ -62,18 +71,33 @@ impl Series {
     /// A viewpoint is checked here.
     pub(crate) fn new(
         cloud: &PointCloud,
-        gaze: Gaze,
-        count: usize,
-        with_scores: bool,
+        survey: Option<Arc<Survey>>,
+        question: Question,
     ) -> Result<Self, Error> {
-        if let Gaze::From(viewpoint) = gaze {
+        if let Gaze::From(viewpoint) = question.gaze {
             check_viewpoint(viewpoint)?;
         }
+        let cloud = looked_at(&survey, question.thickness, cloud);
+        let farthest = match question.gaze {
+            Gaze::From(viewpoint) => {
+                let points = &cloud.sequence.points;
+                cloud.blocks.farthest_distance(points, viewpoint)?
+            }
+            Gaze::Along(_) => 0.0,
+        };
+        let tuning = Tuning::of(
+            question.gaze,
+            cloud,
+            survey.as_deref(),
+            question.thickness,
+            farthest,
+        )?;
         Ok(Self {
-            gaze,
-            count,
-            with_scores,
-            verdicts: Verdicts::new(cloud.sequence.points.len(), with_scores)?,
+            question,
+            verdicts: Verdicts::new(cloud.sequence.points.len(), question.with_scores)?,
+            survey,
+            tuning,
+            farthest,
             part: Part::All,
             next: 0,
             is_begun: false,
@@ -82,8 +106,8 @@ impl Series {
     }
 
     /// Whether this is the same question.
-    pub(crate) fn is_of(&self, gaze: Gaze, count: usize, with_scores: bool) -> bool {
-        (self.gaze, self.count, self.with_scores) == (gaze, count, with_scores)
+    pub(crate) fn is_of(&self, question: Question) -> bool {
+        self.question == question
     }
 
     /// Takes the next look. With a finite `budget`, it takes only a part of the first look: about
@@ -94,16 +118,24 @@ impl Series {
         memory: &mut Memory,
         budget: usize,
     ) -> Result<bool, Error> {
-        if self.next >= self.count {
+        let survey = self.survey.clone();
+        let cloud = looked_at(&survey, self.question.thickness, cloud);
+        let count = self.question.count;
+        if self.next >= count {
             // In one plane with the viewpoint, neighbors on a ray see different things.
-            if self.next == self.count && !self.is_flat {
-                follow(&mut self.verdicts, &cloud.sequence.points)?;
+            if self.next == count && !self.is_flat {
+                let points = &cloud.sequence.points;
+                follow(&mut self.verdicts, points)?;
+                if self.tuning.aside > 0.0 {
+                    let look = self.look(cloud, count - 1);
+                    self.verdicts.show_aside(&look, points)?;
+                }
                 self.verdicts.mix_scores()?;
             }
-            self.next = self.count + 1;
+            self.next = count + 1;
             return Ok(true);
         }
-        let outcome = match self.gaze {
+        let outcome = match self.question.gaze {
             Gaze::From(viewpoint) => self.look_from(viewpoint, cloud, memory, budget)?,
             Gaze::Along(ahead) => self.look_along(ahead, cloud)?,
         };
@@ -111,7 +143,7 @@ impl Series {
             Outcome::Begun => return Ok(false),
             Outcome::Flat => self.is_flat |= self.next == 0,
             Outcome::Left(part) => self.part = part,
-            Outcome::Decided => self.next = self.count - 1,
+            Outcome::Decided => self.next = count - 1,
         }
         self.next += 1;
         Ok(false)
@@ -125,15 +157,21 @@ impl Series {
         budget: usize,
     ) -> Result<Outcome, Error> {
         let points = &cloud.sequence.points;
-        let farthest = cloud.blocks.farthest_distance(points, viewpoint)?;
-        let mut look = self.look(cloud, DVec3::from_array(viewpoint), None);
-        look.unit = power_of_two_below((1.0 / farthest).min(f64::MAX));
+        let look = self.look(cloud, self.next);
         let (own, blocks) = match &self.part {
             Part::All => (points, &cloud.blocks),
             Part::Some { points, blocks, .. } => (points, blocks),
         };
         let blocks = &blocks.levels[0];
-        let kernel = Kernel::Exponential { scale: look.scale };
+        let kernel = if self.tuning.growth > 0.0 {
+            Kernel::Growing {
+                scale: look.scale,
+                farthest: self.farthest,
+                power: self.tuning.growth,
+            }
+        } else {
+            Kernel::Exponential { scale: look.scale }
+        };
         let flip = Flip::new(viewpoint, kernel).rescaled_for(own);
         if self.next == 0 && budget < usize::MAX {
             let is_begun = core::mem::replace(&mut self.is_begun, true);
@@ -146,7 +184,7 @@ impl Series {
         }
         hull::mark_visible(own, blocks, &flip, None, memory)?;
         let verdicts = &mut self.verdicts;
-        let outcome = match memory.outer_faces(own, &flip, farthest)? {
+        let outcome = match memory.outer_faces(own, &flip, self.farthest)? {
             Some(mut faces) => verdicts.after(&look, Ok(&mut faces), &self.part, points)?,
             None => verdicts.after(&look, Err(memory.visible()), &self.part, points)?,
         };
@@ -155,10 +193,8 @@ impl Series {
     }
 
     fn look_along(&mut self, ahead: DVec3, cloud: &PointCloud) -> Result<Outcome, OutOfMemory> {
-        let mut look = self.look(cloud, DVec3::ZERO, Some(ahead));
+        let look = self.look(cloud, self.next);
         let lift = Lift::new(&cloud.bounds, ahead, 0.5 / look.scale);
-        look.origin = lift.middle();
-        look.unit = lift.scale();
         let points = &cloud.sequence.points;
         let own = match &self.part {
             Part::All => points,
@@ -173,20 +209,55 @@ impl Series {
     }
 
     #[inline(never)]
-    fn look(&self, cloud: &PointCloud, origin: DVec3, ahead: Option<DVec3>) -> Look {
+    fn look(&self, cloud: &PointCloud, number: usize) -> Look {
+        let place = place(self.question.count, number);
+        let scale = self.tuning.scales[place];
+        let (origin, unit, ahead) = match self.question.gaze {
+            Gaze::From(viewpoint) => {
+                let unit = power_of_two_below((1.0 / self.farthest).min(f64::MAX));
+                (DVec3::from_array(viewpoint), unit, None)
+            }
+            Gaze::Along(ahead) => {
+                let lift = Lift::new(&cloud.bounds, ahead, 0.5 / scale);
+                (lift.middle(), lift.scale(), Some(ahead))
+            }
+        };
         Look {
             origin,
-            unit: 1.0,
+            unit,
             ahead,
-            scale: scales(self.count, &cloud.statistics)[self.next],
-            score: SCORES[place(self.count, self.next)],
-            is_last: self.next + 1 == self.count,
+            scale,
+            tuning: self.tuning,
+            farthest: self.farthest,
+            score: SCORES[place],
+            is_last: number + 1 == self.question.count,
         }
     }
 
-    pub(crate) fn finish(self) -> Result<Seen, OutOfMemory> {
-        self.verdicts.finish()
+    /// The answer for the points of `cloud`, at which all looks were taken.
+    pub(crate) fn finish(self, cloud: &PointCloud) -> Result<Seen, Error> {
+        let mut seen = self.verdicts.finish()?;
+        seen.scales = scales_of(self.question.count, &self.tuning);
+        match smooth(&self.survey, self.question.thickness) {
+            Some(smooth) => smooth.back(seen, cloud),
+            None => Ok(seen),
+        }
     }
+}
+
+/// The points without noise, if they are looked at.
+fn smooth(survey: &Option<Arc<Survey>>, thickness: Option<f64>) -> Option<&Smooth> {
+    let survey = survey.as_ref().filter(|_| thickness.is_none());
+    survey.and_then(|survey| survey.smooth.as_ref())
+}
+
+/// The cloud at which the looks are.
+fn looked_at<'a>(
+    survey: &'a Option<Arc<Survey>>,
+    thickness: Option<f64>,
+    cloud: &'a PointCloud,
+) -> &'a PointCloud {
+    smooth(survey, thickness).map_or(cloud, |smooth| &smooth.cloud)
 }
 
 /// How a step ends.

@@ -69,6 +69,14 @@ impl Verdicts {
         }
         let usual = percentile(&lengths, PERCENTILE)?;
         let longest = usual.map_or(0.0, |usual| LONGER * usual);
-        Ok(if longest > LEAST { longest } else { LEAST })
+        if longest > LEAST {
+            let wide = look.tuning.wide;
+            return Ok(if wide == 1.0 {
+                longest
+            } else {
+                LEAST + (longest - LEAST) * wide
+            });
+        }
+        Ok(LEAST)
     }
 }

@@ -40,7 +40,7 @@ fn points_at_the_viewpoint_are_left_out() {
 }
 
 /// Kernels of every kind, for points 0.5 to 50 away.
-const KERNELS: [Kernel; 4] = [
+const KERNELS: [Kernel; 6] = [
     Kernel::Spherical { radius: 60.0 },
     Kernel::Power {
         gamma: 2.5,
@@ -48,6 +48,16 @@ const KERNELS: [Kernel; 4] = [
     },
     Kernel::Exponential { scale: 0.02 },
     Kernel::Exponential { scale: 30.0 },
+    Kernel::Growing {
+        scale: 0.5,
+        farthest: 50.0,
+        power: 0.7,
+    },
+    Kernel::Growing {
+        scale: 20.0,
+        farthest: 50.0,
+        power: 1.0,
+    },
 ];
 
 #[test]

@@ -87,6 +87,10 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     );
   },
 
+  noise: ({ instance, handle, dimension }) => ({
+    noise: dimension > 3 ? 0 : instance.call((bindings) => bindings.noise(handle)),
+  }),
+
   reconstruct: (target, { viewpoint, settings, maxEdge }) => {
     const [x, y, z] = viewpoint as [number, number, number];
     const options = coreOptions(settings, target.spares);

@@ -37,6 +37,7 @@ const MESSAGES = {
   radiusWithExponential: (_a, _b, _c, option) => `${option} cannot be combined with inversion exponential`,
   outOfRange: (least, most, value, option) => `${option} must be from ${least} to ${most}, got ${value}`,
   looksWith: (_a, _b, _c, option) => `looks cannot be combined with ${option}`,
+  thicknessWithoutLooks: () => "thickness can be given only with looks",
   scoresWithoutLooks: () => "scores can be asked for only with looks",
   scoresWith: (_a, _b, _c, other) => `scores cannot be combined with ${other}`,
   noLimit: (_a, _b, _c, option) => `${option} cannot be used for a direction: it has no limit far away`,

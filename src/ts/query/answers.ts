@@ -39,6 +39,7 @@ export interface Answers {
   /** One byte for each position. */
   sees: { seen: Uint8Array<ArrayBuffer> };
   autoRadius: ChosenRadius;
+  noise: { noise: number };
   reconstruct: Found & { triangles: Uint32Array<ArrayBuffer> };
   illuminate: { brightness: Float32Array<ArrayBuffer> };
 }

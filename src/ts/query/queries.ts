@@ -66,6 +66,7 @@ export interface Questions {
   /** `positions` have the core's number of coordinates. */
   sees: { viewpoint: number[]; positions: Float64Array; settings: ViewSettings };
   autoRadius: { viewpoint: number[]; settings: ViewSettings };
+  noise: object;
   reconstruct: { viewpoint: number[]; settings: ViewSettings; maxEdge: number | undefined };
   illuminate: {
     lights: Float64Array<ArrayBuffer>;

@@ -69,6 +69,14 @@ export interface VisibilityOptions {
    * visible, not only the nearest, and parts cannot be merged. Needs a cloud of dimension 3.
    */
   looks?: 2 | 3 | undefined;
+  /**
+   * Only with `looks`: how far behind the surface before it a point may lie and still be seen, in the
+   * cloud's units; at least 0. A measured surface is as thick as its noise, and scans that were put
+   * together lie beside each other. With `"auto"`, the default, it follows from the cloud's `noise`. If
+   * the noise is the same everywhere, it is removed before the view instead, as by `denoise`. With 0,
+   * neither happens (`docs/LOOKS.md`).
+   */
+  thickness?: number | "auto" | undefined;
   /** Only with `looks`: the answer also has `scores`, which say how sure it is. For one viewpoint only. */
   scores?: boolean | undefined;
   /**
@@ -109,6 +117,8 @@ export interface ViewSettings extends WithinSettings {
   denoise: number;
   vote: number;
   scores: boolean;
+  /** A negative number means that it is automatic. */
+  thickness: number;
   draft: boolean;
   /** The number of sampled points. 0 means all points. */
   sample: number;
@@ -116,6 +126,9 @@ export interface ViewSettings extends WithinSettings {
 
 export const Rule = { auto: 0, search: 1, opposite: 2, radius: 3, exponent: 4 } as const;
 export const Kernel = { spherical: 0, power: 1, automaticExponential: 2, exponential: 3, looks: 4 } as const;
+
+/** The thickness that stands for `"auto"`. */
+const AUTOMATIC = -1;
 
 export const VIEW_OPTIONS = [
   "radius",
@@ -125,6 +138,7 @@ export const VIEW_OPTIONS = [
   "vote",
   "looks",
   "scores",
+  "thickness",
   "draft",
   "sample",
   "within",
@@ -138,6 +152,7 @@ export function viewSettings(given: Record<string, unknown>, dimension: number):
     denoise: neighbors(given, "denoise", dimension),
     vote: neighbors(given, "vote", dimension),
     scores: wantsScores(given),
+    thickness: chosenThickness(given),
     draft: wantsDraft(given, dimension),
     sample: sampled(given, dimension),
     ...withinSettings(given["within"], dimension),
@@ -157,6 +172,7 @@ export function ruleSettings(rule: unknown): ViewSettings {
     denoise: 0,
     vote: 0,
     scores: false,
+    thickness: AUTOMATIC,
     draft: false,
     sample: 0,
     ...ALL_POINTS,
@@ -229,6 +245,22 @@ function wantsScores(given: Record<string, unknown>): boolean {
     throw new HprError("option", "scores can be asked for only with looks");
   }
   return scores;
+}
+
+function chosenThickness({ looks, thickness }: Record<string, unknown>): number {
+  if (thickness !== undefined && looks === undefined) {
+    throw new HprError("option", "thickness can be given only with looks");
+  }
+  if (thickness === undefined || thickness === "auto") {
+    return AUTOMATIC;
+  }
+  if (typeof thickness !== "number" || !(thickness >= 0 && thickness < Infinity)) {
+    throw new HprError(
+      "option",
+      `thickness must be a finite number, at least 0, or "auto", got ${describe(thickness)}`,
+    );
+  }
+  return thickness;
 }
 
 function chosenInversion(inversion: unknown): Pick<ViewSettings, "kernel" | "parameter"> {

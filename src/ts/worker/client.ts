@@ -349,6 +349,15 @@ export class WorkerPointCloud {
   }
 
   /**
+   * How far measured points lie off their surface; see `PointCloud.noise`.
+   *
+   * @throws HprError (as a rejection) the same as `PointCloud.noise`.
+   */
+  get noise(): Promise<number> {
+    return this.#ask("noise", undefined, [], () => ({ kind: "noise" })).then(({ noise }) => noise);
+  }
+
+  /**
    * The radius that a rule chooses for a viewpoint; see `PointCloud.autoRadius`.
    *
    * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.

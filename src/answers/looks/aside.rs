@@ -1,0 +1,73 @@
+//! What would be visible if the surface moved by its thickness: points that pass close beside a
+//! visible point that is not nearer.
+
+use alloc::vec::Vec;
+
+use super::look::{Look, Verdict, Verdicts};
+use super::rays::{Ray, Rays};
+use super::tuning::Tuning;
+use crate::base::allocation::{OutOfMemory, push};
+use crate::cloud::points::Points;
+
+/// Only so many visible points, nearest by direction, can show a point. Behind a closed surface all
+/// of them are nearer.
+const NEAREST: usize = 8;
+/// The score of a point that is shown so.
+const SHOWN: f64 = 0.6;
+
+impl Verdicts {
+    /// Shows hidden points beside visible ones.
+    #[inline(never)]
+    pub(super) fn show_aside(&mut self, look: &Look, points: &Points) -> Result<(), OutOfMemory> {
+        let ray = |point: usize| Ray::to(look.place(points.get(point)), look.ahead, point);
+        let mut visible: Vec<Ray> = Vec::new();
+        for (point, verdict) in self.of.iter().enumerate() {
+            if *verdict == Verdict::Visible {
+                push(&mut visible, ray(point))?;
+            }
+        }
+        let visible = Rays::of(visible)?;
+        if visible.len() < NEAREST {
+            return Ok(());
+        }
+        let Tuning { aside, nearer, .. } = look.tuning;
+        let [aside, nearer] = [aside, nearer].map(|length| length * look.unit);
+        for point in 0..points.len() {
+            if self.of[point] == Verdict::Visible {
+                continue;
+            }
+            let ray = ray(point);
+            let reach = if look.ahead.is_some() {
+                aside
+            } else {
+                aside / ray.range
+            };
+            if visible.show(&ray, reach, nearer) {
+                self.decide(point, true, SHOWN);
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Rays {
+    /// Whether one of the rays that are nearest by direction passes within `reach` of the ray of a
+    /// point, and ends at most `nearer` before it.
+    fn show(&self, ray: &Ray, reach: f64, nearer: f64) -> bool {
+        let mut nearest = f64::INFINITY;
+        let range = ray.range - nearer;
+        self.visit(ray.place, range, reach * reach, &mut |squared, _| {
+            nearest = squared;
+            Some(squared)
+        });
+        if nearest == f64::INFINITY {
+            return false;
+        }
+        let mut before = 0;
+        self.visit(ray.place, f64::NEG_INFINITY, nearest, &mut |squared, _| {
+            before += usize::from(squared < nearest);
+            (before >= NEAREST).then_some(-1.0)
+        });
+        before < NEAREST
+    }
+}

@@ -1,0 +1,266 @@
+//! How a view takes its looks: by the noise of the cloud, and by how its spacing grows with range.
+//!
+//! Where there is neither, nothing changes. A scan's spacing grows with range, as seen from the
+//! scanner. Then the scale c of a hull grows in the same way, and the hull is looser.
+//!
+//! With noise a visible point may lie behind its neighbors, up to a thickness T. It stays on the
+//! hull if it is less than x²/2c behind points that are x beside it. Where rays graze the surface,
+//! noise is longer along a ray, and samples are nearer to each other across it. So hulls are
+//! looser, by the cube of the cosine.
+
+use glam::DVec3;
+
+use super::look::Gaze;
+use super::rays::{Ray, Rays};
+use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::base::real::square_root;
+use crate::base::sort::percentile;
+use crate::cloud::noise::Noise;
+use crate::cloud::point_cloud::{PointCloud, Survey};
+use crate::cloud::points::Points;
+use crate::cloud::statistics::Statistics;
+
+/// The scale c of each look as a share of the cloud's spacing × widening, from tight to loose. Two
+/// looks leave out the middle one. Twice or half of any of these values changes the error little.
+const SHARES: [f64; 3] = [0.28, 0.07, 0.02];
+/// The thickness of a surface in standard deviations of its noise, beyond what clean clouds have.
+/// Errors on registered scans change little between 8 and 12.
+const THICKNESS: f64 = 10.0;
+/// How far beside a ray a visible point may be to show a point, and how much nearer, in lengths of
+/// the noise as measured, beyond what clean clouds have.
+const ASIDE: f64 = 20.0;
+const NEARER: f64 = 4.0;
+/// Spacing grows with range if its power, times the square of the correlation, is above this. It
+/// has its full effect from the second number on, so that no viewpoint is at a jump.
+const GROWS: [f64; 2] = [0.2, 0.3];
+/// A scan that is seen from its scanner has near points side by side: in at most this share of all
+/// directions, the nearest point by direction is more than so many spacings away. From the first
+/// number on, the viewpoint is not at the scanner.
+const AWAY: [f64; 2] = [0.1, 0.05];
+const NEAR: f64 = 10.0;
+/// Noise rules along rays if it is more than this share of the spacing across them; likewise.
+const RULES: [f64; 2] = [0.2, 0.3];
+/// How much looser hulls are with noise, and with range.
+const LOOSER: f64 = 0.5;
+const LOOSER_BY_RANGE: [f64; 2] = [5.0, 4.0];
+const COSINE_POWER: f64 = 3.0;
+
+/// The numbers of one view, in the cloud's units.
+#[derive(Clone, Copy)]
+pub(super) struct Tuning {
+    /// The scale c of each of the three looks; at the farthest distance if it grows.
+    pub scales: [f64; 3],
+    /// The power by which spacing grows with range.
+    pub growth: f64,
+    /// By how much the widest ring of a vertex shrinks.
+    pub ring: f64,
+    /// How far the widening and the length of long triangles count, from 0 to 1.
+    pub wide: f64,
+    /// How far behind a surface a point may be besides what its triangles allow.
+    pub thickness: f64,
+    /// How far beside a ray a visible point may be.
+    pub aside: f64,
+    /// How much nearer than the point that it shows.
+    pub nearer: f64,
+}
+
+impl Tuning {
+    pub(super) fn of(
+        gaze: Gaze,
+        cloud: &PointCloud,
+        survey: Option<&Survey>,
+        given: Option<f64>,
+        farthest: f64,
+    ) -> Result<Self, OutOfMemory> {
+        let statistics = &cloud.statistics;
+        let Some(survey) = survey else {
+            return Ok(Self::plain(statistics));
+        };
+        let measured: &Noise = &survey.noise;
+        let (noise, thickness, excess) = match (&survey.smooth, given) {
+            (_, Some(thickness)) => (measured, thickness, thickness / THICKNESS),
+            (Some(smooth), None) => (&smooth.noise, 0.0, 0.0),
+            (None, None) => {
+                let thickness = THICKNESS * measured.beyond_clean();
+                (measured, thickness, measured.excess)
+            }
+        };
+        let (growth, ranged) = match gaze {
+            Gaze::From(viewpoint) => {
+                let view = Range {
+                    noise,
+                    viewpoint,
+                    farthest,
+                };
+                view.growth(&cloud.sequence.points)?
+            }
+            Gaze::Along(_) => (0.0, 0.0),
+        };
+        if !(thickness > 0.0 || growth > 0.0) {
+            return Ok(Self::plain(statistics));
+        }
+        let is_thick = thickness > 0.0;
+        let (rules, cosine) = if is_thick {
+            let cosine = cosine(noise, gaze)?;
+            (ramp(excess / (noise.spacing * cosine), RULES), cosine)
+        } else {
+            (0.0, 1.0)
+        };
+        let by_range = LOOSER_BY_RANGE[usize::from(is_thick)];
+        let mut looser = libm::exp2(-by_range * growth);
+        if rules > 0.0 {
+            looser *= libm::pow((2.0 * cosine).min(1.0), COSINE_POWER * rules);
+        }
+        let ring = looser;
+        if is_thick {
+            looser *= LOOSER;
+        }
+        let wide = (1.0 - rules) * (1.0 - ranged);
+        let mut gap = statistics.spacing * libm::pow(statistics.widening, wide);
+        if growth > 0.0
+            && let Gaze::From(viewpoint) = gaze
+        {
+            // The mean of all local scales is that of a cloud that does not grow.
+            let view = Range {
+                noise,
+                viewpoint,
+                farthest,
+            };
+            gap /= view.mean_power(growth);
+        }
+        Ok(Self {
+            scales: scales(gap, looser),
+            growth,
+            ring,
+            wide,
+            thickness,
+            aside: ASIDE * rules * excess,
+            nearer: NEARER * excess,
+        })
+    }
+
+    pub(super) fn plain(statistics: &Statistics) -> Self {
+        // Where samples leave much empty, gaps are wider than the spacing.
+        let gap = statistics.spacing * statistics.widening;
+        Self {
+            scales: scales(gap, 1.0),
+            growth: 0.0,
+            ring: 1.0,
+            wide: 1.0,
+            thickness: 0.0,
+            aside: 0.0,
+            nearer: 0.0,
+        }
+    }
+}
+
+fn scales(gap: f64, looser: f64) -> [f64; 3] {
+    // Without a spacing there is one point at most, and any scale gives the same answer.
+    let gap = if gap > 0.0 { gap } else { 1.0 };
+    SHARES.map(|share| (share * gap * looser).clamp(f64::MIN_POSITIVE, f64::MAX))
+}
+
+/// From 0 at the first number to 1 at the second one.
+fn ramp(number: f64, [start, full]: [f64; 2]) -> f64 {
+    ((number - start) / (full - start)).clamp(0.0, 1.0)
+}
+
+/// The samples as they are seen from a viewpoint.
+struct Range<'a> {
+    noise: &'a Noise,
+    viewpoint: [f64; 3],
+    farthest: f64,
+}
+
+impl Range<'_> {
+    /// A place relative to the viewpoint, in units of the farthest distance.
+    fn place(&self, point: [f64; 3]) -> DVec3 {
+        (DVec3::from_array(point) - DVec3::from_array(self.viewpoint)) / self.farthest
+    }
+
+    fn distances(&self) -> impl Iterator<Item = f64> {
+        let places = self.noise.samples.iter().map(|sample| sample.place);
+        places.map(|place| square_root(self.place(place).length_squared()))
+    }
+
+    /// The power of the distance with which spacing grows, and how far this counts, from 0 to 1.
+    fn growth(&self, points: &Points) -> Result<(f64, f64), OutOfMemory> {
+        let growth = self.correlated_growth();
+        let mut counts = ramp(growth, GROWS);
+        if counts > 0.0 {
+            counts *= ramp(self.share_away(points)?, AWAY);
+        }
+        Ok((growth * counts, counts))
+    }
+
+    /// The power of the distance with which spacing grows, times the square of the correlation of
+    /// their logarithms; from 0 to 1.
+    fn correlated_growth(&self) -> f64 {
+        let [mut n, mut x, mut y, mut xx, mut xy, mut yy] = [0.0; 6];
+        for (sample, distance) in self.noise.samples.iter().zip(self.distances()) {
+            if distance > 0.0 {
+                let a = libm::log(distance);
+                let b = libm::log(sample.spacing / self.noise.spacing);
+                n += 1.0;
+                x += a;
+                y += b;
+                xx += a * a;
+                xy += a * b;
+                yy += b * b;
+            }
+        }
+        let [varied, together, other] = [n * xx - x * x, n * xy - x * y, n * yy - y * y];
+        let growth = together / varied * (together / varied) * (together / other);
+        // NaN where all are alike.
+        if growth > 0.0 { growth.min(1.0) } else { 0.0 }
+    }
+
+    /// The share of the samples whose nearest point by direction is elsewhere.
+    fn share_away(&self, points: &Points) -> Result<f64, OutOfMemory> {
+        let mut rays = with_capacity(points.len())?;
+        let places = points.iter().enumerate();
+        rays.extend(places.map(|(point, place)| Ray::to(self.place(place), None, point)));
+        let rays = Rays::of(rays)?;
+        let mut away = 0;
+        for sample in &self.noise.samples {
+            let place = self.place(sample.place);
+            let own = Ray::to(place, None, sample.point as usize);
+            let mut nearest = own;
+            rays.visit(own.place, 0.0, f64::INFINITY, &mut |squared, ray| {
+                (ray.point != own.point).then(|| {
+                    nearest = *ray;
+                    squared
+                })
+            });
+            let apart = nearest.place * nearest.range - place;
+            let near = NEAR * sample.spacing / self.farthest;
+            away += usize::from(apart.length_squared() > near * near);
+        }
+        Ok(away as f64 / self.noise.samples.len() as f64)
+    }
+
+    /// The mean of the distance to the power of the growth.
+    fn mean_power(&self, growth: f64) -> f64 {
+        let powers = self.distances().map(|distance| libm::pow(distance, growth));
+        powers.fold(0.0, |sum, power| sum + power) / self.noise.samples.len() as f64
+    }
+}
+
+/// The median of the cosine between ray and normal.
+fn cosine(noise: &Noise, gaze: Gaze) -> Result<f64, OutOfMemory> {
+    let mut cosines = with_capacity(noise.samples.len())?;
+    for sample in &noise.samples {
+        let ray = match gaze {
+            Gaze::From(viewpoint) => {
+                let v = DVec3::from_array(sample.place) - DVec3::from_array(viewpoint);
+                v / square_root(v.dot(v))
+            }
+            Gaze::Along(ahead) => ahead,
+        };
+        let cosine = sample.normal.dot(ray).abs();
+        if cosine >= 0.0 {
+            cosines.push(cosine);
+        }
+    }
+    Ok(percentile(&cosines, 50)?.unwrap_or(1.0))
+}

@@ -1,0 +1,215 @@
+//! How far measured points lie off their surface, from an even sample of the points.
+//!
+//! The distance of 17 near points from a quadric comes from noise, from curvature and from edges.
+//! Among 33 points the part of the curvature is larger. What does not grow is noise. A low
+//! percentile over the sample leaves edges and corners out.
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::base::real::{power_of_two_below, square_root};
+use crate::base::sort::percentile;
+use crate::cloud::neighbors::{Nearest, Neighbors};
+use crate::cloud::points::Points;
+use crate::cloud::quadric::off_quadric;
+use crate::cloud::statistics::{mean_distance, sampled_place};
+use crate::cloud::surface;
+
+/// Clouds with fewer points tell nothing.
+const FEWEST: usize = 2000;
+/// How many points are measured at most.
+const SAMPLES: usize = 4096;
+/// Neighbors of the small and the large surroundings of a point.
+const NEAR: [usize; 2] = [16, 32];
+/// The percentile of the distances off the quadric.
+const LOW: usize = 25;
+/// From the low percentile to the standard deviation of normal noise.
+const TO_DEVIATION: f64 = 1.15;
+/// A cloud is noisy if its noise is more than this, in spacings. Clean scans have up to 0.065, and
+/// registered ones 0.13 and more.
+const NOISY: f64 = 0.075;
+/// The share of it that clean clouds may have, too.
+const CLEAN: f64 = 0.05;
+/// Noise is even if this ratio of a low to a very low percentile is not reached. Normal noise gives
+/// 1.29, noisy objects at most 1.57, scans that overlap 2.0 and more.
+const EVEN: f64 = 1.8;
+const VERY_LOW: usize = 5;
+/// Even noise with a median kurtosis below this is two sheets. Normal noise has 2.63 to 2.76.
+const TWO_SHEETS: f64 = 2.35;
+/// The measured noise comes nowhere near this, however large the noise is. Above 0.25 it is too small,
+/// as measured on spheres with noise of 0.1 to 2 spacings.
+const MOST: f64 = 0.56;
+const LEAST_LEFT: f64 = 0.2;
+/// Evenness is also measured on one point in so many, if this leaves at least [`LEFT`] points.
+const THINNED: usize = 10;
+const LEFT: usize = 3000;
+
+/// A measured point.
+pub(crate) struct Sample {
+    pub point: u32,
+    pub place: [f64; 3],
+    /// The normal of the plane of its 16 nearest points, of either sign.
+    pub normal: DVec3,
+    /// The mean distance to its 6 nearest points.
+    pub spacing: f64,
+}
+
+/// What a sample tells of a cloud's noise.
+pub(crate) struct Noise {
+    /// Empty where the cloud has too few points.
+    pub samples: Vec<Sample>,
+    /// The mean spacing of the samples.
+    pub spacing: f64,
+    /// The noise in spacings, whether it is noise or not.
+    pub ratio: f64,
+    /// What the noise of a noisy cloud has beyond that of clean ones, in the cloud's units; else 0.
+    pub excess: f64,
+    /// Whether a noisy cloud has the same noise everywhere.
+    pub is_even: bool,
+}
+
+impl Noise {
+    /// Measures distinct points along the Hilbert curve.
+    pub(crate) fn of(points: &Points) -> Result<Self, OutOfMemory> {
+        let measured = Measured::of(points)?;
+        let mut spacings = with_capacity(measured.samples.len())?;
+        spacings.extend(measured.samples.iter().map(|sample| sample.spacing));
+        let longest = surface::longest(&spacings)?;
+        let spacing = surface::mean(&surface::cut_off(spacings, longest));
+        let [small, large] = &measured.ratios;
+        let [small, large] = [low(small, LOW)?, low(large, LOW)?];
+        // It does not grow: q² = noise² + curvature·k, for k and 2k neighbors.
+        let constant = (4.0 * small * small - large * large) / 3.0;
+        let mut noise = Self {
+            spacing,
+            ratio: TO_DEVIATION * square_root(constant.max(0.0)),
+            excess: 0.0,
+            is_even: false,
+            samples: Vec::new(),
+        };
+        if noise.ratio > NOISY && noise.ratio * spacing < f64::INFINITY {
+            noise.is_even = measured.is_even(points)?;
+            // The two sides of a thin sheet are no noise.
+            let is_sheets = noise.is_even && low(&measured.kurtoses, 50)? < TWO_SHEETS;
+            noise.excess = if is_sheets {
+                0.0
+            } else {
+                (noise.ratio - CLEAN) * spacing
+            };
+        }
+        noise.samples = measured.samples;
+        Ok(noise)
+    }
+
+    /// One standard deviation, in the cloud's units. It is 0 where nothing tells of noise.
+    pub(crate) fn deviation(&self) -> f64 {
+        if self.excess == 0.0 {
+            return 0.0;
+        }
+        // Where noise is as large as the spacing, near points are those of like noise.
+        let share = self.ratio / MOST;
+        let share = share * share;
+        let lost = (1.0 - share * share).max(LEAST_LEFT);
+        self.ratio / square_root(lost) * self.spacing
+    }
+
+    /// The standard deviation beyond that of clean clouds, in the cloud's units.
+    pub(crate) fn beyond_clean(&self) -> f64 {
+        (self.deviation() - CLEAN * self.spacing).max(0.0)
+    }
+}
+
+fn low(numbers: &[f64], percent: usize) -> Result<f64, OutOfMemory> {
+    Ok(percentile(numbers, percent)?.unwrap_or(0.0))
+}
+
+/// The samples, and their distances off the quadrics.
+struct Measured {
+    samples: Vec<Sample>,
+    /// In spacings of each sample, for the small and the large surroundings.
+    ratios: [Vec<f64>; 2],
+    /// In the cloud's units, for the small surroundings.
+    lengths: Vec<f64>,
+    /// For the large surroundings.
+    kurtoses: Vec<f64>,
+}
+
+impl Measured {
+    #[inline(never)]
+    fn of(points: &Points) -> Result<Self, OutOfMemory> {
+        let n = points.len();
+        let count = if n < FEWEST { 0 } else { n.min(SAMPLES) };
+        let mut samples: Vec<Sample> = with_capacity(count)?;
+        let mut ratios = [with_capacity(count)?, with_capacity(count)?];
+        let mut lengths: Vec<f64> = with_capacity(count)?;
+        let mut kurtoses: Vec<f64> = with_capacity(count)?;
+        let [_, most] = NEAR;
+        let mut places: Vec<DVec3> = with_capacity(most + 1)?;
+        let neighbors = Neighbors::new(points)?;
+        let mut nearest = Nearest::with_capacity(most)?;
+        for sample in 0..count {
+            let query = sampled_place(sample, count, n);
+            neighbors.find(query, &mut nearest);
+            let found = nearest.found();
+            let place = points.get(query);
+            let spacing = mean_distance(found, None);
+            // In this unit nothing overflows, and no power of two of the cloud's unit rounds.
+            let farthest = found.last().map_or(0.0, |last| last.squared);
+            let unit = power_of_two_below((1.0 / square_root(farthest)).min(f64::MAX));
+            if !(spacing > 0.0 && farthest < f64::INFINITY) {
+                continue;
+            }
+            places.clear();
+            places.push(DVec3::ZERO);
+            places.extend(found.iter().map(|other| {
+                let other = DVec3::from_array(points.get(other.index as usize));
+                (other - DVec3::from_array(place)) * unit
+            }));
+            let small = off_quadric(&places[..=NEAR[0]]);
+            let large = off_quadric(&places);
+            let size = spacing * unit;
+            ratios[0].push(small.deviation / size);
+            ratios[1].push(large.deviation / size);
+            lengths.push(small.deviation / unit);
+            kurtoses.push(large.kurtosis);
+            samples.push(Sample {
+                point: query as u32,
+                place,
+                normal: small.normal,
+                spacing,
+            });
+        }
+        Ok(Self {
+            samples,
+            ratios,
+            lengths,
+            kurtoses,
+        })
+    }
+
+    /// Whether the noise of these points is the same everywhere, as that of a sensor is. Registered
+    /// scans lie beside each other only where they overlap.
+    fn is_even(&self, points: &Points) -> Result<bool, OutOfMemory> {
+        let mut unevenness = self.unevenness()?;
+        // Where noise is as large as the spacing, neighborhoods are round. Fewer points show layers.
+        let step = (points.len() / LEFT).min(THINNED);
+        if step > 1 {
+            let mut places = with_capacity(points.len() / step + 1)?;
+            places.extend((0..points.len() as u32).step_by(step));
+            let thinned = Self::of(&points.gathered(&places)?)?.unevenness()?;
+            unevenness = unevenness.max(thinned);
+        }
+        Ok(unevenness < EVEN)
+    }
+
+    /// The low percentile of the distances ÷ the very low one, in spacings or in units, whichever
+    /// is more even.
+    fn unevenness(&self) -> Result<f64, OutOfMemory> {
+        let mut least = f64::INFINITY;
+        for numbers in [&self.ratios[0], &self.lengths] {
+            least = least.min(low(numbers, LOW)? / low(numbers, VERY_LOW)?);
+        }
+        Ok(least)
+    }
+}

@@ -1,0 +1,80 @@
+//! The plane of a few points: its normal is the axis along which they vary least.
+
+use glam::{DMat3, DVec3};
+
+use crate::base::real::square_root;
+
+pub(crate) fn outer_product(v: DVec3) -> DMat3 {
+    DMat3::from_cols(v * v.x, v * v.y, v * v.z)
+}
+
+/// The unit eigenvector of the smallest eigenvalue of a symmetric matrix, by Jacobi's
+/// rotations. They need square roots only, so the bits are the same everywhere.
+pub(crate) fn least_axis(mut matrix: DMat3) -> DVec3 {
+    /// Sweeps converge quadratically; a few are enough.
+    const SWEEPS: usize = 12;
+    let trace = matrix.col(0)[0] + matrix.col(1)[1] + matrix.col(2)[2];
+    let negligible = 1e-18 * trace;
+    let mut axes = DMat3::IDENTITY;
+    for _ in 0..SWEEPS {
+        let mut done = true;
+        for (i, j) in [(0, 1), (0, 2), (1, 2)] {
+            let off = matrix.col(i)[j];
+            if off.abs() <= negligible {
+                continue;
+            }
+            done = false;
+            let theta = (matrix.col(j)[j] - matrix.col(i)[i]) / (2.0 * off);
+            let sign = if theta < 0.0 { -1.0 } else { 1.0 };
+            let tangent = sign / (theta.abs() + square_root(theta * theta + 1.0));
+            let cos = 1.0 / square_root(tangent * tangent + 1.0);
+            let sin = tangent * cos;
+            let mut rotation = DMat3::IDENTITY;
+            rotation.col_mut(i)[i] = cos;
+            rotation.col_mut(j)[j] = cos;
+            rotation.col_mut(j)[i] = sin;
+            rotation.col_mut(i)[j] = -sin;
+            matrix = rotation.transpose() * matrix * rotation;
+            axes *= rotation;
+        }
+        if done {
+            break;
+        }
+    }
+    let values = DVec3::new(matrix.col(0)[0], matrix.col(1)[1], matrix.col(2)[2]);
+    axes.col(values.min_position())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_least_axis_is_found_in_any_frame() {
+        let axes = [
+            DVec3::new(2.0, -1.0, 0.5).normalize(),
+            DVec3::new(1.0, 1.0, -2.0).normalize(),
+        ];
+        let [u, v] = axes;
+        let v = (v - u * u.dot(v)).normalize();
+        let w = u.cross(v);
+        let with = |[a, b, c]: [f64; 3]| {
+            outer_product(u) * a + outer_product(v) * b + outer_product(w) * c
+        };
+        for [a, b, c] in [
+            [5.0, 3.0, 1.0],
+            [1.0, 1.0, 0.0],
+            [1e9, 1.0, 1e-9],
+            [2.0, 2.0, 1.999],
+        ] {
+            let axis = least_axis(with([a, b, c]));
+            assert!(axis.cross(w).length() < 1e-6, "{axis} for {a}, {b}, {c}");
+            assert!((axis.length() - 1.0).abs() < 1e-14);
+        }
+        assert_eq!(least_axis(DMat3::ZERO), DVec3::X);
+        assert_eq!(
+            least_axis(DMat3::from_diagonal(DVec3::new(3.0, 0.0, 1.0))),
+            DVec3::Y
+        );
+    }
+}
