@@ -15,14 +15,6 @@ const BESIDE: usize = 4;
 /// Their part.
 const SHARE: f32 = 0.2;
 
-/// From where a cloud is looked at.
-#[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Gaze {
-    From([f64; 3]),
-    /// Along this unit vector, from infinitely far.
-    Along(DVec3),
-}
-
 /// The settings of one look.
 pub(super) struct Look {
     /// The viewpoint; for a direction, a place near the middle of the cloud.

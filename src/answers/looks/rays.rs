@@ -1,4 +1,4 @@
-//! Points by the direction in which a viewer sees them.
+//! The viewer, and points by the direction in which they are seen.
 
 use alloc::vec::Vec;
 use glam::DVec3;
@@ -9,6 +9,14 @@ use crate::cloud::spatial::Bounds;
 
 /// Rays in a leaf, and boxes in a box one level up.
 const FANOUT: usize = 8;
+
+/// From where a cloud is looked at.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) enum Gaze {
+    From([f64; 3]),
+    /// Along this unit vector, from infinitely far.
+    Along(DVec3),
+}
 
 /// Where a point is, as the viewer sees it.
 #[derive(Clone, Copy)]

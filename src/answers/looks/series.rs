@@ -4,8 +4,9 @@ use alloc::sync::Arc;
 use glam::DVec3;
 
 use super::followers::follow;
-use super::look::{Gaze, Look, Seen, Verdicts};
+use super::look::{Look, Seen, Verdicts};
 use super::part::Part;
+use super::rays::Gaze;
 use super::tuning::Tuning;
 use crate::base::allocation::OutOfMemory;
 use crate::base::error::Error;

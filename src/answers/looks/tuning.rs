@@ -10,8 +10,7 @@
 
 use glam::DVec3;
 
-use super::look::Gaze;
-use super::rays::{Ray, Rays};
+use super::rays::{Gaze, Ray, Rays};
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
 use crate::base::sort::percentile;
