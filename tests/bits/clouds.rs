@@ -3,9 +3,9 @@
 
 use hidden_point_removal::PointCloud;
 
-use crate::rng::Rng;
-use crate::scenes::Scene;
-use crate::shapes::{self, Points};
+use super::rng::Rng;
+use super::scenes::Scene;
+use super::shapes::{self, Points};
 
 /// A cloud and a place to see it from.
 pub struct Subject {

@@ -28,8 +28,19 @@ use clouds::Subject;
 use questions::{LARGE, QUESTIONS, formulas, own_options};
 use scenes::{EXTREME, KINDS};
 
+#[allow(dead_code)] // tests/same_bits.rs asks the corpus by itself.
 fn main() {
-    let mut record = Record::new();
+    let (digest, cases) = ask_all(|name, answer| println!("{name} {answer}"));
+    println!("all {digest:016x} {cases} -");
+}
+
+/// Tells every case, and gives the digest and the number of all cases.
+pub fn ask_all(tell: impl FnMut(&str, &Answer)) -> (u64, u64) {
+    let mut record = Record {
+        tell,
+        all: Digest::new(),
+        cases: 0,
+    };
     for kind in KINDS {
         for (seed, n) in [(1, 12), (2, 150), (3, 3000)] {
             let scene = kind.scene(seed, n);
@@ -55,25 +66,18 @@ fn main() {
         record.ask_all(name, &subject, LARGE);
     }
     record.add("formulas", formulas());
-    record.finish();
+    (record.all.value(), record.cases)
 }
 
-/// Prints the cases as they come, and a digest of them all.
-struct Record {
+struct Record<F> {
+    tell: F,
     all: Digest,
     cases: u64,
 }
 
-impl Record {
-    fn new() -> Self {
-        Self {
-            all: Digest::new(),
-            cases: 0,
-        }
-    }
-
+impl<F: FnMut(&str, &Answer)> Record<F> {
     fn add(&mut self, name: &str, answer: Answer) {
-        println!("{name} {answer}");
+        (self.tell)(name, &answer);
         self.all.add(answer.digest);
         self.cases += 1;
     }
@@ -82,9 +86,5 @@ impl Record {
         for (question, ask) in questions {
             self.add(&format!("{name}/{question}"), ask(subject));
         }
-    }
-
-    fn finish(self) {
-        println!("all {:016x} {} -", self.all.value(), self.cases);
     }
 }

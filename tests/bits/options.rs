@@ -2,8 +2,8 @@
 
 use hidden_point_removal::{Exponential, Inversion, Options, Radius};
 
-use crate::clouds::Subject;
-use crate::flip::distance;
+use super::clouds::Subject;
+use super::flip::distance;
 
 pub fn with_rule(radius: Radius) -> Options {
     Options {

@@ -5,11 +5,11 @@ use hidden_point_removal::{
     merge_visible, permissible_curvature, radius_bound, ring_of_viewpoints,
 };
 
-use crate::answer::{Answer, Collector};
-use crate::clouds::Subject;
-use crate::options::{denoise, exponential, exponential_of, looks, vote, with_kernel, with_rule};
-use crate::rng::Rng;
-use crate::scenes::Scene;
+use super::answer::{Answer, Collector};
+use super::clouds::Subject;
+use super::options::{denoise, exponential, exponential_of, looks, vote, with_kernel, with_rule};
+use super::rng::Rng;
+use super::scenes::Scene;
 
 pub type Question = (&'static str, fn(&Subject) -> Answer);
 

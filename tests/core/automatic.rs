@@ -1,9 +1,6 @@
 //! The automatic radius: R = 0.4·n^¼·r²/g, never below the farthest distance. g is wider where the
 //! surface has wide places without points.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Options, PointCloud, PointCloud2d, Radius};
 
 use crate::common::ask;

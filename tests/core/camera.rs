@@ -1,8 +1,5 @@
 //! What a camera sees: the view from its place, cut to its image.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Camera, Convention, Error, Inversion, Options, PointCloud, Within};
 
 use crate::common::cameras::{camera, shown};

@@ -1,9 +1,6 @@
 //! Compares the crate with exact certificates on clouds that are too large for the oracle.
 //! Also compares the certificates with the oracle.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use crate::common::scenes::{KINDS, Scene};
 use crate::common::{ask, indices_of, oracle, proved};
 

@@ -1,9 +1,6 @@
 //! Appending and removing. After any changes a cloud gives, to the bit, the answers of a
 //! cloud built from its present points.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{ChosenRadius, Error, NonFinite, Options, PointCloud, Position, Radius};
 
 use crate::common::rng::Rng;

@@ -1,8 +1,5 @@
 //! Many viewpoints: counts, and the greedy choice against every choice.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Inversion, Options, Placement, Placing, PointCloud, Within};
 
 use crate::common::placing::{best, eager, masks};

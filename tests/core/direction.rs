@@ -1,9 +1,6 @@
 //! Orthographic views. They are compared with the lower boundary of the lifted points, and
 //! with views from viewpoints that move farther and farther away.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{
     Error, Exponential, Inversion, Options, PointCloud, Radius, Visibility,
 };

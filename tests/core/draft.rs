@@ -1,9 +1,6 @@
 //! Drafts. A draft is a certain superset of the visible points. It does not depend on earlier
 //! questions. An exact answer can go on from it.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{
     Error, Exponential, Inversion, Lighting, Observer, Options, PointCloud, Radius, Sector,
     Visibility, Within, merge_visible,

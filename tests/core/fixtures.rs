@@ -2,9 +2,6 @@
 //! the origin. The expected answers come from the oracle and were confirmed by
 //! exact enumeration of supporting planes in another language.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Options, PointCloud};
 
 use crate::common::shapes::Points;

@@ -1,8 +1,5 @@
 //! The paper's lemmas and theorems, with small errors corrected, as properties of answers.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use hidden_point_removal::{

@@ -1,8 +1,5 @@
 //! Horizons: what a part of a cloud hides from other points and from boxes.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{
     Error, Exponential, Horizon, Inversion, Options, PointCloud, Radius, merge_visible,
 };

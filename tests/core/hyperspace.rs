@@ -1,8 +1,5 @@
 //! Four and more dimensions, compared with the exact answers in three, and on known shapes.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{
     Error, Exponential, Inversion, NonFinite, Options, PointCloudNd, Radius, Visibility,
 };

@@ -1,8 +1,5 @@
 //! Shadows: the lights that see each point, smoothed over its neighbors.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use std::collections::BTreeSet;
 
 use hidden_point_removal::{Error, Lighting, NonFinite, Options, PointCloud};

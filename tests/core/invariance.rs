@@ -1,9 +1,6 @@
 //! These must not change an answer: order, duplicates, power-of-two scale, earlier
 //! questions, the precision of the given positions, partitions.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Options, PointCloud, Radius};
 
 use crate::common::ask;

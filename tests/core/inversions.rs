@@ -1,8 +1,5 @@
 //! The other inversions: powers and exponentials, by the same definition.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{
     Error, Exponential, Inversion, Options, PointCloud, Radius, merge_visible,
 };

@@ -1,9 +1,6 @@
 //! Several looks: the promises of the rule, each degenerate case, and changes of the input that
 //! must not change the answer.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{
     Error, Inversion, Lighting, Options, PointCloud, PointCloud2d, PointCloudNd, Radius, Sector,
     Visibility, Within, merge_visible,

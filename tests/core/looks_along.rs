@@ -1,8 +1,5 @@
 //! Several looks along a direction: the limit of looks from farther and farther away.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Inversion, Options, PointCloud, Visibility};
 
 use crate::common::rng::Rng;

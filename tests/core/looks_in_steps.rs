@@ -1,8 +1,5 @@
 //! Several looks in slices, so that a viewer can give them up: the answers must stay the same.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Inversion, Observer, Options, PointCloud, Visibility};
 
 use crate::common::scenes::KINDS;

@@ -1,9 +1,6 @@
 //! Several looks at points that are near each other in rows, and far from row to row, like the
 //! corners of a coarse mesh.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use core::f64::consts::PI;
 use hidden_point_removal::{Inversion, Options, PointCloud, Visibility};
 

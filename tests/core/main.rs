@@ -1,5 +1,4 @@
-//! Compares the core with its definition. The same tests run natively
-//! (`cargo test --release --test core`) and, compiled to WebAssembly, under Node.
+//! Compares the core with its definition.
 
 mod common;
 
@@ -9,7 +8,6 @@ mod certificates;
 mod changes;
 mod coverage;
 mod definition;
-mod digest;
 mod direction;
 mod draft;
 mod fixtures;

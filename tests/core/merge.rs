@@ -1,8 +1,5 @@
 //! Merging the visible points of parts, for any division of a cloud.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{
     Error, Options, PointCloud, Position, Radius, merge_visible, merge_visible_u64,
 };

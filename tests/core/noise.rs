@@ -1,8 +1,5 @@
 //! Denoising before a view, and votes after it.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Error, Options, PointCloud, merge_visible};
 
 use crate::common::rng::Rng;

@@ -1,9 +1,6 @@
 //! The crate compared with the naive oracle, on thousands of small and mostly degenerate
 //! scenes. Also, the oracle compared with answers that are obvious by eye.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use crate::common::scenes::{EXTREME, KINDS, Kind};
 use crate::common::{ask, indices_of, oracle};
 

@@ -1,8 +1,5 @@
 //! Two dimensions, exact: compared with an enumeration in integers and with the paper.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Error, NonFinite, Options, PointCloud2d, Radius};
 
 use crate::common::flip::farthest;

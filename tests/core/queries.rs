@@ -1,8 +1,5 @@
 //! The short form of `fuzz_queries`, with the same scenes every time.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use crate::common::rng::Rng;
 use crate::kinds_of_queries::{QUERIES, subject};
 

@@ -1,8 +1,5 @@
 //! The radius as a number and as an exponent.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Options, PointCloud};
 
 use crate::common::flip::farthest;

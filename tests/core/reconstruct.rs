@@ -1,8 +1,5 @@
 //! View-dependent reconstruction: the triangles of the hull.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use std::collections::{BTreeMap, BTreeSet};
 
 use hidden_point_removal::{Error, Options, PointCloud, Reconstruction};

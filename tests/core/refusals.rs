@@ -1,8 +1,5 @@
 //! Bad input: every error occurs, and valid input is not refused.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Error, NonFinite, Options, PointCloud, Radius};
 
 const NAN: f64 = f64::NAN;

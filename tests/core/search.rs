@@ -1,8 +1,5 @@
 //! The choice of R by a search: the antipodal search and the paper's rule.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{ChosenRadius, Error, Options, PointCloud, Radius};
 
 use crate::common::flip::farthest;

@@ -1,8 +1,5 @@
 //! A view divided among sectors: each visible point is in the answer of exactly one sector.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Options, PointCloud, Radius, Sector};
 
 use crate::common::rng::Rng;

@@ -1,8 +1,5 @@
 //! Points that are not in the cloud: the answer is, always, that of a cloud with the point added.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{
     Error, Exponential, Inversion, NonFinite, Options, PointCloud, Radius, Within,
 };

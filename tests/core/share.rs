@@ -1,9 +1,6 @@
 //! Sectors of a cloud in parts: each holds its own points and boxes of the rest, and asks for what is
 //! missing.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Error, Exponential, Inversion, Options, PointCloud, share_visible};
 
 use crate::common::parts::{Asked, Place, box_of, compare, compare_both, octant};

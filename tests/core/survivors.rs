@@ -1,9 +1,6 @@
 //! Tests for faults that all other tests missed. These gaps were found by changing the code in
 //! one place at a time, and by listing the lines that no test reaches.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Error, MAX_POINTS, Options, PointCloud, PointCloud2d, PointCloudNd};
 
 use crate::common::rng::Rng;

@@ -1,9 +1,6 @@
 //! Clouds that lie in one plane or line with the viewpoint, except for rounding. Every sign
 //! is in doubt, and the hull is a sliver.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{Options, PointCloud, Sector};
 
 use crate::common::rng::Rng;

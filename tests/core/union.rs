@@ -1,8 +1,5 @@
 //! One answer for several viewpoints.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{
     Error, Exponential, Inversion, Lighting, Options, PointCloud, Radius, ring_of_viewpoints,
 };

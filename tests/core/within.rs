@@ -1,9 +1,6 @@
 //! Only the points within a distance, a box or a mask take part: the answers are, to the bit,
 //! those of a cloud of these points alone.
 
-#[cfg(target_arch = "wasm32")]
-use wasm_bindgen_test::wasm_bindgen_test as test;
-
 use hidden_point_removal::{
     Error, Exponential, Inversion, Lighting, Options, PointCloud, PointCloud2d, PointCloudNd,
     Radius, Sector, Within, merge_visible,
