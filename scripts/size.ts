@@ -1,5 +1,5 @@
-// npm run size: builds the wasm and writes the share of each part to docs/SIZE.md. Prints the largest functions.
-import { readFileSync, writeFileSync } from "node:fs";
+// npm run size: builds the wasm and prints the share of each part, and the largest functions.
+import { readFileSync } from "node:fs";
 import { gzipSync } from "node:zlib";
 
 import { optimize } from "./build/optimize.js";
@@ -9,10 +9,9 @@ import { inRoot } from "./lib/paths.js";
 import { mustRun } from "./lib/run.js";
 import { setUpForBuild } from "./setup/setup.js";
 import { WASM_TARGET } from "./setup/rust.js";
-import { largest, type Part, partsOf } from "./size/parts.js";
+import { largest, partsOf } from "./size/parts.js";
 import { contentOf } from "./size/content.js";
 
-const RESULT = "docs/SIZE.md";
 const FAILED = "The WebAssembly module with names could not be made";
 
 await command(async () => {
@@ -20,9 +19,9 @@ await command(async () => {
   await buildWasm();
   const content = contentOf(readFileSync(await named()));
   const released = readFileSync(inRoot("src/ts/wasm/hpr_bg.wasm"));
-  writeFileSync(inRoot(RESULT), document(released, partsOf(content)));
+  console.log(`${released.length} bytes, gzipped ${gzipSync(released, { level: 9 }).length}`);
+  console.table(partsOf(content));
   for (const { name, bytes } of largest(content.functions, 40)) console.log(`${bytes.length}\t${name}`);
-  console.log(RESULT);
 });
 
 /** The module as released, but with the names of its functions. Returns its path. */
@@ -34,20 +33,4 @@ async function named(): Promise<string> {
   const module = inRoot("target", "size", "hpr_bg.wasm");
   await optimize(module, FAILED, true);
   return module;
-}
-
-function document(released: Uint8Array, parts: Part[]): string {
-  const number = (value: number) => value.toLocaleString("en");
-  const rows = parts.map(({ name, bytes, gzipped }) => `| ${name} | ${number(bytes)} | ${number(gzipped)} |`);
-  return `# The size of the wasm, part by part
-
-Written by \`npm run size\`. The released module has ${number(released.length)} bytes, gzipped ${number(gzipSync(released, { level: 9 }).length)}.
-
-The compiler puts small functions into their callers. Their bytes count for the caller. "Gzipped" tells by how many bytes
-the gzipped module would shrink without the part; parts resemble each other, so these numbers add up to less than the whole.
-
-| part | bytes | gzipped |
-|---|---:|---:|
-${rows.join("\n")}
-`;
 }

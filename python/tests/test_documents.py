@@ -28,7 +28,7 @@ def test_the_example_prints_the_lines_in_its_comments():
     assert printed.splitlines() == re.findall(r"# → (.*)", example.read_text())
 
 
-@pytest.mark.parametrize("module", ["ray", "pyspark"])
+@pytest.mark.parametrize("module", ["ray"])
 def test_the_examples_of_other_engines_run(module, tmp_path):
     """They are checked as Python where the engine is missing."""
     [code] = [code for code in examples("docs/SCALE.md") if f"import {module}" in code or f"from {module}" in code]

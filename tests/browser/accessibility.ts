@@ -1,6 +1,6 @@
 /*
  * The states of the page that are checked for accessibility, and axe-core's result for each. Used by
- * accessibility.test.ts, which requires no violation, and by tests/figures, which writes docs/ACCESSIBILITY.md.
+ * accessibility.test.ts, which requires no violation.
  */
 import axe, { type AxeResults, type RunOnly } from "axe-core";
 import type { BrowserContextOptions, Page } from "playwright-core";

@@ -6,7 +6,6 @@ import { join } from "node:path";
 import { init } from "hidden-point-removal";
 
 import { root } from "../root.js";
-import { accessibilityText } from "./accessibility.js";
 import { beforeAfter } from "./before-after.js";
 import { errorPlot } from "./error-plot.js";
 import { fidelityText } from "./fidelity.js";
@@ -29,12 +28,11 @@ const MAKERS: Record<string, Maker> = {
 };
 /** Documents that are written, not drawn. */
 const FIDELITY = "fidelity";
-const ACCESSIBILITY = "accessibility";
 /** Pictures of the page in every mode, which are not kept. Only drawn when they are asked for. */
 const PAGE = "page";
 const FOLDER = join(root, "tests", "figures");
 
-const ALL = [...Object.keys(MAKERS), FIDELITY, ACCESSIBILITY];
+const ALL = [...Object.keys(MAKERS), FIDELITY];
 const names = process.argv.length > 2 ? process.argv.slice(2) : ALL;
 const unknown = names.find((name) => name !== PAGE && !ALL.includes(name));
 if (unknown !== undefined) {
@@ -44,11 +42,6 @@ if (unknown !== undefined) {
 await init();
 await draw(names.filter((name) => name in MAKERS));
 if (names.includes(FIDELITY)) await measureFidelity();
-if (names.includes(ACCESSIBILITY))
-  await withStudio(async (studio) => {
-    write("../../docs/ACCESSIBILITY.md", await accessibilityText(studio));
-  });
-
 if (names.includes(PAGE))
   await withStudio(async (studio) => {
     console.error(`The pictures are in ${await takeScreens(studio)}`);

@@ -8,7 +8,7 @@ import { wasmBytes } from "./support";
 // compilation for another type of number, or a library for one operation can each add 10
 // to 40 kB unnoticed.
 //
-// docs/SIZE.md tells the share of each part; `npm run size` writes it.
+// `npm run size` prints the share of each part.
 //
 // What costs bytes or speed, measured (gzipped): a limit of 50 for inlining saves 4 kB, and makes views 5 % slower
 // unless the functions in the hot loops are marked #[inline]. A limit of 5 saves 1.9 kB more, and views take 0 to 3 % longer. Large functions with one caller, left as they
