@@ -133,7 +133,7 @@ test("the airplane's skin is closed: each edge has two triangles", () => {
 test("faces of the user's files are read and cut into triangles", async () => {
   const read = (content: string | Uint8Array, vertices = 5) => {
     const blob = new Blob([typeof content === "string" ? content : new Uint8Array(content)]);
-    return readFaces({ name: "mesh", blob, limit: Infinity, onProgress: () => undefined }, vertices).then(
+    return readFaces({ name: "mesh", blob }, vertices).then(
       (triangles) => [...triangles],
     );
   };

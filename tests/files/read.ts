@@ -2,17 +2,15 @@
 import { extname } from "node:path";
 import type { ChosenColumns } from "../../src/ts/formats/axes";
 import { FormatProblem } from "../../src/ts/formats/problem";
-import type { PointFile } from "../../src/ts/cli/formats/point-file";
-import { FORMATS } from "../../src/ts/cli/formats/formats";
+import { FORMATS, readPoints } from "../../src/ts/cli/formats/formats";
 import { LoadProblem } from "../../www/loaders/problem";
-import { readFile } from "../../www/loaders/read";
+import { readCloud } from "../../www/loaders/read";
 
 export type Outcome = { points: number[] } | { refused: string };
 
-export function readAsCommand(name: string, content: Uint8Array, columns?: ChosenColumns): Outcome {
+export async function readAsCommand(name: string, content: Uint8Array, chosen?: ChosenColumns): Promise<Outcome> {
   try {
-    // Only LAZ, which is not among these files, is read asynchronously.
-    const { positions } = FORMATS[extname(name)]!.read(Buffer.from(content), columns) as PointFile;
+    const { positions } = await readPoints(FORMATS[extname(name)]!, Buffer.from(content), { chosen });
     return { points: [...positions] };
   } catch (error) {
     if (!(error instanceof FormatProblem)) throw error;
@@ -23,7 +21,7 @@ export function readAsCommand(name: string, content: Uint8Array, columns?: Chose
 export async function readAsPage(name: string, content: Uint8Array): Promise<Outcome> {
   const blob = new Blob([new Uint8Array(content)]);
   try {
-    const { positions } = await readFile({ name, blob, limit: 1e6, onProgress: () => undefined }, null);
+    const { positions } = await readCloud({ name, blob, limit: 1e6 });
     return { points: [...positions] };
   } catch (error) {
     if (!(error instanceof LoadProblem)) throw error;

@@ -40,7 +40,7 @@ export async function tryRound(seed: number, tallies: Map<string, Tally>, say: (
   if (fault !== undefined) tell(`valid, but ${fault}`, content);
   for (let change = 0; change < CHANGES_OF_EACH; change++) {
     const changed = random.changed(content);
-    const command = attempt(name, changed);
+    const command = await attempt(name, changed);
     if (command === undefined || "points" in command) tally.read++;
     else tally.refused++;
     const wrong = await faultOf(name, changed);
@@ -48,9 +48,9 @@ export async function tryRound(seed: number, tallies: Map<string, Tally>, say: (
   }
 }
 
-function attempt(name: string, content: Uint8Array): Outcome | undefined {
+async function attempt(name: string, content: Uint8Array): Promise<Outcome | undefined> {
   try {
-    return readAsCommand(name, content);
+    return await readAsCommand(name, content);
   } catch {
     return undefined;
   }
@@ -61,7 +61,7 @@ async function faultOf(name: string, content: Uint8Array, expected?: readonly nu
   let command: Outcome;
   let page: Outcome;
   try {
-    command = readAsCommand(name, content);
+    command = await readAsCommand(name, content);
     page = await readAsPage(name, content);
   } catch (error) {
     return `no sentence: ${String(error)}`;

@@ -27,7 +27,7 @@ describe("each broken file is refused in a sentence that names the fault, and no
   });
 
   it.each(CASES.map((each) => [each.name, each] as const))("%s", async (_, each) => {
-    check(each, readAsCommand(each.file, each.content, each.columns));
+    check(each, await readAsCommand(each.file, each.content, each.columns));
     // The page has no choice of columns.
     if (each.columns === undefined) check(each, await readAsPage(each.file, each.content));
   });

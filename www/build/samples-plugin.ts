@@ -4,7 +4,8 @@ import { dirname, join } from "node:path";
 import { gunzipSync, gzipSync } from "node:zlib";
 import { PLYLoader } from "three/addons/loaders/PLYLoader.js";
 import type { Plugin } from "vite";
-import { readPly } from "../loaders/ply.ts";
+import { readPly } from "../../src/ts/formats/read-ply.js";
+import { bytesSource } from "../../src/ts/formats/source.js";
 
 const require = createRequire(import.meta.url);
 
@@ -54,8 +55,8 @@ function packed(indices: ArrayLike<number>): Uint8Array {
 }
 
 async function verticesOf(source: string): Promise<ArrayLike<number>> {
-  const blob = new Blob([new Uint8Array(gunzipSync(readFileSync(source)))]);
-  return (await readPly({ name: source, blob, limit: Infinity, onProgress: () => undefined })).positions;
+  const bytes = new Uint8Array(gunzipSync(readFileSync(source)));
+  return (await readPly({ name: source, source: bytesSource(bytes) })).positions;
 }
 
 function facesOf(source: string): ArrayLike<number> {

@@ -1,10 +1,8 @@
 import type { Field, FileFacts } from "./facts.ts";
-import type { Values } from "./values.ts";
+import type { Up } from "../../src/ts/formats/axes.js";
+import type { Values } from "../../src/ts/formats/numbers.js";
 
-export type { Values } from "./values.ts";
-
-/** The direction that is up in a file's coordinates. */
-export type Up = "y" | "z" | "-y";
+export type { Up, Values };
 
 /** A number for each point, for example its intensity, its class or its time. */
 export interface Attribute {

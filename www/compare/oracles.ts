@@ -14,7 +14,7 @@ export async function oracleFor(surface: KnownSurface, positions: Float32Array):
     const blob = typeof surface.file === "string" ? await download(name, surface.file, () => undefined) : surface.file;
     return meshOracle({
       positions,
-      triangles: await readFaces({ name, blob, limit: Infinity, onProgress: () => undefined }, positions.length / 3),
+      triangles: await readFaces({ name, blob }, positions.length / 3),
     });
   }
   const { truth } = await generatorOf(surface.sample);

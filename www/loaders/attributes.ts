@@ -1,6 +1,7 @@
 import type { Attribute, LoadedCloud, Values } from "../cloud/cloud.ts";
+import { displayColors } from "../../src/ts/formats/colors.js";
 import type { Field } from "../cloud/facts.ts";
-import { isWhole } from "./numbers.ts";
+import type { CloudFile } from "../../src/ts/formats/cloud-file.js";
 
 /** More attributes would make the choice of colors too long. */
 const MOST_ATTRIBUTES = 8;
@@ -14,19 +15,25 @@ const NOT_FOR_EYES =
 const CATEGORY = /class|label|segment|cluster|category|return|source|ring|object|instance/i;
 
 /** Returns the colors in the columns of a file, all columns, and the attributes by which its points can be colored. */
-export function attributesOf(
-  columns: readonly { name: string; values: Values; isDetail?: true | undefined }[],
-): Pick<LoadedCloud, "colors" | "attributes" | "fields" | "facts"> {
+export function attributesOf({
+  columns,
+  packed,
+}: Pick<CloudFile, "columns" | "packed">): Pick<LoadedCloud, "colors" | "attributes" | "fields" | "facts"> {
   const named = (name: string) => columns.find((column) => column.name === name)?.values;
   const [red, green, blue] = [named("red"), named("green"), named("blue")];
   const attributes: Attribute[] = [];
-  for (const { name, values, isDetail } of columns) {
+  for (const { name, values, isDetail, labels } of columns) {
     if (isDetail) continue;
     if (attributes.length === MOST_ATTRIBUTES) break;
     if (/^(red|green|blue)$/.test(name) || NOT_FOR_EYES.test(name) || isConstant(values)) continue;
-    attributes.push({ name, kind: isCategory(name, values) ? "category" : "scalar", values });
+    attributes.push({
+      name,
+      kind: isCategory(name, values) ? "category" : "scalar",
+      values,
+      ...(labels && { labels }),
+    });
   }
-  const colors = red && green && blue ? displayColors([red, green, blue]) : null;
+  const colors = packed ?? (red && green && blue ? displayColors([red, green, blue]) : null);
   // Colors in bytes are kept as colors. In 16 bits they have more digits than a screen can show.
   const fields = columns.filter(
     ({ name, values }) => !(/^(red|green|blue)$/.test(name) && colors && !(values instanceof Uint16Array)),
@@ -35,44 +42,18 @@ export function attributesOf(
 }
 
 /** Keeps as many columns as fit. A column with the same number everywhere becomes one number. */
-function keptFields(columns: readonly { name: string; values: Values }[]): Pick<LoadedCloud, "fields" | "facts"> {
+function keptFields(columns: CloudFile["columns"]): Pick<LoadedCloud, "fields" | "facts"> {
   const fields: Field[] = [];
   let bytes = 0;
-  for (const { name, values } of columns) {
+  for (const { name, values, labels } of columns) {
     const same = isConstant(values);
     if (!same) bytes += values.BYTES_PER_ELEMENT;
-    if (bytes <= MOST_BYTES) fields.push({ name, values: same ? values.slice(0, 1) : values });
+    if (bytes <= MOST_BYTES)
+      fields.push({ name, values: same ? values.slice(0, 1) : values, ...(labels && { labels }) });
     else bytes -= values.BYTES_PER_ELEMENT;
   }
   const dropped = columns.length - fields.length;
   return { fields, ...(dropped > 0 ? { facts: { dropped } } : {}) };
-}
-
-/**
- * The display colors in bytes. A file may have bytes, shares of 1, or 16 bits, in which many programs write bytes.
- * Returns no colors if some are missing or all are black: then the file has the columns, but nobody has filled them in.
- */
-export function displayColors(channels: readonly [Values, Values, Values]): Uint8Array | null {
-  const scale = displayScale(channels);
-  if (scale === 0) return null;
-  const colors = new Uint8ClampedArray(3 * channels[0].length);
-  channels.forEach((values, channel) => {
-    for (let i = 0; i < values.length; i++) colors[3 * i + channel] = values[i]! * scale;
-  });
-  return new Uint8Array(colors.buffer);
-}
-
-/** The factor that makes bytes of colors; 0 if some are missing or all are black. */
-export function displayScale(channels: readonly Values[]): number {
-  let largest = 0;
-  for (const values of channels) {
-    for (const value of values) {
-      if (!Number.isFinite(value)) return 0;
-      if (value > largest) largest = value;
-    }
-  }
-  if (largest === 0) return 0;
-  return channels[0] instanceof Uint8Array ? 1 : largest <= 1 ? 255 : largest > 255 ? 255 / 65535 : 1;
 }
 
 function isConstant(values: Values): boolean {
@@ -84,7 +65,7 @@ function isConstant(values: Values): boolean {
 function isCategory(name: string, values: Values): boolean {
   if (!CATEGORY.test(name)) return false;
   const seen = new Set<number>();
-  const whole = isWhole(values);
+  const whole = !(values instanceof Float32Array || values instanceof Float64Array);
   for (const value of values) {
     if (!whole && !Number.isInteger(value)) return false;
     seen.add(value);

@@ -2,19 +2,21 @@ import { bytesOf, numberReader } from "../../src/ts/formats/numbers.js";
 import { endsEarly, FormatProblem } from "../../src/ts/formats/problem.js";
 import { startsIn } from "../../src/ts/formats/text-rows.js";
 import { trimmed, wordsOf } from "../../src/ts/formats/text.js";
-import { bytes, lines, type Reading } from "./blocks.ts";
-import { readPlyHeader } from "./ply.ts";
+import type { Reading } from "../../src/ts/formats/cloud-file.js";
+import { LONGEST_PLY_HEADER, readPlyHeader } from "../../src/ts/formats/ply.js";
+import { eachListRow, endOfRows } from "../../src/ts/formats/read-rows.js";
+import { blobSource, lines } from "../../src/ts/formats/source.js";
 import { problemOf } from "./problem.ts";
-import { eachListRow, endOfRows } from "./rows.ts";
 
 /** The faces of a PLY or an OBJ file, cut into triangles: three vertex indices each. */
-export async function readFaces(reading: Reading, vertices: number): Promise<Uint32Array> {
-  const start = new TextDecoder("latin1").decode(await bytes(reading.name, reading.blob, 0, 4));
+export async function readFaces({ name, blob }: { name: string; blob: Blob }, vertices: number): Promise<Uint32Array> {
+  const reading = { name, source: blobSource(blob) };
+  const start = new TextDecoder("latin1").decode(await reading.source.read(0, 4));
   const triangles = new Triangles(vertices);
   try {
     await (start.startsWith("ply") ? readPlyFaces : readObjFaces)(reading, triangles);
   } catch (error) {
-    throw error instanceof FormatProblem ? problemOf(reading.name, error) : error;
+    throw error instanceof FormatProblem ? problemOf(name, error) : error;
   }
   return triangles.done();
 }
@@ -40,7 +42,7 @@ class Triangles {
 }
 
 async function readPlyFaces(reading: Reading, triangles: Triangles): Promise<void> {
-  const { format, elements, end, lines: headerLines } = await readPlyHeader(reading);
+  const { format, elements, end, lines: headerLines } = readPlyHeader(await reading.source.read(0, LONGEST_PLY_HEADER));
   const at = elements.findIndex((element) => element.name === "face");
   const faces = elements[at]!;
   const { count, fields } = faces;
@@ -50,14 +52,12 @@ async function readPlyFaces(reading: Reading, triangles: Triangles): Promise<voi
   if (format === "ascii") {
     let before = elements.slice(0, at).reduce((sum, element) => sum + element.count, 0);
     let found = 0;
-    let number = headerLines.length;
-    for await (const some of lines(reading, end, { firstNumber: number + 1 })) {
-      for (const text of some) {
-        number++;
+    for await (const { texts, number } of lines(reading.source, end, headerLines.length + 1)) {
+      for (const [i, text] of texts.entries()) {
         const line = trimmed(text);
         if (line === "" || before-- > 0 || found === count) continue;
         const words = wordsOf(line);
-        const start = startsIn(fields, words, number, line)[corners]!;
+        const start = startsIn(fields, words, number + i, line)[corners]!;
         triangles.addFace(words.slice(start + 1, start + 1 + Number(words[start])).map(Number));
         found++;
       }
@@ -82,8 +82,8 @@ async function readPlyFaces(reading: Reading, triangles: Triangles): Promise<voi
 /** An index counts from 1. A negative one counts backwards from the last vertex so far. */
 async function readObjFaces(reading: Reading, triangles: Triangles): Promise<void> {
   let vertices = 0;
-  for await (const some of lines(reading, 0)) {
-    for (const line of some) {
+  for await (const { texts } of lines(reading.source, 0)) {
+    for (const line of texts) {
       if (/^\s*v\s/.test(line)) vertices++;
       if (!/^\s*f\s/.test(line)) continue;
       const numbers = line

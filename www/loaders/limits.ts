@@ -2,23 +2,10 @@ import type { LoadedCloud } from "../cloud/cloud.ts";
 import { partOf } from "../cloud/part.ts";
 import { LoadProblem } from "./problem.ts";
 
-/**
- * The size limit of files that must be in memory as a whole: LAZ, compressed PCD, GLB. Other files are read in pieces.
- */
-export const MAX_BYTES = 1_000_000_000;
-
 /** Beyond this, squared distances no longer fit into the f32 arithmetic of the graphics card. */
 const MAX_EXTENT = 1e18;
 
 const number = new Intl.NumberFormat("en-US");
-
-export function checkByteLength(name: string, bytes: number): void {
-  if (bytes > MAX_BYTES) {
-    throw new LoadProblem(
-      `${name} is too large: ${number.format(Math.round(bytes / 1e6))} MB. This page opens such files up to ${number.format(MAX_BYTES / 1e6)} MB.`,
-    );
-  }
-}
 
 /**
  * Refuses an empty cloud, and one that is too wide to draw. Points without a position are refused. They are dropped if

@@ -1,17 +1,17 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
 import { partOf } from "../cloud/part.ts";
-import type { Reading } from "./blocks.ts";
 import { checkedCloud } from "./limits.ts";
 import { merged, type Named } from "./merge.ts";
 import { LoadProblem } from "./problem.ts";
-import { readFile } from "./read.ts";
+import type { Loading } from "./loaded.ts";
+import { readCloud } from "./read.ts";
 
 const number = new Intl.NumberFormat("en-US");
 
 /** Reads several files into one cloud. A file that cannot be read is named in a note, and the others are kept. */
 export async function readSeveral(
   files: readonly File[],
-  { limit, onProgress, onPoints }: Omit<Reading, "name" | "blob">,
+  { limit, onProgress, onPoints }: Omit<Loading, "name" | "blob">,
 ): Promise<LoadedCloud> {
   const whole = files.reduce((sum, { size }) => sum + size, 0);
   const problems: string[] = [];
@@ -22,12 +22,12 @@ export async function readSeveral(
   let from: readonly number[] | null = null;
   for (const file of files) {
     const { name } = file;
-    const reading: Reading = {
+    const reading: Loading = {
       name,
       blob: file,
       limit,
       onProgress: (fraction) => {
-        onProgress((done + fraction * file.size) / Math.max(1, whole));
+        onProgress?.((done + fraction * file.size) / Math.max(1, whole));
       },
       onPoints: (points, first) => {
         // All points are measured from the first one of the first file.
@@ -38,7 +38,7 @@ export async function readSeveral(
     };
     try {
       if (file.size === 0) throw new LoadProblem(`${name} is empty.`);
-      const cloud = checkedCloud(name, await readFile(reading, null), false);
+      const cloud = checkedCloud(name, await readCloud(reading), false);
       parts.push({ name, cloud: everyNth(cloud, step) });
     } catch (error) {
       if (!(error instanceof LoadProblem)) throw error;

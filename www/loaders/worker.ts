@@ -7,7 +7,7 @@ import { MAX_POINTS } from "../settings/limits.ts";
 import { checkedCloud } from "./limits.ts";
 import { LoadProblem } from "./problem.ts";
 import type { LoadReply, LoadRequest } from "./protocol.ts";
-import { readFile } from "./read.ts";
+import { readCloud } from "./read.ts";
 
 const post = (reply: LoadReply, transfer: Transferable[] = []) => {
   self.postMessage(reply, { transfer });
@@ -99,10 +99,6 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   }
   if (blob.size === 0) throw new LoadProblem(`${name} is empty.`);
   progress("Reading", null);
-  return check(
-    await readFile(
-      { name, blob, limit, streamFrom, onProgress, onPoints },
-      request.kind === "url" ? new URL(".", request.url).href : null,
-    ),
-  );
+  const base = request.kind === "url" ? new URL(".", request.url).href : undefined;
+  return check(await readCloud({ name, blob, limit, streamFrom, onProgress, onPoints, base }));
 }

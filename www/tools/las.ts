@@ -1,6 +1,6 @@
 import type { Cloud, Values } from "../cloud/cloud.ts";
 import { type Field, type LasSource, valueAt } from "../cloud/facts.ts";
-import { type FieldPlace, layoutOf } from "../loaders/las/places.ts";
+import { type FieldPlace, layoutOf } from "../../src/ts/formats/las/places.js";
 import { BATCH } from "./files.ts";
 
 /** The points that are written, with the file's own coordinates. */

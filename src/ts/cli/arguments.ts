@@ -32,6 +32,8 @@ export interface Settings {
   columns: ChosenColumns | undefined;
   /** Whether the output may replace an input. */
   overwrite: boolean;
+  /** Whether a file that contradicts itself is read. */
+  damaged: boolean;
   /** Whether the progress is reported without a terminal, too. */
   progress: boolean;
 }
@@ -82,6 +84,7 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
     threshold,
     columns: values.columns === undefined ? undefined : readColumns(values.columns),
     overwrite: values.overwrite === true,
+    damaged: values.damaged === true,
     progress: values.progress === true,
   };
 }
@@ -109,6 +112,7 @@ function parsed(args: string[]) {
         vote: { type: "string" },
         columns: { type: "string" },
         overwrite: { type: "boolean" },
+        damaged: { type: "boolean" },
         progress: { type: "boolean" },
         help: { type: "boolean", short: "h" },
         version: { type: "boolean" },

@@ -4,7 +4,7 @@ import { dirname, resolve } from "node:path";
 import { promisify } from "node:util";
 
 import { FormatProblem } from "../formats/problem.js";
-import { allocating } from "./memory.js";
+import { allocating } from "../formats/builder.js";
 
 const CHUNK = 1 << 24;
 
@@ -21,14 +21,14 @@ export class InputProblem extends Error {}
 export class OutputProblem extends Error {}
 
 /** Reads a whole file. `onProgress` gets the share that has been read. */
-async function readWhole(name: string, onProgress: (share: number) => void): Promise<Buffer> {
+async function readWhole(name: string, onProgress: (share: number) => void): Promise<Buffer<ArrayBuffer>> {
   // Without this flag, opening a FIFO would wait until another program writes to it.
   const handle = await open(name, constants.O_RDONLY | nonBlocking());
   try {
     const stats = await handle.stat();
     if (!stats.isFile()) throw new FormatProblem("it is not a regular file");
     const { size } = stats;
-    const file = allocating(`its ${size} bytes`, () => Buffer.allocUnsafe(size));
+    const file = allocating(size, () => Buffer.allocUnsafe(size));
     let at = 0;
     while (at < size) {
       const { bytesRead } = await handle.read(file, at, Math.min(CHUNK, size - at));
@@ -46,7 +46,7 @@ async function readWhole(name: string, onProgress: (share: number) => void): Pro
 export async function readAs<T>(
   name: string,
   onProgress: (share: number) => void,
-  understand: (file: Buffer) => T | Promise<T>,
+  understand: (file: Buffer<ArrayBuffer>) => T | Promise<T>,
 ): Promise<T> {
   try {
     return await understand(await readWhole(name, onProgress));

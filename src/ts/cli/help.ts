@@ -35,6 +35,7 @@ What to write:
                        .mask and .npy a mask; with --camera, a table or .npy is pixels
                        All but points are text, one line each, or NumPy arrays (.npy)
   --overwrite          OUT may be the same file as IN, CAMERA or PLACES
+  --damaged            reads a file that contradicts itself, and says how
   --progress           reports the progress, also if standard error is not a terminal
   -h, --help           shows this
   --version            shows the version

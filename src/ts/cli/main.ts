@@ -9,7 +9,7 @@ import { type Answer, ask, type Question } from "./ask.js";
 import { NAME, readArguments, type Settings } from "./arguments.js";
 import { farNote } from "./far.js";
 import { readAs, writeWhole } from "./files.js";
-import { FORMATS } from "./formats/formats.js";
+import { FORMATS, readPoints } from "./formats/formats.js";
 import { pointsWritten, type PointFile } from "./formats/point-file.js";
 import { HELP } from "./help.js";
 import { numbersWritten } from "./numbers.js";
@@ -54,7 +54,7 @@ function say(line: string): void {
 }
 
 async function filter(settings: Settings, progress: Progress): Promise<string> {
-  const { input, columns, overwrite } = settings;
+  const { input, columns, overwrite, damaged } = settings;
   const question = await questionOf(settings);
   await checkOutputs({ inputs: [input, ...placeFiles(settings)], outputs: outputsOf(settings, question), overwrite });
   const onRead = (share: number) => {
@@ -62,7 +62,7 @@ async function filter(settings: Settings, progress: Progress): Promise<string> {
   };
   const file = await readAs(input, onRead, (bytes) => {
     progress.show(0.2, "understanding");
-    return FORMATS[extname(input).toLowerCase()]!.read(bytes, columns);
+    return readPoints(FORMATS[extname(input).toLowerCase()]!, bytes, { chosen: columns, damaged });
   });
   const note = farNote(file.positions, question);
   if (note !== undefined) {
@@ -82,9 +82,10 @@ async function filter(settings: Settings, progress: Progress): Promise<string> {
   }
   return [
     ...seen,
-    ...(file.columns === undefined ? [] : [file.columns]),
+    ...file.notes,
+    ...(file.axes === undefined ? [] : [file.axes]),
     ...(skipped > 0 ? [`${skipped} without a position`] : []),
-    ...(file.leftOut.length > 0 && settings.format === "points" ? [`left out: ${file.leftOut.join(", ")}`] : []),
+    ...(file.leftOut?.length && settings.format === "points" ? [`left out: ${file.leftOut.join(", ")}`] : []),
   ].join("; ");
 }
 

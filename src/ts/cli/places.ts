@@ -3,9 +3,9 @@ import { HprError } from "../base/errors.js";
 import { FormatProblem, lineProblem, printable } from "../formats/problem.js";
 import { TableRows } from "../formats/table.js";
 import { cell, isComment, separatorOf, split } from "../formats/table-words.js";
+import { bytesSource, lines as linesOf } from "../formats/source.js";
 import { trimmed } from "../formats/text.js";
 import { type Camera, readCamera } from "../query/camera.js";
-import { linesOf } from "./formats/lines.js";
 
 /** A camera as a JSON object. It is checked as the library checks it, before the points are read. */
 export function cameraIn(file: Buffer): Camera {
@@ -34,8 +34,10 @@ export interface NamedViewpoint {
  *
  * @param inFileNames whether the names become parts of names of files
  */
-export function viewpointsIn(file: Buffer, inFileNames: boolean): NamedViewpoint[] {
-  const lines = [...linesOf(file)];
+export async function viewpointsIn(file: Buffer<ArrayBuffer>, inFileNames: boolean): Promise<NamedViewpoint[]> {
+  const lines: { text: string; number: number }[] = [];
+  for await (const { texts, number } of linesOf(bytesSource(file), 0))
+    for (const [i, text] of texts.entries()) lines.push({ text, number: number + i });
   const bareName = hasBareName(lines.map(({ text }) => trimmed(text)).find((text) => text !== "" && !isComment(text)));
   const rows = new TableRows(bareName ? ["2", "3", "4"] : undefined);
   const found: NamedViewpoint[] = [];

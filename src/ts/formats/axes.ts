@@ -45,3 +45,6 @@ function onlyPlace(names: readonly string[], name: string): number {
   if (names.includes(name, place + 1)) throw new FormatProblem(`its header names ${name} twice`);
   return place;
 }
+
+/** The direction that is up in a file's coordinates. */
+export type Up = "y" | "z" | "-y";

@@ -2,6 +2,28 @@
 export type NumberType =
   "int8" | "uint8" | "int16" | "uint16" | "int32" | "uint32" | "int64" | "uint64" | "float32" | "float64";
 
+/** Numbers of one type. They have as many bytes as in the file. */
+export type Values =
+  Int8Array | Uint8Array | Int16Array | Uint16Array | Int32Array | Uint32Array | Float32Array | Float64Array;
+
+/** The array for each type of numbers in a file. For the longest integers it does not keep all digits. */
+const ARRAYS = {
+  int8: Int8Array,
+  uint8: Uint8Array,
+  int16: Int16Array,
+  uint16: Uint16Array,
+  int32: Int32Array,
+  uint32: Uint32Array,
+  int64: Float64Array,
+  uint64: Float64Array,
+  float32: Float32Array,
+  float64: Float64Array,
+} as const;
+
+export function newValues(type: NumberType, length: number): Values {
+  return new ARRAYS[type](length);
+}
+
 /** Reads one number of a row. `at` is the beginning of the row. */
 export type NumberReader = (view: DataView, at: number) => number;
 
@@ -38,12 +60,12 @@ const DECIMAL = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
 /** Words for numbers that are not finite. Some C libraries write nan(ind), 1.#QNAN or -1.#INF. */
 const NOT_FINITE = /^[-+]?(nan(\(\w*\))?|inf|infinity|1\.#(inf|ind|qnan|snan)0*)$/i;
 
-/** A decimal number, or NaN for a word such as "nan" or "inf". Undefined for any other word, for instance "0x10". */
+/**
+ * A decimal number, or NaN for a word such as "nan" or "inf". Infinity for a number out of range, such as 1e400.
+ * Undefined for any other word, for instance "0x10".
+ */
 export function numberIn(word: string): number | undefined {
-  if (DECIMAL.test(word)) {
-    const value = Number(word);
-    return Number.isFinite(value) ? value : NaN;
-  }
+  if (DECIMAL.test(word)) return Number(word);
   return NOT_FINITE.test(word) ? NaN : undefined;
 }
 
@@ -59,4 +81,9 @@ export function fitsType(value: number, type: NumberType): boolean {
   const bits = 8 * bytesOf(type);
   const [least, most] = type.startsWith("u") ? [0, 2 ** bits - 1] : [-(2 ** (bits - 1)), 2 ** (bits - 1) - 1];
   return Number.isInteger(value) && value >= least && value <= most;
+}
+
+/** Whether a number is too large for its type of floats. NaN is no number. */
+export function isOutOfRange(value: number, type: NumberType = "float64"): boolean {
+  return Math.abs(type === "float32" ? Math.fround(value) : value) === Infinity;
 }

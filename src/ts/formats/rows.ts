@@ -57,3 +57,9 @@ export function walkRow(
   }
   return place;
 }
+
+/** In words: which fields are x, y and z. Undefined if the fields have these names. */
+export function fieldsSaid(fields: readonly Field[], axes: Axes): string | undefined {
+  const names = axes.map((axis) => fields[axis]!.name);
+  return names.join("").toLowerCase() === "xyz" ? undefined : `x, y and z are ${names.join(", ")}`;
+}

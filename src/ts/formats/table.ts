@@ -1,4 +1,5 @@
 import { type ChosenColumns, isNumber } from "./axes.js";
+import { isOutOfRange } from "./numbers.js";
 import { FormatProblem, lineProblem } from "./problem.js";
 import type { Axes } from "./rows.js";
 import { areUnits, axesIn, type Names, namesIn } from "./table-names.js";
@@ -94,6 +95,7 @@ export class TableRows {
       if (this.#decimal.mark !== found.decimal)
         throw lineProblem(number, `has both decimal points and decimal commas with line ${this.#decimal.line}`, line);
     }
+    if (isOutOfRange(found.value)) throw lineProblem(number, `has a number out of range in column ${axis + 1}`, line);
     return found.value;
   }
 

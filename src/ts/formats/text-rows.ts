@@ -1,4 +1,4 @@
-import { countIn, fitsType, numberIn } from "./numbers.js";
+import { countIn, fitsType, isOutOfRange, numberIn } from "./numbers.js";
 import { endsEarly, lineProblem } from "./problem.js";
 import { type Axes, type Field, type Group, hasLists } from "./rows.js";
 import { trimmed, wordsOf } from "./text.js";
@@ -65,6 +65,7 @@ export class TextRows {
     const value = numberIn(word);
     const { name, type } = this.#points.fields[axis]!;
     if (value === undefined) throw lineProblem(number, `is not a point, its ${name} is not a number`, line);
+    if (isOutOfRange(value, type)) throw lineProblem(number, `has a ${name} that is out of range`, line);
     if (!fitsType(value, type)) throw lineProblem(number, `is not a point, its ${name} is not of type ${type}`, line);
     return value;
   }

@@ -1,7 +1,7 @@
 import type { Copc, Hierarchy } from "copc";
 
 import { asError, HprError } from "../base/errors.js";
-import type { ChunkLayout, LazPerf } from "../formats/laz-perf.js";
+import type { ChunkLayout, LazPerf } from "../formats/las/laz-perf.js";
 import { checkRecords, decompress, hasColors } from "./laz-chunk.js";
 import type { OctreeSettings } from "./options.js";
 import { broken, type Part, type RangeReader, readPart } from "./source.js";

@@ -5,7 +5,7 @@ import { readViewpoint } from "../query/positions.js";
 import type { ResolvedInversion } from "../query/view-options.js";
 import { readSignal } from "../worker/abort.js";
 import type { Fetch, Network } from "./request.js";
-import type { LazPerf } from "../formats/laz-perf.js";
+import type { LazPerf } from "../formats/las/laz-perf.js";
 
 /** How an octree is read. */
 export interface OctreeOptions {

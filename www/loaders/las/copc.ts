@@ -1,14 +1,15 @@
 import { Copc, type Hierarchy } from "copc";
 import type { LoadedCloud, Streamed } from "../../cloud/cloud.ts";
-import { displayScale } from "../attributes.ts";
-import type { Reading } from "../blocks.ts";
-import { LoadProblem } from "../problem.ts";
+import { displayScale } from "../../../src/ts/formats/colors.js";
+import { Contradictions } from "../../../src/ts/formats/contradictions.js";
+import { parseLasDetails } from "../../../src/ts/formats/las/details.js";
+import { decodeChunk } from "../../../src/ts/formats/las/laz-perf.js";
+import { checkLazFormat, chunkParts, lazDamaged } from "../../../src/ts/formats/las/laz.js";
+import { RecordTaker } from "../../../src/ts/formats/las/read-las.js";
 import { FormatProblem } from "../../../src/ts/formats/problem.js";
-import { parseHeader } from "./header.ts";
-import { checkLazFormat, lazDamaged } from "../../../src/ts/formats/laz.js";
-import { decodeChunk } from "../../../src/ts/formats/laz-perf.js";
+import { LoadProblem } from "../problem.ts";
+import { type Loading, loaded } from "../loaded.ts";
 import { startLazPerf } from "./perf.ts";
-import { RecordTaker } from "./records.ts";
 
 /** Reads bytes of the file, which may be on the device or on a server. */
 export type ReadRange = (from: number, to: number) => Promise<Uint8Array>;
@@ -28,25 +29,31 @@ const BUDGET = 4_000_000;
 
 const number = new Intl.NumberFormat("en-US");
 
+/** Whether a LAS file is an octree. */
+export async function isOctree(read: ReadRange): Promise<boolean> {
+  return parseLasDetails(await read(0, HEAD)).isCopc;
+}
+
 /**
  * Reads a cloud-optimized point cloud: an octree in which deeper nodes hold finer samples. Levels are read from the
  * coarsest on, whole ones as long as the limit allows. So the shown points are spread evenly. If the first level alone
  * is beyond the limit, its points are thinned evenly. `from`: where the other levels are, if they are streamed later.
  */
 export async function readCopc(
-  reading: Omit<Reading, "blob">,
+  reading: Omit<Loading, "blob">,
   read: ReadRange,
   from: string | Blob,
 ): Promise<LoadedCloud> {
   const { name, streamFrom = Infinity, onProgress } = reading;
-  const header = parseHeader(await read(0, HEAD));
-  checkLazFormat(header);
+  const header = parseLasDetails(await read(0, HEAD));
+  checkLazFormat(header.format);
   if (header.count === 0) throw new LoadProblem(`${name} holds no points.`);
   const isStreamed = header.count > streamFrom;
   const limit = isStreamed ? Math.min(reading.limit, streamFrom, OVERVIEW) : reading.limit;
   const { nodes, points } = await chooseNodes(name, read, limit, header.count);
   const perf = await startLazPerf(name);
-  const taker = new RecordTaker(header, { ...reading, limit }, points);
+  const found = new Contradictions(false);
+  const taker = new RecordTaker(header, { ...reading, limit }, found, points);
 
   const asked: Promise<Uint8Array>[] = [];
   const ask = (i: number) => {
@@ -59,21 +66,23 @@ export async function readCopc(
   };
   for (let i = 0; i < AHEAD; i++) ask(i);
   for (const [i, node] of nodes.entries()) {
-    onProgress(i / nodes.length);
+    onProgress?.(i / nodes.length);
     const compressed = await asked[i]!;
     asked[i] = Promise.resolve(compressed.subarray(0, 0));
     ask(i + AHEAD);
     if (compressed.length < node.pointDataLength)
       throw new LoadProblem(`${name} is broken: it ends before its points do.`);
+    const { says } = chunkParts(compressed, node.pointCount, header);
+    if (says !== undefined) found.add(`the chunk at byte ${node.pointDataOffset} ${says}`);
     try {
-      decodeChunk(perf, compressed, node.pointCount, header, (point) => {
-        taker.take(point, 0);
+      decodeChunk(perf, compressed, node.pointCount, header, (view, at) => {
+        taker.take(view, at);
       });
     } catch {
       throw lazDamaged();
     }
   }
-  const cloud = taker.finish();
+  const cloud = loaded(name, taker.finish(points === header.count));
   if (points >= header.count) return cloud;
   const shown = number.format(cloud.positions.length / 3);
   if (isStreamed)

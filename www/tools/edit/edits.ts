@@ -3,7 +3,7 @@ import { type Field, valueAt } from "../../cloud/facts.ts";
 import { partOf } from "../../cloud/part.ts";
 import { prepareCloud } from "../../cloud/prepare.ts";
 import { byId } from "../../controls/dom.ts";
-import { CLASSES, CLASSIFICATION } from "../../loaders/las/classes.ts";
+import { CLASSES, CLASSIFICATION } from "../../../src/ts/formats/las/classes.js";
 import type { Store } from "../../settings/store.ts";
 import { STATION_COLORS } from "../../settings/table.ts";
 import type { ExportActions, OpenedCloud } from "../export.ts";

@@ -1,22 +1,34 @@
 import type { ChosenColumns } from "../../formats/axes.js";
-import { readLas } from "./las.js";
-import { readPcd } from "./pcd.js";
-import { readPly } from "./ply.js";
-import type { PointFile } from "./point-file.js";
-import { readTable } from "./table.js";
+import type { CloudFile, Reading } from "../../formats/cloud-file.js";
+import { readLas } from "../../formats/las/read-las.js";
+import { readPcd } from "../../formats/read-pcd.js";
+import { readPly } from "../../formats/read-ply.js";
+import { readTable } from "../../formats/read-table.js";
+import { bytesSource } from "../../formats/source.js";
+import { lasFrame } from "./las.js";
+import { pcdFrame } from "./pcd.js";
+import { plyFrame } from "./ply.js";
+import type { Frame, PointFile } from "./point-file.js";
+import { tableFrame } from "./table.js";
 
 interface Format {
-  read: (file: Buffer, chosen?: ChosenColumns) => PointFile | Promise<PointFile>;
+  read: (reading: Reading) => Promise<CloudFile>;
+  frame: (file: Buffer, cloud: CloudFile, chosen?: ChosenColumns) => Frame;
   /** Whether the user can choose the columns. */
   hasColumns: boolean;
   /** The endings of files that its points can be written to. */
   written: readonly string[];
 }
 
-const PLY: Format = { read: readPly, hasColumns: true, written: [".ply"] };
-const PCD: Format = { read: readPcd, hasColumns: true, written: [".pcd"] };
-const LAS: Format = { read: readLas, hasColumns: false, written: [".las"] };
-const TABLE: Format = { read: readTable, hasColumns: true, written: [".xyz", ".txt", ".csv", ".pts"] };
+const PLY: Format = { read: readPly, frame: plyFrame, hasColumns: true, written: [".ply"] };
+const PCD: Format = { read: readPcd, frame: pcdFrame, hasColumns: true, written: [".pcd"] };
+const LAS: Format = { read: readLas, frame: lasFrame, hasColumns: false, written: [".las"] };
+const TABLE: Format = {
+  read: readTable,
+  frame: tableFrame,
+  hasColumns: true,
+  written: [".xyz", ".txt", ".csv", ".pts"],
+};
 
 /** The formats that can be read, by the ending of a file's name. The ending of COPC is .copc.laz. */
 export const FORMATS: Record<string, Format> = {
@@ -29,3 +41,14 @@ export const FORMATS: Record<string, Format> = {
   ".las": LAS,
   ".laz": LAS,
 };
+
+/** Reads the points of a file, with the bytes of each. */
+export async function readPoints(
+  { read, frame }: Format,
+  file: Buffer<ArrayBuffer>,
+  { chosen, damaged }: Pick<Reading, "chosen" | "damaged">,
+): Promise<PointFile> {
+  const cloud = await read({ name: "", source: bytesSource(file), records: true, chosen, damaged });
+  const records = { ...cloud.records, bytes: cloud.records.bytes ?? file };
+  return { ...cloud, ...frame(file, { ...cloud, records }, chosen), records };
+}

@@ -1,4 +1,5 @@
 // LAS, LAZ and COPC. All are written as LAS: laz-perf does not compress.
+import type { CloudFile } from "../../formats/cloud-file.js";
 import {
   LAS_RECORD_HEADER,
   type LasHeader,
@@ -6,12 +7,9 @@ import {
   lasRecords,
   LONGEST_LAS_HEADER,
   readLasHeader,
-} from "../../formats/las.js";
-import { checkChunkTable, checkLazFormat, lasEndsEarly, lazDamaged } from "../../formats/laz.js";
-import { FormatProblem } from "../../formats/problem.js";
-import { allocating } from "../memory.js";
-import { decompressed } from "./laz.js";
-import { equalRecords, type PointFile } from "./point-file.js";
+} from "../../formats/las/header.js";
+import { viewOf } from "../../formats/source.js";
+import type { Frame } from "./point-file.js";
 
 /** The places in the header (LAS Specification 1.4 R15, table 3). */
 const [COUNT, COUNTS_BY_RETURN, BOUNDS, WAVES, EXTENDED, WIDE_COUNT, WIDE_BY_RETURN] = [
@@ -20,36 +18,14 @@ const [COUNT, COUNTS_BY_RETURN, BOUNDS, WAVES, EXTENDED, WIDE_COUNT, WIDE_BY_RET
 /** The extended record with the wave forms. */
 const WAVE_FORMS = 65_535;
 
-export async function readLas(file: Buffer): Promise<PointFile> {
+export function lasFrame(file: Buffer, { records }: CloudFile): Frame {
   const header = readLasHeader(file.subarray(0, LONGEST_LAS_HEADER));
-  const { count, compressed, rowBytes, start } = header;
-  if (count === 0) throw new FormatProblem("it has no points");
-  const rows = compressed ? await unpacked(file, header) : file.subarray(start);
-  if (rows.length < count * rowBytes) throw lasEndsEarly(count);
-
-  const view = new DataView(rows.buffer, rows.byteOffset, rows.byteLength);
-  const positions = allocating(`${3 * count} coordinates`, () => new Float64Array(3 * count));
-  for (let i = 0; i < count; i++) positions.set(lasPosition(header, view, i * rowBytes), 3 * i);
   const extended = extendedRecords(file, header);
+  const rows = records.bytes!.subarray(records.start(0));
   return {
-    positions,
-    leftOut: [],
-    columns: undefined,
-    header: (indices) => headerOf(file, header, view, indices, extended),
-    records: equalRecords(rows, 0, rowBytes),
+    header: (indices) => headerOf(file, header, viewOf(rows), indices, extended),
     footer: Buffer.concat(extended.map(({ bytes }) => bytes)),
   };
-}
-
-async function unpacked(file: Buffer, header: LasHeader): Promise<Uint8Array> {
-  checkLazFormat(header);
-  await checkChunkTable(header, file.length, (from, to) => Promise.resolve(file.subarray(from, to)));
-  try {
-    return await decompressed(file, header);
-  } catch (cause) {
-    // The decoder throws numbers, traps and aborts. Each of these means that the file is damaged.
-    throw cause instanceof FormatProblem ? cause : lazDamaged();
-  }
 }
 
 /** The header, and the records after it, of a file with these points. */

@@ -1,21 +1,14 @@
 import type { ChosenColumns } from "../../formats/axes.js";
+import type { CloudFile } from "../../formats/cloud-file.js";
 import { type PlyHeader, readPlyHeader } from "../../formats/ply.js";
-import { checkRest } from "../../formats/text.js";
-import { fieldsSaid, type PointFile } from "./point-file.js";
-import { endOfRows, type Points, readBinaryRows, readTextRows } from "./rows.js";
+import type { Frame } from "./point-file.js";
 
 /** PLY, ASCII and binary. Only the vertices are kept: faces would point to vertices that are gone. */
-export function readPly(file: Buffer, chosen?: ChosenColumns): PointFile {
+export function plyFrame(file: Buffer, _: CloudFile, chosen?: ChosenColumns): Frame {
   const header = readPlyHeader(file, chosen);
-  const { elements, vertices, axes, lines, end } = header;
-  const points =
-    header.format === "ascii"
-      ? readTextRows(file, { start: end, firstNumber: lines.length + 1 }, elements, vertices, axes)
-      : readBinary(file, header);
+  const { elements, vertices } = header;
   return {
-    ...points,
     leftOut: elements.filter((one) => one !== vertices && one.count > 0).map(({ name, count }) => `${count} × ${name}`),
-    columns: fieldsSaid(vertices.fields, axes),
     header: ({ length }) => Buffer.from(headerOf(file, header, length), "latin1"),
   };
 }
@@ -27,16 +20,4 @@ function headerOf(file: Buffer, { lines }: PlyHeader, count: number): string {
     .map(({ start, end }) => file.toString("latin1", start, end))
     .map((text) => text.replace(/^(\s*element\s+vertex\s+)\d+/, `$1${count}`))
     .join("");
-}
-
-function readBinary(file: Buffer, { format, elements, vertices, axes, end }: PlyHeader): Points {
-  const littleEndian = format === "binary_little_endian";
-  let at = end;
-  let points: Points | undefined;
-  for (const element of elements) {
-    if (element === vertices) points = readBinaryRows(file, at, vertices, axes, littleEndian);
-    at = endOfRows(file, at, element, littleEndian);
-  }
-  checkRest(file.subarray(at), elements.at(-1)!.name);
-  return points!;
 }

@@ -1,16 +1,7 @@
-import type { LoadedCloud, Values } from "../cloud/cloud.ts";
-import type { NumberType } from "../../src/ts/formats/numbers.js";
-import { attributesOf } from "./attributes.ts";
-import type { Reading } from "./blocks.ts";
-import { newValues } from "./numbers.ts";
-
-/** A file's values besides positions. Columns with the names red, green and blue become the colors. */
-export interface Column {
-  name: string;
-  type: NumberType;
-  /** Nobody colors points by it. */
-  isDetail?: true;
-}
+import type { CloudFile, Reading } from "./cloud-file.js";
+import type { Column } from "./column.js";
+import { newValues, type Values } from "./numbers.js";
+import { FormatProblem } from "./problem.js";
 
 const FIRST_CAPACITY = 65_536;
 /** Points are shown while they are read: the first ones, then so many at a time, but not more than the last number. */
@@ -29,7 +20,9 @@ const number = new Intl.NumberFormat("en-US");
 export class CloudBuilder {
   /** One array for each column. Write to it at the index that `put` returns. The arrays are replaced as they grow. */
   readonly values: Values[];
-  #positions: Float32Array | Float64Array;
+  #positions: Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>;
+  /** Where the bytes of each point begin and end, if that is wanted. */
+  #places = new Float64Array();
   #kept = 0;
   #seen = 0;
   #step = 1;
@@ -44,15 +37,15 @@ export class CloudBuilder {
   constructor(
     precision: "float32" | "float64",
     columns: readonly Column[],
-    { limit, onPoints }: Pick<Reading, "limit" | "onPoints">,
+    { limit = Infinity, onPoints }: Pick<Reading, "limit" | "onPoints">,
     expected: number | null,
   ) {
     this.#limit = limit;
     this.#onPoints = onPoints;
     this.#columns = columns;
     if (expected !== null) this.#step = Math.max(1, Math.ceil(expected / limit));
-    this.#capacity = Math.min(FIRST_CAPACITY, limit);
-    this.#positions = newValues(precision, 3 * this.#capacity) as Float32Array | Float64Array;
+    this.#capacity = Math.max(1, Math.min(FIRST_CAPACITY, limit));
+    this.#positions = newValues(precision, 3 * this.#capacity) as Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>;
     this.values = columns.map(({ type }) => newValues(type, this.#capacity));
   }
 
@@ -75,23 +68,38 @@ export class CloudBuilder {
     return at;
   }
 
+  /** Says where the bytes of a point are. */
+  place(index: number, start: number, end: number): void {
+    if (2 * index + 2 > this.#places.length)
+      this.#places = grown(this.#places, Math.max(2 * FIRST_CAPACITY, 2 * this.#places.length));
+    this.#places[2 * index] = start;
+    this.#places[2 * index + 1] = end;
+  }
+
   /** The number of rows so far, with those that were not kept. */
   get rows(): number {
     return this.#seen;
   }
 
-  finish(): LoadedCloud {
+  finish(): CloudFile {
     const positions = this.#positions.slice(0, 3 * this.#kept);
     this.#positions = this.#positions.subarray(0, 0);
-    const columns = this.#columns.map(({ name, isDetail }, k) => ({
+    const columns = this.#columns.map(({ name, isDetail, labels }, k) => ({
       name,
       isDetail,
+      labels,
       values: this.values[k]!.slice(0, this.#kept),
     }));
     this.values.length = 0;
     const notes =
-      this.#step > 1 ? [`Every ${ordinal(this.#step)} of its ${number.format(this.#seen)} points is shown.`] : [];
-    return { positions, ...attributesOf(columns), notes };
+      this.#step > 1 ? [`every ${ordinal(this.#step)} of its ${number.format(this.#seen)} points is shown`] : [];
+    const places = this.#places;
+    const records = {
+      bytes: undefined,
+      start: (i: number) => places[2 * i]!,
+      end: (i: number) => places[2 * i + 1]!,
+    };
+    return { positions, columns, rows: this.#seen, notes, records };
   }
 
   /** Hands on the points since the last time. Differences are taken in f64, so that f32 holds them. */
@@ -124,9 +132,18 @@ export class CloudBuilder {
 }
 
 function grown<T extends Values>(values: T, length: number): T {
-  const larger = new (values.constructor as new (length: number) => T)(length);
+  const larger = allocating(length, () => new (values.constructor as new (length: number) => T)(length));
   larger.set(values);
   return larger;
+}
+
+/** Runs an allocation in JavaScript's memory. If it is refused, the file cannot be read. */
+export function allocating<T>(numbers: number, allocate: () => T): T {
+  try {
+    return allocate();
+  } catch (cause) {
+    throw new FormatProblem(`there is no memory for ${number.format(numbers)} numbers`, { cause });
+  }
 }
 
 function ordinal(value: number): string {

@@ -1,4 +1,4 @@
-import { FormatProblem } from "./problem.js";
+import { FormatProblem } from "../problem.js";
 
 /**
  * The parts of a LAS header for the versions 1.0 to 1.4 (ASPRS, LAS Specification 1.4 R15). The copc package also has

@@ -1,4 +1,20 @@
-import type { Crs, Unit } from "../../cloud/facts.ts";
+/** A unit of length. */
+export interface Unit {
+  /** Its short name, as it is written after a number. */
+  name: string;
+  meters: number;
+}
+
+/** The coordinate reference system that a file names. */
+export interface Crs {
+  name: string;
+  /** The unit of x and y. `null`: it is not known, or it is an angle. */
+  unit: Unit | null;
+  /** The unit of z, if the file gives one of its own. */
+  heightUnit: Unit | null;
+  /** Whether x and y are degrees of longitude and latitude. */
+  isAngular: boolean;
+}
 
 /** The parts of a LAS file that may name its coordinate system: OGC WKT, or the keys of GeoTIFF. */
 export interface CrsRecords {

@@ -1,5 +1,5 @@
-import { LAS_POINT_BYTES } from "../../../src/ts/formats/las.js";
-import type { NumberType } from "../../../src/ts/formats/numbers.js";
+import { LAS_POINT_BYTES } from "./header.js";
+import type { NumberType } from "../numbers.js";
 
 /** Where a point's number is in its record. The reader and the writer of LAS take it from the same table. */
 export interface FieldPlace {

@@ -1,25 +1,40 @@
-import type { Column } from "../builder.ts";
-import { bytes } from "../blocks.ts";
-import { bytesOf, type NumberReader, numberReader, type NumberType } from "../../../src/ts/formats/numbers.js";
+import type { Column } from "../column.js";
+import { bytesOf, type NumberReader, numberReader, type NumberType } from "../numbers.js";
+import { FormatProblem } from "../problem.js";
+import { type Source, viewOf } from "../source.js";
+import { CLASSES, CLASSIFICATION } from "./classes.js";
+import { type Crs, crsOf, type CrsRecords } from "./crs.js";
 import {
   LAS_RECORD_HEADER,
-  type LasHeader as LasFrame,
+  type LasHeader,
   type LasRecord,
   lasRecords,
   LONGEST_LAS_HEADER,
   readLasHeader,
   textAt,
-} from "../../../src/ts/formats/las.js";
-import { LoadProblem } from "../problem.ts";
-import type { LasSource, Crs } from "../../cloud/facts.ts";
-import { crsOf, type CrsRecords } from "./crs.ts";
-import { type FieldPlace, layoutOf } from "./places.ts";
+} from "./header.js";
+import { type FieldPlace, layoutOf } from "./places.js";
 
 /** A LAS header, the values of its points, and their coordinate system. */
-export interface LasHeader extends LasFrame {
+export interface LasDetails extends LasHeader {
   columns: readonly LasColumn[];
   crs: Crs | null;
-  source: LasSource;
+  las: LasSource;
+  /** The bytes of the header and of the records after it. */
+  head: DataView;
+}
+
+/** The parts of a LAS file that its points alone do not say. With them, the file can be written again. */
+export interface LasSource {
+  /** The header as it is in the file. */
+  head: Uint8Array;
+  format: number;
+  scale: readonly [number, number, number];
+  offset: readonly [number, number, number];
+  /** The records before the points, such as the coordinate system, each with its own head of 54 bytes. */
+  records: Uint8Array[];
+  /** The descriptions of the extra columns, in the order of the file. */
+  extras: { name: string; description: Uint8Array }[];
 }
 
 export interface LasColumn extends Column {
@@ -41,19 +56,17 @@ const EXTRA_TYPES: (NumberType | null)[] = [
 ];
 const EXTRA_RECORD = 192;
 
-export async function readHeader(name: string, blob: Blob): Promise<LasHeader> {
-  const data = new Uint8Array(await bytes(name, blob, 0, LONGEST_LAS_HEADER));
-  const header = parseHeader(data);
-  if (header.start > blob.size) throw new LoadProblem(`${name} is broken: its points would begin after its end.`);
-  const view = new DataView(data.buffer);
+export async function readLasDetails({ size, read }: Source): Promise<LasDetails> {
+  const details = parseLasDetails(await read(0, LONGEST_LAS_HEADER));
+  const { start, minor, head, crs, las } = details;
+  if (start > size) throw new FormatProblem("its points would begin after its end");
   // Since version 1.4, records may also follow the points.
-  const at = header.minor === 4 ? Number(view.getBigUint64(235, true)) : 0;
-  if (header.crs || at === 0 || at >= blob.size) return header;
-  const end = new DataView(await bytes(name, blob, at, at + LONGEST_LAS_HEADER));
-  const { wkt } = crsRecords(end, lasRecords(end, 0, view.getUint32(243, true), "after"));
-  if (wkt === undefined) return header;
-  const records = [...header.source.records, wktRecord(wkt)];
-  return { ...header, crs: crsOf({ wkt }), source: { ...header.source, records } };
+  const at = minor === 4 ? Number(head.getBigUint64(235, true)) : 0;
+  if (crs || at === 0 || at >= size) return details;
+  const end = viewOf(await read(at, at + LONGEST_LAS_HEADER));
+  const { wkt } = crsRecords(end, lasRecords(end, 0, head.getUint32(243, true), "after"));
+  if (wkt === undefined) return details;
+  return { ...details, crs: crsOf({ wkt }), las: { ...las, records: [...las.records, wktRecord(wkt)] } };
 }
 
 /** The coordinate system as a record before the points. */
@@ -68,17 +81,18 @@ function wktRecord(wkt: string): Uint8Array {
   return record;
 }
 
-export function parseHeader(data: Uint8Array): LasHeader {
+export function parseLasDetails(data: Uint8Array): LasDetails {
   const frame = readLasHeader(data);
   const { format, rowBytes, records } = frame;
-  const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
+  const view = viewOf(data);
   const { places, bytes: least } = layoutOf(format)!;
   const extra = records.find(({ user, id }) => user === "LASF_Spec" && id === 4);
   return {
     ...frame,
     columns: [...places.map(columnOf), ...(extra ? extraColumns(view, extra, least, rowBytes) : [])],
     crs: crsOf(crsRecords(view, records)),
-    source: {
+    head: view,
+    las: {
       head: data.slice(0, Math.min(frame.headerBytes, 375)),
       format,
       scale: frame.scale,
@@ -120,7 +134,8 @@ function columnOf({ name, type, offset, bits, isDetail }: FieldPlace): LasColumn
   const [first, count] = bits ?? [0, 0];
   const mask = (1 << count) - 1;
   const read: NumberReader = bits ? (view, at) => (view.getUint8(at + offset) >> first) & mask : whole;
-  return { name, type, read, ...(isDetail && { isDetail }) };
+  const labels = name === CLASSIFICATION && { labels: CLASSES };
+  return { name, type, read, ...(isDetail && { isDetail }), ...labels };
 }
 
 /** The extra values of each point, as the program that added them describes them. */

@@ -14,11 +14,12 @@ import {
 } from "three";
 import { type GLTF, GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { MeshoptDecoder } from "three/addons/libs/meshopt_decoder.module.js";
-import type { LoadedCloud } from "../cloud/cloud.ts";
-import { bytes, type Reading } from "./blocks.ts";
-import { CloudBuilder, type Column } from "./builder.ts";
-import { checkByteLength } from "./limits.ts";
-import { LoadProblem } from "./problem.ts";
+import { CloudBuilder } from "./builder.js";
+import type { CloudFile, Reading } from "./cloud-file.js";
+import type { Column } from "./column.js";
+import { FormatProblem } from "./problem.js";
+import { step } from "./read-rows.js";
+import { viewOf, wholeFile } from "./source.js";
 
 type Attribute = BufferAttribute | InterleavedBufferAttribute;
 
@@ -39,16 +40,11 @@ interface Placed {
   matrices: Matrix4[];
 }
 
-/**
- * The vertices of a glTF scene, of points and of meshes, placed by its nodes. The names of other files are relative to
- * the address `base`. If it is null, other files cannot be loaded.
- */
-export async function readGltf(reading: Reading, base: string | null): Promise<LoadedCloud> {
-  const { name, blob } = reading;
-  checkByteLength(name, blob.size);
-  const data = await bytes(name, blob, 0, blob.size);
-  checkUse(name, jsonOf(name, data), base);
-  const placed = verticesIn(await parse(name, data, base));
+/** The vertices of a glTF scene, of points and of meshes, placed by its nodes. */
+export async function readGltf(reading: Reading): Promise<CloudFile> {
+  const data = await wholeFile(reading.source);
+  checkUse(jsonOf(data), reading.base);
+  const placed = verticesIn(await parse(data, reading.base));
   const total = placed.reduce((sum, each) => sum + each.matrices.length * position(each).count, 0);
 
   const colored = placed.length > 0 && placed.every(({ geometry }) => "color" in geometry.attributes);
@@ -65,6 +61,7 @@ export async function readGltf(reading: Reading, base: string | null): Promise<L
     const attributes = each.geometry.attributes as Record<string, Attribute>;
     const positions = position(each);
     for (const matrix of each.matrices) {
+      step(reading, (reading.source.size * builder.rows) / total);
       for (let vertex = 0; vertex < positions.count; vertex++) {
         if (!builder.takes()) continue;
         point.fromBufferAttribute(positions, vertex).applyMatrix4(matrix);
@@ -80,52 +77,47 @@ export async function readGltf(reading: Reading, base: string | null): Promise<L
       }
     }
   }
-  return { ...builder.finish(), taken: { up: "y" } };
+  if (builder.rows === 0) throw new FormatProblem("its scene has no vertices");
+  return { ...builder.finish(), up: "y", unit: { name: "m", meters: 1 } };
 }
 
 /** The description of the scene: the whole file, or the first part of a binary file. */
-function jsonOf(name: string, data: ArrayBuffer): GltfJson {
-  const view = new DataView(data);
+function jsonOf(data: Uint8Array): GltfJson {
+  const view = viewOf(data);
   const binary = view.byteLength >= 20 && view.getUint32(0, true) === 0x46546c67;
   if (binary && view.getUint32(4, true) !== 2)
-    throw new LoadProblem(`${name} has glTF version ${view.getUint32(4, true)}, but this page reads only version 2.`);
+    throw new FormatProblem(`its glTF version is ${view.getUint32(4, true)}, and only version 2 is read`);
   if (binary && view.getUint32(8, true) > view.byteLength)
-    throw new LoadProblem(`${name} is broken: it is shorter than its header says.`);
+    throw new FormatProblem("it is shorter than its header says");
+  const end = binary ? 20 + view.getUint32(12, true) : data.length;
   try {
-    const text = binary ? new Uint8Array(data, 20, view.getUint32(12, true)) : new Uint8Array(data);
-    return JSON.parse(new TextDecoder().decode(text)) as GltfJson;
-  } catch {
-    throw new LoadProblem(`${name} is broken: the description of its scene cannot be read.`);
+    return JSON.parse(new TextDecoder().decode(data.subarray(binary ? 20 : 0, end))) as GltfJson;
+  } catch (cause) {
+    throw new FormatProblem("the description of its scene cannot be read", { cause });
   }
 }
 
-function checkUse(name: string, json: GltfJson, base: string | null): void {
-  if (json.asset?.version === undefined) throw new LoadProblem(`${name} is broken: it does not give its glTF version.`);
+function checkUse(json: GltfJson, base: string | undefined): void {
+  if (json.asset?.version === undefined) throw new FormatProblem("it does not give its glTF version");
   const used = [...(json.extensionsUsed ?? []), ...(json.extensionsRequired ?? [])];
-  if (used.includes("KHR_draco_mesh_compression")) {
-    throw new LoadProblem(
-      `${name} is compressed with Draco, which this page does not read. Export it without that compression.`,
-    );
-  }
+  if (used.includes("KHR_draco_mesh_compression"))
+    throw new FormatProblem("it is compressed with Draco, which is not read; export it without that compression");
   const unknown = json.extensionsRequired?.find((extension) => !UNDERSTOOD.test(extension));
-  if (unknown !== undefined)
-    throw new LoadProblem(`${name} needs an extension that this page does not support (${unknown}).`);
+  if (unknown !== undefined) throw new FormatProblem(`it needs an extension that is not supported (${unknown})`);
   const elsewhere = json.buffers?.find(({ uri }) => uri !== undefined && !uri.startsWith("data:"));
-  if (elsewhere && base === null) {
-    throw new LoadProblem(`${name} keeps its points in another file (${elsewhere.uri}). Export it as one GLB file.`);
-  }
+  if (elsewhere && base === undefined)
+    throw new FormatProblem(`it keeps its points in another file (${elsewhere.uri}); export it as one GLB file`);
 }
 
-async function parse(name: string, data: ArrayBuffer, base: string | null): Promise<GLTF> {
+async function parse(data: Uint8Array<ArrayBuffer>, base = ""): Promise<GLTF> {
   const loader = new GLTFLoader(new LoadingManager()).setMeshoptDecoder(MeshoptDecoder);
   // Only vertices are needed, so no textures are loaded, nor other data for materials.
   loader.register(() => ({ name: "no_materials", loadMaterial: () => Promise.resolve(new MeshBasicMaterial()) }));
   try {
-    return await loader.parseAsync(data, base ?? "");
-  } catch (error) {
-    throw new LoadProblem(
-      `${name} is broken or uses a feature that this page does not support: ${error instanceof Error ? error.message.replace(/^THREE\.\w+: |\.$/g, "") : "it could not be read"}.`,
-    );
+    return await loader.parseAsync(data.slice().buffer, base);
+  } catch (cause) {
+    const why = cause instanceof Error ? cause.message.replace(/^THREE\.\w+: |\.$/g, "") : "it could not be read";
+    throw new FormatProblem(`it is broken or uses a feature that is not supported: ${why}`, { cause });
   }
 }
 

@@ -1,7 +1,7 @@
-import type { LoadedCloud } from "../cloud/cloud.ts";
-import { LONGEST_PLY_HEADER, type PlyHeader, readPlyHeader as headerIn } from "../../src/ts/formats/ply.js";
-import { bytes, type Reading } from "./blocks.ts";
-import { checkEnd, endOfRows, otherColumns, type Points, readBinaryRows, readTextRows } from "./rows.ts";
+import type { CloudFile, Reading } from "./cloud-file.js";
+import { LONGEST_PLY_HEADER, type PlyHeader, readPlyHeader } from "./ply.js";
+import { checkEnd, endOfRows, otherColumns, type Points, readBinaryRows, readTextRows } from "./read-rows.js";
+import { fieldsSaid } from "./rows.js";
 
 /** Other names of colors in some files. */
 const NAMES: Record<string, string> = {
@@ -9,8 +9,8 @@ const NAMES: Record<string, string> = {
 }; // prettier-ignore
 
 /** The vertices of a PLY file. Its faces are ignored. */
-export async function readPly(reading: Reading): Promise<LoadedCloud> {
-  const header = await readPlyHeader(reading);
+export async function readPly(reading: Reading): Promise<CloudFile> {
+  const header = readPlyHeader(await reading.source.read(0, LONGEST_PLY_HEADER), reading.chosen);
   const { elements, vertices, axes, end, lines } = header;
   const points = { group: vertices, axes, others: otherColumns(vertices, axes, called) };
   const cloud =
@@ -18,11 +18,11 @@ export async function readPly(reading: Reading): Promise<LoadedCloud> {
       ? await readTextRows(reading, { start: end, firstNumber: lines.length + 1 }, elements, points)
       : await readBinary(reading, header, points);
   const faces = elements.some((element) => element.name === "face" && element.count > 0);
-  return { ...cloud, isMesh: faces && cloud.positions.length === 3 * vertices.count };
-}
-
-export async function readPlyHeader({ name, blob }: Reading): Promise<PlyHeader> {
-  return headerIn(new Uint8Array(await bytes(name, blob, 0, LONGEST_PLY_HEADER)));
+  return {
+    ...cloud,
+    axes: fieldsSaid(vertices.fields, axes),
+    isMesh: faces && cloud.positions.length === 3 * vertices.count,
+  };
 }
 
 function called(name: string): string {
@@ -30,15 +30,15 @@ function called(name: string): string {
   return NAMES[lower] ?? (/^(red|green|blue)$/.test(lower) ? lower : name.replace(/^scalar_/, ""));
 }
 
-async function readBinary(reading: Reading, header: PlyHeader, points: Points): Promise<LoadedCloud> {
+async function readBinary(reading: Reading, header: PlyHeader, points: Points): Promise<CloudFile> {
   const { format, elements, vertices, end } = header;
   const littleEndian = format === "binary_little_endian";
   let at = end;
-  let cloud: LoadedCloud | undefined;
+  let cloud: CloudFile | undefined;
   for (const element of elements) {
     if (element === vertices) cloud = await readBinaryRows(reading, at, points, littleEndian);
     at = await endOfRows(reading, at, element, littleEndian);
   }
-  await checkEnd(reading, at, elements.at(-1)!.name);
+  await checkEnd(reading.source, at, elements.at(-1)!.name);
   return cloud!;
 }

@@ -1,9 +1,11 @@
-import type { LoadedCloud } from "../cloud/cloud.ts";
-import { columnsSaid, isPlain, type Layout, rowWords, TableRows } from "../../src/ts/formats/table.js";
-import { cell, isComment } from "../../src/ts/formats/table-words.js";
-import { trimmed } from "../../src/ts/formats/text.js";
-import { lines, type Reading } from "./blocks.ts";
-import { CloudBuilder } from "./builder.ts";
+import { CloudBuilder } from "./builder.js";
+import type { CloudFile, Reading } from "./cloud-file.js";
+import { step } from "./read-rows.js";
+import { lines } from "./source.js";
+import { cell, isComment } from "./table-words.js";
+import { columnsSaid, isPlain, type Layout, rowWords, TableRows } from "./table.js";
+import { textOf } from "./text-source.js";
+import { trimmed } from "./text.js";
 
 /** A column besides x, y and z. */
 interface Other {
@@ -15,39 +17,40 @@ interface Other {
 const LOOK_AT = 200;
 const COLORS = [/^(r|red)$/, /^(g|green)$/, /^(b|blue)$/];
 
-/** Reads a table of points. src/ts/formats/table.ts says which lines it may have. */
-export async function readXyz(reading: Reading, encoding: string): Promise<LoadedCloud> {
-  const { name } = reading;
-  const rows = new TableRows();
+/** Reads a table of points. table.ts says which lines it may have. */
+export async function readTable(reading: Reading): Promise<CloudFile> {
+  const rows = new TableRows(reading.chosen);
+  const type = reading.single ? "float32" : "float64";
   let others: Other[] = [];
   let builder: CloudBuilder | undefined;
-  let number = 1;
-  for await (const some of lines(reading, 0, { encoding })) {
-    for (const [i, line] of some.entries()) {
-      const point = rows.take(line, number++);
+  for await (const { texts, number, end, places } of lines(await textOf(reading), 0)) {
+    const at = reading.records ? places() : undefined;
+    for (let line = 0; line < texts.length; line++) {
+      const point = rows.take(texts[line]!, number + line);
       if (point === undefined) continue;
       if (builder === undefined) {
-        others = otherColumns(rows.layout!, sample(some.slice(i, i + LOOK_AT), rows.layout!));
-        const columns = others.map((other) => ({ name: other.name, type: "float32" as const }));
+        others = otherColumns(rows.layout!, sample(texts.slice(line, line + LOOK_AT), rows.layout!));
+        const columns = others.map(({ name }) => ({ name, type }) as const);
         builder = new CloudBuilder("float64", columns, reading, null);
       }
       if (!builder.takes()) continue;
-      const at = builder.put(...point.position);
+      const i = builder.put(...point.position);
+      if (at) builder.place(i, at[line]!, at[line + 1]!);
       for (let k = 0; k < others.length; k++)
-        builder.values[k]![at] = cell(point.words[others[k]!.column]!)?.value ?? NaN;
+        builder.values[k]![i] = cell(point.words[others[k]!.column]!)?.value ?? NaN;
     }
+    step(reading, end);
   }
   rows.finish();
-  const cloud = builder!.finish();
   const layout = rows.layout!;
-  // Colors after the position are a sure sign, too, so no note is needed.
-  const isSure = isPlain(layout) || (layout.names === undefined && others.some((other) => other.name === "red"));
-  return isSure ? cloud : { ...cloud, notes: [`${name}: ${columnsSaid(layout)}.`, ...(cloud.notes ?? [])] };
+  // Colors after the position are a sure sign, too, so nothing needs to be said.
+  const areAxesPlain = isPlain(layout) || (layout.names === undefined && others.some((other) => other.name === "red"));
+  return { ...builder!.finish(), axes: columnsSaid(layout), areAxesPlain };
 }
 
 /** The words of the first points. */
-function sample(lines: readonly string[], layout: Layout): string[][] {
-  return lines
+function sample(texts: readonly string[], layout: Layout): string[][] {
+  return texts
     .filter((line) => trimmed(line) !== "" && !isComment(trimmed(line)))
     .map((line) => rowWords(line, layout) ?? []);
 }

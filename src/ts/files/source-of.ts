@@ -1,0 +1,84 @@
+import { asError, describe, HprError, typeTag } from "../base/errors.js";
+import { hasNodeModules, importNodeModule } from "../base/node.js";
+import { abortError, BY_SIGNAL } from "../worker/abort.js";
+import { blobSource, bytesSource, type Source } from "../formats/source.js";
+
+/** A file, its name, and the folder in which other files of a scene are. */
+export interface NamedSource {
+  source: Source;
+  name: string;
+  base?: string;
+  close: () => Promise<void>;
+}
+
+const nothing = () => Promise.resolve();
+
+/** Finds the bytes that are meant. A string is a path in Node, and an address in browsers. */
+export async function sourceOf(given: unknown, signal: AbortSignal | undefined): Promise<NamedSource> {
+  const tag = typeTag(given);
+  if (tag === "Blob" || tag === "File") {
+    return { source: blobSource(given as Blob), name: (given as Partial<File>).name ?? "the file", close: nothing };
+  }
+  if (tag === "ArrayBuffer") {
+    return { source: bytesSource(new Uint8Array(given as ArrayBuffer)), name: "the file", close: nothing };
+  }
+  if (given instanceof URL) {
+    return given.protocol === "file:" ? openFile(given) : fetched(given, signal);
+  }
+  if (typeof given !== "string") {
+    throw new HprError(
+      "option",
+      `the source must be a Blob, an ArrayBuffer, a URL or a string, got ${describe(given)}`,
+    );
+  }
+  const isAddress = /^(https?|data|blob):/i.test(given);
+  if (hasNodeModules() && !isAddress) {
+    return openFile(given);
+  }
+  const page = (globalThis as { location?: { href: string } }).location?.href;
+  if (!URL.canParse(given, page)) {
+    throw new HprError("option", `the source must be the address of a file, got ${describe(given)}`);
+  }
+  return fetched(new URL(given, page), signal);
+}
+
+async function openFile(path: string | URL): Promise<NamedSource> {
+  const name = String(path);
+  try {
+    const { open } = await importNodeModule<typeof import("node:fs/promises")>("node:fs/promises");
+    const { pathToFileURL } = await importNodeModule<typeof import("node:url")>("node:url");
+    const handle = await open(path);
+    const { size } = await handle.stat();
+    const read: Source["read"] = async (from, to) => {
+      const bytes = new Uint8Array(Math.max(0, Math.min(to, size) - from));
+      let at = 0;
+      while (at < bytes.length) {
+        const { bytesRead } = await handle.read(bytes, at, bytes.length - at, from + at);
+        if (bytesRead === 0) break;
+        at += bytesRead;
+      }
+      return bytes.subarray(0, at);
+    };
+    const { href } = new URL(".", typeof path === "string" ? pathToFileURL(path) : path);
+    return { source: { size, read }, name, base: href, close: () => handle.close() };
+  } catch (cause) {
+    throw new HprError("load", `${name} cannot be read: ${asError(cause).message}`, { cause });
+  }
+}
+
+async function fetched(url: URL, signal: AbortSignal | undefined): Promise<NamedSource> {
+  const name = url.href.length > 100 ? `${url.href.slice(0, 100)}…` : url.href;
+  let response: Response;
+  let blob: Blob;
+  try {
+    response = await fetch(url, signal ? { signal } : {});
+    if (response.ok) {
+      blob = await response.blob();
+      return { source: blobSource(blob), name, base: new URL(".", url).href, close: nothing };
+    }
+  } catch (cause) {
+    if (signal?.aborted) throw abortError(BY_SIGNAL);
+    throw new HprError("load", `${name} could not be fetched: ${asError(cause).message}`, { cause });
+  }
+  throw new HprError("load", `${name} could not be fetched: the server answered ${response.status}`);
+}

@@ -1,0 +1,70 @@
+import type { ChosenColumns } from "./axes.js";
+import type { Up } from "./axes.js";
+import type { Crs, Unit } from "./las/crs.js";
+import type { LasSource } from "./las/details.js";
+import type { LazPerf } from "./las/laz-perf.js";
+import type { FilledColumn } from "./column.js";
+import type { Source } from "./source.js";
+
+/** A file to read, and how. */
+export interface Reading {
+  source: Source;
+  /** The name of the file. Its ending tells the format if the first bytes do not. */
+  name: string;
+  /** The most points that are kept. If there are more, every so many-th is kept. */
+  limit?: number | undefined;
+  /** The columns that are x, y and z, if the file's own names do not count. */
+  chosen?: ChosenColumns | undefined;
+  /** Whether a file that contradicts itself is read, as far as that is possible. */
+  damaged?: boolean | undefined;
+  /** Whether the bytes of each point are wanted. Then there is no limit. */
+  records?: boolean | undefined;
+  /** Whether columns of text are kept in single precision. */
+  single?: boolean | undefined;
+  /** The folder of a glTF file, in which its other files are. Without it, they cannot be read. */
+  base?: string | undefined;
+  /** Starts the LAZ decoder. */
+  lazPerf?: (() => Promise<LazPerf>) | undefined;
+  signal?: AbortSignal | undefined;
+  /** The progress from 0 to 1. */
+  onProgress?: ((fraction: number) => void) | undefined;
+  /** Takes points that have been read, measured from the first one. */
+  onPoints?: ((points: Float32Array, first: [number, number, number]) => void) | undefined;
+}
+
+/** The bytes of each point. They are known if they were asked for. */
+export interface Records {
+  /** They are elsewhere than in the file, if the file is compressed. */
+  bytes: Uint8Array | undefined;
+  start: (index: number) => number;
+  end: (index: number) => number;
+}
+
+/** The contents of a file. */
+export interface CloudFile {
+  /** x, y, z of one point after another, in the precision of the file. */
+  positions: Float32Array<ArrayBuffer> | Float64Array<ArrayBuffer>;
+  columns: FilledColumn[];
+  /** Colors in bytes that the file keeps in one number for each point. */
+  packed?: Uint8Array<ArrayBuffer>;
+  /** The number of points in the file. */
+  rows: number;
+  /** Sentences without a period that a user has to read. */
+  notes: string[];
+  /** In words: which columns are x, y and z, if their names do not say so. */
+  axes?: string | undefined;
+  /** Whether these columns are obvious for a person who looks at the file. */
+  areAxesPlain?: boolean;
+  /** Whether the points are the rows and columns of a picture. Then points without a position are usual. */
+  isGrid?: boolean;
+  /** Whether the file has faces, and the positions are all of its vertices in the order of the file. */
+  isMesh?: boolean;
+  up?: Up;
+  /** The place from which all points were measured. */
+  from?: [number, number, number];
+  crs?: Crs | undefined;
+  /** The unit of its format. */
+  unit?: Unit;
+  las?: LasSource;
+  records: Records;
+}

@@ -1,0 +1,28 @@
+import type { Values } from "./numbers.js";
+
+/**
+ * The display colors in bytes. A file may have bytes, shares of 1, or 16 bits, in which many programs write bytes.
+ * Returns no colors if some are missing or all are black: then the file has the columns, but nobody has filled them in.
+ */
+export function displayColors(channels: readonly [Values, Values, Values]): Uint8Array<ArrayBuffer> | null {
+  const scale = displayScale(channels);
+  if (scale === 0) return null;
+  const colors = new Uint8ClampedArray(3 * channels[0].length);
+  channels.forEach((values, channel) => {
+    for (let i = 0; i < values.length; i++) colors[3 * i + channel] = values[i]! * scale;
+  });
+  return new Uint8Array(colors.buffer);
+}
+
+/** The factor that makes bytes of colors; 0 if some are missing or all are black. */
+export function displayScale(channels: readonly Values[]): number {
+  let largest = 0;
+  for (const values of channels) {
+    for (const value of values) {
+      if (!Number.isFinite(value)) return 0;
+      if (value > largest) largest = value;
+    }
+  }
+  if (largest === 0) return 0;
+  return channels[0] instanceof Uint8Array ? 1 : largest <= 1 ? 255 : largest > 255 ? 255 / 65535 : 1;
+}

@@ -1,0 +1,15 @@
+import type { NumberType, Values } from "./numbers.js";
+
+/** A file's values besides positions. Columns with the names red, green and blue are colors. */
+export interface Column {
+  name: string;
+  type: NumberType;
+  /** Nobody colors points by it. */
+  isDetail?: true | undefined;
+  /** The meaning of its numbers, if it is known. */
+  labels?: Readonly<Record<number, string>> | undefined;
+}
+
+export interface FilledColumn extends Omit<Column, "type"> {
+  values: Values;
+}

@@ -1,0 +1,47 @@
+import { CloudBuilder } from "./builder.js";
+import type { CloudFile, Reading } from "./cloud-file.js";
+import { isOutOfRange, numberIn } from "./numbers.js";
+import { FormatProblem, lineProblem } from "./problem.js";
+import { step } from "./read-rows.js";
+import { lines } from "./source.js";
+import { textOf } from "./text-source.js";
+import { trimmed, wordsOf } from "./text.js";
+
+/** The vertices of an OBJ file (“v x y z”, in some files with a color after them). Its faces are optional. */
+export async function readObj(reading: Reading): Promise<CloudFile> {
+  const colors = ["red", "green", "blue"].map((name) => ({ name, type: "float32" }) as const);
+  const builder = new CloudBuilder("float64", colors, reading, null);
+  let faces = false;
+  for await (const { texts, number, end } of lines(await textOf(reading), 0)) {
+    for (const [i, text] of texts.entries()) {
+      faces ||= /^\s*f\s/.test(text);
+      if (/^\s*v\s/.test(text)) putVertex(builder, text, number + i);
+    }
+    step(reading, end);
+  }
+  if (builder.rows === 0) throw new FormatProblem("it has no vertex lines (“v x y z”)");
+  const { columns, ...cloud } = builder.finish();
+  // An OBJ file may have colors for only some vertices.
+  const isColored = columns.every(({ values }) => !values.some(Number.isNaN));
+  return {
+    ...cloud,
+    columns: isColored ? columns : [],
+    isMesh: faces && cloud.positions.length === 3 * builder.rows,
+  };
+}
+
+function putVertex(builder: CloudBuilder, text: string, number: number): void {
+  const line = trimmed(text.replace(/#.*/, ""));
+  const words = wordsOf(line);
+  // The position may be followed by a weight, a color, or both.
+  if (![4, 5, 7, 8].includes(words.length))
+    throw lineProblem(number, `has ${words.length - 1} values, and a vertex has 3, 4, 6 or 7`, line);
+  const [x, y, z] = words.slice(1, 4).map(numberIn);
+  if (x === undefined || y === undefined || z === undefined)
+    throw lineProblem(number, "is not a point, a value is not a number", line);
+  if ([x, y, z].some((value) => isOutOfRange(value))) throw lineProblem(number, "has a number out of range", line);
+  if (!builder.takes()) return;
+  const i = builder.put(x, y, z);
+  for (let channel = 0; channel < 3; channel++)
+    builder.values[channel]![i] = words.length >= 7 ? Number(words[words.length - 3 + channel]) : NaN;
+}

@@ -1,0 +1,123 @@
+import { FormatProblem } from "./problem.js";
+import { LONGEST_LINE, markLength, tooLong } from "./text.js";
+
+/** The bytes of a file, wherever they are. */
+export interface Source {
+  size: number;
+  /** The bytes of a part; fewer at the end of the file. */
+  read: (from: number, to: number) => Promise<Uint8Array<ArrayBuffer>>;
+}
+
+export const BLOCK = 1 << 24;
+/** The size limit of files that must be in memory as a whole: compressed PCD, GLB, text in UTF-16. */
+const MOST_AT_ONCE = 1_000_000_000;
+const [LINE_FEED, RETURN] = [0x0a, 0x0d];
+
+const number = new Intl.NumberFormat("en-US");
+
+export function blobSource(blob: Blob): Source {
+  return {
+    size: blob.size,
+    read: async (from, to) => {
+      try {
+        return new Uint8Array(await blob.slice(from, to).arrayBuffer());
+      } catch (cause) {
+        throw new FormatProblem("it was moved or changed, or there is too little memory", { cause });
+      }
+    },
+  };
+}
+
+export function bytesSource({ buffer, byteOffset, length }: Uint8Array<ArrayBuffer>): Source {
+  // A part of Node's Buffer would share its bytes where a part of an array is a copy.
+  const bytes = new Uint8Array(buffer, byteOffset, length);
+  return { size: length, read: (from, to) => Promise.resolve(bytes.subarray(from, to)) };
+}
+
+export async function wholeFile({ size, read }: Source): Promise<Uint8Array<ArrayBuffer>> {
+  checkByteLength(size);
+  return read(0, size);
+}
+
+export function checkByteLength(bytes: number): void {
+  if (bytes > MOST_AT_ONCE) {
+    const [size, most] = [bytes, MOST_AT_ONCE].map((each) => number.format(Math.round(each / 1e6)));
+    throw new FormatProblem(`it is too large: ${size} MB, and such files are read up to ${most} MB`);
+  }
+}
+
+export function viewOf(bytes: Uint8Array): DataView {
+  return new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+}
+
+/** The bytes from a place on, one piece at a time: only that piece of a large file is in memory. */
+export async function* blocks(
+  { size, read }: Source,
+  start: number,
+  multipleOf = 1,
+): AsyncGenerator<Uint8Array<ArrayBuffer>> {
+  const length = Math.max(1, Math.floor(BLOCK / multipleOf)) * multipleOf;
+  for (let at = start; at < size; at += length) yield await read(at, at + length);
+}
+
+/** Lines that follow one another. */
+export interface Lines {
+  texts: string[];
+  /** The number of the first one. */
+  number: number;
+  /** The place where the last one ends. */
+  end: number;
+  /** The place of each line in the file, and of the end of the last one. */
+  places: () => Float64Array;
+}
+
+/** The lines from a place on, in groups of hundreds of thousands. They may have any kind of line end. */
+export async function* lines(source: Source, start: number, firstNumber = 1): AsyncGenerator<Lines> {
+  const decoder = new TextDecoder("utf-8", { ignoreBOM: true });
+  let at = start === 0 ? markLength(await source.read(0, 3)) : start;
+  let rest = new Uint8Array();
+  let line = firstNumber;
+  for await (const block of blocks(source, at)) {
+    const bytes = joined(rest, block);
+    // The text after the last line end is not complete yet. A carriage return may belong to a line end that the next
+    // block completes.
+    const end = Math.max(bytes.lastIndexOf(LINE_FEED), bytes.lastIndexOf(RETURN, bytes.length - 2)) + 1;
+    rest = bytes.slice(end);
+    if (end > 0) {
+      const some = linesIn(bytes.subarray(0, end), decoder, line, at);
+      some.texts.pop();
+      yield some;
+      line += some.texts.length;
+      at += end;
+    }
+    if (rest.length > LONGEST_LINE) throw tooLong(line);
+  }
+  if (rest.length > 0) yield linesIn(rest, decoder, line, at);
+}
+
+function joined(a: Uint8Array<ArrayBuffer>, b: Uint8Array<ArrayBuffer>): Uint8Array<ArrayBuffer> {
+  if (a.length === 0) return b;
+  const both = new Uint8Array(a.length + b.length);
+  both.set(a);
+  both.set(b, a.length);
+  return both;
+}
+
+function linesIn(bytes: Uint8Array, decoder: TextDecoder, line: number, at: number): Lines {
+  const text = decoder.decode(bytes);
+  const texts = text.includes("\r") ? text.split(/\r\n|\r|\n/) : text.split("\n");
+  const long = texts.findIndex(({ length }) => length > LONGEST_LINE);
+  if (long >= 0) throw tooLong(line + long);
+  return { texts, number: line, end: at + bytes.length, places: () => placesOf(bytes, texts.length, at) };
+}
+
+function placesOf(bytes: Uint8Array, count: number, at: number): Float64Array {
+  const places = new Float64Array(count + 1).fill(at + bytes.length);
+  let line = 0;
+  places[line++] = at;
+  for (let i = 0; i < bytes.length; i++) {
+    const byte = bytes[i]!;
+    if (byte === LINE_FEED || (byte === RETURN && bytes[i + 1] !== LINE_FEED)) places[line++] = at + i + 1;
+  }
+  return places;
+}

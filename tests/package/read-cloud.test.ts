@@ -1,0 +1,162 @@
+// The readers of files as users of the package call them.
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+import { type HprError, readCloud } from "hidden-point-removal/files";
+import { describe, expect, it } from "vitest";
+
+import { georeferencedBall } from "../browser/clouds";
+import { glb, inMillimeters, las, NODE_AT } from "../browser/formats";
+import { Random } from "../files/random";
+import { FLAT, pcdBody, pcdHeader, plyBody, plyHeader, table } from "../files/valid";
+
+const path = (name: string) => join(import.meta.dirname, "../browser/fixtures", name);
+const fixture = (name: string) => new Uint8Array(readFileSync(path(name)));
+const buffer = (content: Uint8Array | string) =>
+  new Uint8Array(typeof content === "string" ? Buffer.from(content) : content).buffer;
+const POINTS = inMillimeters(georeferencedBall(600));
+
+const refused = (content: Uint8Array | string) =>
+  readCloud(buffer(content)).then(
+    () => "read",
+    (error: unknown) => `${(error as HprError).code}: ${(error as HprError).message}`,
+  );
+
+function changed(content: Uint8Array, change: (view: DataView, bytes: Uint8Array) => void): Uint8Array {
+  const copy = content.slice();
+  change(new DataView(copy.buffer), copy);
+  return copy;
+}
+
+/** Where a LAS header says how many points there are. */
+const setCount = (count: number) => (view: DataView) => {
+  if (view.getUint8(104) % 64 < 6) view.setUint32(107, count, true);
+  if (view.getUint8(25) === 4) view.setBigUint64(247, BigInt(count), true);
+};
+
+describe("the formats", () => {
+  it.each(["ball-12.laz", "ball-14.laz"])("%s, from a path, a URL, a Blob and a buffer", async (name) => {
+    const content = fixture(name);
+    for (const source of [path(name), pathToFileURL(path(name)), new Blob([content]), buffer(content)]) {
+      const { positions, colors, columns, notes } = await readCloud(source);
+      expect(positions).toEqual(POINTS);
+      expect(colors).toHaveLength(1800);
+      expect(Object.keys(columns)).toContain("intensity");
+      expect(notes).toBeUndefined();
+    }
+  });
+
+  it("LAS and COPC, with all levels", async () => {
+    expect((await readCloud(buffer(las(georeferencedBall(600))))).positions).toEqual(POINTS);
+    const { positions } = await readCloud(path("octree.copc.laz"));
+    const sorted = (numbers: ArrayLike<number>) =>
+      Array.from({ length: numbers.length / 3 }, (_, i) => Array.from(numbers).slice(3 * i, 3 * i + 3).join()).sort(); // prettier-ignore
+    expect(sorted(positions)).toEqual(sorted(inMillimeters(georeferencedBall(3000))));
+  });
+
+  it("PLY, PCD, tables, OBJ and glTF", async () => {
+    const files = [
+      Buffer.concat([Buffer.from(plyHeader("big")), plyBody("big")]),
+      Buffer.concat([Buffer.from(pcdHeader("binary_compressed")), pcdBody("binary_compressed")]),
+      table(";"),
+      table(" ").replace(/^/gm, "v ").replace(/v $/, ""),
+    ];
+    for (const file of files) expect([...(await readCloud(buffer(file))).positions]).toEqual(FLAT);
+    const { positions, unit } = await readCloud(buffer(glb([0, 0, 0, 2, 3, 4])));
+    expect([[...positions.subarray(0, 3)], unit]).toEqual([[...NODE_AT], { name: "m", meters: 1 }]);
+  });
+
+  it("the columns that the caller chooses", async () => {
+    const file = buffer("a;b;c;d\n1;2;3;4\n5;6;7;8\n");
+    const cloud = await readCloud(file, { columns: ["d", 2, "a"] });
+    expect([...cloud.positions]).toEqual([4, 2, 1, 8, 6, 5]);
+    expect(cloud.columns).toEqual({ c: Float64Array.of(3, 7) });
+  });
+
+  it("numbers out of range, and sources and options that are none", async () => {
+    expect(await refused("1 2 3\n4 1e400 6\n")).toMatch(/^load: .*line 2 has a number out of range in column 2/);
+    await expect(readCloud("nothing.ply")).rejects.toMatchObject({ code: "load" });
+    await expect(readCloud(7 as never)).rejects.toMatchObject({ code: "option" });
+    await expect(readCloud(buffer(""), { colums: [] } as never)).rejects.toMatchObject({ code: "option" });
+    await expect(readCloud(buffer(""), { columns: ["x", "x", "y"] })).rejects.toMatchObject({ code: "option" });
+    await expect(readCloud(buffer("1 2 3"), { signal: AbortSignal.abort() })).rejects.toMatchObject({
+      name: "AbortError",
+    });
+    const shares: number[] = [];
+    await readCloud(buffer(table(" ")), { onProgress: (share) => shares.push(share) });
+    expect(shares).toEqual([1]);
+  });
+});
+
+describe("files that contradict themselves", () => {
+  it.each(["ball-12.laz", "ball-14.laz"])("%s whose header says other numbers of points", async (name) => {
+    for (const count of [50_000, 610, 601, 590, 90, 2 ** 31]) {
+      const file = changed(fixture(name), setCount(count));
+      expect(await refused(file), String(count)).toMatch(/^load: /);
+    }
+    const { positions, notes } = await readCloud(buffer(changed(fixture(name), setCount(50_000))), { damaged: true });
+    expect(positions).toEqual(POINTS);
+    expect(notes!.length).toBeGreaterThan(0);
+  });
+
+  it("LAS with too many or too few points, or with other bounds", async () => {
+    const good = las(georeferencedBall(600));
+    expect(await refused(changed(good, setCount(599)))).toMatch(/goes on after/);
+    expect(await refused(good.subarray(0, 9000))).toMatch(/ends before the 600 points/);
+    const { positions, notes } = await readCloud(buffer(good.subarray(0, 9000)), { damaged: true });
+    expect(positions).toEqual(POINTS.slice(0, positions.length));
+    expect(notes!.join()).toContain("ends before");
+    const raise = (by: number) => changed(good, (view) => {
+      view.setFloat64(187, view.getFloat64(187, true) + by, true);
+    }); // prettier-ignore
+    expect(await refused(raise(0.1))).toMatch(/lie outside the bounds/);
+    // Real writers round the bounds, or write those of a whole tile.
+    expect(await refused(raise(0.001))).toBe("read");
+    const tile = changed(good, (view) => {
+      view.setFloat64(187, Math.floor(view.getFloat64(187, true)) - 10, true);
+    });
+    expect(await refused(tile)).toBe("read");
+  });
+
+  it(
+    "of 300 changes of LAZ files, none is read as other points, but for the last two",
+    { timeout: 120_000 },
+    async () => {
+      const random = new Random(28);
+      const tally = { refused: 0, same: 0, other: 0 };
+      for (let i = 0; i < 300; i++) {
+        const good = fixture(i % 2 === 0 ? "ball-12.laz" : "ball-14.laz");
+        const file = changed(good, (_, bytes) => {
+          for (let changes = 1 + random.below(3); changes > 0; changes--)
+            bytes[random.below(random.below(2) === 0 ? 500 : bytes.length)] = random.below(256);
+        });
+        const cloud = await readCloud(buffer(file)).catch((error: unknown) => {
+          expect((error as HprError).code).toBe("load");
+          return undefined;
+        });
+        if (cloud === undefined) {
+          tally.refused++;
+          continue;
+        }
+        expect(cloud.positions, `change ${i}`).toHaveLength(POINTS.length);
+        // An offset may change by less than a step.
+        const isSame = cloud.positions.every((value, k) => Math.abs(value - POINTS[k]!) <= 0.001);
+        tally[isSame ? "same" : "other"]++;
+      }
+      // Nothing contradicts the last bytes of a layer, which move its last two points only.
+      expect(tally.other).toBeLessThanOrEqual(1);
+      expect(Math.min(tally.refused, tally.same)).toBeGreaterThan(30);
+    },
+  );
+
+  it("the decoder leaves no listeners on the process", async () => {
+    const listeners = () => ["uncaughtException", "unhandledRejection"].map((name) => process.listenerCount(name));
+    const before = listeners();
+    const broken = changed(fixture("ball-12.laz"), (_, bytes) => bytes.fill(7, 400, 3000));
+    for (let i = 0; i < 12; i++) {
+      await refused(broken);
+      await readCloud(path("ball-12.laz"));
+    }
+    expect(listeners()).toEqual(before);
+  });
+});
