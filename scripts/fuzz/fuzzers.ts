@@ -16,6 +16,7 @@ export interface Fuzzer {
 /** Functions of TypeScript files, `(minutes, seed) => Promise<{ tried, wrong } | wrong>`, by title. */
 const FUNCTIONS: Record<string, { file: string; name: string }> = {
   files: { file: "tests/fuzz/files.ts", name: "fuzzFiles" },
+  foreign: { file: "tests/fuzz/foreign.ts", name: "fuzzForeign" },
   border: { file: "tests/fuzz/border.ts", name: "fuzzBorder" },
   stream: { file: "tests/fuzz/stream.ts", name: "fuzzStream" },
   workers: { file: "tests/fuzz/workers.ts", name: "fuzzWorkers" },

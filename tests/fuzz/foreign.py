@@ -1,0 +1,49 @@
+"""Reads files of points with laspy and lazrs, plyfile and pypcd4, for foreign.ts.
+
+A request on standard input is the kind (4 bytes), the length and the bytes of a file. The answer is the number of
+coordinates and the coordinates, or -1, the length of a message, and the message.
+"""
+
+import io
+import resource
+import struct
+import sys
+
+import laspy
+import numpy
+from plyfile import PlyData
+from pypcd4 import PointCloud
+
+# A damaged header may ask for any amount of memory.
+resource.setrlimit(resource.RLIMIT_AS, (4 << 30, 4 << 30))
+
+
+def axes(points):
+    return numpy.stack([numpy.asarray(points[axis], dtype="<f8") for axis in "xyz"], axis=1)
+
+
+def read_ply(content):
+    return axes(PlyData.read(io.BytesIO(content))["vertex"])
+
+
+def read_pcd(content):
+    cloud = PointCloud.from_fileobj(io.BytesIO(content))
+    return axes(cloud.pc_data)
+
+
+def read_las(content):
+    return numpy.asarray(laspy.read(io.BytesIO(content)).xyz, dtype="<f8")
+
+
+READERS = {b"ply ": read_ply, b"pcd ": read_pcd, b"las ": read_las}
+requests, answers = sys.stdin.buffer, sys.stdout.buffer
+while head := requests.read(8):
+    kind, length = struct.unpack("<4sI", head)
+    content = requests.read(length)
+    try:
+        points = READERS[kind](content).ravel()
+        answers.write(struct.pack("<i", len(points)) + points.tobytes())
+    except BaseException as error:  # lazrs panics with exceptions of its own
+        message = f"{type(error).__name__}: {error}"[:200].encode()
+        answers.write(struct.pack("<ii", -1, len(message)) + message)
+    answers.flush()

@@ -1,0 +1,217 @@
+// Damaged files, read by readCloud and by readers of others: laspy with lazrs, plyfile, pypcd4, and three's loader of glTF.
+// If both read a file, they must read the same points. A file that only we read is listed.
+import { existsSync, readFileSync } from "node:fs";
+import { join } from "node:path";
+import { spawn, spawnSync } from "node:child_process";
+import { readCloud } from "hidden-point-removal/files";
+import { type Mesh, MeshBasicMaterial, Vector3 } from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+
+import { georeferencedBall } from "../browser/clouds";
+import { glb, las } from "../browser/formats";
+import { Random, validFile } from "../files/random";
+
+const ROOT = join(import.meta.dirname, "../..");
+const FOLDER = join(ROOT, "target/foreign");
+const PYTHON = join(FOLDER, "bin/python");
+const PACKAGES = ["laspy==2.7.0", "lazrs==0.8.2", "plyfile==1.1.5", "pypcd4==1.5.1"];
+/** A foreign reader that is silent for so many milliseconds has refused the file. */
+const PATIENCE = 20_000;
+
+type Outcome = { points: Float64Array } | { refused: string };
+type Kind = "las" | "ply" | "pcd" | "glb";
+
+/** Tries damaged files for this many minutes and prints the counts. Returns how many were read differently. */
+export async function fuzzForeign(minutes: number, seed: number): Promise<number> {
+  const isInstalled = installed();
+  if (!isInstalled) console.log("skipped laspy, plyfile and pypcd4: there is no Python 3 with pip, or no PyPI");
+  const foreign = isInstalled ? new Foreign() : undefined;
+  const kinds: Kind[] = foreign ? ["las", "las", "ply", "pcd", "glb"] : ["glb"];
+  const tallies = new Map<string, Tally>();
+  const end = Date.now() + 60_000 * minutes;
+  for (let round = seed; Date.now() < end; round++) {
+    const random = new Random(round);
+    const kind = random.of(kinds);
+    const { name, content } = fileOf(kind, random);
+    const tally = tallies.get(name) ?? {
+      both: 0,
+      neither: 0,
+      onlyThey: 0,
+      onlyWe: new Map<string, number>(),
+      wrong: 0,
+    };
+    tallies.set(name, tally);
+    const ours = await own(content);
+    const theirs = kind === "glb" ? await three(content) : await foreign!.read(kind, content);
+    if ("points" in ours && "points" in theirs) {
+      tally.both++;
+      if (isSame(ours.points, theirs.points)) continue;
+      tally.wrong++;
+      console.log(`seed ${round}, ${name}: ${shown(ours)} here, ${shown(theirs)} there`);
+    } else if ("points" in theirs) tally.onlyThey++;
+    else if ("points" in ours) {
+      const why = theirs.refused.replace(/\d+/g, "N").slice(0, 90);
+      if (!tally.onlyWe.has(why)) console.log(`seed ${round}, ${name}: ${shown(ours)} here, “${theirs.refused}” there`);
+      tally.onlyWe.set(why, (tally.onlyWe.get(why) ?? 0) + 1);
+    } else tally.neither++;
+  }
+  foreign?.end();
+  let wrong = 0;
+  for (const [name, { both, neither, onlyThey, onlyWe, wrong: own }] of tallies) {
+    const we = [...onlyWe.values()].reduce((sum, count) => sum + count, 0);
+    const tried = both + neither + onlyThey + we;
+    console.log(
+      `${name}: both ${both}, neither ${neither}, only they ${onlyThey}, only we ${we}; ${tried} cases, ${own} wrong`,
+    );
+    for (const [why, count] of onlyWe) console.log(`    ${count} × ${why}`);
+    wrong += own;
+  }
+  return wrong;
+}
+
+interface Tally {
+  both: number;
+  neither: number;
+  onlyThey: number;
+  /** How often only we read a file, by the words of the foreign reader. */
+  onlyWe: Map<string, number>;
+  wrong: number;
+}
+
+const fixture = (name: string) => readFileSync(join(import.meta.dirname, "../browser/fixtures", name));
+
+/** A valid file, mostly with changes. */
+function fileOf(kind: Kind, random: Random): { name: string; content: Buffer } {
+  if (kind === "las" || kind === "glb") {
+    const name = kind === "glb" ? "glb" : random.of(["ball-12.laz", "ball-14.laz", "las 1.2", "las 1.4"]);
+    const ball = georeferencedBall(200);
+    const good =
+      kind === "glb"
+        ? Buffer.from(glb(ball.map((value, i) => value - ball[i % 3]!)))
+        : name.endsWith("laz")
+          ? fixture(name)
+          : Buffer.from(name === "las 1.2" ? las(ball) : las(ball, { minor: 4, format: 7 }));
+    return { name, content: damaged(good, random) };
+  }
+  for (;;) {
+    const { name, kind: own, content } = validFile(random);
+    if (name.endsWith(kind)) return { name: own, content: random.changed(content) };
+  }
+}
+
+/** Changes bytes, half of them in the header, or cuts the file. */
+function damaged(good: Buffer, random: Random): Buffer {
+  const copy = Buffer.from(good);
+  for (let changes = random.below(4); changes > 0; changes--) {
+    const within = random.below(2) === 0 ? Math.min(600, copy.length) : copy.length;
+    copy[random.below(within)]! = random.of([random.below(256), 0, 255]);
+  }
+  return random.below(8) === 0 ? copy.subarray(0, random.below(copy.length)) : copy;
+}
+
+async function own(content: Buffer): Promise<Outcome> {
+  try {
+    const { positions } = await readCloud(new Uint8Array(content).buffer);
+    return { points: Float64Array.from(positions) };
+  } catch (error) {
+    if ((error as { code?: string }).code !== "load") throw error;
+    return { refused: (error as Error).message };
+  }
+}
+
+async function three(content: Buffer): Promise<Outcome> {
+  try {
+    const loader = new GLTFLoader();
+    // Materials need a browser.
+    loader.register(() => ({ name: "no_materials", loadMaterial: () => Promise.resolve(new MeshBasicMaterial()) }));
+    const { scene } = await loader.parseAsync(new Uint8Array(content).buffer, "");
+    const points: number[] = [];
+    scene.updateMatrixWorld(true);
+    scene.traverse((object) => {
+      const position = (object as Partial<Mesh>).geometry?.getAttribute("position");
+      for (let i = 0; i < (position?.count ?? 0); i++)
+        points.push(...new Vector3().fromBufferAttribute(position!, i).applyMatrix4(object.matrixWorld).toArray());
+    });
+    return points.length === 0 ? { refused: "no points" } : { points: Float64Array.from(points) };
+  } catch (error) {
+    return { refused: String(error) };
+  }
+}
+
+/** An infinite number is no position, as NaN is none. */
+function isSame(a: Float64Array, b: Float64Array): boolean {
+  return (
+    a.length === b.length && a.every((value, i) => value === b[i] || !(Number.isFinite(value) || Number.isFinite(b[i])))
+  );
+}
+
+function shown(outcome: Outcome): string {
+  if ("refused" in outcome) return `“${outcome.refused}”`;
+  const { points } = outcome;
+  return `${points.length / 3} points (${[...points.subarray(0, 12)].join(" ")})`;
+}
+
+/** Installs the readers of others into an environment of their own. */
+function installed(): boolean {
+  const succeeds = (command: string, ...args: string[]) => spawnSync(command, args, { stdio: "ignore" }).status === 0;
+  if (existsSync(PYTHON) && succeeds(PYTHON, "-c", "import laspy, lazrs, plyfile, pypcd4")) return true;
+  return succeeds("python3", "-m", "venv", FOLDER) && succeeds(PYTHON, "-m", "pip", "install", "--quiet", ...PACKAGES);
+}
+
+/** A Python process that reads one file after another. It is started again when it dies. */
+class Foreign {
+  #process = this.#start();
+  #bytes = Buffer.alloc(0);
+  #wake: () => void = () => undefined;
+
+  async read(kind: string, content: Buffer): Promise<Outcome> {
+    const head = Buffer.alloc(8);
+    head.write(kind.padEnd(4), "latin1");
+    head.writeUInt32LE(content.length, 4);
+    this.#process.stdin.write(Buffer.concat([head, content]));
+    const count = (await this.#take(4))?.readInt32LE();
+    if (count === undefined) return { refused: "the reader died, or was silent for too long" };
+    if (count >= 0) {
+      const points = await this.#take(8 * count);
+      return points ? { points: new Float64Array(new Uint8Array(points).buffer) } : { refused: "the reader died" };
+    }
+    const message = await this.#take((await this.#take(4))!.readInt32LE());
+    return { refused: message!.toString("utf8") };
+  }
+
+  end(): void {
+    this.#process.kill();
+  }
+
+  async #take(length: number): Promise<Buffer | undefined> {
+    const until = Date.now() + PATIENCE;
+    while (this.#bytes.length < length) {
+      if (this.#process.exitCode !== null || this.#process.signalCode !== null || Date.now() > until) {
+        this.#process.kill("SIGKILL");
+        this.#bytes = Buffer.alloc(0);
+        this.#process = this.#start();
+        return undefined;
+      }
+      await new Promise<void>((resolve) => {
+        this.#wake = resolve;
+        setTimeout(resolve, 500).unref();
+      });
+    }
+    const taken = this.#bytes.subarray(0, length);
+    this.#bytes = this.#bytes.subarray(length);
+    return taken;
+  }
+
+  #start() {
+    const child = spawn(PYTHON, [join(import.meta.dirname, "foreign.py")], { stdio: ["pipe", "pipe", "ignore"] });
+    child.stdin.on("error", () => undefined);
+    child.stdout.on("data", (bytes: Buffer) => {
+      this.#bytes = Buffer.concat([this.#bytes, bytes]);
+      this.#wake();
+    });
+    child.on("exit", () => {
+      this.#wake();
+    });
+    return child;
+  }
+}
