@@ -25,11 +25,19 @@ export function modulesOfPage(): Component[] {
     if (found.has(name) || name === ownName()) return;
     const folder = inRoot("node_modules", name);
     const { version, license, dependencies = {} } = manifestIn(folder);
-    found.set(name, { name, version, license, text: licenseText(folder) });
+    found.set(name, { name, version, license, text: licenseText(folder) ?? publishedText(name) });
     Object.keys(dependencies).forEach(visit);
   };
   importedByPage().forEach(visit);
   return [...found.values()];
+}
+
+/** The texts of licenses that packages name and do not hold, from their repositories. */
+const PUBLISHED: Record<string, string> = { "laz-perf": "LICENSE-APACHE", tr46: "scripts/supply/tr46-license.txt" };
+
+function publishedText(name: string): string | undefined {
+  const file = PUBLISHED[name];
+  return file === undefined ? undefined : readFileSync(inRoot(file), "utf8").trim();
 }
 
 function importedByPage(): string[] {

@@ -288,7 +288,7 @@ test("a missing file, a file that is no cloud, and a file that comes too late", 
   );
   expect(second).toMatchObject({
     code: "source",
-    message: expect.stringContaining("page.ply is not a point cloud") as string,
+    message: expect.stringContaining("page.ply cannot be read: it does not begin like a PLY file") as string,
   });
 
   // An empty `src` names no file.
