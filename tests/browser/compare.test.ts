@@ -133,9 +133,7 @@ test("the airplane's skin is closed: each edge has two triangles", () => {
 test("faces of the user's files are read and cut into triangles", async () => {
   const read = (content: string | Uint8Array, vertices = 5) => {
     const blob = new Blob([typeof content === "string" ? content : new Uint8Array(content)]);
-    return readFaces({ name: "mesh", blob }, vertices).then(
-      (triangles) => [...triangles],
-    );
+    return readFaces({ name: "mesh", blob }, vertices).then((triangles) => [...triangles]);
   };
   const obj = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1/1 2//1 3\nf -4 -3 -2 -1\nv 0 0 1\nf 1 2 3 4 5\n";
   expect(await read(obj)).toEqual([0, 1, 2, 0, 1, 2, 0, 2, 3, 0, 1, 2, 0, 2, 3, 0, 3, 4]);

@@ -104,7 +104,7 @@ function damaged(good: Buffer, random: Random): Buffer {
   const copy = Buffer.from(good);
   for (let changes = random.below(4); changes > 0; changes--) {
     const within = random.below(2) === 0 ? Math.min(600, copy.length) : copy.length;
-    copy[random.below(within)]! = random.of([random.below(256), 0, 255]);
+    copy[random.below(within)] = random.of([random.below(256), 0, 255]);
   }
   return random.below(8) === 0 ? copy.subarray(0, random.below(copy.length)) : copy;
 }
