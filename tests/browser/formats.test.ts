@@ -215,7 +215,7 @@ const REFUSED: [string, Uint8Array, RegExp][] = [
     edited(glb(near), (view) => {
       view.setUint32(4, 1, true);
     }),
-    /has glTF version 1/,
+    /its glTF version is 1/,
   ],
   [
     "json.glb",
