@@ -41,10 +41,10 @@ test.each(DOCUMENTS)("links of %s lead to files", (document) => {
   }
 });
 
-test("README.md has at most 180 lines and ARCHITECTURE.md at most 90", () => {
+test("README.md has at most 180 lines and ARCHITECTURE.md at most 105", () => {
   const lines = (name: string) => readFileSync(join(root, name), "utf8").trimEnd().split("\n").length;
   expect(lines("README.md")).toBeLessThanOrEqual(180);
-  expect(lines("ARCHITECTURE.md")).toBeLessThanOrEqual(90);
+  expect(lines("ARCHITECTURE.md")).toBeLessThanOrEqual(105);
 });
 
 describe("commands", () => {
