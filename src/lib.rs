@@ -23,6 +23,7 @@
 //! # Features
 //! - `std` (default): the platform's square root. Without it the crate needs
 //!   only `alloc`; answers are the same.
+//! - `higher` (default): clouds of four and more dimensions.
 //! - `wasm`: the JavaScript bindings of the npm package; not a Rust API.
 #![no_std]
 #![cfg_attr(not(feature = "wasm"), forbid(unsafe_code))]
@@ -57,6 +58,7 @@ pub use base::limit::MAX_POINTS;
 pub use cloud::point_cloud::{NonFinite, PointCloud};
 pub use cloud::points::Position;
 pub use cloud::selection::Within;
+#[cfg(feature = "higher")]
 pub use dimensions::higher::{MAX_DIMENSION, PointCloudNd};
 pub use dimensions::two::PointCloud2d;
 pub use hull::division::Sector;

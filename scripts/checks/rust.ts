@@ -67,6 +67,13 @@ export const rustChecks: Check[] = [
       checkCommand("cargo", ["clippy", "--locked", "--workspace", "--all-targets", "--all-features", ...DENY_WARNINGS]),
   },
   {
+    title: "Rust: lints, without features",
+    part: "lint",
+    needs: [SETUP],
+    locks: "debug",
+    run: () => checkCommand("cargo", ["clippy", "--locked", "--lib", NO_STD, ...DENY_WARNINGS]),
+  },
+  {
     title: "Rust: lints, WebAssembly",
     part: "lint",
     needs: [SETUP],

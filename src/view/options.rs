@@ -191,6 +191,7 @@ impl Options {
     }
 
     /// Refuses drafts and choices of points, in a dimension that has none.
+    #[cfg(feature = "higher")]
     pub(crate) fn check_whole(&self, dimension: usize) -> Result<(), Error> {
         let asked = [
             ("draft", self.draft),
