@@ -34,7 +34,7 @@ const DRAGONS = {
   dragon_res4: "dragon_vrip_res4",
 };
 
-export const BUMPY_SIZES = {
+const BUMPY_SIZES = {
   "bumpy-30k": 30_000,
   "bumpy-134k": 134_000,
   "bumpy-300k": 300_000,

@@ -14,7 +14,7 @@ export interface Engine {
 }
 
 /** The wasm binaries of the package, by their names in the tables. */
-export function wasmBuilds(): [name: string, file: string][] {
+function wasmBuilds(): [name: string, file: string][] {
   const directory = join(root, "dist", "wasm");
   const simd = readdirSync(directory).find((file) => file.includes("simd") && file.endsWith(".wasm"));
   return [

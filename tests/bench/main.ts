@@ -1,6 +1,7 @@
 // npm run bench. Its arguments are in options.ts.
 //
-// Milliseconds are medians of one run on one machine; compare ratios.
+// Milliseconds are medians of one run on one machine; compare ratios. Engines are timed in turns, which tinybench and
+// mitata cannot do: on a machine that others use, too, only ratios of neighbors in time mean anything.
 
 import { init } from "hidden-point-removal";
 
@@ -10,10 +11,7 @@ import { type BrowserEngine, openChromium } from "./chromium.js";
 import { CLOUDS, type Cloud } from "./clouds.js";
 import { timeDrafts } from "./drafts.js";
 import { localEngines } from "./engines.js";
-import { measureGarbage } from "./garbage.js";
-import { timeSizes } from "./linear.js";
 import { describeMachine } from "./machine.js";
-import { measureMemory } from "./memory.js";
 import { timeNodes } from "./nodes.js";
 import { type BenchOptions, readOptions, USAGE } from "./options.js";
 import { measurePage } from "./page/page.js";
@@ -35,19 +33,16 @@ try {
   if (options.sections.has("drafts")) tables.push(timeDrafts());
   if (options.sections.has("workers")) tables.push(...[await timeWorkers()].filter((table) => table !== undefined));
   if (options.sections.has("sectors")) tables.push(timeSectors());
-  if (options.sections.has("linear")) tables.push(await timeSizes(localEngines()));
-  if (options.sections.has("adapter")) tables.push(await timeAdapter(), await timeNodes(), await measureGarbage());
-  if (options.sections.has("memory")) tables.push(measureMemory());
+  if (options.sections.has("adapter")) tables.push(await timeAdapter(), await timeNodes());
   if (options.sections.has("fidelity")) tables.push(...(await fidelityTables(console.error)));
 } finally {
   await browser?.close();
 }
 
-const wanted = { page: options.sections.has("page"), soak: options.sections.has("soak") };
-const demo = wanted.page || wanted.soak ? await measurePage(wanted) : undefined;
+const demo = options.sections.has("page") ? await measurePage() : undefined;
 
 const machine = describeMachine(demo?.chromium ?? browser?.version, others);
-const all = [...tables, ...(demo?.page ?? []), ...(demo?.soak ?? [])];
+const all = [...tables, ...(demo?.tables ?? [])];
 console.log(options.json ? JSON.stringify({ machine, tables: all }, undefined, 2) : textOf(all));
 
 function textOf(tables: Table[]): string {

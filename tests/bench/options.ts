@@ -3,7 +3,7 @@ import { parseArgs } from "node:util";
 
 import { CLOUDS } from "./clouds.js";
 
-export const USAGE = `npm run bench -- [WHAT…] [--clouds NAME,NAME…] [--peers] [--json] [--write]
+export const USAGE = `npm run bench -- [WHAT…] [--clouds NAME,NAME…] [--peers] [--json]
 
 WHAT, by default --speed, --drafts and --workers:
   --speed      cold queries, natively, in Node and in Chromium;
@@ -11,35 +11,20 @@ WHAT, by default --speed, --drafts and --workers:
   --drafts     early answers and samples against cold ones
   --workers    two workers against one, on a million points
   --sectors    the sectors of a view, one after another: what several cores would gain
-  --linear     nanoseconds a point from 30,000 to 3 million points
-  --adapter    what the adapters for three.js take of the page's own thread, and the memory
-               that answers leave behind
-  --memory     the wasm memory: peaks, over 1,000 queries, and at 10 million points
-  --page       the built demo page in Chromium: first picture, an orbit, what holds its thread
-  --soak       what that page holds after 200 answers and 40 clouds
+  --adapter    what the adapters for three.js take of the page's own thread
+  --page       the built demo page in Chromium: first picture, following, an orbit
   --fidelity   errors against ray-traced visibility, for each choice of the radius
-  --all        all of it but --page and --soak, and --peers
+  --all        all of it but --page, and --peers
 
   --clouds     only these of --speed's clouds:
                ${Object.keys(CLOUDS).join(", ")}
   --peers      also SciPy (Qhull) and Open3D, installed into target/ (needs Python 3 with pip)
   --json       prints JSON instead of tables`;
 
-const SECTIONS = [
-  "speed",
-  "drafts",
-  "workers",
-  "sectors",
-  "linear",
-  "adapter",
-  "memory",
-  "page",
-  "soak",
-  "fidelity",
-] as const;
+const SECTIONS = ["speed", "drafts", "workers", "sectors", "adapter", "page", "fidelity"] as const;
 type Section = (typeof SECTIONS)[number];
 /** The sections that "all" leaves out. */
-const ALONE = new Set<Section>(["page", "soak"]);
+const ALONE = new Set<Section>(["page"]);
 
 export interface BenchOptions {
   sections: ReadonlySet<Section>;
@@ -56,11 +41,8 @@ export function readOptions(args: string[]): BenchOptions {
     drafts: flag,
     workers: flag,
     sectors: flag,
-    linear: flag,
     adapter: flag,
-    memory: flag,
     page: flag,
-    soak: flag,
     fidelity: flag,
     all: flag,
   };

@@ -44,7 +44,7 @@ const PEERS =
   `A peer is stopped after ${PEER_LIMIT_MS / 1000} s.`;
 
 /** The outcomes of all engines that take the cloud, checked against each other. */
-export async function measureAll(cloud: Cloud, tasks: Task[], engines: Engine[]): Promise<Map<string, Outcome[]>> {
+async function measureAll(cloud: Cloud, tasks: Task[], engines: Engine[]): Promise<Map<string, Outcome[]>> {
   const measured = new Map<string, Outcome[]>();
   for (const engine of engines.filter(({ takes }) => takes(cloud))) {
     console.error(`${cloud.name}: ${engine.name}…`);

@@ -1,20 +1,17 @@
-// The built page as a user sees it: the time to the first picture, the tasks that block its thread, and its memory.
+// The built page as a user sees it: the time to the first picture, the answers while it moves, and what blocks its thread.
 import { servePage, launchBrowser } from "../../browser/site.js";
 import type { Table } from "../report.js";
-import { timeActions } from "./actions.js";
 import { timeFollowing } from "./follow.js";
 import { timeOpening } from "./open.js";
 import { timeOrbit } from "./orbit.js";
-import { soak } from "./soak.js";
 
 export interface PageMeasured {
   /** The version of the browser, and its renderer. */
   chromium: string;
-  page: Table[];
-  soak: Table[];
+  tables: Table[];
 }
 
-export async function measurePage(wanted: { page: boolean; soak: boolean }): Promise<PageMeasured> {
+export async function measurePage(): Promise<PageMeasured> {
   const files = new Map<string, Uint8Array>();
   // Served like a host with long caching: the second visit requests nothing.
   const site = await servePage(files, { "cache-control": "max-age=3600" });
@@ -22,15 +19,12 @@ export async function measurePage(wanted: { page: boolean; soak: boolean }): Pro
   try {
     const { address } = site;
     const chromium = `${browser.version()} drawing with ${await rendererOf(browser)}`;
-    const page = wanted.page
-      ? [
-          await timeOpening(browser, address),
-          await timeFollowing(browser, address, files),
-          ...(await timeOrbit(browser, address)),
-          await timeActions(browser, address),
-        ]
-      : [];
-    return { chromium, page, soak: wanted.soak ? [await soak(browser, address)] : [] };
+    const tables = [
+      await timeOpening(browser, address),
+      await timeFollowing(browser, address, files),
+      ...(await timeOrbit(browser, address)),
+    ];
+    return { chromium, tables };
   } finally {
     await browser.close();
     site.close();
