@@ -66,7 +66,7 @@ const sheetOfKeys: Step = {
   },
 };
 
-export const LESSON: Step = {
+const LESSON: Step = {
   name: "how it works",
   act: async (page) => {
     await page.keyboard.press("Escape");
@@ -75,7 +75,7 @@ export const LESSON: Step = {
   },
 };
 
-export const REFUSED: Step = {
+const REFUSED: Step = {
   name: "a file that is refused",
   act: async (page) => {
     await page.keyboard.press("Escape");
@@ -86,7 +86,7 @@ export const REFUSED: Step = {
   },
 };
 
-export const LOADING: Step = {
+const LOADING: Step = {
   name: "loading, to be stopped",
   act: async (page) => {
     // The answer never comes.

@@ -15,7 +15,6 @@ import { radius } from "./radius.js";
 import { withFigures } from "./readme.js";
 import { reconstruction } from "./reconstruction.js";
 import { shadows } from "./shadows.js";
-import { takeScreens } from "./screens.js";
 import { Studio } from "./studio.js";
 
 const MAKERS: Record<string, Maker> = {
@@ -28,25 +27,18 @@ const MAKERS: Record<string, Maker> = {
 };
 /** Documents that are written, not drawn. */
 const FIDELITY = "fidelity";
-/** Pictures of the page in every mode, which are not kept. Only drawn when they are asked for. */
-const PAGE = "page";
 const FOLDER = join(root, "tests", "figures");
 
 const ALL = [...Object.keys(MAKERS), FIDELITY];
 const names = process.argv.length > 2 ? process.argv.slice(2) : ALL;
-const unknown = names.find((name) => name !== PAGE && !ALL.includes(name));
+const unknown = names.find((name) => !ALL.includes(name));
 if (unknown !== undefined) {
-  console.error(`There is no figure named ${unknown}. There are: ${[...ALL, PAGE].join(", ")}.`);
+  console.error(`There is no figure named ${unknown}. There are: ${ALL.join(", ")}.`);
   process.exit(2);
 }
 await init();
 await draw(names.filter((name) => name in MAKERS));
 if (names.includes(FIDELITY)) await measureFidelity();
-if (names.includes(PAGE))
-  await withStudio(async (studio) => {
-    console.error(`The pictures are in ${await takeScreens(studio)}`);
-  });
-
 async function measureFidelity(): Promise<void> {
   const text = await fidelityText(console.error);
   if (text === undefined)
