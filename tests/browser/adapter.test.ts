@@ -123,7 +123,7 @@ describe.each([
 
       const found = [{ drawn: count(), picked: pick() }];
       for (const mode of ["hide", "dim"] as const) {
-        const filter = new adapter.HiddenPointFilter(points, { mode });
+        const filter = new adapter.HiddenPointFilter(points, { mode, settle: false });
         filter.update(camera);
         await filter.ready;
         found.push({ drawn: count(), picked: pick() });

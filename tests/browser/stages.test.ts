@@ -1,9 +1,8 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { Ladder } from "../../www/ask/ladder.js";
 import { kindOf, viewOf } from "../../www/ask/question.js";
 import { readAddress } from "../../www/settings/read-address.js";
-import { type Settings, USUAL_SETTINGS, type Viewpoint } from "../../www/settings/settings.js";
+import { USUAL_SETTINGS } from "../../www/settings/settings.js";
 import { changeOf } from "../../www/view/difference.js";
 import { asciiPly, ball } from "./clouds.js";
 import { hold, holdable, release } from "./held.js";
@@ -21,81 +20,6 @@ import {
   status,
   upToDate,
 } from "./support.js";
-
-const LARGE = 100_000;
-const RESTED = { isPaused: true, isAtRest: true };
-const PAUSED = { isPaused: true, isAtRest: false };
-const MOVING = { isPaused: false, isAtRest: false };
-
-/** Asks for the next stage, and answers it. Returns what was asked. */
-function climb(ladder: Ladder, when = RESTED): string | null {
-  const due = ladder.next(when);
-  if (!due) return null;
-  ladder.take(due);
-  ladder.answered(due.question);
-  return kindOf(due.question);
-}
-
-function wanted(at: Viewpoint, settings: Partial<Settings> = {}) {
-  return viewOf(at, { ...USUAL_SETTINGS, ...settings });
-}
-
-test("a view is answered by a draft, one hull and looks; while it moves, only by drafts", () => {
-  const ladder = new Ladder(LARGE, 1);
-  ladder.want(wanted([0, 0, 5]));
-  expect([climb(ladder), climb(ladder), climb(ladder), climb(ladder)]).toEqual(["draft", "operator", "looks", null]);
-  expect(ladder.isFinal).toBe(true);
-
-  ladder.want(wanted([0, 1, 5]));
-  expect(ladder.isFinal).toBe(false);
-  expect([climb(ladder, MOVING), climb(ladder, MOVING)]).toEqual(["draft", null]);
-  ladder.want(wanted([0, 2, 5]));
-  expect([climb(ladder, MOVING), climb(ladder, PAUSED), climb(ladder, PAUSED)]).toEqual(["draft", "operator", null]);
-  expect(climb(ladder)).toBe("looks");
-});
-
-test("a small cloud has no drafts, and a surface neither drafts nor looks", () => {
-  const small = new Ladder(1000, 1);
-  small.want(wanted([0, 0, 5]));
-  expect([climb(small, MOVING), climb(small), climb(small)]).toEqual(["operator", "looks", null]);
-  const surface = new Ladder(LARGE, 1);
-  surface.want(wanted([0, 0, 5], { show: "surface" }));
-  expect([climb(surface), climb(surface)]).toEqual(["operator", null]);
-});
-
-test("after a change of settings there is no draft, and nothing known is asked again", () => {
-  const ladder = new Ladder(LARGE, 1);
-  ladder.want(wanted([0, 0, 5]));
-  while (climb(ladder) !== null);
-  ladder.want(wanted([0, 0, 5], { looks: 2 }));
-  expect([climb(ladder), climb(ladder)]).toEqual(["looks", null]);
-  ladder.want(wanted([0, 0, 5], { looks: 0 }));
-  expect([climb(ladder), climb(ladder)]).toEqual(["operator", null]);
-  ladder.want(wanted([0, 0, 5], { radius: { exponent: 2 } }));
-  expect([climb(ladder), climb(ladder)]).toEqual(["operator", null]);
-});
-
-test("a later stage is given up when the view moves on, and the first one never", () => {
-  const ladder = new Ladder(LARGE, 1);
-  ladder.want(wanted([0, 0, 5]));
-  const draft = ladder.next(RESTED)!;
-  expect(ladder.take(draft)).toBeUndefined();
-  ladder.answered(draft.question);
-  const signal = ladder.take(ladder.next(RESTED)!)!;
-  ladder.want(wanted([0, 0, 5]));
-  expect(signal.aborted).toBe(false);
-  ladder.want(wanted([0, 1, 5]));
-  expect(signal.aborted).toBe(true);
-  expect(climb(ladder)).toBe("draft");
-});
-
-test("a refused question is not asked again", () => {
-  const ladder = new Ladder(LARGE, 1);
-  ladder.want(wanted([0, 0, 5]));
-  ladder.take(ladder.next(RESTED)!);
-  ladder.refused();
-  expect(ladder.next(RESTED)).toBeNull();
-});
 
 test.for([
   ["", 3, []],

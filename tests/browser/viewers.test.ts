@@ -104,6 +104,7 @@ describe.each([
       };
 
       const filter = new adapter.HiddenPointNodesFilter(root, {
+        settle: false,
         mode: "dim",
         dimMaterial: new THREE.PointsMaterial({ color: "red" }),
       });

@@ -3,12 +3,12 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 
 import { HprError } from "../../src/ts/base/errors.js";
-import { type Course, Follower, type Round } from "../../src/ts/follow/follower.js";
-import { Newest } from "../../src/ts/follow/newest.js";
-import { Overtaken } from "../../src/ts/follow/overtaken.js";
+import { type Followed, Follower, type Round } from "../../src/ts/follow/follower.js";
+import { Newest } from "../../www/ask/newest.js";
+import { Overtaken } from "../../www/ask/overtaken.js";
 import { Readiness } from "../../src/ts/follow/readiness.js";
 import { Recovery, type RecoveryTimes } from "../../src/ts/follow/recovery.js";
-import { Rest } from "../../src/ts/follow/rest.js";
+import { Rest } from "../../www/ask/rest.js";
 
 const LOST = new HprError("internal", "the worker died");
 
@@ -43,7 +43,7 @@ class Scene {
   thrownByListener: Error | undefined;
 
   constructor(times?: RecoveryTimes) {
-    const course: Course = {
+    const course: Followed = {
       next: () => (this.newest.isNew ? this.round() : undefined),
       refused: (error, again) => {
         this.log.push(`${error.message}${again ? " again" : ""}`);

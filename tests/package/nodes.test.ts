@@ -30,7 +30,7 @@ function sceneOf(nodes: THREE.Points[], options?: HiddenPointNodesFilterOptions)
   const camera = new THREE.PerspectiveCamera();
   const scene = new THREE.Scene().add(root, camera);
   scene.updateMatrixWorld(true);
-  const filter = new HiddenPointNodesFilter(root, options);
+  const filter = new HiddenPointNodesFilter(root, { settle: false, ...options });
   filters.push(filter);
   const changes: HiddenPointNodesFilterEvents["change"][] = [];
   filter.addEventListener("change", (change) => changes.push(change));

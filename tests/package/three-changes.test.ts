@@ -41,7 +41,7 @@ describe.each(VERSIONS)("with %s", (_, load) => {
   });
 
   function filterFor(points: Scene["points"], options?: object): Filter {
-    const filter = new adapter.HiddenPointFilter(points, options);
+    const filter = new adapter.HiddenPointFilter(points, { settle: false, ...options });
     filters.push(filter);
     return filter;
   }

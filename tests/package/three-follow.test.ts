@@ -50,7 +50,7 @@ describe.each([
   ],
 ] as const)("%s", (_, make) => {
   function filterFor(points: THREE.Points, options: object = {}) {
-    const filter = make(points, options);
+    const filter = make(points, { settle: false, ...options });
     filters.push(filter);
     const changes: { answer: string; count: number; camera: THREE.Camera }[] = [];
     filter.addEventListener("change", (change: { answer: string; count: number; camera: THREE.Camera }) => {
@@ -61,7 +61,7 @@ describe.each([
         .poll(
           () => {
             filter.update(camera);
-            return filter.isCurrent && filter.answer;
+            return filter.settled && filter.answer;
           },
           { interval: 2, timeout: 10_000 },
         )
@@ -78,7 +78,7 @@ describe.each([
     const { points, geometry } = pointsOf(many);
     const { filter, changes, until } = filterFor(points, { exponent: 3, settle: { looks: 3 } });
     const camera = cameraAt(0, 0, 5);
-    expect([filter.answer, filter.isCurrent]).toEqual([null, false]);
+    expect([filter.answer, filter.settled]).toEqual([null, false]);
     await until("looks", camera);
     expect(changes.map(({ answer }) => answer)).toEqual(["draft", "operator", "looks"]);
     const [draft, exact, looks] = [
@@ -92,7 +92,7 @@ describe.each([
     // The draft of a new view comes next, and is told.
     camera.position.set(1, 0, 5);
     filter.update(camera);
-    expect([filter.answer, filter.isCurrent]).toEqual(["looks", false]);
+    expect([filter.answer, filter.settled]).toEqual(["looks", false]);
     await until("looks", camera);
     expect(changes.slice(3).map(({ answer }) => answer)).toEqual(["draft", "operator", "looks"]);
   });
@@ -106,7 +106,7 @@ describe.each([
       const before = drawn(geometry);
       camera.position.set(5, 0, 0);
       filter.update(camera);
-      expect(filter.isCurrent).toBe(false);
+      expect(filter.settled).toBe(false);
       expect(drawn(geometry).length).toBe(stale === "all" ? 40_000 : before.length);
       await until("operator", camera);
       expect(drawn(geometry)).toEqual(seenFrom(camera));
@@ -129,7 +129,7 @@ describe.each([
     expect(changes).toHaveLength(1);
     camera.position.x += 0.002 * spacing;
     filter.update(camera);
-    expect(filter.isCurrent).toBe(false);
+    expect(filter.settled).toBe(false);
   });
 
   it("draws for each of two cameras what this camera sees", async () => {
@@ -151,7 +151,7 @@ describe.each([
       .poll(() =>
         cameras.every((camera) => {
           filter.update(camera);
-          return filter.isCurrent && filter.answer === "operator";
+          return filter.settled && filter.answer === "operator";
         }),
       )
       .toBe(true);

@@ -1,4 +1,4 @@
-import { Rest } from "../../src/ts/follow/rest.ts";
+import { Rest } from "./rest.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import type { Inquiry } from "./inquiry.ts";
 import { isSameView, operatorOf, type ViewQuestion } from "./question.ts";

@@ -1,10 +1,9 @@
-import { Follower, type Round } from "../../src/ts/follow/follower.ts";
-import { Overtaken } from "../../src/ts/follow/overtaken.ts";
-import { Rest } from "../../src/ts/follow/rest.ts";
+import { HprError } from "hidden-point-removal";
+import { type AskedStage, Follower, Refinement, type Round, type Stage } from "hidden-point-removal/worker";
 import type { Cloud } from "../cloud/cloud.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
-import { Ladder, PAUSE } from "./ladder.ts";
 import { askLight, type LightAnswer } from "./lights.ts";
+import { Overtaken } from "./overtaken.ts";
 import {
   type AnswerKind,
   isAutomatic,
@@ -12,6 +11,7 @@ import {
   isSamePlace,
   isSameView,
   isSearched,
+  isSlow,
   kindOf,
   type LightQuestion,
   type Method,
@@ -21,6 +21,7 @@ import {
   type ViewQuestion,
   viewOf,
 } from "./question.ts";
+import { Rest } from "./rest.ts";
 import { SecondCloud } from "./second-cloud.ts";
 import { askView, type ViewAnswer } from "./views.ts";
 import type { WorkerCloud } from "./worker-cloud.ts";
@@ -44,8 +45,14 @@ export interface Detail {
   answer: TimedView;
 }
 
+/** Below this number of points, one hull takes about as long as a frame, so nobody waits for a draft. */
+const DRAFTS_FROM = 50_000;
+/** After a draft, one hull is asked if the viewpoint has not moved for this number of milliseconds. */
+const PAUSE = 40;
 /** A viewpoint or a light that has not moved for this number of milliseconds is at rest. */
 const REST = 250;
+/** A lost worker is replaced once. After that, the user decides. */
+const ONCE = { delays: [0], pause: Infinity, longPause: Infinity };
 /** Looks at a cloud with at least so many points are asked in a second worker: a draft must not wait for them. */
 const LOOKS_ASIDE_FROM = 200_000;
 
@@ -64,23 +71,44 @@ export class Inquiry {
   onDetail: (detail: Detail | null) => boolean = () => false;
 
   /** The cloud in its worker, also for questions that are not for the picture. */
-  readonly cloud: WorkerCloud;
-  readonly #second: SecondCloud;
+  cloud: WorkerCloud;
+  readonly #another: () => Promise<WorkerCloud>;
+  #second: SecondCloud;
   readonly #size: number;
-  readonly #ladder: Ladder;
-  readonly #lights = new Overtaken<LightQuestion>(isSameLight);
-  readonly #viewFollower = new Follower({
-    next: () => this.#viewRound(),
-    refused: (error) => {
-      this.#ladder.refused();
-      this.onError(error);
-    },
+  /** How far the answers for the viewpoint have come: see `stagesOf`. */
+  readonly #refinement = new Refinement<ViewQuestion>(() => {
+    this.#viewFollower.follow();
   });
+  /** The question whose answer is final. */
+  #wanted: ViewQuestion | null = null;
+  /** The question that was answered last. */
+  #answered: ViewQuestion | null = null;
+  /** Whether the worker is gone, and another one must hold the cloud. */
+  #isLost = false;
+  readonly #lights = new Overtaken<LightQuestion>(isSameLight);
+  readonly #viewFollower = new Follower(
+    {
+      next: () => (this.#isLost ? this.#remaking() : this.#viewRound()),
+      refused: (error) => {
+        this.onError(error);
+      },
+      lost: (isComingBack) => {
+        this.#isLost = true;
+        this.#second.dispose();
+        this.#second = new SecondCloud(this.#another);
+        this.#lights.forget();
+        if (isComingBack) this.#refinement.begin(this.#stages);
+      },
+    },
+    ONCE,
+  );
   readonly #lightFollower = new Follower({
     next: () => (this.#lights.isNew ? this.#lightRound() : undefined),
     refused: (error) => {
       this.#litBy = this.#lights.asked;
-      this.onError(error);
+      // The worker is lost for the views as well.
+      if (error instanceof HprError && error.code === "internal") this.#viewFollower.refuse(error);
+      else this.onError(error);
     },
   });
   /** The last question about light that was answered or refused. */
@@ -89,7 +117,6 @@ export class Inquiry {
   #hull: TimedView | null = null;
   #mesh: Uint32Array | null = null;
   #viewpoint: Viewpoint | null = null;
-  readonly #viewpointPause = new Rest(PAUSE);
   readonly #viewpointRest = new Rest(REST);
   #lamps: Settings["lights"] | null = null;
   readonly #lampsRest = new Rest(REST);
@@ -99,9 +126,9 @@ export class Inquiry {
   /** `another` makes a second copy of the cloud, for slow questions. */
   constructor(cloud: WorkerCloud, another: () => Promise<WorkerCloud>, size: number) {
     this.cloud = cloud;
+    this.#another = another;
     this.#second = new SecondCloud(another);
     this.#size = size;
-    this.#ladder = new Ladder(cloud.points.length, size);
   }
 
   /** Whether the last question still waits for its answer. */
@@ -112,24 +139,37 @@ export class Inquiry {
   /** Returns the first answer. Nothing is shown before it. */
   async first(viewpoint: Viewpoint, settings: Settings): Promise<TimedView> {
     this.#viewpoint = viewpoint;
-    this.#ladder.want(viewOf(viewpoint, settings));
-    const due = this.#ladder.next({ isPaused: true, isAtRest: false })!;
-    return this.#ask(this.cloud, this.#ladder.take(due), due.question);
+    this.#wanted = viewOf(viewpoint, settings);
+    // The first viewpoint counts as being at rest.
+    this.#refinement.begin(this.#stages);
+    const asked = async () => {
+      const round = this.#asking((stage) => this.#ask(stage));
+      const view = await round.ask();
+      round.use(view);
+      return view;
+    };
+    try {
+      return await asked();
+    } catch (error) {
+      if (!isHang(error)) throw error;
+      this.cloud = await this.#another();
+      this.#refinement.begin(this.#stages);
+      return asked();
+    }
   }
 
   /** Finds the automatic exponent if the answer does not contain it. Does nothing if a newer question waits. */
   async findAutomatic(): Promise<void> {
-    const question = this.#ladder.wanted;
+    const question = this.#wanted;
     if (!question?.method.radius || isAutomatic(question.method)) return;
     const { exponent } = await this.cloud.points.autoRadius(question.viewpoint);
-    if (question === this.#ladder.wanted) this.onAutomatic(exponent);
+    if (question === this.#wanted) this.onAutomatic(exponent);
   }
 
   /** Called every frame and after every change. Does nothing while the questions stay the same. */
   follow(viewpoint: Viewpoint, settings: Settings): void {
     if (!this.#viewpoint || !isSamePlace(viewpoint, this.#viewpoint, this.#size)) {
       this.#viewpoint = viewpoint;
-      this.#viewpointPause.moved();
       this.#viewpointRest.moved();
     }
     if (this.#lamps !== settings.lights) {
@@ -138,14 +178,20 @@ export class Inquiry {
       this.#lamps = settings.lights;
     }
 
-    this.#ladder.want(viewOf(viewpoint, settings));
+    this.#wantView(viewOf(viewpoint, settings));
     this.#viewFollower.follow();
     const { lights, soft, ambient, smoothing } = settings;
     const light: LightQuestion = { lights, soft, ambient, smoothing, method: operatorOf(settings), mesh: this.#mesh };
     this.#wantLight(light, !this.#viewpointRest.isReached, !this.#lampsRest.isReached);
 
     const isLit = lights.length === 0 || (this.#litBy !== undefined && isSameLight(this.#litBy, light));
-    this.#upToDate = this.#ladder.isFinal && isLit;
+    this.#upToDate = this.#viewFollower.isLost || (this.#refinement.isSettled && isLit);
+  }
+
+  /** Makes a lost worker again, after `onError`. */
+  restart(): void {
+    this.#refinement.begin(this.#stages);
+    this.#viewFollower.restart();
   }
 
   /** The answer of one hull for the same view as an answer from looks. `null`: it is not known. */
@@ -175,6 +221,7 @@ export class Inquiry {
 
   dispose(): void {
     this.onView = this.onLight = this.onAutomatic = this.onError = () => undefined;
+    this.#refinement.stop();
     this.#viewFollower.stop();
     this.#lightFollower.stop();
     void this.cloud.points.dispose();
@@ -184,6 +231,40 @@ export class Inquiry {
   /** The answer as others are told it. */
   protected told(view: TimedView): TimedView {
     return view;
+  }
+
+  get #stages(): Stage<ViewQuestion>[] {
+    const drafts = this.cloud.points.length >= DRAFTS_FROM;
+    return stagesOf(this.#wanted!, drafts).map((question, number) => ({
+      kind: kindOf(question),
+      options: question,
+      rest: isSlow(question.method) ? REST : number > 0 ? PAUSE : 0,
+    }));
+  }
+
+  #wantView(question: ViewQuestion): void {
+    const before = this.#wanted;
+    if (before && isSameView(question, before, this.#size)) return;
+    this.#wanted = question;
+    const stages = this.#stages;
+    if (before && isSamePlace(question.viewpoint, before.viewpoint, this.#size))
+      this.#refinement.begin(stages, this.#firstOf(stages));
+    else this.#refinement.moved(stages);
+  }
+
+  /** The number of the stage that comes first when only settings have changed. */
+  #firstOf(stages: Stage<ViewQuestion>[]): number {
+    const last = this.#answered;
+    const numberOf = (question: ViewQuestion) =>
+      stages.findIndex(({ options }) => isSameView(options, question, this.#size));
+    if (!last || !isSamePlace(last.viewpoint, this.#wanted!.viewpoint, this.#size)) return 0;
+    const reached = numberOf(last);
+    if (reached >= 0) return reached + 1;
+    // A draft, or another radius, would show points that the picture no longer has.
+    if (isSearched(this.#wanted!.method)) return stages.length - 1;
+    const next = stages.findIndex(({ kind }) => kind !== "draft");
+    const isKnown = this.#hull !== null && numberOf(this.#hull.question) === next;
+    return isKnown ? Math.min(next + 1, stages.length - 1) : next;
   }
 
   #wantLight(question: LightQuestion, viewMoving: boolean, lightsMoving: boolean): void {
@@ -202,21 +283,34 @@ export class Inquiry {
   }
 
   #viewRound(): Round | undefined {
-    const due = this.#ladder.next({
-      isPaused: this.#viewpointPause.isReached,
-      isAtRest: this.#viewpointRest.isReached,
+    if (!this.#refinement.due) return undefined;
+    return this.#asking(async (stage) => {
+      const view = await this.#ask(stage);
+      this.onView(view);
+      this.#viewFollower.answered();
+      if (isSameView(view.question, this.#wanted!, this.#size)) await this.findAutomatic();
+      return view;
     });
-    if (!due) return undefined;
-    const { question } = due;
-    const overtaken = this.#ladder.take(due);
+  }
+
+  #asking(ask: (stage: AskedStage<ViewQuestion>) => Promise<TimedView>): Round<TimedView> {
+    return this.#refinement.round(ask, () => undefined);
+  }
+
+  /** Makes the cloud again in another worker. */
+  #remaking(): Round<WorkerCloud> {
     return {
-      ask: async () => {
-        const cloud = this.#isAside(question.method) ? await this.#second.ready(overtaken) : this.cloud;
-        this.onView(await this.#ask(cloud, overtaken, question));
-        if (this.#ladder.isFinal) await this.findAutomatic();
+      ask: () =>
+        this.#another().catch((cause: unknown) => {
+          throw new HprError("internal", cause instanceof Error ? cause.message : String(cause), { cause });
+        }),
+      use: (cloud) => {
+        void this.cloud.points.dispose();
+        this.cloud = cloud;
+        this.#isLost = false;
+        return undefined;
       },
-      use: () => undefined,
-      isGivenUp,
+      leave: ({ points }) => void points.dispose(),
     };
   }
 
@@ -257,14 +351,15 @@ export class Inquiry {
     if (cloud === this.cloud) this.#freeSince = performance.now();
   }
 
-  async #ask(cloud: WorkerCloud, signal: AbortSignal | undefined, question: ViewQuestion): Promise<TimedView> {
+  async #ask({ options: question, signal }: AskedStage<ViewQuestion>): Promise<TimedView> {
+    const cloud = this.#isAside(question.method) ? await this.#second.ready(signal) : this.cloud;
     const asked = performance.now();
     const answer = await askView(cloud, question, signal);
     const begun = cloud === this.cloud ? Math.max(asked, this.#freeSince) : asked;
     this.#noteFree(cloud);
     this.#mesh = answer.triangles;
-    this.#ladder.answered(question);
-    const wanted = this.#ladder.wanted!.method;
+    this.#answered = question;
+    const wanted = this.#wanted!.method;
     const quick = isSearched(wanted) && !isSearched(question.method);
     const view = { ...answer, kind: kindOf(question), quick, asked, milliseconds: performance.now() - begun };
     if (view.kind === "operator") this.#hull = view;
@@ -275,4 +370,10 @@ export class Inquiry {
 /** Whether a newer question has cancelled this one. Then this one can be asked again. */
 function isGivenUp(error: unknown): boolean {
   return error instanceof DOMException && error.name === "AbortError";
+}
+
+/** Whether a worker has given no sign of life for too long. */
+export function isHang(error: unknown): boolean {
+  const cause = error instanceof HprError && error.cause;
+  return cause instanceof DOMException && cause.name === "TimeoutError";
 }

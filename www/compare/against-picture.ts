@@ -1,6 +1,6 @@
 import type { TimedView } from "../ask/inquiry.ts";
-import { Follower, type Round } from "../../src/ts/follow/follower.ts";
-import { Newest } from "../../src/ts/follow/newest.ts";
+import { Follower, type Round } from "hidden-point-removal/worker";
+import { Newest } from "../ask/newest.ts";
 import type { Settings } from "../settings/settings.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { pictureFrom } from "./picture.ts";

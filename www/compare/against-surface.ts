@@ -1,8 +1,8 @@
 import type { TimedView } from "../ask/inquiry.ts";
 import { isSamePlace } from "../ask/question.ts";
-import { Follower, type Round } from "../../src/ts/follow/follower.ts";
-import { Newest } from "../../src/ts/follow/newest.ts";
-import { Rest } from "../../src/ts/follow/rest.ts";
+import { Follower, type Round } from "hidden-point-removal/worker";
+import { Newest } from "../ask/newest.ts";
+import { Rest } from "../ask/rest.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import type { Viewpoint } from "../settings/settings.ts";
 import type { Viewer } from "../view/viewer.ts";

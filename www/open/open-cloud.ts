@@ -1,6 +1,6 @@
 import { init } from "hidden-point-removal";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
-import { Inquiry } from "../ask/inquiry.ts";
+import { Inquiry, isHang } from "../ask/inquiry.ts";
 import { WorkerCloud } from "../ask/worker-cloud.ts";
 import type { Up } from "../cloud/cloud.ts";
 import { loadCloud, type LoadRequest, type MadeRequest } from "../loaders/index.ts";
@@ -129,17 +129,25 @@ export async function openCloud(
   };
   // The worker takes the copy. The page keeps the file's own coordinates for the tools.
   const shared = place.shared && cloud.count < SHARED_BELOW;
-  const worker = await WorkerPointCloud.create(copy, {
-    signal,
-    transfer: true,
-    ...(shared ? { shared } : hasFewCores() ? { workers: 1 } : {}),
-    onProgress: (fraction) => {
-      onProgress(sentence("Preparing", request.name, fraction), fraction);
-      if (fraction > 0) previewCloud();
-    },
+  const made = (given: Float32Array | Float64Array, report: (fraction: number) => void) =>
+    WorkerPointCloud.create(given, {
+      signal,
+      transfer: true,
+      ...(shared ? { shared } : hasFewCores() ? { workers: 1 } : {}),
+      onProgress: report,
+    });
+  const report = (fraction: number) => {
+    onProgress(sentence("Preparing", request.name, fraction), fraction);
+    if (fraction > 0) previewCloud();
+  };
+  // A worker that hangs is replaced once.
+  const worker = await made(copy, report).catch((error: unknown) => {
+    if (!isHang(error)) throw error;
+    return made(positions.slice(), report);
   });
   onProgress(`Finding the visible points of ${request.name}.`, null);
-  const another = async () => new WorkerCloud(await WorkerPointCloud.create(positions, { workers: 1 }), cloud.center);
+  const another = async () =>
+    new WorkerCloud(await WorkerPointCloud.create(positions.slice(), { workers: 1, transfer: true }), cloud.center);
   const points = new WorkerCloud(worker, cloud.center);
   let inquiry = new Inquiry(points, another, cloud.radius);
   try {

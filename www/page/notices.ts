@@ -21,10 +21,10 @@ export class Notices {
     this.#message.show(sentence, actions);
   }
 
-  /** Says that a view was refused. The next answer takes the sentence away. */
-  refuseView(error: unknown): void {
+  /** Says that a view was refused. The next answer takes the sentence away. `restart` replaces a lost worker. */
+  refuseView(error: unknown, restart: () => void): void {
     const sentence = sentenceOf(error, "The visible points could not be found");
-    this.error(sentence);
+    this.error(sentence, isLoss(error) ? [{ label: "Restart", run: restart }] : []);
     this.#note = sentence;
   }
 
@@ -34,6 +34,11 @@ export class Notices {
     if (note === null && this.#note !== null) this.#message.hide();
     this.#note = note;
   }
+}
+
+/** Whether an error means that a worker is lost with its cloud. */
+export function isLoss(error: unknown): boolean {
+  return error instanceof HprError && error.code === "internal";
 }
 
 /** The error as a sentence. `what`: the thing that could not be done, if the error itself does not say it. */
@@ -46,5 +51,7 @@ function plain(error: unknown): string {
     return "a part of this page (its WebAssembly file or worker) could not be loaded; reload the page to try again";
   if (error instanceof HprError && error.code === "too-large")
     return "it needs more memory than the browser gives to a page";
+  // The library says then how a program goes on.
+  if (isLoss(error)) return (error as HprError).message.split(";")[0]!;
   return error instanceof Error ? error.message.replace(/\.$/, "") : String(error);
 }

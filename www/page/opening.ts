@@ -13,7 +13,7 @@ import type { Store } from "../settings/store.ts";
 import type { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
 import type { Viewer } from "../view/viewer.ts";
-import { type Notices, sentenceOf } from "./notices.ts";
+import { isLoss, type Notices, sentenceOf } from "./notices.ts";
 import { fromSample, type Source } from "./sources.ts";
 import type { Status } from "./status.ts";
 
@@ -168,8 +168,10 @@ export class Opening {
   #refuse(error: unknown, source: Source): void {
     const { notices, address, viewer } = this.#parts;
     const sentence = sentenceOf(error, `${source.request.name} could not be opened`);
-    const again = withoutNonFinite(error, source);
-    notices.error(sentence, again ? [{ label: "Load without them", run: () => void this.open(again) }] : []);
+    const without = withoutNonFinite(error, source);
+    const actions = without ? [{ label: "Load without them", run: () => void this.open(without) }] : [];
+    if (isLoss(error)) actions.push({ label: "Restart", run: () => void this.open(source) });
+    notices.error(sentence, actions);
     this.#picker.restore();
     address.giveUp();
     // The page does not stay empty, but a frame in another page shows what was asked for or nothing.

@@ -79,6 +79,8 @@ export function wire({
     signs.busy(busy);
   };
   viewer.onError = (error) => {
-    notices.refuseView(error);
+    notices.refuseView(error, () => {
+      viewer.restart();
+    });
   };
 }

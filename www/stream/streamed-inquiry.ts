@@ -1,4 +1,4 @@
-import { Rest } from "../../src/ts/follow/rest.ts";
+import { Rest } from "../ask/rest.ts";
 import { Inquiry, type TimedView } from "../ask/inquiry.ts";
 import { isSamePlace, viewOf } from "../ask/question.ts";
 import type { WorkerCloud } from "../ask/worker-cloud.ts";

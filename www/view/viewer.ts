@@ -316,6 +316,12 @@ export class Viewer {
     this.#paint(this.#store.current);
   }
 
+  /** Makes the cloud again whose worker was lost, and asks again. */
+  restart(): void {
+    this.#shown?.inquiry.restart();
+    this.#inquire();
+  }
+
   /** Goes back to the first view. */
   reset(): void {
     if (!this.#shown) return;

@@ -3,14 +3,14 @@ import { DataFilterExtension } from "@deck.gl/extensions";
 import { PointCloudLayer, type PointCloudLayerProps } from "@deck.gl/layers";
 
 import { asError, HprError } from "../base/errors.js";
-import type { AnswerKind } from "../follow/gaze.js";
+import type { AnswerKind } from "../follow/refinement.js";
 import { FOLLOW_OPTIONS, type FollowOptions, type FollowSettings, followSettings } from "../query/follow-options.js";
 import { givenOptions, pick } from "../query/options.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { isBinary, positionsOf } from "./data.js";
 import { Frame } from "./frame.js";
-import { Sight } from "./sight.js";
+import { LayerCloud } from "./layer-cloud.js";
 
 /** The properties of a `PointCloudLayer`, and the viewpoint. */
 export type VisiblePointCloudLayerProps<DataT = unknown> = PointCloudLayerProps<DataT> & {
@@ -53,7 +53,7 @@ interface Own {
 
 // This is not an interface, since an interface has no index signature.
 type State = {
-  sight: Sight;
+  cloud: LayerCloud;
   /** The property `visibility`, and its content. */
   read: { given: unknown; text: string; settings: FollowSettings } | undefined;
   /** The cloud's coordinates. */
@@ -114,7 +114,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
 
   /** @internal */
   override initializeState(): void {
-    const sight = new Sight({
+    const cloud = new LayerCloud({
       answer: (answer, kind, milliseconds) => {
         (this.getCurrentLayer() as this | null)?.applyAnswer(answer, kind, milliseconds);
       },
@@ -123,7 +123,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
       },
     });
     this.setState({
-      sight,
+      cloud,
       read: undefined,
       frame: undefined,
       refusal: undefined,
@@ -170,7 +170,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
   }
 
   #look({ dataChanged, updateTriggersChanged: triggers }: Update["changeFlags"]): void {
-    const { sight } = this.state;
+    const { cloud } = this.state;
     const { data, getPosition, viewpoint, visibility } = this.props as unknown as Own & { data: unknown };
     const { viewport } = this.context;
     const earlier = this.state.frame;
@@ -178,13 +178,13 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
     const isMoved = typeof triggers === "object" && ("getPosition" in triggers || "all" in triggers);
     if (dataChanged || isMoved || earlier?.key !== frame.key) {
       this.setState({ mask: undefined, data: undefined });
-      sight.setPositions(() => frame.take(positionsOf(data, getPosition)));
+      cloud.setPositions(() => frame.take(positionsOf(data, getPosition)));
     } else {
       frame.goOn(earlier);
     }
     const place = viewpoint === null ? frame.seen(viewport) : frame.given(viewpoint);
     const settings = this.#settingsOf(visibility);
-    const isNew = sight.want(place, settings);
+    const isNew = cloud.want(place, settings);
     if (isNew && settings.stale === "all" && this.state.mask !== undefined) {
       this.setState({ mask: undefined, data: undefined });
     }
@@ -192,7 +192,7 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
 
   /** @internal */
   override finalizeState(): void {
-    this.state.sight.dispose();
+    this.state.cloud.dispose();
   }
 
   /** @internal */
@@ -232,10 +232,10 @@ export class VisiblePointCloudLayer<DataT = unknown> extends CompositeLayer<Visi
 
   /** @internal */
   applyAnswer(answer: Visibility, kind: AnswerKind, milliseconds: number): void {
-    const { sight, version } = this.state;
+    const { cloud, version } = this.state;
     let { mask } = this.state;
-    if (mask?.length !== sight.length) {
-      mask = new Float32Array(sight.length);
+    if (mask?.length !== cloud.length) {
+      mask = new Float32Array(cloud.length);
     }
     mask.fill(0);
     for (const index of answer.indices) mask[index] = 1;

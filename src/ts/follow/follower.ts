@@ -19,7 +19,7 @@ export interface Round<Answer = unknown> {
 }
 
 /** What a follower asks, and who is told. */
-export interface Course {
+export interface Followed {
   /** The round that is due now: always about the newest view. Undefined if nothing is to be asked. */
   next(): Round | undefined;
   /** A question was refused. `again`: the question before was refused, too, and nothing has been answered since. */
@@ -35,22 +35,22 @@ export interface Course {
  * Keeps answers up with something that moves, such as a camera. One round is on its way at a time.
  * When it ends, the next one asks about the view at that time; the views in between are left out.
  *
- * A course may give several rounds to one view, for instance a quick answer first and a better one
+ * It may give several rounds to one view, for instance a quick answer first and a better one
  * later: `next` decides.
  *
  *     follow ──► next ──► ask ┄┄► use ──► follow
  *                          └┄┄┄┄► refused, or lost ┄┄► follow
  */
 export class Follower {
-  readonly #course: Course;
+  readonly #followed: Followed;
   readonly #recovery: Recovery;
   #isBusy = false;
   /** A question was refused, and nothing has been answered since. */
   #isRefused = false;
   #isStopped = false;
 
-  constructor(course: Course, times?: RecoveryTimes) {
-    this.#course = course;
+  constructor(followed: Followed, times?: RecoveryTimes) {
+    this.#followed = followed;
     this.#recovery = new Recovery(() => {
       this.follow();
     }, times);
@@ -81,7 +81,7 @@ export class Follower {
     if (this.#isBusy || this.#isStopped || this.isLost) {
       return;
     }
-    const round = this.#course.next();
+    const round = this.#followed.next();
     if (round === undefined) {
       return;
     }
@@ -118,6 +118,11 @@ export class Follower {
     this.follow();
   }
 
+  /** Brings back a lost worker now, and begins the next round. */
+  restart(): void {
+    this.#recovery.begin();
+  }
+
   /** To be called when an answer is taken up. The next refusal does not count as `again`. */
   answered(): void {
     this.#isRefused = false;
@@ -130,16 +135,16 @@ export class Follower {
       return;
     }
     const error = asError(thrown);
-    if (this.#course.lost !== undefined && this.#recovery.notices(error)) {
+    if (this.#followed.lost !== undefined && this.#recovery.notices(error)) {
       const { isUnderWay } = this.#recovery;
-      this.#course.lost(isUnderWay);
+      this.#followed.lost(isUnderWay);
       if (isUnderWay) {
         return;
       }
     }
     const again = this.#isRefused;
     this.#isRefused = true;
-    this.#course.refused(error, again);
+    this.#followed.refused(error, again);
   }
 
   /** Ends the following. After that, nothing is asked or reported. */

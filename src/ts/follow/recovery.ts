@@ -55,7 +55,7 @@ export class Recovery {
     this.#lostAt = performance.now();
     if (delay !== undefined) {
       this.#timer = setTimeout(() => {
-        this.#begin();
+        this.begin();
       }, delay);
     }
     return true;
@@ -66,7 +66,7 @@ export class Recovery {
     const { pause, longPause } = this.#times;
     const isDue = performance.now() - this.#lostAt >= (isNew ? pause : longPause);
     if (this.#isLost && !this.isUnderWay && isDue) {
-      this.#begin();
+      this.begin();
     }
   }
 
@@ -75,14 +75,15 @@ export class Recovery {
     this.#losses = 0;
   }
 
+  /** Makes the cloud again now. */
+  begin(): void {
+    this.stop();
+    this.#isLost = false;
+    this.#makeAgain();
+  }
+
   stop(): void {
     clearTimeout(this.#timer);
     this.#timer = undefined;
-  }
-
-  #begin(): void {
-    this.#timer = undefined;
-    this.#isLost = false;
-    this.#makeAgain();
   }
 }

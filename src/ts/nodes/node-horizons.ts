@@ -1,12 +1,12 @@
 import { asError } from "../base/errors.js";
 import { readBox } from "../cloud/horizon.js";
 import type { Visibility } from "../cloud/visibility.js";
-import type { Turn } from "../follow/gaze.js";
+import type { AskedStage } from "../follow/refinement.js";
 import { runningInstance } from "../instance/instance.js";
 import { init } from "../loader.js";
 import type { Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
-import type { Watch } from "../three/watch.js";
+import type { FollowedCamera } from "../three/cameras.js";
 import { NodeHorizon } from "./node-horizon.js";
 import type { NodeSet } from "./node-set.js";
 
@@ -14,7 +14,7 @@ import type { NodeSet } from "./node-set.js";
 export class NodeHorizons {
   readonly #nodes: NodeSet;
   readonly #failed: (error: Error) => void;
-  readonly #horizons = new Map<Watch, NodeHorizon>();
+  readonly #horizons = new Map<FollowedCamera, NodeHorizon>();
   /** Starts the wasm in this thread: the cloud may be in a worker. */
   #starting: Promise<void> | undefined;
 
@@ -31,25 +31,25 @@ export class NodeHorizons {
    * @param version the version of the set of nodes that the answer is about.
    */
   begin(
-    watch: Watch,
+    camera: FollowedCamera,
     { from, isDirection }: Place,
     answer: Visibility,
-    { options, isCurrent }: Turn<VisibilityOptions>,
+    { options, isCurrent }: AskedStage<VisibilityOptions>,
     version: number | undefined,
   ): NodeHorizon | undefined {
     if (isDirection || !isCurrent() || version === undefined || !NodeHorizon.serves(options)) {
       return undefined;
     }
-    this.drop(watch);
+    this.drop(camera);
     const horizon = new NodeHorizon([...from], answer, options, version);
-    this.#horizons.set(watch, horizon);
+    this.#horizons.set(camera, horizon);
     return horizon;
   }
 
   /** @throws HprError `option`, `too-large`, `internal`. */
-  hidesBox(watch: Watch | undefined, min: ArrayLike<number>, max: ArrayLike<number>): boolean {
+  hidesBox(camera: FollowedCamera | undefined, min: ArrayLike<number>, max: ArrayLike<number>): boolean {
     const box = readBox(min, max);
-    const horizon = watch && this.#horizons.get(watch);
+    const horizon = camera && this.#horizons.get(camera);
     if (horizon?.holds(this.#nodes.version, (node) => this.#nodes.isPresent(node)) !== true) {
       return false;
     }
@@ -62,12 +62,12 @@ export class NodeHorizons {
     return horizon.hidesBox(box.subarray(0, 3), box.subarray(3));
   }
 
-  drop(watch: Watch): void {
-    this.#horizons.get(watch)?.dispose();
-    this.#horizons.delete(watch);
+  drop(camera: FollowedCamera): void {
+    this.#horizons.get(camera)?.dispose();
+    this.#horizons.delete(camera);
   }
 
   clear(): void {
-    for (const watch of [...this.#horizons.keys()]) this.drop(watch);
+    for (const camera of [...this.#horizons.keys()]) this.drop(camera);
   }
 }

@@ -1,5 +1,5 @@
 import { describe, HprError } from "../base/errors.js";
-import type { AnswerKind, Stage } from "../follow/gaze.js";
+import type { AnswerKind, Stage } from "../follow/refinement.js";
 import { givenOptions } from "./options.js";
 import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "./view-options.js";
 
@@ -7,9 +7,10 @@ import { VIEW_OPTIONS, viewSettings, type VisibilityOptions } from "./view-optio
 export interface FollowOptions {
   /**
    * Asked when the viewpoint has been at rest for 100 ms. These are the options of a view, as if no
-   * others were given, for example `{ looks: 3 }`. Default: nothing more is asked.
+   * others were given. `false`: nothing more is asked. Default: the view itself with `looks: 3`, in three
+   * dimensions and if none of `radius`, `exponent`, `inversion`, `looks`, `draft` and `sample` is given.
    */
-  settle?: VisibilityOptions | undefined;
+  settle?: VisibilityOptions | false | undefined;
   /**
    * What stands in while the answer for the present viewpoint is computed:
    *
@@ -42,17 +43,21 @@ export const FOLLOW_OPTIONS = ["settle", "stale", "moveThreshold"] as const;
 
 /** Below this number of points, no drafts are asked. */
 const DRAFTED_FROM = 10_000;
+/** A viewpoint that has not moved for this number of milliseconds is at rest. */
+const REST = 100;
+/** With one of these options, the exact answer of the view itself is the final one. */
+const FINAL_OPTIONS = ["radius", "exponent", "inversion", "looks", "draft", "sample"] as const;
 
 /**
- * `view` are the options of the view itself, which were checked already. Drafts are for answers that
- * come later: `isLater`.
+ * `view` are the options of the view itself, which were checked already. `dimension` is that of the cloud.
+ * Drafts are for answers that come later: `isLater`.
  */
 export function followSettings(
   given: Record<string, unknown>,
   view: VisibilityOptions,
-  isLater = true,
+  { dimension = 3, isLater = true } = {},
 ): FollowSettings {
-  const { settle, stale = "draft", moveThreshold = 0.001 } = given;
+  const { settle = usualSettle(view, dimension), stale = "draft", moveThreshold = 0.001 } = given;
   if (stale !== "draft" && stale !== "all" && stale !== "keep") {
     throw new HprError("option", `stale must be "draft", "all" or "keep", got ${describe(stale)}`);
   }
@@ -66,8 +71,8 @@ export function followSettings(
   if (stale === "draft" && isLater && !isQuick(view)) {
     stages.unshift(stageOf(draftOf(view)));
   }
-  if (settle !== undefined) {
-    stages.push({ ...stageOf(readSettle(settle)), atRest: true });
+  if (settle !== false) {
+    stages.push({ ...stageOf(readSettle(settle)), rest: REST });
   }
   return { stages, stale, moveThreshold };
 }
@@ -75,6 +80,11 @@ export function followSettings(
 /** The stages for a cloud with this number of points. */
 export function stagesFor({ stages }: FollowSettings, points: number): readonly Stage<VisibilityOptions>[] {
   return points < DRAFTED_FROM && stages.length > 1 && stages[0]!.kind === "draft" ? stages.slice(1) : stages;
+}
+
+function usualSettle(view: VisibilityOptions, dimension: number): VisibilityOptions | false {
+  const isFinal = dimension !== 3 || FINAL_OPTIONS.some((name) => view[name] !== undefined);
+  return isFinal ? false : { ...view, looks: 3 };
 }
 
 function readSettle(settle: unknown): VisibilityOptions {
@@ -89,7 +99,7 @@ function readSettle(settle: unknown): VisibilityOptions {
 
 function stageOf(options: VisibilityOptions): Stage<VisibilityOptions> {
   const kind: AnswerKind = options.draft === true ? "draft" : options.looks === undefined ? "operator" : "looks";
-  return { kind, options, atRest: false };
+  return { kind, options, rest: 0 };
 }
 
 /** Whether a view takes less time than its draft would. */

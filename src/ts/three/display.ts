@@ -76,6 +76,11 @@ export class Display {
     this.#show();
   }
 
+  /** Forgets the answers for this camera. */
+  drop(camera: unknown): void {
+    this.drawn.drop(camera);
+  }
+
   /** The indices of the points that are drawn, without the dimmed ones. */
   get drawnIndices(): Uint32Array {
     return this.#layers === undefined ? this.drawn.drawn : new Uint32Array(0);

@@ -2,8 +2,7 @@ import { addTag } from "../base/tag.js";
 import { describe, HprError } from "../base/errors.js";
 import type { Visibility } from "../cloud/visibility.js";
 import { Follower, type Round } from "../follow/follower.js";
-import { type AnswerKind, Gaze, type Turn } from "../follow/gaze.js";
-import { turnRound } from "../follow/turn-round.js";
+import { type AnswerKind, type AskedStage, Refinement } from "../follow/refinement.js";
 import { FOLLOW_OPTIONS, type FollowOptions, followSettings, stagesFor } from "../query/follow-options.js";
 import { type CloudSize, givenOptions, pick } from "../query/options.js";
 import { isNear, type Place } from "../query/place.js";
@@ -31,8 +30,6 @@ export interface StreamedAnswer {
   readonly viewpoint: readonly number[] | null;
   /** x, y, z; null for a view from a viewpoint. */
   readonly direction: readonly number[] | null;
-  /** Whether the stream is still at this view. */
-  readonly isCurrent: boolean;
   /** The time from the question to the answer. */
   readonly milliseconds: number;
 }
@@ -70,11 +67,11 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
   readonly #options: ViewStreamOptions;
   readonly #settings: ReturnType<typeof followSettings>;
   readonly #follower: Follower;
-  readonly #gaze: Gaze<VisibilityOptions>;
+  readonly #refinement: Refinement<VisibilityOptions>;
   #place: Place | undefined;
   /** The size of the cloud that was asked about. */
   #size: CloudSize | undefined;
-  #last: { answer: StreamedAnswer; turn: Turn } | undefined;
+  #last: { answer: StreamedAnswer; stage: AskedStage } | undefined;
   #waiting: { resolve: () => void; reject: (error: Error) => void }[] = [];
   #isOver = false;
 
@@ -94,14 +91,14 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
     }
     this.#cloud = cloud;
     this.#options = given;
-    this.#settings = followSettings(given, view);
+    this.#settings = followSettings(given, view, { dimension: cloud.dimension });
     this.#follower = new Follower({
       next: () => this.#round(),
       refused: (error, again) => {
         this.#refused(error, again);
       },
     });
-    this.#gaze = new Gaze<VisibilityOptions>([], () => {
+    this.#refinement = new Refinement<VisibilityOptions>(() => {
       this.#follower.follow();
     });
   }
@@ -131,14 +128,9 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
     return this.#last?.answer ?? null;
   }
 
-  /** Whether the last answer belongs to the present view. */
-  get isCurrent(): boolean {
-    return this.#last?.answer.isCurrent ?? false;
-  }
-
   /** Whether the last answer is final: no better one comes until the view or the cloud changes. */
-  get isSettled(): boolean {
-    return this.#gaze.isComplete && !this.#follower.isBusy;
+  get settled(): boolean {
+    return this.#refinement.isSettled && !this.#follower.isBusy;
   }
 
   /**
@@ -146,7 +138,7 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
    * all points: before the first answer, and with `stale: "all"` until the present view is answered.
    */
   get visible(): Uint32Array | null {
-    const isStale = this.#settings.stale === "all" && !this.isCurrent;
+    const isStale = this.#settings.stale === "all" && this.#last?.stage.isCurrent() !== true;
     return isStale ? null : (this.#last?.answer.visibility.indices ?? null);
   }
 
@@ -168,8 +160,7 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
   /** Ends the stream. The cloud stays. May be called twice. */
   dispose(): void {
     this.#isOver = true;
-    this.#gaze.stages = [];
-    this.#gaze.moved();
+    this.#refinement.begin([]);
     this.#follower.stop();
     this.#wake(({ resolve }) => {
       resolve();
@@ -185,37 +176,32 @@ export class ViewStream implements AsyncIterable<StreamedAnswer> {
     if (!isSame && !this.#isOver) {
       this.#place = place;
       this.#size = size;
-      this.#gaze.stages = stagesFor(this.#settings, size.length);
-      this.#gaze.moved();
+      this.#refinement.moved(stagesFor(this.#settings, size.length));
     }
     this.#follower.follow();
   }
 
   #round(): Round | undefined {
     const place = this.#place;
-    if (place === undefined || this.#gaze.due === undefined) {
+    if (place === undefined || this.#refinement.due === undefined) {
       return undefined;
     }
     const begun = performance.now();
-    return turnRound(
-      this.#gaze,
+    return this.#refinement.round(
       ({ options, signal }) => this.#cloud.ask(place, { ...options, signal }),
-      (visibility, turn) => this.#use(visibility, turn, place, performance.now() - begun),
+      (visibility, stage) => this.#use(visibility, stage, place, performance.now() - begun),
     );
   }
 
-  #use(visibility: Visibility, turn: Turn, { from, isDirection }: Place, milliseconds: number): () => void {
+  #use(visibility: Visibility, stage: AskedStage, { from, isDirection }: Place, milliseconds: number): () => void {
     const answer: StreamedAnswer = {
-      answer: turn.kind,
+      answer: stage.kind,
       visibility,
       viewpoint: isDirection ? null : from,
       direction: isDirection ? from : null,
-      get isCurrent() {
-        return turn.isCurrent();
-      },
       milliseconds,
     };
-    this.#last = { answer, turn };
+    this.#last = { answer, stage };
     this.#follower.answered();
     return () => {
       this.#wake(({ resolve }) => {

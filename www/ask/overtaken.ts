@@ -1,4 +1,4 @@
-import { Newest } from "./newest.js";
+import { Newest } from "./newest.ts";
 
 /** {@link Newest} for questions that take long: a question hears that it was overtaken, and may give up. */
 export class Overtaken<Question> extends Newest<Question> {

@@ -1,7 +1,6 @@
 import { Follower, type Round } from "../follow/follower.js";
-import { type AnswerKind, Gaze, type Turn } from "../follow/gaze.js";
 import type { RecoveryTimes } from "../follow/recovery.js";
-import { turnRound } from "../follow/turn-round.js";
+import { type AnswerKind, Refinement } from "../follow/refinement.js";
 import { type FollowSettings, stagesFor } from "../query/follow-options.js";
 import { isNear, type Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
@@ -20,11 +19,10 @@ type ReadPositions = () => Float32Array | Float64Array;
 const ONCE: RecoveryTimes = { delays: [0], pause: Infinity, longPause: Infinity };
 
 /** A layer's cloud, in the worker that all layers share. */
-export class Sight {
+export class LayerCloud {
   readonly #tell: Listener;
-  readonly #gaze = new Gaze<VisibilityOptions>([], () => this.#follower?.follow());
+  readonly #refinement = new Refinement<VisibilityOptions>(() => this.#follower?.follow());
   #place: Place | undefined;
-  #turn: Turn | undefined;
   #settings: FollowSettings | undefined;
   #follower: Follower | undefined;
   #cloud: WorkerPointCloud | undefined;
@@ -65,11 +63,6 @@ export class Sight {
     this.#follower.follow();
   }
 
-  /** Whether the last answer belongs to the present view. */
-  get isCurrent(): boolean {
-    return this.#turn?.isCurrent() ?? false;
-  }
-
   /** Answers are wanted for this view. Returns whether it is new. */
   want(place: Place, settings: FollowSettings): boolean {
     const isSame =
@@ -87,13 +80,12 @@ export class Sight {
 
   #begin(): void {
     if (this.#settings !== undefined) {
-      this.#gaze.stages = stagesFor(this.#settings, this.length);
-      this.#gaze.moved();
+      this.#refinement.moved(stagesFor(this.#settings, this.length));
     }
   }
 
   dispose(): void {
-    this.#gaze.stop();
+    this.#refinement.stop();
     this.#follower?.stop();
     this.#follower = undefined;
     this.#dropCloud();
@@ -104,7 +96,7 @@ export class Sight {
       return this.#preparing(this.#unread);
     }
     const [cloud, place] = [this.#cloud, this.#place];
-    const isDue = cloud !== undefined && place !== undefined && this.#gaze.due !== undefined;
+    const isDue = cloud !== undefined && place !== undefined && this.#refinement.due !== undefined;
     return isDue ? this.#viewing(cloud, place) : undefined;
   }
 
@@ -126,20 +118,18 @@ export class Sight {
 
   #viewing(cloud: WorkerPointCloud, { from, isDirection }: Place): Round<Visibility> {
     const begun = performance.now();
-    return turnRound(
-      this.#gaze,
+    return this.#refinement.round(
       ({ options, signal }) => {
         const asked = { ...options, signal };
         return isDirection ? cloud.visibleFromDirection(from, asked) : cloud.visibleFrom(from, asked);
       },
-      (answer, turn) => {
+      (answer, stage) => {
         this.#follower?.answered();
-        if (this.#settings?.stale === "all" && !turn.isCurrent()) {
+        if (this.#settings?.stale === "all" && !stage.isCurrent()) {
           return undefined;
         }
-        this.#turn = turn;
         return () => {
-          this.#tell.answer(answer, turn.kind, performance.now() - begun);
+          this.#tell.answer(answer, stage.kind, performance.now() - begun);
           cloud.recycle(answer);
         };
       },

@@ -1,0 +1,270 @@
+import { type Camera, EventDispatcher, type EventListener, type Object3D } from "three";
+
+import { HprError } from "../base/errors.js";
+import { addTag } from "../base/tag.js";
+import type { Visibility } from "../cloud/visibility.js";
+import { Follower, type Round } from "../follow/follower.js";
+import { Readiness } from "../follow/readiness.js";
+import type { AnswerKind, AskedStage } from "../follow/refinement.js";
+import type { FollowSettings } from "../query/follow-options.js";
+import type { Place } from "../query/place.js";
+import type { VisibilityOptions } from "../query/view-options.js";
+import { type FollowedCamera, FollowedCameras } from "./cameras.js";
+
+type Name<Events> = Extract<keyof Events, string>;
+interface FilterEvents {
+  change: { count: number; milliseconds: number; answer: AnswerKind; camera: Camera };
+  error: { error: Error };
+}
+
+/** What a filter draws: the points that each camera sees. */
+export interface Drawing {
+  /** Whether only the visible points are drawn. */
+  enabled: boolean;
+  /** Copies the changes of the points since the last frame. */
+  follow(): void;
+  /** Draws what this camera sees. */
+  select(camera: unknown): void;
+  /** Draws all points for this camera until its next answer. */
+  setStale(camera: unknown): void;
+  /** Forgets the answers for this camera. */
+  drop(camera: unknown): void;
+  dispose(): void;
+}
+
+/**
+ * What the filters have in common: the cameras, the questions about their views, losses, refusals and listeners.
+ * An error without a listener becomes an unhandled rejection, like the error of any promise that nobody awaits.
+ */
+export abstract class CameraFilter<Events extends FilterEvents> extends EventDispatcher<Events> {
+  /**
+   * While true, the filter asks about no new view, even if the camera moves. An answer that is on
+   * its way is still drawn, and so are better answers for the same view.
+   */
+  frozen = false;
+  /** @internal */
+  protected readonly readiness = new Readiness();
+  /**
+   * Resolves when the first exact answer is drawn. A `HiddenPointFilter` that was not updated so far resolves it
+   * when its points are prepared. Rejects with the error if the points or that view are refused.
+   */
+  readonly ready: Promise<void> = this.readiness.promise;
+
+  /** @internal */
+  protected readonly cameras: FollowedCameras;
+  /** @internal */
+  protected readonly follower = new Follower({
+    next: () => this.next(),
+    refused: (error, again) => {
+      if (!again) this.report({ error } as Events["error"]);
+      this.tell();
+    },
+    lost: (isComingBack) => {
+      this.dropCloud();
+      // If the cloud does not come back by itself, another view may succeed.
+      this.#isMoved &&= isComingBack;
+      this.tell();
+    },
+  });
+  /** @internal */
+  protected abstract readonly drawing: Drawing;
+  readonly #object: Object3D;
+  readonly #settings: FollowSettings;
+  readonly #heard = new Set<unknown>();
+  /** The errors that listeners have not received yet. They are sent last, because listeners may throw. */
+  readonly #untold: { event: Events["error"]; isOfView: boolean }[] = [];
+  /** Whether a camera has moved since the cloud was lost. */
+  #isMoved = false;
+  #isDisposed = false;
+
+  static {
+    addTag(this.prototype, "HiddenPointFilter");
+  }
+
+  /** `object` has the space of the cloud. */
+  constructor(object: Object3D, settings: FollowSettings) {
+    super();
+    this.#object = object;
+    this.#settings = settings;
+    this.cameras = new FollowedCameras(
+      settings,
+      () => {
+        this.follower.follow();
+      },
+      (camera) => {
+        this.drawing.drop(camera);
+        this.leave(camera);
+      },
+    );
+  }
+
+  /** While false, everything is drawn and nothing is asked. Default true. */
+  get enabled(): boolean {
+    return this.drawing.enabled;
+  }
+
+  set enabled(enabled: boolean) {
+    this.drawing.enabled = enabled;
+  }
+
+  /** What is drawn for the camera of the last `update`. Null before the first answer. */
+  get answer(): AnswerKind | null {
+    return this.cameras.last?.answer ?? null;
+  }
+
+  /**
+   * Whether no answer is on its way or due. Then the picture shows the final answer for the points and the
+   * camera of the last `update`, unless these were refused.
+   */
+  get settled(): boolean {
+    if (this.follower.isWaiting || this.follower.isLost) {
+      return !this.follower.isWaiting;
+    }
+    const isIdle = this.frozen || !this.enabled || this.#isDisposed || this.isEmpty;
+    return !this.wantsAnswer && (isIdle || this.cameras.areSettled);
+  }
+
+  /**
+   * Call this in each frame, before rendering (and after a viewer has chosen its nodes). It asks for an answer
+   * if the view or the points are new, and draws the answer when it arrives (with `worker: false`, at once).
+   * While one view is being answered, only the newest of the later views is kept.
+   */
+  update(camera: Camera): void {
+    if (this.#isDisposed) {
+      return;
+    }
+    let isChanged;
+    try {
+      this.drawing.follow();
+      if (!this.enabled || this.frozen) {
+        return;
+      }
+      const followed = this.cameras.of(camera);
+      this.drawing.select(followed);
+      if (this.cameras.look(followed, this.#object)) {
+        this.#isMoved = true;
+        this.leave(followed);
+      }
+      isChanged = this.noticeChanges();
+      if (this.#settings.stale === "all" && !followed.isCurrent && followed.drawn !== undefined) {
+        this.drawing.setStale(followed);
+        followed.drawn = undefined;
+      }
+    } catch (error) {
+      this.follower.refuse(error);
+      return;
+    }
+    this.follower.wish(this.#isMoved || isChanged);
+    this.tell();
+  }
+
+  /** Draws everything as it was before, and frees the memory of the cloud. May be called twice. */
+  dispose(): void {
+    if (this.#isDisposed) {
+      return;
+    }
+    this.#isDisposed = true;
+    this.follower.stop();
+    this.cameras.stop();
+    this.drawing.dispose();
+    this.dropCloud();
+    // The caller of dispose() knows this already, so this is never an unhandled rejection.
+    this.readiness.reject(new HprError("disposed", "this filter has been disposed of"), true);
+  }
+
+  /** Calls the listener with each event of that type. */
+  override addEventListener<T extends Name<Events>>(type: T, listener: EventListener<Events[T], T, this>): void {
+    if (type === "error") {
+      this.#heard.add(listener);
+    }
+    super.addEventListener(type, listener);
+  }
+
+  /** Stops calling the listener. */
+  override removeEventListener<T extends Name<Events>>(type: T, listener: EventListener<Events[T], T, this>): void {
+    if (type === "error") {
+      this.#heard.delete(listener);
+    }
+    super.removeEventListener(type, listener);
+  }
+
+  /** Whether the points are not those of the cloud. @internal */
+  protected abstract get isStale(): boolean;
+
+  /** Whether there are no points to ask about. @internal */
+  protected abstract get isEmpty(): boolean;
+
+  /** The round that is due now. @internal */
+  protected abstract next(): Round | undefined;
+
+  /** Notes how the points have changed since the last frame. Returns whether they have. @internal */
+  protected abstract noticeChanges(): boolean;
+
+  /** A camera has moved on, or is forgotten. @internal */
+  protected abstract leave(camera: FollowedCamera): void;
+
+  /** @internal */
+  protected abstract dropCloud(): void;
+
+  /** @internal */
+  protected get wantsAnswer(): boolean {
+    if (!this.enabled || this.#isDisposed) {
+      return false;
+    }
+    return this.isStale || (!this.isEmpty && this.cameras.due(this.frozen) !== undefined);
+  }
+
+  /**
+   * Asks the cloud about a camera's view. `draw` draws the answer, and returns what listeners are told, or undefined
+   * if the answer is about other points.
+   *
+   * @internal
+   */
+  protected view(
+    camera: FollowedCamera,
+    ask: (place: Place, options: VisibilityOptions, signal: AbortSignal) => Visibility | Promise<Visibility>,
+    draw: (answer: Visibility, stage: AskedStage<VisibilityOptions>, place: Place) => { count: number } | undefined,
+  ): Round<Visibility> {
+    const begun = performance.now();
+    const { place } = camera.eye;
+    return camera.refinement.round(
+      ({ options, signal }) => ask(place, options, signal),
+      (answer, stage) => {
+        const isOutdated = this.#settings.stale === "all" && !stage.isCurrent();
+        const drawn = isOutdated ? undefined : draw(answer, stage, place);
+        if (drawn === undefined) {
+          return undefined;
+        }
+        camera.drawn = stage;
+        this.follower.answered();
+        if (stage.kind !== "draft") {
+          this.readiness.resolve();
+        }
+        const milliseconds = performance.now() - begun;
+        const change = { ...drawn, milliseconds, answer: stage.kind, camera: camera.camera };
+        return () => {
+          this.tell();
+          this.dispatchEvent({ type: "change", ...change } as never);
+        };
+      },
+    );
+  }
+
+  /** Notes an error, which the next `tell` reports. `isOfView`: without a listener, it rejects `ready`. @internal */
+  protected report(event: Events["error"], isOfView = true): void {
+    this.#untold.push({ event, isOfView });
+  }
+
+  /** @internal */
+  protected tell(): void {
+    for (const { event, isOfView } of this.#untold.splice(0)) {
+      const isHeard = this.#heard.size > 0;
+      if (isOfView) {
+        this.readiness.reject(event.error, isHeard);
+      } else if (!isHeard) {
+        void Promise.reject(event.error);
+      }
+      this.dispatchEvent({ type: "error", ...event } as never);
+    }
+  }
+}
