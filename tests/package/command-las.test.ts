@@ -17,7 +17,7 @@ const fixture = (name: string) => readFileSync(join(import.meta.dirname, "../bro
 
 const POINTS = inMillimeters(georeferencedBall(600));
 const VIEWPOINT = [512_345, 5_403_209, 450];
-const visible = new PointCloud(POINTS).visibleFrom(VIEWPOINT).indices;
+const visible = new PointCloud(POINTS).visibleFrom(VIEWPOINT, { looks: 3 }).indices;
 
 function filtered(name: string, content: Uint8Array, output: string, ...options: string[]): Buffer {
   write(name, content);
@@ -56,7 +56,7 @@ describe("the visible points of a LAS file are a LAS file", () => {
   it("and of a COPC file, in the order of the file", () => {
     const { header, rows } = opened(filtered("tree.copc.laz", fixture("octree.copc.laz"), "out-tree.las"));
     const everything = inMillimeters(georeferencedBall(3000));
-    const expected = new PointCloud(everything).visibleFrom(VIEWPOINT).indices;
+    const expected = new PointCloud(everything).visibleFrom(VIEWPOINT, { looks: 3 }).indices;
     const place = (x: number, y: number, z: number) => [x, y, z].map((value) => value.toFixed(3)).join(" ");
     const found = rows.map((row) => {
       const at = (axis: number) => row.readInt32LE(4 * axis) * header.scale[axis]! + header.offset[axis]!;

@@ -49,8 +49,8 @@ describe("the options of a view have the effect of the library's", () => {
     [["--inversion", "exponential:auto"], { inversion: { exponential: "auto" } }],
     [["--looks", "2"], { looks: 2 }],
     [["--looks", "3"], { looks: 3 }],
-    [["--denoise", "8"], { denoise: 8 }],
-    [["--vote", "8"], { vote: 8 }],
+    [["--denoise", "8"], { looks: 3, denoise: 8 }],
+    [["--vote", "8"], { looks: 3, vote: 8 }],
   ];
   const usual = [...cloud.visibleFrom(VIEWPOINT).indices];
   it.each(OPTIONS)("%j", (args, options) => {
@@ -60,11 +60,12 @@ describe("the options of a view have the effect of the library's", () => {
     expect(expected).not.toEqual(usual);
   });
 
-  it("--radius auto, --exponent auto and --inversion spherical are the defaults", () => {
+  it("--radius auto, --exponent auto, --inversion spherical and --looks 0 ask for the operator alone", () => {
     for (const args of [
       ["--radius", "auto"],
       ["--exponent", "auto"],
       ["--inversion", "spherical"],
+      ["--looks", "0"],
     ]) {
       done(...FROM, ...args, "-o", "view.idx");
       expect(numbers("view.idx")).toEqual(usual);
@@ -87,7 +88,7 @@ describe("the options of a view have the effect of the library's", () => {
 });
 
 describe("masks", () => {
-  const mask = cloud.visibleFrom(VIEWPOINT).mask();
+  const mask = cloud.visibleFrom(VIEWPOINT, { looks: 3 }).mask();
   it("are text, or a mask of NumPy", () => {
     done(...FROM, "-o", "seen.mask");
     expect(numbers("seen.mask")).toEqual([...mask]);
@@ -105,7 +106,7 @@ describe("--camera", () => {
     distortion: [0.1, -0.01, 0.001, 0.002, 0],
   });
   write("camera.json", JSON.stringify(camera));
-  const view = cloud.visibleFromCamera(camera);
+  const view = cloud.visibleFromCamera(camera, { looks: 3 });
 
   it("writes index, pixel and depth of each visible point in the image", () => {
     expect(view.count).toBeGreaterThan(50);
@@ -163,7 +164,7 @@ describe("--viewpoints", () => {
     done("in.xyz", "--viewpoints", "places.csv", "-o", "seen-{name}.xyz");
     const all = lines("in.xyz");
     for (const [name, at] of Object.entries(PLACES)) {
-      expect(lines(`seen-${name}.xyz`)).toEqual([...cloud.visibleFrom(at).indices].map((i) => all[i]));
+      expect(lines(`seen-${name}.xyz`)).toEqual([...cloud.visibleFrom(at, { looks: 3 }).indices].map((i) => all[i]));
     }
     done("in.xyz", "--viewpoints", "places.csv", "--looks", "3", "--score-threshold", "0.6", "-o", "sure-{name}.mask");
     const { scores } = cloud.visibleFrom(PLACES.back, { looks: 3, scores: true });
@@ -179,7 +180,7 @@ describe("--viewpoints", () => {
     write("table.csv", content);
     const { stderr } = run("in.xyz", "--viewpoints", "table.csv", "-o", "each-{name}.idx");
     names.forEach((name, i) => {
-      expect(numbers(`each-${name}.idx`)).toEqual([...cloud.visibleFrom(places[i]!).indices]);
+      expect(numbers(`each-${name}.idx`)).toEqual([...cloud.visibleFrom(places[i]!, { looks: 3 }).indices]);
       expect(stderr).toContain(`points are visible from ${name}`);
     });
   });
@@ -221,8 +222,8 @@ describe("combinations without a meaning", () => {
     [[...FROM, "--inversion", "power:2", "--exponent", "2"], /--exponent cannot be combined with --inversion power/],
     [[...FROM, "--inversion", "power:2", "--radius", "search"], /--radius search cannot be combined with/],
     [[...FROM, "--inversion", "exponential:1", "--radius", "9"], /--radius 9 cannot be combined with/],
-    [[...FROM, "--score-threshold", "0.5"], /--score-threshold needs --looks 2 or 3/],
-    [[...FROM, "--format", "scores", "-o", "never.txt"], /--format scores needs --looks 2 or 3/],
+    [[...FROM, "--looks", "0", "--score-threshold", "0.5"], /--score-threshold needs --looks 2 or 3/],
+    [[...FROM, "--exponent", "2", "--format", "scores", "-o", "never.txt"], /--format scores needs --looks 2 or 3/],
     [[...FROM, ...LOOKS, "--score-threshold", "0.5", "--format", "scores", "-o", "never.txt"], /writes all scores/],
     [["in.xyz", "--viewpoints", "places.csv", ...LOOKS, "--score-threshold", "0.5"], /needs one viewpoint/],
     [["in.xyz", "--camera", "c.json", ...LOOKS, "--score-threshold", "0.5"], /needs one viewpoint/],
@@ -242,7 +243,7 @@ describe("combinations without a meaning", () => {
     [[...FROM, "--radius", "-3"], /--radius needs a number above 0/],
     [[...FROM, "--inversion", "power:1"], /--inversion needs/],
     [[...FROM, "--inversion", "exponential"], /--inversion needs/],
-    [[...FROM, "--looks", "4"], /--looks needs 2 or 3/],
+    [[...FROM, "--looks", "4"], /--looks needs 0, 2 or 3/],
     [[...FROM, "--denoise", "0"], /--denoise needs a whole number from 1/],
     [[...FROM, "--vote", "1.5"], /--vote needs a whole number from 1/],
     [[...FROM, ...LOOKS, "--score-threshold", "2"], /--score-threshold needs a number from 0 to 1/],

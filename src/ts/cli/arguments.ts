@@ -147,12 +147,14 @@ function checkInput(input: string, hasColumns: boolean): void {
 
 /** The options of a view. Those that exclude each other are refused. */
 function viewOptions(values: Values): VisibilityOptions {
-  const { radius, exponent, inversion, looks, denoise, vote } = values;
+  const { radius, exponent, inversion, denoise, vote } = values;
+  const isOperator = radius !== undefined || exponent !== undefined || inversion !== undefined;
+  const looks = values.looks === undefined ? (isOperator ? 0 : 3) : readLooks(values.looks);
   const options: VisibilityOptions = {
     ...(radius === undefined ? {} : { radius: readRadius(radius) }),
     ...(exponent === undefined ? {} : { exponent: readExponent(exponent) }),
     ...(inversion === undefined ? {} : { inversion: readInversion(inversion) }),
-    ...(looks === undefined ? {} : { looks: readLooks(looks) }),
+    ...(looks === 0 ? {} : { looks }),
     ...(denoise === undefined ? {} : { denoise: readNeighbors("denoise", denoise) }),
     ...(vote === undefined ? {} : { vote: readNeighbors("vote", vote) }),
   };

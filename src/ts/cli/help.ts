@@ -19,8 +19,9 @@ How (the defaults fit most clouds):
   --exponent E         R is the farthest distance times 10^E (0 or more); the larger, the
                        more points
   --inversion I        spherical (the default), power:G, exponential:C or exponential:auto
-  --looks N            2 or 3 looks instead of one flip: truer answers, about 3 times the work
-  --score-threshold T  with --looks: the points whose score is at least T, from 0 to 1
+  --looks N            2 or 3 looks: truer answers than one flip, about 3 times the work; 0 is one
+                       flip. The default is 3, and 0 with one of the three options above
+  --score-threshold T  with looks: the points whose score is at least T, from 0 to 1
   --denoise K          for noisy points: first moves each onto the plane of its K neighbors
   --vote K             for noisy points: lets each point and its K neighbors vote
 
@@ -29,7 +30,7 @@ What to write:
                        {name} in it is one file for each viewpoint; without, OUT holds what any
                        of them sees
   --coverage           with --viewpoints: how many of them see each point
-  --format F           points (a file like IN), indices, mask, scores (with --looks), pixels
+  --format F           points (a file like IN), indices, mask, scores (with looks), pixels
                        (index, u, v, depth; with --camera) or counts (with --coverage). The
                        default follows from OUT: an ending like IN's is points, .idx indices,
                        .mask and .npy a mask; with --camera, a table or .npy is pixels

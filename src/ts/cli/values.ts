@@ -44,9 +44,11 @@ export function readInversion(text: string): NonNullable<VisibilityOptions["inve
   );
 }
 
-export function readLooks(text: string): 2 | 3 {
-  if (text !== "2" && text !== "3") throw new UsageProblem(`--looks needs 2 or 3, not ${text}`);
-  return text === "2" ? 2 : 3;
+/** 0: the operator alone. */
+export function readLooks(text: string): 0 | 2 | 3 {
+  const looks = ([0, 2, 3] as const).find((count) => String(count) === text);
+  if (looks === undefined) throw new UsageProblem(`--looks needs 0, 2 or 3, not ${text}`);
+  return looks;
 }
 
 /** @param option the name of the option, for the message */
