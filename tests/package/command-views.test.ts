@@ -154,7 +154,7 @@ describe("--viewpoints", () => {
 
   it("--coverage counts the viewpoints that see each point", () => {
     done("in.xyz", "--viewpoints", "places.csv", "--coverage", "-o", "counts.txt");
-    const counts = cloud.coverage(places);
+    const counts = cloud.coverage(places, { looks: 3 });
     expect(numbers("counts.txt")).toEqual([...counts]);
     done("in.xyz", "--viewpoints", "places.csv", "--coverage", "-o", "counts.npy");
     expect(numpy(read("counts.npy")).data.equals(Buffer.from(counts.buffer))).toBe(true);

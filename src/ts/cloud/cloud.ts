@@ -3,24 +3,12 @@ import type { ChosenRadius } from "../query/answers.js";
 import { CoreCloud } from "./core-cloud.js";
 import { addDisposeSymbol } from "../base/dispose-symbol.js";
 import { addTag } from "../base/tag.js";
+import { type MethodName, readQuestion } from "./methods.js";
 import { requireInstance } from "../instance/instance.js";
 import { CLOUD_OPTIONS, cloudSettings, givenOptions, pick, type PointCloudOptions } from "../query/options.js";
 import type { Positions } from "../query/positions.js";
 import type { Camera } from "../query/camera.js";
-import {
-  cameraQuery,
-  directionQuery,
-  ILLUMINATION_OPTIONS,
-  type IlluminationOptions,
-  illuminationQuery,
-  radiusQuery,
-  RECONSTRUCTION_OPTIONS,
-  type ReconstructionOptions,
-  reconstructionQuery,
-  seesQuery,
-  severalQuery,
-  viewQuery,
-} from "../query/queries.js";
+import type { IlluminationOptions, ReconstructionOptions } from "../query/queries.js";
 import type { Placement } from "../query/placement.js";
 import {
   COVERAGE_OPTIONS,
@@ -35,14 +23,7 @@ import {
   type SurveyTask,
 } from "../query/surveys.js";
 import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
-import {
-  CameraAnswer,
-  type CameraView,
-  type Reconstruction,
-  ReconstructionAnswer,
-  type Visibility,
-  VisibilityAnswer,
-} from "./visibility.js";
+import { type CameraView, type Reconstruction, type Visibility, VisibilityAnswer } from "./visibility.js";
 
 /**
  * A point cloud in the memory of the wasm. It is prepared once, and can then be asked from as many
@@ -123,9 +104,7 @@ export class PointCloud {
    * @throws HprError `viewpoint`, `option`, `radius`, `too-large`, `disposed`, `internal`.
    */
   visibleFrom(viewpoint: ArrayLike<number>, options?: VisibilityOptions): Visibility {
-    this.#core.requireOpen();
-    const given = givenOptions(options, VIEW_OPTIONS);
-    return new VisibilityAnswer(this.#core.ask(viewQuery(this.#core.dimension, viewpoint, given)));
+    return this.#ask("visibleFrom", viewpoint, options);
   }
 
   /**
@@ -144,9 +123,7 @@ export class PointCloud {
    * @throws HprError `viewpoint` for the direction, otherwise the same as {@link PointCloud.visibleFrom}.
    */
   visibleFromDirection(direction: ArrayLike<number>, options?: VisibilityOptions): Visibility {
-    this.#core.requireOpen();
-    const given = givenOptions(options, VIEW_OPTIONS);
-    return new VisibilityAnswer(this.#core.ask(directionQuery(this.#core.dimension, direction, given)));
+    return this.#ask("visibleFromDirection", direction, options);
   }
 
   /**
@@ -157,9 +134,7 @@ export class PointCloud {
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
   visibleFromAny(viewpoints: readonly ArrayLike<number>[], options?: VisibilityOptions): Visibility {
-    this.#core.requireOpen();
-    const given = givenOptions(options, VIEW_OPTIONS);
-    return new VisibilityAnswer(this.#core.ask(severalQuery(this.#core.dimension, viewpoints, given)));
+    return this.#ask("visibleFromAny", viewpoints, options);
   }
 
   /**
@@ -171,9 +146,7 @@ export class PointCloud {
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
   visibleFromAtLeast(k: number, viewpoints: readonly ArrayLike<number>[], options?: VisibilityOptions): Visibility {
-    this.#core.requireOpen();
-    const given = givenOptions(options, VIEW_OPTIONS);
-    return new VisibilityAnswer(this.#core.ask(severalQuery(this.#core.dimension, viewpoints, given, { k })));
+    return this.#ask("visibleFromAtLeast", k, viewpoints, options);
   }
 
   /**
@@ -186,9 +159,7 @@ export class PointCloud {
    * @throws HprError `viewpoint` for the camera, otherwise as {@link PointCloud.visibleFrom}.
    */
   visibleFromCamera(camera: Camera, options?: VisibilityOptions): CameraView {
-    this.#core.requireOpen();
-    const given = givenOptions(options, VIEW_OPTIONS);
-    return new CameraAnswer(this.#core.ask(cameraQuery(this.#core.dimension, camera, given)));
+    return this.#ask("visibleFromCamera", camera, options);
   }
 
   /**
@@ -205,9 +176,7 @@ export class PointCloud {
    *   {@link PointCloud.visibleFrom}.
    */
   sees(viewpoint: ArrayLike<number>, positions: Positions, options?: VisibilityOptions): Uint8Array {
-    this.#core.requireOpen();
-    const given = givenOptions(options, VIEW_OPTIONS);
-    return this.#core.ask(seesQuery(this.#core.settings, viewpoint, positions, given)).seen;
+    return this.#ask("sees", viewpoint, positions, options);
   }
 
   /**
@@ -258,8 +227,7 @@ export class PointCloud {
    * @throws HprError `viewpoint`, `option`, `radius`, `too-large`, `disposed`, `internal`.
    */
   autoRadius(viewpoint: ArrayLike<number>, rule?: RadiusRule): ChosenRadius {
-    this.#core.requireOpen();
-    return this.#core.ask(radiusQuery(this.#core.dimension, viewpoint, rule));
+    return this.#ask("autoRadius", viewpoint, rule);
   }
 
   /**
@@ -272,9 +240,7 @@ export class PointCloud {
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
   reconstruct(viewpoint: ArrayLike<number>, options?: ReconstructionOptions): Reconstruction {
-    this.#core.requireOpen();
-    const given = givenOptions(options, RECONSTRUCTION_OPTIONS);
-    return new ReconstructionAnswer(this.#core.ask(reconstructionQuery(this.#core.dimension, viewpoint, given)));
+    return this.#ask("reconstruct", viewpoint, options);
   }
 
   /**
@@ -287,9 +253,7 @@ export class PointCloud {
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
   illuminate(lights: readonly ArrayLike<number>[], options?: IlluminationOptions): Float32Array {
-    this.#core.requireOpen();
-    const given = givenOptions(options, ILLUMINATION_OPTIONS);
-    return this.#core.ask(illuminationQuery(this.#core.dimension, lights, given)).brightness;
+    return this.#ask("illuminate", lights, options);
   }
 
   /**
@@ -330,6 +294,12 @@ export class PointCloud {
    */
   recycle(answer: Visibility): void {
     this.#core.keepMemory(VisibilityAnswer.takeMemory(answer));
+  }
+
+  #ask<Name extends MethodName>(name: Name, ...args: readonly unknown[]): ReturnType<PointCloud[Name]> {
+    this.#core.requireOpen();
+    const { query, answer } = readQuestion(name, this.#core.settings, args);
+    return answer(this.#core.ask(query) as never) as ReturnType<PointCloud[Name]>;
   }
 
   /** Frees the cloud's memory. Earlier answers stay valid. May be called twice. */

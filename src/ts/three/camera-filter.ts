@@ -56,7 +56,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends EventDis
   protected readonly follower = new Follower({
     next: () => this.next(),
     refused: (error, again) => {
-      if (!again) this.report({ error } as Events["error"]);
+      if (!again) this.report({ error });
       this.tell();
     },
     lost: (isComingBack) => {

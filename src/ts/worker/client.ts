@@ -1,5 +1,5 @@
 /// <reference lib="esnext.disposable" preserve="true" />
-import type { Answers, ChosenRadius } from "../query/answers.js";
+import type { ChosenRadius } from "../query/answers.js";
 import { addDisposeSymbol } from "../base/dispose-symbol.js";
 import { addTag } from "../base/tag.js";
 import { HprError } from "../base/errors.js";
@@ -17,23 +17,6 @@ import {
 } from "../query/options.js";
 import type { Place } from "../query/place.js";
 import { isFloatArray, type Positions, readIndices, readPositions } from "../query/positions.js";
-import type { Camera } from "../query/camera.js";
-import {
-  cameraQuery,
-  directionQuery,
-  ILLUMINATION_OPTIONS,
-  type IlluminationOptions,
-  illuminationQuery,
-  type Query,
-  type QueryKind,
-  radiusQuery,
-  RECONSTRUCTION_OPTIONS,
-  type ReconstructionOptions,
-  reconstructionQuery,
-  seesQuery,
-  severalQuery,
-  viewQuery,
-} from "../query/queries.js";
 import type { Placement } from "../query/placement.js";
 import {
   COVERAGE_OPTIONS,
@@ -46,15 +29,10 @@ import {
   readSurvey,
   type SurveyTask,
 } from "../query/surveys.js";
-import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
-import {
-  CameraAnswer,
-  type CameraView,
-  type Reconstruction,
-  ReconstructionAnswer,
-  type Visibility,
-  VisibilityAnswer,
-} from "../cloud/visibility.js";
+import type { RadiusRule, VisibilityOptions } from "../query/view-options.js";
+import type { PointCloud } from "../cloud/cloud.js";
+import { METHODS, type MethodName, readQuestion } from "../cloud/methods.js";
+import { type Visibility, VisibilityAnswer } from "../cloud/visibility.js";
 import { abortError, BY_SIGNAL, readSignal, untilAborted } from "./abort.js";
 import { type Progress, readProgress } from "./progress.js";
 import { RequestQueue } from "./request-queue.js";
@@ -114,6 +92,23 @@ export interface WorkerVisibilityOptions extends VisibilityOptions, RequestOptio
 const CREATE_OPTIONS = ["transfer", "workers", "shared", "signal", "onProgress"] as const;
 const REQUEST_OPTIONS = ["latest", "signal"] as const;
 
+/** A method of `PointCloud` that returns a promise and takes {@link RequestOptions} beside its own options. */
+type Promised<Method> = Method extends (...args: [...infer Head, (infer Options)?]) => infer Answer
+  ? (...args: [...Head, options?: Options & RequestOptions]) => Promise<Answer>
+  : never;
+
+/** The questions to a cloud, as promises. Requests are answered in order. */
+export type PromisedQuestions = {
+  [Name in Exclude<MethodName, "autoRadius">]: Promised<PointCloud[Name]>;
+} & {
+  /** The radius that a rule chooses for a viewpoint; see `PointCloud.autoRadius`. */
+  autoRadius(viewpoint: ArrayLike<number>, rule?: RadiusRule, options?: RequestOptions): Promise<ChosenRadius>;
+};
+
+// The class has these methods from the table of methods.
+// eslint-disable-next-line @typescript-eslint/no-empty-object-type, @typescript-eslint/no-unsafe-declaration-merging
+export interface WorkerPointCloud extends PromisedQuestions {}
+
 /**
  * A point cloud in its own workers, with the methods and the answers of `PointCloud`. Each method
  * returns a promise. Nothing needs to be initialized. Only if the wasm file is in an unusual place,
@@ -124,6 +119,7 @@ const REQUEST_OPTIONS = ["latest", "signal"] as const;
  * 20 seconds in which the page runs, it is replaced once and asked again; if its successor is silent, too, or
  * if the positions were given away (`transfer`), the calls are rejected with `internal`.
  */
+// eslint-disable-next-line @typescript-eslint/no-unsafe-declaration-merging
 export class WorkerPointCloud {
   /** The same as {@link WorkerPointCloud.dispose}, on platforms that have `Symbol.dispose`. */
   declare readonly [Symbol.dispose]: () => void;
@@ -135,6 +131,12 @@ export class WorkerPointCloud {
   static {
     addDisposeSymbol(this.prototype);
     addTag(this.prototype, "WorkerPointCloud");
+    for (const name of Object.keys(METHODS) as MethodName[]) {
+      const value = function (this: WorkerPointCloud, ...args: unknown[]) {
+        return this.#ask(name, args);
+      };
+      Object.defineProperty(this.prototype, name, { value, writable: true, configurable: true });
+    }
   }
 
   private constructor(queue: RequestQueue, settings: CloudSettings, size: CloudSize) {
@@ -213,33 +215,6 @@ export class WorkerPointCloud {
   }
 
   /**
-   * Finds the points that can be seen from a viewpoint; see `PointCloud.visibleFrom`. Requests are
-   * answered in order.
-   *
-   * @param viewpoint x, y, z in the cloud's units.
-   * @throws HprError (as a rejection) `viewpoint`, `option`, `radius`,
-   *   `too-large`, `disposed`, `internal`.
-   */
-  async visibleFrom(viewpoint: ArrayLike<number>, options?: WorkerVisibilityOptions): Promise<Visibility> {
-    const answer = await this.#ask("visibleFrom", options, VIEW_OPTIONS, (dimension, given) =>
-      viewQuery(dimension, viewpoint, given),
-    );
-    return new VisibilityAnswer(answer);
-  }
-
-  /**
-   * Finds the points that can be seen along a direction; see `PointCloud.visibleFromDirection`.
-   *
-   * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.
-   */
-  async visibleFromDirection(direction: ArrayLike<number>, options?: WorkerVisibilityOptions): Promise<Visibility> {
-    const answer = await this.#ask("visibleFromDirection", options, VIEW_OPTIONS, (dimension, given) =>
-      directionQuery(dimension, direction, given),
-    );
-    return new VisibilityAnswer(answer);
-  }
-
-  /**
    * Follows a viewpoint that moves: the stream gives drafts, then exact answers. See {@link ViewStream}.
    *
    * @throws HprError `option`, `disposed`.
@@ -250,69 +225,6 @@ export class WorkerPointCloud {
     const ask = ({ from, isDirection }: Place, asked: WorkerVisibilityOptions) =>
       isDirection ? this.visibleFromDirection(from, asked) : this.visibleFrom(from.slice(0, dimension), asked);
     return new ViewStream({ dimension, size: () => this.#size, ask }, options);
-  }
-
-  /**
-   * Finds the points that can be seen from at least one of several viewpoints; see
-   * `PointCloud.visibleFromAny`.
-   *
-   * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.
-   */
-  async visibleFromAny(
-    viewpoints: readonly ArrayLike<number>[],
-    options?: WorkerVisibilityOptions,
-  ): Promise<Visibility> {
-    const answer = await this.#ask("visibleFromAny", options, VIEW_OPTIONS, (dimension, given) =>
-      severalQuery(dimension, viewpoints, given),
-    );
-    return new VisibilityAnswer(answer);
-  }
-
-  /**
-   * Finds the points that can be seen from at least `k` of several viewpoints; see
-   * `PointCloud.visibleFromAtLeast`.
-   *
-   * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.
-   */
-  async visibleFromAtLeast(
-    k: number,
-    viewpoints: readonly ArrayLike<number>[],
-    options?: WorkerVisibilityOptions,
-  ): Promise<Visibility> {
-    const answer = await this.#ask("visibleFromAtLeast", options, VIEW_OPTIONS, (dimension, given) =>
-      severalQuery(dimension, viewpoints, given, { k }),
-    );
-    return new VisibilityAnswer(answer);
-  }
-
-  /**
-   * Finds the points that a real camera sees; see `PointCloud.visibleFromCamera`.
-   *
-   * @throws HprError (as a rejection) `viewpoint` for the camera, otherwise the same as
-   *   {@link WorkerPointCloud.visibleFrom}.
-   */
-  async visibleFromCamera(camera: Camera, options?: WorkerVisibilityOptions): Promise<CameraView> {
-    const answer = await this.#ask("visibleFromCamera", options, VIEW_OPTIONS, (dimension, given) =>
-      cameraQuery(dimension, camera, given),
-    );
-    return new CameraAnswer(answer);
-  }
-
-  /**
-   * Says for positions that are not in the cloud whether a point there would be visible; see
-   * `PointCloud.sees`. The positions are copied before this returns.
-   *
-   * @throws HprError (as a rejection) the same as `PointCloud.sees`.
-   */
-  async sees(
-    viewpoint: ArrayLike<number>,
-    positions: Positions,
-    options?: WorkerVisibilityOptions,
-  ): Promise<Uint8Array> {
-    const { seen } = await this.#ask("sees", options, VIEW_OPTIONS, (_, given) =>
-      seesQuery(this.#settings, viewpoint, positions, given),
-    );
-    return seen;
   }
 
   /**
@@ -354,46 +266,7 @@ export class WorkerPointCloud {
    * @throws HprError (as a rejection) the same as `PointCloud.noise`.
    */
   get noise(): Promise<number> {
-    return this.#ask("noise", undefined, [], () => ({ kind: "noise" })).then(({ noise }) => noise);
-  }
-
-  /**
-   * The radius that a rule chooses for a viewpoint; see `PointCloud.autoRadius`.
-   *
-   * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.
-   */
-  async autoRadius(viewpoint: ArrayLike<number>, rule?: RadiusRule, options?: RequestOptions): Promise<ChosenRadius> {
-    return this.#ask("autoRadius", options, [], (dimension) => radiusQuery(dimension, viewpoint, rule));
-  }
-
-  /**
-   * The surface that a viewpoint sees; see `PointCloud.reconstruct`.
-   *
-   * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.
-   */
-  async reconstruct(
-    viewpoint: ArrayLike<number>,
-    options?: ReconstructionOptions & RequestOptions,
-  ): Promise<Reconstruction> {
-    const answer = await this.#ask("reconstruct", options, RECONSTRUCTION_OPTIONS, (dimension, given) =>
-      reconstructionQuery(dimension, viewpoint, given),
-    );
-    return new ReconstructionAnswer(answer);
-  }
-
-  /**
-   * Light and shadow; see `PointCloud.illuminate`.
-   *
-   * @throws HprError (as a rejection) the same as {@link WorkerPointCloud.visibleFrom}.
-   */
-  async illuminate(
-    lights: readonly ArrayLike<number>[],
-    options?: IlluminationOptions & RequestOptions,
-  ): Promise<Float32Array> {
-    const { brightness } = await this.#ask("illuminate", options, ILLUMINATION_OPTIONS, (dimension, given) =>
-      illuminationQuery(dimension, lights, given),
-    );
-    return brightness;
+    return this.#queue.query({ kind: "noise" }, { owner: this }).then(({ noise }) => noise);
   }
 
   /**
@@ -465,22 +338,12 @@ export class WorkerPointCloud {
     return task;
   }
 
-  /**
-   * Asks with the options that `read` accepts for that query, and follows the options of the
-   * request.
-   */
-  async #ask<K extends QueryKind>(
-    method: string,
-    options: unknown,
-    names: readonly string[],
-    read: (dimension: number, given: Record<string, unknown>) => Query<K>,
-  ): Promise<Answers[K]> {
+  async #ask(name: MethodName, args: readonly unknown[]): Promise<unknown> {
     this.#queue.requireOpen();
-    const given = givenOptions(options, names, REQUEST_OPTIONS);
-    const latest = flag(given, "latest") ? method : undefined;
+    const { query, given, answer } = readQuestion(name, this.#settings, args, REQUEST_OPTIONS);
+    const latest = flag(given, "latest") ? name : undefined;
     const signal = readSignal(given["signal"]);
-    const query = read(this.#settings.dimension, given);
-    return untilAborted(signal, this.#queue.query(query, { latest, signal, owner: this }));
+    return answer((await untilAborted(signal, this.#queue.query(query, { latest, signal, owner: this }))) as never);
   }
 }
 
