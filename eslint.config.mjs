@@ -26,6 +26,8 @@ export default defineConfig(
           message: "Write #name.",
         },
       ],
+      // A body of more than one line has braces, and so have all branches of its `if`.
+      curly: ["error", "multi-line", "consistent"],
       // Numbers read well in messages without `String(…)` around them.
       "@typescript-eslint/restrict-template-expressions": ["error", { allowNumber: true }],
     },

@@ -76,9 +76,13 @@ function branches(tree: string): string[][] {
 function fileOf(path: string[], here: string[], files: Set<string>): string | undefined {
   const isRoot = here.length === 1 && here[0] === "lib";
   let at: string[];
-  if (path[0] === "crate") at = [];
-  else if (path[0] === "self") at = isRoot ? [] : here;
-  else if (path[0] === "super") at = here.slice(0, -1);
+  if (path[0] === "crate") {
+    at = [];
+  } else if (path[0] === "self") {
+    at = isRoot ? [] : here;
+  } else if (path[0] === "super") {
+    at = here.slice(0, -1);
+  }
   // A mod.rs or lib.rs names the files in its own folder.
   else {
     at = isRoot ? [] : here;

@@ -5,8 +5,9 @@ import { join } from "node:path";
 export function provenanceRefusals(root: string): string[] {
   const { repository } = JSON.parse(readFileSync(join(root, "package.json"), "utf8")) as { repository?: unknown };
   const reasons: string[] = [];
-  if (repository === undefined)
+  if (repository === undefined) {
     reasons.push("package.json has no `repository`, which npm compares with the place of the build.");
+  }
   const vouched = process.env["GITHUB_ACTIONS"] !== undefined || process.env["GITLAB_CI"] !== undefined;
   if (!vouched) reasons.push("npm signs only builds of GitHub Actions or GitLab CI: run this command there.");
   return reasons;

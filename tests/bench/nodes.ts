@@ -47,8 +47,9 @@ async function row(cloud: Cloud, along: number): Promise<Row> {
     const start = performance.now();
     const { indices } = unsplit.visibleFrom(viewpoint!);
     together!.push(performance.now() - start);
-    if (digestOf(indices) !== digestOf(drawnOf(nodes)))
+    if (digestOf(indices) !== digestOf(drawnOf(nodes))) {
       throw new WrongAnswer(`${nodes.length} nodes have another answer than the cloud in one piece`);
+    }
     split_!.push(milliseconds);
     visible = indices.length;
   }
@@ -83,8 +84,9 @@ async function row(cloud: Cloud, along: number): Promise<Row> {
 function split(positions: Cloud["positions"], along: number): { nodes: Points[]; whole: Float64Array } {
   const bounds = [0, 1, 2].map((axis) => {
     let [low, high] = [Infinity, -Infinity];
-    for (let i = axis; i < positions.length; i += 3)
+    for (let i = axis; i < positions.length; i += 3) {
       [low, high] = [Math.min(low, positions[i]!), Math.max(high, positions[i]!)];
+    }
     return { low, side: high - low };
   });
   const side = (Math.max(...bounds.map((bound) => bound.side)) / along) * 1.0001;

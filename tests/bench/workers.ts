@@ -35,8 +35,9 @@ export async function timeWorkers(): Promise<Table | undefined> {
       cold.push(answers[0]!.milliseconds);
       moving.push(...answers.slice(1).map(({ milliseconds }) => milliseconds));
       const same = answers.every(({ digest }, view) => digest === expected[view]);
-      if (!same)
+      if (!same) {
         throw new WrongAnswer(`${name}: ${workers} worker(s) give another answer than the package without workers`);
+      }
       await cloud.dispose();
     }
     const [one] = rows;

@@ -145,8 +145,9 @@ export async function audit(page: Page): Promise<Audit[]> {
   };
   const isDark = (await page.locator(':root[data-theme="dark"]').count()) > 0;
   const audits: Audit[] = [];
-  for (const theme of isDark ? (["dark", "light"] as const) : (["light", "dark"] as const))
+  for (const theme of isDark ? (["dark", "light"] as const) : (["light", "dark"] as const)) {
     audits.push(await auditIn(theme, rules[theme]));
+  }
   return audits;
 }
 

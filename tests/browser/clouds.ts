@@ -97,7 +97,7 @@ export function pcd(positions: ArrayLike<number>, kind: "ascii" | "binary" | "bi
   const header = text(
     ["# .PCD v0.7 - Point Cloud Data file format", "VERSION 0.7", "FIELDS x y z", "SIZE 4 4 4", "TYPE F F F", "COUNT 1 1 1", `WIDTH ${count}`, "HEIGHT 1", "VIEWPOINT 0 0 0 1 0 0 0", `POINTS ${count}`, `DATA ${kind}`, ""].join("\n"),
   ); // prettier-ignore
-  if (kind === "ascii")
+  if (kind === "ascii") {
     return joined(
       header,
       text(
@@ -106,6 +106,7 @@ export function pcd(positions: ArrayLike<number>, kind: "ascii" | "binary" | "bi
           .join("\n") + "\n",
       ),
     );
+  }
   if (kind === "binary") return joined(header, numbers(positions, 4));
   // Compressed files are sorted by field: all x, all y, all z.
   const fields = [0, 1, 2].map((axis) =>

@@ -109,8 +109,9 @@ test.for([1, 2, 3, 4, 9, 24])("the z-buffer agrees with its definition (splats o
     return { x: width / 2 + (x * pixels) / depth, y: height / 2 - (y * pixels) / depth, depth };
   });
   expect([...said]).toEqual(slowly(seen, { width, height, pixels }, splat));
-  for (const kind of [0, 1, 2])
+  for (const kind of [0, 1, 2]) {
     expect(said.filter((one) => one === kind).length, `points said to be ${kind}`).toBeGreaterThan(3);
+  }
 });
 
 test("points are grouped by the two answers about them", () => {
@@ -388,8 +389,9 @@ test("if no surface is known, the choice is disabled and says why", async () => 
 });
 
 test("a sentence names each comparison in the address that is not possible", () => {
-  for (const query of ["against=mesh", "splat=0", "splat=2.5", "splat=65"])
+  for (const query of ["against=mesh", "splat=0", "splat=2.5", "splat=65"]) {
     expect(readAddress(query, ["bunny"]).notes, query).toEqual([expect.stringMatching(/in the address is not/)]);
+  }
   expect(readAddress("against=surface&splat=7", ["bunny"])).toMatchObject({
     notes: [],
     settings: { against: "surface", splat: 7 },
@@ -435,19 +437,23 @@ function flaws(page: Page): Promise<string[]> {
     ];
     const found: string[] = [];
     const slider = document.getElementById("splat")!;
-    if (slider.checkVisibility() && boxOf(slider).width < 100)
+    if (slider.checkVisibility() && boxOf(slider).width < 100) {
       found.push(`the slider is ${boxOf(slider).width} px wide`);
+    }
     const divider = document.getElementById("divider")!;
     const grip = getComputedStyle(divider, "::after");
     const [top, left] = [boxOf(divider).top + Number.parseFloat(grip.top), boxOf(divider).left];
-    if (top + Number.parseFloat(grip.height) > box.top && left < box.right)
+    if (top + Number.parseFloat(grip.height) > box.top && left < box.right) {
       found.push("the card lies over the divider's grip");
-    if (box.left < canvas.left || box.right > canvas.right || box.top < canvas.top || box.bottom > bar.top)
+    }
+    if (box.left < canvas.left || box.right > canvas.right || box.top < canvas.top || box.bottom > bar.top) {
       found.push("the card leaves its place");
+    }
     for (const part of card.querySelectorAll("label, button, th, td")) {
       const { left, right } = boxOf(part);
-      if (part.checkVisibility() && (left < box.left || right > box.right || part.scrollWidth > part.clientWidth + 1))
+      if (part.checkVisibility() && (left < box.left || right > box.right || part.scrollWidth > part.clientWidth + 1)) {
         found.push(`${part.textContent} is cut off`);
+      }
     }
     return found;
   });

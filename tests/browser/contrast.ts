@@ -53,8 +53,9 @@ export async function poorContrast(page: Page): Promise<string[]> {
         text === "" ||
         element.closest("script, style, noscript, option, .unseen, :disabled, .idle") ||
         !element.checkVisibility()
-      )
+      ) {
         continue;
+      }
       // The canvas is empty until there is a cloud.
       if (element.id === "loading-sign") continue;
       const style = getComputedStyle(element);
@@ -65,10 +66,11 @@ export async function poorContrast(page: Page): Promise<string[]> {
       );
       const size = Number.parseFloat(style.fontSize);
       const large = size >= 24 || (size >= 18.66 && Number(style.fontWeight) >= 700);
-      if (worst < (large ? 3 : 4.5))
+      if (worst < (large ? 3 : 4.5)) {
         found.push(
           `“${text.slice(0, 30)}” in ${element.tagName}#${element.id || element.parentElement!.id}: ${worst.toFixed(2)}`,
         );
+      }
     }
     return found;
   });

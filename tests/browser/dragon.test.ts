@@ -23,8 +23,9 @@ function framesToAnswer(page: Page): Promise<number> {
         const start = refilters();
         let count = 0;
         requestAnimationFrame(function frame() {
-          if (refilters() > start) resolve(count);
-          else {
+          if (refilters() > start) {
+            resolve(count);
+          } else {
             count++;
             requestAnimationFrame(frame);
           }

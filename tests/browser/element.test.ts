@@ -461,6 +461,7 @@ test("a server can import it, and its types are beside it", () => {
     "export interface HiddenPointCloudElement extends HTMLElement",
     "HTMLElementTagNameMap",
     "export declare const HiddenPointCloudElement",
-  ])
+  ]) {
     expect(types).toContain(name);
+  }
 });

@@ -152,10 +152,11 @@ test("the samples street and tile have classes and intensity, and tile has map c
       .locator("#legend .swatch")
       .evaluateAll((all) => all.map((swatch) => getComputedStyle(swatch).backgroundColor.match(/\d+/g)!.map(Number)));
     for (const [i, a] of colors.entries()) {
-      for (const b of colors.slice(i + 1))
+      for (const b of colors.slice(i + 1)) {
         expect(Math.hypot(...a.map((channel, k) => channel - b[k]!)), `${a.join()} and ${b.join()}`).toBeGreaterThan(
           45,
         );
+      }
     }
     expect(await page.locator(`#thumbnails [aria-pressed="true"]`).textContent()).toBe(
       sample === "tile" ? "Map tile" : "Street",

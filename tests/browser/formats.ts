@@ -87,10 +87,11 @@ export function las(
     view.setUint8(at + 14, format < 6 ? 0b1001 : 0b10001);
     view.setUint8(at + (format < 6 ? 15 : 16), classOf(i));
     const color = COLOR[format];
-    if (color !== undefined)
+    if (color !== undefined) {
       colorOf(i).forEach((value, k) => {
         view.setUint16(at + color + 2 * k, smallColors ? value : 257 * value, true);
       });
+    }
     if (extra !== undefined) view.setFloat32(at + RECORD[format], i / 7, true);
   });
   return bytes;

@@ -23,8 +23,9 @@ async function stop(page: Page): Promise<Stop | null> {
     const { left, right, top, bottom, width, height } = ringed.getBoundingClientRect();
     const flaws = [];
     if (style.outlineStyle === "none" || Number.parseFloat(style.outlineWidth) < 2) flaws.push("has no ring");
-    if (left < -1 || top < -1 || right > innerWidth + 1 || bottom > innerHeight + 1)
+    if (left < -1 || top < -1 || right > innerWidth + 1 || bottom > innerHeight + 1) {
       flaws.push(`is out of sight (${Math.round(top)} to ${Math.round(bottom)})`);
+    }
     // Other elements may cover a part of the element, but never all of it (WCAG 2.4.11).
     const shares = [0.1, 0.3, 0.5, 0.7, 0.9];
     const seen = shares.some((x) =>

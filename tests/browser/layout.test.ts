@@ -33,15 +33,17 @@ async function flaws(page: Page): Promise<string[]> {
         a.element.scrollWidth > a.element.clientWidth + 1 &&
         a.element.clientWidth > 0 &&
         a.element.tagName === "BUTTON"
-      )
+      ) {
         found.push(`${a.name} is cut off`);
+      }
       for (const b of shown.slice(i + 1)) {
         if (
           a.element.contains(b.element) ||
           b.element.contains(a.element) ||
           (a.element.id === "view" && b.element.id === "message")
-        )
+        ) {
           continue;
+        }
         // A scrolling sheet may lie under the fixed bar.
         const over =
           Math.min(a.box.right, b.box.right) - Math.max(a.box.left, b.box.left) > 1.5 &&
@@ -110,8 +112,9 @@ test("on a phone the panel is a bar that opens upwards, nothing overlaps, and on
   const touch = await page.context().newCDPSession(page);
   const at = (x: number, y: number) => ({ touchPoints: [{ x, y }] });
   await touch.send("Input.dispatchTouchEvent", { type: "touchStart", ...at(200, 300) });
-  for (let step = 1; step <= 6; step++)
+  for (let step = 1; step <= 6; step++) {
     await touch.send("Input.dispatchTouchEvent", { type: "touchMove", ...at(200 - 15 * step, 300) });
+  }
   await touch.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
   expect((await refiltered(page, before)).viewpoint).not.toEqual(before.viewpoint);
 });

@@ -28,8 +28,9 @@ test("indices are short as gaps, and come back", () => {
   expect(indicesOf(gapsOf(indices, 600), 5_000_000)).toEqual(indices);
   expect(indicesOf(gapsOf(indices, 600), 4_294_967)).toBeNull();
   expect(indicesOf("0", 1)).toEqual(Uint32Array.of(0));
-  for (const wrong of ["", "-", "1-", "A", "1,2", "1..2", "-5", "zzzzzzzz", "0-zzzzzzz"])
+  for (const wrong of ["", "-", "1-", "A", "1,2", "1..2", "-5", "zzzzzzzz", "0-zzzzzzz"]) {
     expect(indicesOf(wrong, 100), wrong).toBeNull();
+  }
   // A text that fits into an address has all indices.
   for (let count = 1; count < 400; count++) {
     const some = Uint32Array.from({ length: count }, (_, i) => 7 * i + (i % 3));
@@ -167,8 +168,9 @@ test("of an area, a profile and stations in an address, only what suits the clou
     ["station=1,-2.5,3e5,A, b&station=x,2,3,C", [[here]], false],
     ["station=1,2,North", [], false],
     ["station=1,2,3,", [], false],
-  ] as const)
+  ] as const) {
     expect(await restored(search), search).toEqual({ told, isWhole, through: false });
+  }
   expect(await restored("profile=1,2,0.5,through")).toMatchObject({ isWhole: true, through: true });
   // The points of a streamed cloud come and go.
   expect(await restored("area=1,2,3&station=1,2,3,A", 0)).toMatchObject({ told: [], isWhole: false });

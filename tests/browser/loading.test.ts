@@ -118,8 +118,9 @@ test("the cloud and the WebAssembly are asked for before the part of the page th
     };
   });
   expect(begun.isAsked).toBe(true);
-  for (const name of ["hpr_bg-", "session-"])
+  for (const name of ["hpr_bg-", "session-"]) {
     expect(begun.files.filter((address) => address.includes(`/assets/${name}`))).not.toEqual([]);
+  }
 });
 
 test("points of a large sample are on screen before its first answer, with fewer pixels", async () => {

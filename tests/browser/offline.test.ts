@@ -101,8 +101,9 @@ test("the page's own files and opened samples are stored, and no file of the use
   expect(Object.keys(stores)).toHaveLength(1);
   const own = Object.values(stores)[0]!;
   expect(own).toContain("");
-  for (const name of own)
+  for (const name of own) {
     expect(name === "" || /^(assets|thumbnails)\/[\w.-]+$|^icon\.svg$|^page\.webmanifest$/.test(name), name).toBe(true);
+  }
   // Nothing was requested for storing before the cloud was shown.
   const first = site.asked.indexOf("service-worker.js");
   expect(first).toBeGreaterThan(site.asked.indexOf("samples/bunny.bin"));

@@ -75,8 +75,9 @@ async function around(page: Page): Promise<void> {
   await press(page, "#select-all");
   await press(page, "#select-clear");
   await press(page, "#tool-measure");
-  for (const end of ["first", "second"])
+  for (const end of ["first", "second"]) {
     await page.locator("#view").click({ position: { x: end === "first" ? 300 : 320, y: 120 } });
+  }
   await press(page, "#measure-clear");
   await press(page, "#tool-measure");
 }

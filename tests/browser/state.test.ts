@@ -65,8 +65,9 @@ test("the address also restores the rule of the radius, the ring, noise, the fro
   await page.getByRole("button", { name: "Freeze viewpoint" }).click();
   await drag(page, 120, 0);
   const query = await written(page);
-  for (const part of ["radius=search", "viewpoints=two", "denoise=6", "up=z", "freeze=", "view="])
+  for (const part of ["radius=search", "viewpoints=two", "denoise=6", "up=z", "freeze=", "view="]) {
     expect(query).toContain(part);
+  }
   const again = await openReady(query);
   expect(same(await upToDate(again))).toEqual(same(await upToDate(page)));
   expect(await again.getByRole("button", { name: "Unfreeze viewpoint" }).isVisible()).toBe(true);
@@ -146,8 +147,9 @@ test("?embed=1 shows only the picture", async () => {
   await upToDate(page);
   const box = (await page.locator("#view").boundingBox())!;
   expect(box).toMatchObject({ x: 0, y: 0, width: 1000, height: 700 });
-  for (const chrome of ["#sheet", "#hidden-points", "#tools", "#lights", "#progress"])
+  for (const chrome of ["#sheet", "#hidden-points", "#tools", "#lights", "#progress"]) {
     expect(await page.locator(chrome).isVisible()).toBe(false);
+  }
   expect((await status(page)).total).toBe(5205);
 
   // Screen readers get the answer. Hidden tools do not take the drags. The link opens the whole page in the same state.

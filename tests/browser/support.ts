@@ -256,8 +256,9 @@ function readDragon(resolution: string): Float32Array {
 export function middleOf(positions: ArrayLike<number>): number[] {
   return [0, 1, 2].map((axis) => {
     let [low, high] = [Infinity, -Infinity];
-    for (let i = axis; i < positions.length; i += 3)
+    for (let i = axis; i < positions.length; i += 3) {
       [low, high] = [Math.min(low, positions[i]!), Math.max(high, positions[i]!)];
+    }
     return low / 2 + high / 2;
   });
 }

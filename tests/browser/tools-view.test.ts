@@ -143,8 +143,9 @@ test("the question mark opens the sheet with all keys; it keeps the focus and gi
   await page.keyboard.press("?");
   const sheet = page.getByRole("dialog", { name: "Mouse, touch and keys" });
   expect(await sheet.isVisible()).toBe(true);
-  for (const key of ["P", "M", "L", "S", "C", "E", "F", "H", "R", "?", "Esc"])
+  for (const key of ["P", "M", "L", "S", "C", "E", "F", "H", "R", "?", "Esc"]) {
     expect(await sheet.locator("kbd").allTextContents()).toContain(key);
+  }
   for (let i = 0; i < 5; i++) {
     await page.keyboard.press("Tab");
     expect(
@@ -205,10 +206,12 @@ test.for([
       for (const [i, a] of shown.entries()) {
         const box = boxOf(a);
         const place = (a.closest("#tools") ? stage : canvas)!;
-        if (box.left < place.left || box.right > place.right || box.bottom > place.bottom || box.top < place.top)
+        if (box.left < place.left || box.right > place.right || box.bottom > place.bottom || box.top < place.top) {
           found.push(`${a.textContent} leaves its place`);
-        if (a.matches("#tool-bar button") && (box.width < 44 || box.height < 44))
+        }
+        if (a.matches("#tool-bar button") && (box.width < 44 || box.height < 44)) {
           found.push(`${a.textContent} is too small`);
+        }
         if (a.scrollWidth > a.clientWidth + 1 && a.matches("button")) found.push(`${a.textContent} is cut off`);
         for (const b of shown.slice(i + 1)) {
           const other = boxOf(b);

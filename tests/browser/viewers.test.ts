@@ -140,8 +140,9 @@ describe.each([
           const { array, count } = geometry.attributes["position"] as BufferAttribute;
           for (let i = 0; i < 3 * count; i++) positions!.push(array[i]! + offset[i % 3]!);
           const { index, drawRange } = geometry;
-          for (let i = 0; i < Math.min(drawRange.count, index?.count ?? count); i++)
+          for (let i = 0; i < Math.min(drawRange.count, index?.count ?? count); i++) {
             ids!.push(first + (index?.getX(i) ?? i));
+          }
         }
         return { positions: positions!, ids: ids! };
       };

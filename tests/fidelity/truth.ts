@@ -92,8 +92,9 @@ export function* generated(): Generator<Labelled> {
     scatter(bumpy, 40_000, 14, ([x]) => 20 ** (x / 2)),
   );
   const furnished = room();
-  for (const count of [20_000, 100_000])
+  for (const count of [20_000, 100_000]) {
     yield traced("room, from inside", furnished, scatter(furnished, count, 15), INSIDE);
+  }
 }
 
 /** Surfaces that are sampled unevenly. */

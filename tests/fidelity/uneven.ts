@@ -45,9 +45,11 @@ export function* uneven(half: Half): Generator<Sampled> {
   const patch = (axis: number, times: number) => (place: Point) => (place[axis]! > 0.25 ? times : 1);
   if (chosen) yield { name: "torus, a patch 16:1", mesh: ring, points: scatter(ring, 20_000, 31, patch(0, 16)) };
   else yield { name: "torus, a patch 30:1", mesh: ring, points: scatter(ring, 24_000, 41, patch(1, 30)) };
-  if (chosen)
+  if (chosen) {
     yield { name: "bumpy sphere, halves 12:1", mesh: bumpy, points: scatter(bumpy, 20_000, 32, patch(2, 12)) };
-  else yield { name: "bumpy sphere, levels", mesh: bumpy, points: scatter(bumpy, 30_000, 42, levels) };
+  } else {
+    yield { name: "bumpy sphere, levels", mesh: bumpy, points: scatter(bumpy, 30_000, 42, levels) };
+  }
 }
 
 /** Four levels of detail. Each has a quarter of the density of the one before. */

@@ -71,8 +71,9 @@ async function room() {
         furniture.every(
           ([low, high]) => !(x > low[0] - 0.3 && x < high[0] + 0.3 && y > low[1] - 0.3 && y < high[1] + 0.3),
         )
-      )
+      ) {
         candidates.push([x, y, 1.6]);
+      }
     }
   }
   const options = { looks: 3 };
@@ -97,8 +98,9 @@ async function room() {
   const labels = chosen.map((candidate, step) => {
     for (let before = 0; before <= step; before++) {
       const [u, v] = project(...candidates[chosen[before]]);
-      for (let a = -5; a <= 5; a++)
+      for (let a = -5; a <= 5; a++) {
         for (let b = -5; b <= 5; b++) dot(picture, u + step * width + a, v + b, [255, 255, 255], [0, height]);
+      }
     }
     const sum = gains.slice(0, step + 1).reduce((all, gain) => all + gain, 0);
     const share = (count) => `${((100 * count) / cloud.length).toFixed(1)} %`;

@@ -41,9 +41,11 @@ await draw(names.filter((name) => name in MAKERS));
 if (names.includes(FIDELITY)) await measureFidelity();
 async function measureFidelity(): Promise<void> {
   const text = await fidelityText(console.error);
-  if (text === undefined)
+  if (text === undefined) {
     console.error("FIDELITY.md is left as it is. `npm run bench -- --fidelity` scores what is there.");
-  else write("FIDELITY.md", text);
+  } else {
+    write("FIDELITY.md", text);
+  }
 }
 
 async function draw(chosen: string[]): Promise<void> {

@@ -38,7 +38,8 @@ export function withFigures(existing: string, made: Figure[]): string {
     const name = /\]\(([\w-]+)\.png\)/.exec(part)?.[1];
     if (name !== undefined) sections.set(name, `## ${part.trimEnd()}\n`);
   }
-  for (const { name, title, caption } of made)
+  for (const { name, title, caption } of made) {
     sections.set(name, `## ${title}\n\n![${title}](${name}.png)\n\n${caption}\n`);
+  }
   return [INTRODUCTION, ...ORDER.flatMap((name) => sections.get(name) ?? [])].join("\n");
 }

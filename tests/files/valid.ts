@@ -43,8 +43,9 @@ export function plyHeader(encoding: keyof typeof PLY_FORMATS): string {
 }
 
 export function plyBody(encoding: keyof typeof PLY_FORMATS): Buffer {
-  if (encoding === "ascii")
+  if (encoding === "ascii") {
     return Buffer.from(`${POINTS.map((point, i) => [...point, 10 * i].join(" ")).join("\n")}\n3 0 1 2\n`);
+  }
   const vertices = POINTS.flatMap((point, i): Value[] => [
     ...point.map((value): Value => [value, "Float32"]),
     [10 * i, "Uint8"],
@@ -74,8 +75,9 @@ export function pcdHeader(encoding: PcdEncoding): string {
 }
 
 export function pcdBody(encoding: PcdEncoding): Buffer {
-  if (encoding === "ascii")
+  if (encoding === "ascii") {
     return Buffer.from(`${POINTS.map((point, i) => [...point, 10 * i].join(" ")).join("\n")}\n`);
+  }
   const rows = POINTS.map((point, i): Value[] => [
     ...point.map((value): Value => [value, "Float32"]),
     [10 * i, "Uint8"],

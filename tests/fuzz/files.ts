@@ -17,8 +17,9 @@ export async function fuzzFiles(minutes: number, seed: number): Promise<number> 
   const end = Date.now() + 60_000 * minutes;
   const tallies = new Map<string, Tally>();
   for (let round = 0; Date.now() < end; round++) await tryRound(seed + round, tallies, console.log);
-  for (const [kind, { valid, refused, read, wrong }] of tallies)
+  for (const [kind, { valid, refused, read, wrong }] of tallies) {
     console.log(`${kind}: ${refused} changes refused, ${read} read; ${valid + refused + read} cases, ${wrong} wrong`);
+  }
   return [...tallies.values()].reduce((sum, { wrong }) => sum + wrong, 0);
 }
 
@@ -66,8 +67,9 @@ async function faultOf(name: string, content: Uint8Array, expected?: readonly nu
   } catch (error) {
     return `no sentence: ${String(error)}`;
   }
-  if ("points" in command !== "points" in page)
+  if ("points" in command !== "points" in page) {
     return `the command says ${shown(command)}, and the page ${shown(page)}`;
+  }
   if (!("points" in command && "points" in page)) return expected === undefined ? undefined : shown(command);
   if (!equal(command.points, page.points)) return `the command reads ${shown(command)}, and the page ${shown(page)}`;
   let points = expected;

@@ -48,12 +48,15 @@ export async function fuzzForeign(minutes: number, seed: number): Promise<number
       if (isSame(ours.points, theirs.points)) continue;
       tally.wrong++;
       console.log(`seed ${round}, ${name}: ${shown(ours)} here, ${shown(theirs)} there`);
-    } else if ("points" in theirs) tally.onlyThey++;
-    else if ("points" in ours) {
+    } else if ("points" in theirs) {
+      tally.onlyThey++;
+    } else if ("points" in ours) {
       const why = theirs.refused.replace(/\d+/g, "N").slice(0, 90);
       if (!tally.onlyWe.has(why)) console.log(`seed ${round}, ${name}: ${shown(ours)} here, “${theirs.refused}” there`);
       tally.onlyWe.set(why, (tally.onlyWe.get(why) ?? 0) + 1);
-    } else tally.neither++;
+    } else {
+      tally.neither++;
+    }
   }
   foreign?.end();
   let wrong = 0;
@@ -129,8 +132,9 @@ async function three(content: Buffer): Promise<Outcome> {
     scene.updateMatrixWorld(true);
     scene.traverse((object) => {
       const position = (object as Partial<Mesh>).geometry?.getAttribute("position");
-      for (let i = 0; i < (position?.count ?? 0); i++)
+      for (let i = 0; i < (position?.count ?? 0); i++) {
         points.push(...new Vector3().fromBufferAttribute(position!, i).applyMatrix4(object.matrixWorld).toArray());
+      }
     });
     return points.length === 0 ? { refused: "no points" } : { points: Float64Array.from(points) };
   } catch (error) {

@@ -35,8 +35,9 @@ export async function fuzzStream(minutes: number, seed: number): Promise<number>
   const end = Date.now() + 60_000 * minutes;
   const tallies = new Map<string, Counts>();
   for (let at = seed; Date.now() < end; at += AT_ONCE) await tryCases(at, AT_ONCE, tallies, console.log);
-  for (const [name, { exact, refused, believed, tried, wrong }] of tallies)
+  for (const [name, { exact, refused, believed, tried, wrong }] of tallies) {
     console.log(`${name}: ${exact} exact, ${refused} refused, ${believed} believed; ${tried} cases, ${wrong} wrong`);
+  }
   return [...tallies.values()].reduce((sum, { wrong }) => sum + wrong, 0);
 }
 
@@ -61,8 +62,9 @@ export async function tryCases(
     tallies.set(name, tally);
     const { outcome, facts } = await (isDamage ? damaged(subject, random) : failing(subject, random));
     tally.tried += 1;
-    if (outcome === "exact" || outcome === "refused" || outcome === "believed") tally[outcome] += 1;
-    else {
+    if (outcome === "exact" || outcome === "refused" || outcome === "believed") {
+      tally[outcome] += 1;
+    } else {
       tally.wrong += 1;
       say(`seed ${at}, ${name}: ${outcome}\n  ${facts}`);
     }
@@ -149,7 +151,9 @@ async function damaged(subject: Subject, random: () => number): Promise<Tried> {
       // Another number.
       while (!isDigit(bytes[at]!)) at = (at + 1) % bytes.length;
       bytes[at] = 48 + Math.floor(10 * random());
-    } else bytes[at] = random() < 0.5 ? bytes[at]! ^ (1 << Math.floor(8 * random())) : Math.floor(256 * random());
+    } else {
+      bytes[at] = random() < 0.5 ? bytes[at]! ^ (1 << Math.floor(8 * random())) : Math.floor(256 * random());
+    }
     changes.push([at, bytes[at]!]);
   }
   const site: Site = { ...original, [file]: bytes };
@@ -177,8 +181,9 @@ async function damaged(subject: Subject, random: () => number): Promise<Tried> {
     return { outcome: `answered, but it cannot be read: ${String(error)}`, facts };
   }
   const listed = [...nodes.values()].reduce((sum, { positions }) => sum + positions.length / 3, 0);
-  if (listed !== answer.points && !unseen)
+  if (listed !== answer.points && !unseen) {
     return { outcome: `${answer.points} points, but ${listed} are listed`, facts };
+  }
   const fault = faultIn(last, nodes, view);
   if (fault === undefined) return { outcome: "exact", facts };
   const sound = new Map([...nodes].filter(([, { isSound }]) => isSound));

@@ -123,8 +123,9 @@ describe.runIf(isUnix)("a path that is not a regular file", () => {
     expect(toFile("astray.xyz").stderr).toBe(
       "hidden-point-removal: astray.xyz cannot be written: no such file or directory\n",
     );
-    for (const name of ["round.xyz", "astray.xyz"])
+    for (const name of ["round.xyz", "astray.xyz"]) {
       expect(lstatSync(inScratch(name)).isSymbolicLink(), name).toBe(true);
+    }
     expect(leftovers()).toEqual([]);
   });
 

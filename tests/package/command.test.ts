@@ -323,8 +323,9 @@ function lzf(data: Buffer): Buffer {
   const out: number[] = [];
   let literals: number[] = [];
   const flush = () => {
-    for (; literals.length > 0; literals = literals.slice(32))
+    for (; literals.length > 0; literals = literals.slice(32)) {
       out.push(Math.min(32, literals.length) - 1, ...literals.slice(0, 32));
+    }
   };
   for (let i = 0; i < data.length;) {
     let [best, back] = [0, 0];
@@ -335,8 +336,9 @@ function lzf(data: Buffer): Buffer {
         length < 264 &&
         i + length < data.length &&
         data[i + length] === data[i + length - distance]
-      )
+      ) {
         length++;
+      }
       if (length > best) [best, back] = [length, distance];
     }
     if (best < 3) {

@@ -128,8 +128,9 @@ describe("a ball seen from two places", () => {
     // The best R leaves 13 of 3,000 points in one view, the automatic one 28.
     expect(automatic.every(({ total, ratio, hulls }) => total < 5 && ratio! < 2.5 && hulls === 1)).toBe(true);
     // The best of all exponents is at least as good as any of these three.
-    for (const { method, ratio } of scores)
+    for (const { method, ratio } of scores) {
       if (/^exponent [234]$/.test(method)) expect(ratio).toBeGreaterThanOrEqual(1);
+    }
   });
 });
 

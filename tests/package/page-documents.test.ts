@@ -93,8 +93,9 @@ test("every setting has a parameter of its own, and its usual value can be writt
   expect(new Set(names).size).toBe(names.length);
   // If there is no light, no frozen viewpoint or no divider, the address does not mention it.
   const unwritten = ["lights", "freeze", "compare"];
-  for (const [name, { usual, write, parse }] of settings)
+  for (const [name, { usual, write, parse }] of settings) {
     if (!unwritten.includes(name)) expect((parse as (text: string) => unknown)(write(usual)), name).toEqual(usual);
+  }
 });
 
 test("no two actions of the page's canvas have the same key", () => {

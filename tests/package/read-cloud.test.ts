@@ -127,8 +127,9 @@ describe("files that contradict themselves", () => {
       for (let i = 0; i < 300; i++) {
         const good = fixture(i % 2 === 0 ? "ball-12.laz" : "ball-14.laz");
         const file = changed(good, (_, bytes) => {
-          for (let changes = 1 + random.below(3); changes > 0; changes--)
+          for (let changes = 1 + random.below(3); changes > 0; changes--) {
             bytes[random.below(random.below(2) === 0 ? 500 : bytes.length)] = random.below(256);
+          }
         });
         const cloud = await readCloud(buffer(file)).catch((error: unknown) => {
           expect((error as HprError).code).toBe("load");

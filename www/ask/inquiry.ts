@@ -247,9 +247,11 @@ export class Inquiry {
     if (before && isSameView(question, before, this.#size)) return;
     this.#wanted = question;
     const stages = this.#stages;
-    if (before && isSamePlace(question.viewpoint, before.viewpoint, this.#size))
+    if (before && isSamePlace(question.viewpoint, before.viewpoint, this.#size)) {
       this.#refinement.begin(stages, this.#firstOf(stages));
-    else this.#refinement.moved(stages);
+    } else {
+      this.#refinement.moved(stages);
+    }
   }
 
   /** The number of the stage that comes first when only settings have changed. */

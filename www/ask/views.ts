@@ -53,8 +53,9 @@ async function see(
     const surface = await cloud.points.reconstruct(viewpoint, { ...options, maxEdge });
     return { visibility: surface, triangles: surface.triangles };
   }
-  if (shape.viewpoints === "one")
+  if (shape.viewpoints === "one") {
     return { visibility: await cloud.points.visibleFrom(viewpoint, options), triangles: null };
+  }
   const five = [viewpoint, ...(await cloud.ring(viewpoint, RING.count, RING.fraction))];
   const visibility =
     shape.viewpoints === "any"

@@ -25,11 +25,12 @@ export class WorkerCloud {
     const nearest = Math.max(denoise, vote);
     // This check is here because the library's message would be unclear: it gives the range of the number, which is
     // empty for one point.
-    if (nearest > 0 && nearest >= this.points.length)
+    if (nearest > 0 && nearest >= this.points.length) {
       throw new HprError(
         "option",
         `noise handling needs the ${nearest} nearest neighbors of each point, and there are too few points`,
       );
+    }
     return {
       ...(radius === null
         ? {}

@@ -24,7 +24,8 @@ export function partOf(cloud: LoadedCloud, kept: Uint32Array): LoadedCloud {
 
 function picked<T extends Values>(values: T, kept: Uint32Array, width: number): T {
   const result = new (values.constructor as new (length: number) => T)(width * kept.length);
-  for (let i = 0; i < kept.length; i++)
+  for (let i = 0; i < kept.length; i++) {
     for (let k = 0; k < width; k++) result[width * i + k] = values[width * kept[i]! + k]!;
+  }
   return result;
 }

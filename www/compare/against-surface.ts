@@ -52,8 +52,9 @@ export class AgainstSurface {
   /** Called every frame. */
   follow(): void {
     const { answer, inquiry, cloud } = this.#viewer.scene;
-    if (!this.#at || !isSamePlace(answer.question.viewpoint, this.#at, cloud.radius))
+    if (!this.#at || !isSamePlace(answer.question.viewpoint, this.#at, cloud.radius)) {
       this.#leave(answer.question.viewpoint);
+    }
     if (inquiry.busy) this.#rest.moved();
     // With a result, the truth about this place is known, and only our answer can have changed.
     const due = this.result

@@ -214,8 +214,9 @@ class HiddenPointCloud extends Base implements Own {
         this.#emit("error", { error: problem });
       },
       moved: ({ hidden, freeze }) => {
-        if (hidden !== (valueOf(this, "hidden-points") ?? SETTINGS.hidden.usual))
+        if (hidden !== (valueOf(this, "hidden-points") ?? SETTINGS.hidden.usual)) {
           this.setAttribute("hidden-points", hidden);
+        }
         this.toggleAttribute("frozen", freeze !== null);
       },
     };

@@ -34,8 +34,9 @@ export function readAttributes(element: Element): Reading {
     const value = anyValueOf(element, attribute);
     const text = element.getAttribute(attribute);
     const { written } = rowOf(attribute);
-    if (written && text !== null && value === undefined)
+    if (written && text !== null && value === undefined) {
       refuse(attribute, `The attribute ${attribute}="${text}" is not ${refusalOf(written)}.`);
+    }
     return value;
   };
   const read = <Name extends WrittenAttribute>(attribute: Name) => readAny(attribute) as ValueOf<Name> | undefined;
@@ -48,8 +49,9 @@ export function readAttributes(element: Element): Reading {
     refuse("sample", `The attribute sample="${sample}" is not one of ${SAMPLES.map(({ name }) => name).join(", ")}.`);
     sample = null;
   }
-  if (src !== null && element.hasAttribute("sample"))
+  if (src !== null && element.hasAttribute("sample")) {
     refuse("sample", "The attributes src and sample exclude each other, so src is used.");
+  }
   const limit = read("limit");
   if (src === null && sample !== null) {
     for (const name of ["limit", "skip-non-finite"] as const) {
@@ -64,14 +66,17 @@ export function readAttributes(element: Element): Reading {
     if (setting && value !== undefined) settings[setting] = value;
   }
   const exponent = read("exponent");
-  if (exponent !== undefined && settings["radius"] !== undefined)
+  if (exponent !== undefined && settings["radius"] !== undefined) {
     refuse("radius", "The attributes exponent and radius exclude each other, so exponent is used.");
+  }
   if (exponent !== undefined) settings["radius"] = { exponent };
-  if (settings["looks"] && !canLook({ ...USUAL_SETTINGS, ...settings }))
+  if (settings["looks"] && !canLook({ ...USUAL_SETTINGS, ...settings })) {
     refuse("looks", "The attribute looks excludes exponent, radius and inversion, so there is one hull.");
+  }
   const [at, target] = [read("viewpoint"), read("target")];
-  if (target && !element.hasAttribute("viewpoint"))
+  if (target && !element.hasAttribute("viewpoint")) {
     refuse("target", "The attribute target needs a viewpoint to be looked at from, so the usual view is used.");
+  }
   return {
     src,
     sample,

@@ -186,8 +186,9 @@ export class Showing {
   /** Goes to the view that is asked for. */
   #look(ready: Ready): void {
     const { view, notes } = inReachOnly(ready.opened.cloud, this.#reading.view, {}, ASKED);
-    for (const note of notes)
+    for (const note of notes) {
       this.#tell.refused(new Problem("attribute", note, { attribute: view ? "target" : "viewpoint" }));
+    }
     this.viewer.setHome(ready.homeFrom(view));
   }
 

@@ -100,8 +100,9 @@ class Lesson {
         dialog.close();
       },
     };
-    for (const button of dialog.querySelectorAll<HTMLButtonElement>("[data-do]"))
+    for (const button of dialog.querySelectorAll<HTMLButtonElement>("[data-do]")) {
       button.addEventListener("click", acts[button.dataset["do"]!]!);
+    }
     // A click beside it is a click on the dialog itself.
     dialog.addEventListener("click", (event) => {
       if (event.target === dialog) dialog.close();
@@ -245,10 +246,12 @@ class Lesson {
 
 /** What the radius does, by how far its exponent is from the automatic one. */
 function verdict(above: number): string {
-  if (above > NEAR)
+  if (above > NEAR) {
     return "Too large: the flipped points are almost a sphere, so nearly all of them lie on the hull. Points of the back shine through the front.";
-  if (above < -NEAR)
+  }
+  if (above < -NEAR) {
     return "Too small: the sphere bends the flipped points so much that the hull passes over hollows. Visible points are missed.";
+  }
   return "About the automatic radius: most points of the front lie on the hull, and most points behind them stay inside it.";
 }
 

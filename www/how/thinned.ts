@@ -35,8 +35,9 @@ export class Thinned {
     this.count = positions.length / 3;
     this.automatic = automatic;
     this.distances = new Float32Array(this.count);
-    for (let i = 0; i < this.count; i++)
+    for (let i = 0; i < this.count; i++) {
       this.distances[i] = Math.hypot(positions[3 * i]!, positions[3 * i + 1]!, positions[3 * i + 2]!);
+    }
     this.farthest = this.distances.reduce((a, b) => Math.max(a, b), 0);
     this.nearest = this.distances.reduce((a, b) => Math.min(a, b), Infinity);
   }
@@ -45,8 +46,9 @@ export class Thinned {
     const step = Math.ceil(count / MOST);
     const eye = viewpoint.map((value, axis) => value - center[axis]!);
     const positions = new Float32Array(3 * Math.ceil(count / step));
-    for (let i = 0; i < positions.length / 3; i++)
+    for (let i = 0; i < positions.length / 3; i++) {
       for (let axis = 0; axis < 3; axis++) positions[3 * i + axis] = local[3 * i * step + axis]! - eye[axis]!;
+    }
     const points = await WorkerPointCloud.create(positions, { workers: 1 });
     const { exponent } = await points.autoRadius([0, 0, 0]);
     return new Thinned(points, positions, step, exponent);

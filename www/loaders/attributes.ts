@@ -48,9 +48,11 @@ function keptFields(columns: CloudFile["columns"]): Pick<LoadedCloud, "fields" |
   for (const { name, values, labels } of columns) {
     const same = isConstant(values);
     if (!same) bytes += values.BYTES_PER_ELEMENT;
-    if (bytes <= MOST_BYTES)
+    if (bytes <= MOST_BYTES) {
       fields.push({ name, values: same ? values.slice(0, 1) : values, ...(labels && { labels }) });
-    else bytes -= values.BYTES_PER_ELEMENT;
+    } else {
+      bytes -= values.BYTES_PER_ELEMENT;
+    }
   }
   const dropped = columns.length - fields.length;
   return { fields, ...(dropped > 0 ? { facts: { dropped } } : {}) };

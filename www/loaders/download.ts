@@ -39,8 +39,9 @@ export async function downloadRanges(
     read: async (from, to) => {
       if (to <= head.length) return head.subarray(from, to);
       const response = await ask(name, url, { range: [from, to] });
-      if (response.status !== 206)
+      if (response.status !== 206) {
         throw new LoadProblem(`${name} could not be downloaded: the server no longer sends parts of it.`);
+      }
       return bodyOf(name, response);
     },
   };
@@ -104,6 +105,7 @@ function brokeOff(name: string): LoadProblem {
 }
 
 function checkSize(name: string, bytes: number): void {
-  if (bytes > MAX_DOWNLOAD)
+  if (bytes > MAX_DOWNLOAD) {
     throw new LoadProblem(`${name} is too large to be downloaded: more than ${MAX_DOWNLOAD / 1e9} GB.`);
+  }
 }

@@ -31,8 +31,9 @@ class Triangles {
 
   /** A face is cut into a fan around its first corner. */
   addFace(corners: readonly number[]): void {
-    if (!corners.every((corner) => corner >= 0 && corner < this.#vertices))
+    if (!corners.every((corner) => corner >= 0 && corner < this.#vertices)) {
       throw new FormatProblem("it has faces whose points are missing");
+    }
     for (let i = 2; i < corners.length; i++) this.#corners.push(corners[0]!, corners[i - 1]!, corners[i]!);
   }
 

@@ -28,10 +28,11 @@ export function checkedCloud(name: string, cloud: LoadedCloud, skipNonFinite: bo
     throw new LoadProblem(`${name} has coordinates above 10¹⁸, too far out to be drawn.`);
   }
   const notes = [...(finite.notes ?? [])];
-  if (bad > 0 && !skipNonFinite)
+  if (bad > 0 && !skipNonFinite) {
     notes.unshift(
       `${number.format(bad)} of the ${number.format(total)} places in its rows and columns have no point (NaN) and are left out.`,
     );
+  }
   return { ...finite, notes, positions: narrowed(finite.positions) };
 }
 

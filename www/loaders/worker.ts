@@ -64,8 +64,9 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
     const blob = await download(name, request.url, downloading, NOT_KEPT);
     const data = await blob.arrayBuffer();
     // Some servers answer with a page if they do not have the file.
-    if (data.byteLength % 12 !== 0)
+    if (data.byteLength % 12 !== 0) {
       throw new LoadProblem(`${name} could not be downloaded: the server sent something else.`);
+    }
     return { positions: new Float32Array(data), colors: null };
   }
 
@@ -80,8 +81,9 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   const { streamFrom, skipNonFinite } = request;
   const check = (cloud: LoadedCloud) => checkedCloud(name, cloud, skipNonFinite);
   // Refuses texts that cannot be read as an address, and addresses that hold their own content (data:).
-  if (request.kind === "url" && !URL.canParse(".", request.url))
+  if (request.kind === "url" && !URL.canParse(".", request.url)) {
     throw new LoadProblem(`“${shortened(request.url)}” is not the address of a file.`);
+  }
   let blob: Blob;
   if (request.kind === "file") {
     blob = request.file;

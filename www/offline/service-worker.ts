@@ -102,8 +102,9 @@ function answerFor(request: Request): Promise<Response> | null {
   if (request.method !== "GET" || request.headers.has("range")) return null;
   const { origin, pathname, search } = new URL(request.url);
   const address = origin + pathname;
-  if (request.mode === "navigate")
+  if (request.mode === "navigate") {
     return address === PAGE || address === here("index.html") ? networkFirst(request, STORE, PAGE) : null;
+  }
   if (search !== "") return null;
   if (assets.has(address)) return kept(address, request);
   if (fixed.has(address)) return networkFirst(request, STORE, address);

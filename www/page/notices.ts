@@ -47,10 +47,12 @@ export function sentenceOf(error: unknown, what: string): string {
 }
 
 function plain(error: unknown): string {
-  if (error instanceof HprError && error.code === "load")
+  if (error instanceof HprError && error.code === "load") {
     return "a part of this page (its WebAssembly file or worker) could not be loaded; reload the page to try again";
-  if (error instanceof HprError && error.code === "too-large")
+  }
+  if (error instanceof HprError && error.code === "too-large") {
     return "it needs more memory than the browser gives to a page";
+  }
   // The library says then how a program goes on.
   if (isLoss(error)) return (error as HprError).message.split(";")[0]!;
   return error instanceof Error ? error.message.replace(/\.$/, "") : String(error);

@@ -175,8 +175,9 @@ export class Opening {
     this.#picker.restore();
     address.giveUp();
     // The page does not stay empty, but a frame in another page shows what was asked for or nothing.
-    if (viewer.cloud === null && this.#usual && source.sample !== this.#usual)
+    if (viewer.cloud === null && this.#usual && source.sample !== this.#usual) {
       void this.open({ ...fromSample(this.#usual), insteadOf: sentence });
+    }
   }
 }
 

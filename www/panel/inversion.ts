@@ -58,8 +58,9 @@ export function bindInversion(store: Store): (resolved: Inversion) => void {
   return (resolved) => {
     const { inversion } = store.current;
     const automatic = inversion !== "spherical" && "power" in inversion && inversion.power === "auto";
-    if (automatic && typeof resolved === "object" && "power" in resolved)
+    if (automatic && typeof resolved === "object" && "power" in resolved) {
       power.value = Math.log10((resolved.power as number) - 1);
+    }
   };
 }
 

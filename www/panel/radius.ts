@@ -49,8 +49,9 @@ export class RadiusControl {
   follow({ question, visibility }: ViewAnswer): void {
     const { radius, inversion } = this.#store.current;
     if (isAutomatic(question.method)) this.#slider.mark(visibility.exponent);
-    if (question.method.radius !== null && inversion === "spherical" && !("exponent" in radius))
+    if (question.method.radius !== null && inversion === "spherical" && !("exponent" in radius)) {
       this.#slider.value = visibility.exponent;
+    }
   }
 
   markAutomatic(exponent: number): void {

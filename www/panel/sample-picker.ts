@@ -72,8 +72,9 @@ export class SamplePicker {
 
   /** Presses the picture of the sample that is on screen. */
   #mark(name: string | null): void {
-    for (const button of this.#thumbnails.children)
+    for (const button of this.#thumbnails.children) {
       button.setAttribute("aria-pressed", String((button as HTMLElement).dataset["sample"] === name));
+    }
   }
 
   #removeOwn(): void {

@@ -31,6 +31,7 @@ export function bindSections(settings: Settings): void {
 
 /** Opens a section and the section around it. */
 function unfold(section: HTMLElement): void {
-  for (let at: Element | null = section; at; at = at.parentElement)
+  for (let at: Element | null = section; at; at = at.parentElement) {
     if (at instanceof HTMLDetailsElement) at.open = true;
+  }
 }

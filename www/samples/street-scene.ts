@@ -42,7 +42,7 @@ export function makeScene(random: () => number, throughPane: () => boolean): Sol
       const width = Math.min(HALF_LENGTH - x, 8 + 5 * random());
       const storeys = 3 + Math.floor(2.4 * random());
       // Some neighboring houses have a gap between them.
-      if (random() < 0.86)
+      if (random() < 0.86) {
         solids.push(
           house(
             x,
@@ -54,10 +54,12 @@ export function makeScene(random: () => number, throughPane: () => boolean): Sol
             throughPane,
           ),
         );
+      }
       x += width;
     }
-    for (let x = -31; x < 32; x += 9.4 + 2 * random())
+    for (let x = -31; x < 32; x += 9.4 + 2 * random()) {
       solids.push(random() < 0.72 ? tree(x, side * 4.4, random) : lamp(x, side * 4.1));
+    }
     for (let x = -30; x < 30; x += 5.6 + 2.5 * random()) if (random() < 0.62) solids.push(car(x, side * 2.55, random));
   }
   solids.push(...[[-9, 4.9], [7.5, -5.2], [16, 5.3], [-13, -5.4]].map(([x, y]) => person(x!, y!))); // prettier-ignore
@@ -75,8 +77,9 @@ function ground(): Solid<Material> {
   return (from, along, reach) => {
     const higher = pavement(from, along, reach);
     const at = (hit: Hit<number>) => ({ x: from[0] + hit.distance * along[0], y: from[1] + hit.distance * along[1] });
-    if (higher && Math.abs(at(higher).y) >= CURB)
+    if (higher && Math.abs(at(higher).y) >= CURB) {
       return Math.abs(at(higher).y) < FACADE + DEPTH ? { ...higher, material: PAVEMENT } : null;
+    }
     const hit = road(from, along, reach);
     if (!hit) return null;
     const { x, y } = at(hit);
@@ -128,8 +131,9 @@ function house(
   );
   const part = (x: number, z: number): Material | null => {
     const [u, v] = [((x - from) % bay) / bay - 0.5, z % STOREY];
-    if (z < STOREY && Math.floor((x - from) / bay) === door)
+    if (z < STOREY && Math.floor((x - from) / bay) === door) {
       return Math.abs(u) < 0.24 && v < 2.3 ? DOOR : Math.abs(u) < 0.3 && v < 2.45 ? STONE : wall;
+    }
     if (z > storeys * STOREY || Math.abs(u) > 0.29 || v < 0.85 || v > 2.55) return z < 0.7 ? STONE : wall;
     const frame = Math.abs(u) > 0.26 || v < 0.93 || v > 2.47 || Math.abs(u) < 0.015 || Math.abs(v - 1.95) < 0.035;
     return frame ? FRAME : null;

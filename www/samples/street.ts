@@ -72,8 +72,9 @@ export function make(): LoadedCloud {
 /** Everything that was scanned, with panes that one can look through, and the places that the beams met. */
 export function truth(): Truth {
   const places: number[] = [];
-  for (const { from, along, hit } of scan())
+  for (const { from, along, hit } of scan()) {
     places.push(...from.map((value, axis) => value + hit.distance * along[axis]!));
+  }
   return { scene: makeScene(mulberry32(SEED), () => true), places: Float64Array.from(places) };
 }
 

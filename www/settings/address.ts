@@ -68,8 +68,9 @@ export class Address {
     this.#cloud = null;
     const address = new URL(location.href);
     const ofCloud = Object.values(SETTINGS).filter((row) => row.ofCloud);
-    for (const name of ["src", "view", "target", ...MARK_PARAMETERS, ...ofCloud.map((row) => row.parameter)])
+    for (const name of ["src", "view", "target", ...MARK_PARAMETERS, ...ofCloud.map((row) => row.parameter)]) {
       address.searchParams.delete(name);
+    }
     address.searchParams.set(parameter, value);
     replace(address);
   }

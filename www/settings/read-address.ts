@@ -38,8 +38,9 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
   const read = <T>(name: string, row: Parameter<T>, otherwise: { otherwise?: string } = {}): T | undefined => {
     const text = query.get(name);
     const value = text === null ? undefined : row.parse(text);
-    if (text !== null && value === undefined)
+    if (text !== null && value === undefined) {
       notes.push(`The ${row.called ?? name} in the address is not ${refusalOf({ ...row, ...otherwise })}.`);
+    }
     return value;
   };
 
@@ -53,14 +54,16 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
     if (value !== undefined) found[name] = value;
   }
   let settings = found as Partial<Settings>;
-  if (settings.radius && exponent !== undefined)
+  if (settings.radius && exponent !== undefined) {
     notes.push("Radius and exponent in the address exclude each other, so the exponent is used.");
+  }
   if (exponent !== undefined) settings.radius = { exponent };
   settings = withLooks(settings);
-  if (settings.looks && !canLook({ ...USUAL_SETTINGS, ...settings }))
+  if (settings.looks && !canLook({ ...USUAL_SETTINGS, ...settings })) {
     notes.push(
       "Looks in the address exclude exponent, radius and inversion, so there is one hull, as these parameters say.",
     );
+  }
   if (query.has("light")) settings.lights = readLights(query.getAll("light"), notes);
 
   return {
@@ -80,9 +83,10 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
 function readLights(texts: readonly string[], notes: string[]): Viewpoint[] {
   const places = texts.map(PLACE.parse);
   const lights = places.filter((place) => place !== undefined).slice(0, MOST_LIGHTS);
-  if (lights.length < places.length)
+  if (lights.length < places.length) {
     notes.push(
       `A light in the address is not three numbers x,y,z, or is one more than ${MOST_LIGHTS}; it is left out.`,
     );
+  }
   return lights;
 }

@@ -14,8 +14,9 @@ export function sentenceOfStep(
   const read = `${counted(nodes.read, "node")} with ${counted(points, "point")} ${nodes.read === 1 ? "was" : "were"} read`;
   const hidden = `${number.format(nodes.hidden)} more ${nodes.hidden === 1 ? "is" : "are"} hidden`;
   if (exact) return `${seen}, exactly: ${read}, ${hidden}.`;
-  if (isLast)
+  if (isLast) {
     return `${seen}: not exact, ${counted(nodes.undecided, "node")} undecided, since there is no room for more; ${read}, ${hidden}.`;
+  }
   return `${seen} so far: ${read}, ${hidden}.`;
 }
 

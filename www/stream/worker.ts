@@ -19,9 +19,11 @@ let running = new AbortController();
 let goOn: () => void = () => undefined;
 
 self.onmessage = ({ data: told }: MessageEvent<StreamTold>) => {
-  if (told.kind === "open") source = told.streamed;
-  else if (told.kind === "next") goOn();
-  else {
+  if (told.kind === "open") {
+    source = told.streamed;
+  } else if (told.kind === "next") {
+    goOn();
+  } else {
     running.abort();
     goOn();
     if (told.kind === "view") void show(told.turn, told.view, (running = new AbortController()).signal);

@@ -21,8 +21,9 @@ export class Area {
     for (const [i, a] of line.entries()) {
       const b = line.at(i - 1)!;
       const last = this.#rowOf(Math.max(a.y, b.y));
-      for (let row = this.#rowOf(Math.min(a.y, b.y)); row <= last; row++)
+      for (let row = this.#rowOf(Math.min(a.y, b.y)); row <= last; row++) {
         this.#rows[row]!.push(a.x, a.y, b.y, (b.x - a.x) / (b.y - a.y));
+      }
     }
   }
 

@@ -72,8 +72,9 @@ export function offerGuide(viewer: Viewer, store: Store): void {
     ["view", "keydown"],
     ["tool-bar", "click"],
     ["panel", "click"],
-  ] as const)
+  ] as const) {
     byId(place).addEventListener(event, end, { signal: over.signal });
+  }
 }
 
 function stepsOf(viewer: Viewer, store: Store): Step[] {

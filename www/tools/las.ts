@@ -69,8 +69,9 @@ export function* lasParts({ cloud, positions, indices }: LasContent): Generator<
     const view = new DataView(new ArrayBuffer(rowBytes * batch.length));
     for (const [row, index] of batch.entries()) {
       const at = row * rowBytes;
-      for (let axis = 0; axis < 3; axis++)
+      for (let axis = 0; axis < 3; axis++) {
         view.setInt32(at + 4 * axis, stepsOf(positions[3 * index + axis]!, scale[axis]!, offset[axis]!), true);
+      }
       // A point without a number of returns is the first and only one.
       if (!taken.has("return number")) view.setUint8(at + 14, format >= 6 ? 0x11 : 0x09);
       for (const write of writers) write(view, at, index);

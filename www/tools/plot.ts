@@ -44,11 +44,13 @@ export class Plot {
     if (!this.#section.open || !this.#section.checkVisibility() || !this.#curve || !this.#viewer.cloud) return;
     const spherical = current.inversion === "spherical";
     this.#drawing.classList.toggle("idle", !spherical);
-    if (spherical)
+    if (spherical) {
       this.#curve.follow(current.freeze ?? this.#viewer.viewpoint, current, () => {
         this.#draw();
       });
-    else this.#note.textContent = "Only the spherical method has a radius.";
+    } else {
+      this.#note.textContent = "Only the spherical method has a radius.";
+    }
   }
 
   /** Shows the radius that an answer was found with. */

@@ -72,9 +72,11 @@ export function* plyParts({ positions, colors, fields, indices, comments }: PlyC
     columns.push({ name, kind: KIND_OF.get(values.constructor) ?? KINDS.float64, valueOf });
   };
   for (const [axis, name] of ["x", "y", "z"].entries()) add(name, positions, (index) => positions[3 * index + axis]!);
-  if (colors)
-    for (const [channel, name] of ["red", "green", "blue"].entries())
+  if (colors) {
+    for (const [channel, name] of ["red", "green", "blue"].entries()) {
       add(name, colors, (index) => colors[3 * index + channel]!);
+    }
+  }
   for (const [name, values] of named(fields)) add(name, values, (index) => valueAt({ values }, index));
 
   const properties = columns.map(({ name, kind: { type } }) => `property ${type} ${name}`);

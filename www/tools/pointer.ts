@@ -20,8 +20,9 @@ export function onClick(canvas: HTMLElement, click: (spot: Spot) => void): void 
       !from ||
       event.pointerId !== from.pointerId ||
       Math.hypot(event.clientX - from.clientX, event.clientY - from.clientY) > STILL
-    )
+    ) {
       return;
+    }
     click(spotOf(canvas, event, event.pointerType === "touch" ? TOUCH_TOLERANCE : TOLERANCE));
   });
 }

@@ -42,8 +42,9 @@ export class Select implements Tool {
           this.choose(
             event.shiftKey ? joined(this.#chosen, found) : event.altKey ? without(this.#chosen, found) : found,
           );
-          if (path.length > 1 && found.length === 0)
+          if (path.length > 1 && found.length === 0) {
             this.#output.textContent = bench.through() ? "No point inside." : "No visible point inside.";
+          }
         });
       },
     });

@@ -70,8 +70,9 @@ export function inReachOnly(
     return reached;
   };
   let near = view;
-  if (near && !isNear(near.at, `The view ${asked} is too far away to see anything, so the usual view is used.`))
+  if (near && !isNear(near.at, `The view ${asked} is too far away to see anything, so the usual view is used.`)) {
     near = null;
+  }
   if (
     near?.target &&
     !isNear(near.target, `The target ${asked} is too far away to be looked at, so the camera looks at the middle.`)
@@ -88,10 +89,11 @@ export function inReachOnly(
   ) {
     places.freeze = null;
   }
-  if (lights)
+  if (lights) {
     places.lights = lights.filter((light) =>
       isNear(light, `A light ${asked} is too far away to be told from others, so it is left out.`),
     );
+  }
   return { view: near, places, notes };
 }
 

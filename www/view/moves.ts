@@ -52,8 +52,9 @@ export class Moves {
 
   /** Keeps the viewpoint in its place while the camera moves on, or lets it move with the camera again. */
   freeze(frozen: boolean): void {
-    if (this.#viewer.cloud && frozen !== this.frozen)
+    if (this.#viewer.cloud && frozen !== this.frozen) {
       this.#store.change({ freeze: frozen ? this.#viewer.viewpoint : null });
+    }
   }
 
   /** Goes back to the first view of the cloud. */

@@ -44,14 +44,16 @@ export class Navigation {
       { capture: true, passive: false },
     );
     // The user's own move ends a flight.
-    for (const move of ["pointerdown", "wheel", "keydown"])
+    for (const move of ["pointerdown", "wheel", "keydown"]) {
       canvas.addEventListener(move, () => {
         this.#flight = null;
       });
-    for (const change of ["focus", "blur"])
+    }
+    for (const change of ["focus", "blur"]) {
       canvas.addEventListener(change, () => {
         this.#shareTouch();
       });
+    }
   }
 
   setHome(pose: Pose): void {

@@ -239,8 +239,9 @@ export class CloudPoints {
   #setWidths(): void {
     for (const { material } of this.#draws) material.uniforms["width"]!.value = this.#width;
     if (!this.#throughOthers) return;
-    for (const { material } of [this.ghost, this.extra])
+    for (const { material } of [this.ghost, this.extra]) {
       material.uniforms["width"]!.value = Math.min(this.#width, THROUGH_WIDTH * this.#spacing);
+    }
   }
 
   dispose(): void {

@@ -99,9 +99,11 @@ export class Preview {
     const half = this.#high.clone().sub(this.#low).divideScalar(2);
     this.#group.position.copy(this.#low).add(half).negate();
     const local = new Float32Array(24);
-    for (let corner = 0; corner < 8; corner++)
-      for (let axis = 0; axis < 3; axis++)
+    for (let corner = 0; corner < 8; corner++) {
+      for (let axis = 0; axis < 3; axis++) {
         local[3 * corner + axis] = (corner >> axis) & 1 ? half.getComponent(axis) : -half.getComponent(axis);
+      }
+    }
     const radius = half.length() || 1;
     const box = {
       count: 8,

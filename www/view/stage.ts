@@ -171,8 +171,9 @@ export class Stage {
 
   /** Returns the present picture as a PNG file. Rejects if there is no picture. */
   snapshot(): Promise<Blob> {
-    if (this.#renderer.getContext().isContextLost())
+    if (this.#renderer.getContext().isContextLost()) {
       return Promise.reject(new Error("the browser has taken the picture away"));
+    }
     // A picture can be read only until the browser has shown it.
     this.invalidate();
     this.#frame();

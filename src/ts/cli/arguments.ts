@@ -51,13 +51,15 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
   checkInput(input, values.columns !== undefined);
   const { output } = values;
   const given = (["from", "camera", "viewpoints"] as const).filter((name) => values[name] !== undefined);
-  if (given.length === 0)
+  if (given.length === 0) {
     throw new UsageProblem("--from X,Y,Z is needed: the viewpoint; or --camera FILE, or --viewpoints FILE");
+  }
   if (given.length > 1) throw new UsageProblem(`--${given.join(" and --")} exclude each other; give one of the two`);
   if (output === undefined) throw new UsageProblem("-o OUT is needed: the file to write");
   const each = output.includes(NAME);
-  if (each && values.viewpoints === undefined)
+  if (each && values.viewpoints === undefined) {
     throw new UsageProblem(`${NAME} in the name of the output needs --viewpoints`);
+  }
 
   const options = viewOptions(values);
   const threshold = values["score-threshold"] === undefined ? undefined : readThreshold(values["score-threshold"]);
@@ -136,13 +138,15 @@ function joinedToNegative(args: string[]) {
 
 function checkInput(input: string, hasColumns: boolean): void {
   const ending = extname(input).toLowerCase();
-  if (ending === ".e57")
+  if (ending === ".e57") {
     throw new UsageProblem(
       `${input}: no reader of E57 files runs in Node (web-e57 was tried); convert it first: pdal translate ${input} OUT.laz`,
     );
+  }
   if (!Object.hasOwn(FORMATS, ending)) throw new UsageProblem(`${input} is none of ${Object.keys(FORMATS).join(", ")}`);
-  if (hasColumns && !FORMATS[ending]!.hasColumns)
+  if (hasColumns && !FORMATS[ending]!.hasColumns) {
     throw new UsageProblem(`--columns has no meaning for ${input}: the format says where x, y and z are`);
+  }
 }
 
 /** The options of a view. Those that exclude each other are refused. */

@@ -17,24 +17,27 @@ export function chosenFormat(
   { input, output, camera, coverage }: { input: string; output: string; camera: boolean; coverage: boolean },
 ): OutputFormat {
   const format = (OUTPUT_FORMATS as readonly string[]).includes(given ?? "") ? (given as OutputFormat) : undefined;
-  if (given !== undefined && format === undefined)
+  if (given !== undefined && format === undefined) {
     throw new UsageProblem(`--format needs one of ${OUTPUT_FORMATS.join(", ")}, not ${given}`);
+  }
   const [is, wanted] = [input, output].map((name) => extname(name).toLowerCase()) as [string, string];
   const isLike = FORMATS[is]!.written.includes(wanted);
   const chosen = format ?? (coverage ? "counts" : byEnding(wanted, isLike, output === "-", camera));
   if (output === "-") return chosen ?? "points";
   if (chosen === undefined || (chosen === "points" && !isLike)) {
     const like = FORMATS[is]!.written.join(", ");
-    if (Object.hasOwn(FORMATS, wanted) && FORMATS[wanted] === FORMATS[is])
+    if (Object.hasOwn(FORMATS, wanted) && FORMATS[wanted] === FORMATS[is]) {
       throw new UsageProblem(`${output} must end with ${like}: such points are read from ${wanted}, but not written`);
+    }
     throw new UsageProblem(
       chosen === undefined
         ? `${output} must end with ${like}, since formats are not converted; --format can name something else than points`
         : `${output} must end with ${like}: points are written in the format of ${input}`,
     );
   }
-  if (chosen !== "points" && ![...TEXT, NUMPY].includes(wanted))
+  if (chosen !== "points" && ![...TEXT, NUMPY].includes(wanted)) {
     throw new UsageProblem(`${output} must end with ${[...TEXT, NUMPY].join(", ")} for ${chosen}`);
+  }
   return chosen;
 }
 

@@ -22,8 +22,9 @@ export async function checkOutputs({ inputs, outputs, overwrite }: Names): Promi
     const file = await fileOf(name);
     if (file === undefined) continue;
     const [input, other] = [read.get(file), written.get(file)];
-    if (input !== undefined)
+    if (input !== undefined) {
       throw new UsageProblem(`${said(name)} is the same file as the input ${input}; --overwrite replaces it`);
+    }
     if (other !== undefined) throw new UsageProblem(`${name} and ${other} are the same file`);
     written.set(file, name);
   }

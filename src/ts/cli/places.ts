@@ -36,8 +36,9 @@ export interface NamedViewpoint {
  */
 export async function viewpointsIn(file: Buffer<ArrayBuffer>, inFileNames: boolean): Promise<NamedViewpoint[]> {
   const lines: { text: string; number: number }[] = [];
-  for await (const { texts, number } of linesOf(bytesSource(file), 0))
+  for await (const { texts, number } of linesOf(bytesSource(file), 0)) {
     for (const [i, text] of texts.entries()) lines.push({ text, number: number + i });
+  }
   const bareName = hasBareName(lines.map(({ text }) => trimmed(text)).find((text) => text !== "" && !isComment(text)));
   const rows = new TableRows(bareName ? ["2", "3", "4"] : undefined);
   const found: NamedViewpoint[] = [];
@@ -46,8 +47,9 @@ export async function viewpointsIn(file: Buffer<ArrayBuffer>, inFileNames: boole
     const point = rows.take(text, number);
     if (point === undefined) continue;
     const { names, width } = rows.layout!;
-    if (names === undefined && !bareName && width > 3)
+    if (names === undefined && !bareName && width > 3) {
       throw lineProblem(number, `has ${width} columns without names; begin with a line such as name,x,y,z`);
+    }
     const column = bareName ? 0 : (names?.bare.indexOf("name") ?? -1);
     const name = column < 0 ? String(found.length + 1) : point.words[column]!;
     if (!point.position.every(Number.isFinite)) throw lineProblem(number, "has a coordinate that is not finite", text);

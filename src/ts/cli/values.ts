@@ -16,8 +16,9 @@ export function readViewpoint(text: string): number[] {
 export function readRadius(text: string): number | RadiusRule {
   if (text === "auto" || text === "search" || text === "opposite") return text;
   const radius = numberIn(text);
-  if (!(radius > 0 && Number.isFinite(radius)))
+  if (!(radius > 0 && Number.isFinite(radius))) {
     throw new UsageProblem(`--radius needs a number above 0, or auto, search or opposite, not ${text}`);
+  }
   return radius;
 }
 
@@ -25,8 +26,9 @@ export function readRadius(text: string): number | RadiusRule {
 export function readExponent(text: string): number | undefined {
   if (text === "auto") return undefined;
   const value = numberIn(text);
-  if (!(value >= 0 && Number.isFinite(value)))
+  if (!(value >= 0 && Number.isFinite(value))) {
     throw new UsageProblem(`--exponent needs a number of 0 or more, or auto, not ${text}`);
+  }
   return value;
 }
 
@@ -60,16 +62,18 @@ export function readNeighbors(option: string, text: string): number {
 
 export function readThreshold(text: string): number {
   const threshold = numberIn(text);
-  if (!(threshold >= 0 && threshold <= 1))
+  if (!(threshold >= 0 && threshold <= 1)) {
     throw new UsageProblem(`--score-threshold needs a number from 0 to 1, not ${text}`);
+  }
   return threshold;
 }
 
 export function readColumns(text: string): ChosenColumns {
   const chosen = text.split(",").map((word) => word.trim());
   const isChoice = (word: string) => word !== "" && (isNumber(word) || !/^[-+]?\d+$/.test(word));
-  if (chosen.length !== 3 || !chosen.every(isChoice) || new Set(chosen).size < 3)
+  if (chosen.length !== 3 || !chosen.every(isChoice) || new Set(chosen).size < 3) {
     throw new UsageProblem(`--columns needs three different columns, as in --columns 2,3,4, not ${text}`);
+  }
   return chosen as unknown as ChosenColumns;
 }
 

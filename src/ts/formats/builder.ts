@@ -70,8 +70,9 @@ export class CloudBuilder {
 
   /** Says where the bytes of a point are. */
   place(index: number, start: number, end: number): void {
-    if (2 * index + 2 > this.#places.length)
+    if (2 * index + 2 > this.#places.length) {
       this.#places = grown(this.#places, Math.max(2 * FIRST_CAPACITY, 2 * this.#places.length));
+    }
     this.#places[2 * index] = start;
     this.#places[2 * index + 1] = end;
   }

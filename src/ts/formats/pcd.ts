@@ -43,8 +43,9 @@ export function readPcdHeader(start: Uint8Array, chosen?: ChosenColumns): PcdHea
     entries.set(known, { ...line, words });
     if (known !== "DATA") continue;
     const data = words.join(" ").toLowerCase();
-    if (data !== "ascii" && data !== "binary" && data !== "binary_compressed")
+    if (data !== "ascii" && data !== "binary" && data !== "binary_compressed") {
       throw lineProblem(number, "gives PCD data that is none of ascii, binary and binary_compressed", text);
+    }
     const fields = fieldsIn(entries);
     const { count, height } = countsIn(entries);
     const axes = axesIn(fields, chosen);
@@ -59,24 +60,28 @@ function fieldsIn(entries: Entries): Field[] {
   const [sizes, types, counts] = ["SIZE", "TYPE", "COUNT"].map((keyword) => {
     if (keyword === "COUNT" && !entries.has(keyword)) return names.map(() => "1");
     const { words, number, text } = entry(entries, keyword);
-    if (words.length !== names.length)
+    if (words.length !== names.length) {
       throw lineProblem(number, `has ${words.length} values for ${names.length} fields`, text);
+    }
     return words;
   });
   return names.map((name, i) => {
     // Fields called _ are padding between other fields, so there may be several.
-    if (name !== "_" && names.indexOf(name) < i)
+    if (name !== "_" && names.indexOf(name) < i) {
       throw lineProblem(entry(entries, "FIELDS").number, `names ${name} twice`);
+    }
     const [size, count] = [countIn(sizes![i]), countIn(counts![i])];
     const type = `${KINDS[types![i]!.toUpperCase()] ?? "?"}${8 * (size ?? NaN)}`;
-    if (!/^(float(32|64)|u?int(8|16|32|64))$/.test(type))
+    if (!/^(float(32|64)|u?int(8|16|32|64))$/.test(type)) {
       throw lineProblem(
         entry(entries, "SIZE").number,
         `gives ${name} a size that its type does not have`,
         `${types![i]!} ${sizes![i]!}`,
       );
-    if (count === undefined || count === 0)
+    }
+    if (count === undefined || count === 0) {
       throw lineProblem(entry(entries, "COUNT").number, `does not say how many numbers ${name} is`, counts![i]);
+    }
     return { name, type: type as NumberType, count };
   });
 }
@@ -101,14 +106,16 @@ function countsIn(entries: Entries): { count: number; height: number } {
   });
   const product = width === undefined ? undefined : width * (height ?? 1);
   const count = points ?? product;
-  if (count === undefined || !Number.isSafeInteger(count))
+  if (count === undefined || !Number.isSafeInteger(count)) {
     throw new FormatProblem("its PCD header does not say how many points there are");
-  if (product !== undefined && product !== count)
+  }
+  if (product !== undefined && product !== count) {
     throw lineProblem(
       entry(entries, "POINTS").number,
       `does not give WIDTH times HEIGHT, ${product}`,
       `POINTS ${count}`,
     );
+  }
   return { count, height: height ?? 1 };
 }
 
@@ -129,8 +136,9 @@ export function unpackPcd(body: Uint8Array, { name, count, fields }: Group): Uin
   if (body.length < 8) throw endsEarly(0, count, name);
   const sizes = new DataView(body.buffer, body.byteOffset, 8);
   const [packed, unpacked] = [sizes.getUint32(0, true), sizes.getUint32(4, true)];
-  if (unpacked !== size)
+  if (unpacked !== size) {
     throw new FormatProblem(`its compressed data is ${unpacked} bytes long, and its header promises ${size}`);
+  }
   if (packed > body.length - 8) throw endsEarly(0, count, name);
   checkRest(body.subarray(8 + packed), name);
   return unpackLzf(body.subarray(8, 8 + packed), unpacked);

@@ -64,22 +64,25 @@ export function readPlyHeader(start: Uint8Array, chosen?: ChosenColumns): PlyHea
 }
 
 function formatIn([format, version, ...more]: string[], { text, number }: Line): PlyHeader["format"] {
-  if (format !== "ascii" && format !== "binary_little_endian" && format !== "binary_big_endian")
+  if (format !== "ascii" && format !== "binary_little_endian" && format !== "binary_big_endian") {
     throw lineProblem(
       number,
       "gives a PLY format that is none of ascii, binary_little_endian and binary_big_endian",
       text,
     );
+  }
   if (version !== "1.0" || more.length > 0) throw lineProblem(number, "gives a PLY version that is not 1.0", text);
   return format;
 }
 
 function elementIn([name, written, ...more]: string[], { text, number }: Line, before: readonly Element[]): Element {
   const count = countIn(written);
-  if (name === undefined || count === undefined || more.length > 0)
+  if (name === undefined || count === undefined || more.length > 0) {
     throw lineProblem(number, "does not give the number of an element", text);
-  if (before.some((element) => element.name === name))
+  }
+  if (before.some((element) => element.name === name)) {
     throw lineProblem(number, "names an element a second time", text);
+  }
   return { name, count, fields: [] };
 }
 
@@ -87,11 +90,13 @@ function propertyIn(words: string[], { text, number }: Line, { fields }: Element
   const isList = words[0] === "list";
   const [lengthName, typeName, name, ...more] = isList ? words.slice(1) : [undefined, ...words];
   const [type, length] = [typeIn(typeName), typeIn(lengthName)];
-  if (type === undefined || (isList && length === undefined))
+  if (type === undefined || (isList && length === undefined)) {
     throw lineProblem(number, "is a property of unknown type", text);
+  }
   if (name === undefined || more.length > 0) throw lineProblem(number, "does not name one property", text);
-  if (length !== undefined && !isWhole(length))
+  if (length !== undefined && !isWhole(length)) {
     throw lineProblem(number, "counts the values of a list in a type that is not an integer", text);
+  }
   if (fields.some((field) => field.name === name)) throw lineProblem(number, "names a property a second time", text);
   return { name, type, count: 1, ...(length === undefined ? {} : { length }) };
 }

@@ -85,10 +85,12 @@ export async function readGltf(reading: Reading): Promise<CloudFile> {
 function jsonOf(data: Uint8Array): GltfJson {
   const view = viewOf(data);
   const binary = view.byteLength >= 20 && view.getUint32(0, true) === 0x46546c67;
-  if (binary && view.getUint32(4, true) !== 2)
+  if (binary && view.getUint32(4, true) !== 2) {
     throw new FormatProblem(`its glTF version is ${view.getUint32(4, true)}, and only version 2 is read`);
-  if (binary && view.getUint32(8, true) > view.byteLength)
+  }
+  if (binary && view.getUint32(8, true) > view.byteLength) {
     throw new FormatProblem("it is shorter than its header says");
+  }
   const end = binary ? 20 + view.getUint32(12, true) : data.length;
   try {
     return JSON.parse(new TextDecoder().decode(data.subarray(binary ? 20 : 0, end))) as GltfJson;
@@ -100,13 +102,15 @@ function jsonOf(data: Uint8Array): GltfJson {
 function checkUse(json: GltfJson, base: string | undefined): void {
   if (json.asset?.version === undefined) throw new FormatProblem("it does not give its glTF version");
   const used = [...(json.extensionsUsed ?? []), ...(json.extensionsRequired ?? [])];
-  if (used.includes("KHR_draco_mesh_compression"))
+  if (used.includes("KHR_draco_mesh_compression")) {
     throw new FormatProblem("it is compressed with Draco, which is not read; export it without that compression");
+  }
   const unknown = json.extensionsRequired?.find((extension) => !UNDERSTOOD.test(extension));
   if (unknown !== undefined) throw new FormatProblem(`it needs an extension that is not supported (${unknown})`);
   const elsewhere = json.buffers?.find(({ uri }) => uri !== undefined && !uri.startsWith("data:"));
-  if (elsewhere && base === undefined)
+  if (elsewhere && base === undefined) {
     throw new FormatProblem(`it keeps its points in another file (${elsewhere.uri}); export it as one GLB file`);
+  }
 }
 
 async function parse(data: Uint8Array<ArrayBuffer>, base = ""): Promise<GLTF> {

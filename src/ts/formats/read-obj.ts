@@ -34,14 +34,17 @@ function putVertex(builder: CloudBuilder, text: string, number: number): void {
   const line = trimmed(text.replace(/#.*/, ""));
   const words = wordsOf(line);
   // The position may be followed by a weight, a color, or both.
-  if (![4, 5, 7, 8].includes(words.length))
+  if (![4, 5, 7, 8].includes(words.length)) {
     throw lineProblem(number, `has ${words.length - 1} values, and a vertex has 3, 4, 6 or 7`, line);
+  }
   const [x, y, z] = words.slice(1, 4).map(numberIn);
-  if (x === undefined || y === undefined || z === undefined)
+  if (x === undefined || y === undefined || z === undefined) {
     throw lineProblem(number, "is not a point, a value is not a number", line);
+  }
   if ([x, y, z].some((value) => isOutOfRange(value))) throw lineProblem(number, "has a number out of range", line);
   if (!builder.takes()) return;
   const i = builder.put(x, y, z);
-  for (let channel = 0; channel < 3; channel++)
+  for (let channel = 0; channel < 3; channel++) {
     builder.values[channel]![i] = words.length >= 7 ? Number(words[words.length - 3 + channel]) : NaN;
+  }
 }

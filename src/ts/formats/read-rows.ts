@@ -46,8 +46,9 @@ export async function readTextRows(
       if (point === undefined || !builder.takes()) continue;
       const i = builder.put(...point.position);
       if (at) builder.place(i, at[line]!, at[line + 1]!);
-      for (let k = 0; k < others.length; k++)
+      for (let k = 0; k < others.length; k++) {
         builder.values[k]![i] = Number(point.words[point.starts[others[k]!.field]!]);
+      }
     }
     step(reading, end);
   }

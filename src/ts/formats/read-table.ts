@@ -36,8 +36,9 @@ export async function readTable(reading: Reading): Promise<CloudFile> {
       if (!builder.takes()) continue;
       const i = builder.put(...point.position);
       if (at) builder.place(i, at[line]!, at[line + 1]!);
-      for (let k = 0; k < others.length; k++)
+      for (let k = 0; k < others.length; k++) {
         builder.values[k]![i] = cell(point.words[others[k]!.column]!)?.value ?? NaN;
+      }
     }
     step(reading, end);
   }

@@ -11,8 +11,9 @@ export async function readFile(reading: Reading): Promise<CloudFile> {
     return await readBy(reading);
   } catch (error) {
     // The allocation of an array that is too long.
-    if (error instanceof RangeError)
+    if (error instanceof RangeError) {
       throw new FormatProblem("it is broken, or there is too little memory for it", { cause: error });
+    }
     throw error;
   }
 }
@@ -24,16 +25,19 @@ async function readBy(reading: Reading): Promise<CloudFile> {
   const start = new TextDecoder("latin1").decode(data).replace(/^ï»¿/, "");
   const ending = /\.([a-z0-9]+)$/i.exec(name)?.[1]?.toLowerCase() ?? "";
   if (start.startsWith("LASF")) return (await import("./las/read-las.js")).readLas(reading);
-  if (start.startsWith("glTF") || (ending === "gltf" && /^\s*\{/.test(start)))
+  if (start.startsWith("glTF") || (ending === "gltf" && /^\s*\{/.test(start))) {
     return (await import("./read-gltf.js")).readGltf(reading);
+  }
   if (/^ply\s/.test(start)) return readPly(reading);
-  if (start.startsWith("ASTM-E57"))
+  if (start.startsWith("ASTM-E57")) {
     throw new FormatProblem(
       `it is an E57 file: the one reader on npm, web-e57, was tried, and it gives all points as one text; convert it first, with CloudCompare or with “pdal translate ${name} cloud.laz”`,
     );
+  }
   // A comment of any file may mention PCD.
-  if (/^(#\s*\.PCD\b|VERSION\s|FIELDS\s)/.test(start) || (ending === "pcd" && /^(VERSION|FIELDS)\s/im.test(start)))
+  if (/^(#\s*\.PCD\b|VERSION\s|FIELDS\s)/.test(start) || (ending === "pcd" && /^(VERSION|FIELDS)\s/im.test(start))) {
     return readPcd(reading);
+  }
   if (/^(ply|pcd|las|laz|gltf|glb)$/.test(ending)) {
     const format = { gltf: "glTF", glb: "GLB" }[ending] ?? ending.toUpperCase();
     throw new FormatProblem(`it does not begin like a ${format} file`);

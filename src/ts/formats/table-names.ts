@@ -56,10 +56,11 @@ export function axesIn({ written, bare }: Names, chosen?: ChosenColumns): Axes |
   const found = exact.every(({ length }) => length > 0) ? exact : CALLED.map((patterns) => patterns.flatMap(placesOf));
   if (found.some(({ length }) => length === 0)) return undefined;
   const several = found.find(({ length }) => length > 1);
-  if (several)
+  if (several) {
     throw new FormatProblem(
       `its columns ${several.map((column) => column + 1).join(" and ")} are names of the same axis: ${quoted(written.join(" "))}`,
     );
+  }
   const axes = found.flat() as unknown as Axes;
   checkUnits(axes.map((axis) => unitOf(written[axis]!)));
   return axes;

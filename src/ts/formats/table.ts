@@ -65,8 +65,9 @@ export class TableRows {
     const { width, axes } = this.#layout;
     const words = rowWords(text, this.#layout);
     if (words === undefined) throw lineProblem(number, "has a quotation mark without an end", line);
-    if (words.length !== width)
+    if (words.length !== width) {
       throw lineProblem(number, `is not a point, it has ${words.length} columns and lines above have ${width}`, line);
+    }
     this.#count++;
     const coordinate = (axis: number) => this.#coordinate(words[axis]!, axis, number, line);
     return { position: [coordinate(axes[0]), coordinate(axes[1]), coordinate(axes[2])], words };
@@ -92,8 +93,9 @@ export class TableRows {
     if (found === undefined) throw lineProblem(number, `is not a point, its column ${axis + 1} is not a number`, line);
     if (found.decimal !== undefined) {
       this.#decimal ??= { mark: found.decimal, line: number };
-      if (this.#decimal.mark !== found.decimal)
+      if (this.#decimal.mark !== found.decimal) {
         throw lineProblem(number, `has both decimal points and decimal commas with line ${this.#decimal.line}`, line);
+      }
     }
     if (isOutOfRange(found.value)) throw lineProblem(number, `has a number out of range in column ${axis + 1}`, line);
     return found.value;
@@ -113,23 +115,28 @@ export class TableRows {
 
     if (this.#names !== undefined) {
       const { axes, written, line: above } = this.#names;
-      if (words.length === written.length && axes.every(isNumberAt))
+      if (words.length === written.length && axes.every(isNumberAt)) {
         return this.#layoutOf(line, number, separator, words, axes);
-      if (++this.#headLines < MOST_HEAD_LINES && words.length === written.length && areUnits(words, axes))
+      }
+      if (++this.#headLines < MOST_HEAD_LINES && words.length === written.length && areUnits(words, axes)) {
         return undefined;
-      if (words.length !== written.length)
+      }
+      if (words.length !== written.length) {
         throw lineProblem(number, `has ${words.length} columns, and line ${above} names ${written.length}`, line);
+      }
       throw lineProblem(number, "is not a point", line);
     }
     if (this.#byNumber) {
       const axes = this.#chosen!.map((column) => Number(column) - 1) as unknown as Axes;
-      if (axes.every((axis) => words[axis] !== "" && isNumberAt(axis)))
+      if (axes.every((axis) => words[axis] !== "" && isNumberAt(axis))) {
         return this.#layoutOf(line, number, separator, words, axes);
+      }
       if (++this.#headLines > MOST_HEAD_LINES) throw lineProblem(number, "is not a point", line);
       return undefined;
     }
-    if (numbers >= 3)
+    if (numbers >= 3) {
       return this.#layoutOf(line, number, separator, words, this.#axesInComments(words.length, separator));
+    }
 
     const names = namesIn(line);
     const axes = axesIn(names, this.#chosen);
@@ -139,8 +146,9 @@ export class TableRows {
   }
 
   #layoutOf(line: string, number: number, separator: Separator, words: readonly string[], axes: Axes): Layout {
-    if (separator === "," && !line.includes(".") && this.#names === undefined && areCommasUnclear(line))
+    if (separator === "," && !line.includes(".") && this.#names === undefined && areCommasUnclear(line)) {
       throw lineProblem(number, "has commas that may divide numbers or decimals", line);
+    }
     return { separator, width: words.length, axes, names: this.#names ?? this.#commented };
   }
 
@@ -150,8 +158,9 @@ export class TableRows {
       const names = namesIn(text, separator);
       const fits = names.written.length === width;
       const axes = this.#chosen && !fits ? undefined : axesIn(names, this.#chosen);
-      if (axes === undefined && fits && width > 3)
+      if (axes === undefined && fits && width > 3) {
         throw lineProblem(line, "may name the columns, but not which are x, y and z", text);
+      }
       if (axes === undefined) continue;
       if (!fits && axes.join() === "0,1,2") continue;
       if (!fits) throw lineProblem(line, `names ${names.written.length} columns, and the points have ${width}`, text);

@@ -83,8 +83,9 @@ export function startsIn(
   let known = FIXED.get(fields);
   if (known === undefined) FIXED.set(fields, (known = hasLists(fields) ? null : walk(fields, [], number, line)));
   const { starts, total } = known ?? walk(fields, words, number, line);
-  if (words.length !== total)
+  if (words.length !== total) {
     throw lineProblem(number, `has ${words.length} values, and its header promises ${total}`, line);
+  }
   return starts;
 }
 
@@ -98,8 +99,9 @@ function walk(
   const starts = fields.map(({ count, length }) => {
     const start = total;
     const word = words[start] ?? "0";
-    if (length && countIn(word) === undefined)
+    if (length && countIn(word) === undefined) {
       throw lineProblem(number, `is a row whose list has a length of ${word}`, line);
+    }
     total += length ? 1 + Number(word) : count;
     return start;
   });

@@ -45,8 +45,9 @@ export async function watchedPage(context: BrowserContext, drawing = true): Prom
     const post = methods["postMessage"]!;
     methods["postMessage"] = function (...args: unknown[]) {
       const { content } = (args[0] ?? {}) as { content?: { kind?: string; viewpoint?: ArrayLike<number> } };
-      if (content?.kind === "visibleFrom" && content.viewpoint)
+      if (content?.kind === "visibleFrom" && content.viewpoint) {
         watched.asked[Array.from(content.viewpoint).join()] ??= performance.now();
+      }
       post.apply(this, args);
     };
     const draws = WebGL2RenderingContext.prototype as unknown as Record<string, (...given: number[]) => void>;
@@ -109,8 +110,9 @@ export async function drag(page: Page, seconds: number): Promise<void> {
   await page.mouse.move(x, y);
   await page.mouse.down();
   const end = performance.now() + 1000 * seconds;
-  for (let i = 0; performance.now() < end; i++)
+  for (let i = 0; performance.now() < end; i++) {
     await page.mouse.move(x + 200 * Math.sin(i / 30), y + 40 * Math.sin(i / 47));
+  }
   await page.mouse.up();
 }
 

@@ -70,8 +70,9 @@ export async function readCopc(
     const compressed = await asked[i]!;
     asked[i] = Promise.resolve(compressed.subarray(0, 0));
     ask(i + AHEAD);
-    if (compressed.length < node.pointDataLength)
+    if (compressed.length < node.pointDataLength) {
       throw new LoadProblem(`${name} is broken: it ends before its points do.`);
+    }
     const { says } = chunkParts(compressed, node.pointCount, header);
     if (says !== undefined) found.add(`the chunk at byte ${node.pointDataOffset} ${says}`);
     try {
@@ -85,7 +86,7 @@ export async function readCopc(
   const cloud = loaded(name, taker.finish(points === header.count));
   if (points >= header.count) return cloud;
   const shown = number.format(cloud.positions.length / 3);
-  if (isStreamed)
+  if (isStreamed) {
     return {
       ...cloud,
       ...streamedFrom(
@@ -99,6 +100,7 @@ export async function readCopc(
         shown,
       ),
     };
+  }
   return {
     ...cloud,
     notes: [
@@ -148,10 +150,12 @@ async function chooseNodes(
         if (!isPart(page.pageOffset, page.pageLength) || known.has(page.pageOffset)) throw lazDamaged();
         known.add(page.pageOffset);
         const listed = await Copc.loadHierarchyPage(read, page);
-        for (const [key, node] of Object.entries(listed.nodes))
+        for (const [key, node] of Object.entries(listed.nodes)) {
           if (node && node.pointCount > 0) (levels[depthOf(key)] ??= []).push(node);
-        for (const [key, next] of Object.entries(listed.pages))
+        }
+        for (const [key, next] of Object.entries(listed.pages)) {
           if (next) pages.push({ depth: Math.max(depthOf(key), depth), page: next });
+        }
       }
       const level = levels[depth] ?? [];
       if (level.length === 0 && pages.length === 0 && levels.length <= depth + 1) break;

@@ -52,8 +52,9 @@ export class AreaMeasure {
     const corners = this.#corners;
     if (corners.length === 1) this.#marks.push(this.#bench.marks.ring(corners[0]!));
     // Two corners have one line, not two.
-    for (let i = corners.length === 2 ? 1 : 0; i < corners.length && corners.length > 1; i++)
+    for (let i = corners.length === 2 ? 1 : 0; i < corners.length && corners.length > 1; i++) {
       this.#marks.push(this.#bench.marks.line(corners.at(i - 1)!, corners[i]!, ""));
+    }
   }
 }
 

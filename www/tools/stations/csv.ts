@@ -15,8 +15,9 @@ export function readStations(text: string): Station[] {
   const title = named ? head.findIndex((word) => /^(name|id|station|point|label)$/.test(word)) : width >= 4 ? 0 : -1;
   const stations = rows.slice(named ? 1 : 0).map(({ words, line }, i): Station => {
     const at = axes.map((column) => (words[column] ? Number(words[column]) : NaN));
-    if (!at.every(Number.isFinite))
+    if (!at.every(Number.isFinite)) {
       throw new Error(`Line ${line} is not a name and three numbers x, y, z: “${words.join(", ").slice(0, 40)}”.`);
+    }
     return { name: words[title]?.slice(0, LONGEST_NAME) || `S${i + 1}`, at: at as Viewpoint };
   });
   if (stations.length === 0) throw new Error("The file has no lines of name, x, y, z.");

@@ -39,8 +39,9 @@ export class Stations implements Tool {
     this.#store = store;
     this.#card = new StationCard(card, {
       here: () => {
-        if (bench.viewer.cloud)
+        if (bench.viewer.cloud) {
           this.add([{ name: this.#nextName(), at: store.current.freeze ?? bench.viewer.viewpoint }]);
+        }
       },
       read: (file) => void this.#read(file),
       suggest: () => void this.#suggest(),
@@ -195,8 +196,9 @@ export class Stations implements Tool {
     try {
       return await ask({ signal, onProgress });
     } catch (error) {
-      if (running === this.#running)
+      if (running === this.#running) {
         this.#card.say(signal.aborted ? "Stopped." : `The answer could not be found: ${(error as Error).message}.`);
+      }
       return undefined;
     } finally {
       if (running === this.#running) {
@@ -268,6 +270,7 @@ function colorsOf({ counts, rows }: Viewshed) {
 
 function* csvParts(indices: Uint32Array, line: (index: number) => string): Generator<string> {
   yield "index,x,y,z,stations\n";
-  for (let from = 0; from < indices.length; from += BATCH)
+  for (let from = 0; from < indices.length; from += BATCH) {
     yield `${Array.from(indices.subarray(from, from + BATCH), line).join("\n")}\n`;
+  }
 }

@@ -131,8 +131,9 @@ export function decodeDifferences(bytes: Uint8Array, rows: number, width: number
     return found + (found >= 2 ** (bits - 1) ? 1 : 1 - 2 ** bits);
   };
   for (let row = 0; row < rows; row++) {
-    for (const { bits, values } of columns)
+    for (const { bits, values } of columns) {
       values[row] = (row > 0 ? values[row - 1]! : 0) + difference(decoder.symbol(bits));
+    }
     if (decoder.isBeyondEnd) return undefined;
   }
   return columns.map(({ values }) => values);

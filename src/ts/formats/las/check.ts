@@ -15,8 +15,9 @@ const number = new Intl.NumberFormat("en-US");
 /** Compares the counts in the header with each other. */
 export function checkCounts({ minor, count, head }: LasDetails, found: Contradictions): void {
   const old = head.getUint32(107, true);
-  if (minor === 4 && old > 0 && old !== count)
+  if (minor === 4 && old > 0 && old !== count) {
     found.add(`its header promises ${count} points, and ${old} in its older field`);
+  }
 }
 
 /**
@@ -38,8 +39,9 @@ export async function countStored(header: LasDetails, source: Source, found: Con
   const next = Math.min(source.size, ...after);
   if (next < end) found.add("the records after its points begin among them");
   const rest = await source.read(end, Math.min(next, end + rowBytes));
-  if (rest.length >= rowBytes && rest.some((byte) => byte !== 0))
+  if (rest.length >= rowBytes && rest.some((byte) => byte !== 0)) {
     found.add(`it goes on after the ${number.format(count)} points that its header promises`);
+  }
   return count;
 }
 
@@ -80,10 +82,11 @@ export class BoxCheck {
   /** @param isWhole whether all points of the file were taken */
   finish(isWhole: boolean, found: Contradictions): void {
     if (!this.#isSet) return;
-    if (this.#outside > 0)
+    if (this.#outside > 0) {
       found.add(`${number.format(this.#outside)} of its points lie outside the bounds that its header gives`);
-    else if (isWhole && AXES.some((axis) => this.#isForeign(axis)))
+    } else if (isWhole && AXES.some((axis) => this.#isForeign(axis))) {
       found.add("the bounds in its header belong to other coordinates than its points have");
+    }
   }
 
   /** Whether a bound is neither at the points nor on the grid of coordinates, on which the box of any other cloud is. */

@@ -123,8 +123,9 @@ function crsRecords(view: DataView, records: readonly LasRecord[]): CrsRecords {
     if (user !== "LASF_Projection") continue;
     if (id === 2112) found.wkt = textAt(view, at, length);
     if (id === 34_737) found.texts = textAt(view, at, length);
-    if (id === 34_735)
+    if (id === 34_735) {
       found.keys = Uint16Array.from({ length: length >> 1 }, (_, i) => view.getUint16(at + 2 * i, true));
+    }
   }
   return found;
 }

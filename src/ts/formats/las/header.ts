@@ -48,16 +48,19 @@ const SHORTEST = 227;
 /** @param data the file's bytes, or the first LONGEST_LAS_HEADER of them */
 export function readLasHeader(data: Uint8Array): LasHeader {
   const view = new DataView(data.buffer, data.byteOffset, data.byteLength);
-  if (textAt(view, 0, Math.min(4, view.byteLength)) !== "LASF")
+  if (textAt(view, 0, Math.min(4, view.byteLength)) !== "LASF") {
     throw new FormatProblem("it does not begin like a LAS file");
+  }
   if (view.byteLength < SHORTEST) throw new FormatProblem("it ends within its LAS header");
   const [major, minor] = [view.getUint8(24), view.getUint8(25)];
-  if (major !== 1 || minor > 4)
+  if (major !== 1 || minor > 4) {
     throw new FormatProblem(`its LAS version is ${major}.${minor}, and only 1.0 to 1.4 can be read`);
+  }
   const headerBytes = view.getUint16(94, true);
   const start = view.getUint32(96, true);
-  if (headerBytes < SHORTEST || start < headerBytes || (minor === 4 && view.byteLength < 375))
+  if (headerBytes < SHORTEST || start < headerBytes || (minor === 4 && view.byteLength < 375)) {
     throw new FormatProblem("the sizes in its LAS header are impossible");
+  }
 
   // The two upper bits of the format are set if the points are compressed.
   const format = view.getUint8(104) & 63;
@@ -71,8 +74,9 @@ export function readLasHeader(data: Uint8Array): LasHeader {
     [0, 1, 2].map((axis) => view.getFloat64(at + axis * step, true)) as [number, number, number];
   const scale = vector(131);
   const offset = vector(155);
-  if (![...scale, ...offset].every(Number.isFinite) || scale.includes(0))
+  if (![...scale, ...offset].every(Number.isFinite) || scale.includes(0)) {
     throw new FormatProblem("its LAS header has no usable scale and offset");
+  }
   const records = lasRecords(view, headerBytes, view.getUint32(100, true));
   const count =
     minor === 4 ? Number(view.getBigUint64(247, true)) || view.getUint32(107, true) : view.getUint32(107, true);

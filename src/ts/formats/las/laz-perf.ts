@@ -87,8 +87,9 @@ async function withoutListeners<T>(start: () => Promise<T>): Promise<T> {
   const before = events.map((event) => node?.listeners?.(event as "exit") ?? []);
   const result = await start();
   events.forEach((event, i) => {
-    for (const listener of node?.listeners?.(event as "exit") ?? [])
+    for (const listener of node?.listeners?.(event as "exit") ?? []) {
       if (!before[i]!.includes(listener)) node!.removeListener!(event, listener);
+    }
   });
   return result;
 }

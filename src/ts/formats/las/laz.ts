@@ -58,12 +58,14 @@ function chunkSize({ format, rowBytes, records }: LasHeader, head: DataView): nu
   );
   const types = items.map(([type]) => type!).filter((type) => !EXTRA_ITEMS.includes(type));
   const bytes = items.reduce((sum, [, size]) => sum + size!, 0);
-  if (compressor !== (known.layers ? 3 : 2))
+  if (compressor !== (known.layers ? 3 : 2)) {
     throw new FormatProblem(
       `its points are compressed in a way (${compressor}) that its format ${format} does not have`,
     );
-  if (types.join() !== known.items.join() || bytes !== rowBytes || rowBytes < known.bytes)
+  }
+  if (types.join() !== known.items.join() || bytes !== rowBytes || rowBytes < known.bytes) {
     throw new FormatProblem("its header and its record of LAZ describe different points");
+  }
   return head.getUint32(at + 12, true);
 }
 
@@ -93,8 +95,9 @@ export async function readChunks(
     offset += lengths[i]!;
     points += own;
   }
-  if (points !== count || (!counts && chunks.length !== Math.ceil(count / size)))
+  if (points !== count || (!counts && chunks.length !== Math.ceil(count / size))) {
     found.add(`its header promises ${count} points, and the table of its ${chunks.length} chunks others`);
+  }
   return chunks;
 }
 

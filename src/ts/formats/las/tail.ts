@@ -29,8 +29,9 @@ export function checkTail(
   for (let i = 0; i < at.length - 1 && i < OF_POSITIONS; i++) {
     if (at[i + 1]! - at[i]! <= 2 * AHEAD) continue;
     const changed = rows((layer, which) => followed(which === i ? layer.map(inverted) : layer, 0));
-    if (sameRows(right, changed, layout.rowBytes) === points)
+    if (sameRows(right, changed, layout.rowBytes) === points) {
       found.add(`its last chunk holds more than the ${points} points that are promised`);
+    }
   }
   return points;
 }
@@ -56,10 +57,11 @@ function rebuilt(chunk: Uint8Array, at: readonly number[], { rowBytes }: ChunkLa
     return i < OF_POSITIONS && layer.length > 0 ? edit(layer, i) : layer;
   });
   const sizes = new DataView(head.buffer, rowBytes);
-  if (layers.length > 1)
+  if (layers.length > 1) {
     layers.forEach(({ length }, i) => {
       sizes.setUint32(4 + 4 * i, length, true);
     });
+  }
   const all = new Uint8Array(layers.reduce((sum, { length }) => sum + length, head.length));
   all.set(head);
   layers.reduce((place, layer) => {
