@@ -87,7 +87,7 @@ impl PointCloud {
 
     #[getter]
     fn noise(&self, py: Python<'_>) -> PyResult<f64> {
-        self.cloud.noise().map_err(|error| refused(py, error))
+        self.cloud.ask(py, core::PointCloud::noise)
     }
 
     #[pyo3(signature = (viewpoint, **options))]

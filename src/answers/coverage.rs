@@ -6,6 +6,7 @@ use crate::base::allocation::{filled, with_capacity};
 use crate::base::error::{Error, in_range};
 use crate::cloud::point_cloud::PointCloud;
 use crate::view::options::Options;
+use crate::view::refusals::QuestionKind;
 
 /// What is wanted of chosen viewpoints.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -45,13 +46,13 @@ impl PointCloud {
     /// ```
     ///
     /// # Errors
-    /// [`Error::NoDraft`], [`Error::ScoresWith`]; otherwise as [`PointCloud::visible_from`].
+    /// [`Error::Excludes`] for drafts and scores; otherwise as [`PointCloud::visible_from`].
     pub fn coverage(&self, viewpoints: &[[f64; 3]], options: &Options) -> Result<Vec<u32>, Error> {
         let mut counts: Vec<u32> = filled(self.len(), 0)?;
-        self.survey("coverage", viewpoints, options, &mut |_, indices| {
-            indices
-                .iter()
-                .for_each(|&index| counts[index as usize] += 1);
+        options.check(QuestionKind::Coverage)?;
+        self.each_view(viewpoints, options, &mut |_, seen| {
+            let indices = seen.indices().iter();
+            indices.for_each(|&index| counts[index as usize] += 1);
         })?;
         Ok(counts)
     }
@@ -107,17 +108,14 @@ impl PointCloud {
 
         let mut gains: Vec<f64> = filled(candidates.len(), 0.0)?;
         let mut seen_by_any: Vec<bool> = filled(self.len(), false)?;
-        self.survey(
-            "placeViewpoints",
-            candidates,
-            options,
-            &mut |number, indices| {
-                gains[number] = indices.iter().fold(0.0, |sum, &index| sum + weight(index));
-                for &index in indices {
-                    seen_by_any[index as usize] = true;
-                }
-            },
-        )?;
+        options.check(QuestionKind::PlaceViewpoints)?;
+        self.each_view(candidates, options, &mut |number, seen| {
+            let indices = seen.indices();
+            gains[number] = indices.iter().fold(0.0, |sum, &index| sum + weight(index));
+            for &index in indices {
+                seen_by_any[index as usize] = true;
+            }
+        })?;
         let reachable = total(&seen_by_any);
         let mut seen: Vec<bool> = filled(self.len(), false)?;
         let mut measured: Vec<usize> = filled(candidates.len(), 0)?;
@@ -154,39 +152,6 @@ impl PointCloud {
         placement.seen = marked(&seen, true)?;
         placement.unseen = marked(&seen_by_any, false)?;
         Ok(placement)
-    }
-
-    /// Asks each viewpoint, and hands over its number and the indices that it sees.
-    fn survey(
-        &self,
-        method: &'static str,
-        viewpoints: &[[f64; 3]],
-        options: &Options,
-        take: &mut dyn FnMut(usize, &[u32]),
-    ) -> Result<(), Error> {
-        options.refuse_draft(method)?;
-        if options.scores {
-            return Err(Error::ScoresWith { other: method });
-        }
-        if options.chooses_for_all() {
-            return self.on_chosen(None, options, &mut |cloud, options| {
-                cloud.survey(method, viewpoints, options, take)
-            });
-        }
-        if viewpoints.is_empty() {
-            self.check_options(options)?;
-        }
-        let mut ask = |cloud: &Self, options: &Options| {
-            let mut observer = cloud.observer();
-            for (number, &viewpoint) in viewpoints.iter().enumerate() {
-                take(number, observer.visible_from(viewpoint, options)?.indices());
-            }
-            Ok(())
-        };
-        if options.chooses_for_each() {
-            return ask(self, options);
-        }
-        self.after_denoising(options, ask)
     }
 }
 

@@ -1,7 +1,6 @@
 //! Noise handling. Before a view, points move to the plane of their neighbors. After the view,
 //! neighbors vote.
 
-use alloc::boxed::Box;
 use alloc::vec::Vec;
 use glam::DVec3;
 
@@ -41,91 +40,16 @@ impl PointCloud {
         Ok(self.moved(&moved)?)
     }
 
-    /// Prepares the cloud for views with the same `within`, `sample`, `denoise` and `vote`. It
-    /// keeps the points in the box, the sampled or the denoised points, and the neighbors that
-    /// vote (up to 64 a point, 4 bytes each), until points are appended or removed. Answers are
-    /// the same as without preparation. A view then need not choose points or search neighbors.
-    /// This saves some microseconds a point. Nothing is kept for a distance, because each
-    /// viewpoint has other points there.
-    ///
-    /// # Errors
-    /// [`Error::OutOfRange`] and [`Error::BoundsInvalid`] as for the view;
-    /// [`Error::OutOfMemory`]. After an error the cloud answers as before.
-    pub fn prepare_for(&mut self, options: &Options) -> Result<(), Error> {
-        self.prepare_view(None, options)
-    }
-
-    /// [`PointCloud::prepare_for`] views from `viewpoint`, if there is only one.
-    pub(crate) fn prepare_view(
-        &mut self,
-        viewpoint: Option<[f64; 3]>,
-        options: &Options,
-    ) -> Result<(), Error> {
-        if let Some(within) = options.within {
-            return self.keep_within(viewpoint, &within, options);
-        }
-        if let Some(count) = options.sample {
-            return self.keep_sample(count, options);
-        }
-        if let Some(k) = options.denoise {
-            if self
-                .kept
-                .denoised
-                .as_ref()
-                .is_none_or(|&(kept, _)| kept != k)
-            {
-                // The old cloud is freed first: there may be no memory for two.
-                self.kept.denoised = None;
-                self.kept.denoised = Some((k, Box::new(self.denoised(k)?)));
-            }
-            let denoised = self.kept.denoised.as_mut();
-            return denoised.map_or(Ok(()), |(_, cloud)| {
-                let options = Options {
-                    denoise: None,
-                    ..*options
-                };
-                cloud.prepare_view(None, &options)
-            });
-        }
-        self.keep_survey(options)?;
-        match options.vote {
-            Some(k) if k <= MOST_KEPT => {
-                if self.kept.voters.as_ref().is_none_or(|voters| voters.k != k) {
-                    self.kept.voters = None;
-                    self.kept.voters = Some(self.voters(k)?);
-                }
-                Ok(())
-            }
-            _ => Ok(()),
-        }
-    }
-
-    /// Asks the denoised cloud if `options` say so, otherwise this cloud.
-    pub(crate) fn after_denoising<T>(
-        &self,
-        options: &Options,
-        query: impl FnOnce(&Self, &Options) -> Result<T, Error>,
-    ) -> Result<T, Error> {
-        let mut options = *options;
-        let mut made = None;
-        let cloud = self.kept_or_denoised(options.denoise.take(), &mut made)?;
-        // There is a single call, because the compiler copies the query for each call.
-        query(cloud, &options)
-    }
-
-    #[inline(never)]
-    fn kept_or_denoised<'a>(
-        &'a self,
-        k: Option<usize>,
-        made: &'a mut Option<Self>,
-    ) -> Result<&'a Self, Error> {
-        let Some(k) = k else {
-            return Ok(self);
+    /// Keeps the neighbors that vote, if the options ask for a vote.
+    pub(crate) fn keep_voters(&mut self, options: &Options) -> Result<(), Error> {
+        let Some(k) = options.vote.filter(|&k| k <= MOST_KEPT) else {
+            return Ok(());
         };
-        Ok(match &self.kept.denoised {
-            Some((kept, denoised)) if *kept == k => denoised,
-            _ => made.insert(self.denoised(k)?),
-        })
+        if self.kept.voters.as_ref().is_none_or(|voters| voters.k != k) {
+            self.kept.voters = None;
+            self.kept.voters = Some(self.voters(k)?);
+        }
+        Ok(())
     }
 
     /// Every distinct point and its `k` nearest other points vote on whether it is visible.

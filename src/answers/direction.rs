@@ -9,8 +9,8 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::answers::looks::Gaze;
-use crate::answers::room::Room;
+use crate::answers::looks::Projection;
+use crate::answers::memory::ViewMemory;
 use crate::answers::visibility::Visibility;
 use crate::base::error::Error;
 use crate::base::real::square_root;
@@ -20,7 +20,8 @@ use crate::hull;
 use crate::view::choice;
 use crate::view::options::{Exponential, Inversion, Options, Radius};
 use crate::view::radius::{self, ChosenRadius};
-use crate::view::resolved::{looks, resolved_inversion};
+use crate::view::refusals::QuestionKind;
+use crate::view::resolved::{SEVERAL_HULLS, looks, resolved_inversion};
 
 impl PointCloud {
     /// Which points are visible along `direction`, the direction in which an orthographic camera
@@ -49,41 +50,30 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::Direction`] for a direction that is zero or not finite;
-    /// [`Error::NoLimit`] for [`Inversion::Power`], [`Radius::Search`], [`Radius::Opposite`] and
+    /// [`Error::Excludes`] for [`Inversion::Power`], [`Radius::Search`], [`Radius::Opposite`] and
     /// a distance in [`Options::within`]; the others of [`PointCloud::visible_from`].
     pub fn visible_from_direction(
         &self,
         direction: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        if options.chooses_for_each() {
-            let option = "within distance";
-            return Err(Error::NoLimit { option });
+        options.check(QuestionKind::Direction)?;
+        let ahead = normalized(direction).ok_or(Error::Direction { direction })?;
+        let cloud = self.part(None, options)?;
+        if let Some(count) = looks(options)? {
+            let mut memory = ViewMemory::default();
+            let projection = Projection::Parallel(ahead);
+            return cloud.seen_by_looks(&mut memory, projection, count, options);
         }
-        if options.chooses() {
-            let seen = self.on_chosen(None, options, &mut |cloud, options| {
-                cloud.visible_from_direction(direction, options)
-            })?;
-            return Ok(seen.to(options));
-        }
-        self.after_denoising(options, |cloud, options| {
-            if let Some(count) = looks(options)? {
-                let ahead = normalized(direction).ok_or(Error::Direction { direction })?;
-                let mut room = Room::default();
-                return cloud.seen_by_looks(&mut room, Gaze::Along(ahead), count, options);
-            }
-            let (visible, chosen, inversion) = cloud.direction_marks(direction, options)?;
-            let seen = cloud.answer(&visible, chosen, inversion)?;
-            Ok(seen.to(options))
-        })
+        let (visible, chosen, inversion) = cloud.direction_marks(ahead, options)?;
+        cloud.answer(&visible, options, chosen, inversion)
     }
 
     fn direction_marks(
         &self,
-        direction: [f64; 3],
+        ahead: DVec3,
         options: &Options,
     ) -> Result<(Vec<bool>, ChosenRadius, Inversion), Error> {
-        let ahead = normalized(direction).ok_or(Error::Direction { direction })?;
         let inversion = resolved_inversion(options, self.statistics.spacing)?;
         let (bend, chosen) = self.bend(ahead, options.radius, inversion)?;
         let lift = Lift::new(&self.bounds, ahead, bend);
@@ -107,17 +97,10 @@ impl PointCloud {
             Inversion::Exponential(Exponential::Scale(scale)) => Some(scale),
             Inversion::Exponential(Exponential::Auto)
             | Inversion::Power(_)
-            | Inversion::Looks(_) => {
-                let option = "inversion power";
-                return Err(Error::NoLimit { option });
-            }
+            | Inversion::Looks(_) => return Err(SEVERAL_HULLS),
         };
         if let Some(scale) = scale {
             return Ok((0.5 / scale, ChosenRadius::unit(0.0)));
-        }
-        if matches!(choice, Radius::Search | Radius::Opposite) {
-            let option = choice.name();
-            return Err(Error::NoLimit { option });
         }
         let diagonal = self.bounds.diagonal();
         if statistics.count == 0 {

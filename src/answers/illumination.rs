@@ -9,6 +9,7 @@ use crate::base::sort::sort_keyed;
 use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::point_cloud::PointCloud;
 use crate::view::options::Options;
+use crate::view::refusals::QuestionKind;
 
 /// The number of neighbors of a point where there is no mesh.
 const NEIGHBORS: usize = 6;
@@ -58,7 +59,7 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for `smoothing` or `ambient`; [`Error::IndexOutOfRange`] for
-    /// a corner that is no index of the cloud; [`Error::LooksWith`] for
+    /// a corner that is no index of the cloud; [`Error::Excludes`] for drafts and
     /// [`Inversion::Looks`](crate::Inversion::Looks); otherwise as
     /// [`PointCloud::visible_from`].
     pub fn illuminate(
@@ -67,15 +68,9 @@ impl PointCloud {
         options: &Options,
         lighting: &Lighting,
     ) -> Result<Vec<f32>, Error> {
-        options.refuse_draft("illuminate")?;
-        if options.chooses_for_all() {
-            return self.on_chosen(None, options, &mut |cloud, options| {
-                cloud.illuminate(lights, options, lighting)
-            });
-        }
+        options.check(QuestionKind::Illuminate)?;
         let ambient = in_range("ambient", lighting.ambient, 0.0, 1.0)?;
         in_range("smoothing", lighting.smoothing as f64, 0.0, MOST_ROUNDS)?;
-        options.refuse_looks("illuminate")?;
         let mut corners = lighting.triangles.unwrap_or(&[]).iter().flatten();
         let len = self.len();
         if let Some(&index) = corners.find(|&&i| i as usize >= len) {
@@ -83,31 +78,20 @@ impl PointCloud {
         }
 
         let mut brightness = filled(len, 0.0)?;
-        // One closure behind a pointer: the compiler would copy it for each call.
-        let shine: &mut dyn FnMut(&Self, &Options) -> Result<(), Error> = &mut |cloud, options| {
-            if lights.is_empty() {
-                cloud.check_options(options)?;
+        self.each_view(lights, options, &mut |_, seen| {
+            for &index in seen.indices() {
+                brightness[index as usize] += 1.0;
             }
-            for &light in lights {
-                let seen = cloud.visible_from(light, options)?;
-                for &index in seen.indices() {
-                    brightness[index as usize] += 1.0;
-                }
-            }
-            Ok(())
-        };
-        if options.chooses_for_each() {
-            // Noise is handled after the points near each light are chosen.
-            shine(self, options)?;
-        } else {
-            self.after_denoising(options, |cloud, options| shine(cloud, options))?;
-        }
+        })?;
         let share = (1.0 - ambient) / (lights.len().max(1) as f64);
         for light in &mut brightness {
             *light = ambient + share * *light;
         }
         if lighting.smoothing > 0 && !lights.is_empty() {
-            self.soften(&mut brightness, lighting)?;
+            // With a distance, each light samples points of its own.
+            let sample = options.sample.filter(|_| !options.has_distance());
+            let cloud = self.chosen(None, &Options { sample, ..*options })?;
+            cloud.soften(&mut brightness, lighting)?;
         }
 
         let mut rounded: Vec<f32> = with_capacity(len)?;

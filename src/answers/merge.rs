@@ -8,6 +8,7 @@ use crate::base::sort::sort_keyed;
 use crate::cloud::point_cloud::{NonFinite, PointCloud};
 use crate::cloud::points::{Given, Points, Position, checked_len};
 use crate::view::options::{Exponential, Inversion, Options, Radius};
+use crate::view::refusals::QuestionKind;
 
 /// Which points of a cloud are visible, given the visible points of its parts?
 ///
@@ -45,8 +46,8 @@ use crate::view::options::{Exponential, Inversion, Options, Radius};
 /// # Errors
 /// [`Error::MergeRadius`] unless the radius is [`Radius::Absolute`], or the inversion
 /// an [`Exponential::Scale`];
-/// [`Error::MergeNeighbors`] for [`Options::denoise`] and [`Options::vote`];
-/// [`Error::LooksWith`] for [`Inversion::Looks`];
+/// [`Error::Excludes`] for [`Inversion::Looks`], a draft, and options that choose points or need
+/// their neighbors;
 /// [`Error::IdsLength`]; those of [`PointCloud::new`] for all positions together (an
 /// index counts through all parts) and of [`PointCloud::visible_from`].
 pub fn merge_visible<P: Position>(
@@ -173,7 +174,7 @@ fn merge_keyed<'a>(
 /// Refuses options for which the answer of the parts would not be the answer of the whole.
 #[inline(never)]
 pub(crate) fn check_mergeable(options: &Options) -> Result<(), Error> {
-    options.refuse_looks("merging")?;
+    options.check(QuestionKind::Merge)?;
     // Any other radius would depend on the points that are left in the parts.
     let resolved = match options.inversion {
         Inversion::Spherical | Inversion::Power(_) => {
@@ -184,17 +185,6 @@ pub(crate) fn check_mergeable(options: &Options) -> Result<(), Error> {
     };
     if !resolved {
         return Err(Error::MergeRadius);
-    }
-    // The neighbors of a point in a part are not its neighbors in the cloud.
-    let asked = [
-        ("denoise", options.denoise.is_some()),
-        ("vote", options.vote.is_some()),
-        ("draft", options.draft),
-        ("sample", options.sample.is_some()),
-        ("within", options.within.is_some()),
-    ];
-    if let Some((option, _)) = asked.into_iter().find(|&(_, is_asked)| is_asked) {
-        return Err(Error::MergeNeighbors { option });
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! Many views of one cloud, which share memory. An exact view goes on from its draft.
 
-use crate::answers::room::Room;
+use crate::answers::memory::ViewMemory;
 use crate::answers::visibility::Visibility;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
@@ -28,7 +28,7 @@ use crate::view::options::Options;
 /// ```
 pub struct Observer<'a> {
     cloud: &'a PointCloud,
-    memory: Room,
+    memory: ViewMemory,
 }
 
 impl PointCloud {
@@ -37,7 +37,7 @@ impl PointCloud {
     pub fn observer(&self) -> Observer<'_> {
         Observer {
             cloud: self,
-            memory: Room::default(),
+            memory: ViewMemory::default(),
         }
     }
 }

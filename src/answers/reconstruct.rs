@@ -12,6 +12,7 @@ use crate::cloud::neighbors::distance_squared;
 use crate::cloud::point_cloud::PointCloud;
 use crate::hull;
 use crate::view::options::Options;
+use crate::view::refusals::QuestionKind;
 
 /// The default of the longest edge, in spacings. The paper's 2.5 % of the diameter leaves webs
 /// on dense clouds.
@@ -50,8 +51,8 @@ impl PointCloud {
     /// ```
     ///
     /// # Errors
-    /// [`Error::OutOfRange`] for a `max_edge` that is negative or NaN; [`Error::LooksWith`]
-    /// for [`Inversion::Looks`](crate::Inversion::Looks), which are several hulls; otherwise
+    /// [`Error::OutOfRange`] for a `max_edge` that is negative or NaN; [`Error::Excludes`]
+    /// for drafts and for [`Inversion::Looks`](crate::Inversion::Looks), which are several hulls; otherwise
     /// as [`PointCloud::visible_from`].
     pub fn reconstruct(
         &self,
@@ -59,20 +60,12 @@ impl PointCloud {
         options: &Options,
         max_edge: Option<f64>,
     ) -> Result<Reconstruction, Error> {
-        options.refuse_draft("reconstruct")?;
-        if options.chooses() {
-            let seen = self.on_chosen(Some(viewpoint), options, &mut |cloud, options| {
-                cloud.reconstruct(viewpoint, options, max_edge)
-            })?;
-            let visibility = seen.visibility.to(options);
-            return Ok(Reconstruction { visibility, ..seen });
-        }
-        let longest = max_edge.unwrap_or(SPACINGS * self.statistics.spacing);
+        options.check(QuestionKind::Reconstruct)?;
+        let chosen = self.chosen(Some(viewpoint), options)?;
+        let longest = max_edge.unwrap_or(SPACINGS * chosen.statistics.spacing);
         in_range("maxEdge", longest, 0.0, f64::INFINITY)?;
-        options.refuse_looks("reconstruct")?;
-        let (visibility, mut triangles) = self.after_denoising(options, |cloud, options| {
-            cloud.triangulate(viewpoint, options)
-        })?;
+        let part = self.part(Some(viewpoint), options)?;
+        let (visibility, mut triangles) = part.triangulate(viewpoint, options)?;
         if longest < f64::INFINITY {
             let places = self.places()?;
             let at = |index: u32| self.sequence.points.get(places[index as usize] as usize);
@@ -111,7 +104,7 @@ impl PointCloud {
             corners.rotate_left(first);
         }
         sort_by_corners(&mut triangles)?;
-        let visibility = self.answer(&visible, view.chosen, view.inversion)?;
+        let visibility = self.answer(&visible, options, view.chosen, view.inversion)?;
         Ok((visibility, triangles))
     }
 

@@ -1,64 +1,21 @@
 //! Even samples of a cloud: the answers of the sampled points alone.
 
-use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::error::{Error, in_range};
 use crate::base::limit::MAX_POINTS;
 use crate::cloud::point_cloud::PointCloud;
-use crate::view::options::Options;
 
 impl PointCloud {
-    /// The cloud that holds the `count` sampled points alone, kept or `made`.
-    #[inline(never)]
-    pub(crate) fn kept_or_sampled<'a>(
-        &'a self,
-        count: usize,
-        options: &Options,
-        made: &'a mut Option<Self>,
-    ) -> Result<&'a Self, Error> {
+    /// The cloud of `count` of the distinct points; `None` if there are no more. Indices stay.
+    pub(crate) fn sample(&self, count: usize) -> Result<Option<Self>, Error> {
         in_range("sample", count as f64, 1.0, MAX_POINTS as f64)?;
-        if options.scores {
-            return Err(Error::ScoresWith { other: "sample" });
+        let all = self.sequence.points.len();
+        if all <= count {
+            return Ok(None);
         }
-        Ok(match &self.kept.sampled {
-            _ if self.holds_at_most(count) => self,
-            Some((kept, sampled)) if *kept == count => sampled,
-            _ => made.insert(self.sampled(count)?),
-        })
-    }
-
-    /// Keeps the sample for later views.
-    pub(crate) fn keep_sample(&mut self, count: usize, options: &Options) -> Result<(), Error> {
-        in_range("sample", count as f64, 1.0, MAX_POINTS as f64)?;
-        let options = Options {
-            sample: None,
-            ..*options
-        };
-        if self.holds_at_most(count) {
-            return self.prepare_view(None, &options);
-        }
-        let kept = self.kept.sampled.as_ref();
-        if kept.is_none_or(|&(kept, _)| kept != count) {
-            // The old cloud is freed first: there may be no memory for two.
-            self.kept.sampled = None;
-            self.kept.sampled = Some((count, Box::new(self.sampled(count)?)));
-        }
-        let sampled = self.kept.sampled.as_mut();
-        sampled.map_or(Ok(()), |(_, cloud)| cloud.prepare_view(None, &options))
-    }
-
-    fn holds_at_most(&self, count: usize) -> bool {
-        self.sequence.points.len() <= count
-    }
-
-    /// The cloud of `count` of the distinct points. `count` is less than their number. Indices
-    /// stay.
-    #[inline(never)]
-    fn sampled(&self, count: usize) -> Result<Self, OutOfMemory> {
-        let places = even_places(self.sequence.points.len(), count)?;
-        self.of_places(&places)
+        Ok(Some(self.of_places(&even_places(all, count)?)?))
     }
 }
 

@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 
-use crate::answers::room::Room;
+use crate::answers::memory::ViewMemory;
 use crate::answers::visibility::Visibility;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::error::Error;
@@ -15,6 +15,7 @@ use crate::hull::division::{Division, Sector};
 use crate::hull::{self, Memory};
 use crate::view::options::{Inversion, Options};
 use crate::view::radius::ChosenRadius;
+use crate::view::refusals::QuestionKind;
 use crate::view::resolved::{View, looks};
 
 impl PointCloud {
@@ -54,73 +55,62 @@ impl PointCloud {
         options: &Options,
         sector: Sector,
     ) -> Result<Visibility, Error> {
-        self.visible_in_sector_with(&mut Room::default(), viewpoint, options, sector)
+        self.visible_in_sector_with(&mut ViewMemory::default(), viewpoint, options, sector)
     }
 
     /// [`PointCloud::visible_in_sector`] with the memory of earlier views.
     pub(crate) fn visible_in_sector_with(
         &self,
-        memory: &mut Room,
+        memory: &mut ViewMemory,
         viewpoint: [f64; 3],
         options: &Options,
         sector: Sector,
     ) -> Result<Visibility, Error> {
-        memory.see(options.selection(viewpoint));
-        self.sector_of_chosen(memory, viewpoint, options, sector)
+        if sector.count == 1 {
+            return self.visible_from_with(memory, viewpoint, options);
+        }
+        options.check(QuestionKind::View)?;
+        let part = self.part(Some(viewpoint), options)?;
+        memory.see(options.steps(Some(viewpoint))?);
+        part.sector(memory, viewpoint, options, sector)
     }
 
-    fn sector_of_chosen(
+    /// The sector of a view of all points of this cloud.
+    fn sector(
         &self,
-        memory: &mut Room,
+        memory: &mut ViewMemory,
         viewpoint: [f64; 3],
         options: &Options,
         sector: Sector,
     ) -> Result<Visibility, Error> {
-        if options.within.is_some() {
-            return self.on_chosen(Some(viewpoint), options, &mut |cloud, options| {
-                cloud.sector_of_chosen(memory, viewpoint, options, sector)
-            });
-        }
-        // With a vote or denoising, the answer of a point needs the answers of its neighbors.
-        // Drafts and samples take little time. In all these cases the first sector answers for all.
-        let is_one_hull = !options.asks_for_looks() && options.is_exact();
-        if sector.count > 1 && is_one_hull && options.denoise.is_none() && options.vote.is_none() {
+        // With a vote, the answer of a point needs the answers of its neighbors. A draft takes
+        // little time. In these cases the first sector answers for all.
+        if !options.asks_for_looks() && !options.draft && options.vote.is_none() {
             let view = self.view(viewpoint, options)?;
             if is_divisible(&view) {
-                let division = Some(self.division(viewpoint, view.chosen.radius, sector)?);
-                memory.forget();
+                let division = self.division(viewpoint, view.chosen.radius, sector)?;
                 let points = &self.sequence.points;
                 let blocks = &self.blocks.levels[0];
-                hull::mark_visible(points, blocks, &view.flip, division, memory)?;
-                return self.answer(memory.visible(), view.chosen, view.inversion);
+                let hull = &mut memory.hull;
+                hull::mark_sector(points, blocks, &view.flip, division, hull)?;
+                return self.answer(hull.visible(), options, view.chosen, view.inversion);
             }
         }
         if sector.number == 0 {
-            self.visible_from_chosen(memory, viewpoint, options)
+            self.seen_from(memory, viewpoint, options)
         } else {
-            self.nothing(viewpoint, options)
+            self.nothing_from(viewpoint, options)
         }
     }
 
     /// The answer in which nothing is visible.
-    fn nothing(&self, viewpoint: [f64; 3], options: &Options) -> Result<Visibility, Error> {
-        if options.chooses() {
-            let seen = self.on_chosen(Some(viewpoint), options, &mut |cloud, options| {
-                cloud.nothing(viewpoint, options)
-            })?;
-            return Ok(seen.to(options));
-        }
-        if options.denoise.is_some() {
-            return self
-                .after_denoising(options, |cloud, options| cloud.nothing(viewpoint, options));
-        }
+    fn nothing_from(&self, viewpoint: [f64; 3], options: &Options) -> Result<Visibility, Error> {
         self.check_options(options)?;
         if looks(options)?.is_some() {
-            return self.answer(&[], ChosenRadius::unit(0.0), options.inversion);
+            return self.answer(&[], options, ChosenRadius::unit(0.0), options.inversion);
         }
         let view = self.view(viewpoint, options)?;
-        let seen = self.answer(&[], view.chosen, view.inversion)?;
-        Ok(seen.to(options))
+        self.answer(&[], options, view.chosen, view.inversion)
     }
 
     fn division(
@@ -144,7 +134,7 @@ impl PointCloud {
         }
         let mut memory = Memory::default();
         let flip = Flip::new(viewpoint, Kernel::Spherical { radius: coarse });
-        hull::mark_visible(&points, &[], &flip, None, &mut memory)?;
+        hull::mark_visible(&points, &[], &flip, &mut memory)?;
         Division::new(
             &self.sequence.points,
             &self.blocks,

@@ -4,7 +4,6 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use crate::answers::room::Room;
 use crate::answers::visibility::Visibility;
 use crate::base::allocation::{filled, with_capacity};
 use crate::base::error::{Error, in_range};
@@ -12,6 +11,7 @@ use crate::base::real::square_root;
 use crate::cloud::point_cloud::PointCloud;
 use crate::view::options::{Inversion, Options};
 use crate::view::radius::ChosenRadius;
+use crate::view::refusals::QuestionKind;
 use crate::view::resolved::resolved_inversion;
 
 impl PointCloud {
@@ -71,79 +71,37 @@ impl PointCloud {
         viewpoints: &[[f64; 3]],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        if options.chooses_for_all() {
-            let seen = self.on_chosen(None, options, &mut |cloud, options| {
-                cloud.visible_from_several(k, viewpoints, options)
-            })?;
-            return Ok(seen.to(options));
-        }
-        if options.scores {
-            return Err(Error::ScoresWith {
-                other: "several viewpoints",
-            });
-        }
-        if options.chooses_for_each() && !viewpoints.is_empty() {
-            return self.visible_from_parts(k, viewpoints, options);
-        }
-        self.after_denoising(options, |cloud, options| {
-            cloud.visible_from_whole_several(k, viewpoints, options)
-        })
-    }
-
-    /// The same, where each viewpoint sees another part of the cloud.
-    fn visible_from_parts(
-        &self,
-        k: usize,
-        viewpoints: &[[f64; 3]],
-        options: &Options,
-    ) -> Result<Visibility, Error> {
+        options.check(QuestionKind::Several)?;
         let mut views: Vec<u32> = filled(self.len(), 0)?;
-        let mut last: Option<Visibility> = None;
-        for &viewpoint in viewpoints {
-            let seen = self.visible_from(viewpoint, options)?;
+        let mut joined: Option<Visibility> = None;
+        self.each_view(viewpoints, options, &mut |_, seen| {
             for &index in seen.indices() {
                 views[index as usize] += 1;
             }
-            last = Some(match last {
-                Some(last) => seen.joined(last),
+            joined = Some(match joined.take() {
+                // Of equal radii with own points each, the exponent is the last one's.
+                Some(joined) if options.has_distance() => seen.joined(joined),
+                Some(joined) => joined.joined(seen),
                 None => seen,
             });
-        }
+        })?;
+        let joined = match joined {
+            Some(joined) => joined,
+            None => self.part(None, options)?.nothing(options)?,
+        };
         let is_seen = |&index: &u32| views[index as usize] as usize >= k;
         let mut indices: Vec<u32> = with_capacity(self.len())?;
         indices.extend((0..self.len() as u32).filter(is_seen));
-        let len = self.len();
-        let nothing =
-            || Visibility::new(Vec::new(), len, ChosenRadius::unit(0.0), options.inversion);
-        Ok(last.unwrap_or_else(nothing).with_indices(indices))
+        Ok(joined.with_indices(indices))
     }
 
-    fn visible_from_whole_several(
-        &self,
-        k: usize,
-        viewpoints: &[[f64; 3]],
-        options: &Options,
-    ) -> Result<Visibility, Error> {
+    /// The answer from no viewpoint.
+    fn nothing(&self, options: &Options) -> Result<Visibility, Error> {
         let inversion = match options.inversion {
             Inversion::Looks(_) => options.inversion,
             _ => resolved_inversion(options, self.statistics.spacing)?,
         };
-        if viewpoints.is_empty() {
-            self.check_options(options)?;
-        }
-        let mut views: Vec<u32> = filled(self.sequence.points.len(), 0)?;
-        let mut chosen = ChosenRadius::unit(0.0);
-        let mut memory = Room::default();
-        for &viewpoint in viewpoints {
-            let (visible, radius) = self.marks(&mut memory, viewpoint, options)?;
-            for (views, visible) in views.iter_mut().zip(visible) {
-                *views += u32::from(visible);
-            }
-            chosen = chosen.joined(radius);
-        }
-        let mut visible: Vec<bool> = with_capacity(views.len())?;
-        visible.extend(views.iter().map(|&views| views as usize >= k));
-        Ok(self.answer(&visible, chosen, inversion)?.to(options))
+        self.answer(&[], options, ChosenRadius::unit(0.0), inversion)
     }
 }
 

@@ -2,16 +2,18 @@
 
 use alloc::vec::Vec;
 
-use crate::answers::looks::{Gaze, Question, even_scales, scores_of_indices};
-use crate::answers::room::Room;
+use crate::answers::looks::{Projection, Question, even_scales, scores_of_indices};
+use crate::answers::memory::ViewMemory;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::bits::{bits_of, places};
 use crate::base::error::Error;
+use crate::cloud::part::Steps;
 use crate::cloud::point_cloud::PointCloud;
 use crate::hull;
 use crate::view::options::{Exponential, Inversion, Options, Radius};
 use crate::view::radius::ChosenRadius;
-use crate::view::resolved::{View, looks};
+use crate::view::refusals::QuestionKind;
+use crate::view::resolved::looks;
 
 /// Which points of a cloud are visible from one viewpoint, or from several.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,12 +44,6 @@ impl Visibility {
             scores: Vec::new(),
             exact: true,
         }
-    }
-
-    /// Marks this as the answer to a question with `options`: a draft or a sample is not exact.
-    pub(crate) fn to(self, options: &Options) -> Self {
-        let exact = self.exact && options.is_exact();
-        Self { exact, ..self }
     }
 
     /// This answer with the larger radius and scale of two views, and with the number of hulls of
@@ -186,134 +182,112 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::Viewpoint`] for a viewpoint that is not finite; the `Radius…`
-    /// and `Exponent…` errors for a choice of R that does not fit the view, or its
-    /// inversion; [`Error::PowerInvalid`], [`Error::ScaleInvalid`]; [`Error::OutOfRange`]
+    /// errors for a choice of R that does not fit the view, or its
+    /// inversion; [`Error::Parameter`]; [`Error::OutOfRange`]
     /// unless 1 ≤ k < the number of present points for [`Options::denoise`] and
     /// [`Options::vote`], and for a number of looks that is not 2 or 3;
-    /// [`Error::LooksWith`] for looks with a choice of R; [`Error::ScoresWithoutLooks`];
-    /// [`Error::BoundsInvalid`];
+    /// [`Error::Excludes`] for options that exclude each other; [`Error::BoundsInvalid`];
     /// [`Error::OutOfMemory`].
     pub fn visible_from(
         &self,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        self.visible_from_with(&mut Room::default(), viewpoint, options)
+        self.visible_from_with(&mut ViewMemory::default(), viewpoint, options)
     }
 
     /// [`PointCloud::visible_from`] with the memory of earlier views.
     pub(crate) fn visible_from_with(
         &self,
-        memory: &mut Room,
+        memory: &mut ViewMemory,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        memory.see(options.selection(viewpoint));
-        self.visible_from_chosen(memory, viewpoint, options)
+        options.check(QuestionKind::View)?;
+        let part = self.part(Some(viewpoint), options)?;
+        memory.see(options.steps(Some(viewpoint))?);
+        part.seen_from(memory, viewpoint, options)
     }
 
-    /// The same as `visible_from_with`, for a memory that has seen the selection.
-    pub(crate) fn visible_from_chosen(
-        &self,
-        memory: &mut Room,
-        viewpoint: [f64; 3],
-        options: &Options,
-    ) -> Result<Visibility, Error> {
-        if options.chooses() {
-            let seen = self.on_chosen(Some(viewpoint), options, &mut |cloud, options| {
-                cloud.visible_from_chosen(memory, viewpoint, options)
-            })?;
-            return Ok(seen.to(options));
-        }
-        self.visible_from_whole(memory, viewpoint, options)
-    }
-
-    /// The same as `visible_from_with`, but always for all points.
+    /// The view of all points of this cloud, which takes no step to a part.
     #[inline(never)]
-    fn visible_from_whole(
+    pub(crate) fn seen_from(
         &self,
-        memory: &mut Room,
+        memory: &mut ViewMemory,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        if options.denoise.is_some() {
-            // The hull of other points is no start for this cloud.
-            return self.after_denoising(options, |cloud, options| {
-                cloud.visible_from(viewpoint, options)
-            });
-        }
         if let Some(count) = looks(options)? {
-            return self.seen_by_looks(memory, Gaze::From(viewpoint), count, options);
+            return self.seen_by_looks(memory, Projection::Perspective(viewpoint), count, options);
         }
-        let view = self.look(memory, viewpoint, options)?;
-        let seen = match options.vote {
-            Some(k) => {
-                let voted = self.vote(k, memory.visible())?;
-                self.answer(&voted, view.chosen, view.inversion)?
-            }
-            None => self.answer(memory.visible(), view.chosen, view.inversion)?,
+        let view = self.view(viewpoint, options)?;
+        let points = &self.sequence.points;
+        let blocks = &self.blocks.levels[0];
+        let mark = if options.draft {
+            hull::mark_draft
+        } else {
+            hull::mark_visible
         };
-        Ok(seen.to(options))
+        mark(points, blocks, &view.flip, &mut memory.hull)?;
+        let visible = memory.hull.visible();
+        match options.vote {
+            Some(k) => {
+                let voted = self.vote(k, visible)?;
+                self.answer(&voted, options, view.chosen, view.inversion)
+            }
+            None => self.answer(visible, options, view.chosen, view.inversion),
+        }
     }
 
     /// Goes on from a draft of the same view, if `memory` holds one, with about `budget` points.
     /// Looks need no draft. Returns whether [`PointCloud::visible_from_with`] would have no point left to add.
     pub(crate) fn go_on_with(
         &self,
-        memory: &mut Room,
+        memory: &mut ViewMemory,
         viewpoint: [f64; 3],
         options: &Options,
         budget: usize,
     ) -> Result<bool, Error> {
-        if options.draft || options.chooses() || options.denoise.is_some() {
+        options.check(QuestionKind::View)?;
+        let steps = options.steps(Some(viewpoint))?;
+        // To make a part again for each slice would take too long.
+        if options.draft || steps != Steps::default() {
             return Ok(true);
         }
-        memory.see(options.selection(viewpoint));
+        memory.see(steps);
         if let Some(count) = looks(options)? {
-            let question = question(Gaze::From(viewpoint), count, options);
+            let question = question(Projection::Perspective(viewpoint), count, options);
             return memory.go_on_looking(self, question, budget);
         }
         let view = self.view(viewpoint, options)?;
         let points = &self.sequence.points;
         let blocks = &self.blocks.levels[0];
-        Ok(hull::go_on(points, blocks, &view.flip, memory, budget)?)
-    }
-
-    /// Marks the visible points in `memory`, and returns the resolved view. It neither denoises
-    /// points nor counts votes.
-    fn look(
-        &self,
-        memory: &mut Room,
-        viewpoint: [f64; 3],
-        options: &Options,
-    ) -> Result<View, Error> {
-        let view = self.view(viewpoint, options)?;
-        let points = &self.sequence.points;
-        let blocks = &self.blocks.levels[0];
-        if options.draft {
-            hull::mark_draft(points, blocks, &view.flip, memory)?;
-        } else {
-            hull::mark_visible(points, blocks, &view.flip, None, memory)?;
-        }
-        Ok(view)
+        Ok(hull::go_on(
+            points,
+            blocks,
+            &view.flip,
+            &mut memory.hull,
+            budget,
+        )?)
     }
 
     /// The answer from `count` looks.
     pub(crate) fn seen_by_looks(
         &self,
-        memory: &mut Room,
-        gaze: Gaze,
+        memory: &mut ViewMemory,
+        projection: Projection,
         count: usize,
         options: &Options,
     ) -> Result<Visibility, Error> {
-        let seen = memory.look(self, question(gaze, count, options))?;
+        let seen = memory.look(self, question(projection, count, options))?;
         let scores = if options.scores {
             scores_of_indices(self, &seen.scores)?
         } else {
             Vec::new()
         };
         let visible = self.voted(seen.visible, options)?;
-        let answer = self.answer(&visible, ChosenRadius::unit(0.0), options.inversion)?;
+        let chosen = ChosenRadius::unit(0.0);
+        let answer = self.answer(&visible, options, chosen, options.inversion)?;
         let mut looks = with_capacity(count)?;
         looks.extend_from_slice(&seen.scales[..count]);
         Ok(Visibility {
@@ -321,25 +295,6 @@ impl PointCloud {
             looks,
             ..answer
         })
-    }
-
-    /// Whether each distinct point is visible, and the radius that was chosen. It counts votes but
-    /// does not denoise points.
-    pub(crate) fn marks(
-        &self,
-        memory: &mut Room,
-        viewpoint: [f64; 3],
-        options: &Options,
-    ) -> Result<(Vec<bool>, ChosenRadius), Error> {
-        if let Some(count) = looks(options)? {
-            let seen = memory.look(self, question(Gaze::From(viewpoint), count, options))?;
-            let visible = self.voted(seen.visible, options)?;
-            return Ok((visible, ChosenRadius::unit(0.0)));
-        }
-        let view = self.look(memory, viewpoint, options)?;
-        let mut visible = with_capacity(memory.visible().len())?;
-        visible.extend_from_slice(memory.visible());
-        Ok((self.voted(visible, options)?, view.chosen))
     }
 
     /// The marks after the vote, if `options` ask for one.
@@ -355,6 +310,7 @@ impl PointCloud {
     pub(crate) fn answer(
         &self,
         visible: &[bool],
+        options: &Options,
         chosen: ChosenRadius,
         inversion: Inversion,
     ) -> Result<Visibility, Error> {
@@ -362,6 +318,7 @@ impl PointCloud {
             self.sequence.indices_of(k)
         })?;
         let mut answer = Visibility::new(indices, self.len(), chosen, inversion);
+        answer.exact = options.is_exact();
         if let Inversion::Looks(count) = inversion {
             let scales = even_scales(count, &self.statistics);
             answer.looks = with_capacity(count)?;
@@ -384,9 +341,9 @@ impl PointCloud {
     }
 }
 
-fn question(gaze: Gaze, count: usize, options: &Options) -> Question {
+fn question(projection: Projection, count: usize, options: &Options) -> Question {
     Question {
-        gaze,
+        projection,
         count,
         with_scores: options.scores,
         thickness: options.thickness,

@@ -72,55 +72,20 @@ pub enum Error {
         /// The farthest distance, infinite where it overflowed.
         farthest: f64,
     },
-    /// The exponent is NaN, infinite or negative.
-    ExponentInvalid {
-        /// The exponent as given.
-        exponent: f64,
-    },
-    /// The power of [`Inversion::Power`](crate::Inversion::Power) is not above 1 and
-    /// at most 16.
-    PowerInvalid {
-        /// The power as given.
-        power: f64,
-    },
-    /// The scale of [`Exponential::Scale`](crate::Exponential::Scale) is not finite
-    /// and positive.
-    ScaleInvalid {
-        /// The scale as given.
-        scale: f64,
-    },
-    /// The inversion cannot use this choice of R.
-    RadiusWithInversion {
-        /// The option that chose R.
-        option: &'static str,
-        /// The inversion.
-        inversion: &'static str,
-    },
-    /// [`Inversion::Looks`](crate::Inversion::Looks) with something that needs the one hull
-    /// of a single flip.
-    LooksWith {
-        /// The option or the question, as the JavaScript package calls it.
-        other: &'static str,
-    },
-    /// [`Options::scores`](crate::Options::scores) without
-    /// [`Inversion::Looks`](crate::Inversion::Looks).
-    ScoresWithoutLooks,
-    /// [`Options::thickness`](crate::Options::thickness) without
-    /// [`Inversion::Looks`](crate::Inversion::Looks).
-    ThicknessWithoutLooks,
-    /// Scores were asked for together with an option or a question that has none.
-    ScoresWith {
-        /// The option or question.
-        other: &'static str,
-    },
-    /// The option has no meaning for a viewpoint at infinity.
-    NoLimit {
+    /// A number of an option that is not as it must be.
+    Parameter {
         /// The option, as the JavaScript package calls it.
         option: &'static str,
+        /// What it must be.
+        must_be: &'static str,
+        /// The number as given.
+        value: f64,
     },
-    /// A sample was asked for together with a question that has none.
-    SampleWith {
-        /// The question, as the JavaScript package calls it.
+    /// Two options exclude each other, or a question has no such option.
+    Excludes {
+        /// The option, as the JavaScript package calls it.
+        option: &'static str,
+        /// The other option, or the question.
         other: &'static str,
     },
     /// A box has a minimum above its maximum, or a coordinate that is NaN (or, for a horizon, infinite).
@@ -131,11 +96,6 @@ pub enum Error {
         given: usize,
         /// How many indices the cloud has given out.
         len: usize,
-    },
-    /// There is no draft of this.
-    NoDraft {
-        /// The option or method, as the JavaScript package calls it.
-        option: &'static str,
     },
     /// A number is out of its range, or NaN.
     OutOfRange {
@@ -155,11 +115,6 @@ pub enum Error {
     },
     /// A merge needs the radius with which each part was seen.
     MergeRadius,
-    /// The option looks at neighbors, and a part does not know all of them.
-    MergeNeighbors {
-        /// The option, as the JavaScript package calls it.
-        option: &'static str,
-    },
     /// A part of a merge has more positions than ids, or fewer.
     IdsLength {
         /// Which of the parts.
@@ -193,24 +148,14 @@ impl Error {
             Self::RadiusInvalid { .. }
             | Self::RadiusTooSmall { .. }
             | Self::RadiusOverflow { .. } => "radius",
-            Self::ExponentInvalid { .. }
-            | Self::PowerInvalid { .. }
-            | Self::ScaleInvalid { .. }
-            | Self::RadiusWithInversion { .. }
+            Self::Parameter { .. }
+            | Self::Excludes { .. }
             | Self::OutOfRange { .. }
-            | Self::NoLimit { .. }
-            | Self::LooksWith { .. }
-            | Self::ScoresWithoutLooks
-            | Self::ThicknessWithoutLooks
-            | Self::ScoresWith { .. }
-            | Self::SampleWith { .. }
             | Self::BoundsInvalid
             | Self::MaskLength { .. }
-            | Self::NoDraft { .. }
             | Self::Dimension { .. }
             | Self::IndexOutOfRange { .. }
-            | Self::MergeRadius
-            | Self::MergeNeighbors { .. } => "option",
+            | Self::MergeRadius => "option",
             Self::IdsLength { .. } | Self::PositionsLength { .. } => "positions-length",
             Self::TooManyPoints { .. } | Self::OutOfMemory => "too-large",
         }
@@ -252,17 +197,9 @@ impl fmt::Display for Error {
             Self::Dimension { option, dimension } => {
                 write!(f, "{option} needs a cloud of dimension 3, not {dimension}")
             }
-            Self::LooksWith { other } => write!(f, "looks cannot be combined with {other}"),
-            Self::ScoresWithoutLooks => write!(f, "scores can be asked for only with looks"),
-            Self::ThicknessWithoutLooks => {
-                write!(f, "thickness can be given only with looks")
+            Self::Excludes { option, other } => {
+                write!(f, "{option} cannot be combined with {other}")
             }
-            Self::ScoresWith { other } => write!(f, "scores cannot be combined with {other}"),
-            Self::NoLimit { option } => write!(
-                f,
-                "{option} cannot be used for a direction: it has no limit far away"
-            ),
-            Self::SampleWith { other } => write!(f, "sample cannot be combined with {other}"),
             Self::BoundsInvalid => write!(
                 f,
                 "a box must be [min, max], where no coordinate of min is above that of max"
@@ -271,7 +208,6 @@ impl fmt::Display for Error {
                 f,
                 "within mask must have one element for each of {len} indices, got {given}"
             ),
-            Self::NoDraft { option } => write!(f, "draft cannot be combined with {option}"),
             Self::RadiusInvalid { radius } => {
                 let radius = Number(radius);
                 write!(f, "radius must be finite and positive, got {radius}")
@@ -299,27 +235,11 @@ impl fmt::Display for Error {
                 "the farthest distance ({}) exceeds the range of f64",
                 Number(farthest)
             ),
-            Self::ExponentInvalid { exponent } => {
-                let exponent = Number(exponent);
-                write!(f, "exponent must be finite and at least 0, got {exponent}")
-            }
-            Self::PowerInvalid { power } => {
-                let power = Number(power);
-                write!(
-                    f,
-                    "inversion power must be above 1 and at most 16, got {power}"
-                )
-            }
-            Self::ScaleInvalid { scale } => {
-                let scale = Number(scale);
-                write!(
-                    f,
-                    "inversion exponential must be finite and positive, got {scale}"
-                )
-            }
-            Self::RadiusWithInversion { option, inversion } => {
-                write!(f, "{option} cannot be combined with inversion {inversion}")
-            }
+            Self::Parameter {
+                option,
+                must_be,
+                value,
+            } => write!(f, "{option} must be {must_be}, got {}", Number(value)),
             Self::OutOfRange {
                 option,
                 value,
@@ -338,9 +258,6 @@ impl fmt::Display for Error {
                 f,
                 "merging needs the radius, in the cloud's units, or the exponential scale that all parts were seen with"
             ),
-            Self::MergeNeighbors { option } => {
-                write!(f, "{option} cannot be combined with merging")
-            }
             Self::IdsLength {
                 part,
                 positions,

@@ -32,6 +32,7 @@ pub(crate) struct Sphere {
 /// Level 0 holds a sphere for each block. Every higher level holds one sphere for `FANOUT`
 /// spheres of the level below. The last level has at most `FANOUT` spheres. All take half a
 /// byte a point.
+#[derive(Clone)]
 pub(crate) struct Blocks {
     pub levels: Vec<Vec<Sphere>>,
 }

@@ -4,10 +4,10 @@
 
 pub(crate) mod blocks;
 pub(crate) mod filling;
-pub(crate) mod growth;
 mod hilbert;
 pub(crate) mod neighbors;
 pub(crate) mod noise;
+pub(crate) mod part;
 pub(crate) mod plane;
 pub(crate) mod point_cloud;
 pub(crate) mod points;

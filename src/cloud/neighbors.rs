@@ -227,11 +227,6 @@ impl Nearest {
     pub(crate) fn found(&self) -> &[Neighbor] {
         &self.best.found
     }
-
-    /// Adds one of the `points`, if it is among the nearest.
-    pub(crate) fn offer(&mut self, new: Neighbor, points: &Points) {
-        self.best.offer(new, points);
-    }
 }
 
 impl Best {

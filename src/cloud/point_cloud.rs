@@ -10,8 +10,8 @@ use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::error::Error;
 use crate::cloud::blocks::Blocks;
 use crate::cloud::noise::Noise;
+use crate::cloud::part::KeptParts;
 use crate::cloud::points::{Given, Position, checked_len, is_finite};
-use crate::cloud::selection::Selection;
 use crate::cloud::sequence::Sequence;
 use crate::cloud::spatial::{Bounds, HilbertCurve};
 use crate::cloud::statistics::Statistics;
@@ -39,6 +39,7 @@ pub enum NonFinite {
 ///
 /// Answers and automatic radii depend on the present points alone. A cloud that was
 /// appended to and removed from answers, to the bit, like a new cloud of the same points.
+#[derive(Clone)]
 pub struct PointCloud {
     pub(crate) sequence: Sequence,
     /// The box of the present points.
@@ -51,18 +52,13 @@ pub struct PointCloud {
     skipped: usize,
 }
 
-/// The data that [`PointCloud::prepare_for`] keeps.
+/// What is kept for the next questions.
 #[derive(Default)]
 pub(crate) struct Kept {
-    /// The cloud without noise, and the number of neighbors that made its planes.
-    pub denoised: Option<(usize, Box<PointCloud>)>,
+    pub parts: KeptParts,
     pub voters: Option<Voters>,
     pub noise: Option<Arc<Noise>>,
     pub survey: Option<Arc<Survey>>,
-    /// The cloud of the sampled points, and the number of points that were asked for.
-    pub sampled: Option<(usize, Box<PointCloud>)>,
-    /// The cloud of the points within a box, or within a distance from a viewpoint.
-    pub within: Option<(Selection, Box<PointCloud>)>,
     /// The cloud of the points that a mask marks, with one byte for each index.
     #[cfg(feature = "wasm")]
     pub masked: Option<(Vec<u8>, Box<PointCloud>)>,
@@ -80,6 +76,13 @@ pub(crate) struct Smooth {
     pub noise: Noise,
     /// The neighbors that vote on the answer, where noise is large.
     pub voters: Option<Voters>,
+}
+
+impl Clone for Kept {
+    /// A copy of a cloud keeps nothing: its questions may be others.
+    fn clone(&self) -> Self {
+        Self::default()
+    }
 }
 
 /// The `each` nearest other points of every point: `k` of them, or fewer in a small cloud.

@@ -79,6 +79,7 @@ impl Given<'_> {
 }
 
 /// The cloud's own points, in the precision in which they were given.
+#[derive(Clone)]
 pub(crate) enum Points {
     Single(Vec<[f32; 3]>),
     Double(Vec<[f64; 3]>),

@@ -1,10 +1,10 @@
-//! Which points of a cloud take part in a view: those within a distance and a box, and a sample
-//! of them.
+//! Where the points are that take part in a view: within a distance and a box.
 
 use glam::DVec3;
 
 use crate::base::error::{Error, in_range};
 use crate::base::real::square_root;
+use crate::cloud::points::is_finite;
 
 /// Only these points take part in a view. The others are not visible and hide nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,50 +29,40 @@ impl Within {
         Ok(())
     }
 
-    /// The choice that is left in a box; `None` if all points there take part.
-    pub(crate) fn without_bounds(self) -> Option<Self> {
-        self.distance.map(|distance| Self {
-            distance: Some(distance),
-            bounds: None,
-        })
-    }
-}
-
-/// All that decides which points take part in a view. Two views with equal selections are of the
-/// same points.
-#[derive(Clone, Copy, Default, PartialEq)]
-pub(crate) struct Selection {
-    pub within: Option<Within>,
-    /// The viewpoint, if `within` has a distance.
-    pub viewpoint: Option<[f64; 3]>,
-    /// The number of sampled points; `None` where all take part.
-    pub sample: Option<usize>,
-}
-
-impl Selection {
-    /// The points within a box, and within a distance from `viewpoint` if there is one.
-    pub(crate) fn new(within: Within, viewpoint: Option<[f64; 3]>) -> Self {
-        Self {
-            within: Some(within),
-            viewpoint,
-            sample: None,
+    /// The places of the points that take part in a view from `viewpoint`; `None` if that is
+    /// everywhere. Without a viewpoint, the distance does not count.
+    pub(crate) fn region(&self, viewpoint: Option<[f64; 3]>) -> Result<Option<Region>, Error> {
+        self.check()?;
+        let around = self.distance.zip(viewpoint);
+        if let Some((_, viewpoint)) = around {
+            if !is_finite(viewpoint) {
+                return Err(Error::Viewpoint { viewpoint });
+            }
         }
+        let bounds = self.bounds;
+        let is_somewhere = around.is_some() || bounds.is_some();
+        Ok(is_somewhere.then_some(Region { around, bounds }))
     }
+}
 
-    /// Whether `p` is in the box and near the viewpoint.
+/// A part of space.
+#[derive(Clone, Copy, PartialEq)]
+pub(crate) struct Region {
+    /// A distance and the center from which it counts.
+    around: Option<(f64, [f64; 3])>,
+    bounds: Option<[[f64; 3]; 2]>,
+}
+
+impl Region {
     #[inline(never)]
     pub(crate) fn holds(&self, p: [f64; 3]) -> bool {
-        let Within { distance, bounds } = self.within.unwrap_or_default();
-        let is_near = match (distance, self.viewpoint) {
-            (Some(distance), Some(viewpoint)) => {
-                let v = DVec3::from_array(p) - DVec3::from_array(viewpoint);
-                square_root(v.dot(v)) <= distance
-            }
-            _ => true,
-        };
+        let is_near = self.around.is_none_or(|(distance, center)| {
+            let v = DVec3::from_array(p) - DVec3::from_array(center);
+            square_root(v.dot(v)) <= distance
+        });
         let is_inside = |[min, max]: [[f64; 3]; 2]| {
             (0..3).all(|axis| min[axis] <= p[axis] && p[axis] <= max[axis])
         };
-        is_near && bounds.is_none_or(is_inside)
+        is_near && self.bounds.is_none_or(is_inside)
     }
 }

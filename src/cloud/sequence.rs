@@ -12,6 +12,7 @@ use crate::base::sort::{ordered, sort_by_numbers};
 use crate::cloud::points::{Given, Points, Splice, is_finite};
 use crate::cloud::spatial::{HilbertCurve, Place};
 
+#[derive(Clone)]
 pub(crate) struct Sequence {
     /// Distinct and finite.
     pub points: Points,
@@ -184,13 +185,6 @@ impl Sequence {
         }
     }
 
-    /// Where a point is in the order, or would be, and whether it is there.
-    pub(crate) fn place_of(&self, point: [f64; 3], curve: &HilbertCurve) -> (usize, bool) {
-        let place = self.first_not_before(&curve.place(point), 0, curve);
-        let is_present = place < self.points.len() && self.points.get(place) == point;
-        (place, is_present)
-    }
-
     /// The index of the first point, from `low` on, that does not come before `place`.
     #[inline(never)]
     fn first_not_before(&self, place: &Place, mut low: usize, curve: &HilbertCurve) -> usize {
@@ -216,6 +210,7 @@ impl Sequence {
 }
 
 /// Lists of indices, one list for each distinct point, stored one after another.
+#[derive(Clone)]
 struct Groups {
     order: Vec<u32>,
     /// Where each list starts in `order`, with an end mark; empty where every

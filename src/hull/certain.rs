@@ -49,7 +49,7 @@ pub(crate) fn certain_among(
 ) -> Result<Certain, OutOfMemory> {
     let flip = flip.rescaled_for(points);
     let mut memory = Memory::default();
-    mark_visible(points, blocks, &flip, None, &mut memory)?;
+    mark_visible(points, blocks, &flip, &mut memory)?;
     let flipped = Flipped::of(points, blocks, &flip);
     let mut is_open: Vec<bool> = filled(points.len(), false)?;
     for (index, is_open) in (0..).zip(&mut is_open) {
@@ -57,7 +57,7 @@ pub(crate) fn certain_among(
         // A point at the viewpoint is visible in every cloud.
         *is_open = asked && !boxes.is_empty() && flipped.get_out_of_line(index).is_some();
     }
-    let is_body = memory.holds_hull && flipped.keeps_depth();
+    let is_body = memory.holds_hull() && flipped.keeps_depth();
     // Without planes, every box is missing.
     let mut missing = filled(boxes.len(), !is_body && is_open.contains(&true))?;
     if is_body {

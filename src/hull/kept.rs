@@ -11,7 +11,6 @@ use glam::DVec3;
 
 use super::flat::collinear_with_origin;
 use super::flipped::Flipped;
-use super::incremental::Hull;
 use super::locate::Location;
 use super::memory::Memory;
 use super::outer_boundary::mark_visible;
@@ -46,14 +45,14 @@ impl KeptHull {
     pub(crate) fn of(points: &Points, blocks: &[Sphere], flip: &Flip) -> Result<Self, OutOfMemory> {
         let mut memory = Memory::default();
         let flip = flip.rescaled_for(points);
-        mark_visible(points, blocks, &flip, None, &mut memory)?;
+        mark_visible(points, blocks, &flip, &mut memory)?;
         let mut kept = Self {
             memory,
             flip,
             span: Span::Space,
             first: 0,
         };
-        if !kept.memory.holds_hull {
+        if !kept.memory.holds_hull() {
             kept.span = kept.thicken(points)?;
         }
         kept.first = kept.memory.hull.outer_face().unwrap_or(0);
@@ -84,15 +83,6 @@ impl KeptHull {
         };
         let is_exact = self.flip.scales_exactly(position);
         is_exact.then(|| self.covers(q, hint))
-    }
-
-    /// The hull, if it is one in space.
-    pub(super) fn hull(&self) -> Option<&Hull> {
-        matches!(self.span, Span::Space).then_some(&self.memory.hull)
-    }
-
-    pub(super) fn reach(&self) -> f64 {
-        self.flip.reach()
     }
 
     /// An upper bound of the length of all flipped points at least `distance` from the viewpoint.

@@ -13,28 +13,39 @@ use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, push};
 use crate::base::beat;
 use crate::base::bits::bits_of;
-use crate::cloud::selection::Selection;
 use crate::flip::inversion::Flip;
 
-/// The last view's hull, whose room the next view uses. Its content never changes
-/// an answer, as long as it is only used for one sequence of points.
+/// The last view's hull, whose room the next view uses. Its content never changes an answer, as
+/// long as it is only used for one sequence of points.
 #[derive(Default)]
 pub(crate) struct Memory {
     pub(super) hull: Hull,
     pub(super) depth: DepthMap,
     pub(super) on_boundary: Vec<u32>,
     pub(super) visible: Vec<bool>,
-    /// Whether `hull` is the complete hull of the last view.
-    pub(super) holds_hull: bool,
-    /// The flip of the last draft, if `visible` holds its points and `hull` its hull, to which points
-    /// of the last round may have been added. The next view may go on from there.
-    pub(super) drafted: Option<Flip>,
-    /// How many runs of the last round are in `hull` already.
-    pub(super) runs_added: usize,
-    /// The face near the last point of these runs.
+    pub(super) state: State,
+}
+
+/// What a memory holds of the last view, besides the visible points.
+#[derive(Default)]
+pub(super) enum State {
+    /// No hull that has a use.
+    #[default]
+    Empty,
+    /// The hull of a draft, to which points of the last round may have been added. `visible` holds
+    /// the draft's points. The next view may go on from there.
+    Draft(Flip, LastRound),
+    /// The complete hull.
+    Complete,
+}
+
+/// How far the last round has come.
+#[derive(Clone, Copy)]
+pub(super) struct LastRound {
+    /// How many runs of points are in the hull already.
+    runs: usize,
+    /// The face near the last point of these runs, or any outer face.
     reached: FaceId,
-    /// The choice of points in the last view.
-    selection: Selection,
 }
 
 impl Memory {
@@ -43,21 +54,23 @@ impl Memory {
         &self.visible
     }
 
-    /// Prepares for a view of these points. Forgets the last view if it was of other points.
-    /// Returns whether it was.
-    pub(crate) fn see(&mut self, selection: Selection) -> bool {
-        let is_other = self.selection != selection;
-        if is_other {
-            self.forget();
-            self.selection = selection;
-        }
-        is_other
-    }
-
     /// Forgets the last view, but keeps the room.
     pub(crate) fn forget(&mut self) {
-        self.holds_hull = false;
-        self.drafted = None;
+        self.state = State::Empty;
+    }
+
+    /// Whether the last view has left a complete hull in space.
+    pub(super) fn holds_hull(&self) -> bool {
+        matches!(self.state, State::Complete)
+    }
+
+    /// How far the last round of a draft with this flip has come; `None` if the last view was no
+    /// such draft.
+    pub(super) fn drafted(&self, flip: &Flip) -> Option<LastRound> {
+        match self.state {
+            State::Draft(drafted, round) if drafted == *flip => Some(round),
+            _ => None,
+        }
     }
 }
 
@@ -74,7 +87,6 @@ impl Memory {
     /// Adds every point but those of the last round to a hull that was just started.
     #[inline(never)]
     pub(super) fn add_coarse_rounds(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
-        self.start_rounds();
         let mut hint = 0;
         let count = flipped.len() as u32;
         for round in order::coarse_rounds() {
@@ -93,6 +105,13 @@ impl Memory {
             .make(&self.hull, flipped, flipped.len(), &|_| true)
     }
 
+    /// The last round, before any of its points are added.
+    pub(super) fn last_round(&self) -> LastRound {
+        // There is an outer face while there is a hull.
+        let reached = self.hull.outer_face().unwrap_or(0);
+        LastRound { runs: 0, reached }
+    }
+
     /// Adds the points of the last round that the map does not hide. After a draft, these are the
     /// points that it shows, and no point is tested again. Stops after about `budget` points.
     /// Returns whether all are added. To stop and to go on changes nothing, not even how faces are
@@ -102,22 +121,18 @@ impl Memory {
     pub(super) fn add_last_round(
         &mut self,
         flipped: &Flipped,
+        round: &mut LastRound,
         is_drafted: bool,
         mut budget: usize,
     ) -> Result<bool, OutOfMemory> {
-        let Some(mut hint) = self.hull.outer_face() else {
-            return Ok(true);
-        };
-        if self.runs_added > 0 {
-            hint = self.reached;
-        }
-        for run in order::runs(flipped.len() as u32).skip(self.runs_added) {
+        let mut hint = round.reached;
+        for run in order::runs(flipped.len() as u32).skip(round.runs) {
             if budget == 0 {
-                self.reached = hint;
+                round.reached = hint;
                 return Ok(false);
             }
             beat::step();
-            self.runs_added += 1;
+            round.runs += 1;
             let added = if is_drafted {
                 bits_of(&self.visible[run.start as usize..run.end as usize]) & LAST_ROUND
             } else {
@@ -129,6 +144,7 @@ impl Memory {
                 hint = self.add(index, flipped, hint)?;
             }
         }
+        round.reached = hint;
         Ok(true)
     }
 
@@ -140,7 +156,6 @@ impl Memory {
         plane: &Around,
         flipped: &Flipped,
     ) -> Result<(), OutOfMemory> {
-        self.start_rounds();
         let mut hint = 0;
         for round in order::coarse_rounds().chain([order::last_round()]) {
             for (at, (_, index)) in plane.sorted(round, flipped)?.into_iter().enumerate() {
@@ -149,11 +164,6 @@ impl Memory {
             }
         }
         Ok(())
-    }
-
-    fn start_rounds(&mut self) {
-        self.runs_added = 0;
-        self.on_boundary.clear();
     }
 
     /// Locates a point from `hint`. Makes it a vertex if it is outside. Returns a face near it.
@@ -177,8 +187,8 @@ impl Memory {
     pub(super) fn finish(&mut self, flipped: &Flipped) -> Result<(), OutOfMemory> {
         #[cfg(debug_assertions)]
         self.hull.assert_is_hull();
-        self.holds_hull = true;
         self.mark_boundary(flipped)?;
+        self.state = State::Complete;
         Ok(())
     }
 

@@ -28,7 +28,6 @@ mod locate;
 mod lower;
 mod memory;
 mod order;
-mod other_flip;
 mod outer_boundary;
 mod outer_faces;
 mod predicates;
@@ -42,7 +41,7 @@ pub(crate) use kept::KeptHull;
 pub(crate) use lower::lower_boundary;
 pub(crate) use memory::Memory;
 pub(crate) use outer_boundary::{
-    go_on, mark_draft, mark_visible, triangulate_visible, visible_once,
+    go_on, mark_draft, mark_sector, mark_visible, triangulate_visible, visible_once,
 };
 pub(crate) use outer_faces::{Exit, OuterFaces};
 pub(crate) use topology::{FaceId, Vertex};

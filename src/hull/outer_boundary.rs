@@ -7,7 +7,7 @@ use glam::DVec3;
 use super::around::Around;
 use super::division::Division;
 use super::flipped::Flipped;
-use super::memory::Memory;
+use super::memory::{Memory, State};
 use super::predicates::{Sign, side_of_origin};
 use super::{flat, order, share};
 use crate::base::allocation::OutOfMemory;
@@ -17,57 +17,51 @@ use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
 
 /// Finds the visible points among `points`, flipped by `flip`. [`Memory::visible`] then holds
-/// them. In a divided view only the sector's own points are marked.
+/// them.
 #[inline(never)]
 pub(crate) fn mark_visible(
     points: &Points,
     blocks: &[Sphere],
     flip: &Flip,
-    division: Option<Division>,
     memory: &mut Memory,
 ) -> Result<(), OutOfMemory> {
     let flipped = Flipped::of(points, blocks, flip);
-    let drafted = memory.drafted.take();
-    if division.is_none() && drafted == Some(*flip) {
-        memory.add_last_round(&flipped, true, usize::MAX)?;
+    if let Some(mut round) = memory.drafted(flip) {
+        memory.forget();
+        memory.add_last_round(&flipped, &mut round, true, usize::MAX)?;
         memory.clear_marks(points.len())?;
         return memory.finish(&flipped);
     }
-    memory.clear_marks(points.len())?;
-    memory.holds_hull = false;
-    let Some(corners) = seed(&flipped) else {
-        let flipped = |index| flipped.get_out_of_line(index);
-        flat::mark_visible(points.len() as u32, &flipped, &mut memory.visible)?;
-        return keep_own(division, memory);
-    };
-    let room = division
-        .as_ref()
-        .map_or(points.len(), Division::near_points);
-    memory.hull.start(corners, flipped.reach(), room)?;
-    if let Some(plane) = Around::of(&corners, &flipped) {
-        memory.add_around(&plane, &flipped)?;
-    } else if let Some(division) = division {
-        return share::mark_visible(memory, &flipped, division);
-    } else {
-        memory.add_coarse_rounds(&flipped)?;
-        // Where the flip is slow, the map would flip most points of the last round once more, which
-        // takes longer than to locate them.
-        if flip.is_fast() {
-            memory.make_map(&flipped)?;
-        } else {
-            memory.depth.clear();
-        }
-        memory.add_last_round(&flipped, false, usize::MAX)?;
+    if !start(&flipped, points.len(), memory)? {
+        return Ok(());
     }
-    memory.finish(&flipped)?;
-    keep_own(division, memory)
+    memory.add_coarse_rounds(&flipped)?;
+    // Where the flip is slow, the map would flip most points of the last round once more, which
+    // takes longer than to locate them.
+    if flip.is_fast() {
+        memory.make_map(&flipped)?;
+    } else {
+        memory.depth.clear();
+    }
+    let mut round = memory.last_round();
+    memory.add_last_round(&flipped, &mut round, false, usize::MAX)?;
+    memory.finish(&flipped)
 }
 
-/// Leaves only the sector's own points marked, in a divided view that was answered as a whole.
-fn keep_own(division: Option<Division>, memory: &mut Memory) -> Result<(), OutOfMemory> {
-    if let Some(division) = division {
-        division.keep_own(&mut memory.visible);
+/// The same for one sector of the view: only its own points are marked.
+#[inline(never)]
+pub(crate) fn mark_sector(
+    points: &Points,
+    blocks: &[Sphere],
+    flip: &Flip,
+    division: Division,
+    memory: &mut Memory,
+) -> Result<(), OutOfMemory> {
+    let flipped = Flipped::of(points, blocks, flip);
+    if start(&flipped, division.near_points(), memory)? {
+        return share::mark_visible(memory, &flipped, division);
     }
+    division.keep_own(&mut memory.visible);
     Ok(())
 }
 
@@ -80,21 +74,15 @@ pub(crate) fn mark_draft(
     flip: &Flip,
     memory: &mut Memory,
 ) -> Result<(), OutOfMemory> {
-    if memory.drafted == Some(*flip) {
+    if memory.drafted(flip).is_some() {
         return Ok(());
     }
     let flipped = Flipped::of(points, blocks, flip);
-    memory.forget();
-    let Some(corners) = seed(&flipped) else {
-        return mark_visible(points, blocks, flip, None, memory);
-    };
-    memory.hull.start(corners, flipped.reach(), points.len())?;
-    if Around::of(&corners, &flipped).is_some() {
-        return mark_visible(points, blocks, flip, None, memory);
+    if !start(&flipped, points.len(), memory)? {
+        return Ok(());
     }
     memory.add_coarse_rounds(&flipped)?;
     memory.make_map(&flipped)?;
-    memory.clear_marks(points.len())?;
     memory.mark_boundary(&flipped)?;
     for run in order::runs(points.len() as u32) {
         beat::step();
@@ -105,7 +93,7 @@ pub(crate) fn mark_draft(
             memory.visible[index as usize] = true;
         }
     }
-    memory.drafted = Some(*flip);
+    memory.state = State::Draft(*flip, memory.last_round());
     Ok(())
 }
 
@@ -119,15 +107,35 @@ pub(crate) fn go_on(
     memory: &mut Memory,
     budget: usize,
 ) -> Result<bool, OutOfMemory> {
-    if memory.drafted != Some(*flip) {
+    let Some(mut round) = memory.drafted(flip) else {
         return Ok(true);
-    }
+    };
+    memory.forget();
     let flipped = Flipped::of(points, blocks, flip);
-    let added = memory.add_last_round(&flipped, true, budget);
-    if added.is_err() {
-        memory.forget();
+    let is_done = memory.add_last_round(&flipped, &mut round, true, budget)?;
+    memory.state = State::Draft(*flip, round);
+    Ok(is_done)
+}
+
+/// Starts a hull in space, with room for `count` points. Returns false if all points are in one
+/// plane with the viewpoint, except for roundings; then the visible ones are marked.
+#[inline(never)]
+fn start(flipped: &Flipped, count: usize, memory: &mut Memory) -> Result<bool, OutOfMemory> {
+    memory.forget();
+    memory.on_boundary.clear();
+    memory.clear_marks(flipped.len())?;
+    let Some(corners) = seed(flipped) else {
+        let at = |index| flipped.get_out_of_line(index);
+        flat::mark_visible(flipped.len() as u32, &at, &mut memory.visible)?;
+        return Ok(false);
+    };
+    memory.hull.start(corners, flipped.reach(), count)?;
+    if let Some(plane) = Around::of(&corners, flipped) {
+        memory.add_around(&plane, flipped)?;
+        memory.finish(flipped)?;
+        return Ok(false);
     }
-    added
+    Ok(true)
 }
 
 /// Three points that start a hull in space. `None` if all points are in one plane with the
@@ -144,7 +152,7 @@ pub(super) fn seed(flipped: &Flipped) -> Option<[(u32, DVec3); 3]> {
 /// Whether each of `points` is visible, for a single view.
 pub(crate) fn visible_once(points: &Points, flip: &Flip) -> Result<Vec<bool>, OutOfMemory> {
     let mut memory = Memory::default();
-    mark_visible(points, &[], flip, None, &mut memory)?;
+    mark_visible(points, &[], flip, &mut memory)?;
     Ok(memory.visible)
 }
 
@@ -156,9 +164,9 @@ pub(crate) fn triangulate_visible(
     flip: &Flip,
 ) -> Result<(Vec<bool>, Vec<[u32; 3]>), OutOfMemory> {
     let mut memory = Memory::default();
-    mark_visible(points, &[], flip, None, &mut memory)?;
+    mark_visible(points, &[], flip, &mut memory)?;
     let mut triangles = Vec::new();
-    if memory.holds_hull {
+    if memory.holds_hull() {
         let flipped = Flipped::of(points, &[], flip);
         triangles = memory.hull.outer_triangles(&memory.on_boundary, &flipped)?;
     }

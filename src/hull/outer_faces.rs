@@ -59,7 +59,7 @@ impl Memory {
         flip: &Flip,
         farthest: f64,
     ) -> Result<Option<FlippedFaces<'a>>, OutOfMemory> {
-        if !self.holds_hull {
+        if !self.holds_hull() {
             return Ok(None);
         }
         let flipped = Flipped::of(points, &[], flip);

@@ -6,5 +6,6 @@ pub(crate) mod choice;
 pub(crate) mod guarantees;
 pub(crate) mod options;
 pub(crate) mod radius;
+pub(crate) mod refusals;
 pub(crate) mod resolved;
 pub(crate) mod search;

@@ -1,7 +1,8 @@
 //! The options of one view.
 
 use crate::base::error::Error;
-use crate::cloud::selection::{Selection, Within};
+use crate::cloud::part::{Step, Steps};
+use crate::cloud::selection::Within;
 
 /// How the radius R of the flipping sphere is chosen.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -28,18 +29,6 @@ pub enum Radius {
     Absolute(f64),
     /// R = farthest distance · 10^exponent, the paper's own parameter; at least 0.
     Exponent(f64),
-}
-
-impl Radius {
-    /// The option that makes this choice, as the JavaScript package calls it.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Auto | Self::Absolute(_) => "radius",
-            Self::Search => "radius \"search\"",
-            Self::Opposite => "radius \"opposite\"",
-            Self::Exponent(_) => "exponent",
-        }
-    }
 }
 
 /// The distance to which the flip moves a point at distance d from the viewpoint: the kernel
@@ -107,7 +96,7 @@ pub struct Options {
     /// half of the time. With an [`Observer`](crate::Observer), the same view without `draft`
     /// goes on from it. [`Radius::Search`] and [`Radius::Opposite`] allow no draft, because
     /// their choice takes longer. There is also no draft where the whole hull is needed
-    /// ([`Error::NoDraft`]).
+    /// ([`Error::Excludes`]).
     pub draft: bool,
     /// The number of distinct places that take part, as an even sample: equal points are all
     /// sampled, or none of them. The answer is the same as that of a cloud of the sampled points
@@ -130,78 +119,37 @@ impl Options {
         !self.draft && self.sample.is_none()
     }
 
-    /// Refuses a draft of the answer that `option` asks for.
-    pub(crate) fn refuse_draft(&self, option: &'static str) -> Result<(), Error> {
-        if self.draft {
-            return Err(Error::NoDraft { option });
-        }
-        Ok(())
-    }
-
-    /// Refuses options that need space, for a cloud of another dimension.
-    pub(crate) fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
-        let asked = [
-            ("denoise", self.denoise.is_some()),
-            ("vote", self.vote.is_some()),
-            ("looks", self.asks_for_looks()),
-            ("scores", self.scores),
-        ];
-        match asked.into_iter().find(|&(_, is_asked)| is_asked) {
-            Some((option, _)) => Err(Error::Dimension { option, dimension }),
-            None => Ok(()),
-        }
-    }
-
     pub(crate) fn asks_for_looks(&self) -> bool {
         matches!(self.inversion, Inversion::Looks(_))
     }
 
-    /// Refuses looks for a question that needs one hull. `other` is this question, as the
-    /// JavaScript package calls it.
-    pub(crate) fn refuse_looks(&self, other: &'static str) -> Result<(), Error> {
-        if self.asks_for_looks() {
-            return Err(Error::LooksWith { other });
+    /// These options for a cloud of the points that take part, at their places.
+    pub(crate) fn of_all(&self) -> Self {
+        Self {
+            within: None,
+            sample: None,
+            denoise: None,
+            ..*self
         }
-        Ok(())
-    }
-
-    /// Whether only a part of the points takes part in a view from a viewpoint.
-    pub(crate) fn chooses(&self) -> bool {
-        self.within.is_some() || self.sample.is_some()
-    }
-
-    /// Whether only a part of the points takes part in every view, whatever the viewpoint is.
-    pub(crate) fn chooses_for_all(&self) -> bool {
-        let within = self.within.unwrap_or_default();
-        within.bounds.is_some() || within.distance.is_none() && self.chooses()
     }
 
     /// Whether each viewpoint has its own part of the points.
-    pub(crate) fn chooses_for_each(&self) -> bool {
+    pub(crate) fn has_distance(&self) -> bool {
         self.within.is_some_and(|within| within.distance.is_some())
     }
 
-    /// What decides which points take part in a view from `viewpoint`.
-    pub(crate) fn selection(&self, viewpoint: [f64; 3]) -> Selection {
-        Selection {
-            within: self.within,
-            viewpoint: Some(viewpoint).filter(|_| self.chooses_for_each()),
-            sample: self.sample,
-        }
-    }
-
-    /// Refuses drafts and choices of points, in a dimension that has none.
-    #[cfg(feature = "higher")]
-    pub(crate) fn check_whole(&self, dimension: usize) -> Result<(), Error> {
-        let asked = [
-            ("draft", self.draft),
-            ("sample", self.sample.is_some()),
-            ("within", self.within.is_some()),
-        ];
-        match asked.into_iter().find(|(_, is_asked)| *is_asked) {
-            Some((option, _)) => Err(Error::Dimension { option, dimension }),
-            None => Ok(()),
-        }
+    /// The steps to the points that take part in a view from `viewpoint`, and to their places.
+    /// Without a viewpoint, a distance does not count.
+    pub(crate) fn steps(&self, viewpoint: Option<[f64; 3]>) -> Result<Steps, Error> {
+        let region = match &self.within {
+            Some(within) => within.region(viewpoint)?,
+            None => None,
+        };
+        Ok([
+            region.map(Step::Within),
+            self.sample.map(Step::Sample),
+            self.denoise.map(Step::Denoise),
+        ])
     }
 
     /// Options with R given in the cloud's units.

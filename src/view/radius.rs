@@ -82,7 +82,11 @@ pub(crate) fn given(choice: Radius, farthest: f64) -> Result<ChosenRadius, Error
         }
         Radius::Exponent(exponent) => {
             if !(exponent >= 0.0 && exponent.is_finite()) {
-                return Err(Error::ExponentInvalid { exponent });
+                return Err(Error::Parameter {
+                    option: "exponent",
+                    must_be: "finite and at least 0",
+                    value: exponent,
+                });
             }
             if farthest == 0.0 {
                 return Ok(from_radius(0.0, farthest));

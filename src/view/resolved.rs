@@ -25,9 +25,6 @@ pub(crate) struct View {
 impl PointCloud {
     /// Refuses options that are refused for every viewpoint. Queries without a viewpoint use it.
     pub(crate) fn check_options(&self, options: &Options) -> Result<(), Error> {
-        if let Some(within) = options.within {
-            within.check()?;
-        }
         if let Some(k) = options.vote {
             self.check_neighbors("vote", k)?;
         }
@@ -83,7 +80,7 @@ pub(crate) fn resolved_kernel(
             let scale = resolved_scale(scale, 0.0)?;
             (Kernel::Exponential { scale }, ChosenRadius::unit(0.0))
         }
-        Inversion::Looks(_) => return Err(Error::LooksWith { other: ONE_HULL }),
+        Inversion::Looks(_) => return Err(SEVERAL_HULLS),
     })
 }
 
@@ -112,68 +109,46 @@ pub(crate) fn check_flip(options: &Options) -> Result<(), Error> {
     Ok(())
 }
 
-/// The inversion with numbers only. Refuses numbers out of range, and choices that exclude
-/// each other.
+/// The inversion with numbers only. Refuses numbers out of range.
 #[inline(never)]
 pub(crate) fn resolved_inversion(options: &Options, spacing: f64) -> Result<Inversion, Error> {
-    if matches!(options.radius, Radius::Search | Radius::Opposite) {
-        options.refuse_draft(options.radius.name())?;
-    }
-    let refuse = |inversion| {
-        let option = options.radius.name();
-        Err(Error::RadiusWithInversion { option, inversion })
-    };
-    if options.scores {
-        return Err(Error::ScoresWithoutLooks);
-    }
-    if options.thickness.is_some() {
-        return Err(Error::ThicknessWithoutLooks);
-    }
     match options.inversion {
         Inversion::Spherical => Ok(Inversion::Spherical),
         Inversion::Power(power) => {
             // The comparison also refuses a NaN.
             if !(power > 1.0 && power <= 16.0) {
-                return Err(Error::PowerInvalid { power });
-            }
-            if !matches!(options.radius, Radius::Auto | Radius::Absolute(_)) {
-                return refuse("power");
+                return Err(Error::Parameter {
+                    option: "inversion power",
+                    must_be: "above 1 and at most 16",
+                    value: power,
+                });
             }
             Ok(options.inversion)
         }
         Inversion::Exponential(scale) => {
-            if options.radius != Radius::Auto {
-                return refuse("exponential");
-            }
             let scale = resolved_scale(scale, spacing)?;
             Ok(Inversion::Exponential(Exponential::Scale(scale)))
         }
-        Inversion::Looks(_) => Err(Error::LooksWith { other: ONE_HULL }),
+        Inversion::Looks(_) => Err(SEVERAL_HULLS),
     }
 }
 
-/// The name of a question that looks cannot answer.
-const ONE_HULL: &str = "a question about one hull";
+/// A question about one hull was asked with an inversion that has several, or none.
+pub(crate) const SEVERAL_HULLS: Error = Error::Excludes {
+    option: "looks",
+    other: "a question about one hull",
+};
 
-/// How many looks are asked for, if any. Refuses looks together with options that exclude them.
+/// How many looks are asked for, if any.
 pub(crate) fn looks(options: &Options) -> Result<Option<usize>, Error> {
     match options.inversion {
         Inversion::Looks(count) => {
             in_range("looks", count as f64, 2.0, 3.0)?;
-            if options.radius != Radius::Auto {
-                let other = options.radius.name();
-                return Err(Error::LooksWith { other });
-            }
-            if options.draft {
-                return Err(Error::LooksWith { other: "draft" });
-            }
             if let Some(thickness) = options.thickness {
                 in_range("thickness", thickness, 0.0, f64::MAX)?;
             }
             Ok(Some(count))
         }
-        _ if options.scores => Err(Error::ScoresWithoutLooks),
-        _ if options.thickness.is_some() => Err(Error::ThicknessWithoutLooks),
         _ => Ok(None),
     }
 }
@@ -187,6 +162,10 @@ fn resolved_scale(scale: Exponential, spacing: f64) -> Result<f64, Error> {
         }
         Exponential::Auto => Ok(1.0),
         Exponential::Scale(scale) if scale > 0.0 && scale.is_finite() => Ok(scale),
-        Exponential::Scale(scale) => Err(Error::ScaleInvalid { scale }),
+        Exponential::Scale(value) => Err(Error::Parameter {
+            option: "inversion exponential",
+            must_be: "finite and positive",
+            value,
+        }),
     }
 }

@@ -13,7 +13,7 @@ use super::failure::Failure;
 use super::objects::to_js;
 use super::options::ViewOptions;
 use super::transfer::copy_in_bytes;
-use crate::answers::room::Room;
+use crate::answers::memory::ViewMemory;
 use crate::base::allocation::push;
 use crate::{Error, Horizon, Options, PointCloud, PointCloudNd};
 
@@ -35,7 +35,7 @@ struct LastView {
     handle: u32,
     /// Whether only masked points took part.
     masked: bool,
-    memory: Room,
+    memory: ViewMemory,
 }
 
 #[derive(Serialize)]
@@ -116,9 +116,9 @@ pub(super) fn with_view<T>(
     query: impl FnOnce(&PointCloud) -> Result<T, Error>,
 ) -> Result<T, Failure> {
     let mask = choices.mask();
-    let neighbors = options.denoise.or(options.vote);
+    let numbers = options.denoise.or(options.vote).or(options.sample);
     let is_chosen = mask.is_some() || options.within.is_some();
-    if is_chosen || options.asks_for_looks() || neighbors.or(options.sample).is_some() {
+    if is_chosen || options.asks_for_looks() || numbers.is_some() {
         prepare(handle, viewpoint, mask.as_ref(), options)?;
     }
     with_cloud(handle, |cloud| query(part(cloud, mask.is_some())))
@@ -162,7 +162,7 @@ fn prepare(
                 Some((_, part)) if mask.is_some() => part,
                 _ => cloud,
             };
-            match cloud.prepare_view(viewpoint, options) {
+            match cloud.keep_part(viewpoint, options) {
                 Ok(()) | Err(Error::OutOfMemory) => Ok(()),
                 Err(refused) => Err(Failure::from(refused)),
             }
@@ -193,16 +193,20 @@ pub(super) fn with_horizon<T>(
 
 /// Runs `view` with the memory of the last view; a view of another cloud, or of other points of
 /// it, is forgotten first.
-pub(super) fn with_memory<T>(handle: u32, masked: bool, view: impl FnOnce(&mut Room) -> T) -> T {
+pub(super) fn with_memory<T>(
+    handle: u32,
+    masked: bool,
+    view: impl FnOnce(&mut ViewMemory) -> T,
+) -> T {
     LAST_VIEW.with_borrow_mut(|last| view(memory_for(last, handle, masked)))
 }
 
 #[inline(never)]
-fn memory_for(last: &mut Option<LastView>, handle: u32, masked: bool) -> &mut Room {
+fn memory_for(last: &mut Option<LastView>, handle: u32, masked: bool) -> &mut ViewMemory {
     let last = last.get_or_insert_with(|| LastView {
         handle,
         masked,
-        memory: Room::default(),
+        memory: ViewMemory::default(),
     });
     if (last.handle, last.masked) != (handle, masked) {
         last.memory.forget();

@@ -13,6 +13,8 @@ pub(super) struct Failure {
     code: &'static str,
     problem: &'static str,
     option: &'static str,
+    /// Another option, or what is wanted of this one.
+    other: &'static str,
     numbers: [f64; 3],
 }
 
@@ -22,6 +24,7 @@ impl Failure {
         code: "disposed",
         problem: "disposed",
         option: "",
+        other: "",
         numbers: [0.0; 3],
     };
 }
@@ -30,7 +33,7 @@ impl From<Error> for Failure {
     #[cold]
     #[inline(never)]
     fn from(error: Error) -> Self {
-        let mut named = "";
+        let (mut named, mut other) = ("", "");
         let (problem, numbers) = match error {
             Error::NonFinite { count, first } => ("nonFinite", [count as f64, first as f64, 0.0]),
             Error::Viewpoint { viewpoint } => ("viewpoint", viewpoint),
@@ -46,7 +49,14 @@ impl From<Error> for Failure {
                 radius: None,
                 farthest,
             } => ("distanceOverflow", [farthest, 0.0, 0.0]),
-            Error::ExponentInvalid { exponent } => ("exponentInvalid", [exponent, 0.0, 0.0]),
+            Error::Parameter {
+                option,
+                must_be,
+                value,
+            } => {
+                (named, other) = (option, must_be);
+                ("parameter", [value, 0.0, 0.0])
+            }
             Error::TooManyPoints { count } => {
                 ("tooManyPoints", [count as f64, MAX_POINTS as f64, 0.0])
             }
@@ -60,21 +70,6 @@ impl From<Error> for Failure {
                 ("indexOutOfRange", [f64::from(index), len as f64, 0.0])
             }
             Error::OutOfMemory => ("outOfMemory", [0.0; 3]),
-            Error::PowerInvalid { power } => ("powerInvalid", [power, 0.0, 0.0]),
-            Error::ScaleInvalid { scale } => ("scaleInvalid", [scale, 0.0, 0.0]),
-            Error::RadiusWithInversion { option, inversion } => {
-                named = option;
-                let is_power = inversion == "power";
-                let power = "radiusWithPower";
-                (
-                    if is_power {
-                        power
-                    } else {
-                        "radiusWithExponential"
-                    },
-                    [0.0; 3],
-                )
-            }
             Error::OutOfRange {
                 option,
                 value,
@@ -84,38 +79,19 @@ impl From<Error> for Failure {
                 named = option;
                 ("outOfRange", [least, most, value])
             }
-            Error::LooksWith { other } => {
-                named = other;
-                ("looksWith", [0.0; 3])
-            }
-            Error::ScoresWithoutLooks => ("scoresWithoutLooks", [0.0; 3]),
-            Error::ThicknessWithoutLooks => ("thicknessWithoutLooks", [0.0; 3]),
-            Error::ScoresWith { other } => {
-                named = other;
-                ("scoresWith", [0.0; 3])
+            Error::Excludes {
+                option,
+                other: with,
+            } => {
+                (named, other) = (option, with);
+                ("excludes", [0.0; 3])
             }
             Error::Camera { problem, value } => {
                 named = problem;
                 ("camera", [value, 0.0, 0.0])
             }
-            Error::SampleWith { other } => {
-                named = other;
-                ("sampleWith", [0.0; 3])
-            }
             Error::BoundsInvalid => ("boundsInvalid", [0.0; 3]),
             Error::MaskLength { given, len } => ("maskLength", [given as f64, len as f64, 0.0]),
-            Error::NoLimit { option } => {
-                named = option;
-                ("noLimit", [0.0; 3])
-            }
-            Error::NoDraft { option } => {
-                named = option;
-                ("noDraft", [0.0; 3])
-            }
-            Error::MergeNeighbors { option } => {
-                named = option;
-                ("mergeNeighbors", [0.0; 3])
-            }
             Error::Dimension { option, dimension } => {
                 named = option;
                 ("dimension", [dimension as f64, 0.0, 0.0])
@@ -132,6 +108,7 @@ impl From<Error> for Failure {
             code: error.code(),
             problem,
             option: named,
+            other,
             numbers,
         }
     }

@@ -20,7 +20,7 @@ pub fn visible_from(
     z: f64,
     options: &ViewOptions,
 ) -> Result<JsValue, JsValue> {
-    visible_in_sector(handle, x, y, z, options, 0, 1)
+    seen(handle, [x, y, z], options, Sector::WHOLE)
 }
 
 /// Goes on from the draft of a view, if the last view was that draft, with about `budget` points.
@@ -58,11 +58,20 @@ pub fn visible_in_sector(
     count: u32,
 ) -> Result<JsValue, JsValue> {
     let sector = Sector::new(number, count).unwrap_or(Sector::WHOLE);
+    seen(handle, [x, y, z], options, sector)
+}
+
+fn seen(
+    handle: u32,
+    viewpoint: [f64; 3],
+    options: &ViewOptions,
+    sector: Sector,
+) -> Result<JsValue, JsValue> {
     let view = options.read();
     let masked = options.mask().is_some();
-    let seen = with_view(handle, Some([x, y, z]), options, &view, |cloud| {
+    let seen = with_view(handle, Some(viewpoint), options, &view, |cloud| {
         with_memory(handle, masked, |memory| {
-            cloud.visible_in_sector_with(memory, [x, y, z], &view, sector)
+            cloud.visible_in_sector_with(memory, viewpoint, &view, sector)
         })
     });
     answered(seen, options)

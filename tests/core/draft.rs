@@ -415,12 +415,13 @@ fn samples_of_nothing_are_refused() {
 }
 
 #[test]
-fn looks_have_samples_but_no_drafts_nor_scores_of_samples() {
+fn looks_have_samples_with_scores_but_no_drafts() {
     let points = shapes::bumpy(&mut Rng::new(5), 3000);
     let cloud = PointCloud::new(&points).unwrap();
     let looks = Options::with_inversion(Inversion::Looks(3));
     let error = cloud.visible_from([0.0, 0.0, 3.0], &drafted(looks));
-    assert_eq!(error.unwrap_err(), Error::LooksWith { other: "draft" });
+    let (option, other) = ("looks", "draft");
+    assert_eq!(error.unwrap_err(), Error::Excludes { option, other });
 
     let sampled = Options {
         sample: Some(1000),
@@ -432,6 +433,16 @@ fn looks_have_samples_but_no_drafts_nor_scores_of_samples() {
         scores: true,
         ..sampled
     };
-    let error = cloud.visible_from([0.0, 0.0, 3.0], &scored);
-    assert_eq!(error.unwrap_err(), Error::ScoresWith { other: "sample" });
+    let seen = cloud.visible_from([0.0, 0.0, 3.0], &scored).unwrap();
+    let sample = cloud.sampled(1000).unwrap();
+    let options = Options {
+        sample: None,
+        ..scored
+    };
+    let alone = sample.visible_from([0.0, 0.0, 3.0], &options).unwrap();
+    assert_eq!(
+        (seen.indices(), seen.scores()),
+        (alone.indices(), alone.scores())
+    );
+    assert_eq!((seen.exact(), alone.exact()), (false, true));
 }

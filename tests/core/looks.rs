@@ -419,7 +419,10 @@ fn what_needs_one_hull_refuses_looks() {
     let points = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
     let cloud = PointCloud::new(&points).unwrap();
     let options = Options::with_inversion(Inversion::Looks(3));
-    let refused = |other| Error::LooksWith { other };
+    let refused = |other| Error::Excludes {
+        option: "looks",
+        other,
+    };
     let view = |options: Options| cloud.visible_from(FRONT, &options).unwrap_err();
 
     assert_eq!(
@@ -464,14 +467,13 @@ fn what_needs_one_hull_refuses_looks() {
         scores: true,
         ..Options::default()
     };
-    assert_eq!(view(scores), Error::ScoresWithoutLooks);
+    let without = |other| Error::Excludes {
+        option: "scores",
+        other,
+    };
+    assert_eq!(view(scores), without("an answer without looks"));
     let several = cloud.visible_from_any(&[FRONT], &looks(3)).unwrap_err();
-    assert_eq!(
-        several,
-        Error::ScoresWith {
-            other: "several viewpoints"
-        }
-    );
+    assert_eq!(several, without("several viewpoints"));
     let nowhere = cloud
         .visible_from([f64::NAN, 0.0, 0.0], &options)
         .unwrap_err();

@@ -309,7 +309,13 @@ fn a_thickness_needs_looks_and_a_number() {
         thickness: Some(0.1),
         ..Options::default()
     };
-    assert_eq!(refused(&without_looks), Error::ThicknessWithoutLooks);
+    assert_eq!(
+        refused(&without_looks),
+        Error::Excludes {
+            option: "thickness",
+            other: "an answer without looks"
+        }
+    );
     assert_eq!(refused(&without_looks).code(), "option");
     for wrong in [-1e-9, f64::NAN, f64::INFINITY] {
         let error = refused(&thick(wrong));

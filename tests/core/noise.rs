@@ -281,7 +281,7 @@ fn what_does_not_fit_is_refused() {
         let parts = [(&points[..], &[0; 20][..])];
         let error = merge_visible(&parts, FRONT, &options).unwrap_err();
         assert_eq!(
-            (error.code(), matches!(error, Error::MergeNeighbors { .. })),
+            (error.code(), matches!(error, Error::Excludes { .. })),
             ("option", true)
         );
     }

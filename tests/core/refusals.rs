@@ -154,7 +154,7 @@ fn an_exponent_that_is_no_number_from_zero_up_is_refused() {
     for bad in [NAN, INF, -INF, -0.5] {
         for points in [&POINTS[..], &[]] {
             let error = refused(points, ORIGIN, Options::with_exponent(bad));
-            assert!(matches!(error, Error::ExponentInvalid { .. }), "{error:?}");
+            assert!(matches!(error, Error::Parameter { .. }), "{error:?}");
             assert_eq!(error.code(), "option");
         }
     }

@@ -1,4 +1,5 @@
-//! Points that are not in the cloud: the answer is, always, that of a cloud with the point added.
+//! Points that are not in the cloud: the answer is that of a cloud with the point added, with the
+//! radius of the view without it.
 
 use hidden_point_removal::{
     Error, Exponential, Inversion, NonFinite, Options, PointCloud, Radius, Within,
@@ -39,7 +40,7 @@ fn structured_clouds_answer_as_with_the_point_added() {
 }
 
 #[test]
-fn surfaces_answer_as_with_the_point_added_when_the_radius_follows_it() {
+fn surfaces_answer_as_with_the_point_added() {
     let mut rng = Rng::new(7);
     let kinds: [fn(&mut Rng, usize) -> shapes::Points; 4] =
         [shapes::bumpy, shapes::room, shapes::ball, shapes::sphere];
@@ -167,10 +168,6 @@ fn questions_that_make_no_sense_are_refused() {
             ..default
         },
         Options {
-            sample: Some(2),
-            ..default
-        },
-        Options {
             scores: true,
             ..Options::with_inversion(Inversion::Looks(2))
         },
@@ -184,13 +181,11 @@ fn questions_that_make_no_sense_are_refused() {
         assert_eq!(ask(&[far], &options).unwrap_err().code(), "option");
         assert_eq!(ask(&[], &options).unwrap_err().code(), "option");
     }
-    let refusal = ask(&[[0.0, 0.0, 50.0]], &Options::with_radius(9.0));
-    let (radius, farthest) = (9.0, 45.0);
-    assert_eq!(refusal, Err(Error::RadiusTooSmall { radius, farthest }));
+    let beyond = [[0.0, 0.0, 14.1], [0.0, 0.0, 13.9], [f64::MAX, 0.0, 0.0]];
+    let seen = ask(&beyond, &Options::with_radius(9.0));
+    assert_eq!(seen, Ok(vec![false, true, false]));
     let refusal = cloud.sees(nan, &[far], &default).unwrap_err();
     assert_eq!(refusal.code(), "viewpoint");
-    let refusal = ask(&[[f64::MAX, 0.0, 0.0]], &default).unwrap_err();
-    assert_eq!(refusal.code(), "radius");
     // A cloud that skips such points does so here, too.
     let skipping = PointCloud::with_non_finite(&[nan, far], NonFinite::Skip).unwrap();
     let seen = skipping.sees([0.0; 3], &[nan, [0.0, 0.0, 1.0], [0.0, 0.0, 9.0]], &default);
@@ -237,4 +232,26 @@ fn a_view_that_is_refused_is_refused_for_positions_outside_of_a_choice_too() {
         let outside = [[0.0, 0.0, 90.0]];
         assert_eq!(cloud.sees(viewpoint, &outside, &options), Err(refusal));
     }
+}
+
+#[test]
+fn a_sample_answers_as_a_cloud_of_the_sampled_points() {
+    let mut rng = Rng::new(11);
+    let scene = Scene {
+        points: shapes::bumpy(&mut rng, 400),
+        viewpoint: [0.2, 0.4, 2.0],
+        options: Options::default(),
+    };
+    let cloud = PointCloud::new(&scene.points).unwrap();
+    let places = places(&mut rng, &scene, 60);
+    let options = Options {
+        sample: Some(50),
+        ..Options::default()
+    };
+    let seen = cloud.sees(scene.viewpoint, &places, &options).unwrap();
+    let sample = cloud.sampled(50).unwrap();
+    let alone = sample.sees(scene.viewpoint, &places, &Options::default());
+    assert_eq!(Ok(&seen), alone.as_ref());
+    let all = cloud.sees(scene.viewpoint, &places, &Options::default());
+    assert_ne!(Ok(&seen), all.as_ref());
 }

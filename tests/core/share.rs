@@ -130,7 +130,10 @@ fn bad_input_is_refused() {
     };
     assert_eq!(
         ask(&points, &[], &vote),
-        Err(Error::MergeNeighbors { option: "vote" })
+        Err(Error::Excludes {
+            option: "vote",
+            other: "merging"
+        })
     );
     assert!(matches!(
         ask(&points, &[], &Options::with_radius(1.0)),

@@ -102,7 +102,10 @@ fn every_refusal_is_one_sentence() {
         ),
         (Error::TooManyPoints { count: 5 }, points.as_str()),
         (
-            Error::MergeNeighbors { option },
+            Error::Excludes {
+                option,
+                other: "merging",
+            },
             "vote cannot be combined with merging",
         ),
         (Error::OutOfMemory, "not enough memory for this cloud"),

@@ -1,5 +1,6 @@
 import { expect, it } from "vitest";
 
+import type { VisibilityOptions } from "hidden-point-removal";
 import { bumpySphere, randomNumbers, readyPackage } from "./support";
 
 const { PointCloud, WorkerPointCloud, hiddenPointRemoval } = await readyPackage();
@@ -12,10 +13,19 @@ const places = Float64Array.from({ length: 120 }, (_, i) =>
   i < 30 ? positions[3 * 7 + i]! : i < 33 ? from[i - 30]! : 2.4 * random() - 1.2,
 );
 
-function byDefinition(options: object): number[] {
+/** The answer of a cloud with the point more, with the radius and the inversion of the view without it. */
+function byDefinition(options: VisibilityOptions): number[] {
+  const { radius, inversion } = hiddenPointRemoval(positions, from, options);
+  const numbers = inversion === "spherical" ? { exponent: undefined, radius } : { inversion };
+  const same = options.looks === undefined ? { ...options, ...numbers } : options;
   return Array.from({ length: places.length / 3 }, (_, i) => {
-    const all = [...positions, ...places.subarray(3 * i, 3 * i + 3)];
-    return hiddenPointRemoval(all, from, options).mask().at(-1)!;
+    const place = places.subarray(3 * i, 3 * i + 3);
+    const isBeyond = inversion === "spherical" && Math.hypot(...place.map((x, axis) => x - from[axis]!)) > radius;
+    return isBeyond
+      ? 0
+      : hiddenPointRemoval([...positions, ...place], from, same)
+          .mask()
+          .at(-1)!;
   });
 }
 
@@ -29,7 +39,7 @@ const choices = [
   { within: { distance: 2.2 } },
 ];
 
-it("the answer is that of a cloud with the one point more", () => {
+it("the answer is that of a cloud with the one point more and the same radius", () => {
   const cloud = new PointCloud(positions);
   for (const options of choices) {
     const seen = cloud.sees(from, places, options);
@@ -38,6 +48,12 @@ it("the answer is that of a cloud with the one point more", () => {
   }
   expect(cloud.length).toBe(1500);
   expect(cloud.sees(from, [])).toEqual(new Uint8Array(0));
+  cloud.dispose();
+});
+
+it("a position farther than the radius is not seen", () => {
+  const cloud = new PointCloud(positions);
+  expect([...cloud.sees(from, [0.3, 0.8, 10.4, 0.3, 0.8, 10.6], { radius: 8 })]).toEqual([1, 0]);
   cloud.dispose();
 });
 
@@ -69,9 +85,7 @@ it("questions that make no sense are refused", () => {
     [[1, 2], {}, "positions-length", /3 numbers/],
     ["5", {}, "positions-type", /positions/],
     [[0, 0, NaN], {}, "non-finite", /first at index 0/],
-    [[0, 0, 90], { radius: 8 }, "radius", /smaller than the distance/],
     [[0, 0, 0], { draft: true }, "option", /draft cannot be combined with sees/],
-    [[0, 0, 0], { sample: 5 }, "option", /sample cannot be combined with sees/],
     [[0, 0, 0], { looks: 2, scores: true }, "option", /scores cannot be combined with sees/],
   ];
   for (const [places, options, code, message] of bad) {

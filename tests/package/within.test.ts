@@ -170,7 +170,9 @@ it("choices that make no sense are refused", () => {
       expect(ask).toThrow(message);
     }
   }
-  expect(() => cloud.visibleFromDirection(from, { within: { distance: 3 } })).toThrow(/within distance cannot be used/);
+  expect(() => cloud.visibleFromDirection(from, { within: { distance: 3 } })).toThrow(
+    /within distance cannot be combined with a direction/,
+  );
   const four = new PointCloud(new Float64Array(16), { dimension: 4 });
   expect(() => four.visibleFrom([1, 2, 3, 4], { within: {} })).toThrow(/within needs a cloud of dimension 3, not 4/);
   four.dispose();

@@ -31,7 +31,7 @@ use crate::base::allocation::filled;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
 pub(crate) use look::Seen;
-pub(crate) use rays::Gaze;
+pub(crate) use rays::Projection;
 pub(crate) use series::{Question, Series, even_scales};
 
 /// The scores of distinct points as those of the caller's indices; 0 where there is none.

@@ -12,10 +12,10 @@ const FANOUT: usize = 8;
 
 /// From where a cloud is looked at.
 #[derive(Clone, Copy, PartialEq)]
-pub(crate) enum Gaze {
-    From([f64; 3]),
+pub(crate) enum Projection {
+    Perspective([f64; 3]),
     /// Along this unit vector, from infinitely far.
-    Along(DVec3),
+    Parallel(DVec3),
 }
 
 /// Where a point is, as the viewer sees it.

@@ -6,7 +6,7 @@ use glam::DVec3;
 use super::followers::follow;
 use super::look::{Look, Seen, Verdicts};
 use super::part::Part;
-use super::rays::Gaze;
+use super::rays::Projection;
 use super::tuning::Tuning;
 use crate::base::allocation::OutOfMemory;
 use crate::base::error::Error;
@@ -45,7 +45,7 @@ fn scales_of(count: usize, tuning: &Tuning) -> [f64; 3] {
 /// What looks are asked for.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) struct Question {
-    pub gaze: Gaze,
+    pub projection: Projection,
     pub count: usize,
     pub with_scores: bool,
     pub thickness: Option<f64>,
@@ -75,19 +75,19 @@ impl Series {
         survey: Option<Arc<Survey>>,
         question: Question,
     ) -> Result<Self, Error> {
-        if let Gaze::From(viewpoint) = question.gaze {
+        if let Projection::Perspective(viewpoint) = question.projection {
             check_viewpoint(viewpoint)?;
         }
         let cloud = looked_at(&survey, question.thickness, cloud);
-        let farthest = match question.gaze {
-            Gaze::From(viewpoint) => {
+        let farthest = match question.projection {
+            Projection::Perspective(viewpoint) => {
                 let points = &cloud.sequence.points;
                 cloud.blocks.farthest_distance(points, viewpoint)?
             }
-            Gaze::Along(_) => 0.0,
+            Projection::Parallel(_) => 0.0,
         };
         let tuning = Tuning::of(
-            question.gaze,
+            question.projection,
             cloud,
             survey.as_deref(),
             question.thickness,
@@ -136,9 +136,11 @@ impl Series {
             self.next = count + 1;
             return Ok(true);
         }
-        let outcome = match self.question.gaze {
-            Gaze::From(viewpoint) => self.look_from(viewpoint, cloud, memory, budget)?,
-            Gaze::Along(ahead) => self.look_along(ahead, cloud)?,
+        let outcome = match self.question.projection {
+            Projection::Perspective(viewpoint) => {
+                self.look_from(viewpoint, cloud, memory, budget)?
+            }
+            Projection::Parallel(ahead) => self.look_along(ahead, cloud)?,
         };
         match outcome {
             Outcome::Begun => return Ok(false),
@@ -183,7 +185,7 @@ impl Series {
                 return Ok(Outcome::Begun);
             }
         }
-        hull::mark_visible(own, blocks, &flip, None, memory)?;
+        hull::mark_visible(own, blocks, &flip, memory)?;
         let verdicts = &mut self.verdicts;
         let outcome = match memory.outer_faces(own, &flip, self.farthest)? {
             Some(mut faces) => verdicts.after(&look, Ok(&mut faces), &self.part, points)?,
@@ -213,12 +215,12 @@ impl Series {
     fn look(&self, cloud: &PointCloud, number: usize) -> Look {
         let place = place(self.question.count, number);
         let scale = self.tuning.scales[place];
-        let (origin, unit, ahead) = match self.question.gaze {
-            Gaze::From(viewpoint) => {
+        let (origin, unit, ahead) = match self.question.projection {
+            Projection::Perspective(viewpoint) => {
                 let unit = power_of_two_below((1.0 / self.farthest).min(f64::MAX));
                 (DVec3::from_array(viewpoint), unit, None)
             }
-            Gaze::Along(ahead) => {
+            Projection::Parallel(ahead) => {
                 let lift = Lift::new(&cloud.bounds, ahead, 0.5 / scale);
                 (lift.middle(), lift.scale(), Some(ahead))
             }

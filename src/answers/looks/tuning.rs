@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-use super::rays::{Gaze, Ray, Rays};
+use super::rays::{Projection, Ray, Rays};
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
 use crate::base::sort::percentile;
@@ -65,7 +65,7 @@ pub(super) struct Tuning {
 
 impl Tuning {
     pub(super) fn of(
-        gaze: Gaze,
+        projection: Projection,
         cloud: &PointCloud,
         survey: Option<&Survey>,
         given: Option<f64>,
@@ -84,8 +84,8 @@ impl Tuning {
                 (measured, thickness, measured.excess)
             }
         };
-        let (growth, ranged) = match gaze {
-            Gaze::From(viewpoint) => {
+        let (growth, ranged) = match projection {
+            Projection::Perspective(viewpoint) => {
                 let view = Range {
                     noise,
                     viewpoint,
@@ -93,14 +93,14 @@ impl Tuning {
                 };
                 view.growth(&cloud.sequence.points)?
             }
-            Gaze::Along(_) => (0.0, 0.0),
+            Projection::Parallel(_) => (0.0, 0.0),
         };
         if !(thickness > 0.0 || growth > 0.0) {
             return Ok(Self::plain(statistics));
         }
         let is_thick = thickness > 0.0;
         let (rules, cosine) = if is_thick {
-            let cosine = cosine(noise, gaze)?;
+            let cosine = cosine(noise, projection)?;
             (ramp(excess / (noise.spacing * cosine), RULES), cosine)
         } else {
             (0.0, 1.0)
@@ -117,7 +117,7 @@ impl Tuning {
         let wide = (1.0 - rules) * (1.0 - ranged);
         let mut gap = statistics.spacing * libm::pow(statistics.widening, wide);
         if growth > 0.0
-            && let Gaze::From(viewpoint) = gaze
+            && let Projection::Perspective(viewpoint) = projection
         {
             // The mean of all local scales is that of a cloud that does not grow.
             let view = Range {
@@ -246,15 +246,15 @@ impl Range<'_> {
 }
 
 /// The median of the cosine between ray and normal.
-fn cosine(noise: &Noise, gaze: Gaze) -> Result<f64, OutOfMemory> {
+fn cosine(noise: &Noise, projection: Projection) -> Result<f64, OutOfMemory> {
     let mut cosines = with_capacity(noise.samples.len())?;
     for sample in &noise.samples {
-        let ray = match gaze {
-            Gaze::From(viewpoint) => {
+        let ray = match projection {
+            Projection::Perspective(viewpoint) => {
                 let v = DVec3::from_array(sample.place) - DVec3::from_array(viewpoint);
                 v / square_root(v.dot(v))
             }
-            Gaze::Along(ahead) => ahead,
+            Projection::Parallel(ahead) => ahead,
         };
         let cosine = sample.normal.dot(ray).abs();
         if cosine >= 0.0 {

@@ -15,6 +15,7 @@ use crate::flip::kernel::Kernel;
 use crate::view::choice::Sight;
 use crate::view::options::{Inversion, Options, Radius};
 use crate::view::radius::{self, ChosenRadius};
+use crate::view::refusals::QuestionKind;
 use crate::view::resolved::{check_flip, resolved_inversion, resolved_kernel};
 
 /// The largest dimension of a [`PointCloudNd`].
@@ -215,7 +216,7 @@ impl PointCloudNd {
 
     fn check_options(&self, options: &Options) -> Result<Inversion, Error> {
         options.check_dimension(self.rows.dimension)?;
-        options.check_whole(self.rows.dimension)?;
+        options.check(QuestionKind::View)?;
         resolved_inversion(options, self.rows.measures.spacing)
     }
 

@@ -12,7 +12,7 @@ use crate::hull::{Memory, mark_visible};
 /// hides.
 fn compare(points: &Points, blocks: &[Sphere], flip: &Flip, wanted: &dyn Fn(u32) -> bool) -> f64 {
     let mut memory = Memory::default();
-    mark_visible(points, &[], flip, None, &mut memory).unwrap();
+    mark_visible(points, &[], flip, &mut memory).unwrap();
     let flipped = Flipped::of(points, blocks, flip);
     let mut map = DepthMap::default();
     map.make(&memory.hull, &flipped, points.len(), wanted)

@@ -13,7 +13,7 @@ use crate::flip::kernel::Kernel;
 use crate::hull::division::Sector;
 use crate::hull::incremental::ORIGIN;
 use crate::hull::predicates::Sign;
-use crate::hull::{mark_visible, outer_boundary};
+use crate::hull::{mark_sector, mark_visible, outer_boundary};
 
 /// Sector `number` of `count`, where every third point of the sample is visible.
 fn division(
@@ -37,14 +37,13 @@ fn compare(title: &str, places: &[[f64; 3]], viewpoint: [f64; 3], radius: f64) {
     let spheres = &blocks.levels[0];
     let flip = Flip::new(viewpoint, Kernel::Spherical { radius });
     let mut whole = Memory::default();
-    mark_visible(&points, spheres, &flip, None, &mut whole).unwrap();
+    mark_visible(&points, spheres, &flip, &mut whole).unwrap();
     for count in [2, 3, 7] {
         let mut times_visible: Vec<u32> = places.iter().map(|_| 0).collect();
         let mut memory = Memory::default();
         for number in 0..count {
-            let division = Some(division(&points, viewpoint, radius, [number, count]));
-            memory.forget();
-            mark_visible(&points, spheres, &flip, division, &mut memory).unwrap();
+            let division = division(&points, viewpoint, radius, [number, count]);
+            mark_sector(&points, spheres, &flip, division, &mut memory).unwrap();
             for (times, &visible) in times_visible.iter_mut().zip(memory.visible()) {
                 *times += u32::from(visible);
             }
@@ -142,7 +141,7 @@ fn points_on_the_boundary_belong_to_their_sectors() {
     let points = Points::Double(places);
     let flip = Flip::new([0.0; 3], Kernel::Spherical { radius: 5.0 });
     let mut memory = Memory::default();
-    mark_visible(&points, &[], &flip, None, &mut memory).unwrap();
+    mark_visible(&points, &[], &flip, &mut memory).unwrap();
     assert_eq!(memory.visible(), [true; 18]);
 }
 

@@ -9,6 +9,8 @@ interface Failure {
   code: HprErrorCode;
   problem: keyof typeof MESSAGES;
   option: string;
+  /** Another option, or what is wanted of this one. */
+  other: string;
   numbers: [number, number, number];
 }
 
@@ -23,7 +25,6 @@ const MESSAGES = {
   radiusOverflow: (radius, farthest) =>
     `twice the radius ${radius} exceeds the range of f64 (the farthest distance is ${farthest})`,
   distanceOverflow: (farthest) => `the farthest distance (${farthest}) exceeds the range of f64`,
-  exponentInvalid: (exponent) => `exponent must be finite and at least 0, got ${exponent}`,
   tooManyPoints: (count, limit) => `${count} points exceed the limit of ${limit}`,
   mergeRadius: () =>
     "merging needs the radius, in the cloud's units, or the exponential scale that all parts were seen with",
@@ -31,29 +32,19 @@ const MESSAGES = {
   indexOutOfRange: (index, length) => `index ${index} is out of range for a cloud of length ${length}`,
   outOfMemory: () => "not enough memory for this cloud",
   disposed: () => "this cloud has been disposed of",
-  powerInvalid: (power) => `inversion power must be above 1 and at most 16, got ${power}`,
-  scaleInvalid: (scale) => `inversion exponential must be finite and positive, got ${scale}`,
-  radiusWithPower: (_a, _b, _c, option) => `${option} cannot be combined with inversion power`,
-  radiusWithExponential: (_a, _b, _c, option) => `${option} cannot be combined with inversion exponential`,
+  parameter: (value, _b, _c, option, wanted) => `${option} must be ${wanted}, got ${value}`,
+  excludes: (_a, _b, _c, option, other) => `${option} cannot be combined with ${other}`,
   outOfRange: (least, most, value, option) => `${option} must be from ${least} to ${most}, got ${value}`,
-  looksWith: (_a, _b, _c, option) => `looks cannot be combined with ${option}`,
-  thicknessWithoutLooks: () => "thickness can be given only with looks",
-  scoresWithoutLooks: () => "scores can be asked for only with looks",
-  scoresWith: (_a, _b, _c, other) => `scores cannot be combined with ${other}`,
-  noLimit: (_a, _b, _c, option) => `${option} cannot be used for a direction: it has no limit far away`,
   camera: (value, _b, _c, problem) => `the camera's ${problem}, got ${value}`,
-  sampleWith: (_a, _b, _c, other) => `sample cannot be combined with ${other}`,
   boundsInvalid: () => "a box must be [min, max], where no coordinate of min is above that of max",
   maskLength: (given, length) => `within mask must have one element for each of ${length} indices, got ${given}`,
-  noDraft: (_a, _b, _c, option) => `draft cannot be combined with ${option}`,
-  mergeNeighbors: (_a, _b, _c, option) => `${option} cannot be combined with merging`,
   dimension: (dimension, _b, _c, option) => `${option} needs a cloud of dimension 3, not ${dimension}`,
   direction: (x, y, z) => `the direction must be finite and not zero, got ${x}, ${y}, ${z}`,
   viewpointDimension: (dimension) => `the viewpoint must be ${dimension} finite numbers`,
   positionsLength: (length, dimension) => `${length} coordinates are not a multiple of the dimension, ${dimension}`,
 } satisfies Record<string, Words>;
 
-type Words = (...named: [first: string, second: string, third: string, option: string]) => string;
+type Words = (...named: [first: string, second: string, third: string, option: string, other: string]) => string;
 
 /**
  * The error of a refusal by the bindings, which have freed their memory by then. Undefined for any
@@ -65,7 +56,7 @@ export function refusal(thrown: unknown): HprError | undefined {
   }
   const [a, b, c] = thrown.numbers;
   const words: Words = MESSAGES[thrown.problem];
-  return new HprError(thrown.code, words(spelled(a), spelled(b), spelled(c), thrown.option));
+  return new HprError(thrown.code, words(spelled(a), spelled(b), spelled(c), thrown.option, thrown.other));
 }
 
 /** The core's error for points that are not finite. */

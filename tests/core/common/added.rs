@@ -1,20 +1,45 @@
 //! Points that are not in the cloud, compared with a cloud that has them.
 
-use hidden_point_removal::{Error, Exponential, Inversion, Options, PointCloud};
+use hidden_point_removal::{Error, Exponential, Inversion, Options, PointCloud, Radius};
 
+use super::flip::{distance, farthest};
 use super::rng::Rng;
 use super::scenes::Scene;
 
-/// The answer by definition: a cloud with the point more.
+/// The answer by definition: that of a cloud with the point more, with the radius and the inversion
+/// of the view without it.
 pub fn by_definition(
     points: &[[f64; 3]],
     place: [f64; 3],
     viewpoint: [f64; 3],
     options: &Options,
 ) -> Result<bool, Error> {
-    let mut all = points.to_vec();
-    all.push(place);
-    let seen = PointCloud::new(&all)?.visible_from(viewpoint, options)?;
+    let mut part = PointCloud::new(points)?;
+    let mut options = *options;
+    if let Some(within) = options.within.take() {
+        part = part.within(&within, viewpoint)?;
+        let alone = PointCloud::new(&[place])?.within(&within, viewpoint)?;
+        if alone.visible_from(viewpoint, &Options::default())?.count() == 0 {
+            part.visible_from(viewpoint, &options)?;
+            return Ok(false);
+        }
+    }
+    if let Some(k) = options.denoise.take() {
+        part = part.denoised(k)?;
+    }
+    let without = part.visible_from(viewpoint, &options)?;
+    if !matches!(options.inversion, Inversion::Looks(_)) {
+        options.inversion = without.inversion();
+        let is_spherical = options.inversion == Inversion::Spherical;
+        if is_spherical && distance(place, viewpoint) > without.radius() {
+            return Ok(false);
+        }
+        if without.radius() > 0.0 {
+            options.radius = Radius::Absolute(without.radius());
+        }
+    }
+    part.append(&[place])?;
+    let seen = part.visible_from(viewpoint, &options)?;
     Ok(seen.indices().last() == Some(&(points.len() as u32)))
 }
 
@@ -52,6 +77,11 @@ pub fn places(rng: &mut Rng, scene: &Scene, count: usize) -> Vec<[f64; 3]> {
 pub fn check(scene: &Scene, options: &Options, places: &[[f64; 3]], title: &str) {
     let cloud = PointCloud::new(&scene.points).unwrap();
     for &place in places {
+        // The unit S of a power cannot be given for a point beyond it.
+        let is_power = matches!(options.inversion, Inversion::Power(_));
+        if is_power && distance(place, scene.viewpoint) > farthest(&scene.points, scene.viewpoint) {
+            continue;
+        }
         let found = cloud.sees(scene.viewpoint, &[place], options);
         let expected = by_definition(&scene.points, place, scene.viewpoint, options);
         // A cloud that cannot be viewed itself is refused before the point is looked at.

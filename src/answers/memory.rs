@@ -1,24 +1,25 @@
 //! What one view leaves for the next one.
 
 use alloc::sync::Arc;
-use core::ops::{Deref, DerefMut};
 
 use super::looks::{Question, Seen, Series};
 use crate::base::error::Error;
+use crate::cloud::part::Steps;
 use crate::cloud::point_cloud::{PointCloud, Survey};
-use crate::cloud::selection::Selection;
 use crate::hull::Memory;
 
-/// The hull of the last view, looks that were begun, and what is known of noise. Its content never changes an answer, as
-/// long as it is only used for one sequence of points.
+/// The hull of the last view, looks that were begun, and what is known of noise. Its content never
+/// changes an answer, as long as it is only used for one cloud.
 #[derive(Default)]
-pub(crate) struct Room {
-    hull: Memory,
+pub(crate) struct ViewMemory {
+    pub(crate) hull: Memory,
     looks: Option<Series>,
     survey: Option<Arc<Survey>>,
+    /// The steps to the points of the last view.
+    steps: Steps,
 }
 
-impl Room {
+impl ViewMemory {
     /// Forgets the last view, but keeps the room for hulls.
     pub(crate) fn forget(&mut self) {
         self.hull.forget();
@@ -27,10 +28,11 @@ impl Room {
     }
 
     /// Prepares for a view of these points. Forgets the last view if it was of other points.
-    pub(crate) fn see(&mut self, selection: Selection) {
-        if self.hull.see(selection) {
-            self.looks = None;
+    pub(crate) fn see(&mut self, steps: Steps) {
+        if self.steps != steps {
+            self.forget();
             self.survey = None;
+            self.steps = steps;
         }
     }
 
@@ -57,7 +59,7 @@ impl Room {
         Ok(self.survey.clone())
     }
 
-    /// Does a part of the work of [`Room::look`]. The hull of the first look takes about `budget`
+    /// Does a part of the work of [`ViewMemory::look`]. The hull of the first look takes about `budget`
     /// points at once. Returns whether little more than the answer is left.
     pub(crate) fn go_on_looking(
         &mut self,
@@ -76,19 +78,5 @@ impl Room {
             self.looks = None;
         }
         is_done
-    }
-}
-
-impl Deref for Room {
-    type Target = Memory;
-
-    fn deref(&self) -> &Memory {
-        &self.hull
-    }
-}
-
-impl DerefMut for Room {
-    fn deref_mut(&mut self) -> &mut Memory {
-        &mut self.hull
     }
 }

@@ -1,0 +1,157 @@
+//! Which options exclude each other, and which questions have no answer to an option: all of it.
+
+use crate::base::error::Error;
+use crate::view::options::{Inversion, Options, Radius};
+
+/// A question that does not go with every option.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum QuestionKind {
+    View,
+    Several,
+    Direction,
+    Sees,
+    Coverage,
+    PlaceViewpoints,
+    Reconstruct,
+    Illuminate,
+    Merge,
+}
+
+/// Something that options ask for.
+struct Feature {
+    /// As the JavaScript package calls it.
+    name: &'static str,
+    is_in: fn(&Options) -> bool,
+}
+
+const SEARCH: Feature = Feature {
+    name: "radius \"search\"",
+    is_in: |options| options.radius == Radius::Search,
+};
+const OPPOSITE: Feature = Feature {
+    name: "radius \"opposite\"",
+    is_in: |options| options.radius == Radius::Opposite,
+};
+const RADIUS: Feature = Feature {
+    name: "radius",
+    is_in: |options| matches!(options.radius, Radius::Absolute(_)),
+};
+const EXPONENT: Feature = Feature {
+    name: "exponent",
+    is_in: |options| matches!(options.radius, Radius::Exponent(_)),
+};
+const POWER: Feature = Feature {
+    name: "inversion power",
+    is_in: |options| matches!(options.inversion, Inversion::Power(_)),
+};
+const EXPONENTIAL: Feature = Feature {
+    name: "inversion exponential",
+    is_in: |options| matches!(options.inversion, Inversion::Exponential(_)),
+};
+const LOOKS: Feature = Feature {
+    name: "looks",
+    is_in: Options::asks_for_looks,
+};
+const ONE_HULL: Feature = Feature {
+    name: "an answer without looks",
+    is_in: |options| !options.asks_for_looks(),
+};
+const SCORES: Feature = Feature {
+    name: "scores",
+    is_in: |options| options.scores,
+};
+const THICKNESS: Feature = Feature {
+    name: "thickness",
+    is_in: |options| options.thickness.is_some(),
+};
+const DRAFT: Feature = Feature {
+    name: "draft",
+    is_in: |options| options.draft,
+};
+const SAMPLE: Feature = Feature {
+    name: "sample",
+    is_in: |options| options.sample.is_some(),
+};
+const WITHIN: Feature = Feature {
+    name: "within",
+    is_in: |options| options.within.is_some(),
+};
+const DISTANCE: Feature = Feature {
+    name: "within distance",
+    is_in: Options::has_distance,
+};
+const DENOISE: Feature = Feature {
+    name: "denoise",
+    is_in: |options| options.denoise.is_some(),
+};
+const VOTE: Feature = Feature {
+    name: "vote",
+    is_in: |options| options.vote.is_some(),
+};
+
+/// Each option with those that it excludes, for every question.
+const OPTIONS: [(Feature, &[Feature]); 8] = [
+    (LOOKS, &[SEARCH, OPPOSITE, RADIUS, EXPONENT, DRAFT]),
+    (SCORES, &[ONE_HULL]),
+    (THICKNESS, &[ONE_HULL]),
+    (SEARCH, &[POWER, EXPONENTIAL]),
+    (OPPOSITE, &[POWER, EXPONENTIAL]),
+    (RADIUS, &[EXPONENTIAL]),
+    (EXPONENT, &[POWER, EXPONENTIAL]),
+    (DRAFT, &[SEARCH, OPPOSITE]),
+];
+
+impl QuestionKind {
+    /// Its name, and the options that it excludes.
+    fn excludes(self) -> (&'static str, &'static [Feature]) {
+        match self {
+            Self::View => ("a view", &[]),
+            Self::Several => ("several viewpoints", &[SCORES]),
+            Self::Direction => ("a direction", &[DISTANCE, POWER, SEARCH, OPPOSITE]),
+            Self::Sees => ("sees", &[DRAFT, SCORES]),
+            Self::Coverage => ("coverage", &[DRAFT, SCORES]),
+            Self::PlaceViewpoints => ("placeViewpoints", &[DRAFT, SCORES]),
+            Self::Reconstruct => ("reconstruct", &[DRAFT, LOOKS]),
+            Self::Illuminate => ("illuminate", &[DRAFT, LOOKS]),
+            // The neighbors of a point in a part are not its neighbors in the cloud.
+            Self::Merge => ("merging", &[LOOKS, DENOISE, VOTE, DRAFT, SAMPLE, WITHIN]),
+        }
+    }
+}
+
+impl Options {
+    /// Refuses what this question cannot answer, and options that exclude each other.
+    #[inline(never)]
+    pub(crate) fn check(&self, question: QuestionKind) -> Result<(), Error> {
+        let (name, excluded) = question.excludes();
+        if let Some(option) = self.first_of(excluded) {
+            return Err(Error::Excludes {
+                option,
+                other: name,
+            });
+        }
+        for (feature, excluded) in &OPTIONS {
+            if let Some(other) = self.first_of(excluded).filter(|_| (feature.is_in)(self)) {
+                let option = feature.name;
+                return Err(Error::Excludes { option, other });
+            }
+        }
+        Ok(())
+    }
+
+    /// Refuses options that this dimension has not, which is 2 or at least 4.
+    pub(crate) fn check_dimension(&self, dimension: usize) -> Result<(), Error> {
+        let low = [DENOISE, VOTE, LOOKS, SCORES];
+        let higher = [DRAFT, SAMPLE, WITHIN];
+        let mut refused = self.first_of(&low);
+        if dimension > 3 {
+            refused = refused.or(self.first_of(&higher));
+        }
+        refused.map_or(Ok(()), |option| Err(Error::Dimension { option, dimension }))
+    }
+
+    fn first_of(&self, features: &[Feature]) -> Option<&'static str> {
+        let asked = features.iter().find(|feature| (feature.is_in)(self));
+        asked.map(|feature| feature.name)
+    }
+}
