@@ -127,7 +127,7 @@ class PointCloud:
 
     `positions` has the shape (n, 3), in any units. Arrays of float32 and float64 are read without a copy. Other
     numbers are converted to float64. With `non_finite="skip"`, points that are not finite keep their index and are
-    never visible.
+    never visible. A masked coordinate of a masked array counts as not finite.
     """
 
     def __init__(self, positions: ArrayLike, non_finite: Literal["error", "skip"] = "error") -> None: ...

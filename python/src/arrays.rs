@@ -43,6 +43,15 @@ impl<'py> Positions<'py> {
             // An empty list has no numbers, and no type either.
             return Err(wrong("must be real numbers"));
         }
+        // A masked coordinate is not a number, so its point is skipped or refused.
+        let masks = numpy.getattr("ma")?;
+        let masked = masks.call_method1("isMaskedArray", (argument,))?;
+        let array = if masked.is_truthy()? {
+            let mask = masks.call_method1("getmaskarray", (argument,))?;
+            numpy.call_method1("where", (mask, f64::NAN, array))?
+        } else {
+            array
+        };
         let shape: Vec<usize> = array.getattr("shape")?.extract()?;
         let array = match shape[..] {
             [_, 3] => array,
@@ -58,7 +67,7 @@ impl<'py> Positions<'py> {
         } else {
             "float64"
         };
-        let array = numpy.call_method1("ascontiguousarray", (array, wanted))?;
+        let array = numpy.call_method1("require", (array, wanted, ["C", "ALIGNED"]))?;
         array.extract()
     }
 

@@ -104,6 +104,25 @@ def test_skipped_points():
     assert 7 not in cloud.visible_from(VIEWPOINT).indices
 
 
+@pytest.mark.parametrize("dtype", [np.float32, np.float64, np.int32])
+def test_masked_points_do_not_take_part(dtype):
+    points = (100 * bumpy(300)).astype(dtype)
+    viewpoint = [300, 0, 0]
+    masked = np.ma.array(points, mask=False)
+    masked[7, 1] = np.ma.masked
+    masked[20] = np.ma.masked
+    with pytest.raises(HprError) as error:
+        PointCloud(masked)
+    assert error.value.code == "non-finite"
+    cloud = PointCloud(masked, non_finite="skip")
+    assert cloud.skipped == 2
+    kept = np.delete(np.arange(300), [7, 20])
+    rest = PointCloud(points[kept]).visible_from(viewpoint)
+    assert np.array_equal(cloud.visible_from(viewpoint).indices, kept[rest.indices])
+    cloud.append(masked)
+    assert cloud.skipped == 4
+
+
 def test_parts_and_horizons_give_the_answer_of_the_whole():
     points = bumpy(6000, dtype=np.float32)
     options = {"inversion": {"exponential": 0.004}}
