@@ -91,7 +91,8 @@ impl PointCloud {
         inversion: Inversion,
     ) -> Result<(f64, ChosenRadius), Error> {
         let statistics = &self.statistics;
-        let gap = statistics.gap;
+        let texture = self.texture_for(choice)?;
+        let gap = radius::effective_gap(statistics, &texture);
         let scale = match inversion {
             Inversion::Spherical => None,
             Inversion::Exponential(Exponential::Scale(scale)) => Some(scale),
@@ -132,6 +133,7 @@ impl PointCloud {
             points,
             &self.blocks,
             statistics,
+            &texture,
             viewpoint,
             farthest,
         )?;

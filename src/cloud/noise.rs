@@ -11,6 +11,7 @@ use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::{power_of_two_below, square_root};
 use crate::base::sort::percentile;
 use crate::cloud::neighbors::{Nearest, Neighbors};
+use crate::cloud::plane::off_plane;
 use crate::cloud::points::Points;
 use crate::cloud::quadric::off_quadric;
 use crate::cloud::statistics::{mean_distance, sampled_place};
@@ -19,7 +20,7 @@ use crate::cloud::surface;
 /// Clouds with fewer points tell nothing.
 const FEWEST: usize = 2000;
 /// How many points are measured at most.
-const SAMPLES: usize = 4096;
+const SAMPLES: usize = 2048;
 /// Neighbors of the small and the large surroundings of a point.
 const NEAR: [usize; 2] = [16, 32];
 /// The percentile of the distances off the quadric.
@@ -45,6 +46,37 @@ const LEAST_LEFT: f64 = 0.2;
 const THINNED: usize = 10;
 const LEFT: usize = 3000;
 
+/// Neighbors of the two surroundings whose planes are compared.
+const PLANES: [usize; 2] = [8, 24];
+/// A surface is measured by a scanner if points are about as far off their planes in the small
+/// surroundings as in the large ones, by this share, and at least so far, in spacings. Curved
+/// surfaces without noise have 0.2 to 0.5.
+const MEASURED: f64 = 0.6;
+const LEAST_OFF: f64 = 0.008;
+/// Its samples are uneven if one spacing in ten is this many times the median.
+const SPREAD: f64 = 1.8;
+/// How much larger the radius of one hull is for scans and for overlapping scans, and for even noise
+/// by its length in spacings.
+const SCANNED: f64 = 5.0;
+const OVERLAPPING: f64 = 4.0;
+const BY_NOISE: f64 = 5.0;
+
+/// What the radius of one hull takes from the sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Texture {
+    /// How much larger the radius is.
+    pub looser: f64,
+    /// The spacing that takes the place of the gap, where there is noise. The gap heeds outliers.
+    pub gap: Option<f64>,
+}
+
+impl Texture {
+    pub(crate) const PLAIN: Self = Self {
+        looser: 1.0,
+        gap: None,
+    };
+}
+
 /// A measured point.
 pub(crate) struct Sample {
     pub point: u32,
@@ -67,6 +99,7 @@ pub(crate) struct Noise {
     pub excess: f64,
     /// Whether a noisy cloud has the same noise everywhere.
     pub is_even: bool,
+    pub texture: Texture,
 }
 
 impl Noise {
@@ -76,7 +109,9 @@ impl Noise {
         let mut spacings = with_capacity(measured.samples.len())?;
         spacings.extend(measured.samples.iter().map(|sample| sample.spacing));
         let longest = surface::longest(&spacings)?;
-        let spacing = surface::mean(&surface::cut_off(spacings, longest));
+        let median = low(&spacings, 50)?;
+        let cut = surface::cut_off(spacings, longest);
+        let spacing = surface::mean(&cut);
         let [small, large] = &measured.ratios;
         let [small, large] = [low(small, LOW)?, low(large, LOW)?];
         // It does not grow: q² = noise² + curvature·k, for k and 2k neighbors.
@@ -86,17 +121,24 @@ impl Noise {
             ratio: TO_DEVIATION * square_root(constant.max(0.0)),
             excess: 0.0,
             is_even: false,
+            texture: measured.texture(&cut)?,
             samples: Vec::new(),
         };
         if noise.ratio > NOISY && noise.ratio * spacing < f64::INFINITY {
             noise.is_even = measured.is_even(points)?;
             // The two sides of a thin sheet are no noise.
             let is_sheets = noise.is_even && low(&measured.kurtoses, 50)? < TWO_SHEETS;
-            noise.excess = if is_sheets {
-                0.0
-            } else {
-                (noise.ratio - CLEAN) * spacing
-            };
+            if !is_sheets {
+                noise.excess = (noise.ratio - CLEAN) * spacing;
+                noise.texture = Texture {
+                    looser: if noise.is_even {
+                        1.0 + BY_NOISE * (noise.ratio - CLEAN)
+                    } else {
+                        OVERLAPPING
+                    },
+                    gap: Some(median).filter(|_| noise.is_even),
+                };
+            }
         }
         noise.samples = measured.samples;
         Ok(noise)
@@ -133,6 +175,9 @@ struct Measured {
     lengths: Vec<f64>,
     /// For the large surroundings.
     kurtoses: Vec<f64>,
+    /// The distances off the planes of [`PLANES`]: the small ÷ the large one, and the small one in
+    /// spacings.
+    planes: [Vec<f64>; 2],
 }
 
 impl Measured {
@@ -144,6 +189,7 @@ impl Measured {
         let mut ratios = [with_capacity(count)?, with_capacity(count)?];
         let mut lengths: Vec<f64> = with_capacity(count)?;
         let mut kurtoses: Vec<f64> = with_capacity(count)?;
+        let mut planes = [with_capacity(count)?, with_capacity(count)?];
         let [_, most] = NEAR;
         let mut places: Vec<DVec3> = with_capacity(most + 1)?;
         let neighbors = Neighbors::new(points)?;
@@ -173,6 +219,9 @@ impl Measured {
             ratios[1].push(large.deviation / size);
             lengths.push(small.deviation / unit);
             kurtoses.push(large.kurtosis);
+            let [near, far] = PLANES.map(|count| off_plane(&places[..=count]));
+            planes[0].push(near / far);
+            planes[1].push(near / size);
             samples.push(Sample {
                 point: query as u32,
                 place,
@@ -185,7 +234,20 @@ impl Measured {
             ratios,
             lengths,
             kurtoses,
+            planes,
         })
+    }
+
+    fn texture(&self, spacings: &[f64]) -> Result<Texture, OutOfMemory> {
+        let [alike, off] = &self.planes;
+        let is_measured = low(alike, 50)? >= MEASURED && low(off, 50)? >= LEAST_OFF;
+        if is_measured && low(spacings, 90)? >= SPREAD * low(spacings, 50)? {
+            return Ok(Texture {
+                looser: SCANNED,
+                ..Texture::PLAIN
+            });
+        }
+        Ok(Texture::PLAIN)
     }
 
     /// Whether the noise of these points is the same everywhere, as that of a sensor is. Registered

@@ -4,6 +4,16 @@ use glam::{DMat3, DVec3};
 
 use crate::base::real::square_root;
 
+/// The root-mean-square distance of places from their least-squares plane.
+pub(crate) fn off_plane(places: &[DVec3]) -> f64 {
+    let count = places.len() as f64;
+    let mean = places.iter().fold(DVec3::ZERO, |sum, v| sum + *v) / count;
+    let covariance = places.iter().map(|v| outer_product(*v - mean));
+    let normal = least_axis(covariance.fold(DMat3::ZERO, |sum, product| sum + product));
+    let offs = places.iter().map(|v| normal.dot(*v - mean));
+    square_root(offs.fold(0.0, |sum, off| sum + off * off) / count)
+}
+
 pub(crate) fn outer_product(v: DVec3) -> DMat3 {
     DMat3::from_cols(v * v.x, v * v.y, v * v.z)
 }

@@ -57,7 +57,9 @@ pub struct PointCloud {
 pub(crate) struct Kept {
     pub parts: KeptParts,
     pub voters: Option<Voters>,
-    pub noise: Option<Arc<Noise>>,
+    /// The noise, from when it was asked first.
+    #[cfg(feature = "std")]
+    pub noise: std::sync::OnceLock<Arc<Noise>>,
     pub survey: Option<Arc<Survey>>,
     /// The cloud of the points that a mask marks, with one byte for each index.
     #[cfg(feature = "wasm")]
@@ -278,6 +280,18 @@ impl PointCloud {
     #[must_use]
     pub fn spacing(&self) -> f64 {
         self.statistics.spacing
+    }
+
+    /// What a sample tells of the cloud's noise. With `std` it is measured once.
+    pub(crate) fn known_noise(&self) -> Result<Arc<Noise>, OutOfMemory> {
+        #[cfg(feature = "std")]
+        if let Some(noise) = self.kept.noise.get() {
+            return Ok(noise.clone());
+        }
+        let noise = Arc::new(Noise::of(&self.sequence.points)?);
+        #[cfg(feature = "std")]
+        let noise = self.kept.noise.get_or_init(|| noise).clone();
+        Ok(noise)
     }
 
     /// A cloud with the same indices at other, finite `positions`, one for each distinct point.

@@ -6,6 +6,7 @@ use alloc::vec::Vec;
 use crate::base::allocation::with_capacity;
 use crate::base::error::Error;
 use crate::cloud::blocks::Blocks;
+use crate::cloud::noise::Texture;
 use crate::cloud::points::Points;
 use crate::cloud::statistics::Statistics;
 use crate::flip::inversion::Flip;
@@ -73,6 +74,7 @@ pub(crate) fn resolve(
     points: &Points,
     blocks: &Blocks,
     statistics: &Statistics,
+    texture: &Texture,
     viewpoint: [f64; 3],
     farthest: f64,
 ) -> Result<ChosenRadius, Error> {
@@ -80,7 +82,7 @@ pub(crate) fn resolve(
     let sight = Sight {
         viewpoint: &viewpoint,
         centroid: &statistics.centroid,
-        automatic: automatic(statistics, viewpoint, farthest),
+        automatic: automatic(statistics, texture, viewpoint, farthest),
         farthest,
         reach: &|p| {
             let reach = blocks.farthest_distance(points, place(p));

@@ -11,7 +11,7 @@ pub enum Radius {
     /// farthest distance. n is the number of distinct points. g = mean(s³)/mean(s)², where s is the
     /// mean distance of a point from its 6 nearest points: the cloud's spacing where sampling is
     /// even, and more where it is not. g is up to 32 times larger where the points leave much of
-    /// what they span empty (`docs/VISIBLE.md`). r² is the mean square of the distances from the
+    /// what they span empty, and smaller for measured surfaces (`docs/VISIBLE.md`). r² is the mean square of the distances from the
     /// viewpoint, in which each point counts s² times, as the area for which it stands.
     #[default]
     Auto,

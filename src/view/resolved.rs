@@ -1,6 +1,7 @@
 //! One view of a cloud: the viewpoint and the options, checked and resolved to a flip.
 
 use crate::base::error::{Error, in_range};
+use crate::cloud::noise::Texture;
 use crate::cloud::point_cloud::PointCloud;
 use crate::flip::inversion::Flip;
 use crate::flip::kernel::Kernel;
@@ -34,6 +35,14 @@ impl PointCloud {
         }
     }
 
+    /// What a choice of R takes from the sampled points.
+    pub(crate) fn texture_for(&self, choice: Radius) -> Result<Texture, Error> {
+        Ok(match choice {
+            Radius::Absolute(_) | Radius::Exponent(_) => Texture::PLAIN,
+            _ => self.known_noise()?.texture,
+        })
+    }
+
     pub(crate) fn view(&self, viewpoint: [f64; 3], options: &Options) -> Result<View, Error> {
         check_viewpoint(viewpoint)?;
         let spacing = self.statistics.spacing;
@@ -44,7 +53,10 @@ impl PointCloud {
             let Self {
                 blocks, statistics, ..
             } = self;
-            choice::resolve(choice, points, blocks, statistics, viewpoint, farthest)
+            let texture = self.texture_for(choice)?;
+            choice::resolve(
+                choice, points, blocks, statistics, &texture, viewpoint, farthest,
+            )
         })?;
         Ok(View {
             flip: Flip::new(viewpoint, kernel),

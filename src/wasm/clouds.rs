@@ -127,8 +127,8 @@ pub(super) fn with_view<T>(
 /// How far measured points lie off their surface.
 #[wasm_bindgen]
 pub fn noise(handle: u32) -> Result<f64, JsValue> {
-    let noise = CLOUDS.with_borrow_mut(|clouds| match clouds.get_mut(handle as usize) {
-        Some(Some(Cloud::Space(cloud))) => cloud.keep_noise().map_err(Failure::from),
+    let noise = CLOUDS.with_borrow(|clouds| match clouds.get(handle as usize) {
+        Some(Some(Cloud::Space(cloud))) => cloud.noise().map_err(Failure::from),
         Some(Some(_)) => Ok(0.0),
         _ => Err(Failure::DISPOSED),
     });

@@ -3,7 +3,7 @@
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-use hidden_point_removal::{Error, Inversion, Options, PointCloud, Visibility};
+use hidden_point_removal::{Error, Inversion, Options, PointCloud, Radius, Visibility};
 
 use crate::common::rng::Rng;
 
@@ -11,7 +11,7 @@ type Place = [f64; 3];
 
 const LOOKS: Options = Options {
     inversion: Inversion::Looks(3),
-    radius: hidden_point_removal::Radius::Auto,
+    radius: Radius::Auto,
     denoise: None,
     vote: None,
     scores: false,
@@ -299,6 +299,36 @@ fn a_direction_sees_noise_as_far_viewpoints_do() {
         let differ = along.iter().zip(&far).filter(|(a, b)| a != b);
         assert!(differ.count() < points.len() / 200);
     }
+}
+
+#[test]
+fn the_automatic_radius_is_larger_for_measured_surfaces() {
+    let viewpoint = [0.3, -0.4, 3.0];
+    let radius = |points: &[Place]| {
+        let cloud = PointCloud::new(points).unwrap();
+        cloud.auto_radius(viewpoint, Radius::Auto).unwrap().radius
+    };
+    let clean = radius(&sphere(8000, 0.0));
+    let [few, many] = [0.01, 0.03].map(|noise| radius(&sphere(8000, noise)));
+    assert!(
+        few > 1.1 * clean && many > 1.2 * few,
+        "{clean} {few} {many}"
+    );
+    // Outliers have no say.
+    let mut points = sphere(8000, 0.03);
+    let mut rng = Rng::new(8);
+    points.extend((0..160).map(|_| rng.direction().map(|x| 1.5 * x)));
+    let share = radius(&points) / many;
+    assert!((0.8..1.25).contains(&share), "{share}");
+    // The answer, a direction and a search use it, too.
+    let cloud = PointCloud::new(&sphere(8000, 0.03)).unwrap();
+    let seen = cloud.visible_from(viewpoint, &Options::default()).unwrap();
+    assert_eq!(seen.radius(), many);
+    let [along, clean] = [cloud, PointCloud::new(&sphere(8000, 0.0)).unwrap()].map(|cloud| {
+        let seen = cloud.visible_from_direction(viewpoint, &Options::default());
+        seen.unwrap().radius()
+    });
+    assert!(along > 1.2 * clean, "{along} {clean}");
 }
 
 #[test]

@@ -91,26 +91,12 @@ impl Smooth {
 impl PointCloud {
     /// One standard deviation of the noise, in the cloud's units: how far measured points lie off
     /// their surface. It is 0 where nothing tells of noise, and where there are fewer than 2000
-    /// distinct points. It is measured at up to 4096 points.
+    /// distinct points. It is measured at up to 2048 points.
     ///
     /// # Errors
     /// [`Error::OutOfMemory`].
     pub fn noise(&self) -> Result<f64, Error> {
         Ok(self.known_noise()?.deviation())
-    }
-
-    fn known_noise(&self) -> Result<Arc<Noise>, Error> {
-        Ok(match &self.kept.noise {
-            Some(noise) => noise.clone(),
-            None => Arc::new(Noise::of(&self.sequence.points)?),
-        })
-    }
-
-    /// [`PointCloud::noise`], which is kept for later.
-    #[cfg(feature = "wasm")]
-    pub(crate) fn keep_noise(&mut self) -> Result<f64, Error> {
-        self.kept.noise = Some(self.known_noise()?);
-        self.noise()
     }
 
     /// What looks with this thickness know of the cloud, if they need it.
