@@ -25,6 +25,7 @@ export {
   intrinsicsFromFieldOfView,
   type PerspectiveCameraLike,
 } from "./query/cameras.js";
+export type { Calibration, Station } from "./query/calibration.js";
 export type { Placement } from "./query/placement.js";
 export type { CoverageOptions, PlacementOptions } from "./query/surveys.js";
 export type { Within } from "./query/within.js";

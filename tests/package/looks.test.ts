@@ -158,6 +158,61 @@ describe("a surface with noise", () => {
   });
 });
 
+describe("a calibration", () => {
+  // What a scanner in a box room sees, thinned to one point in each cell.
+  const cells = new Map<string, number[]>();
+  for (let i = 0; i < 40_000; i++) {
+    const [tilt, turn] = [0.7 * Math.sin(i * 0.618), i * 2.399963];
+    const ray = [Math.cos(tilt) * Math.cos(turn), Math.cos(tilt) * Math.sin(turn), Math.sin(tilt)];
+    const range = Math.min(...ray.map((x, axis) => [9, 4, 1.6][axis]! / Math.abs(x)));
+    const isPillar = Math.cos(turn) > 0.97;
+    const place = ray.map((x) => x * (isPillar ? 2.5 + ((0.377 * i) % 1) : range));
+    const cell = place.map((x) => Math.floor(x / 0.25)).join();
+    if (!cells.has(cell)) cells.set(cell, place);
+  }
+  const scan = new PointCloud([...cells.values()].flat());
+  const indices = Uint32Array.from({ length: scan.length }, (_, i) => i);
+  const viewpoint = [0, 0, 0];
+
+  it("finds the thickness at which a scanner sees its own points, in a worker too", async () => {
+    const { thickness, recall, options } = scan.calibrate([{ viewpoint, indices }]);
+    expect(recall).toHaveLength(1);
+    expect(recall[0]).toBeGreaterThanOrEqual(0.98);
+    expect(options).toMatchObject({ looks: 3, thickness });
+    expect(scan.visibleFrom(viewpoint, options).count).toBe(Math.round(recall[0]! * scan.length));
+    expect(scan.visibleFrom(viewpoint, { looks: 3, thickness: 0 }).count).toBeLessThan(0.97 * scan.length);
+    const mask = new Uint8Array(scan.length).fill(1);
+    expect(scan.calibrate([{ viewpoint, mask }])).toEqual({ thickness, recall, options });
+    const other = await WorkerPointCloud.create([...cells.values()].flat());
+    expect(await other.calibrate([{ viewpoint, indices }])).toEqual({ thickness, recall, options });
+    await other.dispose();
+    // A given thickness is only measured.
+    const given = scan.calibrate([{ viewpoint, indices }], { thickness: 0 });
+    expect(given.thickness).toBe(0);
+    expect(given.recall[0]).toBeLessThan(0.97);
+  });
+
+  it.each<[RegExp, unknown]>([
+    [/stations.*at least one/, []],
+    [/stations.*at least one/, 7],
+    [/stations\[0\].*one of indices and mask/, [{ viewpoint }]],
+    [/stations\[0\].*one of indices and mask/, [{ viewpoint, indices, mask: new Uint8Array(3) }]],
+    [/stations\[0\].*no points/, [{ viewpoint, indices: [] }]],
+    [
+      /stations\[1\].*index 99999999/,
+      [
+        { viewpoint, indices },
+        { viewpoint, indices: [99_999_999] },
+      ],
+    ],
+    [/mask.*bytes/, [{ viewpoint, mask: new Uint8Array(3) }]],
+    [/stations\[0\].*7/, [7]],
+  ])("refuses %s", async (message, stations) => {
+    const call = () => scan.calibrate(stations as []);
+    expect(await problemOf(call)).toMatchObject({ code: "option", message: expect.stringMatching(message) as string });
+  });
+});
+
 describe("in a worker", () => {
   const opened: { dispose(): void }[] = [];
   afterAll(() => {

@@ -9,6 +9,7 @@ import { CLOUD_OPTIONS, cloudSettings, givenOptions, pick, type PointCloudOption
 import type { Positions } from "../query/positions.js";
 import type { Camera } from "../query/camera.js";
 import type { IlluminationOptions, ReconstructionOptions } from "../query/queries.js";
+import { type Calibration, calibration, type Station } from "../query/calibration.js";
 import type { Placement } from "../query/placement.js";
 import {
   COVERAGE_OPTIONS,
@@ -205,6 +206,26 @@ export class PointCloud {
     const given = givenOptions(options, PLACEMENT_OPTIONS);
     const survey = readSurvey(this.#core.dimension, candidates, given, "placeViewpoints");
     return this.#answered(new PlacementTask(survey, readPlacing(given), readListener(given))).result(this.length);
+  }
+
+  /**
+   * Finds the smallest thickness of the looks at which scanners see the points that they measured. This
+   * is for scans that were thinned or put together, where no other rule tells what is surface. One
+   * thickness is tried after another, from every station: about ten views each.
+   *
+   * @returns also the share of each station's own points that is seen: at least 0.985, or less if no
+   *   thickness was enough. Skipped and removed points are never seen. With a number as `thickness`,
+   *   only this one is tried.
+   * @throws HprError `option` also for stations without points; otherwise as {@link PointCloud.visibleFrom}.
+   */
+  calibrate(stations: readonly Station[], options?: VisibilityOptions): Calibration {
+    this.#core.requireOpen();
+    const trials = calibration(this, stations, options);
+    let step = trials.next();
+    while (step.done !== true) {
+      step = trials.next(this.visibleFrom(step.value.viewpoint, step.value.options).mask());
+    }
+    return step.value;
   }
 
   /** Asks all views of a task, one after another. */

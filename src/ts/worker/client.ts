@@ -17,6 +17,7 @@ import {
 } from "../query/options.js";
 import type { Place } from "../query/place.js";
 import { isFloatArray, type Positions, readIndices, readPositions } from "../query/positions.js";
+import { type Calibration, calibration, type Station } from "../query/calibration.js";
 import type { Placement } from "../query/placement.js";
 import {
   COVERAGE_OPTIONS,
@@ -258,6 +259,21 @@ export class WorkerPointCloud {
       return new PlacementTask(survey, readPlacing(given), progress);
     });
     return task.result(this.length);
+  }
+
+  /**
+   * Finds the smallest thickness at which scanners see their own points; see `PointCloud.calibrate`.
+   *
+   * @throws HprError (as a rejection) the same as `PointCloud.calibrate`.
+   */
+  async calibrate(stations: readonly Station[], options?: VisibilityOptions): Promise<Calibration> {
+    const trials = calibration(this, stations, options);
+    let step = trials.next();
+    while (step.done !== true) {
+      const { viewpoint, options: trial } = step.value;
+      step = trials.next((await this.visibleFrom(viewpoint, trial)).mask());
+    }
+    return step.value;
   }
 
   /**
