@@ -14,7 +14,10 @@ export interface Network {
 }
 
 /** What is asked for. */
-export interface Asked extends Pick<RequestInit, "headers" | "cache"> {
+export interface Asked {
+  headers?: Record<string, string>;
+  /** As in the browser's `RequestInit`, which has it; Node's types have not. */
+  cache?: "no-cache";
   /** The body is read only if the answer has this status. */
   status: number;
   /** The most bytes that the body may have. */
