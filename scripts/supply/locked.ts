@@ -3,6 +3,7 @@ import { readFileSync } from "node:fs";
 import { inRoot } from "../lib/paths.js";
 
 const CRATES_IO = "registry+https://github.com/rust-lang/crates.io-index";
+const OWN = new Set(["hidden-point-removal", "hpr", "hpr-tests", "dependent", "hpr-wasm-tools"]);
 const NPM = "https://registry.npmjs.org/";
 
 /** The entries of the lock files that have no checksum or do not come from the two registries. */
@@ -18,10 +19,7 @@ function crates(file: string): string[] {
     entries
       .map((entry) => ({ name: field(entry, "name")!, source: field(entry, "source"), sum: field(entry, "checksum") }))
       // The project's own crates have no source.
-      .filter(
-        ({ name, source, sum }) =>
-          !/^(hidden-point-removal|hpr-wasm-tools)$/.test(name) && !(source === CRATES_IO && sum),
-      )
+      .filter(({ name, source, sum }) => !OWN.has(name) && !(source === CRATES_IO && sum))
       .map(({ name, source = "no source" }) => `${file}: ${name} (${source})`)
   );
 }

@@ -3,12 +3,13 @@
 
 use alloc::boxed::Box;
 use alloc::vec::Vec;
+use core::ops::Deref;
 
 use crate::answers::memory::ViewMemory;
 use crate::answers::visibility::Visibility;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::error::Error;
-use crate::cloud::part::{Part, Step};
+use crate::cloud::part::Step;
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::selection::{Region, Within};
 use crate::view::options::Options;
@@ -193,6 +194,23 @@ impl PointCloud {
         let part = Box::new(self.masked(&marks)?);
         self.kept.masked = Some((mask, part));
         Ok(true)
+    }
+}
+
+/// The points of one question.
+pub(crate) enum Part<'a> {
+    Kept(&'a PointCloud),
+    Made(Box<PointCloud>),
+}
+
+impl Deref for Part<'_> {
+    type Target = PointCloud;
+
+    fn deref(&self) -> &PointCloud {
+        match self {
+            Self::Kept(cloud) => cloud,
+            Self::Made(cloud) => cloud,
+        }
     }
 }
 

@@ -2,9 +2,7 @@
 //! kept for the next question.
 
 use alloc::boxed::Box;
-use core::ops::Deref;
 
-use super::point_cloud::PointCloud;
 use super::selection::Region;
 
 /// A step from a cloud to a part of it, or to other places of its points. Indices stay.
@@ -21,19 +19,28 @@ pub(crate) enum Step {
 /// All steps from a cloud to the points of a question, in their order.
 pub(crate) type Steps = [Option<Step>; 3];
 
-/// Parts of one cloud, one by each kind of step.
-#[derive(Default)]
-pub(crate) struct KeptParts {
-    within: Kept,
-    sample: Kept,
-    denoise: Kept,
+/// Parts of one `Cloud`, one by each kind of step.
+pub(crate) struct KeptParts<Cloud> {
+    within: Kept<Cloud>,
+    sample: Kept<Cloud>,
+    denoise: Kept<Cloud>,
 }
 
 /// A part, and the step that made it.
-type Kept = Option<(Step, Box<PointCloud>)>;
+type Kept<Cloud> = Option<(Step, Box<Cloud>)>;
 
-impl KeptParts {
-    pub(crate) fn get(&self, step: Step) -> Option<&PointCloud> {
+impl<Cloud> Default for KeptParts<Cloud> {
+    fn default() -> Self {
+        Self {
+            within: None,
+            sample: None,
+            denoise: None,
+        }
+    }
+}
+
+impl<Cloud> KeptParts<Cloud> {
+    pub(crate) fn get(&self, step: Step) -> Option<&Cloud> {
         let kept = match step {
             Step::Within(_) => &self.within,
             Step::Sample(_) => &self.sample,
@@ -44,28 +51,11 @@ impl KeptParts {
     }
 
     /// Where a part by this kind of step is kept.
-    pub(crate) fn place(&mut self, step: Step) -> &mut Kept {
+    pub(crate) fn place(&mut self, step: Step) -> &mut Kept<Cloud> {
         match step {
             Step::Within(_) => &mut self.within,
             Step::Sample(_) => &mut self.sample,
             Step::Denoise(_) => &mut self.denoise,
-        }
-    }
-}
-
-/// The points of one question.
-pub(crate) enum Part<'a> {
-    Kept(&'a PointCloud),
-    Made(Box<PointCloud>),
-}
-
-impl Deref for Part<'_> {
-    type Target = PointCloud;
-
-    fn deref(&self) -> &PointCloud {
-        match self {
-            Self::Kept(cloud) => cloud,
-            Self::Made(cloud) => cloud,
         }
     }
 }

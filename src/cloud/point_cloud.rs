@@ -55,7 +55,7 @@ pub struct PointCloud {
 /// What is kept for the next questions.
 #[derive(Default)]
 pub(crate) struct Kept {
-    pub parts: KeptParts,
+    pub parts: KeptParts<PointCloud>,
     pub voters: Option<Voters>,
     /// The noise, from when it was asked first.
     #[cfg(feature = "std")]
