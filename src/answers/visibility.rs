@@ -46,6 +46,13 @@ impl Visibility {
         }
     }
 
+    /// This answer, if `exact` is false as one that is not exact.
+    #[cfg(feature = "higher")]
+    pub(crate) fn if_exact(self, exact: bool) -> Self {
+        let exact = self.exact && exact;
+        Self { exact, ..self }
+    }
+
     /// This answer with the larger radius and scale of two views, and with the number of hulls of
     /// both choices.
     pub(crate) fn joined(mut self, other: Self) -> Self {
@@ -137,8 +144,9 @@ impl Visibility {
         self.scores
     }
 
-    /// Whether this is the final answer to the question. It is false only for drafts
-    /// ([`Options::draft`]) and samples ([`Options::sample`]).
+    /// Whether this is the final answer to the question. It is false for drafts
+    /// ([`Options::draft`]), samples ([`Options::sample`]), and some clouds of a
+    /// [`PointCloudNd`](crate::PointCloudNd).
     #[must_use]
     pub fn exact(&self) -> bool {
         self.exact

@@ -39,6 +39,19 @@ pub(crate) fn filled<T: Clone>(count: usize, value: T) -> Result<Vec<T>, OutOfMe
     Ok(items)
 }
 
+/// Makes an empty vector hold `value` `count` times. A struct of many vectors takes less code so.
+#[cfg(feature = "higher")]
+#[inline(never)]
+pub(crate) fn fill<T: Clone>(
+    items: &mut Vec<T>,
+    count: usize,
+    value: T,
+) -> Result<(), OutOfMemory> {
+    items.try_reserve_exact(count)?;
+    items.resize(count, value);
+    Ok(())
+}
+
 /// Makes room for `more` items, if there is none yet.
 #[inline]
 pub(crate) fn reserve<T>(items: &mut Vec<T>, more: usize) -> Result<(), OutOfMemory> {

@@ -73,14 +73,14 @@ impl ExactSum {
 }
 
 /// A finite f64 as ±significand · 2^(position − 1074).
-struct Parts {
-    negative: bool,
-    significand: u64,
-    position: usize,
+pub(crate) struct Parts {
+    pub negative: bool,
+    pub significand: u64,
+    pub position: usize,
 }
 
 impl Parts {
-    fn of(x: f64) -> Self {
+    pub(crate) fn of(x: f64) -> Self {
         const FRACTION: u64 = (1 << 52) - 1;
         let bits = x.to_bits();
         let exponent = (bits >> 52 & 0x7ff) as usize;

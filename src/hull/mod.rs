@@ -37,6 +37,8 @@ mod triangles;
 
 pub(crate) use boxes::hides_box;
 pub(crate) use certain::certain_among;
+#[cfg(feature = "higher")]
+pub(crate) use exact_sum::Parts;
 pub(crate) use kept::KeptHull;
 pub(crate) use lower::lower_boundary;
 pub(crate) use memory::Memory;

@@ -22,6 +22,8 @@ struct Answer {
     radius: f64,
     exponent: f64,
     evaluations: f64,
+    /// 1 or 0.
+    exact: f64,
     /// The scale c of the exponential inversion or of each look, given or chosen; otherwise 0.
     scales: [f64; 3],
 }
@@ -44,6 +46,7 @@ pub(super) fn answer(
         radius: visibility.radius(),
         exponent: visibility.exponent(),
         evaluations: f64::from(visibility.evaluations()),
+        exact: f64::from(u8::from(visibility.exact())),
         scales,
     }))
 }

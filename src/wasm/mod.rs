@@ -64,6 +64,7 @@ interface Answer extends ChosenRadius {
   indices: Uint32Array<ArrayBuffer>;
   triangles: Uint32Array<ArrayBuffer>;
   scores: Float32Array<ArrayBuffer>;
+  exact: number;
   scales: [number, number, number];
 }
 "#;

@@ -5,6 +5,7 @@ use hidden_point_removal::{
 };
 
 use crate::common::ask;
+use crate::common::hyper::Case;
 use crate::common::rng::Rng;
 use crate::common::scenes::KINDS;
 
@@ -65,9 +66,85 @@ fn clouds_in_a_subspace_are_answered_as_in_three_dimensions() {
                 let answer = asked(dimension, &rows, &place(scene.viewpoint), &options);
                 let title = format!("{} with seed {seed} in {dimension} dimensions", kind.name);
                 assert_eq!(answer.indices(), flat.indices(), "{title}");
+                assert!(!answer.exact(), "{title}");
                 assert!((answer.radius() / flat.radius() - 1.0).abs() < 1e-12);
             }
         }
+    }
+}
+
+#[test]
+fn clouds_in_coordinates_of_a_subspace_have_the_bits_of_three_dimensions() {
+    let kinds = KINDS
+        .iter()
+        .flat_map(|kind| (0..4).map(move |seed| (kind, seed)));
+    for (k, (kind, seed)) in kinds.enumerate() {
+        let scene = kind.scene(seed, 30);
+        let dimension = 4 + k % 3;
+        let place = |p: [f64; 3]| -> Vec<f64> {
+            let mut row = vec![7.0; dimension];
+            row[k % (dimension - 2)..][..3].copy_from_slice(&p);
+            row
+        };
+        let rows: Vec<_> = scene.points.iter().map(|&p| place(p)).collect();
+        let far = scene.viewpoint.map(|x| x * 1e7);
+        let differs = |i: usize| scene.points.iter().any(|p| p[i] != scene.points[0][i]);
+        if !(0..3).all(differs) {
+            continue; // Other coordinates may stand for the one that is constant.
+        }
+        for (viewpoint, options) in [
+            (scene.viewpoint, Options::default()),
+            (far, Options::default()),
+            (
+                far,
+                Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
+            ),
+        ] {
+            let flat = ask(&scene.points, viewpoint, &options);
+            let answer = asked(dimension, &rows, &place(viewpoint), &options);
+            assert_eq!(answer, flat, "{} with seed {seed}", kind.name);
+        }
+    }
+}
+
+#[test]
+fn answers_are_those_of_the_definition_in_two_to_seven_dimensions() {
+    let mut rng = Rng::new(65);
+    let mut compared = 0;
+    for k in 0..300 {
+        let case = Case::random(&mut rng, 2 + k % 6, 8);
+        let right = case.is_right();
+        assert!(right != Some(false), "{case:?}");
+        compared += usize::from(right.is_some());
+    }
+    assert!(compared > 230, "{compared}");
+}
+
+#[test]
+fn far_viewpoints_see_as_much_as_near_ones() {
+    let mut rng = Rng::new(66);
+    for exponent in 2..13 {
+        let distance = (0..exponent).fold(1.0, |distance, _| 10.0 * distance);
+        let mut seen = 0;
+        for _ in 0..20 {
+            let rows: Vec<_> = (0..60)
+                .map(|_| {
+                    direction(&mut rng, 4)
+                        .iter()
+                        .map(|x| x * rng.unit())
+                        .collect::<Vec<_>>()
+                })
+                .collect();
+            let viewpoint: Vec<_> = direction(&mut rng, 4)
+                .iter()
+                .map(|x| x * distance)
+                .collect();
+            let answer = asked(4, &rows, &viewpoint, &Options::default());
+            assert!(answer.exact() && answer.count() > 5, "from 10^{exponent}");
+            seen += answer.count();
+        }
+        // From 10⁷ on, the rounding of the flipped points hides and shows some.
+        assert!(seen > 20 * 20, "{seen} from 10^{exponent}");
     }
 }
 

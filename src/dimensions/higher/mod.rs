@@ -1,11 +1,18 @@
-//! Clouds of four and more dimensions: the same definition and flip, with a tolerance.
+//! Clouds of four and more dimensions: the same definition and flip.
 
 mod extreme;
+mod flat;
+mod frame;
+mod plane;
+mod residues;
 mod rows;
+mod subspace;
 
 use alloc::vec::Vec;
 
+use self::frame::Frame;
 use self::rows::{Rows, squared};
+use self::subspace::in_space;
 use crate::answers::visibility::{Visibility, marked_indices};
 use crate::base::allocation::{filled, with_capacity};
 use crate::base::error::{Error, in_range};
@@ -24,14 +31,24 @@ pub const MAX_DIMENSION: usize = 64;
 /// A point cloud of four or more dimensions.
 ///
 /// Answers follow the same definition and the same flip as those of
-/// [`PointCloud`](crate::PointCloud), but not to the bit. A small linear program in floating
-/// point decides each point. A point within 10⁻¹⁰ of the hull's boundary, relative to its
-/// distance, counts as visible. The order of the input and duplicates do not matter. With n
-/// points, v of them visible, a query takes O(n·v·D) time: seconds for ten thousand points.
+/// [`PointCloud`](crate::PointCloud), and are exact as well. A small linear program decides each
+/// point. The order of the input and duplicates do not matter. With n points, v of them visible, a
+/// query takes O(n·v·D) time: seconds for ten thousand points.
+///
+/// There is one tolerance. If all points and the viewpoint lie in one flat (a plane, a
+/// space, …) except for rounding, up to 32 times the rounding of their coordinates, then they are
+/// answered in this flat. Where they lie beside it, [`Visibility::exact`] is false. If they differ
+/// in three coordinates only, the answer has the bits of `PointCloud`.
 pub struct PointCloudNd {
     rows: Rows,
     non_finite: NonFinite,
     skipped: usize,
+}
+
+/// Whether each distinct point is visible, and whether all signs were certain.
+struct Marks {
+    visible: Vec<bool>,
+    exact: bool,
 }
 
 impl PointCloudNd {
@@ -116,15 +133,14 @@ impl PointCloudNd {
     }
 
     /// Which points are visible from `viewpoint`? As
-    /// [`PointCloud::visible_from`](crate::PointCloud::visible_from), within the
+    /// [`PointCloud::visible_from`](crate::PointCloud::visible_from), with the
     /// tolerance of [`PointCloudNd`].
     ///
     /// # Errors
     /// [`Error::ViewpointDimension`]; [`Error::Dimension`] for [`Options::denoise`] and
     /// [`Options::vote`]; the others of `PointCloud::visible_from`.
     pub fn visible_from(&self, viewpoint: &[f64], options: &Options) -> Result<Visibility, Error> {
-        let (visible, chosen, inversion) = self.marks(viewpoint, options)?;
-        self.answer(&visible, chosen, inversion)
+        self.visible_from_any(&[viewpoint], options)
     }
 
     /// Which points are visible from at least one of `viewpoints`? See
@@ -162,6 +178,9 @@ impl PointCloudNd {
     /// As [`PointCloudNd::visible_from`].
     pub fn auto_radius(&self, viewpoint: &[f64], rule: Radius) -> Result<ChosenRadius, Error> {
         self.check_viewpoint(viewpoint)?;
+        if let Some((cloud, places)) = in_space(&self.rows, &[viewpoint])? {
+            return cloud.auto_radius(places[0], rule);
+        }
         self.resolve_radius(rule, viewpoint, self.farthest(viewpoint)?)
     }
 
@@ -175,35 +194,42 @@ impl PointCloudNd {
         if viewpoints.is_empty() {
             check_flip(options)?;
         }
+        for viewpoint in viewpoints {
+            self.check_viewpoint(viewpoint)?;
+        }
+        if let Some((cloud, places)) = in_space(&self.rows, viewpoints)? {
+            return cloud.visible_from_at_least(k, &places, options);
+        }
         let mut views = filled(self.rows.distinct(), 0usize)?;
         let mut chosen = ChosenRadius::unit(0.0);
+        let mut exact = true;
         for viewpoint in viewpoints {
-            let (visible, view, _) = self.marks(viewpoint, options)?;
-            for (views, visible) in views.iter_mut().zip(visible) {
+            let (marks, view) = self.marks(viewpoint, inversion, options.radius)?;
+            for (views, visible) in views.iter_mut().zip(marks.visible) {
                 *views += usize::from(visible);
             }
+            exact &= marks.exact;
             chosen = chosen.joined(view);
         }
         let mut visible = filled(views.len(), false)?;
         for (visible, views) in visible.iter_mut().zip(views) {
             *visible = views >= k;
         }
-        self.answer(&visible, chosen, inversion)
+        self.answer(&Marks { visible, exact }, chosen, inversion)
     }
 
-    /// Whether each distinct point is visible, and the resolved radius and inversion.
+    /// The answer for distinct points, and the resolved radius.
     fn marks(
         &self,
         viewpoint: &[f64],
-        options: &Options,
-    ) -> Result<(Vec<bool>, ChosenRadius, Inversion), Error> {
-        self.check_viewpoint(viewpoint)?;
-        let inversion = self.check_options(options)?;
+        inversion: Inversion,
+        radius: Radius,
+    ) -> Result<(Marks, ChosenRadius), Error> {
         let farthest = self.farthest(viewpoint)?;
-        let (kernel, chosen) = resolved_kernel(inversion, options.radius, farthest, &|choice| {
+        let (kernel, chosen) = resolved_kernel(inversion, radius, farthest, &|choice| {
             self.resolve_radius(choice, viewpoint, farthest)
         })?;
-        Ok((self.mark_visible(viewpoint, kernel)?, chosen, inversion))
+        Ok((self.mark_visible(viewpoint, kernel)?, chosen))
     }
 
     fn check_viewpoint(&self, viewpoint: &[f64]) -> Result<(), Error> {
@@ -236,14 +262,15 @@ impl PointCloudNd {
             automatic,
             farthest,
             reach: &|place| self.farthest(place).unwrap_or(f64::INFINITY),
-            seen: &|place, kernel| self.mark_visible(place, kernel),
+            seen: &|place, kernel| Ok(self.mark_visible(place, kernel)?.visible),
         };
         sight.resolve(choice)
     }
 
-    fn mark_visible(&self, viewpoint: &[f64], kernel: Kernel) -> Result<Vec<bool>, Error> {
+    fn mark_visible(&self, viewpoint: &[f64], kernel: Kernel) -> Result<Marks, Error> {
+        let dimension = self.rows.dimension;
         let mut visible = filled(self.rows.distinct(), true)?;
-        let mut flipped: Vec<f64> = with_capacity(self.rows.distinct() * self.rows.dimension)?;
+        let mut flipped: Vec<f64> = with_capacity(self.rows.distinct() * dimension)?;
         let mut numbers: Vec<usize> = with_capacity(self.rows.distinct())?;
         for point in 0..self.rows.distinct() {
             let place = self.rows.at(point);
@@ -256,11 +283,20 @@ impl PointCloudNd {
                 flipped.truncate(start);
             }
         }
-        let marks = extreme::mark_visible(&flipped, self.rows.dimension)?;
+        let mut frame = Frame::new(&flipped, dimension)?;
+        let mut exact = true;
+        if let Some(axes) = self.rows.flat.axes(viewpoint)? {
+            // Rounding has lifted points off the flat.
+            if frame.corners.len() > axes.iter().filter(|kept| **kept).count() {
+                frame = Frame::of_columns(&flipped, &axes)?;
+                exact = false;
+            }
+        }
+        let marks = extreme::mark_visible(frame, numbers.len())?;
         for (point, mark) in numbers.into_iter().zip(marks) {
             visible[point] = mark;
         }
-        Ok(visible)
+        Ok(Marks { visible, exact })
     }
 
     fn farthest(&self, viewpoint: &[f64]) -> Result<f64, Error> {
@@ -277,11 +313,14 @@ impl PointCloudNd {
 
     fn answer(
         &self,
-        visible: &[bool],
+        marks: &Marks,
         chosen: ChosenRadius,
         inversion: Inversion,
     ) -> Result<Visibility, Error> {
-        let indices = marked_indices(self.len(), visible, &[], &|k| self.rows.indices_of(k))?;
-        Ok(Visibility::new(indices, self.len(), chosen, inversion))
+        let indices = marked_indices(self.len(), &marks.visible, &[], &|k| {
+            self.rows.indices_of(k)
+        })?;
+        let answer = Visibility::new(indices, self.len(), chosen, inversion);
+        Ok(answer.if_exact(marks.exact))
     }
 }

@@ -3,6 +3,7 @@
 
 use alloc::vec::Vec;
 
+use super::flat::Flat;
 use crate::base::allocation::{OutOfMemory, filled, reserve, with_capacity};
 use crate::base::error::Error;
 use crate::base::real::square_root;
@@ -19,12 +20,13 @@ const SAMPLES: usize = 512;
 pub(super) struct Rows {
     pub dimension: usize,
     /// The row of every index ever given. No number is -0.
-    coordinates: Vec<f64>,
-    present: Vec<bool>,
+    pub coordinates: Vec<f64>,
+    pub present: Vec<bool>,
     /// The present indices sorted by coordinates, and where each distinct point starts.
     order: Vec<u32>,
     starts: Vec<u32>,
     pub measures: Measures,
+    pub flat: Flat,
 }
 
 /// What the automatic radius is computed from, as in [`Statistics`].
@@ -48,6 +50,7 @@ impl Rows {
             order: Vec::new(),
             starts: Vec::new(),
             measures: Measures::default(),
+            flat: Flat::default(),
         }
     }
 
@@ -143,9 +146,10 @@ impl Rows {
         }
         let order = core::mem::replace(&mut self.order, order);
         let starts = core::mem::replace(&mut self.starts, starts);
-        match self.measure() {
-            Ok(measures) => {
-                self.measures = measures;
+        let flat = Flat::of(self.distinct(), self.dimension, &|point| self.at(point));
+        match flat.and_then(|flat| Ok((self.measure()?, flat))) {
+            Ok((measures, flat)) => {
+                (self.measures, self.flat) = (measures, flat);
                 Ok(())
             }
             Err(error) => {

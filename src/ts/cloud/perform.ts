@@ -155,7 +155,7 @@ function found({ length }: Target, settings: ViewSettings, answer: CoreAnswer): 
     exponent,
     evaluations,
     inversion: resolvedInversion(settings, scales),
-    exact: !settings.draft && settings.sample === 0,
+    exact: answer.exact === 1 && !settings.draft && settings.sample === 0,
     length,
   };
   return settings.scores ? { ...found, scores: answer.scores } : found;

@@ -22,7 +22,10 @@ export interface Visibility extends ChosenRadius {
    * an option.
    */
   readonly inversion: ResolvedInversion;
-  /** Whether this is the final answer to the question. False only for drafts and samples. */
+  /**
+   * Whether this is the final answer to the question. False for drafts and samples. Also false if all points of a cloud of
+   * four or more dimensions lie with the viewpoint in one flat, but for rounding that had to be removed.
+   */
   readonly exact: boolean;
   /**
    * How likely it is that each point of the cloud is visible, from 0 to 1. Only with the option

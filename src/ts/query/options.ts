@@ -3,9 +3,8 @@ import { describe, HprError, typeTag } from "../base/errors.js";
 /** How the positions of a cloud are read. */
 export interface PointCloudOptions {
   /**
-   * The number of coordinates of a point, from 2 to 64. Use 2 for clouds in a plane: their answers
-   * are as exact as with 3. From 4 on, the cloud has double precision and a tolerance of 10⁻¹⁰.
-   * Default 3.
+   * The number of coordinates of a point, from 2 to 64. Use 2 for clouds in a plane. Answers
+   * are as exact as with 3. From 4 on, the cloud has double precision. Default 3.
    */
   dimension?: number | undefined;
   /**
