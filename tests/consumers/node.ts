@@ -23,7 +23,17 @@ export const nodeScripts: Consumer[] = [
         [...points.subarray(3 * i, 3 * i + 3), i].join(" "),
       );
       writeFileSync(project("cloud.xyz"), `${lines.join("\n")}\n`);
-      const args = ["--offline", "hidden-point-removal", "cloud.xyz", "--from", viewpoint.join(","), "-o", "-"];
+      const args = [
+        "--offline",
+        "hidden-point-removal",
+        "cloud.xyz",
+        "--from",
+        viewpoint.join(","),
+        "--looks",
+        "0",
+        "-o",
+        "-",
+      ];
       const printed = execFileSync("npx", args, {
         cwd: project(),
         encoding: "utf8",

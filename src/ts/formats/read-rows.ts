@@ -26,7 +26,8 @@ export function builderFor(reading: Reading, { group, axes, others }: Points): C
 /** Reports the progress of reading, and ends it if that is asked for. */
 export function step({ source, signal, onProgress }: Reading, at: number): void {
   signal?.throwIfAborted();
-  onProgress?.(Math.min(1, at / source.size));
+  // An empty file is read at once.
+  onProgress?.(Math.min(1, at / Math.max(1, source.size)));
 }
 
 /** Reads rows in text. `start` is the place of the first line, `firstNumber` its number. */

@@ -37,7 +37,7 @@ async function readLaz(header: LasDetails, reading: Reading, found: Contradictio
   let taken = 0;
   for (const [i, chunk] of chunks.entries()) {
     signal?.throwIfAborted();
-    onProgress?.(taken / count);
+    onProgress?.(taken / Math.max(1, count));
     const bytes = await source.read(chunk.offset, chunk.offset + chunk.length);
     const parts = chunkParts(bytes, chunk.count, header);
     if (parts.says !== undefined) found.add(`chunk ${i + 1} of its points ${parts.says}`);
