@@ -25,7 +25,7 @@ thread_local! {
 /// A cloud of three dimensions (or two, with z = 0), or of more; or the horizon of a cloud.
 pub(super) enum Cloud {
     Space(Box<PointCloud>),
-    Hyper(PointCloudNd),
+    Hyper(Box<PointCloudNd>),
     Horizon(Box<Horizon>),
 }
 

@@ -1,5 +1,6 @@
 //! Clouds of four and more dimensions, whose viewpoints are lists of numbers.
 
+use alloc::boxed::Box;
 use alloc::vec::Vec;
 
 use js_sys::Float64Array;
@@ -23,7 +24,7 @@ pub fn create(
     let non_finite = non_finite(options);
     created(numbers(positions).and_then(|positions| {
         let cloud = PointCloudNd::with_non_finite(dimension as usize, &positions, non_finite)?;
-        Ok(Cloud::Hyper(cloud))
+        Ok(Cloud::Hyper(Box::new(cloud)))
     }))
 }
 
