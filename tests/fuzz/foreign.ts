@@ -1,8 +1,8 @@
 // Damaged files, read by readCloud and by readers of others: laspy with lazrs, plyfile, pypcd4, and three's loader of glTF.
 // If both read a file, they must read the same points. A file that only we read is listed.
-import { existsSync, readFileSync } from "node:fs";
+import { readFileSync } from "node:fs";
 import { join } from "node:path";
-import { spawn, spawnSync } from "node:child_process";
+import { spawn } from "node:child_process";
 import { readCloud } from "hidden-point-removal/files";
 import { type Mesh, MeshBasicMaterial, Vector3 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
@@ -10,10 +10,8 @@ import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { georeferencedBall } from "../browser/clouds";
 import { glb, las } from "../browser/formats";
 import { Random, validFile } from "../files/random";
+import { pythonWith } from "./python";
 
-const ROOT = join(import.meta.dirname, "../..");
-const FOLDER = join(ROOT, "target/foreign");
-const PYTHON = join(FOLDER, "bin/python");
 const PACKAGES = ["laspy==2.7.0", "lazrs==0.8.2", "plyfile==1.1.5", "pypcd4==1.5.1"];
 /** A foreign reader that is silent for so many milliseconds has refused the file. */
 const PATIENCE = 20_000;
@@ -23,9 +21,9 @@ type Kind = "las" | "ply" | "pcd" | "glb";
 
 /** Tries damaged files for this many minutes and prints the counts. Returns how many were read differently. */
 export async function fuzzForeign(minutes: number, seed: number): Promise<number> {
-  const isInstalled = installed();
-  if (!isInstalled) console.log("skipped laspy, plyfile and pypcd4: there is no Python 3 with pip, or no PyPI");
-  const foreign = isInstalled ? new Foreign() : undefined;
+  const python = pythonWith("foreign", PACKAGES);
+  if (python === undefined) console.log("skipped laspy, plyfile and pypcd4: there is no Python 3 with pip, or no PyPI");
+  const foreign = python === undefined ? undefined : new Foreign(python);
   const kinds: Kind[] = foreign ? ["las", "las", "ply", "pcd", "glb"] : ["glb"];
   const tallies = new Map<string, Tally>();
   const end = Date.now() + 60_000 * minutes;
@@ -155,18 +153,17 @@ function shown(outcome: Outcome): string {
   return `${points.length / 3} points (${[...points.subarray(0, 12)].join(" ")})`;
 }
 
-/** Installs the readers of others into an environment of their own. */
-function installed(): boolean {
-  const succeeds = (command: string, ...args: string[]) => spawnSync(command, args, { stdio: "ignore" }).status === 0;
-  if (existsSync(PYTHON) && succeeds(PYTHON, "-c", "import laspy, lazrs, plyfile, pypcd4")) return true;
-  return succeeds("python3", "-m", "venv", FOLDER) && succeeds(PYTHON, "-m", "pip", "install", "--quiet", ...PACKAGES);
-}
-
 /** A Python process that reads one file after another. It is started again when it dies. */
 class Foreign {
-  #process = this.#start();
+  readonly #python: string;
+  #process;
   #bytes = Buffer.alloc(0);
   #wake: () => void = () => undefined;
+
+  constructor(python: string) {
+    this.#python = python;
+    this.#process = this.#start();
+  }
 
   async read(kind: string, content: Buffer): Promise<Outcome> {
     const head = Buffer.alloc(8);
@@ -207,7 +204,7 @@ class Foreign {
   }
 
   #start() {
-    const child = spawn(PYTHON, [join(import.meta.dirname, "foreign.py")], { stdio: ["pipe", "pipe", "ignore"] });
+    const child = spawn(this.#python, [join(import.meta.dirname, "foreign.py")], { stdio: ["pipe", "pipe", "ignore"] });
     child.stdin.on("error", () => undefined);
     child.stdout.on("data", (bytes: Buffer) => {
       this.#bytes = Buffer.concat([this.#bytes, bytes]);
