@@ -62,7 +62,7 @@ pub use cloud::selection::Within;
 pub use dimensions::higher::{MAX_DIMENSION, PointCloudNd};
 pub use dimensions::two::PointCloud2d;
 pub use hull::division::Sector;
-pub use view::camera::{Camera, Convention};
+pub use view::camera::{Camera, Convention, Pose};
 pub use view::guarantees::{permissible_curvature, radius_bound};
 pub use view::options::{Exponential, Inversion, Options, Radius};
 pub use view::radius::ChosenRadius;

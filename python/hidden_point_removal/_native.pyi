@@ -51,8 +51,10 @@ class MergeOptions(TypedDict):
 class Camera(TypedDict):
     """A pinhole camera: u = fx * x / z + cx, with x to the right, y down and z forward. No shift by half a pixel."""
 
-    matrix: ArrayLike
+    camera_to_world: NotRequired[ArrayLike | None]
     """From the camera's space to the cloud's, rigid: 4 rows of 4, or 16 numbers column by column."""
+    world_to_camera: NotRequired[ArrayLike | None]
+    """The inverse, as COLMAP and OpenCV keep it. Exactly one of the two is given."""
     convention: NotRequired[Literal["opencv", "opengl"]]
     """The axes of the camera's space. Default "opencv"."""
     fx: float

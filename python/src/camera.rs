@@ -1,6 +1,6 @@
 //! A camera as a dictionary.
 
-use hidden_point_removal::{Camera, Convention};
+use hidden_point_removal::{Camera, Convention, Pose};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -9,7 +9,7 @@ use crate::failure::problem;
 use crate::options::number;
 
 const SHAPES: &str =
-    "matrix must hold 16 numbers: 4 rows as an array of shape (4, 4), or flat, column by column";
+    "exactly one of camera_to_world and world_to_camera must hold 16 numbers: 4 rows as an array of shape (4, 4), or flat, column by column";
 
 /// Reads a camera. The core checks its numbers.
 pub fn read(py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Camera> {
@@ -18,14 +18,20 @@ pub fn read(py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Camera> {
         .cast::<PyDict>()
         .map_err(|_| wrong("must be a dictionary".into()))?;
     let mut camera = Camera::new(f64::NAN, f64::NAN, f64::NAN, f64::NAN, 0.0, 0.0);
-    let mut has_matrix = false;
+    let mut poses = 0;
     for (name, value) in entries.iter() {
         let name: String = name.extract()?;
         let one = || number(&value).ok_or_else(|| wrong(format!("{name} must be a number")));
         match name.as_str() {
-            "matrix" => {
-                camera.matrix = matrix(&value).ok_or_else(|| wrong(SHAPES.into()))?;
-                has_matrix = true;
+            "camera_to_world" | "world_to_camera" if value.is_none() => {}
+            "camera_to_world" | "world_to_camera" => {
+                let numbers = matrix(&value).ok_or_else(|| wrong(SHAPES.into()))?;
+                camera.pose = if name == "camera_to_world" {
+                    Pose::CameraToWorld(numbers)
+                } else {
+                    Pose::WorldToCamera(numbers)
+                };
+                poses += 1;
             }
             "convention" => {
                 camera.convention = match value.extract::<String>().as_deref() {
@@ -52,7 +58,7 @@ pub fn read(py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Camera> {
             _ => return Err(wrong(format!("unknown entry {name}"))),
         }
     }
-    if !has_matrix {
+    if poses != 1 {
         return Err(wrong(SHAPES.into()));
     }
     Ok(camera)

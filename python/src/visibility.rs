@@ -6,6 +6,8 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+const INVERTED: &std::ffi::CStr = c"next to no points are in this image, but many are in that of the inverse pose: is it camera_to_world or world_to_camera?";
+
 /// Which points are visible.
 #[pyclass(frozen, module = "hidden_point_removal")]
 pub struct Visibility {
@@ -58,6 +60,10 @@ impl Visibility {
     }
 
     pub fn of_camera(py: Python<'_>, view: core::CameraView) -> PyResult<Self> {
+        if view.seems_inverted {
+            let category = py.get_type::<pyo3::exceptions::PyUserWarning>();
+            PyErr::warn(py, &category, INVERTED, 1)?;
+        }
         let count = view.pixels.len();
         let pixels = view.pixels.into_flattened().into_pyarray(py);
         Ok(Self {

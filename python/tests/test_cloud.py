@@ -219,14 +219,14 @@ def test_threads_run_at_the_same_time():
 
 
 def camera(**entries):
-    return {"matrix": np.eye(4), "fx": 400, "fy": 400, "cx": 320, "cy": 240, "width": 640, "height": 480, **entries}
+    return {"camera_to_world": np.eye(4), "fx": 400, "fy": 400, "cx": 320, "cy": 240, "width": 640, "height": 480, **entries}
 
 
 def test_a_camera_sees_a_part_of_the_view_from_its_place():
     points = bumpy(4000)
     turned = np.array([[1.0, 0, 0, 0.2], [0, -1, 0, 0.1], [0, 0, -1, 5], [0, 0, 0, 1]])
     cloud = PointCloud(points)
-    seen = cloud.visible_from_camera(camera(matrix=turned), exponent=3)
+    seen = cloud.visible_from_camera(camera(camera_to_world=turned), exponent=3)
     local = (points[seen.indices] - turned[:3, 3]) @ turned[:3, :3]
     assert np.allclose(seen.depths, local[:, 2], rtol=1e-6)
     assert np.allclose(seen.pixels[:, 0], 400 * local[:, 0] / local[:, 2] + 320, atol=1e-3)
@@ -234,9 +234,18 @@ def test_a_camera_sees_a_part_of_the_view_from_its_place():
     every = cloud.visible_from(turned[:3, 3], exponent=3)
     assert 100 < seen.count < every.count or set(seen.indices) == set(every.indices)
     assert set(seen.indices.tolist()) <= set(every.indices.tolist())
-    flat = cloud.visible_from_camera(camera(matrix=turned.T.ravel().tolist(), distortion=[0] * 5, far=np.inf), exponent=3)
+    flat = cloud.visible_from_camera(camera(camera_to_world=turned.T.ravel().tolist(), distortion=[0] * 5, far=np.inf), exponent=3)
     assert np.array_equal(flat.indices, seen.indices)
-    upright = cloud.visible_from_camera(camera(matrix=turned @ np.diag([1, -1, -1, 1]), convention="opengl"), exponent=3)
+    inverse = np.linalg.inv(turned)
+    other = cloud.visible_from_camera(camera(camera_to_world=None, world_to_camera=inverse), exponent=3)
+    assert np.array_equal(other.indices, seen.indices)
+    away = np.array([30, 0, 0])
+    turned[:3, 3] += away
+    with pytest.warns(UserWarning, match="inverse pose"):
+        wrong = PointCloud(points + away).visible_from_camera(camera(camera_to_world=np.linalg.inv(turned)), exponent=3)
+    assert wrong.count == 0
+    turned[:3, 3] -= away
+    upright = cloud.visible_from_camera(camera(camera_to_world=turned @ np.diag([1, -1, -1, 1]), convention="opengl"), exponent=3)
     assert np.array_equal(upright.indices, seen.indices)
     assert every.pixels is None and every.depths is None
 
@@ -272,8 +281,9 @@ def test_how_many_viewpoints_see_each_point_and_which_to_choose():
     [
         ("viewpoint", lambda cloud: cloud.visible_from_camera(7)),
         ("viewpoint", lambda cloud: cloud.visible_from_camera({})),
-        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(matrix=np.eye(3)))),
-        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(matrix=2 * np.eye(4)))),
+        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(world_to_camera=np.eye(4)))),
+        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(camera_to_world=np.eye(3)))),
+        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(camera_to_world=2 * np.eye(4)))),
         ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(width=0))),
         ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(fx="wide"))),
         ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(fx=np.nan))),

@@ -21,11 +21,11 @@ pub enum Error {
         /// The viewpoint as given.
         viewpoint: [f64; 3],
     },
-    /// A camera has no size, or is not finite, or its matrix is not rigid.
+    /// A camera has no size, or is not finite, or its pose is not rigid.
     Camera {
         /// What the camera must be.
         problem: &'static str,
-        /// The number that is wrong. For a matrix that is not rigid, its deviation.
+        /// The number that is wrong. For a pose that is not rigid, its deviation.
         value: f64,
     },
     /// The direction of a view is zero, or holds NaN or an infinity.

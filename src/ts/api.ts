@@ -14,18 +14,20 @@ export {
 export { Horizon } from "./cloud/horizon.js";
 export { type MergeOptions, mergeVisible, type VisiblePart } from "./cloud/merge.js";
 export type { PointCloudOptions } from "./query/options.js";
-export type { Positions } from "./query/positions.js";
+export type { Positions, Viewpoint } from "./query/positions.js";
 export type { NumberArray } from "./base/typed-arrays.js";
 export type { IlluminationOptions, ReconstructionOptions } from "./query/queries.js";
-export type { Camera } from "./query/camera.js";
+export type { Camera, Intrinsics, Pose } from "./query/camera.js";
 export {
   cameraFromPose,
   cameraFromThree,
-  type Intrinsics,
   intrinsicsFromFieldOfView,
   type PerspectiveCameraLike,
+  type PosedCamera,
 } from "./query/cameras.js";
 export type { Calibration, Station } from "./query/calibration.js";
+export type { ViewpointOrCamera } from "./query/seats.js";
+export type { SeenBy } from "./query/seen-by.js";
 export type { Placement } from "./query/placement.js";
 export type { CoverageOptions, PlacementOptions } from "./query/surveys.js";
 export type { Within } from "./query/within.js";

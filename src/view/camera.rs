@@ -15,14 +15,42 @@ pub enum Convention {
     OpenGl,
 }
 
+/// A camera's place and its axes: 16 numbers, column by column, a rotation and a translation, to
+/// within 10⁻⁵.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pose {
+    /// From the camera's space to the cloud's.
+    CameraToWorld([f64; 16]),
+    /// From the cloud's space to the camera's: the inverse, as COLMAP and OpenCV keep it.
+    WorldToCamera([f64; 16]),
+}
+
+impl Pose {
+    /// From the camera's space to the cloud's. The last row stays, for the check.
+    pub(crate) fn camera_to_world(self) -> [f64; 16] {
+        match self {
+            Self::CameraToWorld(matrix) => matrix,
+            Self::WorldToCamera(matrix) => inverse(matrix),
+        }
+    }
+}
+
+/// The inverse of a rotation and a translation.
+fn inverse(m: [f64; 16]) -> [f64; 16] {
+    let place = |i: usize| -(m[i] * m[12] + m[i + 1] * m[13] + m[i + 2] * m[14]);
+    let (x, y, z) = (place(0), place(4), place(8));
+    [
+        m[0], m[4], m[8], m[3], m[1], m[5], m[9], m[7], m[2], m[6], m[10], m[11], x, y, z, m[15],
+    ]
+}
+
 /// A pinhole camera, with the distortion of its lens if there is one. A point at (x, y, z), with x
 /// to the right, y down and z forward, appears at u = fx·x/z + cx and v = fy·y/z + cy. There is no
 /// shift by half a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
-    /// From the camera's space to the cloud's, column by column: a rotation and a translation, to
-    /// within 10⁻⁵.
-    pub matrix: [f64; 16],
+    /// Its place and its axes.
+    pub pose: Pose,
     /// The axes of the camera's space.
     pub convention: Convention,
     /// The focal length across, in pixels.
@@ -53,7 +81,7 @@ impl Camera {
         let mut matrix = [0.0; 16];
         (0..4).for_each(|axis| matrix[5 * axis] = 1.0);
         Self {
-            matrix,
+            pose: Pose::CameraToWorld(matrix),
             convention: Convention::OpenCv,
             fx,
             fy,
@@ -67,13 +95,15 @@ impl Camera {
         }
     }
 
-    /// The camera with these numbers: its matrix, fx, fy, cx, cy, width, height, distortion, near,
+    /// The camera with these numbers: its pose as camera to world, fx, fy, cx, cy, width, height, distortion, near,
     /// far, and 1 for OpenGL's axes.
     #[cfg(feature = "wasm")]
     #[inline(never)]
     pub(crate) fn of(numbers: &[f64; 30]) -> Self {
         let mut camera = Self::new(0.0, 0.0, 0.0, 0.0, 0.0, 0.0);
-        camera.matrix.copy_from_slice(&numbers[..16]);
+        let mut matrix = [0.0; 16];
+        matrix.copy_from_slice(&numbers[..16]);
+        camera.pose = Pose::CameraToWorld(matrix);
         camera.distortion.copy_from_slice(&numbers[22..27]);
         [camera.fx, camera.fy, camera.cx, camera.cy] =
             [numbers[16], numbers[17], numbers[18], numbers[19]];
@@ -88,23 +118,25 @@ impl Camera {
     /// The camera's place, in the cloud's coordinates.
     #[must_use]
     pub fn position(&self) -> [f64; 3] {
-        [self.matrix[12], self.matrix[13], self.matrix[14]]
+        let matrix = self.pose.camera_to_world();
+        [matrix[12], matrix[13], matrix[14]]
     }
 
     /// The camera, ready to project points.
     pub(crate) fn lens(&self) -> Result<Lens<'_>, Error> {
         let infinity = f64::INFINITY;
         let least = f64::MIN_POSITIVE;
-        if let Some(&value) = self.matrix.iter().find(|x| !x.is_finite()) {
-            let problem = "matrix must be finite";
+        let matrix = self.pose.camera_to_world();
+        if let Some(&value) = matrix.iter().find(|x| !x.is_finite()) {
+            let problem = "pose must be finite";
             return Err(Error::Camera { problem, value });
         }
-        let axes = [0, 4, 8].map(|from| DVec3::from_slice(&self.matrix[from..from + 3]));
-        let deviation = deviation(axes, &self.matrix);
+        let axes = [0, 4, 8].map(|from| DVec3::from_slice(&matrix[from..from + 3]));
+        let deviation = deviation(axes, &matrix);
         let largest = f64::MAX;
         let mut limits = [
             (
-                "matrix must be a rotation and a translation, to within 1e-5",
+                "pose must be a rotation and a translation, to within 1e-5",
                 deviation,
                 0.0,
                 RIGID,
@@ -147,6 +179,7 @@ impl Camera {
         let [x, y, z] = axes;
         Ok(Lens {
             camera: self,
+            place: DVec3::from_slice(&matrix[12..15]),
             axes: match self.convention {
                 Convention::OpenCv => axes,
                 Convention::OpenGl => [x, -y, -z],
@@ -178,6 +211,7 @@ fn deviation([x, y, z]: [DVec3; 3], matrix: &[f64; 16]) -> f64 {
 /// A camera that was checked.
 pub(crate) struct Lens<'a> {
     camera: &'a Camera,
+    place: DVec3,
     /// To the right, down and forward.
     axes: [DVec3; 3],
     /// The square of the undistorted radius from which on the distortion does not grow.
@@ -189,7 +223,7 @@ impl Lens<'_> {
     pub(crate) fn project(&self, p: [f64; 3]) -> ([f64; 2], f64) {
         const OUTSIDE: ([f64; 2], f64) = ([0.0; 2], 0.0);
         let camera = self.camera;
-        let v = DVec3::from_array(p) - DVec3::from_array(camera.position());
+        let v = DVec3::from_array(p) - self.place;
         let [x, y, depth] = self.axes.map(|axis| axis.dot(v));
         if !(depth > 0.0 && camera.near <= depth && depth <= camera.far) {
             return OUTSIDE;

@@ -78,7 +78,7 @@ fn seen(
 }
 
 /// Writes into `target` where a camera shows points: x, y and the depth of each. The depth is 0 for a
-/// point outside of the image. `camera` holds its matrix, fx, fy, cx, cy, width, height, distortion,
+/// point outside of the image. `camera` holds its pose as camera to world, fx, fy, cx, cy, width, height, distortion,
 /// near, far, and 1 for OpenGL's axes or 0 for OpenCV's.
 #[wasm_bindgen]
 pub fn project(
@@ -94,6 +94,15 @@ pub fn project(
     })?;
     target.copy_from(shown.as_flattened());
     Ok(())
+}
+
+/// Whether the pose of a camera was probably given the wrong way round.
+#[wasm_bindgen(js_name = seemsInverted)]
+pub fn seems_inverted(handle: u32, camera: &Float64Array) -> Result<bool, JsValue> {
+    let mut numbers = [0.0; 30];
+    camera.copy_to(&mut numbers);
+    let camera = Camera::of(&numbers);
+    Ok(with_cloud(handle, |cloud| cloud.seems_inverted(&camera))?)
 }
 
 /// Would points at `positions` be visible from (x, y, z), each added alone? Writes 1 or 0 for each

@@ -1,8 +1,10 @@
 //! What a camera sees: the view from its place, cut to its image.
 
-use hidden_point_removal::{Camera, Convention, Error, Inversion, Options, PointCloud, Within};
+use hidden_point_removal::{
+    Camera, Convention, Error, Inversion, Options, PointCloud, Pose, Within,
+};
 
-use crate::common::cameras::{camera, shown};
+use crate::common::cameras::{camera, matrix, shown};
 use crate::common::rng::Rng;
 use crate::common::shapes;
 
@@ -116,7 +118,7 @@ fn duplicates_and_georeferenced_points_have_their_own_pixels() {
     ];
     let cloud = PointCloud::new(&points).unwrap();
     let mut camera = Camera::new(100.0, 100.0, 50.0, 50.0, 101.0, 101.0);
-    camera.matrix[12..15].copy_from_slice(&place);
+    matrix(&mut camera)[12..15].copy_from_slice(&place);
     let seen = cloud
         .visible_from_camera(&camera, &Options::default())
         .unwrap();
@@ -137,13 +139,13 @@ fn cameras_that_are_none_are_refused() {
         refusal.to_string()
     };
     let nan = f64::NAN;
-    assert!(refused(&|camera| camera.matrix[5] = nan).contains("matrix must be finite, got NaN"));
+    assert!(refused(&|camera| matrix(camera)[5] = nan).contains("pose must be finite, got NaN"));
     let rigid = "rotation and a translation";
-    assert!(refused(&|camera| camera.matrix[5] = -1.0).contains(rigid));
-    assert!(refused(&|camera| camera.matrix[0] = 1.001).contains(rigid));
-    assert!(refused(&|camera| camera.matrix[4] = 1e-4).contains(rigid));
-    assert!(refused(&|camera| camera.matrix[15] = 2.0).contains(rigid));
-    assert!(refused(&|camera| camera.matrix = [0.0; 16]).contains(rigid));
+    assert!(refused(&|camera| matrix(camera)[5] = -1.0).contains(rigid));
+    assert!(refused(&|camera| matrix(camera)[0] = 1.001).contains(rigid));
+    assert!(refused(&|camera| matrix(camera)[4] = 1e-4).contains(rigid));
+    assert!(refused(&|camera| matrix(camera)[15] = 2.0).contains(rigid));
+    assert!(refused(&|camera| *matrix(camera) = [0.0; 16]).contains(rigid));
     assert!(refused(&|camera| camera.fx = 0.0).contains("fx"));
     assert!(refused(&|camera| camera.fy = -3.0).contains("fy must be finite and positive, got -3"));
     assert!(refused(&|camera| camera.width = 0.0).contains("width"));
@@ -154,7 +156,7 @@ fn cameras_that_are_none_are_refused() {
     assert!(refused(&|camera| camera.far = nan).contains("far"));
     assert!(refused(&|camera| (camera.near, camera.far) = (2.0, 1.0)).contains("far"));
     let mut nearly = good;
-    nearly.matrix[4] = 5e-6;
+    matrix(&mut nearly)[4] = 5e-6;
     assert!(
         cloud
             .visible_from_camera(&nearly, &Options::default())
@@ -166,4 +168,45 @@ fn cameras_that_are_none_are_refused() {
         small.unwrap_err(),
         Error::RadiusTooSmall { radius, farthest }
     );
+}
+
+#[test]
+fn a_pose_is_the_same_both_ways_and_the_wrong_way_is_said() {
+    let mut rng = Rng::new(4);
+    let away = [10.0, 20.0, 30.0];
+    let points = shapes::bumpy(&mut rng, 3000).into_iter();
+    let points: Vec<[f64; 3]> = points
+        .map(|p| core::array::from_fn(|i| p[i] + away[i]))
+        .collect();
+    let cloud = PointCloud::new(&points).unwrap();
+    let right = camera(
+        &mut rng,
+        [10.3, 20.4, 34.0],
+        [-0.3, -0.4, -4.0],
+        Convention::OpenCv,
+    );
+    let Pose::CameraToWorld(m) = right.pose else {
+        unreachable!()
+    };
+    let place = |c: usize| -(m[c] * m[12] + m[c + 1] * m[13] + m[c + 2] * m[14]);
+    let inverse = [
+        [m[0], m[4], m[8], 0.0],
+        [m[1], m[5], m[9], 0.0],
+        [m[2], m[6], m[10], 0.0],
+        [place(0), place(4), place(8), 1.0],
+    ];
+    let inverse = inverse.as_flattened().try_into().unwrap();
+    let ask = |pose| {
+        let camera = Camera { pose, ..right };
+        let options = Options::with_exponent(3.0);
+        cloud.visible_from_camera(&camera, &options).unwrap()
+    };
+    let seen = ask(right.pose);
+    let same = ask(Pose::WorldToCamera(inverse));
+    assert_eq!(seen.visibility.indices(), same.visibility.indices());
+    assert!(seen.visibility.count() > 300, "{}", seen.visibility.count());
+    assert!(!seen.seems_inverted && !same.seems_inverted);
+    let wrong = ask(Pose::CameraToWorld(inverse));
+    assert_eq!(wrong.visibility.count(), 0);
+    assert!(wrong.seems_inverted);
 }

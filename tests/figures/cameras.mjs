@@ -147,7 +147,7 @@ function surface([low, high], gap) {
 }
 
 /** The pixels and depths of points, hidden or not. */
-function inImage(positions, indices, { matrix: m, fx, fy, cx, cy, width, height }) {
+function inImage(positions, indices, { cameraToWorld: m, fx, fy, cx, cy, width, height }) {
   const found = [];
   for (const i of indices) {
     const from = [0, 1, 2].map((axis) => positions[3 * i + axis] - m[12 + axis]);

@@ -83,15 +83,18 @@ it("workers see the same, also when they share the view", async () => {
 it("what is no camera is refused", () => {
   const cloud = new PointCloud(positions);
   const good = cameraFromThree(threeCamera(), 640, 480);
-  const matrix = Array.from(good.matrix);
+  const cameraToWorld = Array.from(good.cameraToWorld);
   const bad: [object, string, RegExp][] = [
     [{ fx: "5" }, "viewpoint", /fx must be a number/],
     [{ fx: 0 }, "viewpoint", /fx must be finite and positive, got 0/],
     [{ width: undefined }, "viewpoint", /width must be a number, got undefined/],
     [{ height: NaN }, "viewpoint", /height must be finite and positive, got NaN/],
-    [{ matrix: matrix.slice(1) }, "viewpoint", /matrix must be 16 numbers, got 15 of them/],
-    [{ matrix: matrix.map((x) => 2 * x) }, "viewpoint", /rotation and a translation/],
-    [{ matrix: matrix.map((x, i) => (i === 12 ? NaN : x)) }, "viewpoint", /matrix must be/],
+    [{ cameraToWorld: cameraToWorld.slice(1) }, "viewpoint", /cameraToWorld must be 16 numbers, got 15 of them/],
+    [{ cameraToWorld: cameraToWorld.map((x) => 2 * x) }, "viewpoint", /rotation and a translation/],
+    [{ cameraToWorld: cameraToWorld.map((x, i) => (i === 12 ? NaN : x)) }, "viewpoint", /pose must be/],
+    [{ worldToCamera: cameraToWorld }, "viewpoint", /exactly one of cameraToWorld and worldToCamera, got both/],
+    [{ cameraToWorld: undefined }, "viewpoint", /got neither/],
+    [{ matrix: cameraToWorld }, "option", /unknown option "matrix"/],
     [{ distortion: [1] }, "viewpoint", /distortion must be 5 numbers/],
     [{ near: -1 }, "viewpoint", /near/],
     [{ far: 0.1 }, "viewpoint", /far must be at least near/],
@@ -122,4 +125,112 @@ it("what is no camera is refused", () => {
   expect(() => flat.visibleFromCamera(good)).toThrow(/visibleFromCamera needs a cloud of dimension 3, not 2/);
   flat.dispose();
   cloud.dispose();
+});
+
+it("a pose is taken both ways, and the wrong way is said", async () => {
+  const away = positions.map((x, i) => x + [10, 20, 30][i % 3]!);
+  const cloud = new PointCloud(away);
+  const three = threeCamera();
+  three.clearViewOffset();
+  three.far = 100;
+  three.updateProjectionMatrix();
+  three.position.set(10.3, 20.8, 34);
+  three.lookAt(10, 20, 30);
+  three.updateMatrixWorld();
+  const { cameraToWorld, ...rest } = cameraFromThree(three, 640, 480);
+  const right = cloud.visibleFromCamera({ ...rest, cameraToWorld });
+  const worldToCamera = three.matrixWorldInverse.elements;
+  expect(right.count).toBeGreaterThan(500);
+  expect(right.note).toBeUndefined();
+  const both = cloud.visibleFromCamera({ ...rest, worldToCamera });
+  expect([both.indices, both.note]).toEqual([right.indices, undefined]);
+  const wrong = cloud.visibleFromCamera({ ...rest, cameraToWorld: worldToCamera });
+  expect([wrong.count, wrong.note]).toEqual([0, expect.stringContaining("inverse pose")]);
+  const remote = await WorkerPointCloud.create(away, { workers: 2 });
+  expect((await remote.visibleFromCamera({ ...rest, cameraToWorld: worldToCamera })).note).toBe(wrong.note);
+  await remote.dispose();
+  const [x, y, z] = [11, 22, 40];
+  expect(cloud.visibleFrom({ x, y, z }).indices).toEqual(cloud.visibleFrom([x, y, z]).indices);
+  expect(() => cloud.visibleFrom({ x, y } as never)).toThrow(expect.objectContaining({ code: "viewpoint" }));
+  cloud.dispose();
+});
+
+/** Cameras around the cloud, each turned to its middle. */
+const ring = [0, 1, 2, 3, 4].map((i) => {
+  const three = new PerspectiveCamera(30, 640 / 480, 0.1, 100);
+  three.position.set(3 * Math.cos(i), 3 * Math.sin(i), i - 2);
+  three.lookAt(0, 0, 0);
+  return cameraFromThree(three, 640, 480);
+});
+
+it("cameras stand wherever several viewpoints stand", async () => {
+  const cloud = new PointCloud(positions);
+  const seats = [...ring, place];
+  for (const options of [{}, { exponent: 3 }, { looks: 3 as const }, { within: { distance: 3 } }]) {
+    const views = [
+      ...ring.map((camera) => cloud.visibleFromCamera(camera, options)),
+      cloud.visibleFrom(place, options),
+    ];
+    const counts = new Uint32Array(cloud.length);
+    for (const { indices } of views) for (const index of indices) counts[index]! += 1;
+    expect(cloud.coverage(seats, options)).toEqual(counts);
+    for (const k of [1, 2, 3]) {
+      const several = k === 1 ? cloud.visibleFromAny(seats, options) : cloud.visibleFromAtLeast(k, seats, options);
+      expect(several.indices).toEqual(Uint32Array.from(counts.keys()).filter((i) => counts[i]! >= k));
+      expect(several.radius).toBe(Math.max(...views.map(({ radius }) => radius)));
+    }
+    expect(cloud.placeViewpoints(seats, { ...options, count: 1 }).gains).toEqual([
+      Math.max(...views.map(({ count }) => count)),
+    ]);
+    for (const workers of [1, 3]) {
+      const remote = await WorkerPointCloud.create(positions, { workers });
+      expect(await remote.coverage(seats, options)).toEqual(counts);
+      expect((await remote.visibleFromAny(seats, options)).indices).toEqual(
+        cloud.visibleFromAny(seats, options).indices,
+      );
+      expect(await remote.seenBy(ring, options)).toEqual(cloud.seenBy(ring, options));
+      await remote.dispose();
+    }
+  }
+  const bad = [...ring, { ...ring[0]!, fx: "5" }] as never;
+  for (const ask of [() => cloud.coverage(bad), () => cloud.visibleFromAny(bad), () => cloud.placeViewpoints(bad)]) {
+    expect(ask).toThrow(expect.objectContaining({ code: "viewpoint" }));
+    expect(ask).toThrow(/\[5\]'s fx must be a number/);
+  }
+  expect(() => cloud.visibleFromAny(ring, { draft: true })).toThrow(/draft cannot be combined with several cameras/);
+  cloud.dispose();
+});
+
+it("seenBy lists the cameras of each point, with their pixels", async () => {
+  const cloud = new PointCloud(positions);
+  const heard: number[] = [];
+  const { offsets, cameras, pixels } = cloud.seenBy(ring, { looks: 3, onProgress: (share) => heard.push(share) });
+  expect(heard).toEqual([0.2, 0.4, 0.6, 0.8, 1]);
+  expect([offsets.length, pixels.length]).toEqual([cloud.length + 1, 2 * cameras.length]);
+  const views = ring.map((camera) => cloud.visibleFromCamera(camera, { looks: 3 }));
+  const expected: number[][] = Array.from({ length: cloud.length }, () => []);
+  views.forEach(({ indices, pixels }, number) => {
+    indices.forEach((index, i) => expected[index]!.push(number, pixels[2 * i]!, pixels[2 * i + 1]!));
+  });
+  const found = expected.map((_, index) =>
+    Array.from(cameras.subarray(offsets[index], offsets[index + 1])).flatMap((number, k) => {
+      const at = 2 * (offsets[index]! + k);
+      return [number, pixels[at]!, pixels[at + 1]!];
+    }),
+  );
+  expect(found).toEqual(expected);
+  expect(cameras.length).toBeGreaterThan(2000);
+  expect(cloud.seenBy([]).offsets).toEqual(new Uint32Array(cloud.length + 1));
+  for (const bad of [undefined, {}, [5], [ring[0], null]]) {
+    expect(() => cloud.seenBy(bad as never)).toThrow(expect.objectContaining({ code: "viewpoint" }));
+  }
+  expect(() => cloud.seenBy(ring, { draft: true })).toThrow(expect.objectContaining({ code: "option" }));
+  const remote = await WorkerPointCloud.create(positions, { workers: 2 });
+  const signal = AbortSignal.abort();
+  await expect(remote.seenBy(ring, { signal })).rejects.toMatchObject({ name: "AbortError" });
+  await remote.dispose();
+  expect(() => {
+    cloud.dispose();
+    cloud.seenBy(ring);
+  }).toThrow(expect.objectContaining({ code: "disposed" }));
 });

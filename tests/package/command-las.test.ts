@@ -93,11 +93,8 @@ describe("the visible points of a LAS file are a LAS file", () => {
     expect(summary).toMatch(/^\d+ of 600 points are visible$/);
     const [first] = said("--viewpoints", "far.csv");
     expect(first).toMatch(/^note: the viewpoint far is .* \(of 3 viewpoints, 2 are as far\)$/);
-    const matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1];
-    write(
-      "far.json",
-      JSON.stringify({ matrix, convention: "opencv", fx: 9, fy: 9, cx: 9, cy: 9, width: 20, height: 20 }),
-    );
+    const cameraToWorld = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1];
+    write("far.json", JSON.stringify({ cameraToWorld, fx: 9, fy: 9, cx: 9, cy: 9, width: 20, height: 20 }));
     expect(said("--camera", "far.json")[0]).toMatch(/^note: the camera is 5,400,000 units/);
     expect(said("--from", VIEWPOINT.join(","))[0]).toMatch(/^\d+ of 600 points/);
   });

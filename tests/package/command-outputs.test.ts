@@ -57,8 +57,8 @@ describe("an output that is an input", () => {
     write("each.csv", "name,x,y,z\neach,0,0,5\n");
     refused("in.xyz", "--viewpoints", "places.csv", "-o", "places.csv");
     refused("in.xyz", "--viewpoints", "each.csv", "-o", "{name}.csv");
-    const matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -5, 1];
-    const camera = { matrix, convention: "opencv", fx: 9, fy: 9, cx: 9, cy: 9, width: 20, height: 20 };
+    const cameraToWorld = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -5, 1];
+    const camera = { cameraToWorld, fx: 9, fy: 9, cx: 9, cy: 9, width: 20, height: 20 };
     write("camera.csv", JSON.stringify(camera));
     refused("in.xyz", "--camera", "camera.csv", "-o", "camera.csv");
     expect([lines("places.csv"), lines("each.csv").length]).toEqual([["0,0,5"], 2]);

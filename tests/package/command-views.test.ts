@@ -135,7 +135,7 @@ describe("--camera", () => {
 
   it.each([
     ["prose.json", "a camera", /is not JSON/],
-    ["bent.json", JSON.stringify({ ...camera, matrix: new Array(16).fill(1) }), /matrix/],
+    ["bent.json", JSON.stringify({ ...camera, cameraToWorld: new Array(16).fill(1) }), /pose/],
     ["odd.json", JSON.stringify({ ...camera, zoom: 2 }), /unknown option "zoom"/],
     ["sizeless.json", JSON.stringify({ ...camera, width: 0 }), /width/],
   ])("%s is refused", (name, content, says) => {

@@ -168,9 +168,9 @@ describe("a view", () => {
 
   it("of a camera has pixels and depths in the order of the indices", async () => {
     const cloud = await cloudIn(2);
-    const matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1];
+    const cameraToWorld = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1];
     const size = { fx: 100, fy: 100, cx: 100, cy: 100, width: 200, height: 200 };
-    const asked = cloud.visibleFromCamera({ matrix, convention: "opengl", ...size });
+    const asked = cloud.visibleFromCamera({ cameraToWorld, convention: "opengl", ...size });
     const part = (indices: number[]) => ({
       ...found(indices, 100),
       pixels: Float32Array.from(indices.flatMap((index) => [index, index + 0.5])),

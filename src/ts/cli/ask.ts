@@ -22,6 +22,8 @@ export interface Answer {
   scores?: Float32Array;
   /** How many viewpoints see each point. Then `indices` are the points that at least one sees. */
   counts?: Uint32Array;
+  /** What is probably wrong with the camera. */
+  note?: string;
   image?: { pixels: Float32Array; depths: Float32Array };
 }
 
@@ -69,8 +71,8 @@ async function* answers(
       yield await from(question.viewpoint);
       return;
     case "camera": {
-      const { indices, pixels, depths } = await cloud.visibleFromCamera(question.camera, options);
-      yield { indices, image: { pixels, depths } };
+      const { indices, pixels, depths, note } = await cloud.visibleFromCamera(question.camera, options);
+      yield { indices, image: { pixels, depths }, ...(note !== undefined && { note }) };
       return;
     }
     case "each":

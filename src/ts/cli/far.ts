@@ -1,4 +1,5 @@
 // Notes viewpoints that are so far from the cloud that their coordinates are probably of another system.
+import { placeOf, readCamera } from "../query/camera.js";
 import type { Question } from "./ask.js";
 
 /** How many extents of the cloud a viewpoint may be from it. The cloud then fills half a degree of the view. */
@@ -22,10 +23,8 @@ function viewpointsOf(question: Question): { name: string; viewpoint: readonly n
   switch (question.kind) {
     case "view":
       return [{ name: "the viewpoint", viewpoint: question.viewpoint }];
-    case "camera": {
-      const { matrix } = question.camera;
-      return [{ name: "the camera", viewpoint: [matrix[12]!, matrix[13]!, matrix[14]!] }];
-    }
+    case "camera":
+      return [{ name: "the camera", viewpoint: placeOf(readCamera(question.camera)) }];
     default:
       return question.viewpoints.map(({ name, viewpoint }) => ({ name: `the viewpoint ${name}`, viewpoint }));
   }

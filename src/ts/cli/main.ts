@@ -79,6 +79,7 @@ async function filter(settings: Settings, progress: Progress): Promise<string> {
     const from = answer.name === undefined ? "" : ` from ${answer.name}`;
     seen.push(`${answer.indices.length} of ${answer.length} points are visible${from}`);
     ({ skipped } = answer);
+    if (answer.note !== undefined) say(`note: ${answer.note}`);
   }
   return [
     ...seen,

@@ -1,16 +1,18 @@
 /// <reference lib="esnext.disposable" preserve="true" />
-import type { ChosenRadius } from "../query/answers.js";
+import type { ChosenRadius, Found } from "../query/answers.js";
 import { CoreCloud } from "./core-cloud.js";
 import { addDisposeSymbol } from "../base/dispose-symbol.js";
 import { addTag } from "../base/tag.js";
 import { type MethodName, readQuestion } from "./methods.js";
 import { requireInstance } from "../instance/instance.js";
 import { CLOUD_OPTIONS, cloudSettings, givenOptions, pick, type PointCloudOptions } from "../query/options.js";
-import type { Positions } from "../query/positions.js";
+import type { Positions, Viewpoint } from "../query/positions.js";
 import type { Camera } from "../query/camera.js";
 import type { IlluminationOptions, ReconstructionOptions } from "../query/queries.js";
 import { type Calibration, calibration, type Station } from "../query/calibration.js";
 import type { Placement } from "../query/placement.js";
+import type { ViewpointOrCamera } from "../query/seats.js";
+import { type SeenBy, SeenByTask } from "../query/seen-by.js";
 import {
   COVERAGE_OPTIONS,
   type CoverageOptions,
@@ -104,7 +106,7 @@ export class PointCloud {
    * @param viewpoint x, y, z (as many as the cloud has dimensions) in the cloud's units.
    * @throws HprError `viewpoint`, `option`, `radius`, `too-large`, `disposed`, `internal`.
    */
-  visibleFrom(viewpoint: ArrayLike<number>, options?: VisibilityOptions): Visibility {
+  visibleFrom(viewpoint: Viewpoint, options?: VisibilityOptions): Visibility {
     return this.#ask("visibleFrom", viewpoint, options);
   }
 
@@ -134,7 +136,7 @@ export class PointCloud {
    *
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
-  visibleFromAny(viewpoints: readonly ArrayLike<number>[], options?: VisibilityOptions): Visibility {
+  visibleFromAny(viewpoints: readonly ViewpointOrCamera[], options?: VisibilityOptions): Visibility {
     return this.#ask("visibleFromAny", viewpoints, options);
   }
 
@@ -146,7 +148,7 @@ export class PointCloud {
    * @param k from 1 to the number of viewpoints.
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
-  visibleFromAtLeast(k: number, viewpoints: readonly ArrayLike<number>[], options?: VisibilityOptions): Visibility {
+  visibleFromAtLeast(k: number, viewpoints: readonly ViewpointOrCamera[], options?: VisibilityOptions): Visibility {
     return this.#ask("visibleFromAtLeast", k, viewpoints, options);
   }
 
@@ -176,22 +178,36 @@ export class PointCloud {
    *   given radius; `option` also for `draft`, `sample` and `scores`; otherwise as
    *   {@link PointCloud.visibleFrom}.
    */
-  sees(viewpoint: ArrayLike<number>, positions: Positions, options?: VisibilityOptions): Uint8Array {
+  sees(viewpoint: Viewpoint, positions: Positions, options?: VisibilityOptions): Uint8Array {
     return this.#ask("sees", viewpoint, positions, options);
   }
 
   /**
-   * Counts how many of the viewpoints see each index. The memory does not grow with the number of
+   * Counts how many of the viewpoints see each index. A camera sees what is in its image. The memory does not grow with the number of
    * viewpoints.
    *
    * @returns one count for each index. The array is the caller's own copy.
    * @throws HprError `option` also for `draft` and `scores`; otherwise as {@link PointCloud.visibleFrom}.
    */
-  coverage(viewpoints: readonly ArrayLike<number>[], options?: CoverageOptions): Uint32Array {
+  coverage(viewpoints: readonly ViewpointOrCamera[], options?: CoverageOptions): Uint32Array {
     this.#core.requireOpen();
     const given = givenOptions(options, COVERAGE_OPTIONS);
     const survey = readSurvey(this.#core.dimension, viewpoints, given, "coverage");
     return this.#answered(new CoverageTask(survey, readListener(given))).result(this.length);
+  }
+
+  /**
+   * Which of many cameras see each point, and where in their images. A camera sees what `visibleFromCamera`
+   * finds.
+   *
+   * @throws HprError `option` also for `draft` and `scores`; `too-large`; otherwise as
+   *   {@link PointCloud.visibleFromCamera}.
+   */
+  seenBy(cameras: readonly Camera[], options?: CoverageOptions): SeenBy {
+    this.#core.requireOpen();
+    const given = givenOptions(options, COVERAGE_OPTIONS);
+    const survey = readSurvey(this.#core.dimension, cameras, given, "seenBy");
+    return this.#answered(new SeenByTask(survey, readListener(given))).result(this.length);
   }
 
   /**
@@ -201,7 +217,7 @@ export class PointCloud {
    *
    * @throws HprError `option` also for `draft` and `scores`; otherwise as {@link PointCloud.visibleFrom}.
    */
-  placeViewpoints(candidates: readonly ArrayLike<number>[], options?: PlacementOptions): Placement {
+  placeViewpoints(candidates: readonly ViewpointOrCamera[], options?: PlacementOptions): Placement {
     this.#core.requireOpen();
     const given = givenOptions(options, PLACEMENT_OPTIONS);
     const survey = readSurvey(this.#core.dimension, candidates, given, "placeViewpoints");
@@ -230,11 +246,9 @@ export class PointCloud {
 
   /** Asks all views of a task, one after another. */
   #answered<T extends SurveyTask>(task: T): T {
-    const { settings } = task;
     for (let next = task.next(0); next !== undefined; next = task.next(0)) {
-      const { number, viewpoint } = next;
-      const found = this.#core.ask({ kind: "visibleFrom", viewpoint, settings, divisible: false });
-      task.take(number, found);
+      const found: Found = this.#core.ask(next.view);
+      task.take(next.number, found);
       this.#core.keepMemory(found.indices.buffer);
     }
     return task;
@@ -247,7 +261,7 @@ export class PointCloud {
    * @param viewpoint x, y, z in the cloud's units.
    * @throws HprError `viewpoint`, `option`, `radius`, `too-large`, `disposed`, `internal`.
    */
-  autoRadius(viewpoint: ArrayLike<number>, rule?: RadiusRule): ChosenRadius {
+  autoRadius(viewpoint: Viewpoint, rule?: RadiusRule): ChosenRadius {
     return this.#ask("autoRadius", viewpoint, rule);
   }
 
@@ -260,7 +274,7 @@ export class PointCloud {
    * @param viewpoint x, y, z in the cloud's units. Needs a cloud of dimension 3.
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
-  reconstruct(viewpoint: ArrayLike<number>, options?: ReconstructionOptions): Reconstruction {
+  reconstruct(viewpoint: Viewpoint, options?: ReconstructionOptions): Reconstruction {
     return this.#ask("reconstruct", viewpoint, options);
   }
 
@@ -273,7 +287,7 @@ export class PointCloud {
    * @returns one number from 0 to 1 for each index. The array is the caller's own copy.
    * @throws HprError as {@link PointCloud.visibleFrom}.
    */
-  illuminate(lights: readonly ArrayLike<number>[], options?: IlluminationOptions): Float32Array {
+  illuminate(lights: readonly Viewpoint[], options?: IlluminationOptions): Float32Array {
     return this.#ask("illuminate", lights, options);
   }
 
@@ -339,7 +353,7 @@ export class PointCloud {
  */
 export function hiddenPointRemoval(
   positions: Positions,
-  viewpoint: ArrayLike<number>,
+  viewpoint: Viewpoint,
   options?: PointCloudOptions & VisibilityOptions,
 ): Visibility {
   const given = givenOptions(options, CLOUD_OPTIONS, VIEW_OPTIONS);

@@ -2,7 +2,7 @@ import { HprError } from "../base/errors.js";
 import { requireInstance } from "../instance/instance.js";
 import { allocating } from "../base/memory.js";
 import { givenOptions, integer, number } from "../query/options.js";
-import { readViewpoint } from "../query/positions.js";
+import { readViewpoint, type Viewpoint } from "../query/positions.js";
 
 /** How viewpoints are added around a viewpoint. */
 export interface RingOptions {
@@ -23,11 +23,7 @@ const MOST_VIEWPOINTS = 10_000;
  * @param target x, y, z of the place that the viewer looks at, in the same units.
  * @throws HprError `not-initialised`, `viewpoint` (for the target, too), `option`.
  */
-export function ringOfViewpoints(
-  viewpoint: ArrayLike<number>,
-  target: ArrayLike<number>,
-  options?: RingOptions,
-): number[][] {
+export function ringOfViewpoints(viewpoint: Viewpoint, target: Viewpoint, options?: RingOptions): number[][] {
   const instance = requireInstance();
   const from = Float64Array.from(readViewpoint(viewpoint, 3));
   const to = Float64Array.from(readViewpoint(target, 3, "target"));

@@ -3,7 +3,7 @@ import { addDisposeSymbol } from "../base/dispose-symbol.js";
 import { addTag } from "../base/tag.js";
 import { HprError } from "../base/errors.js";
 import { type Bindings, type Instance, requireInstance } from "../instance/instance.js";
-import { type Positions, readPositions, readViewpoint } from "../query/positions.js";
+import { type Positions, readPositions, readViewpoint, type Viewpoint } from "../query/positions.js";
 import type { ViewSettings } from "../query/view-options.js";
 import { freeCloud, unreachable } from "./free.js";
 import { type MergeOptions, mergeSettings } from "./merge.js";
@@ -37,7 +37,7 @@ export class Horizon {
    *   all parts of the cloud.
    * @throws HprError `not-initialised`, `viewpoint`, `radius`, `option`, `too-large`, `internal`.
    */
-  constructor(viewpoint: ArrayLike<number>, options: MergeOptions) {
+  constructor(viewpoint: Viewpoint, options: MergeOptions) {
     const instance = requireInstance();
     const [x, y, z] = readViewpoint(viewpoint, 3) as [number, number, number];
     const settings = mergeSettings(options, "the whole cloud is seen with");

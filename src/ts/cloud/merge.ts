@@ -3,7 +3,14 @@ import { requireInstance } from "../instance/instance.js";
 import { allocating } from "../base/memory.js";
 import { givenOptions } from "../query/options.js";
 import { coreOptions } from "./perform.js";
-import { MAX_LENGTH, type Positions, positionsGone, readPositions, readViewpoint } from "../query/positions.js";
+import {
+  MAX_LENGTH,
+  type Positions,
+  positionsGone,
+  readPositions,
+  readViewpoint,
+  type Viewpoint,
+} from "../query/positions.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import { Kernel, type ResolvedInversion, Rule, type ViewSettings, viewSettings } from "../query/view-options.js";
 
@@ -42,11 +49,7 @@ export interface MergeOptions {
  *   `positions-length` (also if the numbers of ids and points differ), `non-finite` (its index
  *   counts through all parts), `viewpoint`, `radius`, `too-large`, `internal`.
  */
-export function mergeVisible(
-  parts: readonly VisiblePart[],
-  viewpoint: ArrayLike<number>,
-  options: MergeOptions,
-): Uint32Array {
+export function mergeVisible(parts: readonly VisiblePart[], viewpoint: Viewpoint, options: MergeOptions): Uint32Array {
   const instance = requireInstance();
   const [x, y, z] = readViewpoint(viewpoint, 3) as [number, number, number];
   const settings = coreOptions(mergeSettings(options, "all parts were seen with"));

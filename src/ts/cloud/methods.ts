@@ -53,13 +53,13 @@ export const METHODS = {
     ({ dimension }, given, direction) => directionQuery(dimension, direction, given),
     visibility,
   ),
-  visibleFromAny: method<"visibleFromSeveral">(
+  visibleFromAny: method<"visibleFromSeveral" | "visibleFromSeats">(
     1,
     VIEW_OPTIONS,
     ({ dimension }, given, viewpoints) => severalQuery(dimension, viewpoints, given),
     visibility,
   ),
-  visibleFromAtLeast: method<"visibleFromSeveral">(
+  visibleFromAtLeast: method<"visibleFromSeveral" | "visibleFromSeats">(
     2,
     VIEW_OPTIONS,
     ({ dimension }, given, k, viewpoints) => severalQuery(dimension, viewpoints, given, { k }),

@@ -2,7 +2,9 @@ import type { Answers, Found } from "../query/answers.js";
 import { HprError } from "../base/errors.js";
 import type { Bindings, Instance } from "../instance/instance.js";
 import { allocating } from "../base/memory.js";
+import { placeOf } from "../query/camera.js";
 import type { Query, QueryKind } from "../query/queries.js";
+import { viewFrom } from "../query/surveys.js";
 import { roomIn, type Spares } from "./spares.js";
 import { resolvedInversion, type ViewSettings } from "../query/view-options.js";
 
@@ -52,6 +54,19 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     return found(target, settings, answer);
   },
 
+  visibleFromSeats: (target, { seats, k, settings }) => {
+    const counts = allocating(`${target.length} counts`, () => new Uint32Array(target.length));
+    const views = seats.map((seat): Found => {
+      const { indices, ...view } = perform(target, viewFrom(seat, settings));
+      for (const index of indices) counts[index]! += 1;
+      return { ...view, indices: new Uint32Array(0) };
+    });
+    // Of several radii, the largest.
+    const largest = views.reduce((a, b) => (b.radius > a.radius ? b : a));
+    const evaluations = views.reduce((sum, view) => sum + view.evaluations, 0);
+    return { ...largest, evaluations, indices: atLeast(counts, k, target.spares) };
+  },
+
   visibleFromCamera: (target, { camera, settings, sector }) => {
     const { instance, handle } = target;
     const place = (indices: Uint32Array) => {
@@ -63,10 +78,11 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     };
     // The camera is checked first.
     place(new Uint32Array(0));
-    const viewpoint = Array.from(camera.subarray(12, 15));
+    const viewpoint = placeOf(camera);
     const view = { kind: "visibleFrom" as const, viewpoint, settings, divisible: false };
     const seen = perform(target, sector === undefined ? view : { ...view, sector });
-    return { ...seen, ...inImage(seen.indices, place(seen.indices)) };
+    const inverted = instance.call((bindings) => bindings.seemsInverted(handle, camera));
+    return { ...seen, ...inImage(seen.indices, place(seen.indices)), inverted };
   },
 
   sees: ({ instance, handle }, { viewpoint, positions, settings }) => {
@@ -113,6 +129,17 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     return { brightness };
   },
 };
+
+/** The indices that were counted at least `k` times, ascending. */
+function atLeast(counts: Uint32Array, k: number, spares: Spares): Uint32Array<ArrayBuffer> {
+  const number = counts.reduce((sum, count) => sum + Number(count >= k), 0);
+  const indices = allocating(`${number} indices`, () => roomIn(spares.take(), number));
+  let next = 0;
+  counts.forEach((count, index) => {
+    if (count >= k) indices[next++] = index;
+  });
+  return indices;
+}
 
 /** The points that are in the image. `shown` holds x, y and the depth of each, which is 0 outside. */
 function inImage(indices: Uint32Array<ArrayBuffer>, shown: Float32Array<ArrayBuffer>) {

@@ -70,7 +70,12 @@ export interface CameraView extends Visibility {
    * own copy.
    */
   readonly depths: Float32Array;
+  /** What is probably wrong: the image holds next to none of the points, and that of the inverse pose many. */
+  readonly note?: string;
 }
+
+const INVERTED =
+  "next to no points are in this image, but many are in that of the inverse pose: is it cameraToWorld or worldToCamera?";
 
 /** The answer to one query. Its numbers are in JavaScript's own memory, independent of the wasm. */
 export class VisibilityAnswer implements Visibility {
@@ -168,9 +173,13 @@ export class ReconstructionAnswer extends VisibilityAnswer implements Reconstruc
 export class CameraAnswer extends VisibilityAnswer implements CameraView {
   readonly pixels: Float32Array;
   readonly depths: Float32Array;
+  declare readonly note?: string;
 
   constructor(answer: Answers["visibleFromCamera"]) {
     super(answer);
+    if (answer.inverted) {
+      this.note = INVERTED;
+    }
     this.pixels = answer.pixels;
     this.depths = answer.depths;
   }

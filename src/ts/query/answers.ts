@@ -28,6 +28,8 @@ export interface Found extends ChosenRadius {
 export interface Photographed extends Found {
   pixels: Float32Array<ArrayBuffer>;
   depths: Float32Array<ArrayBuffer>;
+  /** Whether the pose was probably given the wrong way round. */
+  inverted: boolean;
 }
 
 /** The answers, by kind of query. */
@@ -35,6 +37,7 @@ export interface Answers {
   visibleFrom: Found;
   visibleFromDirection: Found;
   visibleFromSeveral: Found;
+  visibleFromSeats: Found;
   visibleFromCamera: Photographed;
   /** One byte for each position. */
   sees: { seen: Uint8Array<ArrayBuffer> };

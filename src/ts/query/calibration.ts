@@ -2,12 +2,12 @@ import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import { givenOptions } from "./options.js";
-import { readIndices } from "./positions.js";
+import { readIndices, type Viewpoint } from "./positions.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "./view-options.js";
 
 /** Where a scanner stood, and the points that it measured, by exactly one of `indices` and `mask`. */
 export interface Station {
-  viewpoint: ArrayLike<number>;
+  viewpoint: Viewpoint;
   /** The indices of its points. */
   indices?: ArrayLike<number> | undefined;
   /** One byte for each index of the cloud: not 0 for its points. */
@@ -33,7 +33,7 @@ const HALVINGS = 3;
 
 /** A view that a calibration needs. It goes on with the mask of its answer. */
 export interface TrialView {
-  viewpoint: ArrayLike<number>;
+  viewpoint: Viewpoint;
   options: VisibilityOptions;
 }
 

@@ -1,19 +1,8 @@
 import { describe, HprError } from "../base/errors.js";
 import { givenOptions } from "./options.js";
 
-/**
- * A pinhole camera, with the distortion of its lens if there is one. A point at x, y, z in the
- * camera's space (x to the right, y down, z forward) appears at u = fx·x/z + cx, v = fy·y/z + cy.
- * There is no shift by half a pixel.
- */
-export interface Camera {
-  /**
-   * From the camera's space to the cloud's: 16 numbers, column by column, as three.js keeps them. A
-   * rotation and a translation, to within 10⁻⁵.
-   */
-  matrix: ArrayLike<number>;
-  /** The axes of the camera's space. OpenCV: y down, z forward. OpenGL (and three.js): y up, z backward. */
-  convention: "opencv" | "opengl";
+/** The lens and the image of a camera. */
+export interface Intrinsics {
   /** The focal lengths, in pixels. */
   fx: number;
   fy: number;
@@ -34,49 +23,111 @@ export interface Camera {
   far?: number | undefined;
 }
 
-const NAMES = ["matrix", "convention", "fx", "fy", "cx", "cy", "width", "height", "distortion", "near", "far"] as const;
+/**
+ * Where a camera is and how it is turned, by exactly one of two matrices: 16 numbers, column by column,
+ * as three.js keeps them. A rotation and a translation, to within 10⁻⁵.
+ */
+export type Pose =
+  | {
+      /** From the camera's space to the cloud's. */
+      cameraToWorld: ArrayLike<number>;
+      worldToCamera?: undefined;
+    }
+  | {
+      cameraToWorld?: undefined;
+      /** From the cloud's space to the camera's, as COLMAP and OpenCV keep it. */
+      worldToCamera: ArrayLike<number>;
+    };
+
+/**
+ * A pinhole camera, with the distortion of its lens if there is one. A point at x, y, z in the
+ * camera's space (x to the right, y down, z forward) appears at u = fx·x/z + cx, v = fy·y/z + cy.
+ * There is no shift by half a pixel: u = 0 is the left edge of the first pixel.
+ */
+export type Camera = Intrinsics &
+  Pose & {
+    /**
+     * The axes of the camera's space. OpenCV: y down, z forward. OpenGL (and three.js): y up, z backward.
+     * Default `"opencv"`.
+     */
+    convention?: "opencv" | "opengl" | undefined;
+  };
+
+const POSES = ["cameraToWorld", "worldToCamera"] as const;
+const NAMES = [
+  ...POSES,
+  ...(["convention", "fx", "fy", "cx", "cy", "width", "height", "distortion", "near", "far"] as const),
+];
+
+/** A camera in the order in which the core reads it: see {@link readCamera}. */
+export type CameraNumbers = Float64Array<ArrayBuffer>;
+
+/** Whether a value stands for a camera, and not for a viewpoint. */
+export function isCamera(value: unknown): boolean {
+  const marks = [...POSES, "fx", "convention"];
+  return typeof value === "object" && value !== null && marks.some((name) => name in value);
+}
 
 /** The camera in the order in which the core reads it (src/wasm/views.rs). The core checks the ranges. */
-export function readCamera(camera: unknown): Float64Array<ArrayBuffer> {
-  const given = named(camera);
-  const { convention } = given;
+export function readCamera(camera: unknown, whose = "camera"): CameraNumbers {
+  const given = named(camera, whose);
+  const { convention = "opencv" } = given;
   if (convention !== "opencv" && convention !== "opengl") {
-    throw new HprError("option", `the camera's convention must be "opencv" or "opengl", got ${describe(convention)}`);
+    throw new HprError("option", `the ${whose}'s convention must be "opencv" or "opengl", got ${describe(convention)}`);
   }
+  const [pose, other] = POSES.filter((name) => given[name] !== undefined);
+  if (pose === undefined || other !== undefined) {
+    const got = pose === undefined ? "neither" : "both";
+    throw new HprError("viewpoint", `the ${whose} needs exactly one of cameraToWorld and worldToCamera, got ${got}`);
+  }
+  const matrix = numbers(whose, pose, given[pose], 16);
   const number = (name: (typeof NAMES)[number], usual?: number) => {
     const value = given[name] ?? usual;
     if (typeof value !== "number") {
-      throw new HprError("viewpoint", `the camera's ${name} must be a number, got ${describe(value)}`);
+      throw new HprError("viewpoint", `the ${whose}'s ${name} must be a number, got ${describe(value)}`);
     }
     return value;
   };
   return Float64Array.of(
-    ...numbers("matrix", given["matrix"], 16),
+    ...(pose === "cameraToWorld" ? matrix : inverse(matrix)),
     ...(["fx", "fy", "cx", "cy", "width", "height"] as const).map((name) => number(name)),
-    ...numbers("distortion", given["distortion"] ?? [0, 0, 0, 0, 0], 5),
+    ...numbers(whose, "distortion", given["distortion"] ?? [0, 0, 0, 0, 0], 5),
     number("near", 0),
     number("far", Infinity),
     convention === "opengl" ? 1 : 0,
   );
 }
 
-function named(camera: unknown): Record<string, unknown> {
+/** The camera's place. */
+export function placeOf(camera: CameraNumbers): number[] {
+  return Array.from(camera.subarray(12, 15));
+}
+
+/** The inverse of a rotation and a translation, by the core's operations. The last row stays, for the core's check. */
+function inverse(matrix: readonly number[]): number[] {
+  const m = (at: number) => matrix[at]!;
+  const place = [0, 4, 8].map((i) => -(m(i) * m(12) + m(i + 1) * m(13) + m(i + 2) * m(14)));
+  const axes = [0, 1, 2].flatMap((i) => [m(i), m(i + 4), m(i + 8), m(4 * i + 3)]);
+  return [...axes, ...place, m(15)];
+}
+
+function named(camera: unknown, whose: string): Record<string, unknown> {
   if (typeof camera !== "object" || camera === null) {
-    throw new HprError("viewpoint", `the camera must be an object, got ${describe(camera)}`);
+    throw new HprError("viewpoint", `the ${whose} must be an object, got ${describe(camera)}`);
   }
   try {
     return givenOptions(camera, NAMES);
   } catch (cause) {
-    throw cause instanceof HprError ? new HprError(cause.code, `camera: ${cause.message}`, { cause }) : cause;
+    throw cause instanceof HprError ? new HprError(cause.code, `${whose}: ${cause.message}`, { cause }) : cause;
   }
 }
 
-function numbers(name: string, list: unknown, count: number): number[] {
+function numbers(whose: string, name: string, list: unknown, count: number): number[] {
   const length = typeof list === "object" && list !== null && "length" in list ? list.length : undefined;
   const values = length === count ? Array.from(list as ArrayLike<unknown>) : [];
   if (values.length !== count || !values.every((value) => typeof value === "number")) {
     const got = length === undefined || length === count ? describe(list) : `${describe(length)} of them`;
-    throw new HprError("viewpoint", `the camera's ${name} must be ${count} numbers, got ${got}`);
+    throw new HprError("viewpoint", `the ${whose}'s ${name} must be ${count} numbers, got ${got}`);
   }
   return values;
 }

@@ -1,8 +1,8 @@
 import { describe, HprError } from "../base/errors.js";
-import type { Camera } from "./camera.js";
+import type { Intrinsics } from "./camera.js";
 
-/** The lens and the image of a camera: all but its place and its axes. */
-export type Intrinsics = Omit<Camera, "matrix" | "convention">;
+/** A {@link Camera} whose pose is from the camera's space to the cloud's. */
+export type PosedCamera = Intrinsics & { cameraToWorld: ArrayLike<number>; convention: "opencv" | "opengl" };
 
 /**
  * A camera from its pose: its place and its orientation in the cloud's space. The quaternion x, y, z, w
@@ -14,8 +14,8 @@ export function cameraFromPose(
   position: ArrayLike<number>,
   quaternion: ArrayLike<number>,
   intrinsics: Intrinsics,
-  convention: Camera["convention"] = "opencv",
-): Camera {
+  convention: "opencv" | "opengl" = "opencv",
+): PosedCamera {
   const [px, py, pz] = list("position", position, 3) as [number, number, number];
   const turn = list("quaternion", quaternion, 4);
   const length = Math.hypot(...turn);
@@ -23,13 +23,13 @@ export function cameraFromPose(
     throw new HprError("viewpoint", `the camera's quaternion must be finite and not zero, got ${turn.join(", ")}`);
   }
   const [x, y, z, w] = turn.map((number) => number / length) as [number, number, number, number];
-  const matrix = [
+  const cameraToWorld = [
     ...[1 - 2 * (y * y + z * z), 2 * (x * y + z * w), 2 * (x * z - y * w), 0],
     ...[2 * (x * y - z * w), 1 - 2 * (x * x + z * z), 2 * (y * z + x * w), 0],
     ...[2 * (x * z + y * w), 2 * (y * z - x * w), 1 - 2 * (x * x + y * y), 0],
     ...[px, py, pz, 1],
   ];
-  return { ...intrinsics, matrix, convention };
+  return { ...intrinsics, cameraToWorld, convention };
 }
 
 /**
@@ -69,7 +69,7 @@ export interface PerspectiveCameraLike {
  *
  * @throws HprError `viewpoint` for another kind of camera, or a size that is out of range.
  */
-export function cameraFromThree(camera: PerspectiveCameraLike, width: number, height: number): Camera {
+export function cameraFromThree(camera: PerspectiveCameraLike, width: number, height: number): PosedCamera {
   if ((camera as Partial<PerspectiveCameraLike> | undefined)?.isPerspectiveCamera !== true) {
     throw new HprError(
       "viewpoint",
@@ -80,7 +80,7 @@ export function cameraFromThree(camera: PerspectiveCameraLike, width: number, he
   camera.updateWorldMatrix?.(true, false);
   const projection = list("projectionMatrix", camera.projectionMatrix.elements, 16);
   return {
-    matrix: list("matrixWorld", camera.matrixWorld.elements, 16),
+    cameraToWorld: list("matrixWorld", camera.matrixWorld.elements, 16),
     convention: "opengl",
     fx: (projection[0]! * width) / 2,
     fy: (projection[5]! * height) / 2,

@@ -10,6 +10,9 @@ import { isNumberArray, type NumberArray, plainNumbers, typedArrayType } from ".
  */
 export type Positions = NumberArray | ArrayLike<number>;
 
+/** A place: as many numbers as the cloud has dimensions, or an object with x, y and z, such as a vector of three.js. */
+export type Viewpoint = ArrayLike<number> | { readonly x: number; readonly y: number; readonly z: number };
+
 /** The core's limit. It is checked here, too, before anything is copied. */
 export const MOST_POINTS = 2 ** 28;
 /** The largest length of an array: a 32-bit memory cannot address more. */
@@ -75,7 +78,8 @@ export function packed(
  * A viewpoint's coordinates, in the core's dimension. Their number is checked here, since the core
  * does not know that a plane has two. The core checks that they are finite.
  */
-export function readViewpoint(viewpoint: unknown, dimension: number, name = "viewpoint"): number[] {
+export function readViewpoint(given: unknown, dimension: number, name = "viewpoint"): number[] {
+  const viewpoint = listed(given, dimension);
   const length = lengthOf(viewpoint);
   if (length !== dimension) {
     const got = length === undefined ? describe(viewpoint) : `${length} of them`;
@@ -96,6 +100,15 @@ export function readViewpoint(viewpoint: unknown, dimension: number, name = "vie
     coordinates.push(0);
   }
   return coordinates;
+}
+
+/** An object `{ x, y, z }`, such as a vector of three.js, as a list. */
+function listed(given: unknown, dimension: number): unknown {
+  if (dimension > 3 || typeof given !== "object" || given === null || !("x" in given) || "length" in given) {
+    return given;
+  }
+  const { x, y, z } = given as { x: unknown; y?: unknown; z?: unknown };
+  return dimension === 2 ? [x, y] : [x, y, z];
 }
 
 /** The coordinates of several viewpoints, one after another. An error says which viewpoint it is about. */

@@ -2,7 +2,8 @@ import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { readCamera } from "./camera.js";
 import { type CloudSettings, integer, number } from "./options.js";
-import { coreDimension, packed, readPositions, readViewpoint, readViewpoints } from "./positions.js";
+import { packed, readPositions, readViewpoint, readViewpoints } from "./positions.js";
+import { isCameraSeat, readSeats, type Seat } from "./seats.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import {
   requireLow,
@@ -56,6 +57,8 @@ export interface Questions {
   visibleFromDirection: { direction: number[]; settings: ViewSettings };
   /** Asks for points visible from at least `k` of the viewpoints. These are stored one after another. */
   visibleFromSeveral: { viewpoints: Float64Array<ArrayBuffer>; k: number; settings: ViewSettings };
+  /** The same, where some seats are cameras. */
+  visibleFromSeats: { seats: Seat[]; k: number; settings: ViewSettings };
   /** `camera` as `readCamera` lists it. */
   visibleFromCamera: {
     camera: Float64Array<ArrayBuffer>;
@@ -140,11 +143,11 @@ export function severalQuery(
   viewpoints: unknown,
   given: GivenOptions,
   least?: { k: unknown },
-): Query<"visibleFromSeveral"> {
-  const positions = readViewpoints(viewpoints, dimension, "viewpoints");
+): Query<"visibleFromSeveral"> | Query<"visibleFromSeats"> {
+  const seats = readSeats(viewpoints, dimension, "viewpoints");
   let k = 1;
   if (least !== undefined) {
-    const count = positions.length / coreDimension(dimension);
+    const count = seats.length;
     const isCount = Number.isInteger(least.k) && (least.k as number) >= 1 && (least.k as number) <= count;
     if (!isCount) {
       throw new HprError(
@@ -154,7 +157,17 @@ export function severalQuery(
     }
     k = least.k as number;
   }
-  return { kind: "visibleFromSeveral", viewpoints: positions, k, settings: viewSettings(given, dimension) };
+  const settings = viewSettings(given, dimension);
+  if (seats.some(isCameraSeat)) {
+    for (const option of ["draft", "scores"] as const) {
+      if (settings[option]) throw new HprError("option", `${option} cannot be combined with several cameras`);
+    }
+    return { kind: "visibleFromSeats", seats, k, settings };
+  }
+  const positions = allocating(`${seats.length} viewpoints`, () =>
+    Float64Array.from(seats.flatMap((seat) => [...seat])),
+  );
+  return { kind: "visibleFromSeveral", viewpoints: positions, k, settings };
 }
 
 export function radiusQuery(dimension: number, viewpoint: unknown, rule: unknown): Query<"autoRadius"> {

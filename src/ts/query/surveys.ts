@@ -4,7 +4,8 @@ import { allocating } from "../base/memory.js";
 import { isNumberArray, plainNumbers } from "../base/typed-arrays.js";
 import { integer, number } from "./options.js";
 import { GreedyChoice, type Placement, type PlacementSettings } from "./placement.js";
-import { readViewpoint } from "./positions.js";
+import type { Query } from "./queries.js";
+import { isCameraSeat, readCameras, readSeats, type Seat } from "./seats.js";
 import { VIEW_OPTIONS, type ViewSettings, viewSettings, type VisibilityOptions } from "./view-options.js";
 
 /** How points are counted from many viewpoints. */
@@ -25,9 +26,12 @@ export interface PlacementOptions extends CoverageOptions {
 
 /** Many viewpoints of one cloud, each asked with the same settings. */
 export interface Survey {
-  viewpoints: number[][];
+  seats: Seat[];
   settings: ViewSettings;
 }
+
+/** The question of one view of a survey. */
+type View = Query<"visibleFrom"> | Query<"visibleFromCamera">;
 
 export const COVERAGE_OPTIONS = [...VIEW_OPTIONS, "onProgress"] as const;
 export const PLACEMENT_OPTIONS = [...COVERAGE_OPTIONS, "count", "share", "weights"] as const;
@@ -39,23 +43,17 @@ export function readSurvey(
   dimension: number,
   viewpoints: unknown,
   given: GivenOptions,
-  method: "coverage" | "placeViewpoints",
+  method: "coverage" | "placeViewpoints" | "seenBy",
 ): Survey {
-  const name = method === "coverage" ? "viewpoints" : "candidates";
-  if (!Array.isArray(viewpoints)) {
-    throw new HprError(
-      "viewpoint",
-      `${name} must be an array of ${dimension} numbers each, got ${describe(viewpoints)}`,
-    );
-  }
+  const seats =
+    method === "seenBy"
+      ? readCameras(viewpoints, dimension, method)
+      : readSeats(viewpoints, dimension, method === "coverage" ? "viewpoints" : "candidates");
   const settings = viewSettings(given, dimension);
   for (const option of ["draft", "scores"] as const) {
     if (settings[option]) throw new HprError("option", `${option} cannot be combined with ${method}`);
   }
-  const places = Array.from(viewpoints, (viewpoint: unknown, i) =>
-    readViewpoint(viewpoint, dimension, `viewpoint ${name}[${i}]`),
-  );
-  return { viewpoints: places, settings };
+  return { seats, settings };
 }
 
 export function readPlacing(given: GivenOptions): PlacementSettings {
@@ -100,10 +98,17 @@ function readWeights(weights: unknown): Float64Array<ArrayBuffer> {
   return own;
 }
 
+/** The view from one seat, by one worker. */
+export function viewFrom(seat: Seat, settings: ViewSettings): View {
+  return isCameraSeat(seat)
+    ? { kind: "visibleFromCamera", camera: seat, settings, divisible: false }
+    : { kind: "visibleFrom", viewpoint: seat, settings, divisible: false };
+}
+
 /** Many views of one cloud, whose answers come in any order. */
 export abstract class SurveyTask {
-  readonly settings: ViewSettings;
-  readonly #viewpoints: number[][];
+  readonly #settings: ViewSettings;
+  readonly #seats: Seat[];
   #wanted: number[];
   readonly #progress: ((fraction: number) => void) | undefined;
   /** The views that were asked and are not answered yet. */
@@ -111,10 +116,10 @@ export abstract class SurveyTask {
   #taken = 0;
   #isStopped = () => false;
 
-  constructor({ viewpoints, settings }: Survey, progress?: (fraction: number) => void) {
-    this.settings = settings;
-    this.#viewpoints = viewpoints;
-    this.#wanted = [...viewpoints.keys()].reverse();
+  constructor({ seats, settings }: Survey, progress?: (fraction: number) => void) {
+    this.#settings = settings;
+    this.#seats = seats;
+    this.#wanted = [...seats.keys()].reverse();
     this.#progress = progress;
   }
 
@@ -129,8 +134,8 @@ export abstract class SurveyTask {
     this.#asked.clear();
   }
 
-  /** The next viewpoint, if one is known. `running` views have no answer yet. */
-  next(running: number): { number: number; viewpoint: number[] } | undefined {
+  /** The next view, if one is known. `running` views have no answer yet. */
+  next(running: number): { number: number; view: View } | undefined {
     if (this.#isStopped()) {
       return undefined;
     }
@@ -142,7 +147,7 @@ export abstract class SurveyTask {
       return undefined;
     }
     this.#asked.add(number);
-    return { number, viewpoint: this.#viewpoints[number]! };
+    return { number, view: viewFrom(this.#seats[number]!, this.#settings) };
   }
 
   take(number: number, found: Found): void {
@@ -150,11 +155,11 @@ export abstract class SurveyTask {
     this.add(number, found);
     this.#taken += 1;
     // Views that are asked again do not count.
-    this.#progress?.(Math.min(this.#taken / this.#viewpoints.length, 1));
+    this.#progress?.(Math.min(this.#taken / this.#seats.length, 1));
   }
 
   protected get count(): number {
-    return this.#viewpoints.length;
+    return this.#seats.length;
   }
 
   /** Takes the answer to one view. */

@@ -16,9 +16,12 @@ import {
   type PointCloudOptions,
 } from "../query/options.js";
 import type { Place } from "../query/place.js";
-import { isFloatArray, type Positions, readIndices, readPositions } from "../query/positions.js";
+import { isFloatArray, type Positions, readIndices, readPositions, type Viewpoint } from "../query/positions.js";
 import { type Calibration, calibration, type Station } from "../query/calibration.js";
 import type { Placement } from "../query/placement.js";
+import type { Camera } from "../query/camera.js";
+import type { ViewpointOrCamera } from "../query/seats.js";
+import { type SeenBy, SeenByTask } from "../query/seen-by.js";
 import {
   COVERAGE_OPTIONS,
   type CoverageOptions,
@@ -103,7 +106,7 @@ export type PromisedQuestions = {
   [Name in Exclude<MethodName, "autoRadius">]: Promised<PointCloud[Name]>;
 } & {
   /** The radius that a rule chooses for a viewpoint; see `PointCloud.autoRadius`. */
-  autoRadius(viewpoint: ArrayLike<number>, rule?: RadiusRule, options?: RequestOptions): Promise<ChosenRadius>;
+  autoRadius(viewpoint: Viewpoint, rule?: RadiusRule, options?: RequestOptions): Promise<ChosenRadius>;
 };
 
 // The class has these methods from the table of methods.
@@ -235,11 +238,24 @@ export class WorkerPointCloud {
    * @throws HprError (as a rejection) the same as `PointCloud.coverage`.
    */
   async coverage(
-    viewpoints: readonly ArrayLike<number>[],
+    viewpoints: readonly ViewpointOrCamera[],
     options?: CoverageOptions & RequestOptions,
   ): Promise<Uint32Array> {
     const task = await this.#survey("coverage", options, COVERAGE_OPTIONS, (dimension, given, progress) => {
       return new CoverageTask(readSurvey(dimension, viewpoints, given, "coverage"), progress);
+    });
+    return task.result(this.length);
+  }
+
+  /**
+   * Which of many cameras see each point, and where; see `PointCloud.seenBy`. The workers share the
+   * cameras. If the signal aborts, no further camera is asked.
+   *
+   * @throws HprError (as a rejection) the same as `PointCloud.seenBy`.
+   */
+  async seenBy(cameras: readonly Camera[], options?: CoverageOptions & RequestOptions): Promise<SeenBy> {
+    const task = await this.#survey("seenBy", options, COVERAGE_OPTIONS, (dimension, given, progress) => {
+      return new SeenByTask(readSurvey(dimension, cameras, given, "seenBy"), progress);
     });
     return task.result(this.length);
   }
@@ -251,7 +267,7 @@ export class WorkerPointCloud {
    * @throws HprError (as a rejection) the same as `PointCloud.placeViewpoints`.
    */
   async placeViewpoints(
-    candidates: readonly ArrayLike<number>[],
+    candidates: readonly ViewpointOrCamera[],
     options?: PlacementOptions & RequestOptions,
   ): Promise<Placement> {
     const task = await this.#survey("placeViewpoints", options, PLACEMENT_OPTIONS, (dimension, given, progress) => {

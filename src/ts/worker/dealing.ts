@@ -34,8 +34,7 @@ export class Dealing {
       if (next === undefined) break;
       const thread = this.#idle.pop()!;
       const spare = this.#spares.pop();
-      const { settings } = this.#task;
-      const request = { kind: "visibleFrom", viewpoint: next.viewpoint, settings, divisible: false, spare } as const;
+      const request = { ...next.view, spare };
       this.#running.set(thread, next.number);
       thread.post(request satisfies Request, spare === undefined ? [] : [spare]);
     }

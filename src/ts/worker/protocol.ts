@@ -53,6 +53,7 @@ export const WITH_INDICES: Readonly<Record<KindWithIndices, true>> = {
   visibleFrom: true,
   visibleFromDirection: true,
   visibleFromSeveral: true,
+  visibleFromSeats: true,
   visibleFromCamera: true,
   reconstruct: true,
 };

@@ -1,6 +1,6 @@
 //! Cameras, and where they show points, in plain numbers: without the crate's code.
 
-use hidden_point_removal::{Camera, Convention};
+use hidden_point_removal::{Camera, Convention, Pose};
 
 use super::rng::Rng;
 
@@ -15,6 +15,13 @@ fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
         a[2] * b[0] - a[0] * b[2],
         a[0] * b[1] - a[1] * b[0],
     ]
+}
+
+/// The numbers of a pose from the camera to the world.
+pub fn matrix(camera: &mut Camera) -> &mut [f64; 16] {
+    match &mut camera.pose {
+        Pose::CameraToWorld(matrix) | Pose::WorldToCamera(matrix) => matrix,
+    }
 }
 
 /// A camera at `from` that looks in the direction `ahead`, turned by chance around it.
@@ -47,7 +54,7 @@ fn with_axes(
     let mut camera = Camera::new(500.0, 510.0, 310.0, 245.0, 640.0, 480.0);
     camera.convention = convention;
     for (column, axis) in axes.into_iter().chain([from]).enumerate() {
-        camera.matrix[4 * column..4 * column + 3].copy_from_slice(&axis);
+        matrix(&mut camera)[4 * column..4 * column + 3].copy_from_slice(&axis);
     }
     camera
 }
@@ -65,7 +72,9 @@ pub struct Shown {
 
 /// The depth of a point along the optical axis, after its coordinates across and down.
 pub fn in_camera(camera: &Camera, p: [f64; 3]) -> [f64; 3] {
-    let m = &camera.matrix;
+    let Pose::CameraToWorld(m) = camera.pose else {
+        unreachable!("all cameras here are made so");
+    };
     let v: [f64; 3] = core::array::from_fn(|i| p[i] - m[12 + i]);
     let [x, y, z] = [0, 4, 8].map(|c| m[c] * v[0] + m[c + 1] * v[1] + m[c + 2] * v[2]);
     match camera.convention {

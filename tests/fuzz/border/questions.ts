@@ -129,7 +129,7 @@ function camera({ place }: Scene): fc.Arbitrary<Camera> {
   const convention = fc.constantFrom("opencv", "opengl");
   return fc
     .tuple(matrix, lens, fc.oneof(fc.constant({}), more), convention)
-    .map(([matrix, lens, more, convention]) => ({ matrix, convention, ...lens, ...more }));
+    .map(([cameraToWorld, lens, more, convention]) => ({ cameraToWorld, convention, ...lens, ...more }));
 }
 
 const DIRECTIONS: readonly Place[] = [[0, 0, -1], [0, 1, 0], [1, 1, 0], [1, -2, 3]]; // prettier-ignore
