@@ -4,7 +4,7 @@ import type { Bindings, Instance } from "../instance/instance.js";
 import { allocating } from "../base/memory.js";
 import { placeOf } from "../query/camera.js";
 import type { Query, QueryKind } from "../query/queries.js";
-import { viewFrom } from "../query/surveys.js";
+import { newCounts, viewFrom } from "../query/surveys.js";
 import { roomIn, type Spares } from "./spares.js";
 import { resolvedInversion, type ViewSettings } from "../query/view-options.js";
 
@@ -55,7 +55,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
   },
 
   visibleFromSeats: (target, { seats, k, settings }) => {
-    const counts = allocating(`${target.length} counts`, () => new Uint32Array(target.length));
+    const counts = newCounts(target.length);
     const views = seats.map((seat): Found => {
       const { indices, ...view } = perform(target, viewFrom(seat, settings));
       for (const index of indices) counts[index]! += 1;

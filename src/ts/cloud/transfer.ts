@@ -2,11 +2,12 @@ import type { PointCloud } from "./cloud.js";
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { isNumberArray, type NumberArray, plainNumbers, typedArrayType } from "../base/typed-arrays.js";
-import { type Camera, type CameraNumbers, readCamera } from "../query/camera.js";
+import type { Camera, CameraNumbers } from "../query/camera.js";
 import { givenOptions, pick } from "../query/options.js";
 import { MAX_LENGTH } from "../query/positions.js";
 import { COVERAGE_OPTIONS, type CoverageOptions, readListener } from "../query/surveys.js";
-import { VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
+import { readCameras } from "../query/seats.js";
+import { refuseDraftAndScores, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import { MERGES, type Merge, merged } from "./merge-values.js";
 
 /** An image, row by row from above: colors (an `ImageData`), a mask of labels, or rows of features. */
@@ -86,16 +87,8 @@ export function transfer(
   if (merge === "vote" && sampling === "bilinear") {
     throw new HprError("option", "sampling bilinear cannot be combined with merge vote");
   }
-  for (const name of ["draft", "scores"]) {
-    if (given[name] !== undefined && given[name] !== false) {
-      throw new HprError("option", `${name} cannot be combined with transfer`);
-    }
-  }
-  const listed: unknown = cameras;
-  if (!Array.isArray(listed)) {
-    throw new HprError("viewpoint", `cameras must be an array of cameras, got ${describe(cameras)}`);
-  }
-  const lenses = Array.from(listed, (camera: unknown, i) => readCamera(camera, `camera cameras[${i}]`));
+  refuseDraftAndScores(given, "transfer");
+  const lenses = readCameras(cameras);
   const { own, channels } = readImages(images, lenses);
   const onProgress = readListener(given);
   const view: VisibilityOptions = { ...pick(given, VIEW_OPTIONS), scores: weigh === "score" };

@@ -113,16 +113,23 @@ function listed(given: unknown, dimension: number): unknown {
 
 /** The coordinates of several viewpoints, one after another. An error says which viewpoint it is about. */
 export function readViewpoints(viewpoints: unknown, dimension: number, name: string): Float64Array<ArrayBuffer> {
-  if (!Array.isArray(viewpoints)) {
-    throw new HprError(
-      "viewpoint",
-      `${name} must be an array of ${dimension} numbers each, got ${describe(viewpoints)}`,
-    );
-  }
-  const lists = Array.from(viewpoints, (viewpoint: unknown, i) =>
-    readViewpoint(viewpoint, dimension, `viewpoint ${name}[${i}]`),
+  const lists = readEach(viewpoints, name, `${dimension} numbers each`, (viewpoint, which) =>
+    readViewpoint(viewpoint, dimension, `viewpoint ${which}`),
   );
   return allocating(`${lists.length} viewpoints`, () => Float64Array.from(lists.flat()));
+}
+
+/** Reads each entry of a list of places. `contents` and `which` (the list's name and the entry's number) are for errors. */
+export function readEach<T>(
+  list: unknown,
+  name: string,
+  contents: string,
+  read: (given: unknown, which: string) => T,
+): T[] {
+  if (!Array.isArray(list)) {
+    throw new HprError("viewpoint", `${name} must be an array of ${contents}, got ${describe(list)}`);
+  }
+  return Array.from(list, (given: unknown, i) => read(given, `${name}[${i}]`));
 }
 
 /** A copy of the indices of points to remove. The core checks that the cloud has these points. */

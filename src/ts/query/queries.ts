@@ -6,6 +6,7 @@ import { packed, readPositions, readViewpoint, readViewpoints } from "./position
 import { isCameraSeat, readSeats, type Seat } from "./seats.js";
 import { plainView, typedArrayType } from "../base/typed-arrays.js";
 import {
+  refuseDraftAndScores,
   requireLow,
   requireSpace,
   ruleSettings,
@@ -159,9 +160,7 @@ export function severalQuery(
   }
   const settings = viewSettings(given, dimension);
   if (seats.some(isCameraSeat)) {
-    for (const option of ["draft", "scores"] as const) {
-      if (settings[option]) throw new HprError("option", `${option} cannot be combined with several cameras`);
-    }
+    refuseDraftAndScores(settings, "several cameras");
     return { kind: "visibleFromSeats", seats, k, settings };
   }
   const positions = allocating(`${seats.length} viewpoints`, () =>

@@ -6,7 +6,14 @@ import { integer, number } from "./options.js";
 import { GreedyChoice, type Placement, type PlacementSettings } from "./placement.js";
 import type { Query } from "./queries.js";
 import { isCameraSeat, readCameras, readSeats, type Seat } from "./seats.js";
-import { VIEW_OPTIONS, type ViewSettings, viewSettings, type VisibilityOptions } from "./view-options.js";
+import {
+  refuseDraftAndScores,
+  requireSpace,
+  VIEW_OPTIONS,
+  type ViewSettings,
+  viewSettings,
+  type VisibilityOptions,
+} from "./view-options.js";
 
 /** How points are counted from many viewpoints. */
 export interface CoverageOptions extends VisibilityOptions {
@@ -45,14 +52,13 @@ export function readSurvey(
   given: GivenOptions,
   method: "coverage" | "placeViewpoints" | "seenBy",
 ): Survey {
+  if (method === "seenBy") requireSpace(method, dimension);
   const seats =
     method === "seenBy"
-      ? readCameras(viewpoints, dimension, method)
+      ? readCameras(viewpoints)
       : readSeats(viewpoints, dimension, method === "coverage" ? "viewpoints" : "candidates");
   const settings = viewSettings(given, dimension);
-  for (const option of ["draft", "scores"] as const) {
-    if (settings[option]) throw new HprError("option", `${option} cannot be combined with ${method}`);
-  }
+  refuseDraftAndScores(settings, method);
   return { seats, settings };
 }
 
@@ -187,7 +193,7 @@ export class CoverageTask extends SurveyTask {
   }
 }
 
-function newCounts(length: number): Uint32Array<ArrayBuffer> {
+export function newCounts(length: number): Uint32Array<ArrayBuffer> {
   return allocating(`${length} counts`, () => new Uint32Array(length));
 }
 

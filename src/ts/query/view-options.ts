@@ -327,6 +327,15 @@ function sampled(given: Record<string, unknown>, dimension: number): number {
   return integer(given, "sample", 1, MOST_POINTS) ?? 0;
 }
 
+/** Refuses what a question of several views does not give. */
+export function refuseDraftAndScores(given: { draft?: unknown; scores?: unknown }, question: string): void {
+  for (const name of ["draft", "scores"] as const) {
+    if (given[name] !== undefined && given[name] !== false) {
+      throw new HprError("option", `${name} cannot be combined with ${question}`);
+    }
+  }
+}
+
 /** Refuses an option or method that needs at most three dimensions. The message is the crate's. */
 export function requireLow(what: string, dimension: number): void {
   if (dimension > 3) {
