@@ -53,6 +53,7 @@ pub use answers::reconstruct::Reconstruction;
 pub use answers::share::{Share, share_visible};
 pub use answers::union::ring_of_viewpoints;
 pub use answers::visibility::Visibility;
+pub use answers::visibility_map::{MapOptions, VisibilityMap};
 pub use base::error::Error;
 pub use base::limit::MAX_POINTS;
 pub use cloud::point_cloud::{NonFinite, PointCloud};

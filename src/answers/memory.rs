@@ -3,6 +3,7 @@
 use alloc::sync::Arc;
 
 use super::looks::{Question, Seen, Series};
+use super::visibility_map::MapMemory;
 use crate::base::error::Error;
 use crate::cloud::part::Steps;
 use crate::cloud::point_cloud::{PointCloud, Survey};
@@ -13,6 +14,7 @@ use crate::hull::Memory;
 #[derive(Default)]
 pub(crate) struct ViewMemory {
     pub(crate) hull: Memory,
+    pub(crate) maps: MapMemory,
     looks: Option<Series>,
     survey: Option<Arc<Survey>>,
     /// The steps to the points of the last view.
@@ -23,6 +25,7 @@ impl ViewMemory {
     /// Forgets the last view, but keeps the room for hulls.
     pub(crate) fn forget(&mut self) {
         self.hull.forget();
+        self.maps = MapMemory::default();
         self.looks = None;
         self.survey = None;
     }
@@ -46,13 +49,13 @@ impl ViewMemory {
     }
 
     /// What is known of the cloud's noise. It is the same for all viewpoints.
-    fn survey(
+    pub(crate) fn survey(
         &mut self,
         cloud: &PointCloud,
-        question: Question,
+        thickness: Option<f64>,
     ) -> Result<Option<Arc<Survey>>, Error> {
-        if self.survey.is_none() || question.thickness == Some(0.0) {
-            let survey = cloud.noise_survey(question.thickness)?;
+        if self.survey.is_none() || thickness == Some(0.0) {
+            let survey = cloud.noise_survey(thickness)?;
             self.survey = survey.clone().or(self.survey.take());
             return Ok(survey);
         }
@@ -70,7 +73,7 @@ impl ViewMemory {
         let begun = self.looks.take();
         let series = match begun.filter(|series| series.is_of(question)) {
             Some(series) => series,
-            None => Series::new(cloud, self.survey(cloud, question)?, question)?,
+            None => Series::new(cloud, self.survey(cloud, question.thickness)?, question)?,
         };
         let series = self.looks.insert(series);
         let is_done = series.step(cloud, &mut self.hull, budget);

@@ -20,3 +20,4 @@ pub(crate) mod sees;
 pub(crate) mod share;
 pub(crate) mod union;
 pub(crate) mod visibility;
+pub(crate) mod visibility_map;

@@ -2,6 +2,7 @@
 
 use crate::answers::memory::ViewMemory;
 use crate::answers::visibility::Visibility;
+use crate::answers::visibility_map::{MapOptions, VisibilityMap};
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
 use crate::hull::division::Sector;
@@ -88,6 +89,21 @@ impl Observer<'_> {
     ) -> Result<Visibility, Error> {
         self.cloud
             .visible_in_sector_with(&mut self.memory, viewpoint, options, sector)
+    }
+
+    /// As [`PointCloud::visibility_map`]. The map is made of points that the last map did not hide, so
+    /// it hides more.
+    ///
+    /// # Errors
+    /// As [`PointCloud::visibility_map`].
+    pub fn visibility_map(
+        &mut self,
+        viewpoint: [f64; 3],
+        options: &Options,
+        map: &MapOptions,
+    ) -> Result<VisibilityMap, Error> {
+        self.cloud
+            .visibility_map_with(&mut self.memory, viewpoint, options, map)
     }
 
     /// Forgets the last view. The memory stays reserved.

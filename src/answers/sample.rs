@@ -22,7 +22,7 @@ impl PointCloud {
 /// The first `count` places below `all` in bit-reversed order. They are returned ascending.
 /// Every beginning of the bit-reversed order is spread evenly. So a smaller sample is part of
 /// a larger one.
-fn even_places(all: usize, count: usize) -> Result<Vec<u32>, OutOfMemory> {
+pub(crate) fn even_places(all: usize, count: usize) -> Result<Vec<u32>, OutOfMemory> {
     let unused = (all as u32).saturating_sub(1).leading_zeros();
     let mut is_chosen: Vec<bool> = Vec::new();
     is_chosen.try_reserve_exact(all)?;

@@ -98,6 +98,13 @@ impl Flip {
         length * self.scale
     }
 
+    /// The least distance of a point that a hull hides which reaches so far along the point's ray;
+    /// infinite where there is none. It is convex in the reach.
+    #[inline(never)]
+    pub(crate) fn distance_at(&self, reach: f64) -> f64 {
+        self.kernel.distance(reach / self.scale)
+    }
+
     /// The flipped point for any kernel. This is not inlined, to keep the hull's loops small. A
     /// point that leaves the range of f64 also counts as a point at the viewpoint.
     #[inline(never)]

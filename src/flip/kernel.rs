@@ -62,6 +62,39 @@ impl Kernel {
         self.factor(d)
     }
 
+    /// The distance that has this |q|: the inverse of [`Kernel::length`]; infinite where there is
+    /// none.
+    pub(crate) fn distance(&self, length: f64) -> f64 {
+        if length.is_nan() || length <= 0.0 {
+            return f64::INFINITY;
+        }
+        match *self {
+            Self::Spherical { radius } => 2.0 * radius - length,
+            Self::Antipodal { .. } => f64::INFINITY,
+            Self::Power { gamma, unit } => unit * libm::pow(length / unit, 1.0 / (1.0 - gamma)),
+            Self::Exponential { scale } if length > 1.0 => scale / libm::log(length),
+            Self::Exponential { .. } => f64::INFINITY,
+            Self::Growing {
+                scale,
+                farthest,
+                power,
+            } => {
+                let (less, grown) = (1.0 - power, libm::log(length) * farthest / scale);
+                let log = if less > 0.0 {
+                    libm::log1p(less * grown) / less
+                } else {
+                    grown
+                };
+                let distance = farthest * libm::exp(-log);
+                if distance.is_nan() {
+                    f64::INFINITY
+                } else {
+                    distance
+                }
+            }
+        }
+    }
+
     /// The R of a flip on a sphere: |q| is at most 2.5 R (or 3 R). `None` for other kernels: their
     /// largest |q| depends on the points.
     pub(crate) fn radius(&self) -> Option<f64> {

@@ -354,7 +354,7 @@ impl DepthMap {
 
 /// The side of the cube that `v` points to, the place (x, y) there, and z.
 #[inline]
-fn place(v: DVec3) -> (usize, f64, f64, f64) {
+pub(super) fn place(v: DVec3) -> (usize, f64, f64, f64) {
     let a = v.abs();
     if a.z >= a.x && a.z >= a.y {
         let inverse = 1.0 / a.z;
@@ -379,7 +379,7 @@ fn place(v: DVec3) -> (usize, f64, f64, f64) {
 }
 
 /// (x, y) on a side of the cube.
-fn direction(side: usize, x: f64, y: f64) -> DVec3 {
+pub(super) fn direction(side: usize, x: f64, y: f64) -> DVec3 {
     let z = if side % 2 == 0 { 1.0 } else { -1.0 };
     match side / 2 {
         0 => DVec3::new(x, y, z),

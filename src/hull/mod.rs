@@ -31,6 +31,7 @@ mod order;
 mod outer_boundary;
 mod outer_faces;
 mod predicates;
+mod reaches;
 mod share;
 mod topology;
 mod triangles;
@@ -43,7 +44,8 @@ pub(crate) use kept::KeptHull;
 pub(crate) use lower::lower_boundary;
 pub(crate) use memory::Memory;
 pub(crate) use outer_boundary::{
-    go_on, mark_draft, mark_sector, mark_visible, triangulate_visible, visible_once,
+    go_on, mark_all, mark_draft, mark_sector, mark_visible, triangulate_visible, visible_once,
 };
 pub(crate) use outer_faces::{Exit, OuterFaces};
+pub(crate) use reaches::{Reaches, Window};
 pub(crate) use topology::{FaceId, Vertex};

@@ -48,6 +48,24 @@ pub(crate) fn mark_visible(
     memory.finish(&flipped)
 }
 
+/// The same for points that mostly are visible, where a map saves no time.
+#[inline(never)]
+pub(crate) fn mark_all(
+    points: &Points,
+    flip: &Flip,
+    memory: &mut Memory,
+) -> Result<(), OutOfMemory> {
+    let flipped = Flipped::of(points, &[], flip);
+    if !start(&flipped, points.len(), memory)? {
+        return Ok(());
+    }
+    memory.add_coarse_rounds(&flipped)?;
+    memory.depth.clear();
+    let mut round = memory.last_round();
+    memory.add_last_round(&flipped, &mut round, false, usize::MAX)?;
+    memory.finish(&flipped)
+}
+
 /// The same for one sector of the view: only its own points are marked.
 #[inline(never)]
 pub(crate) fn mark_sector(

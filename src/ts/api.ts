@@ -29,9 +29,11 @@ export {
 export type { Calibration, Station } from "./query/calibration.js";
 export type { ViewpointOrCamera } from "./query/seats.js";
 export type { SeenBy } from "./query/seen-by.js";
+export type { Cone, VisibilityMapOptions } from "./query/map-options.js";
 export type { Placement } from "./query/placement.js";
 export type { CoverageOptions, PlacementOptions } from "./query/surveys.js";
 export type { Within } from "./query/within.js";
 export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
 export { initSync } from "./instance/start.js";
+export { VisibilityMap, type VisibilityMapUniforms } from "./cloud/visibility-map.js";
 export type { CameraView, Reconstruction, Visibility } from "./cloud/visibility.js";

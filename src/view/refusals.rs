@@ -7,6 +7,7 @@ use crate::view::options::{Inversion, Options, Radius};
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(crate) enum QuestionKind {
     View,
+    Map,
     Several,
     Direction,
     Sees,
@@ -106,6 +107,7 @@ impl QuestionKind {
     fn excludes(self) -> (&'static str, &'static [Feature]) {
         match self {
             Self::View => ("a view", &[]),
+            Self::Map => ("visibilityMap", &[DRAFT, SCORES, VOTE, SEARCH, OPPOSITE]),
             Self::Several => ("several viewpoints", &[SCORES]),
             Self::Direction => ("a direction", &[DISTANCE, POWER, SEARCH, OPPOSITE]),
             Self::Sees => ("sees", &[DRAFT, SCORES]),

@@ -13,6 +13,7 @@ mod failure;
 mod formulas;
 mod higher;
 mod horizons;
+mod maps;
 mod objects;
 mod options;
 mod outputs;
@@ -66,5 +67,10 @@ interface Answer extends ChosenRadius {
   scores: Float32Array<ArrayBuffer>;
   exact: number;
   scales: [number, number, number];
+}
+interface MapAnswer {
+  data: Float32Array<ArrayBuffer>;
+  origin: [number, number, number];
+  numbers: [number, number, number, number];
 }
 "#;

@@ -22,6 +22,7 @@ mod looks_along;
 mod looks_in_steps;
 mod looks_thick;
 mod looks_uneven;
+mod maps;
 mod merge;
 mod noise;
 mod oracle;

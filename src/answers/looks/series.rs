@@ -15,7 +15,6 @@ use crate::cloud::point_cloud::{PointCloud, Smooth, Survey};
 use crate::cloud::points::Points;
 use crate::cloud::statistics::Statistics;
 use crate::flip::inversion::Flip;
-use crate::flip::kernel::Kernel;
 use crate::flip::lift::Lift;
 use crate::hull::{self, Memory, OuterFaces};
 use crate::view::resolved::check_viewpoint;
@@ -40,6 +39,31 @@ fn scales_of(count: usize, tuning: &Tuning) -> [f64; 3] {
         *scale = tuning.scales[place(count, number)];
     }
     scales
+}
+
+/// The flip of the last look from a viewpoint, how far behind the surface before it a point may be,
+/// and the farthest distance. Points that were denoised may be a few standard deviations off.
+#[inline(never)]
+pub(crate) fn loosest_look(
+    cloud: &PointCloud,
+    survey: Option<&Survey>,
+    viewpoint: [f64; 3],
+    count: usize,
+    thickness: Option<f64>,
+) -> Result<(Flip, f64, f64), Error> {
+    const DEVIATIONS: f64 = 4.0;
+    check_viewpoint(viewpoint)?;
+    let points = &cloud.sequence.points;
+    let farthest = cloud.blocks.farthest_distance(points, viewpoint)?;
+    let projection = Projection::Perspective(viewpoint);
+    let tuning = Tuning::of(projection, cloud, survey, thickness, farthest)?;
+    let scale = tuning.scales[place(count, count - 1)];
+    let kernel = tuning.kernel(scale, farthest);
+    let mut behind = tuning.thickness;
+    if survey.is_some() && thickness.is_none() {
+        behind += DEVIATIONS * cloud.noise()?;
+    }
+    Ok((Flip::new(viewpoint, kernel), behind, farthest))
 }
 
 /// What looks are asked for.
@@ -166,15 +190,7 @@ impl Series {
             Part::Some { points, blocks, .. } => (points, blocks),
         };
         let blocks = &blocks.levels[0];
-        let kernel = if self.tuning.growth > 0.0 {
-            Kernel::Growing {
-                scale: look.scale,
-                farthest: self.farthest,
-                power: self.tuning.growth,
-            }
-        } else {
-            Kernel::Exponential { scale: look.scale }
-        };
+        let kernel = self.tuning.kernel(look.scale, self.farthest);
         let flip = Flip::new(viewpoint, kernel).rescaled_for(own);
         if self.next == 0 && budget < usize::MAX {
             let is_begun = core::mem::replace(&mut self.is_begun, true);

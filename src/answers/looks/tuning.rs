@@ -18,6 +18,7 @@ use crate::cloud::noise::Noise;
 use crate::cloud::point_cloud::{PointCloud, Survey};
 use crate::cloud::points::Points;
 use crate::cloud::statistics::Statistics;
+use crate::flip::kernel::Kernel;
 
 /// The scale c of each look as a share of the cloud's spacing × widening, from tight to loose. Two
 /// looks leave out the middle one. Twice or half of any of these values changes the error little.
@@ -136,6 +137,20 @@ impl Tuning {
             aside: ASIDE * rules * excess,
             nearer: NEARER * excess,
         })
+    }
+
+    /// The kernel of a look with this scale.
+    pub(super) fn kernel(&self, scale: f64, farthest: f64) -> Kernel {
+        if self.growth > 0.0 {
+            let power = self.growth;
+            Kernel::Growing {
+                scale,
+                farthest,
+                power,
+            }
+        } else {
+            Kernel::Exponential { scale }
+        }
     }
 
     pub(super) fn plain(statistics: &Statistics) -> Self {

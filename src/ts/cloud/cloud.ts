@@ -8,6 +8,7 @@ import { requireInstance } from "../instance/instance.js";
 import { CLOUD_OPTIONS, cloudSettings, givenOptions, pick, type PointCloudOptions } from "../query/options.js";
 import type { Positions, Viewpoint } from "../query/positions.js";
 import type { Camera } from "../query/camera.js";
+import type { VisibilityMapOptions } from "../query/map-options.js";
 import type { IlluminationOptions, ReconstructionOptions } from "../query/queries.js";
 import { type Calibration, calibration, type Station } from "../query/calibration.js";
 import type { Placement } from "../query/placement.js";
@@ -27,6 +28,7 @@ import {
 } from "../query/surveys.js";
 import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import { type CameraView, type Reconstruction, type Visibility, VisibilityAnswer } from "./visibility.js";
+import type { VisibilityMap } from "./visibility-map.js";
 
 /**
  * A point cloud in the memory of the wasm. It is prepared once, and can then be asked from as many
@@ -108,6 +110,20 @@ export class PointCloud {
    */
   visibleFrom(viewpoint: Viewpoint, options?: VisibilityOptions): Visibility {
     return this.#ask("visibleFrom", viewpoint, options);
+  }
+
+  /**
+   * Makes a map of directions: it tells which points are certainly hidden from a viewpoint, in a shader
+   * or here. It takes a fixed number of points, however many the cloud has. It never hides a point
+   * that {@link PointCloud.visibleFrom} shows with the same options; with `looks`, it hides what
+   * the loosest look hides. It shows all visible points and some hidden ones. Each map is made from
+   * points that the last one did not hide.
+   *
+   * @param viewpoint x, y, z in the cloud's units. Needs a cloud of dimension 3.
+   * @throws HprError as {@link PointCloud.visibleFrom}.
+   */
+  visibilityMap(viewpoint: Viewpoint, options?: VisibilityMapOptions): VisibilityMap {
+    return this.#ask("visibilityMap", viewpoint, options);
   }
 
   /**

@@ -5,6 +5,7 @@ import {
   directionQuery,
   ILLUMINATION_OPTIONS,
   illuminationQuery,
+  mapQuery,
   type Query,
   type QueryKind,
   radiusQuery,
@@ -14,8 +15,10 @@ import {
   severalQuery,
   viewQuery,
 } from "../query/queries.js";
+import { MAP_OPTIONS } from "../query/map-options.js";
 import { VIEW_OPTIONS } from "../query/view-options.js";
 import { CameraAnswer, ReconstructionAnswer, VisibilityAnswer } from "./visibility.js";
+import { VisibilityMap } from "./visibility-map.js";
 
 type Given = Record<string, unknown>;
 
@@ -46,6 +49,12 @@ export const METHODS = {
     VIEW_OPTIONS,
     ({ dimension }, given, viewpoint) => viewQuery(dimension, viewpoint, given),
     visibility,
+  ),
+  visibilityMap: method<"visibilityMap">(
+    1,
+    MAP_OPTIONS,
+    ({ dimension }, given, viewpoint) => mapQuery(dimension, viewpoint, given),
+    (made) => new VisibilityMap(made),
   ),
   visibleFromDirection: method<"visibleFromDirection">(
     1,

@@ -36,6 +36,12 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     return found(target, settings, answer);
   },
 
+  visibilityMap: ({ instance, handle, spares }, { viewpoint, settings, map }) => {
+    const [x, y, z] = viewpoint;
+    const options = coreOptions(settings, spares);
+    return { ...instance.call((bindings) => bindings.visibilityMap(handle, x, y, z, options, map)), viewpoint };
+  },
+
   visibleFromDirection: (target, { direction, settings }) => {
     const [x, y, z] = direction as [number, number, number];
     const options = coreOptions(settings, target.spares);

@@ -43,6 +43,12 @@ export interface Answers {
   sees: { seen: Uint8Array<ArrayBuffer> };
   autoRadius: ChosenRadius;
   noise: { noise: number };
+  visibilityMap: {
+    data: Float32Array<ArrayBuffer>;
+    viewpoint: [number, number, number];
+    origin: [number, number, number];
+    numbers: [number, number, number, number];
+  };
   reconstruct: Found & { triangles: Uint32Array<ArrayBuffer> };
   illuminate: { brightness: Float32Array<ArrayBuffer> };
 }

@@ -1,6 +1,7 @@
 import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { readCamera } from "./camera.js";
+import { mapNumbers } from "./map-options.js";
 import { type CloudSettings, integer, number } from "./options.js";
 import { packed, readPositions, readViewpoint, readViewpoints } from "./positions.js";
 import { isCameraSeat, readSeats, type Seat } from "./seats.js";
@@ -55,6 +56,8 @@ export interface Sector {
 export interface Questions {
   /** `divisible`: whether the view can be divided into sectors, and gains by it. */
   visibleFrom: { viewpoint: number[]; settings: ViewSettings; divisible: boolean; sector?: Sector };
+  /** `map`: see `mapNumbers`. */
+  visibilityMap: { viewpoint: [number, number, number]; settings: ViewSettings; map: Float64Array<ArrayBuffer> };
   visibleFromDirection: { direction: number[]; settings: ViewSettings };
   /** Asks for points visible from at least `k` of the viewpoints. These are stored one after another. */
   visibleFromSeveral: { viewpoints: Float64Array<ArrayBuffer>; k: number; settings: ViewSettings };
@@ -126,6 +129,12 @@ export function seesQuery(
   const numbers = packed(readPositions(positions, stride), stride, dimension);
   const own = allocating(`${numbers.length} coordinates`, () => Float64Array.from(numbers));
   return { kind: "sees", viewpoint: place, positions: own, settings };
+}
+
+export function mapQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"visibilityMap"> {
+  requireSpace("visibilityMap", dimension);
+  const place = readViewpoint(viewpoint, 3) as [number, number, number];
+  return { kind: "visibilityMap", viewpoint: place, settings: viewSettings(given, dimension), map: mapNumbers(given) };
 }
 
 export function directionQuery(

@@ -1,0 +1,201 @@
+//! A map of directions that a shader can test points against, while the camera moves.
+//!
+//! INPUT    a cloud, a viewpoint, a budget of points and of corners.
+//! OUTPUT   for each corner of a grid of directions a distance; a point beyond it is hidden.
+//! SUMMARY  K of a sample lies inside K of all points. So what the sample's hull hides is hidden
+//!          for certain. The sample is taken from a pool: points that the last map hid hide
+//!          nothing (`pool`). The reaches of the hull become distances (`depths`), and one
+//!          comparison in single precision tests a point (`test`).
+
+mod depths;
+mod pool;
+mod test;
+
+use alloc::vec::Vec;
+
+use crate::answers::looks::loosest_look;
+use crate::answers::memory::ViewMemory;
+use crate::base::allocation::filled;
+use crate::base::error::{Error, in_range};
+use crate::base::limit::MAX_POINTS;
+use crate::base::real::square_root;
+use crate::cloud::neighbors::distance_squared;
+use crate::cloud::point_cloud::PointCloud;
+use crate::cloud::points::Points;
+use crate::cloud::spatial::Bounds;
+use crate::flip::inversion::Flip;
+use crate::hull;
+use crate::view::options::Options;
+use crate::view::refusals::QuestionKind;
+use crate::view::resolved::looks;
+use pool::Pool;
+pub use test::VisibilityMap;
+
+/// How many corners a map may have: their numbers are exact in single precision.
+const CORNERS: [f64; 2] = [64.0, 4_194_304.0];
+/// Distances in a map are between the first number and the last one, in the cloud's units.
+const UNITS: core::ops::Range<f64> = 1e-15..1e15;
+
+/// The size of a [`VisibilityMap`], and its directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MapOptions {
+    /// How many points the map's hull has at most; at least 16.
+    pub points: usize,
+    /// How many directions the map has at most: 64 to 2²².
+    pub corners: usize,
+    /// The only directions that get points and corners: a direction, and the full opening of a cone
+    /// around it, in degrees.
+    pub towards: Option<([f64; 3], f64)>,
+    /// What positions in a shader are relative to. Without a choice it is 0 for a cloud in single
+    /// precision, and the middle of the cloud's box otherwise.
+    pub origin: Option<[f64; 3]>,
+}
+
+impl Default for MapOptions {
+    fn default() -> Self {
+        Self {
+            points: 32_768,
+            corners: 65_536,
+            towards: None,
+            origin: None,
+        }
+    }
+}
+
+impl MapOptions {
+    fn check(&self) -> Result<(), Error> {
+        in_range("points", self.points as f64, 16.0, MAX_POINTS as f64)?;
+        in_range("corners", self.corners as f64, CORNERS[0], CORNERS[1])?;
+        if let Some((direction, angle)) = self.towards {
+            let length = direction.iter().fold(0.0, |sum, x| sum + x * x);
+            if !(length > 0.0 && length.is_finite()) {
+                return Err(Error::Direction { direction });
+            }
+            in_range("towards angle", angle, f64::MIN_POSITIVE, 360.0)?;
+        }
+        match self.origin {
+            Some(viewpoint) if viewpoint.iter().any(|x| !x.is_finite()) => {
+                Err(Error::Viewpoint { viewpoint })
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+/// What the last map of a cloud leaves for the next one.
+#[derive(Default)]
+pub(crate) struct MapMemory {
+    hull: hull::Memory,
+    pool: Option<Pool>,
+    last: Option<VisibilityMap>,
+}
+
+impl PointCloud {
+    /// A map that shows which points are certainly hidden from `viewpoint`: cheap to make, and
+    /// cheap to ask for any number of points.
+    ///
+    /// It never hides a point that [`PointCloud::visible_from`] shows with the same options, except
+    /// with [`Inversion::Looks`](crate::Inversion::Looks): there it hides what the loosest look
+    /// hides, beyond the thickness. It shows all visible points and some hidden ones. An
+    /// [`Observer`](crate::Observer) makes better maps from the last one.
+    ///
+    /// # Errors
+    /// As [`PointCloud::visible_from`]; [`Error::Excludes`] for `draft`, `scores`, `vote` and a
+    /// radius that is searched; [`Error::OutOfRange`] and [`Error::Direction`] for `map`.
+    pub fn visibility_map(
+        &self,
+        viewpoint: [f64; 3],
+        options: &Options,
+        map: &MapOptions,
+    ) -> Result<VisibilityMap, Error> {
+        self.visibility_map_with(&mut ViewMemory::default(), viewpoint, options, map)
+    }
+
+    #[inline(never)]
+    pub(crate) fn visibility_map_with(
+        &self,
+        memory: &mut ViewMemory,
+        viewpoint: [f64; 3],
+        options: &Options,
+        map: &MapOptions,
+    ) -> Result<VisibilityMap, Error> {
+        options.check(QuestionKind::Map)?;
+        map.check()?;
+        let part = self.part(Some(viewpoint), options)?;
+        memory.see(options.steps(Some(viewpoint))?);
+        let origin = map.origin.unwrap_or(match part.sequence.points {
+            Points::Single(_) => [0.0; 3],
+            Points::Double(_) => self.middle(),
+        });
+        let mut moved = 0.0;
+        if options.denoise.is_some() {
+            moved = displacement(&*self.chosen(Some(viewpoint), options)?, &part)?;
+        }
+        let (flip, thickness, farthest) = match looks(options)? {
+            None => {
+                let view = part.view(viewpoint, options)?;
+                let points = &part.sequence.points;
+                (
+                    view.flip,
+                    0.0,
+                    part.blocks.farthest_distance(points, viewpoint)?,
+                )
+            }
+            Some(count) => {
+                let survey = memory.survey(&part, options.thickness)?;
+                loosest_look(
+                    &part,
+                    survey.as_deref(),
+                    viewpoint,
+                    count,
+                    options.thickness,
+                )?
+            }
+        };
+        let mut made = VisibilityMap::empty(viewpoint, origin, moved);
+        let reach = farthest + made.distance_of_origin();
+        if !UNITS.contains(&farthest) || reach > UNITS.end {
+            return Ok(made);
+        }
+        let MapMemory { hull, pool, last } = &mut memory.maps;
+        let pool = Pool::of(pool, &part.sequence.points, map)?;
+        let chosen = pool.choose(viewpoint, map, last.as_ref())?;
+        hull::mark_all(&chosen, &flip, hull)?;
+        if let Some(reaches) = hull.reaches(map.corners)? {
+            let flip: Flip = flip.rescaled_for(&chosen);
+            made.fill(&reaches, &flip, thickness)?;
+        }
+        hull.forget();
+        *last = Some(made.clone());
+        Ok(made)
+    }
+}
+
+impl PointCloud {
+    /// The middle of the box; 0 for a cloud without points.
+    fn middle(&self) -> [f64; 3] {
+        let Bounds { min, max } = self.bounds;
+        core::array::from_fn(|axis| {
+            let middle = 0.5 * min[axis] + 0.5 * max[axis];
+            if middle.is_finite() { middle } else { 0.0 }
+        })
+    }
+}
+
+/// How far a point of `part` is at most from its place in `chosen`.
+fn displacement(chosen: &PointCloud, part: &PointCloud) -> Result<f64, Error> {
+    let mut places: Vec<u32> = filled(chosen.len(), 0)?;
+    for place in 0..chosen.sequence.points.len() {
+        for &index in chosen.sequence.indices_of(place) {
+            places[index as usize] = place as u32;
+        }
+    }
+    let mut most = 0.0f64;
+    for (place, point) in part.sequence.points.iter().enumerate() {
+        for &index in part.sequence.indices_of(place) {
+            let before = chosen.sequence.points.get(places[index as usize] as usize);
+            most = most.max(distance_squared(before, point));
+        }
+    }
+    Ok(square_root(most) * (1.0 + 1e-12))
+}

@@ -1,0 +1,294 @@
+//! How far K reaches along the corners of a grid of directions, read off the faces of a complete
+//! hull.
+//!
+//! K contains each face and everything between the face and the viewpoint. So along a direction
+//! (x, y, 1) that is certainly inside a face with the dual plane m, K reaches at least 1/(m·(x, y, 1))
+//! times as far. A corner that is certainly inside no face, as on an edge, keeps no reach.
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use super::depth::{direction, place};
+use super::dual_plane::Plane;
+use super::incremental::ORIGIN;
+use super::memory::Memory;
+use crate::base::allocation::{OutOfMemory, filled};
+use crate::base::real::{floor, larger, smaller, square_root};
+
+/// The largest number of cells along a side of length 1. Then single precision still finds the cell
+/// of a direction, except near its border.
+const MOST_CELLS: f64 = 4096.0;
+/// A bound of the relative errors of a flipped point, a dual plane and a reach.
+const ROUNDING: f64 = 1e-12;
+
+/// The grid on one side of a cube around the viewpoint. Its numbers are exact in single precision.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Window {
+    /// The place of the first corner.
+    pub x: f64,
+    pub y: f64,
+    /// Cells; none in an unused window.
+    pub columns: usize,
+    pub rows: usize,
+    /// The number of the first corner.
+    pub first: usize,
+}
+
+impl Window {
+    pub(crate) fn corners(&self) -> usize {
+        if self.columns == 0 {
+            return 0;
+        }
+        (self.columns + 1) * (self.rows + 1)
+    }
+}
+
+/// A grid of directions, and how far K reaches along each corner.
+pub(crate) struct Reaches {
+    pub windows: [Window; 6],
+    pub cells_per_unit: f64,
+    /// Lower bounds of the length |q| where K ends; 0 where none is known.
+    pub lengths: Vec<f64>,
+}
+
+/// The corners of a face on a side of the cube.
+type Places = [[f64; 2]; 3];
+
+impl Memory {
+    /// The reaches of the hull of the last view, which is complete, along at most `count` corners.
+    /// `None` where the hull is flat.
+    #[inline(never)]
+    pub(crate) fn reaches(&self, count: usize) -> Result<Option<Reaches>, OutOfMemory> {
+        if !self.holds_hull() {
+            return Ok(None);
+        }
+        let mut sides = [Side::NONE; 6];
+        self.each_face(&mut |side, places, _| sides[side].include(places));
+        let Some((windows, cells_per_unit)) = grid(&sides, count) else {
+            return Ok(None);
+        };
+        let corners = windows.iter().map(Window::corners).sum();
+        let mut reaches = Reaches {
+            windows,
+            cells_per_unit,
+            lengths: filled(corners, 0.0)?,
+        };
+        self.each_face(&mut |side, places, plane| reaches.fill(side, places, plane));
+        Ok(Some(reaches))
+    }
+
+    /// Passes each outer face on each side of the cube that it is on.
+    fn each_face(&self, pass: &mut dyn FnMut(usize, &Places, &Plane)) {
+        let hull = &self.hull;
+        for (_, face) in hull.surface.alive() {
+            if face.data.is_exact_only() || face.vertices.contains(&ORIGIN) {
+                continue;
+            }
+            let corners = face.vertices.map(|vertex| hull.vertices.at(vertex));
+            let found = corners.map(place);
+            let [a, b, c] = found.map(|(side, ..)| side);
+            if a == b && a == c {
+                pass(a, &found.map(|(_, x, y, _)| [x, y]), &face.data);
+                continue;
+            }
+            for side in 0..6 {
+                if ![a, b, c].contains(&side) {
+                    continue;
+                }
+                // A face that reaches behind a side is left out there.
+                let ahead = corners.map(|q| place_on(side, q));
+                if let [Some(a), Some(b), Some(c)] = ahead {
+                    pass(side, &[a, b, c], &face.data);
+                }
+            }
+        }
+    }
+}
+
+/// (x, y) on a given side of the cube; `None` behind it.
+fn place_on(side: usize, q: DVec3) -> Option<[f64; 2]> {
+    let (x, y, z) = match side / 2 {
+        0 => (q.x, q.y, q.z),
+        1 => (q.y, q.z, q.x),
+        _ => (q.z, q.x, q.y),
+    };
+    let z = if side % 2 == 0 { z } else { -z };
+    let inverse = 1.0 / z;
+    (z > 0.0).then_some([x * inverse, y * inverse])
+}
+
+/// The extent of the faces on a side of the cube.
+#[derive(Clone, Copy)]
+struct Side {
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl Side {
+    const NONE: Self = Self {
+        low: [f64::INFINITY; 2],
+        high: [f64::NEG_INFINITY; 2],
+    };
+
+    fn include(&mut self, places: &Places) {
+        for place in places {
+            for axis in 0..2 {
+                let x = larger(smaller(place[axis], 1.0), -1.0);
+                self.low[axis] = smaller(self.low[axis], x);
+                self.high[axis] = larger(self.high[axis], x);
+            }
+        }
+    }
+}
+
+/// Windows with square cells of one size, and at most `count` corners in all.
+fn grid(sides: &[Side; 6], count: usize) -> Option<([Window; 6], f64)> {
+    let area: f64 = sides
+        .iter()
+        .filter(|side| side.low[0] <= side.high[0])
+        .map(|side| (side.high[0] - side.low[0]) * (side.high[1] - side.low[1]))
+        .sum();
+    let mut cells = square_root(count as f64 / larger(area, 1e-9));
+    loop {
+        cells = f64::from(smaller(cells, MOST_CELLS) as f32);
+        let mut windows = [Window::default(); 6];
+        let mut first = 0;
+        for (window, side) in windows.iter_mut().zip(sides) {
+            if side.low[0] > side.high[0] {
+                continue;
+            }
+            // A little less than the extent, so that no point is on the first border.
+            let start = |x: f64| f64::from((x - 0.37 / cells) as f32);
+            let (x, y) = (start(side.low[0]), start(side.low[1]));
+            *window = Window {
+                x,
+                y,
+                columns: ((side.high[0] - x) * cells) as usize + 1,
+                rows: ((side.high[1] - y) * cells) as usize + 1,
+                first,
+            };
+            first += window.corners();
+        }
+        if first == 0 {
+            return None;
+        }
+        if first <= count {
+            return Some((windows, cells));
+        }
+        cells *= 0.98;
+        // Not even one cell a side.
+        if cells < 0.25 {
+            return None;
+        }
+    }
+}
+
+impl Reaches {
+    /// Writes the reach of each corner that is certainly inside a face.
+    #[inline]
+    fn fill(&mut self, side: usize, places: &Places, plane: &Plane) {
+        let window = self.windows[side];
+        let scale = self.cells_per_unit;
+        let [a, b, c] = places.map(|[x, y]| [(x - window.x) * scale, (y - window.y) * scale]);
+        let range = |axis: usize, last: usize| {
+            let [a, b, c] = [a[axis], b[axis], c[axis]];
+            let low = larger(smaller(smaller(a, b), c), -1.0);
+            let high = smaller(larger(larger(a, b), c), last as f64);
+            (floor(low) + 1.0, high)
+        };
+        let (left, right) = range(0, window.columns);
+        let (bottom, top) = range(1, window.rows);
+        // Most faces have no corner inside.
+        if left <= right && bottom <= top {
+            self.fill_rows(side, [a, b, c], [left, right, bottom, top], plane);
+        }
+    }
+
+    #[inline(never)]
+    fn fill_rows(
+        &mut self,
+        side: usize,
+        [a, mut b, mut c]: Places,
+        [left, right, bottom, top]: [f64; 4],
+        plane: &Plane,
+    ) {
+        let window = self.windows[side];
+        let turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+        if turn < 0.0 {
+            core::mem::swap(&mut b, &mut c);
+        }
+        let edges = [
+            Edge::new(a, b, self),
+            Edge::new(b, c, self),
+            Edge::new(c, a, self),
+        ];
+        let mut row = bottom;
+        while row <= top {
+            let (mut first, mut last) = (left, right);
+            if last - first > 3.0 {
+                for edge in &edges {
+                    edge.narrow(row, &mut first, &mut last);
+                }
+            }
+            let mut column = first;
+            while column <= last {
+                if edges.iter().all(|edge| edge.is_inside(column, row)) {
+                    self.write(side, &window, column, row, plane);
+                }
+                column += 1.0;
+            }
+            row += 1.0;
+        }
+    }
+
+    fn write(&mut self, side: usize, window: &Window, column: f64, row: f64, plane: &Plane) {
+        let corner = direction(
+            side,
+            window.x + column / self.cells_per_unit,
+            window.y + row / self.cells_per_unit,
+        );
+        let height = plane.m.dot(corner);
+        let spread = plane.m.x.abs() + plane.m.y.abs() + plane.m.z.abs();
+        let bound = height * (1.0 + 2.0 * plane.error) + spread * 16.0 * f64::EPSILON;
+        if height > 0.0 {
+            let place = window.first + row as usize * (window.columns + 1) + column as usize;
+            let length = square_root(corner.dot(corner)) / bound * (1.0 - ROUNDING);
+            self.lengths[place] = larger(self.lengths[place], length);
+        }
+    }
+}
+
+/// An edge of a face in cells. The face is on its left.
+struct Edge {
+    x: f64,
+    y: f64,
+    along: [f64; 2],
+    /// A bound of the error of a comparison.
+    doubt: f64,
+}
+
+impl Edge {
+    fn new([x, y]: [f64; 2], end: [f64; 2], grid: &Reaches) -> Self {
+        let along = [end[0] - x, end[1] - y];
+        let length = along[0].abs() + along[1].abs();
+        // Places and corners are rounded by some units; products reach over the whole window.
+        let largest = x.abs() + y.abs() + end[0].abs() + end[1].abs();
+        let doubt = 64.0 * f64::EPSILON * (4.0 * grid.cells_per_unit + largest) * (length + 1.0);
+        Self { x, y, along, doubt }
+    }
+
+    #[inline]
+    fn is_inside(&self, column: f64, row: f64) -> bool {
+        self.along[0] * (row - self.y) - self.along[1] * (column - self.x) > self.doubt
+    }
+
+    /// Leaves out columns of a row that are on the right of the edge, except for two.
+    fn narrow(&self, row: f64, first: &mut f64, last: &mut f64) {
+        let crossing = self.x + self.along[0] * (row - self.y) / self.along[1];
+        if self.along[1] < 0.0 && crossing > *first {
+            *first = smaller(floor(crossing), *last + 1.0);
+        } else if self.along[1] > 0.0 && crossing < *last {
+            *last = larger(floor(crossing) + 1.0, *first - 1.0);
+        }
+    }
+}

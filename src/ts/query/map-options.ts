@@ -1,0 +1,82 @@
+import { describe, HprError } from "../base/errors.js";
+import { type Camera, type CameraNumbers, isCamera, readCamera } from "./camera.js";
+import { givenOptions, integer, number } from "./options.js";
+import { MOST_POINTS, readViewpoint, type Viewpoint } from "./positions.js";
+import { VIEW_OPTIONS, type VisibilityOptions } from "./view-options.js";
+
+/** A cone of directions. */
+export interface Cone {
+  /** x, y, z of its axis, of any length but 0. */
+  direction: Viewpoint;
+  /** Its full opening in degrees, above 0 and at most 360. */
+  angle: number;
+}
+
+/**
+ * How a map of directions is made. `draft`, `scores`, `vote` and a radius that is searched are refused.
+ */
+export interface VisibilityMapOptions extends VisibilityOptions {
+  /** How many points the map's hull has at most: an integer of at least 16. Default 32,768. */
+  points?: number | undefined;
+  /** How many directions the map has at most: an integer from 64 to 4,194,304. Default 65,536. */
+  corners?: number | undefined;
+  /** The only directions that get points and corners: those of a camera, or a cone. Default: all. */
+  towards?: Camera | Cone | undefined;
+  /**
+   * x, y, z of the place that positions in a shader are relative to. Default: 0 for a cloud of a Float32Array, and
+   * the middle of the cloud's box for others.
+   */
+  origin?: Viewpoint | undefined;
+}
+
+export const MAP_OPTIONS = [...VIEW_OPTIONS, "points", "corners", "towards", "origin"] as const;
+
+/** How much wider the image of a distorted lens may be. */
+const DISTORTED = 1.3;
+
+/** The choices in the order in which the core reads them (src/wasm/maps.rs). */
+export function mapNumbers(given: Record<string, unknown>): Float64Array<ArrayBuffer> {
+  const points = integer(given, "points", 16, MOST_POINTS) ?? 32_768;
+  const corners = integer(given, "corners", 64, 4_194_304) ?? 65_536;
+  const { towards, origin } = given;
+  const cone =
+    towards === undefined ? [0, 0, 0, 0] : isCamera(towards) ? coneOf(readCamera(towards)) : readCone(towards);
+  const place = origin === undefined ? [Infinity, 0, 0] : readViewpoint(origin, 3, "origin");
+  if (origin !== undefined && !place.every(Number.isFinite)) {
+    throw new HprError("viewpoint", `the origin must be finite, got ${place.join(", ")}`);
+  }
+  return Float64Array.of(points, corners, ...cone, ...place);
+}
+
+function readCone(towards: unknown): number[] {
+  if (typeof towards !== "object" || towards === null) {
+    throw new HprError("option", `towards must be a camera or { direction, angle }, got ${describe(towards)}`);
+  }
+  const given = givenOptions(towards, ["direction", "angle"]);
+  const angle = number(given, "angle") ?? Number.NaN;
+  if (!(angle > 0 && angle <= 360)) {
+    throw new HprError(
+      "option",
+      `the angle of towards must be above 0 and at most 360, got ${describe(given["angle"])}`,
+    );
+  }
+  return [...readViewpoint(given["direction"], 3, "direction"), angle];
+}
+
+/** The cone around the image of a camera. */
+function coneOf(camera: CameraNumbers): number[] {
+  const [fx, fy, cx, cy, width, height] = camera.subarray(16, 22) as unknown as [
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+  ];
+  const across = Math.max(Math.abs(cx), Math.abs(width - cx)) / fx;
+  const down = Math.max(Math.abs(cy), Math.abs(height - cy)) / fy;
+  const wider = camera.subarray(22, 27).some((k) => k !== 0) ? DISTORTED : 1;
+  const half = Math.atan(Math.hypot(across, down) * wider);
+  const forward = Array.from(camera.subarray(8, 11), (x) => (camera[29] === 0 ? x : -x));
+  return [...forward, (360 / Math.PI) * half];
+}

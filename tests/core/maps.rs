@@ -1,0 +1,168 @@
+//! Maps of directions never hide a visible point, whatever was asked before.
+
+use hidden_point_removal::{
+    Error, Exponential, Inversion, MapOptions, Options, PointCloud, Visibility, VisibilityMap,
+};
+
+use crate::common::rng::Rng;
+use crate::common::scenes::KINDS;
+use crate::common::shapes;
+
+fn small() -> MapOptions {
+    MapOptions {
+        points: 300,
+        corners: 2000,
+        ..MapOptions::default()
+    }
+}
+
+/// The share of the hidden points that a map hides. It must hide no visible one.
+#[track_caller]
+fn share(points: &[[f64; 3]], seen: &Visibility, map: &VisibilityMap, title: &str) -> f64 {
+    let mask = seen.mask();
+    let [mut hidden, mut found] = [0.0; 2];
+    for (point, visible) in points.iter().zip(mask) {
+        let hides = map.hides(*point);
+        assert!(!(hides && visible == 1), "{title}: {point:?}");
+        hidden += f64::from(1 - visible);
+        found += f64::from(u8::from(hides));
+    }
+    found / f64::max(hidden, 1.0)
+}
+
+#[test]
+fn a_map_hides_no_visible_point() {
+    let kernels = [
+        Inversion::Spherical,
+        Inversion::Power(1.5),
+        Inversion::Power(6.0),
+        Inversion::Exponential(Exponential::Auto),
+    ];
+    let mut hidden = 0.0;
+    for kind in KINDS {
+        for (seed, n) in [(1, 9), (2, 60), (3, 700), (4, 3000)] {
+            let scene = kind.scene(seed, n);
+            let Ok(cloud) = PointCloud::new(&scene.points) else {
+                continue;
+            };
+            let mut observer = cloud.observer();
+            for inversion in kernels {
+                let options = match inversion {
+                    Inversion::Spherical => scene.options,
+                    inversion => Options::with_inversion(inversion),
+                };
+                // The second map is made of the points that the first one does not hide.
+                for map in [small(), small(), MapOptions::default()] {
+                    let Ok(seen) = cloud.visible_from(scene.viewpoint, &options) else {
+                        continue;
+                    };
+                    let made = observer.visibility_map(scene.viewpoint, &options, &map);
+                    let made = match made {
+                        Err(Error::Excludes { .. }) => continue,
+                        made => made.unwrap(),
+                    };
+                    let title = format!("{} with seed {seed}, {inversion:?}", kind.name);
+                    hidden += share(&scene.points, &seen, &made, &title);
+                }
+            }
+        }
+    }
+    assert!(hidden > 10.0, "the maps hide something: {hidden}");
+}
+
+#[test]
+fn a_map_that_follows_a_viewpoint_hides_most() {
+    let points = shapes::bumpy(&mut Rng::new(5), 40_000);
+    let cloud = PointCloud::new(&points).unwrap();
+    let options = Options::with_exponent(3.0);
+    let map = MapOptions {
+        points: 8000,
+        ..MapOptions::default()
+    };
+    let mut observer = cloud.observer();
+    for step in 0..12 {
+        let angle = f64::from(step) * 0.035;
+        let viewpoint = [4.0 * angle.sin(), 0.7, 4.0 * angle.cos()];
+        let seen = cloud.visible_from(viewpoint, &options).unwrap();
+        let made = observer.visibility_map(viewpoint, &options, &map).unwrap();
+        let share = share(&points, &seen, &made, "an orbit");
+        assert!(step < 2 || share > 0.85, "step {step}: {share}");
+    }
+}
+
+#[test]
+fn far_from_0_an_origin_keeps_a_map_sharp() {
+    let place = [452_000.0, 5_411_000.0, 300.0];
+    let points: Vec<[f64; 3]> = shapes::bumpy(&mut Rng::new(7), 20_000)
+        .into_iter()
+        .map(|p| core::array::from_fn(|axis| p[axis] + place[axis]))
+        .collect();
+    let cloud = PointCloud::new(&points).unwrap();
+    let viewpoint = [place[0] + 4.0, place[1], place[2] + 1.0];
+    let seen = cloud.visible_from(viewpoint, &Options::default()).unwrap();
+    let at = |origin| {
+        let map = MapOptions {
+            origin,
+            ..MapOptions::default()
+        };
+        let made = cloud.visibility_map(viewpoint, &Options::default(), &map);
+        share(&points, &seen, &made.unwrap(), "map coordinates")
+    };
+    assert!(at(None) > 0.6, "{}", at(None));
+    // In single precision, a place is known to half a unit there.
+    assert!(at(Some([0.0; 3])) < 0.6);
+}
+
+#[test]
+fn a_map_towards_some_directions_is_of_these() {
+    let points = shapes::room(&mut Rng::new(9), 30_000);
+    let cloud = PointCloud::new(&points).unwrap();
+    let viewpoint = [-2.0, -1.5, 0.1];
+    let options = Options::with_exponent(2.5);
+    let seen = cloud.visible_from(viewpoint, &options).unwrap();
+    let ahead = |p: &[f64; 3]| {
+        let v: Vec<f64> = (0..3).map(|axis| p[axis] - viewpoint[axis]).collect();
+        let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+        (v[0] + v[1]) / (length * 2.0f64.sqrt()) > 30.0f64.to_radians().cos()
+    };
+    let near: Vec<[f64; 3]> = points.iter().copied().filter(ahead).collect();
+    let found = |towards| {
+        let map = MapOptions {
+            points: 4000,
+            corners: 8000,
+            towards,
+            ..MapOptions::default()
+        };
+        let made = cloud.visibility_map(viewpoint, &options, &map).unwrap();
+        share(&points, &seen, &made, "towards");
+        near.iter().filter(|&&p| made.hides(p)).count()
+    };
+    let (all, some) = (found(None), found(Some(([1.0, 1.0, 0.0], 60.0))));
+    assert!(some > all, "{some} against {all}");
+}
+
+#[test]
+fn wrong_maps_are_refused() {
+    let cloud = PointCloud::new(&[[0.0, 0.0, 1.0]]).unwrap();
+    let refused = |map: MapOptions| {
+        let made = cloud.visibility_map([0.0; 3], &Options::default(), &map);
+        made.map(|_| ()).unwrap_err().code()
+    };
+    let map = MapOptions::default();
+    assert_eq!(refused(MapOptions { points: 1, ..map }), "option");
+    assert_eq!(refused(MapOptions { corners: 1, ..map }), "option");
+    for (direction, angle) in [([1.0, 0.0, 0.0], 0.0), ([1.0, 0.0, 0.0], f64::NAN)] {
+        let towards = Some((direction, angle));
+        assert_eq!(refused(MapOptions { towards, ..map }), "option");
+    }
+    let towards = Some(([0.0; 3], 60.0));
+    assert_eq!(refused(MapOptions { towards, ..map }), "viewpoint");
+    let origin = Some([f64::NAN; 3]);
+    assert_eq!(refused(MapOptions { origin, ..map }), "viewpoint");
+    let draft = Options {
+        draft: true,
+        ..Options::default()
+    };
+    let made = cloud.visibility_map([0.0; 3], &draft, &map);
+    assert!(matches!(made, Err(Error::Excludes { .. })));
+}

@@ -1,0 +1,98 @@
+import { expect, it } from "vitest";
+
+import { bumpySphere, readyPackage } from "./support";
+
+const { PointCloud, VisibilityMap, cameraFromPose } = await readyPackage();
+
+const positions = bumpySphere(3, 20_000);
+const cloud = new PointCloud(positions);
+const viewpoint = [3, 1, 2];
+const maps = { points: 6000 };
+
+/** The share of the hidden points that a map hides. It must hide no visible one. */
+function share(found: { indices: Uint32Array }, hidden: Uint8Array): number {
+  for (const index of found.indices) expect(hidden[index], `point ${index}`).toBe(0);
+  return hidden.reduce((sum, byte) => sum + byte, 0) / (hidden.length - found.indices.length);
+}
+
+it("hides hidden points only, and most of them", () => {
+  const options = { exponent: 3 };
+  const seen = cloud.visibleFrom(viewpoint, options);
+  cloud.visibilityMap(viewpoint, { ...options, ...maps });
+  const map = cloud.visibilityMap(viewpoint, { ...options, ...maps });
+  expect(map).toBeInstanceOf(VisibilityMap);
+  expect(map.viewpoint).toEqual(viewpoint);
+  expect(map.origin).toEqual([0, 0, 0]);
+  expect(map.data.length % 256).toBe(0);
+  expect(share(seen, map.hides(positions))).toBeGreaterThan(0.8);
+  // Any kind of list, and places anywhere.
+  expect(map.hides([0, 0, 0, 3, 1, 2, NaN, 0, 0, Infinity, 0, 0])).toEqual(Uint8Array.of(1, 0, 0, 0));
+});
+
+it("has the same test in the core", () => {
+  const wide = Float64Array.from(positions, (x, i) => x + [452_000, 5_411_000, 300][i % 3]!);
+  const far = new PointCloud(wide);
+  const from = [452_003, 5_411_001, 302];
+  const map = far.visibilityMap(from, maps);
+  expect(Math.hypot(...map.origin.map((x, i) => x - [452_000, 5_411_000, 300][i]!))).toBeLessThan(1);
+  expect(share(far.visibleFrom(from), map.hides(wide))).toBeGreaterThan(0.5);
+  far.dispose();
+});
+
+it("makes maps of parts, of looks, and towards a camera", () => {
+  const within = { box: [[-2, -2, -0.5], [2, 2, 2]] as const };
+  for (const options of [{ within }, { sample: 5000 }, { denoise: 12 }, { looks: 3 as const }]) {
+    const map = cloud.visibilityMap(viewpoint, { ...options, ...maps });
+    const hidden = map.hides(positions);
+    if (!("looks" in options)) share(cloud.visibleFrom(viewpoint, options), hidden);
+    expect(hidden.includes(1), JSON.stringify(options)).toBe(true);
+  }
+  const lens = { fx: 400, fy: 400, cx: 320, cy: 240, width: 640, height: 480 };
+  const camera = cameraFromPose([0, 0, 4], [0, 0, 0, 1], lens, "opengl");
+  for (const towards of [camera, { direction: [0, 0, -1], angle: 60 }]) {
+    const hidden = cloud.visibilityMap([0, 0, 4], { towards }).hides([0, 0, 0, 0, 0, 20]);
+    expect(hidden).toEqual(Uint8Array.of(1, 0));
+  }
+});
+
+it("refuses what has no map", () => {
+  const refused = (options: object, at: ArrayLike<number> = viewpoint) => {
+    try {
+      cloud.visibilityMap(at, options);
+    } catch (error) {
+      return (error as { code: string }).code;
+    }
+    return "no error";
+  };
+  const wrong = [
+    { points: 1 },
+    { corners: 1e9 },
+    { points: NaN },
+    { towards: 1 },
+    { towards: { direction: [1, 0, 0], angle: 0 } },
+    { towards: { direction: [1, 0, 0] } },
+    { vote: 5 },
+    { draft: true },
+    { radius: "search" },
+    { corner: 1 },
+  ];
+  for (const options of wrong) expect([options, refused(options)]).toEqual([options, "option"]);
+  expect(refused({ towards: { direction: [0, 0, 0], angle: 9 } })).toBe("viewpoint");
+  expect(refused({ origin: [NaN, 0, 0] })).toBe("viewpoint");
+  expect(refused({}, [NaN, 0, 0])).toBe("viewpoint");
+  expect(refused({ radius: 0.001 })).toBe("radius");
+  const map = cloud.visibilityMap(viewpoint);
+  expect(() => map.hides([1, 2])).toThrow(/multiple of 3/);
+  map.dispose();
+  map.dispose();
+  expect(() => map.hides([1, 2, 3])).toThrow(/disposed/);
+});
+
+it("hides nothing where a cloud has no surface", () => {
+  for (const given of [[], [1, 2, 3], [1, 2, 3, 1, 2, 3], [0, 0, 0, 1, 0, 0, 2, 0, 0], [0, 0, 0, 1, 0, 0, 0, 1, 0]]) {
+    const small = new PointCloud(given);
+    const map = small.visibilityMap([0, 0, 5]);
+    expect(map.hides([...given, 9, 9, 9])).toEqual(new Uint8Array(given.length / 3 + 1));
+    small.dispose();
+  }
+});
