@@ -18,12 +18,24 @@ use crate::flip::inversion::Flip;
 
 /// Finds the visible points among `points`, flipped by `flip`. [`Memory::visible`] then holds
 /// them.
-#[inline(never)]
 pub(crate) fn mark_visible(
     points: &Points,
     blocks: &[Sphere],
     flip: &Flip,
     memory: &mut Memory,
+) -> Result<(), OutOfMemory> {
+    // Where the flip is slow, the map would flip most points of the last round once more, which
+    // takes longer than to locate them.
+    mark(points, blocks, flip, memory, flip.is_fast())
+}
+
+#[inline(never)]
+fn mark(
+    points: &Points,
+    blocks: &[Sphere],
+    flip: &Flip,
+    memory: &mut Memory,
+    with_map: bool,
 ) -> Result<(), OutOfMemory> {
     let flipped = Flipped::of(points, blocks, flip);
     if let Some(mut round) = memory.drafted(flip) {
@@ -36,9 +48,7 @@ pub(crate) fn mark_visible(
         return Ok(());
     }
     memory.add_coarse_rounds(&flipped)?;
-    // Where the flip is slow, the map would flip most points of the last round once more, which
-    // takes longer than to locate them.
-    if flip.is_fast() {
+    if with_map {
         memory.make_map(&flipped)?;
     } else {
         memory.depth.clear();
@@ -49,21 +59,13 @@ pub(crate) fn mark_visible(
 }
 
 /// The same for points that mostly are visible, where a map saves no time.
-#[inline(never)]
 pub(crate) fn mark_all(
     points: &Points,
     flip: &Flip,
     memory: &mut Memory,
 ) -> Result<(), OutOfMemory> {
-    let flipped = Flipped::of(points, &[], flip);
-    if !start(&flipped, points.len(), memory)? {
-        return Ok(());
-    }
-    memory.add_coarse_rounds(&flipped)?;
-    memory.depth.clear();
-    let mut round = memory.last_round();
-    memory.add_last_round(&flipped, &mut round, false, usize::MAX)?;
-    memory.finish(&flipped)
+    memory.forget();
+    mark(points, &[], flip, memory, false)
 }
 
 /// The same for one sector of the view: only its own points are marked.

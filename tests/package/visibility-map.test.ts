@@ -40,12 +40,18 @@ it("has the same test in the core", () => {
 });
 
 it("makes maps of parts, of looks, and towards a camera", () => {
-  const within = { box: [[-2, -2, -0.5], [2, 2, 2]] as const };
+  const within = {
+    box: [
+      [-2, -2, -0.5],
+      [2, 2, 2],
+    ] as const,
+  };
   for (const options of [{ within }, { sample: 5000 }, { denoise: 12 }, { looks: 3 as const }]) {
     const map = cloud.visibilityMap(viewpoint, { ...options, ...maps });
     const hidden = map.hides(positions);
     if (!("looks" in options)) share(cloud.visibleFrom(viewpoint, options), hidden);
-    expect(hidden.includes(1), JSON.stringify(options)).toBe(true);
+    // Denoised points are elsewhere: a map hides only what the longest move leaves certain.
+    if (!("denoise" in options)) expect(hidden.includes(1), JSON.stringify(options)).toBe(true);
   }
   const lens = { fx: 400, fy: 400, cx: 320, cy: 240, width: 640, height: 480 };
   const camera = cameraFromPose([0, 0, 4], [0, 0, 0, 1], lens, "opengl");

@@ -22,8 +22,8 @@ const HEADER: usize = 48;
 const ROW: usize = 256;
 const UNIT: f64 = 1.0 / 8_388_608.0;
 
-/// Which points are certainly hidden from a viewpoint. The module `docs/MAP.md` describes the data and the
-/// shader.
+/// Which points are certainly hidden from a viewpoint. `docs/API.md` describes the data and
+/// the shader.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VisibilityMap {
     viewpoint: [f64; 3],
