@@ -3,7 +3,7 @@
 use alloc::sync::Arc;
 
 use super::looks::{Question, Seen, Series};
-use super::visibility_map::MapMemory;
+use super::visibility_map::kept::MapMemory;
 use crate::base::error::Error;
 use crate::cloud::part::Steps;
 use crate::cloud::point_cloud::{PointCloud, Survey};

@@ -8,6 +8,8 @@
 //!          comparison in single precision tests a point (`test`).
 
 mod depths;
+pub(crate) mod kept;
+mod options;
 mod pool;
 mod test;
 
@@ -16,8 +18,7 @@ use alloc::vec::Vec;
 use crate::answers::looks::loosest_look;
 use crate::answers::memory::ViewMemory;
 use crate::base::allocation::filled;
-use crate::base::error::{Error, in_range};
-use crate::base::limit::MAX_POINTS;
+use crate::base::error::Error;
 use crate::base::real::square_root;
 use crate::cloud::neighbors::distance_squared;
 use crate::cloud::point_cloud::PointCloud;
@@ -28,67 +29,13 @@ use crate::hull;
 use crate::view::options::Options;
 use crate::view::refusals::QuestionKind;
 use crate::view::resolved::looks;
+use kept::MapMemory;
+pub use options::MapOptions;
 use pool::Pool;
 pub use test::VisibilityMap;
 
-/// How many corners a map may have: their numbers are exact in single precision.
-const CORNERS: [f64; 2] = [64.0, 4_194_304.0];
 /// Distances in a map are between the first number and the last one, in the cloud's units.
 const UNITS: core::ops::Range<f64> = 1e-15..1e15;
-
-/// The size of a [`VisibilityMap`], and its directions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct MapOptions {
-    /// How many points the map's hull has at most; at least 16.
-    pub points: usize,
-    /// How many directions the map has at most: 64 to 2²².
-    pub corners: usize,
-    /// The only directions that get points and corners: a direction, and the full opening of a cone
-    /// around it, in degrees.
-    pub towards: Option<([f64; 3], f64)>,
-    /// What positions in a shader are relative to. Without a choice it is 0 for a cloud in single
-    /// precision, and the middle of the cloud's box otherwise.
-    pub origin: Option<[f64; 3]>,
-}
-
-impl Default for MapOptions {
-    fn default() -> Self {
-        Self {
-            points: 32_768,
-            corners: 65_536,
-            towards: None,
-            origin: None,
-        }
-    }
-}
-
-impl MapOptions {
-    fn check(&self) -> Result<(), Error> {
-        in_range("points", self.points as f64, 16.0, MAX_POINTS as f64)?;
-        in_range("corners", self.corners as f64, CORNERS[0], CORNERS[1])?;
-        if let Some((direction, angle)) = self.towards {
-            let length = direction.iter().fold(0.0, |sum, x| sum + x * x);
-            if !(length > 0.0 && length.is_finite()) {
-                return Err(Error::Direction { direction });
-            }
-            in_range("towards angle", angle, f64::MIN_POSITIVE, 360.0)?;
-        }
-        match self.origin {
-            Some(viewpoint) if viewpoint.iter().any(|x| !x.is_finite()) => {
-                Err(Error::Viewpoint { viewpoint })
-            }
-            _ => Ok(()),
-        }
-    }
-}
-
-/// What the last map of a cloud leaves for the next one.
-#[derive(Default)]
-pub(crate) struct MapMemory {
-    hull: hull::Memory,
-    pool: Option<Pool>,
-    last: Option<VisibilityMap>,
-}
 
 impl PointCloud {
     /// A map that shows which points are certainly hidden from `viewpoint`: cheap to make, and

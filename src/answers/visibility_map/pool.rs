@@ -4,7 +4,8 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::{MapOptions, VisibilityMap};
+use super::options::MapOptions;
+use super::test::VisibilityMap;
 use crate::answers::sample::even_places;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;

@@ -1,0 +1,13 @@
+//! What is kept from map to map.
+
+use super::pool::Pool;
+use super::test::VisibilityMap;
+use crate::hull::Memory;
+
+/// What the last map of a cloud leaves for the next one.
+#[derive(Default)]
+pub(crate) struct MapMemory {
+    pub(super) hull: Memory,
+    pub(super) pool: Option<Pool>,
+    pub(super) last: Option<VisibilityMap>,
+}
