@@ -102,3 +102,12 @@ it("hides nothing where a cloud has no surface", () => {
     small.dispose();
   }
 });
+
+it("keeps apart from the memory of recycled answers", () => {
+  const other = new PointCloud(positions);
+  other.recycle(other.visibleFrom(viewpoint));
+  other.recycle(other.visibleFrom([0, 0, 9], { exponent: 9 }));
+  const map = other.visibilityMap(viewpoint);
+  expect(share(other.visibleFrom(viewpoint), map.hides(positions))).toBeGreaterThan(0.5);
+  other.dispose();
+});

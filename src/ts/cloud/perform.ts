@@ -36,9 +36,9 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     return found(target, settings, answer);
   },
 
-  visibilityMap: ({ instance, handle, spares }, { viewpoint, settings, map }) => {
+  visibilityMap: ({ instance, handle }, { viewpoint, settings, map }) => {
     const [x, y, z] = viewpoint;
-    const options = coreOptions(settings, spares);
+    const options = coreOptions(settings);
     return { ...instance.call((bindings) => bindings.visibilityMap(handle, x, y, z, options, map)), viewpoint };
   },
 
