@@ -13,7 +13,6 @@ use crate::answers::looks::Projection;
 use crate::answers::memory::ViewMemory;
 use crate::answers::visibility::Visibility;
 use crate::base::error::Error;
-use crate::base::real::square_root;
 use crate::cloud::point_cloud::PointCloud;
 use crate::flip::lift::Lift;
 use crate::hull;
@@ -21,7 +20,7 @@ use crate::view::choice;
 use crate::view::options::{Exponential, Inversion, Options, Radius};
 use crate::view::radius::{self, ChosenRadius};
 use crate::view::refusals::QuestionKind;
-use crate::view::resolved::{SEVERAL_HULLS, looks, resolved_inversion};
+use crate::view::resolved::{SEVERAL_HULLS, looks, normalized, resolved_inversion};
 
 impl PointCloud {
     /// Which points are visible along `direction`, the direction in which an orthographic camera
@@ -139,16 +138,4 @@ impl PointCloud {
         )?;
         Ok((chosen.radius / diagonal / diagonal, chosen))
     }
-}
-
-/// The unit vector, unless `direction` is zero or not finite.
-fn normalized(direction: [f64; 3]) -> Option<DVec3> {
-    let direction = DVec3::from_array(direction);
-    let size = direction.abs().max_element();
-    if !(direction.is_finite() && size > 0.0) {
-        return None;
-    }
-    // Scaled, so that squares neither overflow nor underflow.
-    let direction = direction / size;
-    Some(direction / square_root(direction.dot(direction)))
 }

@@ -115,6 +115,7 @@ impl<'a> OpenView<'a> {
             flip,
             chosen,
             inversion,
+            ..
         } = cloud.view(viewpoint, options)?;
         open.options.inversion = inversion;
         if inversion == Inversion::Spherical {

@@ -46,15 +46,25 @@ const PLACE_ERROR: f64 = 64.0 * ROUNDING;
 const HEIGHT_ERROR: f64 = 64.0 * ROUNDING;
 
 /// The cells of one face of the cube.
-#[derive(Default)]
-struct Window {
-    x: f64,
-    y: f64,
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Window {
+    /// The place of the first corner.
+    pub x: f64,
+    pub y: f64,
     /// Cells along x; none in an unused window.
-    columns: usize,
-    rows: usize,
+    pub columns: usize,
+    pub rows: usize,
     /// Index of the first corner.
-    first: usize,
+    pub first: usize,
+}
+
+impl Window {
+    pub(crate) fn corners(&self) -> usize {
+        if self.columns == 0 {
+            return 0;
+        }
+        (self.columns + 1) * (self.rows + 1)
+    }
 }
 
 /// The map; the module's description explains it. Its memory is kept from view to view.
@@ -114,7 +124,7 @@ impl DepthMap {
                     rows: ((top - y) / cell) as usize + 1,
                     first: corners,
                 };
-                corners += (window.columns + 1) * (window.rows + 1);
+                corners += window.corners();
             }
         }
         reserve(&mut self.heights, corners)?;
@@ -222,12 +232,7 @@ impl DepthMap {
     /// bound is known.
     #[inline(always)]
     fn height_towards(&self, side: usize, v: DVec3) -> Option<(f64, f64)> {
-        let (x, y, z) = match side / 2 {
-            0 => (v.x, v.y, v.z),
-            1 => (v.y, v.z, v.x),
-            _ => (v.z, v.x, v.y),
-        };
-        let z = if side % 2 == 0 { z } else { -z };
+        let (x, y, z) = turned(side, v);
         let inverse = 1.0 / z;
         let window = &self.windows[side];
         let x = (x * inverse - window.x) * self.cells_per_unit;
@@ -376,6 +381,17 @@ pub(super) fn place(v: DVec3) -> (usize, f64, f64, f64) {
             a.y,
         )
     }
+}
+
+/// x, y and z of `v` as a side of the cube counts them; z is negative behind the side.
+#[inline(always)]
+pub(super) fn turned(side: usize, v: DVec3) -> (f64, f64, f64) {
+    let (x, y, z) = match side / 2 {
+        0 => (v.x, v.y, v.z),
+        1 => (v.y, v.z, v.x),
+        _ => (v.z, v.x, v.y),
+    };
+    (x, y, if side % 2 == 0 { z } else { -z })
 }
 
 /// (x, y) on a side of the cube.

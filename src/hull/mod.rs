@@ -38,6 +38,7 @@ mod triangles;
 
 pub(crate) use boxes::hides_box;
 pub(crate) use certain::certain_among;
+pub(crate) use depth::Window;
 #[cfg(feature = "higher")]
 pub(crate) use exact_sum::Parts;
 pub(crate) use kept::KeptHull;
@@ -47,5 +48,5 @@ pub(crate) use outer_boundary::{
     go_on, mark_all, mark_draft, mark_sector, mark_visible, triangulate_visible, visible_once,
 };
 pub(crate) use outer_faces::{Exit, OuterFaces};
-pub(crate) use reaches::{Reaches, Window};
+pub(crate) use reaches::Reaches;
 pub(crate) use topology::{FaceId, Vertex};

@@ -8,9 +8,8 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::depth::{direction, place};
+use super::depth::{Window, direction, place, turned};
 use super::dual_plane::Plane;
-use super::incremental::ORIGIN;
 use super::memory::Memory;
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::{floor, larger, smaller, square_root};
@@ -21,29 +20,8 @@ const MOST_CELLS: f64 = 4096.0;
 /// A bound of the relative errors of a flipped point, a dual plane and a reach.
 const ROUNDING: f64 = 1e-12;
 
-/// The grid on one side of a cube around the viewpoint. Its numbers are exact in single precision.
-#[derive(Clone, Copy, Default)]
-pub(crate) struct Window {
-    /// The place of the first corner.
-    pub x: f64,
-    pub y: f64,
-    /// Cells; none in an unused window.
-    pub columns: usize,
-    pub rows: usize,
-    /// The number of the first corner.
-    pub first: usize,
-}
-
-impl Window {
-    pub(crate) fn corners(&self) -> usize {
-        if self.columns == 0 {
-            return 0;
-        }
-        (self.columns + 1) * (self.rows + 1)
-    }
-}
-
-/// A grid of directions, and how far K reaches along each corner.
+/// A grid of directions, and how far K reaches along each corner. The numbers of the grid are exact in
+/// single precision.
 pub(crate) struct Reaches {
     pub windows: [Window; 6],
     pub cells_per_unit: f64,
@@ -81,7 +59,7 @@ impl Memory {
     fn each_face(&self, pass: &mut dyn FnMut(usize, &Places, &Plane)) {
         let hull = &self.hull;
         for (_, face) in hull.surface.alive() {
-            if face.data.is_exact_only() || face.vertices.contains(&ORIGIN) {
+            if face.data.is_exact_only() {
                 continue;
             }
             let corners = face.vertices.map(|vertex| hull.vertices.at(vertex));
@@ -107,12 +85,7 @@ impl Memory {
 
 /// (x, y) on a given side of the cube; `None` behind it.
 fn place_on(side: usize, q: DVec3) -> Option<[f64; 2]> {
-    let (x, y, z) = match side / 2 {
-        0 => (q.x, q.y, q.z),
-        1 => (q.y, q.z, q.x),
-        _ => (q.z, q.x, q.y),
-    };
-    let z = if side % 2 == 0 { z } else { -z };
+    let (x, y, z) = turned(side, q);
     let inverse = 1.0 / z;
     (z > 0.0).then_some([x * inverse, y * inverse])
 }

@@ -1,6 +1,9 @@
 //! One view of a cloud: the viewpoint and the options, checked and resolved to a flip.
 
+use glam::DVec3;
+
 use crate::base::error::{Error, in_range};
+use crate::base::real::square_root;
 use crate::cloud::noise::Texture;
 use crate::cloud::point_cloud::PointCloud;
 use crate::flip::inversion::Flip;
@@ -21,6 +24,8 @@ pub(crate) struct View {
     pub chosen: ChosenRadius,
     /// The inversion, with numbers only.
     pub inversion: Inversion,
+    /// The distance of the farthest point.
+    pub farthest: f64,
 }
 
 impl PointCloud {
@@ -62,6 +67,7 @@ impl PointCloud {
             flip: Flip::new(viewpoint, kernel),
             chosen,
             inversion,
+            farthest,
         })
     }
 }
@@ -111,6 +117,18 @@ pub(crate) fn check_viewpoint(viewpoint: [f64; 3]) -> Result<(), Error> {
         return Err(Error::Viewpoint { viewpoint });
     }
     Ok(())
+}
+
+/// The unit vector, unless `direction` is zero or not finite.
+pub(crate) fn normalized(direction: [f64; 3]) -> Option<DVec3> {
+    let direction = DVec3::from_array(direction);
+    let size = direction.abs().max_element();
+    if !(direction.is_finite() && size > 0.0) {
+        return None;
+    }
+    // Scaled, so that squares neither overflow nor underflow.
+    let direction = direction / size;
+    Some(direction / square_root(direction.dot(direction)))
 }
 
 /// Refuses options that are refused even where all points are at the viewpoint.

@@ -61,12 +61,7 @@ impl Smooth {
     /// The answer of the moved points as that of the distinct points of `cloud`, from which they
     /// moved.
     pub(super) fn back(&self, seen: Seen, cloud: &PointCloud) -> Result<Seen, Error> {
-        let mut places = filled(cloud.len(), 0u32)?;
-        for k in 0..seen.visible.len() {
-            for &index in self.cloud.sequence.indices_of(k) {
-                places[index as usize] = k as u32;
-            }
-        }
+        let places = self.cloud.places()?;
         let place = |k: usize| places[cloud.sequence.indices_of(k)[0] as usize] as usize;
         let count = cloud.sequence.points.len();
         let mut visible = filled(count, false)?;

@@ -12,7 +12,7 @@
 //! Together ρ ≥ Σλᵢ(ρᵢ·(1 − h²/4) − S), where S is the sum of the last two. The distance is convex in
 //! the reach. So its interpolation, made with the largest S around each corner, is a bound.
 
-use super::test::VisibilityMap;
+use super::hides::VisibilityMap;
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::{larger, smaller, square_root};
 use crate::flip::inversion::Flip;
@@ -35,22 +35,21 @@ impl VisibilityMap {
     ) -> Result<(), OutOfMemory> {
         let lengths = &reaches.lengths;
         let cell = 1.0 / reaches.cells_per_unit;
-        let mut slack: alloc::vec::Vec<f64> = filled(lengths.len(), 0.0)?;
+        let mut slack = filled(lengths.len(), 0.0)?;
         for window in &reaches.windows {
             raise(window, cell, lengths, &mut slack);
         }
-        let distances = self.prepare(reaches)?;
         let shrink = 1.0 - 0.25 * cell * cell;
-        for ((to, &length), slack) in distances.iter_mut().zip(lengths).zip(slack) {
-            *to = NOWHERE;
+        let distance = |(&length, slack): (&f64, f64)| {
             if length > 0.0 {
                 let distance = flip.distance_at(length * shrink - slack) + thickness;
                 if distance < f64::from(NOWHERE) {
-                    *to = (larger(distance, LEAST) * UP) as f32;
+                    return (larger(distance, LEAST) * UP) as f32;
                 }
             }
-        }
-        Ok(())
+            NOWHERE
+        };
+        self.set(reaches, lengths.iter().zip(slack).map(distance))
     }
 }
 

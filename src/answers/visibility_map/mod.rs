@@ -5,34 +5,30 @@
 //! SUMMARY  K of a sample lies inside K of all points. So what the sample's hull hides is hidden
 //!          for certain. The sample is taken from a pool: points that the last map hid hide
 //!          nothing (`pool`). The reaches of the hull become distances (`depths`), and one
-//!          comparison in single precision tests a point (`test`).
+//!          comparison in single precision tests a point (`hides`).
 
 mod depths;
+mod hides;
 pub(crate) mod kept;
 mod options;
 mod pool;
-mod test;
-
-use alloc::vec::Vec;
 
 use crate::answers::looks::loosest_look;
 use crate::answers::memory::ViewMemory;
-use crate::base::allocation::filled;
 use crate::base::error::Error;
 use crate::base::real::square_root;
 use crate::cloud::neighbors::distance_squared;
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::points::Points;
 use crate::cloud::spatial::Bounds;
-use crate::flip::inversion::Flip;
 use crate::hull;
 use crate::view::options::Options;
 use crate::view::refusals::QuestionKind;
 use crate::view::resolved::looks;
+pub use hides::VisibilityMap;
 use kept::MapMemory;
 pub use options::MapOptions;
 use pool::Pool;
-pub use test::VisibilityMap;
 
 /// Distances in a map are between the first number and the last one, in the cloud's units.
 const UNITS: core::ops::Range<f64> = 1e-15..1e15;
@@ -81,12 +77,7 @@ impl PointCloud {
         let (flip, thickness, farthest) = match looks(options)? {
             None => {
                 let view = part.view(viewpoint, options)?;
-                let points = &part.sequence.points;
-                (
-                    view.flip,
-                    0.0,
-                    part.blocks.farthest_distance(points, viewpoint)?,
-                )
+                (view.flip, 0.0, view.farthest)
             }
             Some(count) => {
                 let survey = memory.survey(&part, options.thickness)?;
@@ -107,18 +98,15 @@ impl PointCloud {
         let MapMemory { hull, pool, last } = &mut memory.maps;
         let pool = Pool::of(pool, &part.sequence.points, map)?;
         let chosen = pool.choose(viewpoint, map, last.as_ref())?;
+        let flip = flip.rescaled_for(&chosen);
         hull::mark_all(&chosen, &flip, hull)?;
         if let Some(reaches) = hull.reaches(map.corners)? {
-            let flip: Flip = flip.rescaled_for(&chosen);
             made.fill(&reaches, &flip, thickness)?;
         }
-        hull.forget();
         *last = Some(made.clone());
         Ok(made)
     }
-}
 
-impl PointCloud {
     /// The middle of the box; 0 for a cloud without points.
     fn middle(&self) -> [f64; 3] {
         let Bounds { min, max } = self.bounds;
@@ -131,12 +119,7 @@ impl PointCloud {
 
 /// How far a point of `part` is at most from its place in `chosen`.
 fn displacement(chosen: &PointCloud, part: &PointCloud) -> Result<f64, Error> {
-    let mut places: Vec<u32> = filled(chosen.len(), 0)?;
-    for place in 0..chosen.sequence.points.len() {
-        for &index in chosen.sequence.indices_of(place) {
-            places[index as usize] = place as u32;
-        }
-    }
+    let places = chosen.places()?;
     let mut most = 0.0f64;
     for (place, point) in part.sequence.points.iter().enumerate() {
         for &index in part.sequence.indices_of(place) {

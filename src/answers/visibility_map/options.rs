@@ -2,6 +2,7 @@
 
 use crate::base::error::{Error, in_range};
 use crate::base::limit::MAX_POINTS;
+use crate::view::resolved::{check_viewpoint, normalized};
 
 /// How many corners a map may have: their numbers are exact in single precision.
 const CORNERS: [f64; 2] = [64.0, 4_194_304.0];
@@ -36,17 +37,9 @@ impl MapOptions {
         in_range("points", self.points as f64, 16.0, MAX_POINTS as f64)?;
         in_range("corners", self.corners as f64, CORNERS[0], CORNERS[1])?;
         if let Some((direction, angle)) = self.towards {
-            let length = direction.iter().fold(0.0, |sum, x| sum + x * x);
-            if !(length > 0.0 && length.is_finite()) {
-                return Err(Error::Direction { direction });
-            }
+            normalized(direction).ok_or(Error::Direction { direction })?;
             in_range("towards angle", angle, f64::MIN_POSITIVE, 360.0)?;
         }
-        match self.origin {
-            Some(viewpoint) if viewpoint.iter().any(|x| !x.is_finite()) => {
-                Err(Error::Viewpoint { viewpoint })
-            }
-            _ => Ok(()),
-        }
+        self.origin.map_or(Ok(()), check_viewpoint)
     }
 }

@@ -4,12 +4,13 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
+use super::hides::VisibilityMap;
 use super::options::MapOptions;
-use super::test::VisibilityMap;
 use crate::answers::sample::even_places;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
 use crate::cloud::points::Points;
+use crate::view::resolved::normalized;
 
 /// How many points a pool has for each point of a map: in all directions, and for a map towards some
 /// of them.
@@ -39,19 +40,8 @@ impl Pool {
             Some(pool) => pool,
             None => {
                 let all = points.len();
-                let mut sampled = Points::with_capacity(size.min(all), points.as_given())?;
-                if size >= all {
-                    sampled.extend(points.as_given(), 0..all);
-                } else {
-                    let places = even_places(all, size)?;
-                    places
-                        .iter()
-                        .for_each(|&k| sampled.push(points.get(k as usize)));
-                }
-                Self {
-                    size,
-                    points: sampled,
-                }
+                let points = points.gathered(&even_places(all, size.min(all))?)?;
+                Self { size, points }
             }
         };
         Ok(kept.insert(new))
@@ -100,10 +90,10 @@ struct Cone {
 impl Cone {
     /// `None` for a cone of all directions.
     fn new(direction: [f64; 3], angle: f64) -> Option<Self> {
-        let axis = DVec3::from_array(direction);
         let half = (WIDER * 0.5 * angle).to_radians();
+        let axis = normalized(direction)?;
         (half < core::f64::consts::PI).then(|| Self {
-            axis: axis / square_root(axis.dot(axis)),
+            axis,
             cosine: libm::cos(half),
         })
     }

@@ -103,6 +103,20 @@ export function placeOf(camera: CameraNumbers): number[] {
   return Array.from(camera.subarray(12, 15));
 }
 
+/** How much wider the image of a distorted lens may be. */
+const DISTORTED = 1.3;
+
+/** The cone around the camera's image: its axis, and its full opening in degrees. */
+export function coneOf(camera: CameraNumbers): [...axis: number[], angle: number] {
+  const at = (i: number) => camera[i]!;
+  const half = (size: number, middle: number, focal: number) =>
+    Math.max(Math.abs(middle), Math.abs(size - middle)) / focal;
+  const wider = camera.subarray(22, 27).some((k) => k !== 0) ? DISTORTED : 1;
+  const angle = 2 * Math.atan(Math.hypot(half(at(20), at(18), at(16)), half(at(21), at(19), at(17))) * wider);
+  const forward = Array.from(camera.subarray(8, 11), (x) => (at(29) === 0 ? x : -x));
+  return [...forward, (180 / Math.PI) * angle];
+}
+
 /** The inverse of a rotation and a translation, by the core's operations. The last row stays, for the core's check. */
 function inverse(matrix: readonly number[]): number[] {
   const m = (at: number) => matrix[at]!;

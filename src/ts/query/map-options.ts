@@ -1,5 +1,5 @@
 import { describe, HprError } from "../base/errors.js";
-import { type Camera, type CameraNumbers, isCamera, readCamera } from "./camera.js";
+import { type Camera, coneOf, isCamera, readCamera } from "./camera.js";
 import { givenOptions, integer, number } from "./options.js";
 import { MOST_POINTS, readViewpoint, type Viewpoint } from "./positions.js";
 import { VIEW_OPTIONS, type VisibilityOptions } from "./view-options.js";
@@ -31,9 +31,6 @@ export interface VisibilityMapOptions extends VisibilityOptions {
 
 export const MAP_OPTIONS = [...VIEW_OPTIONS, "points", "corners", "towards", "origin"] as const;
 
-/** How much wider the image of a distorted lens may be. */
-const DISTORTED = 1.3;
-
 /** The choices in the order in which the core reads them (src/wasm/maps.rs). */
 export function mapNumbers(given: Record<string, unknown>): Float64Array<ArrayBuffer> {
   const points = integer(given, "points", 16, MOST_POINTS) ?? 32_768;
@@ -61,22 +58,4 @@ function readCone(towards: unknown): number[] {
     );
   }
   return [...readViewpoint(given["direction"], 3, "direction"), angle];
-}
-
-/** The cone around the image of a camera. */
-function coneOf(camera: CameraNumbers): number[] {
-  const [fx, fy, cx, cy, width, height] = camera.subarray(16, 22) as unknown as [
-    number,
-    number,
-    number,
-    number,
-    number,
-    number,
-  ];
-  const across = Math.max(Math.abs(cx), Math.abs(width - cx)) / fx;
-  const down = Math.max(Math.abs(cy), Math.abs(height - cy)) / fy;
-  const wider = camera.subarray(22, 27).some((k) => k !== 0) ? DISTORTED : 1;
-  const half = Math.atan(Math.hypot(across, down) * wider);
-  const forward = Array.from(camera.subarray(8, 11), (x) => (camera[29] === 0 ? x : -x));
-  return [...forward, (360 / Math.PI) * half];
 }

@@ -11,16 +11,18 @@
 //! - |v| is wrong by less than 16u of it, and by 2u·C.
 //! - The interpolation of positive numbers is wrong by less than 16u of the largest.
 
+use alloc::sync::Arc;
 use alloc::vec::Vec;
 
-use crate::base::allocation::{OutOfMemory, reserve};
+use crate::base::allocation::{OutOfMemory, filled};
+use crate::base::real::square_root;
 use crate::hull::Reaches;
 
 /// The numbers before the first corner: eight for each side of the cube.
 const HEADER: usize = 48;
 /// The texture's width. The data fill whole rows.
 const ROW: usize = 256;
-const UNIT: f64 = 1.0 / 8_388_608.0;
+const UNIT: f64 = f32::EPSILON as f64;
 
 /// Which points are certainly hidden from a viewpoint. `docs/API.md` describes the data and
 /// the shader.
@@ -34,7 +36,8 @@ pub struct VisibilityMap {
     error: f64,
     /// Cells a unit, border, border for each 1/z, and the error of a distance.
     numbers: [f32; 4],
-    data: Vec<f32>,
+    /// Shared with the copy that the next map is chosen by.
+    data: Arc<Vec<f32>>,
 }
 
 impl VisibilityMap {
@@ -47,7 +50,7 @@ impl VisibilityMap {
             local,
             error: moved,
             numbers: [0.0; 4],
-            data: Vec::new(),
+            data: Arc::default(),
         };
         map.error += map.distance_of_origin() * UNIT * 1.01 + 1e-36;
         map
@@ -60,13 +63,15 @@ impl VisibilityMap {
             .fold(0.0, |most, x| f64::from(x.abs()).max(most))
     }
 
-    /// Writes the windows, and returns the distances, which are not written yet.
-    pub(super) fn prepare(&mut self, reaches: &Reaches) -> Result<&mut [f32], OutOfMemory> {
-        let corners = reaches.lengths.len();
-        let len = (HEADER + corners).next_multiple_of(ROW);
-        reserve(&mut self.data, len)?;
-        self.data.resize(len, 0.0);
-        for (to, window) in self.data.chunks_exact_mut(8).zip(&reaches.windows) {
+    /// Takes the distances along the corners of a grid.
+    pub(super) fn set(
+        &mut self,
+        reaches: &Reaches,
+        distances: impl Iterator<Item = f32>,
+    ) -> Result<(), OutOfMemory> {
+        let len = (HEADER + reaches.lengths.len()).next_multiple_of(ROW);
+        let mut data = filled(len, 0.0)?;
+        for (to, window) in data.chunks_exact_mut(8).zip(&reaches.windows) {
             let first = HEADER + window.first;
             to[..5].copy_from_slice(&[
                 window.x as f32,
@@ -76,6 +81,9 @@ impl VisibilityMap {
                 first as f32,
             ]);
         }
+        for (to, distance) in data[HEADER..].iter_mut().zip(distances) {
+            *to = distance;
+        }
         let cells = reaches.cells_per_unit;
         let up = |x: f64| (x * (1.0 + UNIT)) as f32;
         self.numbers = [
@@ -84,7 +92,8 @@ impl VisibilityMap {
             up(2.2 * self.error * cells),
             up(2.0 * self.error),
         ];
-        Ok(&mut self.data[HEADER..HEADER + corners])
+        self.data = Arc::new(data);
+        Ok(())
     }
 
     /// The viewpoint, in the cloud's coordinates.
@@ -156,18 +165,9 @@ impl VisibilityMap {
         let most = a.max(b).max(c.max(d));
         let least = a.min(b).min(c.min(d));
         let limit = distance + (most - least) * (2.0 * border) + most * 4e-6;
-        let length = z.abs() * root(x * x + y * y + 1.0);
+        // The root in double precision, rounded once more, is the correctly rounded one.
+        let root = square_root(f64::from(x * x + y * y + 1.0)) as f32;
+        let length = z.abs() * root;
         Some(length * (1.0 - 8e-6) - self.numbers[3] > limit)
-    }
-}
-
-fn root(x: f32) -> f32 {
-    #[cfg(feature = "std")]
-    {
-        x.sqrt()
-    }
-    #[cfg(not(feature = "std"))]
-    {
-        libm::sqrtf(x)
     }
 }
