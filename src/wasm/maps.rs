@@ -14,6 +14,7 @@ use crate::MapOptions;
 struct Map {
     #[serde(with = "serde_wasm_bindgen::preserve")]
     data: Float32Array,
+    center: [f64; 3],
     origin: [f64; 3],
     numbers: [f64; 4],
 }
@@ -46,6 +47,7 @@ pub fn visibility_map(
             let made = cloud.visibility_map_with(memory, [x, y, z], &view, &choices)?;
             Ok(Map {
                 data: copy_out_singles(made.data(), options)?,
+                center: cloud.middle(),
                 origin: made.origin(),
                 numbers: made.numbers().map(f64::from),
             })

@@ -70,6 +70,7 @@ interface Answer extends ChosenRadius {
 }
 interface MapAnswer {
   data: Float32Array<ArrayBuffer>;
+  center: [number, number, number];
   origin: [number, number, number];
   numbers: [number, number, number, number];
 }

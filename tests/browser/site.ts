@@ -69,8 +69,8 @@ export async function servePage(
   };
 }
 
-export function launchBrowser(): Promise<Browser> {
-  return chromium.launch({ executablePath: process.env["HPR_CHROMIUM"] ?? "/usr/bin/chromium" });
+export function launchBrowser(...args: string[]): Promise<Browser> {
+  return chromium.launch({ executablePath: process.env["HPR_CHROMIUM"] ?? "/usr/bin/chromium", args });
 }
 
 /** Adds a style in a way that the page's security policy allows. */

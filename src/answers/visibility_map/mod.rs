@@ -108,7 +108,7 @@ impl PointCloud {
     }
 
     /// The middle of the box; 0 for a cloud without points.
-    fn middle(&self) -> [f64; 3] {
+    pub(crate) fn middle(&self) -> [f64; 3] {
         let Bounds { min, max } = self.bounds;
         core::array::from_fn(|axis| {
             let middle = 0.5 * min[axis] + 0.5 * max[axis];

@@ -24,6 +24,8 @@ export class VisibilityMap {
   /** x, y, z of the place that positions in a shader are relative to. */
   readonly origin: readonly [number, number, number];
   readonly uniforms: VisibilityMapUniforms;
+  /** The middle of the cloud's box. @internal */
+  readonly center: readonly [number, number, number];
   #data: Float32Array<ArrayBuffer> | undefined;
 
   static {
@@ -31,9 +33,10 @@ export class VisibilityMap {
   }
 
   /** @internal */
-  constructor({ data, viewpoint, origin, numbers }: Answers["visibilityMap"]) {
+  constructor({ data, viewpoint, center, origin, numbers }: Answers["visibilityMap"]) {
     this.#data = data;
     this.viewpoint = viewpoint;
+    this.center = center;
     this.origin = origin;
     const [x, y, z] = viewpoint;
     this.uniforms = {
@@ -89,6 +92,30 @@ export class VisibilityMap {
       hidden[i] = Number(isHidden);
     }
     return hidden;
+  }
+
+  /**
+   * The numbers of the shader for positions in another space. `m` goes from there to the space of the
+   * cloud: the elements of a matrix that turns, moves and scales by one factor. A shader turns
+   * `position - viewpoint` by `turn` and tests it with `hprViewpoint` 0.
+   *
+   * The product is wrong by 9 units a coordinate, so a direction is wrong by 40 of them instead of 9. The
+   * viewpoint is rounded in the other space.
+   *
+   * @internal
+   */
+  seenIn(m: readonly number[]): { viewpoint: number[]; turn: number[]; margins: number[] } {
+    const turn = [0, 1, 2].map((axis) => m.slice(4 * axis, 4 * axis + 3));
+    const squared = turn[0]!.reduce((sum, x) => sum + x * x, 0);
+    const moved = this.viewpoint.map((x, axis) => x - m[12 + axis]!);
+    const viewpoint = turn.map((row) => row.reduce((sum, x, axis) => sum + x * moved[axis]!, 0) / squared);
+    const [cells, border, perDepth, error] = this.uniforms.hprMargins;
+    const isTurned = turn.flat().some((x, i) => x !== Number(i % 4 === 0));
+    const isMoved = isTurned || viewpoint.some((x, axis) => x !== this.viewpoint[axis]! - this.origin[axis]!);
+    const largest = isMoved ? Math.max(...viewpoint.map(Math.abs)) * Math.sqrt(3 * squared) : 0;
+    const grown = 1 + (2 * largest * 1.21e-7) / error;
+    const borders = isTurned ? 3 * border : border;
+    return { viewpoint, turn: turn.flat(), margins: [cells, borders, perDepth * grown, error * grown] };
   }
 
   /** Gives the texture's memory up. May be called twice. */

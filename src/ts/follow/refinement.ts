@@ -3,9 +3,15 @@ import type { Round } from "./follower.js";
 
 /**
  * What an answer is. `"draft"` holds all visible points and some hidden ones. `"operator"` is the exact
- * answer of one flip. `"looks"` is an answer of two or three looks.
+ * answer of one flip. `"looks"` is an answer of two or three looks. `"map"` is a map of directions, by which
+ * the graphics card leaves out hidden points.
  */
-export type AnswerKind = "draft" | "operator" | "looks";
+export type AnswerKind = "map" | "draft" | "operator" | "looks";
+
+/** Whether an answer only stands in for an exact one. */
+export function isStandIn(kind: AnswerKind): boolean {
+  return kind === "map" || kind === "draft";
+}
 
 /** One of the questions that are asked about a view, one after another. */
 export interface Stage<Options = unknown> {
@@ -107,8 +113,8 @@ export class Refinement<Options = unknown> {
         return use(answer, stage);
       },
       isGivenUp: (error) => {
-        // If a draft is refused, the exact question says why, or is answered.
-        if (isAbort(error) || (stage.kind === "draft" && isRefusal(error))) {
+        // If a draft or a map is refused, the exact question says why, or is answered.
+        if (isAbort(error) || (isStandIn(stage.kind) && isRefusal(error))) {
           return true;
         }
         this.#end(stage);

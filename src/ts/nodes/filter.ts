@@ -3,6 +3,7 @@ import type { Camera, Object3D, Points } from "three";
 import { describe, HprError } from "../base/errors.js";
 import type { Round } from "../follow/follower.js";
 import type { AnswerKind } from "../follow/refinement.js";
+import type { Place } from "../query/place.js";
 import { CameraFilter } from "../three/camera-filter.js";
 import type { FollowedCamera } from "../three/cameras.js";
 import { requireUniformScale } from "../three/eye.js";
@@ -16,8 +17,9 @@ import { type HiddenPointNodesFilterOptions, readNodesOptions } from "./options.
 export interface HiddenPointNodesFilterEvents {
   /**
    * A new answer is drawn. `count` is the number of visible points. `nodes` is the number of nodes
-   * in the cloud. `answer` says what the answer is: a draft comes before the exact one. Either `viewpoint` or `direction` is null. `radius` is 0 if the inversion has none.
-   * The viewpoint, the direction and the radius are in the root's space.
+   * in the cloud. `answer` says what the answer is: a map or a draft comes before the exact one. For a map, `count`
+   * and `radius` are those of the last answer. Either `viewpoint` or `direction` is null. `radius` is 0 if the
+   * inversion has none. The viewpoint, the direction and the radius are in the root's space.
    */
   change: {
     count: number;
@@ -73,6 +75,7 @@ export class HiddenPointNodesFilter extends CameraFilter<HiddenPointNodesFilterE
   /** Whether the cloud could not be made. It is made again when a camera moves or the nodes change. */
   #isFailed = false;
   #visible = 0;
+  #radius = 0;
   readonly #refuseNode: Refused = (error, points) => {
     this.report({ error, points }, false);
   };
@@ -210,7 +213,7 @@ export class HiddenPointNodesFilter extends CameraFilter<HiddenPointNodesFilterE
     const version = this.#askedVersion;
     return this.view(
       camera,
-      (place, options, signal) => gathered.visibleFrom(place, options, signal),
+      (place, stage) => gathered.see(place, stage),
       (answer, stage, place) => {
         const { radius } = answer;
         let count = 0;
@@ -223,15 +226,24 @@ export class HiddenPointNodesFilter extends CameraFilter<HiddenPointNodesFilterE
         }
         gathered.recycle(answer);
         this.#visible = count;
-        const from = [...place.from];
-        return {
-          count,
-          nodes: gathered.nodes,
-          viewpoint: place.isDirection ? null : from,
-          direction: place.isDirection ? from : null,
-          radius,
-        };
+        this.#radius = radius;
+        return this.#told(place);
+      },
+      (texture, place) => {
+        this.drawing.map(camera, texture);
+        return this.#told(place);
       },
     );
+  }
+
+  #told({ from, isDirection }: Place) {
+    const place = [...from];
+    return {
+      count: this.#visible,
+      nodes: this.#gathered.nodes,
+      viewpoint: isDirection ? null : place,
+      direction: isDirection ? place : null,
+      radius: this.#radius,
+    };
   }
 }

@@ -1,6 +1,7 @@
 import { asError, HprError } from "../base/errors.js";
 import { allocating, concatenated } from "../base/memory.js";
-import { type Cloud, prepareCloud, see } from "../three/cloud.js";
+import { type Cloud, prepareCloud, see, type Seen } from "../three/cloud.js";
+import type { AskedStage } from "../follow/refinement.js";
 import type { Visibility } from "../cloud/visibility.js";
 import type { Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
@@ -94,8 +95,8 @@ export class Gathered {
     return this.#cloud?.spacing ?? 0;
   }
 
-  async visibleFrom(place: Place, options: VisibilityOptions, signal: AbortSignal): Promise<Visibility> {
-    return see(this.#cloud!, place, options, signal);
+  async see(place: Place, stage: AskedStage<VisibilityOptions>): Promise<Seen> {
+    return see(this.#cloud!, place, stage);
   }
 
   /** Splits an answer by node. The result has the indices and the scores of each node's own points. */

@@ -1,6 +1,7 @@
 import type { Object3D, Points } from "three";
 
 import { isDimmed } from "../three/dimmed.js";
+import type { MapTexture } from "../three/mapped-points.js";
 import { requirePoints } from "../three/options.js";
 import { CloudNode, type Refused } from "./node.js";
 import type { NodesSettings } from "./options.js";
@@ -58,9 +59,22 @@ export class NodeSet {
     for (const { display } of this.#nodes.values()) display.setStale(camera);
   }
 
+  /** Whether maps can be drawn: undefined until a node was drawn. A node without them draws all of its points. */
+  get isAble(): boolean | undefined {
+    for (const { display } of this.#nodes.values()) {
+      if (display.isAble !== undefined) return display.isAble;
+    }
+    return undefined;
+  }
+
+  /** Draws all nodes by one map until the camera's next answer. */
+  map(camera: unknown, texture: MapTexture): void {
+    for (const node of this.#nodes.values()) node.map(camera, texture);
+  }
+
   /** Forgets the answers for this camera. */
   drop(camera: unknown): void {
-    for (const { display } of this.#nodes.values()) display.drawn.drop(camera);
+    for (const { display } of this.#nodes.values()) display.drop(camera);
   }
 
   /** The indices of the points that are drawn, by node. */
@@ -77,9 +91,9 @@ export class NodeSet {
     return this.#nodes.get(node.points) === node;
   }
 
-  /** Copies the changes of the points since the last frame to their dimmed points. */
+  /** Follows the changes of the points since the last frame. */
   follow(): void {
-    if (!this.#settings.dim) {
+    if (!this.#settings.dim && this.#settings.mapped === undefined) {
       return;
     }
     for (const { points, display } of this.#nodes.values()) {

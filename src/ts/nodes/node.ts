@@ -4,6 +4,7 @@ import { nonFinite } from "../instance/failure.js";
 import { versionOf } from "../three/attribute.js";
 import { Display } from "../three/display.js";
 import { isFiltered, requireUnfiltered } from "../three/drawn-points.js";
+import type { MapTexture } from "../three/mapped-points.js";
 import type { NodesSettings } from "./options.js";
 import type { Place, Places } from "./place.js";
 import { straysIn } from "./strays.js";
@@ -85,6 +86,11 @@ export class CloudNode {
   /** The positions of some of its points in the root's space. `indices` are their indices among those that `read` returned. */
   positionsOf(indices: Uint32Array): Float32Array | Float64Array {
     return this.display.drawn.positionsOf(indices, this.#matrix);
+  }
+
+  /** Draws the node by a map of the whole cloud. */
+  map(camera: unknown, texture: MapTexture): void {
+    this.display.map(camera, texture, this.#matrix);
   }
 
   #isUnchanged(): boolean {

@@ -46,6 +46,7 @@ export interface Answers {
   visibilityMap: {
     data: Float32Array<ArrayBuffer>;
     viewpoint: [number, number, number];
+    center: [number, number, number];
     origin: [number, number, number];
     numbers: [number, number, number, number];
   };

@@ -14,7 +14,11 @@ export interface FollowOptions {
   /**
    * What stands in while the answer for the present viewpoint is computed:
    *
-   * - `"draft"`, the default: the newest draft. It is certain that the points that a draft leaves out
+   * - `"map"`, the default where the points are drawn with shaders that can be changed (three's WebGL renderer):
+   *   the newest map of directions, by which the graphics card leaves out points in every frame. It hides only
+   *   points that the answer at rest hides, too. The answer at rest is the only other one. Drafts stand in where
+   *   there are no such shaders, for directions, with `vote`, and if the radius is searched.
+   * - `"draft"`, the default elsewhere: the newest draft. It is certain that the points that a draft leaves out
    *   are hidden from the draft's viewpoint. No draft is asked of clouds with fewer than 10,000
    *   points, because their answer comes within a frame.
    * - `"keep"`: the last answer. No drafts are asked.
@@ -23,7 +27,7 @@ export interface FollowOptions {
    * Views with `looks`, `radius: "search"` or `"opposite"` have no draft of their own. The draft of the
    * automatic radius stands in for them.
    */
-  stale?: "draft" | "all" | "keep" | undefined;
+  stale?: "map" | "draft" | "all" | "keep" | undefined;
   /**
    * How far the viewpoint must move for a new answer, as a share of the cloud's spacing. For an
    * orthographic view, the direction must turn by this number of milliradians. Shorter moves cannot
@@ -35,13 +39,15 @@ export interface FollowOptions {
 /** {@link FollowOptions}, checked and complete. */
 export interface FollowSettings {
   stages: readonly Stage<VisibilityOptions>[];
-  stale: "draft" | "all" | "keep";
+  /** The questions where maps can be drawn. Undefined if no map is asked. */
+  mapped: readonly Stage<VisibilityOptions>[] | undefined;
+  stale: "map" | "draft" | "all" | "keep";
   moveThreshold: number;
 }
 
 export const FOLLOW_OPTIONS = ["settle", "stale", "moveThreshold"] as const;
 
-/** Below this number of points, no drafts are asked. */
+/** Below this number of points, neither drafts nor maps are asked. */
 const DRAFTED_FROM = 10_000;
 /** A viewpoint that has not moved for this number of milliseconds is at rest. */
 const REST = 100;
@@ -55,11 +61,13 @@ const FINAL_OPTIONS = ["radius", "exponent", "inversion", "looks", "draft", "sam
 export function followSettings(
   given: Record<string, unknown>,
   view: VisibilityOptions,
-  { dimension = 3, isLater = true } = {},
+  { dimension = 3, isLater = true, hasShaders = false } = {},
 ): FollowSettings {
-  const { settle = usualSettle(view, dimension), stale = "draft", moveThreshold = 0.001 } = given;
-  if (stale !== "draft" && stale !== "all" && stale !== "keep") {
-    throw new HprError("option", `stale must be "draft", "all" or "keep", got ${describe(stale)}`);
+  const usual: FollowSettings["stale"] = hasShaders ? "map" : "draft";
+  const { settle = usualSettle(view, dimension), stale = usual, moveThreshold = 0.001 } = given;
+  if (!isStale(stale) || (stale === "map" && !hasShaders)) {
+    const names = `${hasShaders ? `"map", ` : ""}"draft", "all" or "keep"`;
+    throw new HprError("option", `stale must be ${names}, got ${describe(stale)}`);
   }
   if (typeof moveThreshold !== "number" || !(moveThreshold >= 0 && moveThreshold < Infinity)) {
     throw new HprError(
@@ -68,18 +76,44 @@ export function followSettings(
     );
   }
   const stages = [stageOf(view)];
-  if (stale === "draft" && isLater && !isQuick(view)) {
+  if ((stale === "draft" || stale === "map") && isLater && !isQuick(view)) {
     stages.unshift(stageOf(draftOf(view)));
   }
   if (settle !== false) {
     stages.push({ ...stageOf(readSettle(settle)), rest: REST });
   }
-  return { stages, stale, moveThreshold };
+  const atRest = stages.at(-1)!;
+  const mapped = stale === "map" && isLater && hasMap(atRest.options) ? mappedStages(atRest) : undefined;
+  return { stages, mapped, stale, moveThreshold };
 }
 
-/** The stages for a cloud with this number of points. */
-export function stagesFor({ stages }: FollowSettings, points: number): readonly Stage<VisibilityOptions>[] {
-  return points < DRAFTED_FROM && stages.length > 1 && stages[0]!.kind === "draft" ? stages.slice(1) : stages;
+/** The stages for a cloud with this number of points. `isMapped`: maps can be drawn for this view. */
+export function stagesFor(
+  { stages, mapped }: FollowSettings,
+  points: number,
+  isMapped = false,
+): readonly Stage<VisibilityOptions>[] {
+  if (points < DRAFTED_FROM) {
+    return stages.length > 1 && stages[0]!.kind === "draft" ? stages.slice(1) : stages;
+  }
+  return (isMapped ? mapped : undefined) ?? stages;
+}
+
+function isStale(stale: unknown): stale is FollowSettings["stale"] {
+  return stale === "map" || stale === "draft" || stale === "all" || stale === "keep";
+}
+
+/** A map belongs to the question that is asked at rest. Nothing is asked in between. */
+function mappedStages(atRest: Stage<VisibilityOptions>): Stage<VisibilityOptions>[] {
+  return [
+    { kind: "map", options: { ...atRest.options, scores: undefined }, rest: 0 },
+    { ...atRest, rest: REST },
+  ];
+}
+
+/** Whether a map may stand in for this question. */
+function hasMap({ draft, vote, radius }: VisibilityOptions): boolean {
+  return draft !== true && vote === undefined && radius !== "search" && radius !== "opposite";
 }
 
 function usualSettle(view: VisibilityOptions, dimension: number): VisibilityOptions | false {

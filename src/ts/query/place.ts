@@ -16,3 +16,13 @@ export function isNear(a: Place, b: Place, moveThreshold: number, spacing: numbe
   const farthest = Number.isFinite(share) ? moveThreshold * share : 0;
   return a.from.every((x, axis) => Math.abs(x - b.from[axis]!) <= farthest || Object.is(x, b.from[axis]));
 }
+
+/** The cosine of the largest angle between two places, seen from the center, at which one may stand in for the other. */
+const STAND_IN = Math.cos((2 * Math.PI) / 180);
+
+/** Whether a picture from `a` is too different to be shown at `b`. */
+export function isFarFrom(a: Place, b: Place, center: readonly number[]): boolean {
+  const [p, q] = [a, b].map(({ from }) => from.map((x, axis) => x - center[axis]!)) as [number[], number[]];
+  const cosine = p.reduce((sum, x, axis) => sum + x * q[axis]!, 0) / (Math.hypot(...p) * Math.hypot(...q));
+  return a.isDirection !== b.isDirection || cosine < STAND_IN;
+}

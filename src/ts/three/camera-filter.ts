@@ -3,18 +3,26 @@ import { type Camera, EventDispatcher, type EventListener, type Object3D } from 
 import { HprError } from "../base/errors.js";
 import { addTag } from "../base/tag.js";
 import type { Visibility } from "../cloud/visibility.js";
+import { VisibilityMap } from "../cloud/visibility-map.js";
 import { Follower, type Round } from "../follow/follower.js";
 import { Readiness } from "../follow/readiness.js";
-import type { AnswerKind, AskedStage } from "../follow/refinement.js";
+import { type AnswerKind, type AskedStage, isStandIn } from "../follow/refinement.js";
 import type { FollowSettings } from "../query/follow-options.js";
 import type { Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { type FollowedCamera, FollowedCameras } from "./cameras.js";
+import type { Seen } from "./cloud.js";
+import type { MapTexture } from "./mapped-points.js";
 
 type Name<Events> = Extract<keyof Events, string>;
 interface FilterEvents {
   change: { count: number; milliseconds: number; answer: AnswerKind; camera: Camera };
   error: { error: Error };
+}
+
+/** What listeners are told about an answer. */
+export interface Told {
+  count: number;
 }
 
 /** What a filter draws: the points that each camera sees. */
@@ -27,6 +35,10 @@ export interface Drawing {
   select(camera: unknown): void;
   /** Draws all points for this camera until its next answer. */
   setStale(camera: unknown): void;
+  /** Whether maps can be drawn. Undefined until points were drawn once. */
+  readonly isAble: boolean | undefined;
+  /** Draws by a map for this camera until its next answer. */
+  map(camera: unknown, texture: MapTexture): void;
   /** Forgets the answers for this camera. */
   drop(camera: unknown): void;
   dispose(): void;
@@ -76,6 +88,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends EventDis
   /** Whether a camera has moved since the cloud was lost. */
   #isMoved = false;
   #isDisposed = false;
+  #hasSaid = false;
 
   static {
     addTag(this.prototype, "HiddenPointFilter");
@@ -95,6 +108,7 @@ export abstract class CameraFilter<Events extends FilterEvents> extends EventDis
         this.drawing.drop(camera);
         this.leave(camera);
       },
+      () => this.drawing.isAble === true,
     );
   }
 
@@ -146,10 +160,12 @@ export abstract class CameraFilter<Events extends FilterEvents> extends EventDis
         this.leave(followed);
       }
       isChanged = this.noticeChanges();
-      if (this.#settings.stale === "all" && !followed.isCurrent && followed.drawn !== undefined) {
+      const isOld = this.#settings.stale === "all" ? !followed.isCurrent : followed.isFarOff;
+      if (isOld && followed.drawn !== undefined) {
         this.drawing.setStale(followed);
         followed.drawn = undefined;
       }
+      this.#sayDrafts();
     } catch (error) {
       this.follower.refuse(error);
       return;
@@ -216,28 +232,34 @@ export abstract class CameraFilter<Events extends FilterEvents> extends EventDis
 
   /**
    * Asks the cloud about a camera's view. `draw` draws the answer, and returns what listeners are told, or undefined
-   * if the answer is about other points.
+   * if the answer is about other points. `drawMap` does the same with a map.
    *
    * @internal
    */
   protected view(
     camera: FollowedCamera,
-    ask: (place: Place, options: VisibilityOptions, signal: AbortSignal) => Visibility | Promise<Visibility>,
-    draw: (answer: Visibility, stage: AskedStage<VisibilityOptions>, place: Place) => { count: number } | undefined,
-  ): Round<Visibility> {
+    ask: (place: Place, stage: AskedStage<VisibilityOptions>) => Seen | Promise<Seen>,
+    draw: (answer: Visibility, stage: AskedStage<VisibilityOptions>, place: Place) => Told | undefined,
+    drawMap: (texture: MapTexture, place: Place) => Told | undefined,
+  ): Round<Seen> {
     const begun = performance.now();
     const { place } = camera.eye;
     return camera.refinement.round(
-      ({ options, signal }) => ask(place, options, signal),
+      (stage) => ask(place, stage),
       (answer, stage) => {
         const isOutdated = this.#settings.stale === "all" && !stage.isCurrent();
-        const drawn = isOutdated ? undefined : draw(answer, stage, place);
+        if (isOutdated) {
+          return undefined;
+        }
+        const drawn =
+          answer instanceof VisibilityMap ? drawMap(camera.take(answer), place) : draw(answer, stage, place);
         if (drawn === undefined) {
           return undefined;
         }
         camera.drawn = stage;
+        camera.drawnFrom = place;
         this.follower.answered();
-        if (stage.kind !== "draft") {
+        if (!isStandIn(stage.kind)) {
           this.readiness.resolve();
         }
         const milliseconds = performance.now() - begun;
@@ -248,6 +270,14 @@ export abstract class CameraFilter<Events extends FilterEvents> extends EventDis
         };
       },
     );
+  }
+
+  /** Says once that drafts stand in for maps. */
+  #sayDrafts(): void {
+    if (this.#settings.mapped !== undefined && this.drawing.isAble === false && !this.#hasSaid) {
+      this.#hasSaid = true;
+      console.info("hidden-point-removal: this renderer or material takes no map of directions, so drafts are drawn");
+    }
   }
 
   /** Notes an error, which the next `tell` reports. `isOfView`: without a listener, it rejects `ready`. @internal */

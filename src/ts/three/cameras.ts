@@ -1,9 +1,12 @@
 import type { Camera, Object3D } from "three";
 
-import { type AnswerKind, type AskedStage, Refinement } from "../follow/refinement.js";
+import { type AnswerKind, type AskedStage, isStandIn, Refinement } from "../follow/refinement.js";
 import { type FollowSettings, stagesFor } from "../query/follow-options.js";
+import type { VisibilityMap } from "../cloud/visibility-map.js";
+import { isFarFrom, type Place } from "../query/place.js";
 import type { VisibilityOptions } from "../query/view-options.js";
 import { Eye, requireCamera } from "./eye.js";
+import { MapTexture } from "./mapped-points.js";
 
 /** One camera's view of a cloud, and how far its answers have come. */
 export class FollowedCamera {
@@ -12,6 +15,11 @@ export class FollowedCamera {
   readonly refinement: Refinement<VisibilityOptions>;
   /** The question whose answer is drawn for this camera. */
   drawn: AskedStage | undefined;
+  /** The place that this answer is about, and the camera's place in the frame before. */
+  drawnFrom: Place | undefined;
+  before: Place | undefined;
+  /** The last map for this camera. */
+  texture: MapTexture | undefined;
 
   constructor(camera: Camera, eye: Eye, refinement: Refinement<VisibilityOptions>) {
     this.camera = camera;
@@ -28,6 +36,18 @@ export class FollowedCamera {
   get isCurrent(): boolean {
     return this.drawn?.isCurrent() ?? false;
   }
+
+  /** Whether the answer that is drawn is older than a frame, and from too far away to stand in. */
+  get isFarOff(): boolean {
+    const { texture, drawnFrom, before } = this;
+    const isOld = texture !== undefined && drawnFrom !== undefined && before !== undefined && !this.isCurrent;
+    return isOld && isFarFrom(drawnFrom, before, texture.map.center);
+  }
+
+  /** Takes a map up, in the texture of the last one. */
+  take(map: VisibilityMap): MapTexture {
+    return (this.texture = new MapTexture(map, this.texture));
+  }
 }
 
 /** The number of cameras that are remembered. If there are more, the one that was not used for the longest time goes. */
@@ -38,16 +58,26 @@ export class FollowedCameras {
   readonly #settings: FollowSettings;
   readonly #wake: () => void;
   readonly #dropped: (camera: FollowedCamera) => void;
+  readonly #drawsMaps: () => boolean;
   /** In the order of their last use. */
   readonly #cameras = new Map<Camera, FollowedCamera>();
   #points = 0;
   #spacing = 0;
 
-  /** `wake` is called when a question becomes due. `dropped` is called with a camera that is forgotten. */
-  constructor(settings: FollowSettings, wake: () => void, dropped: (camera: FollowedCamera) => void) {
+  /**
+   * `wake` is called when a question becomes due. `dropped` is called with a camera that is forgotten. `drawsMaps`
+   * tells whether maps can be drawn.
+   */
+  constructor(
+    settings: FollowSettings,
+    wake: () => void,
+    dropped: (camera: FollowedCamera) => void,
+    drawsMaps: () => boolean,
+  ) {
     this.#settings = settings;
     this.#wake = wake;
     this.#dropped = dropped;
+    this.#drawsMaps = drawsMaps;
   }
 
   /** The camera that looked last. */
@@ -69,6 +99,7 @@ export class FollowedCameras {
   /** Reads the camera's place in the object's space. Returns whether it has moved. */
   look(followed: FollowedCamera, object: Object3D): boolean {
     followed.eye.look(object, followed.camera);
+    followed.before = followed.eye.isKnown ? followed.eye.place : undefined;
     if (!followed.eye.isNew) {
       return false;
     }
@@ -88,7 +119,7 @@ export class FollowedCameras {
   }
 
   /**
-   * The camera whose question is due. Drafts go first. With `begunOnly`, views that have no answer yet
+   * The camera whose question is due. Drafts and maps go first. With `begunOnly`, views that have no answer yet
    * are left out.
    */
   due(begunOnly: boolean): FollowedCamera | undefined {
@@ -96,7 +127,7 @@ export class FollowedCameras {
     for (const followed of this.#cameras.values()) {
       const isLeftOut = begunOnly && !followed.refinement.isBegun;
       const stage = followed.eye.isKnown && !isLeftOut ? followed.refinement.due : undefined;
-      if (stage?.kind === "draft") {
+      if (stage !== undefined && isStandIn(stage.kind)) {
         return followed;
       }
       if (stage !== undefined) {
@@ -112,11 +143,15 @@ export class FollowedCameras {
   }
 
   stop(): void {
-    for (const { refinement } of this.#cameras.values()) refinement.stop();
+    for (const { refinement, texture } of this.#cameras.values()) {
+      refinement.stop();
+      texture?.dispose();
+    }
   }
 
-  #begin({ refinement }: FollowedCamera): void {
-    refinement.moved(stagesFor(this.#settings, this.#points));
+  #begin({ refinement, eye }: FollowedCamera): void {
+    const isMapped = this.#drawsMaps() && !eye.isDirection;
+    refinement.moved(stagesFor(this.#settings, this.#points, isMapped));
   }
 
   #added(camera: Camera): FollowedCamera {
@@ -128,6 +163,7 @@ export class FollowedCameras {
       const [oldest, given] = this.#cameras.entries().next().value!;
       this.#cameras.delete(oldest);
       given.refinement.stop();
+      given.texture?.dispose();
       this.#dropped(given);
     }
     return followed;

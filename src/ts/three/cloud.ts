@@ -1,5 +1,7 @@
 import { PointCloud } from "../cloud/cloud.js";
 import type { Visibility } from "../cloud/visibility.js";
+import type { VisibilityMap } from "../cloud/visibility-map.js";
+import type { AskedStage } from "../follow/refinement.js";
 import { allocating } from "../base/memory.js";
 import { runningInstance } from "../instance/instance.js";
 import { init } from "../loader.js";
@@ -11,6 +13,7 @@ import type { ReadPositions } from "./attribute.js";
 
 /** Both classes give the same answers. A `WorkerPointCloud` gives them as promises. */
 export type Cloud = PointCloud | WorkerPointCloud;
+export type Seen = Visibility | VisibilityMap;
 
 /**
  * Makes a cloud in the worker that all filters share, or in this thread. In this thread it is made
@@ -37,9 +40,12 @@ export function prepareCloud(
 export function see(
   cloud: Cloud,
   { from, isDirection }: Place,
-  options: VisibilityOptions,
-  signal: AbortSignal,
-): Visibility | Promise<Visibility> {
+  { kind, options, signal }: AskedStage<VisibilityOptions>,
+): Seen | Promise<Seen> {
   const asked = cloud instanceof WorkerPointCloud ? { ...options, signal } : options;
+  if (kind === "map") {
+    // A shader has the positions as the geometry has them.
+    return cloud.visibilityMap(from, { ...asked, origin: [0, 0, 0] });
+  }
   return isDirection ? cloud.visibleFromDirection(from, asked) : cloud.visibleFrom(from, asked);
 }

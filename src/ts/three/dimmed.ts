@@ -1,7 +1,8 @@
-import { BufferGeometry, type Material, Points, type PointsMaterial } from "three";
+import { type BufferAttribute, BufferGeometry, type Material, Points, type PointsMaterial } from "three";
 
 import { describe, HprError } from "../base/errors.js";
 import type { DrawnPoints } from "./drawn-points.js";
+import { MappedPoints, type MapTexture } from "./mapped-points.js";
 import { DIMMED, type Shades } from "./shades.js";
 import { type ColorAttribute, SoftColors } from "./soft-colors.js";
 
@@ -22,6 +23,7 @@ export class DimmedPoints {
   readonly #given: Material | undefined;
   /** Only if hidden points are dimmed by their scores. */
   readonly #colors: SoftColors | undefined;
+  readonly #mapped: MappedPoints;
   #shades: Shades | undefined;
   #copied: { from: Material; version: number } | undefined;
   #refused: { material: unknown } | undefined;
@@ -33,6 +35,7 @@ export class DimmedPoints {
     this.#given = material;
     this.#colors = byScore ? new SoftColors() : undefined;
     this.#child = new Points(new BufferGeometry(), material ?? this.#copy());
+    this.#mapped = new MappedPoints(this.#child, -1);
     dimmed.add(this.#child);
     this.#child.name = "hidden points";
     this.#child.raycast = () => undefined;
@@ -45,15 +48,31 @@ export class DimmedPoints {
    * @throws HprError `option` in the same case as `follow`.
    */
   show(drawn: DrawnPoints): void {
+    this.#shades = drawn.shades;
+    this.#mapped.show(undefined);
+    this.#draw(drawn.order ?? null, drawn.visible, drawn.total - drawn.visible);
+  }
+
+  /** Draws the points that a map hides. Throws as `show`. */
+  showBy(texture: MapTexture, matrix?: readonly number[]): void {
+    const { index, drawRange } = this.#points.geometry;
+    // Points that no score was given for have no color yet.
+    if (this.#colors === undefined || this.#shades !== undefined) {
+      this.#mapped.follow();
+      this.#mapped.show(texture, matrix);
+      this.#draw(index, drawRange.start, drawRange.count);
+    }
+  }
+
+  #draw(index: BufferAttribute | null, start: number, count: number): void {
     if (this.#refused !== undefined && this.#refused.material === this.#points.material) {
       return;
     }
     const { geometry } = this.#child;
-    if (geometry.index !== drawn.order) {
-      geometry.setIndex(drawn.order ?? null);
+    if (geometry.index !== index) {
+      geometry.setIndex(index);
     }
-    geometry.setDrawRange(drawn.visible, drawn.total - drawn.visible);
-    this.#shades = drawn.shades;
+    geometry.setDrawRange(start, count);
     this.#isShown = true;
     if (this.#child.parent !== this.#points) {
       this.#points.add(this.#child);
@@ -101,6 +120,7 @@ export class DimmedPoints {
   }
 
   dispose(): void {
+    this.#mapped.dispose();
     this.#child.removeFromParent();
     const { geometry, material } = this.#child;
     // Shared resources must stay on the graphics card.

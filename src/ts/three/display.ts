@@ -1,25 +1,38 @@
-import type { Material, Points } from "three";
+import type { Points } from "three";
 
 import { DimmedPoints } from "./dimmed.js";
 import { DrawnPoints } from "./drawn-points.js";
-import { type HiddenSettings, indicesOver } from "./shades.js";
+import { MappedPoints, type MapTexture } from "./mapped-points.js";
+import type { FilterSettings } from "./options.js";
+import { indicesOver } from "./shades.js";
+
+/** A map, and the way from the points' space to the map's. */
+interface Mapped {
+  texture: MapTexture;
+  matrix: readonly number[] | undefined;
+}
 
 /** Draws either all points or only the visible ones. The hidden points may be drawn, too, but dimmed. */
 export class Display {
   readonly drawn: DrawnPoints;
   readonly #points: Points;
   readonly #dimmed: DimmedPoints | undefined;
+  /** Undefined if no maps are asked. */
+  readonly #mapped: MappedPoints | undefined;
+  readonly #maps = new Map<unknown, Mapped>();
+  #camera: unknown;
   readonly #threshold: number | undefined;
   #enabled = true;
   /** The layers of the points, while they are not drawn because they wait for their first answer. */
   #layers: number | undefined;
 
   /** @throws HprError `option` if the material cannot be dimmed. */
-  constructor(points: Points, settings: HiddenSettings & { dimMaterial: Material | undefined }) {
-    const { dim, dimsByScore, dimMaterial, threshold } = settings;
+  constructor(points: Points, settings: FilterSettings) {
+    const { dim, dimsByScore, dimMaterial, threshold, mapped } = settings;
     this.#points = points;
     this.#dimmed = dim ? new DimmedPoints(points, dimMaterial, dimsByScore) : undefined;
     this.#threshold = threshold;
+    this.#mapped = mapped && new MappedPoints(points);
     this.drawn = new DrawnPoints(points, settings);
   }
 
@@ -40,6 +53,9 @@ export class Display {
 
   /** How many points are drawn, without the dimmed ones. */
   get count(): number {
+    if (this.#shownMap !== undefined) {
+      return this.drawnIndices.length;
+    }
     return this.#enabled ? this.drawn.visible : this.drawn.total;
   }
 
@@ -56,6 +72,7 @@ export class Display {
     const isDecided = scores === undefined || this.#threshold === undefined;
     const visible = isDecided ? indices : indicesOver(scores, this.#threshold);
     this.drawn.setVisible(camera, visible, isListed && isDecided, scores);
+    this.#maps.delete(camera);
     this.isPending = false;
     this.#show();
     return visible.length;
@@ -64,26 +81,46 @@ export class Display {
   /** Draws what this camera sees. Called in every frame. */
   select(camera: unknown): void {
     const before = this.drawn.order;
+    const isMapped = this.#maps.has(this.#camera) || this.#maps.has(camera);
+    this.#camera = camera;
     this.drawn.select(camera);
-    if (this.drawn.order !== before) {
+    if (this.drawn.order !== before || isMapped) {
       this.#show();
     }
+  }
+
+  /** Whether maps can be drawn. Undefined until the points were drawn once. */
+  get isAble(): boolean | undefined {
+    return this.#mapped?.isAble;
+  }
+
+  /** Draws by a map for this camera until its next answer. `matrix`: from the points' space to the map's. */
+  map(camera: unknown, texture: MapTexture, matrix?: readonly number[]): void {
+    this.#maps.set(camera, { texture, matrix });
+    this.isPending = false;
+    this.#show();
   }
 
   /** Draws all points for this camera until its next answer. */
   setStale(camera: unknown): void {
     this.drawn.setStale(camera);
+    this.#maps.delete(camera);
     this.#show();
   }
 
   /** Forgets the answers for this camera. */
   drop(camera: unknown): void {
     this.drawn.drop(camera);
+    this.#maps.delete(camera);
   }
 
   /** The indices of the points that are drawn, without the dimmed ones. */
   get drawnIndices(): Uint32Array {
-    return this.#layers === undefined ? this.drawn.drawn : new Uint32Array(0);
+    if (this.#layers !== undefined) {
+      return new Uint32Array(0);
+    }
+    const shown = this.#shownMap;
+    return shown === undefined ? this.drawn.drawn : this.drawn.drawnBy(shown.texture.map, shown.matrix);
   }
 
   /** While true, nothing is drawn: the points wait for their first answer. */
@@ -100,12 +137,14 @@ export class Display {
 
   /** Copies the changes of the points since the last frame. Called in every frame. */
   follow(): void {
+    this.#mapped?.follow();
     this.#dimmed?.follow();
   }
 
   /** Draws all points, until there is an answer or `enabled` is set to true. */
   showAll(): void {
     this.drawn.showAll();
+    this.#mapped?.show(undefined);
     this.#dimmed?.hide();
   }
 
@@ -120,16 +159,29 @@ export class Display {
   leave(): void {
     this.isPending = false;
     this.showAll();
+    this.#maps.clear();
     this.drawn.release();
   }
 
   dispose(): void {
     this.leave();
+    this.#mapped?.dispose();
     this.#dimmed?.dispose();
+  }
+
+  get #shownMap(): Mapped | undefined {
+    return this.#enabled ? this.#maps.get(this.#camera) : undefined;
   }
 
   #show(): void {
     if (!this.#enabled) {
+      return;
+    }
+    const shown = this.#shownMap;
+    this.#mapped?.show(shown?.texture, shown?.matrix);
+    if (shown !== undefined) {
+      this.drawn.showAll();
+      this.#dimmed?.showBy(shown.texture, shown.matrix);
       return;
     }
     this.drawn.show();

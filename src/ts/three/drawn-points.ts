@@ -2,6 +2,7 @@ import { BufferAttribute, type BufferGeometry, DynamicDrawUsage, type Points } f
 
 import { describe, HprError } from "../base/errors.js";
 import { listHidden, orderIn } from "../cloud/hidden.js";
+import type { VisibilityMap } from "../cloud/visibility-map.js";
 import { allocating } from "../base/memory.js";
 import { type PositionAttribute, readPositions, type ReadPositions, requirePositions, versionOf } from "./attribute.js";
 import { type HiddenSettings, Shades } from "./shades.js";
@@ -83,6 +84,13 @@ export class DrawnPoints {
       return (order.attribute.array as Uint32Array).slice(0, order.visible);
     }
     return this.#ids?.slice() ?? Uint32Array.from({ length: this.#total }, (_, i) => i);
+  }
+
+  /** The numbers of all points, without those that a map hides. `place`: from the points' space to the map's. */
+  drawnBy(map: VisibilityMap, place?: readonly number[]): Uint32Array {
+    const hidden = map.hides(readPositions(this.#taken!.position, this.#ids, place).numbers);
+    const numbers = this.#ids ?? Uint32Array.from(hidden, (_, i) => i);
+    return numbers.filter((_, i) => hidden[i] === 0);
   }
 
   /** The answers for this camera are drawn from now on. */

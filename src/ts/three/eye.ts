@@ -69,6 +69,11 @@ export class Eye {
     return this.#noted.known;
   }
 
+  /** Whether the noted view is a direction. */
+  get isDirection(): boolean {
+    return this.#noted.direction;
+  }
+
   /** Whether the present view is not the one that was noted last. */
   get isNew(): boolean {
     const [now, noted] = [this.#now, this.#noted];

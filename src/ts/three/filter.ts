@@ -12,8 +12,9 @@ import { type FilterSettings, type HiddenPointFilterOptions, readFilterOptions, 
 /** The events of a filter. */
 export interface HiddenPointFilterEvents {
   /**
-   * A new answer for a camera. `count` is the number of points that are drawn. `milliseconds` is the
-   * time that it took. `answer` says what it is: a draft comes before the exact answer.
+   * A new answer for a camera. `count` is the number of points that are drawn; for a map, which the graphics
+   * card tests the points against, it is that of the last answer. `milliseconds` is the time that it took.
+   * `answer` says what it is: a map or a draft comes before the exact answer.
    */
   change: { count: number; milliseconds: number; answer: AnswerKind; camera: Camera };
   /**
@@ -58,6 +59,8 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
   protected override isStale = true;
   readonly #settings: FilterSettings;
   #cloud: Cloud | undefined;
+  /** The count of the last answer. */
+  #count = 0;
 
   /**
    * @param points the points. From now on, the filter owns their index and draw range.
@@ -80,12 +83,15 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
     }
   }
 
-  /** The indices of the points that are drawn, without the dimmed ones: a copy, in the order of drawing. */
+  /**
+   * The indices of the points that are drawn, without the dimmed ones: a copy, in the order of drawing. While a
+   * map is drawn, each call tests all points against it.
+   */
   get visible(): Uint32Array {
     return this.drawing.drawnIndices;
   }
 
-  /** How many points are drawn, without the dimmed ones. Before the first answer, this is all points. */
+  /** The length of `visible`. Before the first answer, this is all points. */
   get visibleCount(): number {
     return this.drawing.count;
   }
@@ -106,14 +112,22 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
     }
     return this.view(
       camera,
-      (place, options, signal) => see(cloud, place, options, signal),
+      (place, stage) => see(cloud, place, stage),
       (answer) => {
         if (!this.drawing.drawn.isSame) {
           return undefined;
         }
         const count = this.drawing.answer(camera, answer.indices, this.#settings.inWorker, answer.scores);
         cloud.recycle(answer);
+        this.#count = count;
         return { count };
+      },
+      (texture) => {
+        if (!this.drawing.drawn.isSame) {
+          return undefined;
+        }
+        this.drawing.map(camera, texture);
+        return { count: this.#count };
       },
     );
   }
@@ -153,6 +167,7 @@ export class HiddenPointFilter extends CameraFilter<HiddenPointFilterEvents> {
       },
       use: (cloud) => {
         this.#cloud = cloud;
+        this.#count = cloud.length;
         this.cameras.again(cloud.length, cloud.spacing);
         // If `update` is called in the same task, `ready` waits for the answer.
         queueMicrotask(() => {

@@ -52,7 +52,7 @@ export function readFilterOptions(options: unknown): FilterSettings {
   const view = pick(given, VIEW_OPTIONS);
   viewSettings(view, 3);
   const inWorker = oneOf(given, "worker", [true, false]);
-  const follow = followSettings(given, view, { isLater: inWorker });
+  const follow = followSettings(given, view, { isLater: inWorker, hasShaders: true });
   const dim = oneOf(given, "mode", ["hide", "dim"]) === "dim";
   const hasScores = follow.stages.some((stage) => stage.options.scores === true);
   const threshold = readThreshold(given["threshold"], hasScores);

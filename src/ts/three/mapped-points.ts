@@ -1,0 +1,198 @@
+import {
+  DataTexture,
+  FloatType,
+  type Intersection,
+  Matrix4,
+  type Points,
+  type Raycaster,
+  RedFormat,
+  Vector3,
+  type WebGLRenderer,
+} from "three";
+
+import type { VisibilityMap } from "../cloud/visibility-map.js";
+import { MapMaterial } from "./map-material.js";
+
+const WIDTH = 256;
+/** Rows for a map of the default number of corners. */
+const ROWS = 258;
+const IDENTITY = new Matrix4();
+
+/** The texture of a map. Filters of nodes share one. */
+export class MapTexture {
+  readonly map: VisibilityMap;
+  texture: DataTexture;
+
+  constructor(map: VisibilityMap, before?: MapTexture) {
+    this.map = map;
+    const { data } = map;
+    const kept = before?.texture;
+    const image = kept?.image as { data: Float32Array } | undefined;
+    if (kept !== undefined && image!.data.length >= data.length) {
+      image!.data.set(data);
+      this.texture = kept;
+    } else {
+      kept?.dispose();
+      const numbers = new Float32Array(Math.max(ROWS * WIDTH, data.length));
+      numbers.set(data);
+      this.texture = new DataTexture(numbers, WIDTH, numbers.length / WIDTH, RedFormat, FloatType);
+    }
+    this.texture.needsUpdate = true;
+  }
+
+  /** Whether it hides nothing. */
+  get isEmpty(): boolean {
+    return this.map.data.length === 0;
+  }
+
+  dispose(): void {
+    this.texture.dispose();
+  }
+}
+
+type Drawn = (renderer: WebGLRenderer, ...others: unknown[]) => void;
+
+/**
+ * Points of which the vertex shader leaves out those that a map hides, or those that it does not. The
+ * material is patched, and the map's uniforms are set only while these points are drawn, because
+ * other objects may have the same material.
+ */
+export class MappedPoints {
+  readonly #points: Points;
+  readonly #mode: 1 | -1;
+  #material: MapMaterial | undefined;
+  #patched: unknown;
+  #isRefused = false;
+  #texture: MapTexture | undefined;
+  #matrix: readonly number[] = IDENTITY.elements;
+  #seen: ReturnType<VisibilityMap["seenIn"]> | undefined;
+  #hooks: { before: Drawn; after: Drawn } | undefined;
+  #restore: (() => void) | undefined;
+
+  /** `mode` -1: only hidden points are drawn. */
+  constructor(points: Points, mode: 1 | -1 = 1) {
+    this.#points = points;
+    this.#mode = mode;
+  }
+
+  /** Whether maps can be drawn. Undefined until the points were drawn once. */
+  get isAble(): boolean | undefined {
+    return this.#isRefused ? false : this.#material?.isPatched;
+  }
+
+  /** The map that is drawn. */
+  get map(): VisibilityMap | undefined {
+    return this.#texture?.map;
+  }
+
+  /** Draws with this map, or without one. `matrix` goes from the points' space to the map's. */
+  show(texture: MapTexture | undefined, matrix: readonly number[] = IDENTITY.elements): void {
+    this.#texture = texture;
+    this.#matrix = matrix;
+    this.#seen = texture?.map.seenIn(matrix);
+  }
+
+  /** Patches the material that the points have now. Called in every frame. */
+  follow(): void {
+    const { material } = this.#points;
+    if (material !== this.#patched) {
+      this.#material?.leave();
+      this.#patched = material;
+      this.#isRefused = Array.isArray(material) || !("onBeforeCompile" in material);
+      this.#material = this.#isRefused ? undefined : MapMaterial.of(material as never);
+    }
+    this.#material?.follow();
+    if (this.#points.onBeforeRender !== this.#hooks?.before || this.#points.onAfterRender !== this.#hooks.after) {
+      this.#hook();
+    }
+  }
+
+  /** Everything is as before. */
+  dispose(): void {
+    this.show(undefined);
+    this.#restore?.();
+    this.#material?.leave();
+    this.#material = this.#patched = undefined;
+  }
+
+  #hook(): void {
+    const points = this.#points;
+    const names = ["onBeforeRender", "onAfterRender", "raycast"] as const;
+    const owned = names.map((name) => Object.getOwnPropertyDescriptor(points, name));
+    const [before, after, raycast] = names.map((name) => points[name].bind(points) as (...args: unknown[]) => void);
+    const hooks = {
+      before: (renderer: WebGLRenderer, ...others: unknown[]) => {
+        before!(renderer, ...others);
+        this.#begin(renderer);
+      },
+      after: (renderer: WebGLRenderer, ...others: unknown[]) => {
+        this.#end(renderer);
+        after!(renderer, ...others);
+      },
+    };
+    const pick = (raycaster: Raycaster, found: Intersection[]) => {
+      const first = found.length;
+      raycast!(raycaster, found);
+      if (this.map !== undefined) found.push(...found.splice(first).filter(({ index }) => !this.#hides(index!)));
+    };
+    points.onBeforeRender = hooks.before;
+    points.onAfterRender = hooks.after;
+    points.raycast = pick;
+    this.#hooks = hooks;
+    const own: unknown[] = [hooks.before, hooks.after, pick];
+    const restore = this.#restore;
+    this.#restore = () => {
+      for (const [i, name] of names.entries()) {
+        const was = owned[i];
+        if (points[name] !== own[i]) {
+          continue;
+        }
+        if (was === undefined) {
+          Reflect.deleteProperty(points, name);
+        } else {
+          Object.defineProperty(points, name, was);
+        }
+      }
+      restore?.();
+    };
+  }
+
+  /** Whether the map hides the point with this number. */
+  #hides(index: number): boolean {
+    const { position } = this.#points.geometry.attributes;
+    const at = new Vector3().fromBufferAttribute(position!, index);
+    const place = at.applyMatrix4(new Matrix4().fromArray(this.#matrix));
+    return this.map!.hides([place.x, place.y, place.z])[0] === 1;
+  }
+
+  #begin(renderer: WebGLRenderer): void {
+    if ("isWebGPURenderer" in renderer) {
+      this.#isRefused = true;
+      return;
+    }
+    const [material, texture, seen] = [this.#material, this.#texture, this.#seen];
+    if (material?.isPatched !== true || texture === undefined || seen === undefined || texture.isEmpty) {
+      return;
+    }
+    const { hprMode, hprDepths, hprMargins, hprEye, hprTurn } = material.uniforms;
+    hprMode.value = this.#mode;
+    hprDepths.value = texture.texture;
+    hprMargins.value.fromArray(seen.margins);
+    hprEye.value.fromArray(seen.viewpoint);
+    hprTurn.value.fromArray(seen.turn);
+    again(renderer);
+  }
+
+  #end(renderer: WebGLRenderer): void {
+    const mode = this.#material?.uniforms.hprMode;
+    if (mode !== undefined && mode.value !== 0) {
+      mode.value = 0;
+      again(renderer);
+    }
+  }
+}
+
+/** The renderer sends uniforms only when the program or the material changes. So it must choose the program again. */
+function again(renderer: WebGLRenderer): void {
+  (renderer.state as { useProgram(program: WebGLProgram | null): boolean }).useProgram(null);
+}
