@@ -11,7 +11,7 @@ use glam::DVec3;
 use super::depth::{Window, direction, place, turned};
 use super::dual_plane::Plane;
 use super::memory::Memory;
-use crate::base::allocation::{OutOfMemory, filled};
+use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::real::{floor, larger, smaller, square_root};
 
 /// The largest number of cells along a side of length 1. Then single precision still finds the cell
@@ -40,8 +40,14 @@ impl Memory {
         if !self.holds_hull() {
             return Ok(None);
         }
+        let mut seen = with_capacity(self.hull.vertices.positions.len())?;
+        // The origin comes first, and is on no face that is passed.
+        seen.extend(self.hull.vertices.positions.iter().map(|&q| {
+            let (side, x, y, _) = place(q);
+            (side, [x, y])
+        }));
         let mut sides = [Side::NONE; 6];
-        self.each_face(&mut |side, places, _| sides[side].include(places));
+        self.each_face(&seen, &mut |side, places, _| sides[side].include(places));
         let Some((windows, cells_per_unit)) = grid(&sides, count) else {
             return Ok(None);
         };
@@ -51,24 +57,27 @@ impl Memory {
             cells_per_unit,
             lengths: filled(corners, 0.0)?,
         };
-        self.each_face(&mut |side, places, plane| reaches.fill(side, places, plane));
+        self.each_face(&seen, &mut |side, places, plane| {
+            reaches.fill(side, places, plane);
+        });
         Ok(Some(reaches))
     }
 
-    /// Passes each outer face on each side of the cube that it is on.
-    fn each_face(&self, pass: &mut dyn FnMut(usize, &Places, &Plane)) {
+    /// Passes each outer face on each side of the cube that it is on. `seen`: the side and the place
+    /// of each vertex.
+    #[inline(always)]
+    fn each_face(&self, seen: &[(usize, [f64; 2])], pass: &mut impl FnMut(usize, &Places, &Plane)) {
         let hull = &self.hull;
         for (_, face) in hull.surface.alive() {
             if face.data.is_exact_only() {
                 continue;
             }
-            let corners = face.vertices.map(|vertex| hull.vertices.at(vertex));
-            let found = corners.map(place);
-            let [a, b, c] = found.map(|(side, ..)| side);
+            let [(a, p), (b, q), (c, r)] = face.vertices.map(|vertex| seen[vertex as usize]);
             if a == b && a == c {
-                pass(a, &found.map(|(_, x, y, _)| [x, y]), &face.data);
+                pass(a, &[p, q, r], &face.data);
                 continue;
             }
+            let corners = face.vertices.map(|vertex| hull.vertices.at(vertex));
             for side in 0..6 {
                 if ![a, b, c].contains(&side) {
                     continue;
@@ -167,7 +176,8 @@ impl Reaches {
             let [a, b, c] = [a[axis], b[axis], c[axis]];
             let low = larger(smaller(smaller(a, b), c), -1.0);
             let high = smaller(larger(larger(a, b), c), last as f64);
-            (floor(low) + 1.0, high)
+            // The first whole number above, which is at least 0.
+            ((low + 1.0) as u32 as f64, high)
         };
         let (left, right) = range(0, window.columns);
         let (bottom, top) = range(1, window.rows);

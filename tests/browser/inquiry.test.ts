@@ -66,12 +66,16 @@ class Scene {
       spacing: 1,
       visibleFrom: (_: unknown, { kind, signal, draft }: { kind: string; signal: AbortSignal; draft?: boolean }) =>
         ask(draft ? "draft" : kind, signal),
+      visibleFromAny: (_: unknown, { kind, signal, draft }: { kind: string; signal: AbortSignal; draft?: boolean }) =>
+        ask(draft ? "draft" : kind, signal),
+      visibilityMap: () => ask("map", new AbortController().signal),
       reconstruct: (_: unknown, { signal }: { signal: AbortSignal }) => ask("surface", signal),
       autoRadius: () => Promise.resolve({ exponent: 1 }),
       dispose: () => Promise.resolve((this.disposed += 1)),
     };
     const options = ({ looks }: { looks: number }) => Promise.resolve({ kind: looks > 0 ? "looks" : "operator" });
-    return { points, center: [0, 0, 0], options } as unknown as WorkerCloud;
+    const ring = () => Promise.resolve([]);
+    return { points, center: [0, 0, 0], options, ring } as unknown as WorkerCloud;
   }
 
   flush = () => new Promise((resolve) => setImmediate(resolve));
@@ -109,9 +113,9 @@ class Scene {
   }
 }
 
-test("a view is answered by a draft, one hull and looks; while it moves, only by drafts", async () => {
+test("the first view is answered by a draft, one hull and looks; a move by maps, and by looks at rest", async () => {
   const scene = await Scene.of(100_000);
-  expect([scene.asked.splice(0)[0]!.kind, ...(await scene.kinds(0))]).toEqual(["draft", "operator", "looks"]);
+  expect([scene.asked.splice(0)[0]!.kind, ...(await scene.kinds(0))]).toEqual(["draft", "operator", "looks", "map"]);
   expect(scene.inquiry.busy).toBe(false);
   const moving = [];
   for (let x = 1; x < 4; x++) {
@@ -119,9 +123,24 @@ test("a view is answered by a draft, one hull and looks; while it moves, only by
     expect(scene.inquiry.busy).toBe(true);
     moving.push(...(await scene.kinds(9)));
   }
-  expect(moving).toEqual(["draft", "draft", "draft"]);
-  expect(await scene.kinds(40)).toEqual(["operator"]);
+  expect(moving).toEqual(["map", "map", "map"]);
+  expect(await scene.kinds(40)).toEqual([]);
   expect(await scene.kinds(250)).toEqual(["looks"]);
+});
+
+test("what a map cannot tell is answered by drafts while the view moves", async () => {
+  for (const settings of [
+    { vote: 8 },
+    { denoise: 8 },
+    { viewpoints: "any" },
+    { looks: 0, radius: { rule: "search" } },
+  ] as const) {
+    const scene = await Scene.of(100_000, settings);
+    scene.asked.length = 0;
+    await scene.kinds(250);
+    await scene.move(1);
+    expect((await scene.kinds(9))[0], JSON.stringify(settings)).toBe("draft");
+  }
 });
 
 test("a small cloud has no drafts, and a surface neither drafts nor looks", async () => {
@@ -156,9 +175,9 @@ test("a later stage is given up when the view moves on, and the first one never"
   expect(hull!.signal.aborted).toBe(true);
   hull!.refuse(new DOMException("moved on", "AbortError"));
   await scene.follow();
-  const [draft] = scene.asked.splice(0);
+  const [map] = scene.asked.splice(0);
   await scene.move(2);
-  expect([draft!.kind, draft!.signal.aborted, scene.errors]).toEqual(["draft", false, []]);
+  expect([map!.kind, map!.signal.aborted, scene.errors]).toEqual(["map", false, []]);
 });
 
 test("a refused question is not asked again", async () => {

@@ -17,6 +17,6 @@ import { wasmBytes } from "./support";
 // save 3.7 kB. The pose of a camera, and whether it is the wrong way round, cost 2 kB together (0.7 kB gzipped). To sort the faces of a hole would cost 1.6 kB.
 it("the wasm stays small", () => {
   const bytes = wasmBytes();
-  expect(bytes.length).toBeLessThanOrEqual(352_000);
-  expect(gzipSync(bytes, { level: 9 }).length).toBeLessThanOrEqual(156_000);
+  expect(bytes.length).toBeLessThanOrEqual(357_000);
+  expect(gzipSync(bytes, { level: 9 }).length).toBeLessThanOrEqual(158_000);
 });

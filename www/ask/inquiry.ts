@@ -1,11 +1,17 @@
-import { HprError } from "hidden-point-removal";
-import { type AskedStage, Follower, Refinement, type Round, type Stage } from "hidden-point-removal/worker";
+import { HprError, type VisibilityMap } from "hidden-point-removal";
+import {
+  type AnswerKind,
+  type AskedStage,
+  Follower,
+  Refinement,
+  type Round,
+  type Stage,
+} from "hidden-point-removal/worker";
 import type { Cloud } from "../cloud/cloud.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import { askLight, type LightAnswer } from "./lights.ts";
 import { Overtaken } from "./overtaken.ts";
 import {
-  type AnswerKind,
   isAutomatic,
   isSameLight,
   isSamePlace,
@@ -14,6 +20,7 @@ import {
   isSlow,
   kindOf,
   type LightQuestion,
+  mappedStagesOf,
   type Method,
   operatorOf,
   quickLight,
@@ -23,11 +30,11 @@ import {
 } from "./question.ts";
 import { Rest } from "./rest.ts";
 import { SecondCloud } from "./second-cloud.ts";
-import { askView, type ViewAnswer } from "./views.ts";
+import { askMap, askView, type ViewAnswer } from "./views.ts";
 import type { WorkerCloud } from "./worker-cloud.ts";
 
 export interface TimedView extends ViewAnswer {
-  kind: AnswerKind;
+  kind: Exclude<AnswerKind, "map">;
   /** Whether the automatic radius replaces one that takes longer, because something moves. */
   quick: boolean;
   /** The time of the question (performance.now), and how long the answer took, without the time of waiting. */
@@ -45,7 +52,14 @@ export interface Detail {
   answer: TimedView;
 }
 
-/** Below this number of points, one hull takes about as long as a frame, so nobody waits for a draft. */
+/** A map, and the viewpoint that was asked about. */
+export interface Mapped {
+  map: VisibilityMap;
+  viewpoint: Viewpoint;
+  milliseconds: number;
+}
+
+/** Below this number of points, one hull takes about as long as a frame, so nobody waits for a map or a draft. */
 const DRAFTS_FROM = 50_000;
 /** After a draft, one hull is asked if the viewpoint has not moved for this number of milliseconds. */
 const PAUSE = 40;
@@ -62,6 +76,8 @@ const LOOKS_ASIDE_FROM = 200_000;
  */
 export class Inquiry {
   onView: (answer: TimedView) => void = () => undefined;
+  /** A map stands in for the answer, until the viewpoint rests. */
+  onMap: (mapped: Mapped) => void = () => undefined;
   /** `null`: there are no lights. */
   onLight: (answer: LightAnswer | null) => void = () => undefined;
   /** The exponent of the automatic radius at the viewpoint's last rest. */
@@ -121,6 +137,7 @@ export class Inquiry {
   #lamps: Settings["lights"] | null = null;
   readonly #lampsRest = new Rest(REST);
   #freeSince = 0;
+  #hasMaps = false;
   #upToDate = false;
 
   /** `another` makes a second copy of the cloud, for slow questions. */
@@ -220,7 +237,7 @@ export class Inquiry {
   }
 
   dispose(): void {
-    this.onView = this.onLight = this.onAutomatic = this.onError = () => undefined;
+    this.onMap = this.onView = this.onLight = this.onAutomatic = this.onError = () => undefined;
     this.#refinement.stop();
     this.#viewFollower.stop();
     this.#lightFollower.stop();
@@ -234,11 +251,13 @@ export class Inquiry {
   }
 
   get #stages(): Stage<ViewQuestion>[] {
-    const drafts = this.cloud.points.length >= DRAFTS_FROM;
-    return stagesOf(this.#wanted!, drafts).map((question, number) => ({
+    const isLarge = this.cloud.points.length >= DRAFTS_FROM;
+    // The first answer is awaited, so it has to be one.
+    const mapped = isLarge && this.#answered !== null ? mappedStagesOf(this.#wanted!) : null;
+    return (mapped ?? stagesOf(this.#wanted!, isLarge)).map((question, number) => ({
       kind: kindOf(question),
       options: question,
-      rest: isSlow(question.method) ? REST : number > 0 ? PAUSE : 0,
+      rest: question.map ? 0 : mapped !== null || isSlow(question.method) ? REST : number > 0 ? PAUSE : 0,
     }));
   }
 
@@ -264,7 +283,7 @@ export class Inquiry {
     if (reached >= 0) return reached + 1;
     // A draft, or another radius, would show points that the picture no longer has.
     if (isSearched(this.#wanted!.method)) return stages.length - 1;
-    const next = stages.findIndex(({ kind }) => kind !== "draft");
+    const next = stages.findIndex(({ kind }) => kind !== "draft" && kind !== "map");
     const isKnown = this.#hull !== null && numberOf(this.#hull.question) === next;
     return isKnown ? Math.min(next + 1, stages.length - 1) : next;
   }
@@ -285,14 +304,40 @@ export class Inquiry {
   }
 
   #viewRound(): Round | undefined {
-    if (!this.#refinement.due) return undefined;
+    const { due } = this.#refinement;
+    if (!due) return undefined;
+    if (due.kind === "map") return this.#mapRound();
     return this.#asking(async (stage) => {
       const view = await this.#ask(stage);
       this.onView(view);
       this.#viewFollower.answered();
-      if (isSameView(view.question, this.#wanted!, this.#size)) await this.findAutomatic();
+      if (isSameView(view.question, this.#wanted!, this.#size)) {
+        this.#prepareMaps(view.question);
+        await this.findAutomatic();
+      }
       return view;
     });
+  }
+
+  /** The first map of a cloud takes longer, so it is made before the camera moves. */
+  #prepareMaps(question: ViewQuestion): void {
+    if (this.#hasMaps || this.cloud.points.length < DRAFTS_FROM || mappedStagesOf(question) === null) return;
+    this.#hasMaps = true;
+    // If it is refused, the first move says why.
+    askMap(this.cloud, question).catch(() => undefined);
+  }
+
+  #mapRound(): Round {
+    return this.#refinement.round(
+      async ({ options: question }) => {
+        const begun = performance.now();
+        const map = await askMap(this.cloud, question);
+        this.#noteFree(this.cloud);
+        this.onMap({ map, viewpoint: question.viewpoint, milliseconds: performance.now() - begun });
+        this.#viewFollower.answered();
+      },
+      () => undefined,
+    );
   }
 
   #asking(ask: (stage: AskedStage<ViewQuestion>) => Promise<TimedView>): Round<TimedView> {
@@ -363,7 +408,8 @@ export class Inquiry {
     this.#answered = question;
     const wanted = this.#wanted!.method;
     const quick = isSearched(wanted) && !isSearched(question.method);
-    const view = { ...answer, kind: kindOf(question), quick, asked, milliseconds: performance.now() - begun };
+    const kind = kindOf(question) as TimedView["kind"];
+    const view = { ...answer, kind, quick, asked, milliseconds: performance.now() - begun };
     if (view.kind === "operator") this.#hull = view;
     return this.told(view);
   }

@@ -1,3 +1,4 @@
+import type { AnswerKind } from "hidden-point-removal/worker";
 import {
   canLook,
   type Inversion,
@@ -29,10 +30,9 @@ export interface ViewQuestion {
   shape: Shape;
   /** Asks for an early answer, which also has some hidden points. */
   draft?: boolean;
+  /** Asks for a map of directions, by which the graphics card leaves out hidden points. */
+  map?: boolean;
 }
-
-/** The kinds of answers, in the order in which they come for one viewpoint. */
-export type AnswerKind = "draft" | "operator" | "looks";
 
 /** The question of what the lights reach. */
 export interface LightQuestion {
@@ -61,7 +61,8 @@ export function viewOf(viewpoint: Viewpoint, settings: Settings): ViewQuestion {
     : { viewpoint, method, shape };
 }
 
-export function kindOf({ draft, method }: ViewQuestion): AnswerKind {
+export function kindOf({ draft, map, method }: ViewQuestion): AnswerKind {
+  if (map) return "map";
   if (draft) return "draft";
   return method.looks > 0 ? "looks" : "operator";
 }
@@ -78,6 +79,17 @@ export function stagesOf(final: ViewQuestion, drafts: boolean): ViewQuestion[] {
   const operator = isSlow(final.method) ? { ...final, method: quickMethod(final.method) } : final;
   const first = drafts && final.shape.kind === "points" ? [{ ...operator, draft: true }] : [];
   return [...first, operator, ...(operator === final ? [] : [final])];
+}
+
+/**
+ * The questions while the camera moves: a map for each frame, and at rest the final answer. Null if a map cannot tell what
+ * the final answer hides.
+ */
+export function mappedStagesOf(final: ViewQuestion): ViewQuestion[] | null {
+  const { method, shape } = final;
+  const isOne = shape.kind === "points" && shape.viewpoints === "one";
+  const hasMap = isOne && method.vote === 0 && method.denoise === 0 && !isSearched(method);
+  return hasMap ? [{ ...final, map: true }, final] : null;
 }
 
 /*
@@ -122,6 +134,7 @@ export function isSameView(a: ViewQuestion, b: ViewQuestion, size: number): bool
   return (
     isSamePlace(a.viewpoint, b.viewpoint, size) &&
     a.draft === b.draft &&
+    a.map === b.map &&
     textOf([a.method, a.shape]) === textOf([b.method, b.shape])
   );
 }

@@ -1,4 +1,4 @@
-import { HprError, type Visibility, type VisibilityOptions } from "hidden-point-removal";
+import { HprError, type Visibility, type VisibilityMap, type VisibilityOptions } from "hidden-point-removal";
 import type { RequestOptions } from "hidden-point-removal/worker";
 import { USUAL_EDGE } from "../settings/settings.ts";
 import type { ViewQuestion } from "./question.ts";
@@ -25,6 +25,15 @@ export async function askView(cloud: WorkerCloud, question: ViewQuestion, signal
     (options) => see(cloud, question, { ...options, signal }),
   );
   return { question, ...value, note };
+}
+
+/** A map for a viewpoint, with positions relative to the middle of the cloud. */
+export async function askMap(cloud: WorkerCloud, { viewpoint, method }: ViewQuestion): Promise<VisibilityMap> {
+  const { value } = await orUsual(
+    () => cloud.options(method, viewpoint),
+    (options) => cloud.points.visibilityMap(viewpoint, { ...options, origin: cloud.center }),
+  );
+  return value;
 }
 
 /** Runs `ask` with the options. If these are refused, runs it without options, and says why. */

@@ -1,5 +1,5 @@
 import { SETTINGS } from "../settings/table.ts";
-import type { TimedView } from "../ask/inquiry.ts";
+import type { Mapped, TimedView } from "../ask/inquiry.ts";
 import { byId } from "../controls/dom.ts";
 import { sentenceOf } from "../view/sentence.ts";
 
@@ -78,6 +78,17 @@ export class Status {
     this.#element.dataset["state"] = "ready";
     this.#last = { ...answer, total };
     this.describe(frozen);
+  }
+
+  /** A map is drawn. The numbers of the last answer stay. */
+  map({ viewpoint, milliseconds }: Mapped): void {
+    this.#refilters++;
+    Object.assign(this.#element.dataset, {
+      answer: "map",
+      viewpoint: String(viewpoint),
+      milliseconds: String(milliseconds),
+      refilters: String(this.#refilters),
+    });
   }
 
   /** Sets the number of lights. */

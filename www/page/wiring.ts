@@ -66,6 +66,9 @@ export function wire({
     status.answer(answer, total, store.current.freeze !== null);
     notices.tell(answer.note);
   };
+  viewer.onMap = (mapped) => {
+    status.map(mapped);
+  };
   viewer.onLight = (light) => {
     status.lit(light?.question.lights.length ?? 0);
     if (light?.note) notices.tell(light.note);

@@ -1,3 +1,4 @@
+import { VisibilityMap } from "hidden-point-removal";
 import { TINT_SHADER } from "./attributes.ts";
 
 /** The greatest width of a point in device pixels. A wider point would cover the view. */
@@ -13,15 +14,14 @@ export const vertexShader = /* glsl */ `
   uniform float least;
   uniform vec3 cover;
   uniform float coverage;
-  /* Of all points, an even share from x to y is drawn. */
-  uniform vec2 share;
+  /* 0: all points are drawn. 1: those that the map does not hide. -1: those that it hides. */
+  uniform float byMap;
+  ${VisibilityMap.prototype.glsl}
   varying vec3 tint;
   varying float size;
 
   void main() {
-    // The golden ratio spreads neighbors in the file evenly over the numbers from 0 to 1.
-    float lot = float((uint(gl_VertexID) * 2654435769u) >> 8u) / 16777216.0;
-    if (lot < share.x || lot >= share.y) {
+    if (byMap != 0.0 && (byMap > 0.0) == hidden(position)) {
       gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
       gl_PointSize = 0.0;
       return;

@@ -2,17 +2,22 @@ import {
   BufferAttribute,
   BufferGeometry,
   Color,
+  DataTexture,
   DynamicDrawUsage,
+  FloatType,
   Group,
   Points,
+  RedFormat,
   ShaderMaterial,
   Vector2,
+  Vector3,
+  Vector4,
 } from "three";
+import type { VisibilityMap } from "hidden-point-removal";
 import type { Cloud } from "../cloud/cloud.ts";
 import type { Parts } from "./parts.ts";
 import type { HiddenMode } from "../settings/settings.ts";
 import { type CloudAttributes, display } from "./attributes.ts";
-import { changeOf } from "./difference.ts";
 import { EVERYWHERE, fragmentShader, vertexShader } from "./point-shaders.ts";
 import type { Theme } from "./theme.ts";
 
@@ -32,8 +37,7 @@ type Draw = Points<BufferGeometry, ShaderMaterial>;
  *      index   [ visible …… | hidden …………… ]
  *                solid ────   ghost ───────
  *
- * While one answer fades into the next one, the visible points that are new are a draw of their own, `coming`. The points
- * that are no longer visible are `going`, with their own index.
+ * While the camera moves, both draw all points without an index, and the vertex shader leaves out points by a map.
  *
  * Beside a reference the draws are the parts of `Parts`: points that both see are drawn everywhere, the others on one side.
  */
@@ -44,12 +48,8 @@ export class CloudPoints {
   readonly extra: Draw;
   /** The other differences between our answer and the reference. */
   readonly different = new Group();
-  /** The change from the last answer to this one; see `setFade`. */
-  readonly changing = new Group();
   /** All points, whatever the answer is, as any viewer shows them. */
   readonly all: Draw;
-  readonly #coming: Draw;
-  readonly #going: Draw;
   /** Points that only the reference shows; a part of `different`. */
   readonly #missing: Draw;
   readonly #order: BufferAttribute;
@@ -61,6 +61,12 @@ export class CloudPoints {
   #dimmed = false;
   #width = 0;
   #visible: Uint32Array = new Uint32Array();
+  /** The uniforms of a map, shared by all draws. */
+  readonly #map = {
+    hprDepths: { value: null as DataTexture | null },
+    hprViewpoint: { value: new Vector3() },
+    hprMargins: { value: new Vector4() },
+  };
   #hiddenListed = true;
   /** Whether `ghost` and `extra` are drawn through the other points: as specks, so that both can be seen. */
   #throughOthers = true;
@@ -90,7 +96,8 @@ export class CloudPoints {
           cover: { value: new Color() },
           coverage: { value: coverage },
           between: { value: new Vector2(0, EVERYWHERE) },
-          share: { value: new Vector2(0, 1) },
+          byMap: { value: 0 },
+          ...this.#map,
         },
       });
       const points = new Points(geometry, material);
@@ -106,11 +113,7 @@ export class CloudPoints {
     this.extra.visible = this.different.visible = false;
     this.#parts = [this.solid, this.extra, missing, outside, this.ghost];
     this.all = draw(0, null);
-    this.#coming = draw(0);
-    this.#going = draw(0, new BufferAttribute(new Uint32Array(), 1));
-    this.changing.add(this.#coming, this.#going);
-    this.changing.visible = false;
-    this.#draws = [...this.#parts, this.all, this.#coming, this.#going];
+    this.#draws = [...this.#parts, this.all];
     for (const each of this.#draws) {
       each.onBeforeRender = (renderer, _scene, camera) => {
         const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
@@ -127,43 +130,38 @@ export class CloudPoints {
     this.show("off", false);
   }
 
-  /**
-   * The answer for a viewpoint: ascending indices of the visible points. `fades`: the picture changes into it bit by
-   * bit, as `setFade` says.
-   */
-  setVisible(indices: Uint32Array, fades = false): void {
-    const before = this.#visible;
+  /** The answer for a viewpoint: ascending indices of the visible points. */
+  setVisible(indices: Uint32Array): void {
     this.#visible = indices;
     this.#order.clearUpdateRanges();
-    const order = this.#order.array as Uint32Array;
-    let kept = indices.length;
-    if (fades) {
-      const change = changeOf(before, indices, order);
-      kept = change.kept;
-      this.#coming.geometry.setDrawRange(kept, indices.length - kept);
-      this.#going.geometry.setIndex(new BufferAttribute(change.going, 1));
-    } else {
-      order.set(indices);
-    }
-    this.changing.visible = fades;
-    this.setFade(0);
+    (this.#order.array as Uint32Array).set(indices);
     this.#upload(0, indices.length);
     this.extra.visible = this.different.visible = false;
+    this.#drawBy(0);
     this.#setRanges([indices.length, indices.length, indices.length, indices.length]);
-    this.solid.geometry.setDrawRange(0, kept);
     this.#hiddenListed = false;
     if (this.ghost.visible) this.#listHidden();
   }
 
-  /** How much of the change from the last answer is done, from 0 to 1: this share of the points has changed already. */
-  setFade(done: number): void {
-    if (!this.changing.visible) return;
-    (this.#coming.material.uniforms["share"]!.value as Vector2).set(0, done);
-    (this.#going.material.uniforms["share"]!.value as Vector2).set(done, 1);
-    if (done < 1) return;
-    this.changing.visible = false;
-    this.#going.geometry.setIndex(new BufferAttribute(new Uint32Array(), 1));
-    this.solid.geometry.setDrawRange(0, this.#visible.length);
+  /** Leaves out points by a map, until the next answer. Its positions are relative to the middle of the cloud. */
+  setMap({ data, uniforms }: VisibilityMap): void {
+    this.#map.hprDepths.value?.dispose();
+    const isEmpty = data.length === 0;
+    const texture = isEmpty ? null : new DataTexture(data, 256, data.length / 256, RedFormat, FloatType);
+    if (texture !== null) texture.needsUpdate = true;
+    this.#map.hprDepths.value = texture;
+    this.#map.hprViewpoint.value.fromArray(uniforms.hprViewpoint);
+    this.#map.hprMargins.value.fromArray(uniforms.hprMargins);
+    this.#drawBy(isEmpty ? 0 : 1, null);
+    for (const { geometry } of [this.solid, this.ghost]) geometry.setDrawRange(0, this.#order.count);
+    if (isEmpty) this.ghost.geometry.setDrawRange(0, 0);
+  }
+
+  #drawBy(mode: 0 | 1, order: BufferAttribute | null = this.#order): void {
+    for (const draw of [this.solid, this.ghost]) {
+      draw.geometry.setIndex(order);
+      draw.material.uniforms["byMap"]!.value = draw === this.solid ? mode : -mode;
+    }
   }
 
   #listHidden(): void {
@@ -195,7 +193,7 @@ export class CloudPoints {
     this.#hiddenListed = true;
     this.#fill = fill;
     this.extra.visible = this.different.visible = true;
-    this.changing.visible = false;
+    this.#drawBy(0);
     this.#setRanges(ends);
   }
 
@@ -245,6 +243,7 @@ export class CloudPoints {
   }
 
   dispose(): void {
+    this.#map.hprDepths.value?.dispose();
     for (const { geometry, material } of this.#draws) {
       geometry.dispose();
       material.dispose();

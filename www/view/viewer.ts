@@ -1,14 +1,13 @@
 import { Matrix4, Quaternion } from "three";
 import type { LightAnswer } from "../ask/lights.ts";
 import { isSamePlace } from "../ask/question.ts";
-import type { Detail, Inquiry, TimedView } from "../ask/inquiry.ts";
+import type { Detail, Inquiry, Mapped, TimedView } from "../ask/inquiry.ts";
 import type { Attribute, Cloud, Up } from "../cloud/cloud.ts";
 import type { Parts } from "./parts.ts";
 import type { KnownSurface } from "../samples/samples.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import type { Store } from "../settings/store.ts";
 import { CloudAttributes } from "./attributes.ts";
-import { Change } from "./change.ts";
 import { colorBy, type Legend } from "./colors.ts";
 import { type Home, inFile, inLocal } from "./framing.ts";
 import { ViewpointMarker } from "./marker.ts";
@@ -36,8 +35,11 @@ export interface Opened {
 type Shown = Opened & {
   attributes: CloudAttributes;
   points: CloudPoints;
-  change: Change;
   mesh: Surface;
+  /** The viewpoint whose points are drawn: that of the answer, or that of a map. */
+  from: Viewpoint;
+  /** The viewpoint of the frame before. */
+  before: Viewpoint;
   /** The direction of the frozen viewpoint. */
   frozen: Quaternion | null;
 };
@@ -47,6 +49,7 @@ export class Viewer {
   readonly stage: Stage;
   readonly navigation: Navigation;
   onAnswer: (answer: TimedView, total: number) => void = () => undefined;
+  onMap: (mapped: Mapped) => void = () => undefined;
   onLight: (answer: LightAnswer | null) => void = () => undefined;
   onAutomatic: (exponent: number) => void = () => undefined;
   onError: (error: unknown) => void = () => undefined;
@@ -219,13 +222,20 @@ export class Viewer {
     const attributes = new CloudAttributes(cloud, this.#theme);
     const points = new CloudPoints(cloud, attributes, this.#theme);
     const mesh = new Surface(attributes, this.#theme);
-    const change = new Change(this.stage, points);
-    const shown: Shown = { ...opened, attributes, points, change, mesh, frozen: null };
+    const from = opened.answer.question.viewpoint;
+    const shown: Shown = { ...opened, attributes, points, mesh, from, before: from, frozen: null };
     inquiry.onView = (next) => {
       // Its answer may come while other points are shown instead.
       if (this.#shown !== shown) return;
       this.#showAnswer(next);
       this.onAnswer(next, next.whole?.total ?? cloud.count);
+    };
+    inquiry.onMap = (mapped) => {
+      if (this.#shown !== shown || this.#compared) return;
+      shown.from = mapped.viewpoint;
+      points.setMap(mapped.map);
+      this.stage.invalidate();
+      this.onMap(mapped);
     };
     inquiry.onLight = (light) => {
       if (this.#shown !== shown) return;
@@ -245,7 +255,7 @@ export class Viewer {
 
   /** Brings a cloud into the picture. `place` may move the camera. */
   #enter({ points, mesh }: Shown, place: () => void): void {
-    this.stage.points.add(points.solid, points.different, points.changing, mesh.mesh);
+    this.stage.points.add(points.solid, points.different, mesh.mesh);
     this.stage.all.add(points.all);
     place();
     this.#applyLook(this.#store.current);
@@ -349,10 +359,12 @@ export class Viewer {
     const viewpoint = settings.freeze ?? this.viewpoint;
     // A new cloud is drawn before anything more is asked: the worker would take the drawing's time.
     if (!this.#isNew) this.#shown.inquiry.follow(viewpoint, settings);
-    const { inquiry, change, cloud } = this.#shown;
-    // A surface closes the picture itself.
-    change.follow(this.#surfaceShown || isSamePlace(this.#shown.answer.question.viewpoint, viewpoint, cloud.radius));
-    this.#isFinal = !inquiry.busy && change.isOver;
+    const { inquiry, cloud, from, before } = this.#shown;
+    this.#shown.before = viewpoint;
+    // From another place, the visible points leave a gap like a shadow. A surface closes the picture itself.
+    const isHere = isSamePlace(from, viewpoint, cloud.radius) || isStandIn(cloud, from, before);
+    this.stage.setAll({ opacity: this.#surfaceShown || isHere ? 0 : 1 });
+    this.#isFinal = !inquiry.busy;
     this.onBusy(!this.#isFinal);
   }
 
@@ -363,10 +375,11 @@ export class Viewer {
 
   #showAnswer(answer: TimedView): void {
     const { visibility, triangles, question } = answer;
-    const { change, mesh, cloud, answer: before } = this.#shown!;
+    const { points, mesh } = this.#shown!;
     this.#shown!.answer = answer;
-    const fades = answer !== before && isSamePlace(question.viewpoint, before.question.viewpoint, cloud.radius);
-    if (!this.#compared) change.show(visibility.indices, fades);
+    this.#shown!.from = question.viewpoint;
+    if (!this.#compared) points.setVisible(visibility.indices);
+    this.stage.invalidate();
     // A draft has too many points rather than too few, and it has to be drawn fast.
     this.stage.setClosingGaps(answer.kind !== "draft");
     mesh.setTriangles(triangles);
@@ -379,7 +392,6 @@ export class Viewer {
     this.#surfaceShown = answer.triangles !== null && !this.#compared;
     mesh.mesh.visible = this.#surfaceShown;
     points.solid.visible = !this.#surfaceShown;
-    if (this.#surfaceShown) points.changing.visible = false;
     this.#setShading();
   }
 
@@ -441,6 +453,15 @@ export class Viewer {
 
 /** Takes a cloud out of the picture. */
 function remove({ points, mesh }: Shown): void {
-  const { solid, different, changing, extra, ghost, all } = points;
-  for (const drawn of [solid, different, changing, extra, ghost, all, mesh.mesh]) drawn.removeFromParent();
+  const { solid, different, extra, ghost, all } = points;
+  for (const drawn of [solid, different, extra, ghost, all, mesh.mesh]) drawn.removeFromParent();
+}
+
+/** The cosine of the angle, seen from the middle of the cloud, up to which one place may stand in for another. */
+const STAND_IN = Math.cos((2 * Math.PI) / 180);
+
+/** Whether what one place sees may be drawn for another for a moment. */
+function isStandIn(cloud: Cloud, from: Viewpoint, here: Viewpoint): boolean {
+  const [a, b] = [inLocal(cloud, from), inLocal(cloud, here)];
+  return a.dot(b) >= STAND_IN * a.length() * b.length();
 }

@@ -41,7 +41,7 @@ fn scales_of(count: usize, tuning: &Tuning) -> [f64; 3] {
     scales
 }
 
-/// The flip of the last look from a viewpoint, how far behind the surface before it a point may be,
+/// The flip of the last look from a viewpoint, with a scale that is `larger` by this factor, how far behind the surface before it a point may be,
 /// and the farthest distance. Points that were denoised may be a few standard deviations off.
 #[inline(never)]
 pub(crate) fn loosest_look(
@@ -50,6 +50,7 @@ pub(crate) fn loosest_look(
     viewpoint: [f64; 3],
     count: usize,
     thickness: Option<f64>,
+    larger: f64,
 ) -> Result<(Flip, f64, f64), Error> {
     const DEVIATIONS: f64 = 4.0;
     check_viewpoint(viewpoint)?;
@@ -57,7 +58,7 @@ pub(crate) fn loosest_look(
     let farthest = cloud.blocks.farthest_distance(points, viewpoint)?;
     let projection = Projection::Perspective(viewpoint);
     let tuning = Tuning::of(projection, cloud, survey, thickness, farthest)?;
-    let scale = tuning.scales[place(count, count - 1)];
+    let scale = larger * tuning.scales[place(count, count - 1)];
     let kernel = tuning.kernel(scale, farthest);
     let mut behind = tuning.thickness;
     if survey.is_some() && thickness.is_none() {

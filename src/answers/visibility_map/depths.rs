@@ -11,6 +11,9 @@
 //!
 //! Together ρ ≥ Σλᵢ(ρᵢ·(1 − h²/4) − S), where S is the sum of the last two. The distance is convex in
 //! the reach. So its interpolation, made with the largest S around each corner, is a bound.
+//!
+//! Where M is much larger than m, S is larger than m, and nothing is left. But ρ ≥ m·(1 − h²/4) as
+//! well: there, all four corners take the distance of m.
 
 use super::hides::VisibilityMap;
 use crate::base::allocation::{OutOfMemory, filled};
@@ -22,6 +25,8 @@ use crate::hull::{Reaches, Window};
 const NOWHERE: f32 = 1e30;
 /// The least distance in a map. Single precision may flush a smaller one to 0.
 const LEAST: f64 = 1e-30;
+/// The share of the least reach of a cell that its interpolation may lose.
+const MOST_LOST: f64 = 0.5;
 /// The rounding to single precision, upwards.
 const UP: f64 = 1.0 + 2.4e-7;
 
@@ -36,41 +41,48 @@ impl VisibilityMap {
         let lengths = &reaches.lengths;
         let cell = 1.0 / reaches.cells_per_unit;
         let mut slack = filled(lengths.len(), 0.0)?;
+        let mut most = filled(lengths.len(), f64::INFINITY)?;
         for window in &reaches.windows {
-            raise(window, cell, lengths, &mut slack);
+            bound(window, cell, lengths, &mut slack, &mut most);
         }
         let shrink = 1.0 - 0.25 * cell * cell;
-        let distance = |(&length, slack): (&f64, f64)| {
+        let distance = |((&length, slack), most): ((&f64, f64), f64)| {
             if length > 0.0 {
-                let distance = flip.distance_at(length * shrink - slack) + thickness;
+                let reach = smaller(length * shrink - slack, most * shrink);
+                let distance = flip.distance_at(reach) + thickness;
                 if distance < f64::from(NOWHERE) {
                     return (larger(distance, LEAST) * UP) as f32;
                 }
             }
             NOWHERE
         };
-        self.set(reaches, lengths.iter().zip(slack).map(distance))
+        let distances = lengths.iter().zip(slack).zip(most).map(distance);
+        self.set(reaches, distances)
     }
 }
 
-/// Raises the slack of all corners of a window to those of their cells.
-fn raise(window: &Window, cell: f64, lengths: &[f64], slack: &mut [f64]) {
+/// For all corners of a window, raises what their reaches lose, or lowers what they may be at most.
+fn bound(window: &Window, cell: f64, lengths: &[f64], slack: &mut [f64], most: &mut [f64]) {
     let across = window.columns + 1;
     for row in 0..window.rows {
         for column in 0..window.columns {
             let low = window.first + row * across + column;
             let corners = [low, low + 1, low + across, low + across + 1];
-            let [mut least, mut most] = [f64::INFINITY, 0.0];
+            let [mut m, mut above] = [f64::INFINITY, 0.0];
             for corner in corners {
-                least = smaller(least, lengths[corner]);
-                most = larger(most, lengths[corner]);
+                m = smaller(m, lengths[corner]);
+                above = larger(above, lengths[corner]);
             }
             // A cell with an unknown corner hides nothing.
-            if least > 0.0 {
-                let roots = square_root(most) - square_root(least);
-                let lost = (roots * roots + 0.708 * cell * (most - least)) * (1.0 + 1e-12);
+            if m > 0.0 {
+                let roots = square_root(above) - square_root(m);
+                let lost = (roots * roots + 0.708 * cell * (above - m)) * (1.0 + 1e-12);
                 for corner in corners {
-                    slack[corner] = larger(slack[corner], lost);
+                    if lost < MOST_LOST * m {
+                        slack[corner] = larger(slack[corner], lost);
+                    } else {
+                        most[corner] = smaller(most[corner], m);
+                    }
                 }
             }
         }

@@ -2,6 +2,7 @@
 
 use super::hides::VisibilityMap;
 use super::pool::Pool;
+use super::tuned::Tuned;
 use crate::hull::Memory;
 
 /// What the last map of a cloud leaves for the next one.
@@ -10,4 +11,5 @@ pub(crate) struct MapMemory {
     pub(super) hull: Memory,
     pub(super) pool: Option<Pool>,
     pub(super) last: Option<VisibilityMap>,
+    pub(super) tuned: Option<Tuned>,
 }

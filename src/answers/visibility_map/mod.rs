@@ -12,6 +12,7 @@ mod hides;
 pub(crate) mod kept;
 mod options;
 mod pool;
+mod tuned;
 
 use crate::answers::looks::loosest_look;
 use crate::answers::memory::ViewMemory;
@@ -33,13 +34,22 @@ use pool::Pool;
 /// Distances in a map are between the first number and the last one, in the cloud's units.
 const UNITS: core::ops::Range<f64> = 1e-15..1e15;
 
+/// What a map is asked about. Points may have been `moved` so far.
+struct Asked<'a> {
+    viewpoint: [f64; 3],
+    options: &'a Options,
+    map: &'a MapOptions,
+    origin: [f64; 3],
+    moved: f64,
+}
+
 impl PointCloud {
     /// A map that shows which points are certainly hidden from `viewpoint`: cheap to make, and
     /// cheap to ask for any number of points.
     ///
     /// It never hides a point that [`PointCloud::visible_from`] shows with the same options, except
-    /// with [`Inversion::Looks`](crate::Inversion::Looks): there it hides what the loosest look
-    /// hides, beyond the thickness. It shows all visible points and some hidden ones. An
+    /// with [`Inversion::Looks`](crate::Inversion::Looks): there it is tuned so that it hides hardly
+    /// any point that the looks show. It shows all visible points and some hidden ones. An
     /// [`Observer`](crate::Observer) makes better maps from the last one.
     ///
     /// # Errors
@@ -74,20 +84,43 @@ impl PointCloud {
         if options.denoise.is_some() {
             moved = displacement(&*self.chosen(Some(viewpoint), options)?, &part)?;
         }
+        let asked = Asked {
+            viewpoint,
+            options,
+            map,
+            origin,
+            moved,
+        };
+        let larger = match looks(options)? {
+            Some(count) => part.tuned(memory, &asked, count)?,
+            None => 1.0,
+        };
+        part.mapped(memory, &asked, larger)
+    }
+
+    /// One map. With looks, the scale of the last one is `larger` by this factor.
+    fn mapped(
+        &self,
+        memory: &mut ViewMemory,
+        asked: &Asked,
+        larger: f64,
+    ) -> Result<VisibilityMap, Error> {
+        let &Asked {
+            viewpoint,
+            options,
+            map,
+            origin,
+            moved,
+        } = asked;
         let (flip, thickness, farthest) = match looks(options)? {
             None => {
-                let view = part.view(viewpoint, options)?;
+                let view = self.view(viewpoint, options)?;
                 (view.flip, 0.0, view.farthest)
             }
             Some(count) => {
-                let survey = memory.survey(&part, options.thickness)?;
-                loosest_look(
-                    &part,
-                    survey.as_deref(),
-                    viewpoint,
-                    count,
-                    options.thickness,
-                )?
+                let thickness = options.thickness;
+                let survey = memory.survey(self, thickness)?;
+                loosest_look(self, survey.as_deref(), viewpoint, count, thickness, larger)?
             }
         };
         let mut made = VisibilityMap::empty(viewpoint, origin, moved);
@@ -95,8 +128,10 @@ impl PointCloud {
         if !UNITS.contains(&farthest) || reach > UNITS.end {
             return Ok(made);
         }
-        let MapMemory { hull, pool, last } = &mut memory.maps;
-        let pool = Pool::of(pool, &part.sequence.points, map)?;
+        let MapMemory {
+            hull, pool, last, ..
+        } = &mut memory.maps;
+        let pool = Pool::of(pool, &self.sequence.points, map)?;
         let chosen = pool.choose(viewpoint, map, last.as_ref())?;
         let flip = flip.rescaled_for(&chosen);
         hull::mark_all(&chosen, &flip, hull)?;

@@ -14,7 +14,7 @@ use crate::view::resolved::normalized;
 
 /// How many points a pool has for each point of a map: in all directions, and for a map towards some
 /// of them.
-const TIMES: [usize; 2] = [6, 24];
+const TIMES: [usize; 2] = [3, 12];
 /// One in so many points may always be chosen, so that no place is forgotten.
 const ALWAYS: usize = 16;
 /// How much wider than the given cone the points are, as a share of the angle.
@@ -54,9 +54,7 @@ impl Pool {
         map: &MapOptions,
         last: Option<&VisibilityMap>,
     ) -> Result<Points, OutOfMemory> {
-        let cone = map
-            .towards
-            .and_then(|(direction, angle)| Cone::new(direction, angle));
+        let cone = Cone::of(map);
         let viewpoint = DVec3::from_array(viewpoint);
         let mut open: Vec<u32> = with_capacity(self.points.len())?;
         for (place, point) in self.points.iter().enumerate() {
@@ -82,14 +80,15 @@ impl Pool {
 }
 
 /// The directions of a map.
-struct Cone {
+pub(super) struct Cone {
     axis: DVec3,
     cosine: f64,
 }
 
 impl Cone {
-    /// `None` for a cone of all directions.
-    fn new(direction: [f64; 3], angle: f64) -> Option<Self> {
+    /// `None` for a map of all directions.
+    pub(super) fn of(map: &MapOptions) -> Option<Self> {
+        let (direction, angle) = map.towards?;
         let half = (WIDER * 0.5 * angle).to_radians();
         let axis = normalized(direction)?;
         (half < core::f64::consts::PI).then(|| Self {
@@ -98,7 +97,7 @@ impl Cone {
         })
     }
 
-    fn contains(&self, v: DVec3) -> bool {
+    pub(super) fn contains(&self, v: DVec3) -> bool {
         v.dot(self.axis) >= self.cosine * square_root(v.dot(v))
     }
 }
