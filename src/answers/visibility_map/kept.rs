@@ -2,7 +2,6 @@
 
 use super::hides::VisibilityMap;
 use super::pool::Pool;
-use super::tuned::Tuned;
 use crate::hull::Memory;
 
 /// What the last map of a cloud leaves for the next one.
@@ -12,4 +11,11 @@ pub(crate) struct MapMemory {
     pub(super) pool: Option<Pool>,
     pub(super) last: Option<VisibilityMap>,
     pub(super) tuned: Option<Tuned>,
+}
+
+/// The factor by which the scale of the last look may grow, and what it was found for.
+pub(super) struct Tuned {
+    pub(super) count: usize,
+    pub(super) thickness: Option<f64>,
+    pub(super) larger: f64,
 }

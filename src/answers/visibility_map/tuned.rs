@@ -8,6 +8,7 @@ use alloc::vec::Vec;
 use glam::DVec3;
 
 use super::Asked;
+use super::kept::Tuned;
 use super::pool::Cone;
 use crate::answers::looks::{Projection, Question};
 use crate::answers::memory::ViewMemory;
@@ -22,13 +23,6 @@ const WRONG: f64 = 0.002;
 /// The largest factor of the scale, the least one, and the step between factors.
 const FACTORS: [f64; 2] = [16.0, 1.0 / 64.0];
 const STEP: f64 = 0.7;
-
-/// The factor of the scale, and what it was found for.
-pub(super) struct Tuned {
-    count: usize,
-    thickness: Option<f64>,
-    larger: f64,
-}
 
 impl PointCloud {
     /// The factor by which the scale of the last look may grow.
