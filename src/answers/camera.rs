@@ -64,7 +64,7 @@ impl PointCloud {
         let mut indices: Vec<u32> = with_capacity(count)?;
         let mut pixels: Vec<[f32; 2]> = with_capacity(count)?;
         let mut depths: Vec<f32> = with_capacity(count)?;
-        for (&index, &[u, v, depth]) in inside() {
+        for (&index, &[u, v, depth, ..]) in inside() {
             indices.push(index);
             pixels.push([u, v]);
             depths.push(depth);
@@ -96,26 +96,28 @@ impl PointCloud {
         Ok(100 * own <= other && 50 * other >= sample().count().max(1))
     }
 
-    /// Where a camera shows the points with these indices: x, y and the depth. The depth is 0 for a
-    /// point outside of the image.
+    /// Where a camera shows the points with these indices: x, y and the depth, and the direction of
+    /// length 1 to the camera. All are 0 for a point outside of the image.
     #[inline(never)]
-    pub(crate) fn shown(&self, camera: &Camera, indices: &[u32]) -> Result<Vec<[f32; 3]>, Error> {
+    pub(crate) fn shown(&self, camera: &Camera, indices: &[u32]) -> Result<Vec<[f32; 6]>, Error> {
         let lens = camera.lens()?;
-        let mut shown: Vec<[f32; 3]> = with_capacity(indices.len())?;
+        let mut shown: Vec<[f32; 6]> = with_capacity(indices.len())?;
         if indices.is_empty() {
             return Ok(shown);
         }
         let places = self.places()?;
         for &index in indices {
             let place = places[index as usize] as usize;
-            let ([u, v], depth) = lens.project(self.sequence.points.get(place));
-            // A depth that rounds to 0 is still a depth.
-            let depth = if depth > 0.0 {
-                (depth as f32).max(f32::MIN_POSITIVE)
+            let point = self.sequence.points.get(place);
+            let ([u, v], depth) = lens.project(point);
+            shown.push(if depth > 0.0 {
+                let [x, y, z] = lens.towards(point);
+                let (u, v) = (below(u, camera.width), below(v, camera.height));
+                // A depth that rounds to 0 is still a depth.
+                [u, v, (depth as f32).max(f32::MIN_POSITIVE), x, y, z]
             } else {
-                0.0
-            };
-            shown.push([below(u, camera.width), below(v, camera.height), depth]);
+                [0.0; 6]
+            });
         }
         Ok(shown)
     }

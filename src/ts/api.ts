@@ -28,6 +28,7 @@ export {
 } from "./query/cameras.js";
 export type { Calibration, Station } from "./query/calibration.js";
 export type { ViewpointOrCamera } from "./query/seats.js";
+export { orientNormals } from "./query/orient-normals.js";
 export type { SeenBy } from "./query/seen-by.js";
 export type { Cone, VisibilityMapOptions } from "./query/map-options.js";
 export type { Placement } from "./query/placement.js";

@@ -243,6 +243,12 @@ impl Lens<'_> {
         let is_inside = 0.0 <= u && u < camera.width && 0.0 <= v && v < camera.height;
         if is_inside { ([u, v], depth) } else { OUTSIDE }
     }
+
+    /// The direction of length 1 from a point to the camera.
+    pub(crate) fn towards(&self, p: [f64; 3]) -> [f32; 3] {
+        let v = self.place - DVec3::from_array(p);
+        v.normalize_or_zero().as_vec3().to_array()
+    }
 }
 
 /// The first positive zero of a cubic that is 1 at 0, by its coefficients from low to high;

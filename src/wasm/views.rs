@@ -77,8 +77,8 @@ fn seen(
     answered(seen, options)
 }
 
-/// Writes into `target` where a camera shows points: x, y and the depth of each. The depth is 0 for a
-/// point outside of the image. `camera` holds its pose as camera to world, fx, fy, cx, cy, width, height, distortion,
+/// Writes into `target` where a camera shows points: x, y and the depth of each, and the direction of length 1 to
+/// the camera. All are 0 for a point outside of the image. `camera` holds its pose as camera to world, fx, fy, cx, cy, width, height, distortion,
 /// near, far, and 1 for OpenGL's axes or 0 for OpenCV's.
 #[wasm_bindgen]
 pub fn project(

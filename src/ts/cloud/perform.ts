@@ -73,10 +73,10 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     return { ...largest, evaluations, indices: atLeast(counts, k, target.spares) };
   },
 
-  visibleFromCamera: (target, { camera, settings, sector }) => {
+  visibleFromCamera: (target, { camera, settings, sector, towards = false }) => {
     const { instance, handle } = target;
     const place = (indices: Uint32Array) => {
-      const shown = allocating(`${3 * indices.length} numbers`, () => new Float32Array(3 * indices.length));
+      const shown = allocating(`${6 * indices.length} numbers`, () => new Float32Array(6 * indices.length));
       instance.call((bindings) => {
         bindings.project(handle, camera, indices, shown);
       });
@@ -88,7 +88,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     const view = { kind: "visibleFrom" as const, viewpoint, settings, divisible: false };
     const seen = perform(target, sector === undefined ? view : { ...view, sector });
     const inverted = instance.call((bindings) => bindings.seemsInverted(handle, camera));
-    return { ...seen, ...inImage(seen.indices, place(seen.indices)), inverted };
+    return { ...seen, ...inImage(seen.indices, place(seen.indices), towards), inverted };
   },
 
   sees: ({ instance, handle }, { viewpoint, positions, settings }) => {
@@ -147,20 +147,23 @@ function atLeast(counts: Uint32Array, k: number, spares: Spares): Uint32Array<Ar
   return indices;
 }
 
-/** The points that are in the image. `shown` holds x, y and the depth of each, which is 0 outside. */
-function inImage(indices: Uint32Array<ArrayBuffer>, shown: Float32Array<ArrayBuffer>) {
+/** The points that are in the image. `shown` holds x, y, the depth and the direction of each, which are 0 outside. */
+function inImage(indices: Uint32Array<ArrayBuffer>, shown: Float32Array<ArrayBuffer>, towards: boolean) {
   let count = 0;
   for (let i = 0; i < indices.length; i++) {
-    if (shown[3 * i + 2]! > 0) {
+    if (shown[6 * i + 2]! > 0) {
       indices[count] = indices[i]!;
-      shown.copyWithin(3 * count, 3 * i, 3 * i + 3);
+      shown.copyWithin(6 * count, 6 * i, 6 * i + 6);
       count += 1;
     }
   }
+  const numbers = (from: number, each: number) =>
+    Float32Array.from({ length: each * count }, (_, k) => shown[6 * Math.floor(k / each) + from + (k % each)]!);
   return allocating(`${count} pixels`, () => ({
     indices: indices.slice(0, count),
-    pixels: Float32Array.from({ length: 2 * count }, (_, k) => shown[3 * (k >> 1) + (k & 1)]!),
-    depths: Float32Array.from({ length: count }, (_, k) => shown[3 * k + 2]!),
+    pixels: numbers(0, 2),
+    depths: numbers(2, 1),
+    ...(towards && { towards: numbers(3, 3) }),
   }));
 }
 

@@ -28,6 +28,8 @@ export interface Found extends ChosenRadius {
 export interface Photographed extends Found {
   pixels: Float32Array<ArrayBuffer>;
   depths: Float32Array<ArrayBuffer>;
+  /** The directions of length 1 from the points to the camera, if the query asked for them. */
+  towards?: Float32Array<ArrayBuffer>;
   /** Whether the pose was probably given the wrong way round. */
   inverted: boolean;
 }

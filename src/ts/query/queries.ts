@@ -69,6 +69,8 @@ export interface Questions {
     settings: ViewSettings;
     divisible: boolean;
     sector?: Sector;
+    /** Whether the answer has `towards`. */
+    towards?: boolean;
   };
   /** `positions` have the core's number of coordinates. */
   sees: { viewpoint: number[]; positions: Float64Array; settings: ViewSettings };

@@ -35,6 +35,8 @@ export interface PlacementOptions extends CoverageOptions {
 export interface Survey {
   seats: Seat[];
   settings: ViewSettings;
+  /** Whether the answers have `towards`. */
+  towards: boolean;
 }
 
 /** The question of one view of a survey. */
@@ -59,7 +61,7 @@ export function readSurvey(
       : readSeats(viewpoints, dimension, method === "coverage" ? "viewpoints" : "candidates");
   const settings = viewSettings(given, dimension);
   refuseDraftAndScores(settings, method);
-  return { seats, settings };
+  return { seats, settings, towards: method === "seenBy" };
 }
 
 export function readPlacing(given: GivenOptions): PlacementSettings {
@@ -105,16 +107,15 @@ function readWeights(weights: unknown): Float64Array<ArrayBuffer> {
 }
 
 /** The view from one seat, by one worker. */
-export function viewFrom(seat: Seat, settings: ViewSettings): View {
+export function viewFrom(seat: Seat, settings: ViewSettings, towards = false): View {
   return isCameraSeat(seat)
-    ? { kind: "visibleFromCamera", camera: seat, settings, divisible: false }
+    ? { kind: "visibleFromCamera", camera: seat, settings, divisible: false, towards }
     : { kind: "visibleFrom", viewpoint: seat, settings, divisible: false };
 }
 
 /** Many views of one cloud, whose answers come in any order. */
 export abstract class SurveyTask {
-  readonly #settings: ViewSettings;
-  readonly #seats: Seat[];
+  readonly #survey: Survey;
   #wanted: number[];
   readonly #progress: ((fraction: number) => void) | undefined;
   /** The views that were asked and are not answered yet. */
@@ -122,10 +123,9 @@ export abstract class SurveyTask {
   #taken = 0;
   #isStopped = () => false;
 
-  constructor({ seats, settings }: Survey, progress?: (fraction: number) => void) {
-    this.#settings = settings;
-    this.#seats = seats;
-    this.#wanted = [...seats.keys()].reverse();
+  constructor(survey: Survey, progress?: (fraction: number) => void) {
+    this.#survey = survey;
+    this.#wanted = [...survey.seats.keys()].reverse();
     this.#progress = progress;
   }
 
@@ -153,7 +153,8 @@ export abstract class SurveyTask {
       return undefined;
     }
     this.#asked.add(number);
-    return { number, view: viewFrom(this.#seats[number]!, this.#settings) };
+    const { seats, settings, towards } = this.#survey;
+    return { number, view: viewFrom(seats[number]!, settings, towards) };
   }
 
   take(number: number, found: Found): void {
@@ -161,11 +162,11 @@ export abstract class SurveyTask {
     this.add(number, found);
     this.#taken += 1;
     // Views that are asked again do not count.
-    this.#progress?.(Math.min(this.#taken / this.#seats.length, 1));
+    this.#progress?.(Math.min(this.#taken / this.count, 1));
   }
 
   protected get count(): number {
-    return this.#seats.length;
+    return this.#survey.seats.length;
   }
 
   /** Takes the answer to one view. */
