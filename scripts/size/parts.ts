@@ -14,7 +14,7 @@ interface Part {
 
 const BINDINGS = "bindings";
 const OUTSIDE: [part: string, names: RegExp][] = [
-  [BINDINGS, /(externref|multivalue) shim|wasm_bindgen|js_sys|web_sys|externref|wbg|wbindgen/],
+  [BINDINGS, /(externref|multivalue) shim|wasm_bindgen|js_sys|web_sys|serde|externref|wbg|wbindgen/],
   ["libm: pow, exp, logarithms, sine, cosine", /libm::/],
   ["allocator", /dlmalloc|__rdl_|__rust_|__rustc/i],
 ];

@@ -1,12 +1,32 @@
-//! The answer of a query, as JavaScript receives it.
+//! The answer of a query, as JavaScript receives it. All numbers are doubles, because the code
+//! that writes a field is compiled for each type.
 
+use js_sys::{Float32Array, Uint32Array};
+use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::failure::Failure;
-use super::objects::Fields;
+use super::objects::to_js;
 use super::options::ViewOptions;
 use super::transfer::{copy_out, copy_out_singles};
 use crate::{ChosenRadius, Error, Exponential, Inversion, Visibility};
+
+#[derive(Serialize)]
+struct Answer {
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    indices: Uint32Array,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    triangles: Uint32Array,
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    scores: Float32Array,
+    radius: f64,
+    exponent: f64,
+    evaluations: f64,
+    /// 1 or 0.
+    exact: f64,
+    /// The scale c of the exponential inversion or of each look, given or chosen; otherwise 0.
+    scales: [f64; 3],
+}
 
 /// An answer with the triangles between its points, if it has any.
 pub(super) fn answer(
@@ -19,16 +39,16 @@ pub(super) fn answer(
         Inversion::Exponential(Exponential::Scale(scale)) => scales[0] = scale,
         _ => (scales.iter_mut().zip(visibility.looks())).for_each(|(to, from)| *to = *from),
     }
-    let fields = Fields::new();
-    fields.set("indices", copy_out(visibility.indices(), options)?);
-    fields.set("triangles", copy_out(triangles, options)?);
-    fields.set("scores", copy_out_singles(visibility.scores(), options)?);
-    fields.number("radius", visibility.radius());
-    fields.number("exponent", visibility.exponent());
-    fields.number("evaluations", f64::from(visibility.evaluations()));
-    fields.number("exact", f64::from(u8::from(visibility.exact())));
-    fields.numbers("scales", &scales);
-    Ok(fields.into())
+    Ok(to_js(&Answer {
+        indices: copy_out(visibility.indices(), options)?,
+        triangles: copy_out(triangles, options)?,
+        scores: copy_out_singles(visibility.scores(), options)?,
+        radius: visibility.radius(),
+        exponent: visibility.exponent(),
+        evaluations: f64::from(visibility.evaluations()),
+        exact: f64::from(u8::from(visibility.exact())),
+        scales,
+    }))
 }
 
 /// The answer to a query that was not refused.
@@ -39,13 +59,20 @@ pub(super) fn answered(
     Ok(visibility.and_then(|visibility| answer(&visibility, &[], options))?)
 }
 
+#[derive(Serialize)]
+struct Chosen {
+    radius: f64,
+    exponent: f64,
+    evaluations: f64,
+}
+
 pub(super) fn chosen(chosen: Result<ChosenRadius, Failure>) -> Result<JsValue, JsValue> {
     let chosen = chosen?;
-    let fields = Fields::new();
-    fields.number("radius", chosen.radius);
-    fields.number("exponent", chosen.exponent);
-    fields.number("evaluations", f64::from(chosen.evaluations));
-    Ok(fields.into())
+    Ok(to_js(&Chosen {
+        radius: chosen.radius,
+        exponent: chosen.exponent,
+        evaluations: f64::from(chosen.evaluations),
+    }))
 }
 
 #[cold]

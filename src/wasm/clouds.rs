@@ -6,10 +6,11 @@ use core::cell::RefCell;
 use std::thread_local;
 
 use js_sys::Uint8Array;
+use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::failure::Failure;
-use super::objects::Fields;
+use super::objects::to_js;
 use super::options::ViewOptions;
 use super::transfer::copy_in_bytes;
 use crate::answers::memory::ViewMemory;
@@ -37,19 +38,28 @@ struct LastView {
     memory: ViewMemory,
 }
 
-/// What JavaScript is told of a cloud.
-fn info(handle: u32, cloud: &Cloud) -> JsValue {
-    let (length, skipped, spacing) = match cloud {
-        Cloud::Space(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
-        Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
-        Cloud::Horizon(_) => (0, 0, 0.0),
-    };
-    let fields = Fields::new();
-    fields.number("handle", f64::from(handle));
-    fields.number("length", length as f64);
-    fields.number("skipped", skipped as f64);
-    fields.number("spacing", spacing);
-    fields.into()
+#[derive(Serialize)]
+pub(super) struct CloudInfo {
+    handle: f64,
+    length: f64,
+    skipped: f64,
+    spacing: f64,
+}
+
+impl CloudInfo {
+    fn new(handle: u32, cloud: &Cloud) -> Self {
+        let (length, skipped, spacing) = match cloud {
+            Cloud::Space(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
+            Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
+            Cloud::Horizon(_) => (0, 0, 0.0),
+        };
+        Self {
+            handle: f64::from(handle),
+            length: length as f64,
+            skipped: skipped as f64,
+            spacing,
+        }
+    }
 }
 
 /// Keeps a cloud that was not refused.
@@ -61,17 +71,17 @@ pub(super) fn created(made: Result<Cloud, Error>) -> Result<JsValue, JsValue> {
             if free.is_none() {
                 push(clouds, None)?;
             }
-            let info = info(slot as u32, &cloud);
+            let info = CloudInfo::new(slot as u32, &cloud);
             clouds[slot] = Some(cloud);
             Ok(info)
         })
     });
-    Ok(kept.map_err(Failure::from)?)
+    Ok(to_js(&kept.map_err(Failure::from)?))
 }
 
 /// The size of a cloud whose change was not refused.
-pub(super) fn resized(changed: Result<JsValue, Failure>) -> Result<JsValue, JsValue> {
-    Ok(changed?)
+pub(super) fn resized(changed: Result<CloudInfo, Failure>) -> Result<JsValue, JsValue> {
+    Ok(to_js(&changed?))
 }
 
 /// Frees a cloud; its number may be given to another one afterwards.
@@ -218,12 +228,12 @@ fn forget(handle: u32) {
 pub(super) fn change_any(
     handle: u32,
     change: &mut dyn FnMut(&mut Cloud) -> Result<(), Error>,
-) -> Result<JsValue, Failure> {
+) -> Result<CloudInfo, Failure> {
     forget(handle);
     CLOUDS.with_borrow_mut(|clouds| {
         let cloud = clouds.get_mut(handle as usize).and_then(Option::as_mut);
         let cloud = cloud.ok_or(Failure::DISPOSED)?;
         change(cloud)?;
-        Ok(info(handle, cloud))
+        Ok(CloudInfo::new(handle, cloud))
     })
 }

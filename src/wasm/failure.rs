@@ -1,12 +1,14 @@
 //! An error, as JavaScript receives it. JavaScript words the message
 //! (src/ts/instance/failure.ts): the formatting of numbers alone would add 30 kB of wasm.
 
+use serde::Serialize;
 use wasm_bindgen::JsValue;
 
-use super::objects::Fields;
+use super::objects::to_js;
 use crate::{Error, MAX_POINTS};
 
 /// A refusal: its code, and the option and the numbers that its message names.
+#[derive(Serialize)]
 pub(super) struct Failure {
     code: &'static str,
     problem: &'static str,
@@ -116,12 +118,6 @@ impl From<Failure> for JsValue {
     #[cold]
     #[inline(never)]
     fn from(failure: Failure) -> Self {
-        let fields = Fields::new();
-        fields.text("code", failure.code);
-        fields.text("problem", failure.problem);
-        fields.text("option", failure.option);
-        fields.text("other", failure.other);
-        fields.numbers("numbers", &failure.numbers);
-        fields.into()
+        to_js(&failure)
     }
 }

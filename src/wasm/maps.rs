@@ -1,13 +1,23 @@
 //! Maps of directions.
 
-use js_sys::Float64Array;
+use js_sys::{Float32Array, Float64Array};
+use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
 use super::clouds::{with_memory, with_view};
-use super::objects::Fields;
+use super::objects::to_js;
 use super::options::ViewOptions;
 use super::transfer::copy_out_singles;
 use crate::MapOptions;
+
+#[derive(Serialize)]
+struct Map {
+    #[serde(with = "serde_wasm_bindgen::preserve")]
+    data: Float32Array,
+    center: [f64; 3],
+    origin: [f64; 3],
+    numbers: [f64; 4],
+}
 
 /// A map of directions around (x, y, z). `map` holds the numbers of points and of corners, a direction
 /// and its angle, and an origin. An angle of 0 stands for all directions, and an origin of infinity
@@ -35,13 +45,13 @@ pub fn visibility_map(
     let made = with_view(handle, Some([x, y, z]), options, &view, |cloud| {
         with_memory(handle, masked, |memory| {
             let made = cloud.visibility_map_with(memory, [x, y, z], &view, &choices)?;
-            let fields = Fields::new();
-            fields.set("data", copy_out_singles(made.data(), options)?);
-            fields.numbers("center", &cloud.middle());
-            fields.numbers("origin", &made.origin());
-            fields.numbers("numbers", &made.numbers().map(f64::from));
-            Ok(fields.into())
+            Ok(Map {
+                data: copy_out_singles(made.data(), options)?,
+                center: cloud.middle(),
+                origin: made.origin(),
+                numbers: made.numbers().map(f64::from),
+            })
         })
     })?;
-    Ok(made)
+    Ok(to_js(&made))
 }

@@ -7,7 +7,7 @@ use crate::{Exponential, Inversion, Options, Radius, Within};
 
 #[wasm_bindgen]
 extern "C" {
-    /// Read field by field: a deserializer's messages about wrong types bring the formatting of
+    /// Read field by field, without serde: its messages about wrong types bring the formatting of
     /// floats, 30 kB. Numbers stand for the choices (src/ts/query/view-options.ts).
     #[wasm_bindgen(typescript_type = "ViewOptions")]
     pub type ViewOptions;
