@@ -64,6 +64,7 @@ pub use dimensions::higher::{MAX_DIMENSION, PointCloudNd};
 pub use dimensions::two::PointCloud2d;
 pub use hull::division::Sector;
 pub use view::camera::{Camera, Convention, Pose};
+pub use view::distortion::CameraModel;
 pub use view::guarantees::{permissible_curvature, radius_bound};
 pub use view::options::{Exponential, Inversion, Options, Radius};
 pub use view::radius::ChosenRadius;

@@ -49,7 +49,7 @@ class MergeOptions(TypedDict):
     inversion: NotRequired[Inversion | None]
 
 class Camera(TypedDict):
-    """A pinhole camera: u = fx * x / z + cx, with x to the right, y down and z forward. No shift by half a pixel."""
+    """A pinhole camera: u = fx * x / z + cx, with x to the right, y down and z forward. u = 0 is the left edge of the first pixel."""
 
     camera_to_world: NotRequired[ArrayLike | None]
     """From the camera's space to the cloud's, rigid: 4 rows of 4, or 16 numbers column by column."""
@@ -63,8 +63,10 @@ class Camera(TypedDict):
     cy: float
     width: float
     height: float
+    model: NotRequired[str | None]
+    """COLMAP's name of the model of the lens. Default "OPENCV"."""
     distortion: NotRequired[ArrayLike | None]
-    """OpenCV's k1, k2, p1, p2, k3."""
+    """The coefficients as COLMAP lists them for the model; k1, k2, p1, p2 for "OPENCV", and k3 where there is one."""
     near: NotRequired[float]
     far: NotRequired[float]
 

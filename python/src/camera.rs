@@ -1,11 +1,11 @@
 //! A camera as a dictionary.
 
-use hidden_point_removal::{Camera, Convention, Pose};
+use hidden_point_removal::{Camera, CameraModel, Convention, Pose};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::numbers;
-use crate::failure::problem;
+use crate::failure::{option, problem};
 use crate::options::number;
 
 const SHAPES: &str =
@@ -19,6 +19,7 @@ pub fn read(py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Camera> {
         .map_err(|_| wrong("must be a dictionary".into()))?;
     let mut camera = Camera::new(f64::NAN, f64::NAN, f64::NAN, f64::NAN, 0.0, 0.0);
     let mut poses = 0;
+    let mut distortion = None;
     for (name, value) in entries.iter() {
         let name: String = name.extract()?;
         let one = || number(&value).ok_or_else(|| wrong(format!("{name} must be a number")));
@@ -42,10 +43,19 @@ pub fn read(py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Camera> {
             }
             "distortion" if value.is_none() => {}
             "distortion" => {
-                camera.distortion = numbers(&value, &name)
-                    .ok()
-                    .and_then(|list| list.try_into().ok())
-                    .ok_or_else(|| wrong("distortion must hold k1, k2, p1, p2, k3".into()))?;
+                let list = numbers(&value, &name);
+                distortion =
+                    Some(list.map_err(|_| wrong("distortion must be a list of numbers".into()))?);
+            }
+            "model" if value.is_none() => {}
+            "model" => {
+                let given: Option<String> = value.extract().ok();
+                let names = CameraModel::ALL.map(CameraModel::name);
+                let number = names.iter().position(|own| given.as_deref() == Some(own));
+                let number = number.ok_or_else(|| {
+                    option(py, format!("camera: model must be one of {}", names.join(", ")))
+                })?;
+                camera.model = CameraModel::ALL[number];
             }
             "fx" => camera.fx = one()?,
             "fy" => camera.fy = one()?,
@@ -60,6 +70,16 @@ pub fn read(py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Camera> {
     }
     if poses != 1 {
         return Err(wrong(SHAPES.into()));
+    }
+    if let Some(list) = distortion {
+        let count = camera.model.coefficients();
+        if list.len() != count && !(camera.model == CameraModel::OpenCv && list.len() == 4) {
+            let (name, given) = (camera.model.name(), list.len());
+            return Err(wrong(format!(
+                "distortion must hold {count} numbers for {name}, got {given}"
+            )));
+        }
+        camera.distortion[..list.len()].copy_from_slice(&list);
     }
     Ok(camera)
 }

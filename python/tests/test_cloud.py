@@ -248,6 +248,13 @@ def test_a_camera_sees_a_part_of_the_view_from_its_place():
     upright = cloud.visible_from_camera(camera(camera_to_world=turned @ np.diag([1, -1, -1, 1]), convention="opengl"), exponent=3)
     assert np.array_equal(upright.indices, seen.indices)
     assert every.pixels is None and every.depths is None
+    x, y = local[:, 0] / local[:, 2], local[:, 1] / local[:, 2]
+    angle = np.arctan(np.hypot(x, y))
+    bent = cloud.visible_from_camera(camera(camera_to_world=turned, model="SIMPLE_RADIAL_FISHEYE", distortion=[0.1]), exponent=3)
+    assert np.array_equal(bent.indices, seen.indices)
+    assert np.allclose(bent.pixels[:, 0], 400 * x / np.hypot(x, y) * (angle + 0.1 * angle**3) + 320, atol=1e-3)
+    for list in ([0.1, 0.2, 0, 0], [0.1, 0.2, 0, 0, 0]):
+        assert cloud.visible_from_camera(camera(camera_to_world=turned, model="OPENCV", distortion=list), exponent=3).count > 100
 
 
 def test_points_that_are_not_in_the_cloud():
@@ -289,6 +296,8 @@ def test_how_many_viewpoints_see_each_point_and_which_to_choose():
         ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(fx=np.nan))),
         ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(convention="maya"))),
         ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(distortion=[1, 2]))),
+        ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(model="RADIAL", distortion=[1]))),
+        ("option", lambda cloud: cloud.visible_from_camera(camera(model="FISHEYE"))),
         ("viewpoint", lambda cloud: cloud.visible_from_camera(camera(zoom=2))),
         ("non-finite", lambda cloud: cloud.sees(VIEWPOINT, [[0, 0, np.nan]])),
         ("positions-length", lambda cloud: cloud.sees(VIEWPOINT, [[0, 0]])),

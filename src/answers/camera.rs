@@ -6,7 +6,7 @@ use crate::answers::visibility::Visibility;
 use crate::base::allocation::with_capacity;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
-use crate::view::camera::{Camera, Pose};
+use crate::view::camera::Camera;
 use crate::view::options::Options;
 
 /// So many points tell whether a pose was given the wrong way round.
@@ -82,7 +82,7 @@ impl PointCloud {
     #[inline(never)]
     pub(crate) fn seems_inverted(&self, camera: &Camera) -> Result<bool, Error> {
         let inverse = Camera {
-            pose: Pose::WorldToCamera(camera.pose.camera_to_world()),
+            pose: camera.pose.inverted(),
             ..*camera
         };
         let points = &self.sequence.points;

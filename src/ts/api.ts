@@ -18,7 +18,7 @@ export type { PointCloudOptions } from "./query/options.js";
 export type { Positions, Viewpoint } from "./query/positions.js";
 export type { NumberArray } from "./base/typed-arrays.js";
 export type { IlluminationOptions, ReconstructionOptions } from "./query/queries.js";
-export type { Camera, Intrinsics, Pose } from "./query/camera.js";
+export type { Camera, CameraModel, Intrinsics, Pose } from "./query/camera.js";
 export {
   cameraFromPose,
   cameraFromThree,

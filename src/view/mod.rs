@@ -3,6 +3,7 @@
 
 pub(crate) mod camera;
 pub(crate) mod choice;
+pub(crate) mod distortion;
 pub(crate) mod guarantees;
 pub(crate) mod options;
 pub(crate) mod radius;

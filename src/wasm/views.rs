@@ -6,6 +6,7 @@ use wasm_bindgen::prelude::*;
 
 use super::answer::{answered, chosen};
 use super::clouds::{with_cloud, with_memory, with_view};
+use super::failure::Failure;
 use super::options::ViewOptions;
 use super::transfer::{copy_in_integers, triples};
 use crate::cloud::points::Given;
@@ -78,8 +79,7 @@ fn seen(
 }
 
 /// Writes into `target` where a camera shows points: x, y and the depth of each, and the direction of length 1 to
-/// the camera. All are 0 for a point outside of the image. `camera` holds its pose as camera to world, fx, fy, cx, cy, width, height, distortion,
-/// near, far, and 1 for OpenGL's axes or 0 for OpenCV's.
+/// the camera. All are 0 for a point outside of the image. `camera`: see `Camera::of`.
 #[wasm_bindgen]
 pub fn project(
     handle: u32,
@@ -87,7 +87,7 @@ pub fn project(
     indices: &Uint32Array,
     target: &Float32Array,
 ) -> Result<(), JsValue> {
-    let mut numbers = [0.0; 30];
+    let mut numbers = [0.0; 35];
     camera.copy_to(&mut numbers);
     let shown = with_cloud(handle, |cloud| {
         cloud.shown(&Camera::of(&numbers), &copy_in_integers(indices)?)
@@ -96,10 +96,20 @@ pub fn project(
     Ok(())
 }
 
+/// Checks a camera. Returns its place.
+#[wasm_bindgen(js_name = cameraPlace)]
+pub fn camera_place(camera: &Float64Array) -> Result<Float64Array, JsValue> {
+    let mut numbers = [0.0; 35];
+    camera.copy_to(&mut numbers);
+    let camera = Camera::of(&numbers);
+    camera.lens().map_err(Failure::from)?;
+    Ok(Float64Array::from(camera.position().as_slice()))
+}
+
 /// Whether the pose of a camera was probably given the wrong way round.
 #[wasm_bindgen(js_name = seemsInverted)]
 pub fn seems_inverted(handle: u32, camera: &Float64Array) -> Result<bool, JsValue> {
-    let mut numbers = [0.0; 30];
+    let mut numbers = [0.0; 35];
     camera.copy_to(&mut numbers);
     let camera = Camera::of(&numbers);
     Ok(with_cloud(handle, |cloud| cloud.seems_inverted(&camera))?)

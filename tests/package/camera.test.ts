@@ -1,6 +1,8 @@
 import { PerspectiveCamera, OrthographicCamera, Vector3 } from "three";
 import { expect, it } from "vitest";
 
+import type { Camera } from "hidden-point-removal";
+
 import { bumpySphere, readyPackage } from "./support";
 
 const { PointCloud, WorkerPointCloud, cameraFromPose, cameraFromThree, intrinsicsFromFieldOfView } =
@@ -95,7 +97,12 @@ it("what is no camera is refused", () => {
     [{ worldToCamera: cameraToWorld }, "viewpoint", /exactly one of cameraToWorld and worldToCamera, got both/],
     [{ cameraToWorld: undefined }, "viewpoint", /got neither/],
     [{ matrix: cameraToWorld }, "option", /unknown option "matrix"/],
-    [{ distortion: [1] }, "viewpoint", /distortion must be 5 numbers/],
+    [{ distortion: [1] }, "viewpoint", /distortion for OPENCV must be 4 numbers/],
+    [{ model: "RADIAL", distortion: [1] }, "viewpoint", /distortion for RADIAL must be 2 numbers, got 1 of them/],
+    [{ model: "PINHOLE", distortion: [0, 0, 0, 0] }, "viewpoint", /distortion for PINHOLE must be 0 numbers/],
+    [{ model: "FOV", distortion: [4] }, "viewpoint", /from 0 to pi for FOV, got 4/],
+    [{ model: "FISHEYE" }, "option", /model must be one of SIMPLE_PINHOLE, .*, got "FISHEYE"/],
+    [{ model: 4 }, "option", /model must be one of/],
     [{ near: -1 }, "viewpoint", /near/],
     [{ far: 0.1 }, "viewpoint", /far must be at least near/],
     [{ convention: "vulkan" }, "option", /convention must be "opencv" or "opengl"/],
@@ -152,6 +159,80 @@ it("a pose is taken both ways, and the wrong way is said", async () => {
   const [x, y, z] = [11, 22, 40];
   expect(cloud.visibleFrom({ x, y, z }).indices).toEqual(cloud.visibleFrom([x, y, z]).indices);
   expect(() => cloud.visibleFrom({ x, y } as never)).toThrow(expect.objectContaining({ code: "viewpoint" }));
+  cloud.dispose();
+});
+
+/** The distorted place of x, y in the plane at depth 1, by the formulas of COLMAP and OpenCV. */
+const LENSES: Record<string, [number[], (x: number, y: number) => [number, number]]> = {
+  SIMPLE_PINHOLE: [[], (x, y) => [x, y]],
+  PINHOLE: [[], (x, y) => [x, y]],
+  SIMPLE_RADIAL: [[0.1], radial((s) => 1 + 0.1 * s)],
+  RADIAL: [[0.1, -0.2], radial((s) => 1 + 0.1 * s - 0.2 * s * s)],
+  OPENCV: [[0.1, -0.2, 0.01, 0.02], radial((s) => 1 + 0.1 * s - 0.2 * s * s, 0.01, 0.02)],
+  OPENCV_FISHEYE: [[0.1, -0.2, 0.3, -0.1], fisheye((s) => 1 + 0.1 * s - 0.2 * s ** 2 + 0.3 * s ** 3 - 0.1 * s ** 4)],
+  FULL_OPENCV: [
+    [0.1, -0.2, 0.01, 0.02, 0.3, 0.4, 0.5, 0.6],
+    radial(
+      (s) => (1 + 0.1 * s - 0.2 * s ** 2 + 0.3 * s ** 3) / (1 + 0.4 * s + 0.5 * s ** 2 + 0.6 * s ** 3),
+      0.01,
+      0.02,
+    ),
+  ],
+  FOV: [
+    [0.9],
+    (x, y) => {
+      const r = Math.hypot(x, y);
+      const factor = Math.atan(2 * r * Math.tan(0.45)) / (0.9 * r);
+      return [x * factor, y * factor];
+    },
+  ],
+  SIMPLE_RADIAL_FISHEYE: [[0.1], fisheye((s) => 1 + 0.1 * s)],
+  RADIAL_FISHEYE: [[0.1, -0.2], fisheye((s) => 1 + 0.1 * s - 0.2 * s * s)],
+  THIN_PRISM_FISHEYE: [
+    [0.1, -0.2, 0.01, 0.02, 0.3, -0.1, 0.03, 0.04],
+    fisheye((s) => 1 + 0.1 * s - 0.2 * s ** 2 + 0.3 * s ** 3 - 0.1 * s ** 4, 0.01, 0.02, 0.03, 0.04),
+  ],
+};
+
+function radial(factor: (s: number) => number, p1 = 0, p2 = 0, sx = 0, sy = 0) {
+  return (x: number, y: number): [number, number] => {
+    const s = x * x + y * y;
+    return [
+      x * factor(s) + 2 * p1 * x * y + p2 * (s + 2 * x * x) + sx * s,
+      y * factor(s) + 2 * p2 * x * y + p1 * (s + 2 * y * y) + sy * s,
+    ];
+  };
+}
+
+function fisheye(...lens: Parameters<typeof radial>) {
+  return (x: number, y: number) => {
+    const r = Math.hypot(x, y);
+    return radial(...lens)((x * Math.atan(r)) / r, (y * Math.atan(r)) / r);
+  };
+}
+
+it.each(Object.entries(LENSES))("%s is COLMAP's model", async (model, [distortion, bent]) => {
+  const cloud = new PointCloud(positions);
+  const three = threeCamera();
+  const pose = { worldToCamera: three.matrixWorldInverse.elements, convention: "opengl" as const };
+  const camera = { ...pose, model, distortion, fx: 600, fy: 500, cx: 310, cy: 250, width: 640, height: 480 } as Camera;
+  const seen = cloud.visibleFromCamera(camera);
+  expect(seen.count).toBeGreaterThan(300);
+  seen.indices.forEach((index, i) => {
+    const { x, y, z } = new Vector3().fromArray(positions, 3 * index).applyMatrix4(three.matrixWorldInverse);
+    const [u, v] = bent(-x / z, y / z);
+    expect(seen.pixels[2 * i]).toBeCloseTo(600 * u + 310, 2);
+    expect(seen.pixels[2 * i + 1]).toBeCloseTo(500 * v + 250, 2);
+  });
+  const remote = await WorkerPointCloud.create(positions, { workers: 2 });
+  expect((await remote.visibleFromCamera(camera)).pixels).toEqual(seen.pixels);
+  await remote.dispose();
+  // A map towards the camera covers its whole image: what it hides there is hidden.
+  const map = cloud.visibilityMap(place, { towards: camera });
+  const hidden = map.hides(positions);
+  expect(seen.indices.every((index) => hidden[index] === 0)).toBe(true);
+  expect(hidden.filter((mark) => mark === 1).length).toBeGreaterThan(500);
+  map.dispose();
   cloud.dispose();
 });
 

@@ -1,5 +1,5 @@
 // Notes viewpoints that are so far from the cloud that their coordinates are probably of another system.
-import { placeOf, readCamera } from "../query/camera.js";
+import type { Camera } from "../query/camera.js";
 import type { Question } from "./ask.js";
 
 /** How many extents of the cloud a viewpoint may be from it. The cloud then fills half a degree of the view. */
@@ -24,10 +24,16 @@ function viewpointsOf(question: Question): { name: string; viewpoint: readonly n
     case "view":
       return [{ name: "the viewpoint", viewpoint: question.viewpoint }];
     case "camera":
-      return [{ name: "the camera", viewpoint: placeOf(readCamera(question.camera)) }];
+      return [{ name: "the camera", viewpoint: placeOf(question.camera) }];
     default:
       return question.viewpoints.map(({ name, viewpoint }) => ({ name: `the viewpoint ${name}`, viewpoint }));
   }
+}
+
+/** The place of a camera whose pose was read, except for the rounding of its numbers. */
+function placeOf({ cameraToWorld, worldToCamera: m }: Camera): number[] {
+  if (m === undefined) return Array.from(cameraToWorld).slice(12, 15);
+  return [0, 4, 8].map((i) => -(m[i]! * m[12]! + m[i + 1]! * m[13]! + m[i + 2]! * m[14]!));
 }
 
 type Range = [low: number, high: number];

@@ -11,7 +11,7 @@ in an image, or from how many places each point is seen.
 From where (one of the three, in the coordinates of the file):
   --from X,Y,Z         one viewpoint
   --camera FILE        one camera: a JSON file with cameraToWorld, fx, fy, cx, cy,
-                       width, height and, if needed, distortion, near, far
+                       width, height and, if needed, model, distortion, near, far
   --viewpoints FILE    many viewpoints: a table with the columns x,y,z or name,x,y,z
 
 How (the defaults fit most clouds):

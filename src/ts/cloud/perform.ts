@@ -2,7 +2,6 @@ import type { Answers, Found } from "../query/answers.js";
 import { HprError } from "../base/errors.js";
 import type { Bindings, Instance } from "../instance/instance.js";
 import { allocating } from "../base/memory.js";
-import { placeOf } from "../query/camera.js";
 import type { Query, QueryKind } from "../query/queries.js";
 import { newCounts, viewFrom } from "../query/surveys.js";
 import { roomIn, type Spares } from "./spares.js";
@@ -83,8 +82,7 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
       return shown;
     };
     // The camera is checked first.
-    place(new Uint32Array(0));
-    const viewpoint = placeOf(camera);
+    const viewpoint = [...instance.call((bindings) => bindings.cameraPlace(camera))];
     const view = { kind: "visibleFrom" as const, viewpoint, settings, divisible: false };
     const seen = perform(target, sector === undefined ? view : { ...view, sector });
     const inverted = instance.call((bindings) => bindings.seemsInverted(handle, camera));

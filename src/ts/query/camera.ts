@@ -1,6 +1,35 @@
 import { describe, HprError } from "../base/errors.js";
 import { givenOptions } from "./options.js";
 
+/** COLMAP's models of a camera. */
+export type CameraModel =
+  | "SIMPLE_PINHOLE"
+  | "PINHOLE"
+  | "SIMPLE_RADIAL"
+  | "RADIAL"
+  | "OPENCV"
+  | "OPENCV_FISHEYE"
+  | "FULL_OPENCV"
+  | "FOV"
+  | "SIMPLE_RADIAL_FISHEYE"
+  | "RADIAL_FISHEYE"
+  | "THIN_PRISM_FISHEYE";
+
+/** How many coefficients each model has, in the order of COLMAP's numbers for them. OpenCV's own has k3 as well. */
+export const CAMERA_MODELS: Readonly<Record<CameraModel, number>> = {
+  SIMPLE_PINHOLE: 0,
+  PINHOLE: 0,
+  SIMPLE_RADIAL: 1,
+  RADIAL: 2,
+  OPENCV: 4,
+  OPENCV_FISHEYE: 4,
+  FULL_OPENCV: 8,
+  FOV: 1,
+  SIMPLE_RADIAL_FISHEYE: 1,
+  RADIAL_FISHEYE: 2,
+  THIN_PRISM_FISHEYE: 8,
+};
+
 /** The lens and the image of a camera. */
 export interface Intrinsics {
   /** The focal lengths, in pixels. */
@@ -12,9 +41,12 @@ export interface Intrinsics {
   /** The size of the image, in pixels. A point is inside if 0 ≤ u < width and 0 ≤ v < height. */
   width: number;
   height: number;
+  /** COLMAP's model of the lens. Default `"OPENCV"`. */
+  model?: CameraModel | undefined;
   /**
-   * OpenCV's coefficients k1, k2, p1, p2, k3. Beyond the radius where the radial part stops growing,
-   * points are outside of the image. Default: no distortion.
+   * The coefficients as COLMAP lists them for the model, behind the focal lengths and the principal point. For `"OPENCV"`
+   * k1, k2, p1, p2, and k3 where there is one. Beyond the radius where the radial part stops growing, points are outside
+   * of the image. Default: no distortion.
    */
   distortion?: ArrayLike<number> | undefined;
   /** The least depth along the optical axis, in the cloud's units. Default 0. */
@@ -25,7 +57,7 @@ export interface Intrinsics {
 
 /**
  * Where a camera is and how it is turned, by exactly one of two matrices: 16 numbers, column by column,
- * as three.js keeps them. A rotation and a translation, to within 10⁻⁵.
+ * as three.js keeps them. A rotation and a translation, to within 10⁻³; the nearest rotation is taken.
  */
 export type Pose =
   | {
@@ -56,7 +88,7 @@ export type Camera = Intrinsics &
 const POSES = ["cameraToWorld", "worldToCamera"] as const;
 const NAMES = [
   ...POSES,
-  ...(["convention", "fx", "fy", "cx", "cy", "width", "height", "distortion", "near", "far"] as const),
+  ...(["convention", "fx", "fy", "cx", "cy", "width", "height", "model", "distortion", "near", "far"] as const),
 ];
 
 /** A camera in the order in which the core reads it: see {@link readCamera}. */
@@ -68,7 +100,7 @@ export function isCamera(value: unknown): boolean {
   return typeof value === "object" && value !== null && marks.some((name) => name in value);
 }
 
-/** The camera in the order in which the core reads it (src/wasm/views.rs). The core checks the ranges. */
+/** The camera in the order in which the core reads it (`Camera::of`). The core checks the ranges. */
 export function readCamera(camera: unknown, whose = "camera"): CameraNumbers {
   const given = named(camera, whose);
   const { convention = "opencv" } = given;
@@ -88,19 +120,29 @@ export function readCamera(camera: unknown, whose = "camera"): CameraNumbers {
     }
     return value;
   };
+  const models = Object.keys(CAMERA_MODELS);
+  const { model = "OPENCV" } = given;
+  if (typeof model !== "string" || !models.includes(model)) {
+    throw new HprError("option", `the ${whose}'s model must be one of ${models.join(", ")}, got ${describe(model)}`);
+  }
   return Float64Array.of(
-    ...(pose === "cameraToWorld" ? matrix : inverse(matrix)),
+    ...matrix,
     ...(["fx", "fy", "cx", "cy", "width", "height"] as const).map((name) => number(name)),
-    ...numbers(whose, "distortion", given["distortion"] ?? [0, 0, 0, 0, 0], 5),
+    ...coefficients(whose, model as CameraModel, given["distortion"]),
     number("near", 0),
     number("far", Infinity),
     convention === "opengl" ? 1 : 0,
+    models.indexOf(model),
+    pose === "worldToCamera" ? 1 : 0,
   );
 }
 
-/** The camera's place. */
-export function placeOf(camera: CameraNumbers): number[] {
-  return Array.from(camera.subarray(12, 15));
+/** The coefficients of a distortion, and zeros. */
+function coefficients(whose: string, model: CameraModel, given: unknown): number[] {
+  const count = CAMERA_MODELS[model];
+  const hasK3 = model === "OPENCV" && (given as Partial<ArrayLike<unknown>> | undefined)?.length === 5;
+  const own = given === undefined ? [] : numbers(whose, `distortion for ${model}`, given, hasK3 ? 5 : count);
+  return Array.from({ length: 8 }, (_, i) => own[i] ?? 0);
 }
 
 /** How much wider the image of a distorted lens may be. */
@@ -111,18 +153,12 @@ export function coneOf(camera: CameraNumbers): [...axis: number[], angle: number
   const at = (i: number) => camera[i]!;
   const half = (size: number, middle: number, focal: number) =>
     Math.max(Math.abs(middle), Math.abs(size - middle)) / focal;
-  const wider = camera.subarray(22, 27).some((k) => k !== 0) ? DISTORTED : 1;
-  const angle = 2 * Math.atan(Math.hypot(half(at(20), at(18), at(16)), half(at(21), at(19), at(17))) * wider);
-  const forward = Array.from(camera.subarray(8, 11), (x) => (at(29) === 0 ? x : -x));
+  const wide = Math.hypot(half(at(20), at(18), at(16)), half(at(21), at(19), at(17)));
+  const isPlain = camera.subarray(22, 30).every((k) => k === 0);
+  const bends = /FISHEYE|FOV/.test(Object.keys(CAMERA_MODELS)[at(33)]!);
+  const angle = bends ? Math.PI : 2 * Math.atan(isPlain ? wide : wide * DISTORTED);
+  const forward = (at(34) === 0 ? [8, 9, 10] : [2, 6, 10]).map((i) => (at(32) === 0 ? at(i) : -at(i)));
   return [...forward, (180 / Math.PI) * angle];
-}
-
-/** The inverse of a rotation and a translation, by the core's operations. The last row stays, for the core's check. */
-function inverse(matrix: readonly number[]): number[] {
-  const m = (at: number) => matrix[at]!;
-  const place = [0, 4, 8].map((i) => -(m(i) * m(12) + m(i + 1) * m(13) + m(i + 2) * m(14)));
-  const axes = [0, 1, 2].flatMap((i) => [m(i), m(i + 4), m(i + 8), m(4 * i + 3)]);
-  return [...axes, ...place, m(15)];
 }
 
 function named(camera: unknown, whose: string): Record<string, unknown> {
@@ -139,7 +175,7 @@ function named(camera: unknown, whose: string): Record<string, unknown> {
 function numbers(whose: string, name: string, list: unknown, count: number): number[] {
   const length = typeof list === "object" && list !== null && "length" in list ? list.length : undefined;
   const values = length === count ? Array.from(list as ArrayLike<unknown>) : [];
-  if (values.length !== count || !values.every((value) => typeof value === "number")) {
+  if (length !== count || !values.every((value) => typeof value === "number")) {
     const got = length === undefined || length === count ? describe(list) : `${describe(length)} of them`;
     throw new HprError("viewpoint", `the ${whose}'s ${name} must be ${count} numbers, got ${got}`);
   }

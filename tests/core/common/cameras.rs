@@ -1,6 +1,6 @@
 //! Cameras, and where they show points, in plain numbers: without the crate's code.
 
-use hidden_point_removal::{Camera, Convention, Pose};
+use hidden_point_removal::{Camera, CameraModel, Convention, Pose};
 
 use super::rng::Rng;
 
@@ -83,7 +83,85 @@ pub fn in_camera(camera: &Camera, p: [f64; 3]) -> [f64; 3] {
     }
 }
 
-/// The projection of OpenCV, with its distortion.
+fn is_fisheye(model: CameraModel) -> bool {
+    model.name().contains("FISHEYE")
+}
+
+/// The factor by which the radius changes; for a fisheye lens, the angle.
+fn radial(camera: &Camera, r: f64) -> f64 {
+    let c = camera.distortion;
+    let s = r * r;
+    match camera.model {
+        CameraModel::SimplePinhole | CameraModel::Pinhole => 1.0,
+        CameraModel::SimpleRadial | CameraModel::SimpleRadialFisheye => 1.0 + c[0] * s,
+        CameraModel::Radial | CameraModel::RadialFisheye => 1.0 + c[0] * s + c[1] * s * s,
+        CameraModel::OpenCv => 1.0 + c[0] * s + c[1] * s * s + c[4] * s * s * s,
+        CameraModel::OpenCvFisheye => {
+            1.0 + c[0] * s + c[1] * s * s + c[2] * s * s * s + c[3] * s * s * s * s
+        }
+        CameraModel::FullOpenCv => {
+            (1.0 + c[0] * s + c[1] * s * s + c[4] * s * s * s)
+                / (1.0 + c[5] * s + c[6] * s * s + c[7] * s * s * s)
+        }
+        CameraModel::Fov if c[0] == 0.0 || r == 0.0 => 1.0,
+        CameraModel::Fov => (2.0 * r * (0.5 * c[0]).tan()).atan() / (r * c[0]),
+        CameraModel::ThinPrismFisheye => {
+            1.0 + c[0] * s + c[1] * s * s + c[4] * s * s * s + c[5] * s * s * s * s
+        }
+    }
+}
+
+/// Where a lens shows the point a, b of the plane at depth 1: the formulas of OpenCV and COLMAP.
+fn distorted(camera: &Camera, a: f64, b: f64) -> [f64; 2] {
+    let c = camera.distortion;
+    let r = (a * a + b * b).sqrt();
+    let (a, b) = if is_fisheye(camera.model) && r > 0.0 {
+        (a * r.atan() / r, b * r.atan() / r)
+    } else {
+        (a, b)
+    };
+    let r2 = a * a + b * b;
+    let factor = radial(camera, r2.sqrt());
+    let (u, w) = (a * factor, b * factor);
+    let tangential = [
+        2.0 * c[2] * a * b + c[3] * (r2 + 2.0 * a * a),
+        2.0 * c[3] * a * b + c[2] * (r2 + 2.0 * b * b),
+    ];
+    match camera.model {
+        CameraModel::OpenCv | CameraModel::FullOpenCv => [u + tangential[0], w + tangential[1]],
+        CameraModel::ThinPrismFisheye => {
+            [u + tangential[0] + c[6] * r2, w + tangential[1] + c[7] * r2]
+        }
+        _ => [u, w],
+    }
+}
+
+/// Lenses of every model. Some stop growing within the image.
+#[rustfmt::skip]
+pub const LENSES: [(CameraModel, [f64; 8]); 19] = [
+    (CameraModel::OpenCv, [0.0; 8]),
+    (CameraModel::OpenCv, [0.1, -0.02, 0.001, -0.002, 0.003, 0.0, 0.0, 0.0]),
+    (CameraModel::OpenCv, [-1.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    (CameraModel::OpenCv, [0.3, -2.0, 0.01, 0.0, 0.2, 0.0, 0.0, 0.0]),
+    (CameraModel::OpenCv, [0.0, 0.0, 0.05, -0.05, 0.0, 0.0, 0.0, 0.0]),
+    (CameraModel::SimplePinhole, [0.0; 8]),
+    (CameraModel::Pinhole, [0.0; 8]),
+    (CameraModel::SimpleRadial, [-0.9, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    (CameraModel::Radial, [-0.3, 0.05, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    (CameraModel::OpenCvFisheye, [0.1, -0.05, 0.02, -0.01, 0.0, 0.0, 0.0, 0.0]),
+    (CameraModel::OpenCvFisheye, [0.2, -0.9, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    (CameraModel::FullOpenCv, [0.4, -0.1, 0.01, 0.02, 0.03, 0.6, -0.05, 0.01]),
+    // It has a pole.
+    (CameraModel::FullOpenCv, [0.0, 0.0, 0.0, 0.0, 0.0, -2.0, 0.0, 0.0]),
+    (CameraModel::Fov, [0.0; 8]),
+    (CameraModel::Fov, [1.3, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    (CameraModel::SimpleRadialFisheye, [0.2, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    (CameraModel::RadialFisheye, [-0.4, 0.03, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+    (CameraModel::ThinPrismFisheye, [0.0; 8]),
+    (CameraModel::ThinPrismFisheye, [0.1, -0.1, 0.01, -0.02, 0.02, -0.01, 0.03, -0.02]),
+];
+
+/// The projection of COLMAP and OpenCV, with its distortion.
 pub fn shown(camera: &Camera, p: [f64; 3]) -> Shown {
     let [x, y, depth] = in_camera(camera, p);
     let outside = Shown {
@@ -96,24 +174,28 @@ pub fn shown(camera: &Camera, p: [f64; 3]) -> Shown {
         return outside;
     }
     let (a, b) = (x / depth, y / depth);
-    let r2 = a * a + b * b;
-    if !r2.is_finite() {
+    let r = (a * a + b * b).sqrt();
+    if !(r * r).is_finite() {
         return outside;
     }
-    let [k1, k2, p1, p2, k3] = camera.distortion;
-    let is_distorted = camera.distortion != [0.0; 5];
+    let is_distorted = camera.distortion != [0.0; 8] || is_fisheye(camera.model);
     // The radial part must grow all the way from the middle.
-    let steps = if is_distorted { 2000 } else { 0 };
-    let slope = |s: f64| 1.0 + 3.0 * k1 * s + 5.0 * k2 * s * s + 7.0 * k3 * s * s * s;
-    let slopes = (0..=steps).map(|step| slope(r2 * f64::from(step) / f64::from(steps.max(1))));
-    let least = if is_distorted {
+    let end = if is_fisheye(camera.model) {
+        r.atan()
+    } else {
+        r
+    };
+    let at = |step: i32| {
+        let from = end * f64::from(step) / 500.0;
+        from * radial(camera, from)
+    };
+    let least = if is_distorted && end > 0.0 {
+        let slopes = (0..500).map(|step| (at(step + 1) - at(step)) * 500.0 / end);
         slopes.fold(f64::INFINITY, f64::min)
     } else {
         1.0
     };
-    let radial = 1.0 + k1 * r2 + k2 * r2 * r2 + k3 * r2 * r2 * r2;
-    let u = a * radial + 2.0 * p1 * a * b + p2 * (r2 + 2.0 * a * a);
-    let w = b * radial + p1 * (r2 + 2.0 * b * b) + 2.0 * p2 * a * b;
+    let [u, w] = distorted(camera, a, b);
     let (u, w) = (camera.fx * u + camera.cx, camera.fy * w + camera.cy);
     let is_near = |x: f64, end: f64| x.abs().min((x - end).abs()) <= 1e-9 * (end + x.abs());
     Shown {

@@ -121,6 +121,7 @@ function camera({ place }: Scene): fc.Arbitrary<Camera> {
           [NaN, 0, 0, 0, 0],
         ],
       ),
+      model: mostly<Camera["model"]>(["OPENCV", undefined], ["FOV", "THIN_PRISM_FISHEYE", "FISHEYE" as "OPENCV"]),
       near: mostly([0, 0.5, 1], [3, 50, -1, NaN]),
       far: mostly([3, 20, Infinity], [0, NaN]),
     },

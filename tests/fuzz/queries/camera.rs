@@ -2,7 +2,7 @@
 
 use hidden_point_removal::{Camera, Convention};
 
-use super::super::common::cameras::{along_axes, camera, in_camera, shown};
+use super::super::common::cameras::{LENSES, along_axes, camera, in_camera, shown};
 use super::super::common::cloud_of;
 use super::super::common::rng::Rng;
 use super::super::common::scenes::Scene;
@@ -104,12 +104,7 @@ fn any_camera(scene: &Scene, rng: &mut Rng) -> Camera {
         ),
     };
     if rng.chance(4) {
-        camera.distortion = rng.pick(&[
-            [0.1, -0.02, 0.001, -0.002, 0.003],
-            [-1.2, 0.0, 0.0, 0.0, 0.0],
-            [0.3, -2.0, 0.01, 0.0, 0.2],
-            [0.0, 0.0, 0.05, -0.05, 0.0],
-        ]);
+        (camera.model, camera.distortion) = rng.pick(&LENSES);
     }
     if rng.chance(3) {
         let [near, far] = [0; 2].map(|_| in_camera(&camera, point(rng))[2].abs());
