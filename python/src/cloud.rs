@@ -6,7 +6,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::{Points, Positions, indices, numbers, place, places};
+use crate::arrays::{Points, Positions, indices as read_indices, numbers, place, places};
 use crate::camera;
 use crate::failure::{option, refused};
 use crate::options::{self, Asked};
@@ -15,6 +15,14 @@ use crate::shared::Shared;
 use crate::visibility::Visibility;
 
 /// A point cloud, prepared for visibility queries.
+///
+/// positions: array of float32 or float64, shape (n, 3), in any units. Arrays that are contiguous are read without a
+///     copy. Other numbers are converted to float64. A masked coordinate counts as not finite.
+/// non_finite: "error" (default) refuses NaN and infinity. With "skip", such points keep their index and are never
+///     visible.
+///
+/// Raises `HprError`, a ValueError: its `code` is "positions-type", "positions-length", "non-finite", "option" or
+/// "too-large".
 #[pyclass(frozen, module = "hidden_point_removal")]
 pub struct PointCloud {
     cloud: Shared<core::PointCloud>,
@@ -75,22 +83,50 @@ impl PointCloud {
         self.cloud.get(py, core::PointCloud::len)
     }
 
+    /// How many points were left out because they are not finite: int.
     #[getter]
     fn skipped(&self, py: Python<'_>) -> PyResult<usize> {
         self.cloud.get(py, core::PointCloud::skipped)
     }
 
+    /// The mean distance of a point to its 6 nearest points: float, in the cloud's units.
     #[getter]
     fn spacing(&self, py: Python<'_>) -> PyResult<f64> {
         self.cloud.get(py, core::PointCloud::spacing)
     }
 
+    /// How far measured points lie off their surface: float, one standard deviation, in the cloud's units. 0 where
+    /// nothing tells of noise.
     #[getter]
     fn noise(&self, py: Python<'_>) -> PyResult<f64> {
         self.cloud.ask(py, core::PointCloud::noise)
     }
 
-    #[pyo3(signature = (viewpoint, **options))]
+    #[doc = asks!("visible_from", "viewpoint")]
+    /// The points that can be seen from a viewpoint.
+    ///
+    /// The operator flips all points on a sphere around the viewpoint. Those on the convex hull of the flipped points and
+    /// the viewpoint are visible (Katz, Tal and Basri 2007, section 3). The answer is exact for the flipped points.
+    ///
+    /// viewpoint: 3 numbers, in the cloud's units.
+    /// radius: float, "auto" (default), "search" or "opposite". R of the flipping sphere in the cloud's units, at least the
+    ///     distance of the farthest point; or the rule that chooses it. A larger R shows more points.
+    /// exponent: float, at least 0. R = distance of the farthest point * 10**exponent, the paper's parameter.
+    /// inversion: "spherical" (default), {"power": float} or {"exponential": float or "auto"}.
+    /// looks: 2 or 3. So many hulls, each trusted where it is sure: fewer errors, slower. Not with radius, exponent,
+    ///     inversion and draft.
+    /// scores: bool. With looks: the answer has a score from 0 to 1 for each index.
+    /// thickness: float or "auto" (default). With looks: how far behind the surface before it a point may lie and still be
+    ///     seen, in the cloud's units.
+    /// denoise: int. Before the view, each point moves to the plane of its k nearest points.
+    /// vote: int. A point is visible if more than 0.4 of itself and its k nearest points are.
+    /// draft: bool. An early answer: all visible points, and some hidden ones.
+    /// sample: int. Only an even sample of about so many points takes part.
+    /// within: dict of distance (float), box (two corners) and mask (n truth values). Only these points take part.
+    ///
+    /// An option that is None counts as left out. Returns a `Visibility`. Raises `HprError` with the code "viewpoint",
+    /// "radius", "option" or "too-large".
+    #[pyo3(signature = (viewpoint, **options), text_signature = None)]
     fn visible_from(
         &self,
         py: Python<'_>,
@@ -103,7 +139,13 @@ impl PointCloud {
         })
     }
 
-    #[pyo3(signature = (direction, **options))]
+    #[doc = asks!("visible_from_direction", "direction")]
+    /// The points that can be seen along a direction, from infinitely far away: an orthographic view.
+    ///
+    /// direction: 3 numbers, the way the viewer looks. Their length does not matter.
+    /// Options: those of `visible_from`. Not with "search", "opposite", {"power": float} and a distance in within.
+    /// Returns a `Visibility`.
+    #[pyo3(signature = (direction, **options), text_signature = None)]
     fn visible_from_direction(
         &self,
         py: Python<'_>,
@@ -116,7 +158,13 @@ impl PointCloud {
         })
     }
 
-    #[pyo3(signature = (viewpoints, **options))]
+    #[doc = asks!("visible_from_any", "viewpoints")]
+    /// The points that at least one viewpoint sees.
+    ///
+    /// viewpoints: list of 3 numbers each, or array of shape (m, 3). Each view chooses its own radius.
+    /// Options: those of `visible_from`. Not with scores.
+    /// Returns a `Visibility` with the largest radius.
+    #[pyo3(signature = (viewpoints, **options), text_signature = None)]
     fn visible_from_any(
         &self,
         py: Python<'_>,
@@ -129,7 +177,14 @@ impl PointCloud {
         })
     }
 
-    #[pyo3(signature = (k, viewpoints, **options))]
+    #[doc = asks!("visible_from_at_least", "k, viewpoints")]
+    /// The points that at least `k` viewpoints see.
+    ///
+    /// k: int, from 1 to the number of viewpoints.
+    /// viewpoints: list of 3 numbers each, or array of shape (m, 3). Each view chooses its own radius.
+    /// Options: those of `visible_from`. Not with scores.
+    /// Returns a `Visibility` with the largest radius.
+    #[pyo3(signature = (k, viewpoints, **options), text_signature = None)]
     fn visible_from_at_least(
         &self,
         py: Python<'_>,
@@ -144,7 +199,19 @@ impl PointCloud {
         })
     }
 
-    #[pyo3(signature = (camera, **options))]
+    #[doc = asks!("visible_from_camera", "camera")]
+    /// The points that a camera sees: `visible_from` its place, cut to its image.
+    ///
+    /// camera: dict of
+    ///     camera_to_world or world_to_camera: array of shape (4, 4), rigid;
+    ///     fx, fy, cx, cy, width, height: float, in pixels. u = fx*x/z + cx, with x to the right, y down, z forward, and
+    ///         u = 0 at the left edge of the first pixel;
+    ///     convention: "opencv" (default) or "opengl", where y is up and z backward;
+    ///     model: COLMAP's name of the lens (default "OPENCV"), and distortion: its coefficients as COLMAP lists them;
+    ///     near, far: float, limits of the depth along the optical axis, in the cloud's units.
+    /// Options: those of `visible_from`.
+    /// Returns a `Visibility` with `pixels` and `depths`. A camera that is no such dict raises the code "viewpoint".
+    #[pyo3(signature = (camera, **options), text_signature = None)]
     fn visible_from_camera(
         &self,
         py: Python<'_>,
@@ -159,7 +226,15 @@ impl PointCloud {
         Visibility::of_camera(py, view)
     }
 
-    #[pyo3(signature = (viewpoint, positions, **options))]
+    #[doc = asks!("sees", "viewpoint, positions")]
+    /// Which places could be seen that are not in the cloud: labels, sensors, targets.
+    ///
+    /// viewpoint: 3 numbers.
+    /// positions: array of shape (m, 3). Each place is asked alone, with the radius of the view without it. One that is
+    ///     farther than the radius is not visible.
+    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Returns an array of bool, one for each place.
+    #[pyo3(signature = (viewpoint, positions, **options), text_signature = None)]
     fn sees<'py>(
         &self,
         py: Python<'py>,
@@ -178,7 +253,13 @@ impl PointCloud {
         Ok(seen.into_pyarray(py))
     }
 
-    #[pyo3(signature = (viewpoints, **options))]
+    #[doc = asks!("coverage", "viewpoints")]
+    /// How many of the viewpoints see each point.
+    ///
+    /// viewpoints: list of 3 numbers each, or array of shape (m, 3).
+    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Returns an array of uint32, one number for each index.
+    #[pyo3(signature = (viewpoints, **options), text_signature = None)]
     fn coverage<'py>(
         &self,
         py: Python<'py>,
@@ -191,7 +272,16 @@ impl PointCloud {
         Ok(counts.into_pyarray(py))
     }
 
-    #[pyo3(signature = (candidates, count=None, share=None, weights=None, **options))]
+    #[doc = asks!("place_viewpoints", "candidates, count=None, share=None, weights=None")]
+    /// Chooses viewpoints that together see much: always the one that adds most weight, ties to the lowest number.
+    ///
+    /// candidates: list of 3 numbers each, or array of shape (m, 3).
+    /// count: int. At most so many are chosen.
+    /// share: float, above 0 and at most 1. No more are chosen than see this share of the weight that some candidate sees.
+    /// weights: n numbers of at least 0, one for each index. Default 1 each.
+    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Returns a `Placement`.
+    #[pyo3(signature = (candidates, count=None, share=None, weights=None, **options), text_signature = None)]
     fn place_viewpoints(
         &self,
         py: Python<'_>,
@@ -220,6 +310,12 @@ impl PointCloud {
         Ok(Placement::new(py, placed))
     }
 
+    /// The radius that a rule chooses for a viewpoint.
+    ///
+    /// viewpoint: 3 numbers.
+    /// rule: "auto" (default), "search" or "opposite".
+    ///
+    /// Returns (radius, exponent, evaluations): two float, and how many hulls the choice took.
     #[pyo3(signature = (viewpoint, rule="auto"))]
     fn auto_radius(
         &self,
@@ -234,7 +330,15 @@ impl PointCloud {
         Ok((chosen.radius, chosen.exponent, chosen.evaluations))
     }
 
-    #[pyo3(signature = (viewpoint, max_edge=None, **options))]
+    #[doc = asks!("reconstruct", "viewpoint, max_edge=None")]
+    /// The visible points, and the triangles between them.
+    ///
+    /// viewpoint: 3 numbers.
+    /// max_edge: float. Triangles with a longer edge are left out. Default 5 spacings.
+    /// Options: those of `visible_from`. Not with looks and draft.
+    /// Returns (`Visibility`, array of uint32 of shape (m, 3)): three indices for each triangle, counter-clockwise seen
+    /// from the viewpoint.
+    #[pyo3(signature = (viewpoint, max_edge=None, **options), text_signature = None)]
     fn reconstruct<'py>(
         &self,
         py: Python<'py>,
@@ -255,7 +359,16 @@ impl PointCloud {
         ))
     }
 
-    #[pyo3(signature = (lights, triangles=None, smoothing=1, ambient=0.0, **options))]
+    #[doc = asks!("illuminate", "lights, triangles=None, smoothing=1, ambient=0.0")]
+    /// Light and shadow: ambient + (1 - ambient) * (lights that see a point / lights), then softened.
+    ///
+    /// lights: list of 3 numbers each, or array of shape (m, 3).
+    /// triangles: array of int of shape (t, 3), indices of a mesh to soften over. Default: the 6 nearest points.
+    /// smoothing: int, rounds of softening.
+    /// ambient: float, from 0 to 1.
+    /// Options: those of `visible_from`. Not with looks and draft.
+    /// Returns an array of float32, one brightness from 0 to 1 for each index.
+    #[pyo3(signature = (lights, triangles=None, smoothing=1, ambient=0.0, **options), text_signature = None)]
     fn illuminate<'py>(
         &self,
         py: Python<'py>,
@@ -281,6 +394,9 @@ impl PointCloud {
         Ok(brightness.into_pyarray(py))
     }
 
+    /// Adds points, all or none. They take the next indices.
+    ///
+    /// positions: array of float32 or float64, shape (m, 3).
     fn append(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<()> {
         let positions = Positions::read(positions, "positions")?;
         let points = positions.points();
@@ -290,8 +406,12 @@ impl PointCloud {
         })
     }
 
-    fn remove(&self, py: Python<'_>, indices_: &Bound<'_, PyAny>) -> PyResult<()> {
-        let removed = indices(indices_, "indices")?;
+    /// Removes points. They are never visible again, and their indices are never given again.
+    ///
+    /// indices: list or array of int. Those that were removed before are ignored.
+    #[pyo3(signature = (indices))]
+    fn remove(&self, py: Python<'_>, indices: &Bound<'_, PyAny>) -> PyResult<()> {
+        let removed = read_indices(indices, "indices")?;
         self.cloud.change(py, |cloud| cloud.remove(&removed))
     }
 

@@ -10,7 +10,11 @@ use crate::failure::{problem, refused};
 use crate::options;
 use crate::shared::Shared;
 
-/// The hull of some points of a cloud, as seen from one viewpoint.
+/// The hull of some points of a cloud, as seen from one viewpoint. What it hides is hidden in the whole cloud.
+///
+/// viewpoint: 3 numbers, in the cloud's units.
+/// radius: float, R of the flipping sphere for the whole cloud.
+/// inversion: instead, {"power": float} or {"exponential": float}.
 #[pyclass(frozen, module = "hidden_point_removal")]
 pub struct Horizon {
     horizon: Shared<core::Horizon>,
@@ -19,7 +23,7 @@ pub struct Horizon {
 #[pymethods]
 impl Horizon {
     #[new]
-    #[pyo3(signature = (viewpoint, **options))]
+    #[pyo3(signature = (viewpoint, **options), text_signature = "(viewpoint, *, radius=None, inversion=None)")]
     fn new(
         py: Python<'_>,
         viewpoint: &Bound<'_, PyAny>,
@@ -34,6 +38,9 @@ impl Horizon {
         })
     }
 
+    /// Adds points.
+    ///
+    /// positions: array of float32 or float64, shape (m, 3).
     fn add(&self, py: Python<'_>, positions: &Bound<'_, PyAny>) -> PyResult<()> {
         let positions = Positions::read(positions, "positions")?;
         let points = positions.points();
@@ -43,6 +50,11 @@ impl Horizon {
         })
     }
 
+    /// The points that the horizon does not hide.
+    ///
+    /// positions: array of float32 or float64, shape (m, 3).
+    ///
+    /// Returns their numbers, ascending: uint32.
     fn screen<'py>(
         &self,
         py: Python<'py>,
@@ -57,6 +69,9 @@ impl Horizon {
         Ok(left.into_pyarray(py))
     }
 
+    /// Whether every point in a box is certainly hidden: bool.
+    ///
+    /// min, max: 3 numbers each, the lowest and the highest coordinates.
     fn hides_box(
         &self,
         py: Python<'_>,
@@ -71,6 +86,7 @@ impl Horizon {
         self.horizon.ask(py, |horizon| horizon.hides_box(min, max))
     }
 
+    /// The points that were added and are visible among them: float64, shape (m, 3).
     fn visible<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyArray2<f64>>> {
         let points = self.horizon.ask(py, core::Horizon::visible)?;
         let count = points.len();

@@ -1,5 +1,8 @@
 //! The Python module `hidden_point_removal._native`. The package of the same name words the public API.
 
+#[macro_use]
+mod help;
+
 mod arrays;
 mod camera;
 mod cloud;

@@ -9,9 +9,20 @@ use crate::arrays::{Points, Positions, place};
 use crate::failure::{option, refused};
 use crate::options;
 
-/// The ids of the points that are visible in the whole cloud.
+/// The ids of the points that are visible in a whole cloud. Exact: visible(A + B) = visible(visible(A) + visible(B)).
+///
+/// parts: list of (positions, ids), the visible points of each part: an array of shape (m, 3), and m int that are
+///     less than 2**64.
+/// viewpoint: 3 numbers.
+/// radius: float, R of the flipping sphere for the whole cloud.
+/// inversion: instead, {"power": float} or {"exponential": float}.
+///
+/// Returns an array of uint64, ascending.
 #[pyfunction]
-#[pyo3(signature = (parts, viewpoint, **options))]
+#[pyo3(
+    signature = (parts, viewpoint, **options),
+    text_signature = "(parts, viewpoint, *, radius=None, inversion=None)"
+)]
 pub fn merge_visible<'py>(
     py: Python<'py>,
     parts: Vec<(Bound<'py, PyAny>, Bound<'py, PyAny>)>,

@@ -9,15 +9,19 @@ use crate::arrays::{Points, Positions, place};
 use crate::failure::{option, refused};
 use crate::options;
 
-/// What is known of one sector of a cloud.
+/// What is known of one sector of a cloud. All lists ascend.
 #[pyclass(frozen, module = "hidden_point_removal")]
 pub struct Share {
+    /// The indices of own points that are visible in the whole cloud, for certain: uint32.
     #[pyo3(get)]
     visible: Py<PyArray1<u32>>,
+    /// The indices of own points that may be visible or hidden: uint32. The others are decided.
     #[pyo3(get)]
     undecided: Py<PyArray1<u32>>,
+    /// The indices of the given points, own ones first, that can still hide others: uint32.
     #[pyo3(get)]
     needed: Py<PyArray1<u32>>,
+    /// The numbers of the boxes whose points may hide undecided points: uint32.
     #[pyo3(get)]
     missing: Py<PyArray1<u32>>,
 }
@@ -35,9 +39,23 @@ impl Share {
     }
 }
 
-/// Which of the own points are visible in the whole cloud.
+/// Which of the own points of a cloud are visible, where only a part of the cloud is at hand.
+///
+/// If points are undecided, ask again with them as own points. The other needed points and the points of the missing
+/// boxes are then others, and these boxes are left out.
+///
+/// own, others: arrays of shape (m, 3): the points that are asked about, and points near them.
+/// boxes: array of shape (b, 2, 3), the lowest and the highest coordinates of boxes that hold all further points.
+/// viewpoint: 3 numbers.
+/// radius: float, R of the flipping sphere for the whole cloud.
+/// inversion: instead, {"power": float} or {"exponential": float}.
+///
+/// Returns a `Share`.
 #[pyfunction]
-#[pyo3(signature = (own, others, boxes, viewpoint, **options))]
+#[pyo3(
+    signature = (own, others, boxes, viewpoint, **options),
+    text_signature = "(own, others, boxes, viewpoint, *, radius=None, inversion=None)"
+)]
 pub fn share_visible(
     py: Python<'_>,
     own: &Bound<'_, PyAny>,

@@ -1,0 +1,56 @@
+"""help() explains the package."""
+
+import inspect
+import pydoc
+
+import pytest
+
+import hidden_point_removal as hpr
+from hidden_point_removal import Horizon, HprError, PointCloud
+
+OPTIONS = "radius exponent inversion looks scores thickness denoise vote draft sample within".split()
+ASKS = [name for name in dir(PointCloud) if not name.startswith("_")]
+TAKE_NO_OPTIONS = {"append", "auto_radius", "noise", "remove", "skipped", "spacing"}
+
+
+def public():
+    """(name, object) of everything that is public, and of its members."""
+    for name in hpr.__all__:
+        whole = getattr(hpr, name)
+        yield name, whole
+        if inspect.isclass(whole) and whole.__module__.startswith("hidden_point_removal") and whole is not HprError:
+            for member in dir(whole):
+                if not member.startswith("_"):
+                    yield f"{name}.{member}", getattr(whole, member)
+
+
+@pytest.mark.parametrize(("name", "whole"), list(public()), ids=lambda value: value if isinstance(value, str) else "")
+def test_each_public_name_has_a_text_and_a_signature(name, whole):
+    assert len(inspect.getdoc(whole) or "") > 10, name
+    if callable(whole) and not inspect.isclass(whole):
+        shown = inspect.signature(whole)
+        assert not any(parameter.kind is parameter.VAR_KEYWORD for parameter in shown.parameters.values()), shown
+
+
+@pytest.mark.parametrize("name", [name for name in ASKS if name not in TAKE_NO_OPTIONS])
+def test_each_question_names_its_options(name):
+    shown = inspect.signature(getattr(PointCloud, name)).parameters
+    assert [option for option in OPTIONS if shown[option].kind is inspect.Parameter.KEYWORD_ONLY] == OPTIONS
+    cloud = PointCloud([[0.0, 0, 1], [1, 0, 0]])
+    given = {option: None for option in shown if option in OPTIONS}
+    required = [p.name for p in shown.values() if p.default is p.empty and p.name != "self"]
+    with pytest.raises(HprError) as refused:
+        getattr(cloud, name)(*[None] * len(required), **given)
+    assert "unknown option" not in str(refused.value)
+
+
+def test_classes_show_how_to_make_them():
+    assert list(inspect.signature(PointCloud).parameters) == ["positions", "non_finite"]
+    assert list(inspect.signature(Horizon).parameters) == ["viewpoint", "radius", "inversion"]
+
+
+def test_help_lists_signature_types_and_text():
+    shown = pydoc.plain(pydoc.render_doc(PointCloud.visible_from))
+    assert "visible_from(self, /, viewpoint, *, radius=None," in shown
+    for words in ('radius: float, "auto" (default)', "Returns a `Visibility`", "Katz, Tal and Basri"):
+        assert words in shown
