@@ -1,15 +1,14 @@
-import { asError, describe, HprError } from "../base/errors.js";
+import { describe, HprError } from "../base/errors.js";
 import type { ChosenColumns as Chosen } from "../formats/axes.js";
 import type { CloudFile } from "../formats/cloud-file.js";
 import { displayColors } from "../formats/colors.js";
 import type { Crs, Unit } from "../formats/las/crs.js";
 import type { LazPerf } from "../formats/las/laz-perf.js";
 import type { Values } from "../formats/numbers.js";
-import { FormatProblem } from "../formats/problem.js";
 import { readFile } from "../formats/read.js";
 import { givenOptions } from "../query/options.js";
 import { abortError, BY_SIGNAL, readSignal } from "../worker/abort.js";
-import { sourceOf } from "./source-of.js";
+import { type FileSource, refusal, sourceOf } from "./source-of.js";
 
 /** The columns that are x, y and z: their names, or their numbers from 1. */
 export type ChosenColumns = readonly [string | number, string | number, string | number];
@@ -63,10 +62,7 @@ export interface CloudData {
  * @throws HprError (as a rejection) `load` if the file cannot be read or contradicts itself; the message names the
  * line or the fault. `option` for a wrong source or option.
  */
-export async function readCloud(
-  source: Blob | ArrayBuffer | URL | string,
-  options: ReadOptions = {},
-): Promise<CloudData> {
+export async function readCloud(source: FileSource, options: ReadOptions = {}): Promise<CloudData> {
   const { signal, chosen, onProgress, damaged, lazPerf } = readSettings(options);
   if (signal?.aborted) throw abortError(BY_SIGNAL);
   const { close, ...named } = await sourceOf(source, signal);
@@ -74,9 +70,7 @@ export async function readCloud(
     return cloudData(await readFile({ ...named, chosen, damaged, onProgress, signal, lazPerf }));
   } catch (cause) {
     if (signal?.aborted) throw abortError(BY_SIGNAL);
-    if (cause instanceof HprError) throw cause;
-    const why = cause instanceof FormatProblem ? cause.message : `it is broken (${asError(cause).message})`;
-    throw new HprError("load", `${named.name} cannot be read: ${why}`, { cause });
+    throw refusal(named.name, cause);
   } finally {
     await close();
   }

@@ -1,7 +1,11 @@
 import { asError, describe, HprError, typeTag } from "../base/errors.js";
 import { hasNodeModules, importNodeModule } from "../base/node.js";
 import { abortError, BY_SIGNAL } from "../worker/abort.js";
+import { FormatProblem } from "../formats/problem.js";
 import { blobSource, bytesSource, type Source } from "../formats/source.js";
+
+/** A file, or where it is: an address, or a path in Node. */
+export type FileSource = Blob | ArrayBuffer | URL | string;
 
 /** A file, its name, and the folder in which other files of a scene are. */
 export interface NamedSource {
@@ -9,6 +13,13 @@ export interface NamedSource {
   name: string;
   base?: string;
   close: () => Promise<void>;
+}
+
+/** The error for a file that cannot be read. */
+export function refusal(name: string, cause: unknown): HprError {
+  if (cause instanceof HprError) return cause;
+  const why = cause instanceof FormatProblem ? cause.message : `it is broken (${asError(cause).message})`;
+  return new HprError("load", `${name} cannot be read: ${why}`, { cause });
 }
 
 const nothing = () => Promise.resolve();

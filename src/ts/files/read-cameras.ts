@@ -1,0 +1,122 @@
+import { describe, HprError, typeTag } from "../base/errors.js";
+import { hasNodeModules, importNodeModule } from "../base/node.js";
+import { FormatProblem } from "../formats/problem.js";
+import { looksBinary } from "../formats/text.js";
+import { givenOptions } from "../query/options.js";
+import type { CameraOfImage, ImageSize } from "./cameras/camera-file.js";
+import { readCameraBytes, readImageBytes } from "./cameras/colmap.js";
+import { readCameraLines, readImageLines } from "./cameras/colmap-text.js";
+import { readKitti } from "./cameras/kitti.js";
+import { readOpenCv } from "./cameras/opencv.js";
+import { readTransforms } from "./cameras/transforms.js";
+import { type FileSource, type NamedSource, refusal, sourceOf } from "./source-of.js";
+
+export type { CameraOfImage, FileSource, ImageSize };
+
+/**
+ * Reads the cameras of images: COLMAP's `cameras` and `images` (`.bin` or `.txt`), nerfstudio's `transforms.json`, KITTI's
+ * `calib.txt`, and the YAML of OpenCV and ROS. u = 0 is the left edge of the first pixel, so cx and cy of OpenCV and KITTI
+ * get ½ more.
+ *
+ * @param source a file, as for `readCloud`; a folder (its path, in Node), or a list of files with names (in pages, those of
+ *   an input), of which COLMAP's are taken, or `transforms.json`, or `calib.txt`
+ * @param options the `width` and `height` of images, for files that do not say them. Default: 1242 and 375 for KITTI
+ * @returns the cameras in the order of the file, each with the name of its image. KITTI's are `image_0` to `image_3`;
+ *   OpenCV's have none, and no pose
+ * @throws HprError (as a rejection) `load` if a file cannot be read; the message names the line or the byte, and the
+ *   field. `option` for a wrong source or option
+ */
+export async function readCameras(
+  source: FileSource | ArrayLike<FileSource>,
+  options: Partial<ImageSize> = {},
+): Promise<CameraOfImage[]> {
+  const size = sizeIn(options);
+  const files = await filesOf(source);
+  const opened: NamedSource[] = [];
+  try {
+    for (const file of files) opened.push(await sourceOf(file, undefined));
+    const [first, second] = opened as [NamedSource, NamedSource?];
+    if (second === undefined) return await reading(first, () => readOne(first, size));
+    const isText = /\.txt$/i.test(first.name);
+    const cameras = await reading(first, () => (isText ? readCameraLines : readCameraBytes)(first.source));
+    return await reading(second, () => (isText ? readImageLines : readImageBytes)(second.source, cameras));
+  } finally {
+    await Promise.all(opened.map(({ close }) => close()));
+  }
+}
+
+async function reading<T>({ name }: NamedSource, read: () => Promise<T>): Promise<T> {
+  try {
+    return await read();
+  } catch (cause) {
+    throw refusal(name, cause);
+  }
+}
+
+/** One file that holds everything. */
+async function readOne({ source, name }: NamedSource, size: ImageSize | undefined): Promise<CameraOfImage[]> {
+  const bytes = await source.read(0, 1 << 16);
+  const start = new TextDecoder().decode(bytes);
+  if (/^\s*\{/.test(start)) return readTransforms(source, size);
+  if (/^(%YAML|camera_matrix\s*:)/im.test(start)) return readOpenCv(source, size);
+  if (/^P[0-3]:?[ \t]/m.test(start)) return readKitti(source, size);
+  if (looksBinary(bytes) || /(cameras|images)\.(txt|bin)$|^# (Camera|Image) list/im.test(`${name}\n${start}`)) {
+    throw new FormatProblem("COLMAP keeps cameras and images in two files; give both, or their folder");
+  }
+  throw new FormatProblem("it is none of the files of cameras that are read (COLMAP, nerfstudio, KITTI, OpenCV)");
+}
+
+/** One file, or COLMAP's two. */
+async function filesOf(source: unknown): Promise<unknown[]> {
+  const isList = Array.isArray(source) || typeTag(source) === "FileList";
+  const folder = isList ? Array.from<unknown>(source as ArrayLike<unknown>) : await filesIn(source);
+  if (folder === undefined) return [source];
+  const named = (name: string) => folder.find((file) => nameOf(file) === name);
+  for (const names of [
+    ["cameras.bin", "images.bin"],
+    ["cameras.txt", "images.txt"],
+    ["transforms.json"],
+    ["calib.txt"],
+  ]) {
+    const chosen = names.map(named);
+    if (chosen.every((file) => file !== undefined)) return chosen;
+  }
+  if (folder.length === 1) return folder;
+  const what = isList ? "the list of files" : String(source);
+  throw new HprError(
+    isList ? "option" : "load",
+    `${what} must hold cameras and images (.bin or .txt), transforms.json or calib.txt`,
+  );
+}
+
+/** The files in a folder; undefined if this is no folder. */
+async function filesIn(source: unknown): Promise<unknown[] | undefined> {
+  const isUrl = source instanceof URL && source.protocol === "file:";
+  if (!(isUrl || (typeof source === "string" && hasNodeModules()))) return undefined;
+  const { readdir, stat } = await importNodeModule<typeof import("node:fs/promises")>("node:fs/promises");
+  const { fileURLToPath } = await importNodeModule<typeof import("node:url")>("node:url");
+  try {
+    const path = isUrl ? fileURLToPath(source) : source;
+    if (!(await stat(path)).isDirectory()) return undefined;
+    return (await readdir(path)).map((name) => `${path}/${name}`);
+  } catch {
+    // It is no file at all, which is said when it is opened.
+    return undefined;
+  }
+}
+
+function nameOf(file: unknown): string {
+  const name = typeof file === "string" ? file : file instanceof URL ? file.pathname : (file as File | null)?.name;
+  return String(name).split(/[\\/]/).at(-1)!.toLowerCase();
+}
+
+function sizeIn(options: unknown): ImageSize | undefined {
+  const { width, height } = givenOptions(options, ["width", "height"]);
+  if (width === undefined && height === undefined) return undefined;
+  for (const [name, value] of Object.entries({ width, height })) {
+    if (!(typeof value === "number" && value > 0 && value < Infinity)) {
+      throw new HprError("option", `${name} must be a finite and positive number, got ${describe(value)}`);
+    }
+  }
+  return { width: width as number, height: height as number };
+}
