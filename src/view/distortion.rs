@@ -176,6 +176,10 @@ impl Distortion {
     /// longer grows there.
     pub(crate) fn apply(&self, x: f64, y: f64) -> Option<[f64; 2]> {
         let squared = x * x + y * y;
+        // Of such a radius, an angle would keep no direction.
+        if !squared.is_finite() {
+            return None;
+        }
         let factor = match self.bend {
             Bend::None => 1.0,
             _ if squared == 0.0 => 1.0,
@@ -190,7 +194,7 @@ impl Distortion {
         };
         let (x, y) = (x * factor, y * factor);
         let squared = x * x + y * y;
-        if squared >= self.limit || squared.is_nan() {
+        if squared >= self.limit {
             return None;
         }
         let radial = value(&self.above, squared) / value(&self.below, squared);

@@ -283,3 +283,20 @@ fn a_rounded_pose_becomes_the_nearest_rotation() {
         }
     }
 }
+
+#[test]
+fn a_point_beside_the_camera_is_outside_of_every_image() {
+    // The square of its radius in the image overflows.
+    let cloud = PointCloud::new(&[[0.0, 1e100, 1e-100]]).unwrap();
+    for (model, distortion) in LENSES {
+        let camera = Camera {
+            model,
+            distortion,
+            ..Camera::new(10.0, 10.0, 5.0, 5.0, 10.0, 10.0)
+        };
+        let seen = cloud
+            .visible_from_camera(&camera, &Options::default())
+            .unwrap();
+        assert_eq!(seen.visibility.count(), 0, "{model:?}");
+    }
+}
