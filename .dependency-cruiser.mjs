@@ -6,7 +6,7 @@
  */
 const PACKAGE = [
   ["base", "base/"],
-  ["wasm", "wasm/"],
+  ["wasm", "(wasm|lite)/"],
   ["follow", "follow/"],
   ["formats", "formats/"],
   ["query", "query/"],
@@ -23,7 +23,7 @@ const PACKAGE = [
   ["deck", "deck/"],
   ["stream", "stream/"],
   ["api", "api\\.ts$"],
-  ["entries", "(index|inline|worker|files|three|nodes|react-three-fiber|deck|stream)\\.ts$"],
+  ["entries", "(index|inline|lite|worker|files|three|nodes|react-three-fiber|deck|stream)\\.ts$"],
   // The command uses the entries, as any user does.
   ["cli", "cli/"],
 ];

@@ -2,8 +2,8 @@ import { defineConfig, globalIgnores } from "eslint/config";
 import tseslint from "typescript-eslint";
 
 export default defineConfig(
-  // `src/ts/wasm` is what wasm-bindgen generates.
-  globalIgnores(["dist", "www/dist", "www/public", "target", "src/ts/wasm"]),
+  // `src/ts/wasm` and `src/ts/lite` are what wasm-bindgen generates.
+  globalIgnores(["dist", "www/dist", "www/public", "target", "src/ts/wasm", "src/ts/lite"]),
   {
     files: ["**/*.ts"],
     extends: [tseslint.configs.strictTypeChecked],

@@ -24,9 +24,10 @@
 //! - `std` (default): the platform's square root. Without it the crate needs
 //!   only `alloc`; answers are the same.
 //! - `higher` (default): clouds of four and more dimensions.
-//! - `wasm`: the JavaScript bindings of the npm package; not a Rust API.
+//! - `wasm`: the JavaScript bindings of the npm package; not a Rust API. `lite`: those of its small
+//!   module, which holds the operator alone.
 #![no_std]
-#![cfg_attr(not(feature = "wasm"), forbid(unsafe_code))]
+#![cfg_attr(not(feature = "lite"), forbid(unsafe_code))]
 #![warn(missing_docs)]
 
 extern crate alloc;
@@ -40,7 +41,7 @@ mod dimensions;
 mod flip;
 mod hull;
 mod view;
-#[cfg(feature = "wasm")]
+#[cfg(feature = "lite")]
 mod wasm;
 
 pub use answers::camera::CameraView;

@@ -4,9 +4,12 @@ import { inRoot } from "../lib/paths.js";
 import { mustRun, say } from "../lib/run.js";
 import { unlessUnchanged } from "../lib/stamp.js";
 import { EMBEDDED, embedWasm, embedWorker } from "./embed.js";
-import { GLUE } from "./wasm.js";
+import { GLUE, MODULES } from "./wasm.js";
 
-const GENERATED = [...GLUE, ...EMBEDDED];
+const GENERATED = [
+  ...Object.keys(MODULES).flatMap((folder) => GLUE.map((file) => `${folder}/${file}`)),
+  ...EMBEDDED.map((file) => `wasm/${file}`),
+];
 
 /** Compiles the TypeScript to the modules of the npm package and types, in dist. */
 export async function buildPackage(): Promise<void> {
@@ -14,7 +17,7 @@ export async function buildPackage(): Promise<void> {
     name: "package",
     inputs: ["src/ts", "tsconfig.base.json", "tsconfig.build.json", "package-lock.json", "scripts/build/embed.ts"],
     ignore: EMBEDDED.map((file) => `src/ts/wasm/${file}`),
-    outputs: ["dist/index.js", "dist/worker-thread.js", ...GENERATED.map((file) => `dist/wasm/${file}`)],
+    outputs: ["dist/index.js", "dist/worker-thread.js", ...GENERATED.map((file) => `dist/${file}`)],
   };
   const result = await unlessUnchanged(work, async () => {
     say("Compiling the npm package…");
@@ -23,8 +26,8 @@ export async function buildPackage(): Promise<void> {
     embedWasm();
     const worker = await embedWorker();
     await mustRun("tsc", ["-p", "tsconfig.build.json"], "The npm package does not compile");
-    mkdirSync(inRoot("dist/wasm"), { recursive: true });
-    for (const file of GENERATED) copyFileSync(inRoot("src/ts/wasm", file), inRoot("dist/wasm", file));
+    for (const folder of Object.keys(MODULES)) mkdirSync(inRoot("dist", folder), { recursive: true });
+    for (const file of GENERATED) copyFileSync(inRoot("src/ts", file), inRoot("dist", file));
     writeFileSync(inRoot("dist/worker-thread.js"), worker);
   });
   say(`npm package: ${result}`);

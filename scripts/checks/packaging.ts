@@ -18,6 +18,7 @@ const INDISPENSABLE = [
   "dist/index.js",
   "dist/index.d.ts",
   "dist/wasm/hpr_bg.wasm",
+  "dist/lite/hpr_bg.wasm",
   "README.md",
   "LICENSE-MIT",
   "THIRD_PARTY.md",

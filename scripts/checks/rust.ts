@@ -78,9 +78,13 @@ export const rustChecks: Check[] = [
     part: "lint",
     needs: [SETUP],
     locks: "debug",
-    run: () => {
-      const what = ["--lib", "--test", "same_bits", "--features", "wasm", "--target", WASM_TARGET];
-      return checkCommand("cargo", ["clippy", "--locked", ...what, ...DENY_WARNINGS]);
+    run: async () => {
+      const clippy = (...what: string[]) =>
+        checkCommand("cargo", ["clippy", "--locked", "--lib", ...what, "--target", WASM_TARGET, ...DENY_WARNINGS]);
+      return sum([
+        await clippy("--test", "same_bits", "--features", "wasm"),
+        await clippy(NO_STD, "--features", "lite"),
+      ]);
     },
   },
   {

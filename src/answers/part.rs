@@ -182,7 +182,7 @@ impl PointCloud {
     }
 
     /// Keeps the cloud of the masked points. Returns whether it is another one than before.
-    #[cfg(feature = "wasm")]
+    #[cfg(feature = "lite")]
     pub(crate) fn keep_masked(&mut self, mask: Vec<u8>) -> Result<bool, Error> {
         let kept = self.kept.masked.as_ref();
         if kept.is_some_and(|(kept, _)| *kept == mask) {

@@ -6,6 +6,7 @@ use crate::answers::looks::{Projection, Question, even_scales, scores_of_indices
 use crate::answers::memory::ViewMemory;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::bits::{bits_of, places};
+use crate::base::build::FULL;
 use crate::base::error::Error;
 use crate::cloud::part::Steps;
 use crate::cloud::point_cloud::PointCloud;
@@ -228,22 +229,32 @@ impl PointCloud {
         if let Some(count) = looks(options)? {
             return self.seen_by_looks(memory, Projection::Perspective(viewpoint), count, options);
         }
+        self.seen_by_hull(&mut memory.hull, viewpoint, options)
+    }
+
+    /// The view of one hull, without options that choose or move points. `memory` holds the last one.
+    pub(crate) fn seen_by_hull(
+        &self,
+        memory: &mut hull::Memory,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
         let view = self.view(viewpoint, options)?;
         let points = &self.sequence.points;
         let blocks = &self.blocks.levels[0];
-        let mark = if options.draft {
+        let mark = if FULL && options.draft {
             hull::mark_draft
         } else {
             hull::mark_visible
         };
-        mark(points, blocks, &view.flip, &mut memory.hull)?;
-        let visible = memory.hull.visible();
+        mark(points, blocks, &view.flip, memory)?;
+        let visible = memory.visible();
         match options.vote {
-            Some(k) => {
+            Some(k) if FULL => {
                 let voted = self.vote(k, visible)?;
                 self.answer(&voted, options, view.chosen, view.inversion)
             }
-            None => self.answer(visible, options, view.chosen, view.inversion),
+            _ => self.answer(visible, options, view.chosen, view.inversion),
         }
     }
 

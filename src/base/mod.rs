@@ -4,6 +4,7 @@
 pub(crate) mod allocation;
 pub(crate) mod beat;
 pub(crate) mod bits;
+pub(crate) mod build;
 pub(crate) mod error;
 pub(crate) mod limit;
 #[cfg(test)]

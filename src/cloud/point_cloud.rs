@@ -62,7 +62,7 @@ pub(crate) struct Kept {
     pub noise: std::sync::OnceLock<Arc<Noise>>,
     pub survey: Option<Arc<Survey>>,
     /// The cloud of the points that a mask marks, with one byte for each index.
-    #[cfg(feature = "wasm")]
+    #[cfg(feature = "lite")]
     pub masked: Option<(Vec<u8>, Box<PointCloud>)>,
 }
 

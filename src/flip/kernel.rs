@@ -4,6 +4,7 @@
 //!
 //! pow and exp come from `libm` in every build, so that all of them round alike.
 
+use crate::base::build::FULL;
 use crate::base::real::smaller;
 
 /// The new distance |q| of a point at distance d from the viewpoint.
@@ -111,6 +112,9 @@ fn exponential(scale: f64, d: f64) -> f64 {
 
 /// exp(c·(t^(β−1) − 1)/(1 − β)), which is t^(−c) for β = 1.
 fn growing(scale: f64, t: f64, power: f64) -> f64 {
+    if !FULL {
+        unreachable!("only looks flip so");
+    }
     let less = 1.0 - power;
     let log = -libm::log(t);
     let grown = if less > 0.0 {

@@ -13,6 +13,7 @@ use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, push};
 use crate::base::beat;
 use crate::base::bits::bits_of;
+use crate::base::build::FULL;
 use crate::flip::inversion::Flip;
 
 /// The last view's hull, whose room the next view uses. Its content never changes an answer, as
@@ -68,7 +69,7 @@ impl Memory {
     /// such draft.
     pub(super) fn drafted(&self, flip: &Flip) -> Option<LastRound> {
         match self.state {
-            State::Draft(drafted, round) if drafted == *flip => Some(round),
+            State::Draft(drafted, round) if FULL && drafted == *flip => Some(round),
             _ => None,
         }
     }

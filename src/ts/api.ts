@@ -35,6 +35,6 @@ export type { Placement } from "./query/placement.js";
 export type { CoverageOptions, PlacementOptions } from "./query/surveys.js";
 export type { Within } from "./query/within.js";
 export type { Inversion, RadiusRule, ResolvedInversion, VisibilityOptions } from "./query/view-options.js";
-export { initSync } from "./instance/start.js";
+export { initSync } from "./instance/init-sync.js";
 export { VisibilityMap, type VisibilityMapUniforms } from "./cloud/visibility-map.js";
 export type { CameraView, Reconstruction, Visibility } from "./cloud/visibility.js";

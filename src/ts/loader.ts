@@ -1,10 +1,11 @@
-import { compileOwn, type InitInput, type WasmModule } from "./instance/compile.js";
+import { compiledOnce, compileOwn, FULL, type InitInput, type WasmModule } from "./instance/compile.js";
 import { configuredWasm } from "./instance/configure.js";
-import { compiledOnce, initFrom, startedModule } from "./instance/start.js";
+import { engine, state } from "./instance/instance.js";
+import { initFrom, startedModule } from "./instance/start.js";
 
 // This must be one literal expression: bundlers look for exactly this form. Other tools keep the
 // address unchanged, so this file must stay beside the folder `wasm`.
-const ownFile = compiledOnce(() => compileOwn(() => new URL("./wasm/hpr_bg.wasm", import.meta.url)));
+const ownFile = compiledOnce(() => compileOwn(() => new URL("./wasm/hpr_bg.wasm", import.meta.url), FULL));
 
 /**
  * Loads the wasm and starts it. Without an argument, it loads the file that comes with the package,
@@ -17,7 +18,7 @@ const ownFile = compiledOnce(() => compileOwn(() => new URL("./wasm/hpr_bg.wasm"
  * @throws HprError (as a rejection) `load` if it cannot be fetched, compiled or started.
  */
 export function init(input?: InitInput): Promise<void> {
-  return initFrom(configuredWasm() ?? ownFile, input);
+  return initFrom(engine, configuredWasm() ?? ownFile, input);
 }
 
 /**
@@ -25,5 +26,5 @@ export function init(input?: InitInput): Promise<void> {
  * package's own file.
  */
 export async function moduleForWorker(): Promise<WasmModule> {
-  return (await startedModule()) ?? (await (configuredWasm() ?? ownFile)());
+  return (await startedModule(state)) ?? (await (configuredWasm() ?? ownFile)());
 }

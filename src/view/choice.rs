@@ -4,6 +4,7 @@
 use alloc::vec::Vec;
 
 use crate::base::allocation::with_capacity;
+use crate::base::build::FULL;
 use crate::base::error::Error;
 use crate::cloud::blocks::Blocks;
 use crate::cloud::noise::Texture;
@@ -43,11 +44,10 @@ impl Sight<'_> {
             Ok(Seen::count(&here, &there))
         };
         match choice {
-            Radius::Auto => Ok(from_radius(self.automatic, farthest)),
-            Radius::Search => search::antipodal(self.automatic, farthest, &mut |kernels| {
+            Radius::Search if FULL => search::antipodal(self.automatic, farthest, &mut |kernels| {
                 seen_from_both(kernels.map(|kernel| (viewpoint, kernel)))
             }),
-            Radius::Opposite => {
+            Radius::Opposite if FULL => {
                 let mut mirror = with_capacity(viewpoint.len())?;
                 let axes = self.centroid.iter().zip(viewpoint);
                 mirror.extend(axes.map(|(center, x)| center + (center - x)));
@@ -63,6 +63,9 @@ impl Sight<'_> {
                 Ok(opposite.unwrap_or_else(|| from_radius(self.automatic, farthest)))
             }
             Radius::Absolute(_) | Radius::Exponent(_) => given(choice, farthest),
+            Radius::Auto | Radius::Search | Radius::Opposite => {
+                Ok(from_radius(self.automatic, farthest))
+            }
         }
     }
 }

@@ -9,7 +9,9 @@ use super::failure::Failure;
 use super::objects::to_js;
 use super::options::ViewOptions;
 use super::transfer::{copy_out, copy_out_singles};
-use crate::{ChosenRadius, Error, Exponential, Inversion, Visibility};
+#[cfg(feature = "wasm")]
+use crate::Error;
+use crate::{ChosenRadius, Exponential, Inversion, Visibility};
 
 #[derive(Serialize)]
 struct Answer {
@@ -75,6 +77,7 @@ pub(super) fn chosen(chosen: Result<ChosenRadius, Failure>) -> Result<JsValue, J
     }))
 }
 
+#[cfg(feature = "wasm")]
 #[cold]
 pub(super) fn refused(error: Error) -> JsValue {
     Failure::from(error).into()

@@ -15,7 +15,10 @@ use super::options::ViewOptions;
 use super::transfer::copy_in_bytes;
 use crate::answers::memory::ViewMemory;
 use crate::base::allocation::push;
-use crate::{Error, Horizon, Options, PointCloud, PointCloudNd};
+use crate::base::build::FULL;
+use crate::{Error, Options, PointCloud};
+#[cfg(feature = "wasm")]
+use crate::{Horizon, PointCloudNd};
 
 thread_local! {
     static CLOUDS: RefCell<Vec<Option<Cloud>>> = const { RefCell::new(Vec::new()) };
@@ -25,7 +28,9 @@ thread_local! {
 /// A cloud of three dimensions (or two, with z = 0), or of more; or the horizon of a cloud.
 pub(super) enum Cloud {
     Space(Box<PointCloud>),
+    #[cfg(feature = "wasm")]
     Hyper(Box<PointCloudNd>),
+    #[cfg(feature = "wasm")]
     Horizon(Box<Horizon>),
 }
 
@@ -50,7 +55,9 @@ impl CloudInfo {
     fn new(handle: u32, cloud: &Cloud) -> Self {
         let (length, skipped, spacing) = match cloud {
             Cloud::Space(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
+            #[cfg(feature = "wasm")]
             Cloud::Hyper(cloud) => (cloud.len(), cloud.skipped(), cloud.spacing()),
+            #[cfg(feature = "wasm")]
             Cloud::Horizon(_) => (0, 0, 0.0),
         };
         Self {
@@ -125,6 +132,7 @@ pub(super) fn with_view<T>(
 }
 
 /// How far measured points lie off their surface.
+#[cfg(feature = "wasm")]
 #[wasm_bindgen]
 pub fn noise(handle: u32) -> Result<f64, JsValue> {
     let noise = CLOUDS.with_borrow(|clouds| match clouds.get(handle as usize) {
@@ -171,6 +179,7 @@ fn prepare(
     })
 }
 
+#[cfg(feature = "wasm")]
 pub(super) fn with_hyper<T>(
     handle: u32,
     query: impl FnOnce(&PointCloudNd) -> Result<T, Error>,
@@ -181,6 +190,7 @@ pub(super) fn with_hyper<T>(
     })
 }
 
+#[cfg(feature = "wasm")]
 pub(super) fn with_horizon<T>(
     handle: u32,
     query: impl FnOnce(&Horizon) -> Result<T, Error>,
@@ -217,6 +227,9 @@ fn memory_for(last: &mut Option<LastView>, handle: u32, masked: bool) -> &mut Vi
 
 /// Frees the memory of the cloud's last view.
 fn forget(handle: u32) {
+    if !FULL {
+        return;
+    }
     LAST_VIEW.with_borrow_mut(|last| {
         if last.as_ref().is_some_and(|last| last.handle == handle) {
             *last = None;

@@ -4,21 +4,34 @@
 //! that was given up can never free memory of the next instance. Typed arrays arrive as
 //! JavaScript objects, never as `&[f32]`. The glue would copy a `&[f32]` before any code here
 //! runs, and trap where memory is refused.
+//!
+//! With the feature `lite` alone, they hold the operator: a cloud of two or three dimensions, a view,
+//! its radius, and changes.
 
 mod answer;
+#[cfg(feature = "wasm")]
 mod beats;
 mod cloud_options;
 mod clouds;
 mod failure;
+#[cfg(feature = "wasm")]
 mod formulas;
+#[cfg(feature = "wasm")]
 mod higher;
+#[cfg(feature = "wasm")]
 mod horizons;
+#[cfg(feature = "wasm")]
 mod maps;
+#[cfg(feature = "wasm")]
+mod merges;
 mod objects;
 mod options;
+#[cfg(feature = "wasm")]
 mod outputs;
 mod space;
 mod transfer;
+mod view;
+#[cfg(feature = "wasm")]
 mod views;
 
 #[cfg(debug_assertions)]

@@ -3,6 +3,7 @@
 use js_sys::{Float64Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
+use crate::base::build::FULL;
 use crate::{Exponential, Inversion, Options, Radius, Within};
 
 #[wasm_bindgen]
@@ -46,7 +47,7 @@ impl ViewOptions {
     pub(super) fn read(&self) -> Options {
         // Conversions saturate. 0 stands for no option; JavaScript refuses a 0 of the caller.
         let number = |k: f64| (k > 0.0).then_some(k as usize);
-        Options {
+        let operator = Options {
             radius: self.read_radius(),
             inversion: match self.kernel() as u32 {
                 1 => Inversion::Power(self.parameter()),
@@ -55,6 +56,12 @@ impl ViewOptions {
                 4 => Inversion::Looks(self.parameter() as usize),
                 _ => Inversion::Spherical,
             },
+            ..Options::default()
+        };
+        if !FULL {
+            return operator;
+        }
+        Options {
             denoise: number(self.denoise()),
             vote: number(self.vote()),
             scores: self.scores(),
@@ -73,6 +80,7 @@ impl ViewOptions {
                     bounds: Some(bounds).filter(|_| is_bounded),
                 }
             }),
+            ..operator
         }
     }
 

@@ -1,4 +1,4 @@
-//! Clouds in space, and answers merged from those of their parts.
+//! Clouds in space.
 
 use alloc::boxed::Box;
 
@@ -8,9 +8,8 @@ use wasm_bindgen::prelude::*;
 use super::cloud_options::{CloudOptions, non_finite};
 use super::clouds::{Cloud, change_any, created, resized};
 use super::failure::Failure;
-use super::options::ViewOptions;
-use super::transfer::{copy_in_integers, copy_out, doubles, singles};
-use crate::answers::merge::{Ids, merge};
+use super::transfer::{copy_in_integers, doubles, singles};
+use crate::base::build::FULL;
 use crate::cloud::points::Points;
 use crate::{Error, PointCloud};
 
@@ -50,35 +49,11 @@ pub fn remove(handle: u32, indices: &Uint32Array) -> Result<JsValue, JsValue> {
     let indices = copy_in_integers(indices).map_err(Failure::from)?;
     resized(change_any(handle, &mut |cloud| match cloud {
         Cloud::Space(cloud) => cloud.remove(&indices),
+        #[cfg(feature = "wasm")]
         Cloud::Hyper(cloud) => cloud.remove(&indices),
+        #[cfg(feature = "wasm")]
         Cloud::Horizon(_) => Ok(()),
     }))
-}
-
-/// The ids of the visible points among single-precision positions; each position has one id.
-#[wasm_bindgen(js_name = mergeVisibleF32)]
-pub fn merge_visible_f32(
-    positions: &Float32Array,
-    ids: &Uint32Array,
-    x: f64,
-    y: f64,
-    z: f64,
-    options: &ViewOptions,
-) -> Result<Uint32Array, JsValue> {
-    merge_visible(singles(positions), ids, [x, y, z], options)
-}
-
-/// The ids of the visible points among double-precision positions; each position has one id.
-#[wasm_bindgen(js_name = mergeVisibleF64)]
-pub fn merge_visible_f64(
-    positions: &Float64Array,
-    ids: &Uint32Array,
-    x: f64,
-    y: f64,
-    z: f64,
-    options: &ViewOptions,
-) -> Result<Uint32Array, JsValue> {
-    merge_visible(doubles(positions), ids, [x, y, z], options)
 }
 
 fn create_cloud(
@@ -86,7 +61,7 @@ fn create_cloud(
     options: &CloudOptions,
 ) -> Result<JsValue, JsValue> {
     let non_finite = non_finite(options);
-    let listener = options.progress();
+    let listener = if FULL { options.progress() } else { None };
     let mut progress = |share: f64| {
         if let Some(listener) = &listener {
             // The function posts a message, which does not throw.
@@ -103,23 +78,9 @@ fn append(handle: u32, positions: Result<Points, Error>) -> Result<JsValue, JsVa
     let positions = positions.map_err(Failure::from)?;
     resized(change_any(handle, &mut |cloud| match cloud {
         Cloud::Space(cloud) => cloud.add(positions.as_given()),
+        #[cfg(feature = "wasm")]
         Cloud::Horizon(horizon) => horizon.grow(positions.as_given()),
+        #[cfg(feature = "wasm")]
         Cloud::Hyper(_) => Ok(()),
     }))
-}
-
-fn merge_visible(
-    positions: Result<Points, Error>,
-    ids: &Uint32Array,
-    viewpoint: [f64; 3],
-    options: &ViewOptions,
-) -> Result<Uint32Array, JsValue> {
-    let view = options.read();
-    let merged = positions.and_then(|positions| {
-        let ids = copy_in_integers(ids)?;
-        let part = |_| (positions.as_given(), Ids::Short(&ids));
-        let seen = merge(1, &part, viewpoint, &view)?;
-        copy_out(&seen, options)
-    });
-    Ok(merged.map_err(Failure::from)?)
 }

@@ -30,6 +30,7 @@ pub(super) fn triples(positions: &Float64Array) -> Result<Vec<[f64; 3]>, Error> 
     Ok(own)
 }
 
+#[cfg(feature = "wasm")]
 #[inline(never)]
 pub(super) fn numbers(numbers: &Float64Array) -> Result<Vec<f64>, Error> {
     let mut own = zeros(numbers.length())?;
@@ -52,6 +53,7 @@ pub(super) fn copy_in_bytes(bytes: &Uint8Array) -> Result<Vec<u8>, Error> {
 }
 
 /// Triangles of three indices each.
+#[cfg(feature = "wasm")]
 #[inline(never)]
 pub(super) fn corners(triangles: &Uint32Array) -> Result<Vec<[u32; 3]>, Error> {
     let mut own = zeros::<[u32; 3]>(triangles.length() / 3)?;
@@ -89,6 +91,7 @@ pub(super) fn copy_out_singles(
 }
 
 /// The same for numbers in double precision.
+#[cfg(feature = "wasm")]
 pub(super) fn copy_out_doubles(
     numbers: &[f64],
     options: &ViewOptions,

@@ -1,28 +1,16 @@
-//! Views from one viewpoint, whole or divided among workers, from several, and along a
-//! direction.
+//! Views divided among workers, from several viewpoints, along a direction and through a camera.
 
 use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use super::answer::{answered, chosen};
+use super::answer::answered;
 use super::clouds::{with_cloud, with_memory, with_view};
 use super::failure::Failure;
 use super::options::ViewOptions;
 use super::transfer::{copy_in_integers, triples};
+use super::view::seen;
 use crate::cloud::points::Given;
 use crate::{Camera, Sector};
-
-/// Which points are visible from (x, y, z)?
-#[wasm_bindgen(js_name = visibleFrom, unchecked_return_type = "Answer")]
-pub fn visible_from(
-    handle: u32,
-    x: f64,
-    y: f64,
-    z: f64,
-    options: &ViewOptions,
-) -> Result<JsValue, JsValue> {
-    seen(handle, [x, y, z], options, Sector::WHOLE)
-}
 
 /// Goes on from the draft of a view, if the last view was that draft, with about `budget` points.
 /// Returns whether `visibleFrom` would have no point left to add.
@@ -60,22 +48,6 @@ pub fn visible_in_sector(
 ) -> Result<JsValue, JsValue> {
     let sector = Sector::new(number, count).unwrap_or(Sector::WHOLE);
     seen(handle, [x, y, z], options, sector)
-}
-
-fn seen(
-    handle: u32,
-    viewpoint: [f64; 3],
-    options: &ViewOptions,
-    sector: Sector,
-) -> Result<JsValue, JsValue> {
-    let view = options.read();
-    let masked = options.mask().is_some();
-    let seen = with_view(handle, Some(viewpoint), options, &view, |cloud| {
-        with_memory(handle, masked, |memory| {
-            cloud.visible_in_sector_with(memory, viewpoint, &view, sector)
-        })
-    });
-    answered(seen, options)
 }
 
 /// Writes into `target` where a camera shows points: x, y and the depth of each, and the direction of length 1 to
@@ -172,19 +144,4 @@ pub fn visible_from_direction(
         cloud.visible_from_direction([x, y, z], &view)
     });
     answered(seen, options)
-}
-
-/// The radius that the rule of `options` chooses for (x, y, z).
-#[wasm_bindgen(js_name = autoRadius, unchecked_return_type = "ChosenRadius")]
-pub fn auto_radius(
-    handle: u32,
-    x: f64,
-    y: f64,
-    z: f64,
-    options: &ViewOptions,
-) -> Result<JsValue, JsValue> {
-    let rule = options.read_radius();
-    chosen(with_cloud(handle, |cloud| {
-        cloud.auto_radius([x, y, z], rule)
-    }))
 }

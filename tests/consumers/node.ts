@@ -9,6 +9,7 @@ import { points, viewpoint } from "./question";
 export const nodeScripts: Consumer[] = [
   script("Node, import", "esm.mjs"),
   script("Node, ./inline", "inline.mjs"),
+  script("Node, ./lite", "lite.mjs"),
   {
     ...script("Node, require of an ES module", "required.cjs"),
     ...(canRequire() ? {} : { lacking: "this Node cannot require ES modules" }),

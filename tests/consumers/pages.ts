@@ -19,6 +19,7 @@ export const pages = (visit: Visit, browser: string): Consumer[] => {
     page("<script type=module>, strict security policy", module("pages/relative.js"), { headers: STRICT }),
     page("./inline, no .wasm file served", module("pages/inline.js"), { refused: /\.wasm$/ }),
     page("./inline, strict security policy", module("pages/inline.js"), { headers: STRICT, refused: /\.wasm$/ }),
+    { ...page("<script type=module>, ./lite", importMap("/") + module("lite/main.js")), further: true },
     page("a module worker of the page's own", module("pages/starts-worker.js")),
     {
       name: "a CDN: the package on another origin",
@@ -40,6 +41,7 @@ export function importMap(origin: string): string {
   const imports = {
     "hidden-point-removal": `${origin}${DIST}/index.js`,
     "hidden-point-removal/worker": `${origin}${DIST}/worker.js`,
+    "hidden-point-removal/lite": `${origin}${DIST}/lite.js`,
   };
   return `<script type="importmap">${JSON.stringify({ imports })}</script>`;
 }

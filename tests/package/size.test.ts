@@ -2,7 +2,7 @@ import { gzipSync } from "node:zlib";
 
 import { expect, it } from "vitest";
 
-import { wasmBytes } from "./support";
+import { liteBytes, wasmBytes } from "./support";
 
 // Every page that uses the package downloads the wasm. Formatting of floats, a second
 // compilation for another type of number, or a library for one operation can each add 10
@@ -20,4 +20,9 @@ it("the wasm stays small", () => {
   const bytes = wasmBytes();
   expect(bytes.length).toBeLessThanOrEqual(361_300);
   expect(gzipSync(bytes, { level: 9 }).length).toBeLessThanOrEqual(160_400);
+});
+
+// What of the crate it leaves out stands in src/base/build.rs and src/wasm/mod.rs. It has 51,016 bytes.
+it("the wasm of the operator alone stays at most 52 kB, gzipped", () => {
+  expect(gzipSync(liteBytes(), { level: 9 }).length).toBeLessThanOrEqual(52_000);
 });

@@ -7,6 +7,9 @@ const require = createRequire(import.meta.url);
 
 export const wasmPath = require.resolve("hidden-point-removal/hpr.wasm");
 export const wasmBytes = (): Uint8Array<ArrayBuffer> => new Uint8Array(readFileSync(wasmPath));
+/** The wasm of the entry `lite`. */
+export const liteBytes = (): Uint8Array<ArrayBuffer> =>
+  new Uint8Array(readFileSync(require.resolve("hidden-point-removal/lite/hpr.wasm")));
 
 /** The package as on a fresh page, not initialized. */
 export async function freshPackage() {

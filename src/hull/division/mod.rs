@@ -43,7 +43,7 @@ pub struct Sector {
 
 impl Sector {
     /// The one sector of a view that is not divided.
-    #[cfg(feature = "wasm")]
+    #[cfg(feature = "lite")]
     pub(crate) const WHOLE: Self = Self {
         number: 0,
         count: 1,

@@ -1,4 +1,4 @@
-import { loadError, type WasmModule } from "../instance/compile.js";
+import { FULL, loadError, type WasmModule } from "../instance/compile.js";
 import { gzippedWasm } from "../wasm/embedded.js";
 
 /** Compiles the wasm of this entry, which is gzipped and written in base64. */
@@ -9,6 +9,6 @@ export async function compileEmbedded(): Promise<WasmModule> {
     const stream = new Blob([gzipped]).stream().pipeThrough(new DecompressionStream("gzip"));
     return await WebAssembly.compile(await new Response(stream).arrayBuffer());
   } catch (cause) {
-    throw loadError("the embedded wasm", cause);
+    throw loadError("the embedded wasm", cause, FULL);
   }
 }

@@ -1,6 +1,7 @@
-import type { InitInput } from "../instance/compile.js";
+import { compiledOnce, type InitInput } from "../instance/compile.js";
 import { configuredWasm, embedWorker } from "../instance/configure.js";
-import { compiledOnce, initFrom } from "../instance/start.js";
+import { engine } from "../instance/instance.js";
+import { initFrom } from "../instance/start.js";
 import { workerText } from "../wasm/embedded-worker.js";
 import { compileEmbedded } from "./embedded.js";
 
@@ -17,5 +18,5 @@ const embedded = compiledOnce(compileEmbedded);
  */
 export function init(input?: InitInput): Promise<void> {
   embedWorker(workerText);
-  return initFrom(configuredWasm() ?? embedded, input);
+  return initFrom(engine, configuredWasm() ?? embedded, input);
 }

@@ -20,14 +20,30 @@ export type SyncInitInput = ArrayBuffer | ArrayBufferView | WasmModule;
  */
 export type InitInput = string | URL | Response | SyncInitInput;
 
-const WAY_OUT =
-  "Serve hpr_bg.wasm (the package exports it as hidden-point-removal/hpr.wasm) and pass its address to init() or " +
-  "configure({ wasm }), or pass its bytes, or import hidden-point-removal/inline, which carries it along " +
-  "(docs/BUNDLERS.md)";
+/** A wasm file of this package. */
+export interface Binary {
+  /** The name by which the package exports it. */
+  readonly file: string;
+  /** What to do if it cannot be loaded. */
+  readonly wayOut: string;
+}
+
+/** That of all entries but `lite`. */
+export const FULL: Binary = {
+  file: "hpr.wasm",
+  wayOut:
+    "Serve hpr_bg.wasm (the package exports it as hidden-point-removal/hpr.wasm) and pass its address to init() or " +
+    "configure({ wasm }), or pass its bytes, or import hidden-point-removal/inline, which carries it along " +
+    "(docs/BUNDLERS.md)",
+};
+
+/** The source for `init()` without an argument: the file beside the package, or the embedded wasm. */
+export type OwnWasm = () => Promise<WasmModule>;
+
 /** What a page needs whose security policy forbids WebAssembly. */
 const POLICY = "The page's security policy forbids WebAssembly: add 'wasm-unsafe-eval' to its script-src";
 
-export async function compile(input: InitInput): Promise<WasmModule> {
+export async function compile(input: InitInput, binary: Binary): Promise<WasmModule> {
   const source = nameOf(input);
   try {
     if (isModule(input)) {
@@ -41,7 +57,7 @@ export async function compile(input: InitInput): Promise<WasmModule> {
     }
     return await WebAssembly.compile(bytesOf(input));
   } catch (cause) {
-    throw loadError(source, cause);
+    throw loadError(source, cause, binary);
   }
 }
 
@@ -49,17 +65,17 @@ export async function compile(input: InitInput): Promise<WasmModule> {
  * Compiles the package's own file. On a server, a bundler may have put an address of the site in the place
  * of the file's. Then the file is taken from the installed package.
  */
-export async function compileOwn(address: () => URL): Promise<WasmModule> {
+export async function compileOwn(address: () => URL, binary: Binary): Promise<WasmModule> {
   let own: URL | undefined;
   try {
     own = address();
-    return await compile(own);
+    return await compile(own, binary);
   } catch (error) {
-    const file = hasNodeModules() ? await installedFile("hpr.wasm", own?.href) : undefined;
+    const file = hasNodeModules() ? await installedFile(binary.file, own?.href) : undefined;
     if (file !== undefined) {
-      return compile(file);
+      return compile(file, binary);
     }
-    throw own === undefined ? loadError("the package's own wasm", error) : error;
+    throw own === undefined ? loadError("the package's own wasm", error, binary) : error;
   }
 }
 
@@ -132,8 +148,20 @@ export function nameOf(input: InitInput): string {
   return isAddress(input) ? `the wasm from ${String(input)}` : "the given wasm";
 }
 
-export function loadError(source: string, cause: unknown): HprError {
+export function loadError(source: string, cause: unknown, { wayOut }: Binary): HprError {
   const reason = cause instanceof Error ? cause.message : String(cause);
-  const wayOut = /Content.Security.Policy/i.test(reason) ? POLICY : WAY_OUT;
-  return new HprError("load", `could not load ${source}: ${reason}. ${wayOut}.`, { cause });
+  const advice = /Content.Security.Policy/i.test(reason) ? POLICY : wayOut;
+  return new HprError("load", `could not load ${source}: ${reason}. ${advice}.`, { cause });
+}
+
+/** Compiles once, and keeps the module for workers and for a start after a trap. A failure is not kept. */
+export function compiledOnce(load: OwnWasm): OwnWasm {
+  let module: Promise<WasmModule> | undefined;
+  return () => {
+    module ??= load().catch((error: unknown) => {
+      module = undefined;
+      throw error;
+    });
+    return module;
+  };
 }

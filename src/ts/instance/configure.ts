@@ -1,6 +1,5 @@
 import { describe, HprError } from "../base/errors.js";
-import { compile, type InitInput } from "./compile.js";
-import { compiledOnce, type OwnWasm } from "./start.js";
+import { compile, compiledOnce, FULL, type InitInput, type OwnWasm } from "./compile.js";
 
 /** Where the files of this package are, if a bundler does not put them where the package looks. */
 export interface Addresses {
@@ -39,7 +38,7 @@ export function configure(addresses: Addresses): void {
   }
   const input = addresses.wasm;
   if (input !== undefined) {
-    wasm = compiledOnce(() => compile(input));
+    wasm = compiledOnce(() => compile(input, FULL));
   }
   worker = given ?? worker;
 }

@@ -102,8 +102,8 @@ export function pick(given: Record<string, unknown>, names: readonly string[]): 
   return picked;
 }
 
-export function cloudSettings(given: Record<string, unknown>): CloudSettings {
-  const dimension = integer(given, "dimension", 2, MAX_DIMENSION) ?? 3;
+export function cloudSettings(given: Record<string, unknown>, mostDimensions = MAX_DIMENSION): CloudSettings {
+  const dimension = integer(given, "dimension", 2, mostDimensions) ?? 3;
   const stride = integer(given, "stride", dimension, MAX_STRIDE) ?? dimension;
   const { nonFinite = "error" } = given;
   if (nonFinite !== "error" && nonFinite !== "skip") {

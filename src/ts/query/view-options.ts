@@ -159,24 +159,27 @@ export function viewSettings(given: Record<string, unknown>, dimension: number):
   };
 }
 
+/** The settings of a view without options. */
+export const NO_OPTIONS: ViewSettings = {
+  rule: Rule.auto,
+  size: 0,
+  kernel: Kernel.spherical,
+  parameter: 0,
+  denoise: 0,
+  vote: 0,
+  scores: false,
+  thickness: AUTOMATIC,
+  draft: false,
+  sample: 0,
+  ...ALL_POINTS,
+};
+
 /** The rule of `autoRadius`, as settings. */
 export function ruleSettings(rule: unknown): ViewSettings {
   if (rule !== undefined && !isRule(rule)) {
     throw new HprError("option", `the rule must be "auto", "search" or "opposite", got ${describe(rule)}`);
   }
-  return {
-    rule: Rule[rule ?? "auto"],
-    size: 0,
-    kernel: Kernel.spherical,
-    parameter: 0,
-    denoise: 0,
-    vote: 0,
-    scores: false,
-    thickness: AUTOMATIC,
-    draft: false,
-    sample: 0,
-    ...ALL_POINTS,
-  };
+  return { ...NO_OPTIONS, rule: Rule[rule ?? "auto"] };
 }
 
 /** The inversion in the answer to a view with these settings. `scales` are the values of c that were used. */
@@ -201,7 +204,7 @@ export function requireSpace(what: string, dimension: number): void {
   }
 }
 
-function chosenRadius(given: Record<string, unknown>): Pick<ViewSettings, "rule" | "size"> {
+export function chosenRadius(given: Record<string, unknown>): Pick<ViewSettings, "rule" | "size"> {
   const { radius } = given;
   const exponent = number(given, "exponent");
   if (radius !== undefined && exponent !== undefined) {
@@ -263,7 +266,7 @@ function chosenThickness({ looks, thickness }: Record<string, unknown>): number 
   return thickness;
 }
 
-function chosenInversion(inversion: unknown): Pick<ViewSettings, "kernel" | "parameter"> {
+export function chosenInversion(inversion: unknown): Pick<ViewSettings, "kernel" | "parameter"> {
   if (inversion === undefined || inversion === "spherical") {
     return { kernel: Kernel.spherical, parameter: 0 };
   }

@@ -1,8 +1,8 @@
 import { CoreCloud } from "../cloud/core-cloud.js";
 import { withHidden } from "../cloud/hidden.js";
+import { initSync } from "../instance/init-sync.js";
 import { requireInstance } from "../instance/instance.js";
 import { importNodeModule } from "../base/node.js";
-import { initSync } from "../instance/start.js";
 import type { Query } from "../query/queries.js";
 import {
   BEAT,

@@ -25,6 +25,7 @@ import {
   type VisiblePart,
 } from "hidden-point-removal";
 import { init as initInline } from "hidden-point-removal/inline";
+import * as lite from "hidden-point-removal/lite";
 import { openOctree, type OctreeStep, type OctreeViewOptions } from "hidden-point-removal/stream";
 import { WorkerPointCloud } from "hidden-point-removal/worker";
 
@@ -124,4 +125,25 @@ export async function stream(view: OctreeViewOptions): Promise<OctreeStep | unde
   // @ts-expect-error There is no such format.
   await openOctree(3);
   return last;
+}
+
+export async function small(): Promise<lite.HprErrorCode | undefined> {
+  await lite.init();
+  lite.initSync(new Uint8Array(8));
+  using cloud = new lite.PointCloud(new Float32Array(12), { dimension: 2, nonFinite: "skip" });
+  cloud.append([1, 2]);
+  cloud.remove([0]);
+  const visible: lite.Visibility = cloud.visibleFrom([0, 5], { exponent: 3, inversion: "spherical" });
+  // An answer's radius and inversion are options.
+  cloud.visibleFrom({ x: 0, y: 5, z: 0 }, { radius: visible.radius, inversion: visible.inversion });
+  console.log(visible.mask(), visible.exact, cloud.autoRadius([0, 5], "auto").radius);
+  // @ts-expect-error The small module knows no looks.
+  cloud.visibleFrom([0, 5], { looks: 3 });
+  // @ts-expect-error And no search of a radius.
+  cloud.visibleFrom([0, 5], { radius: "search" });
+  // @ts-expect-error And no scores.
+  console.log(visible.scores);
+  // @ts-expect-error And no higher dimensions.
+  console.log(lite.hiddenPointRemoval([0, 0, 0, 0], [0, 0, 0, 0], { dimension: 4 }));
+  return undefined;
 }

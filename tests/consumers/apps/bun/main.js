@@ -1,5 +1,6 @@
 import * as hpr from "hidden-point-removal";
+import * as lite from "hidden-point-removal/lite";
 import * as worker from "hidden-point-removal/worker";
-import { answer } from "./shared/answer.js";
+import { answerWithLite } from "./shared/answer.js";
 
-console.log(JSON.stringify(await answer(hpr, worker)));
+console.log(JSON.stringify(await answerWithLite(hpr, worker, lite)));

@@ -24,6 +24,14 @@ export async function answer(hpr, { WorkerPointCloud }, input) {
   return { here, there: [...there] };
 }
 
+/** The same, after the entry `lite` has answered alike. */
+export async function answerWithLite(hpr, worker, lite, input) {
+  const answered = await answer(hpr, worker);
+  const { here } = await answerHere(lite, input);
+  if (String(here) !== String(answered.here)) throw new Error("the entry lite answers otherwise");
+  return answered;
+}
+
 /** The same without a worker. */
 export async function answerHere({ init, PointCloud }, input) {
   await init(input);

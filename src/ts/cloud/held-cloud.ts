@@ -1,0 +1,107 @@
+import { HprError } from "../base/errors.js";
+import type { Instance } from "../instance/engine.js";
+import type { CloudSettings, CloudSize } from "../query/options.js";
+import { packed, readIndices, readPositions } from "../query/positions.js";
+import type * as lite from "../lite/hpr_bg.js";
+import { freeCloud, unreachable } from "./free.js";
+
+/** The exports that every wasm has. */
+export type OperatorBindings = Omit<typeof lite, "__wbg_set_wasm">;
+
+export type Coordinates = Float32Array | Float64Array;
+export type CloudChoices = Parameters<OperatorBindings["createCloudF32"]>[1];
+export type CloudInfo = ReturnType<OperatorBindings["createCloudF32"]>;
+
+/** A cloud's place: its number in an instance. */
+interface Held<Bindings> {
+  instance: Instance<Bindings>;
+  handle: number;
+}
+
+/** A cloud of two or three dimensions in the memory of a wasm: it is made, asked, changed and freed. */
+export class HeldCloud<Bindings extends OperatorBindings> {
+  readonly settings: CloudSettings;
+  #held: Held<Bindings> | undefined;
+  #size: CloudSize;
+
+  /**
+   * @param progress is called with the share of the building that is done. It must not throw.
+   * @throws HprError as the constructor of `PointCloud`.
+   */
+  constructor(
+    instance: Instance<Bindings>,
+    positions: unknown,
+    settings: CloudSettings,
+    progress?: (share: number) => void,
+  ) {
+    const numbers = readPacked(positions, settings);
+    const choices = { skipNonFinite: settings.skipNonFinite, progress };
+    this.settings = settings;
+    const { handle, ...size } = instance.call((bindings) => this.create(bindings, numbers, choices));
+    this.#held = { instance, handle };
+    this.#size = size;
+    unreachable.register(this, this.#held, this);
+  }
+
+  get dimension(): number {
+    return this.settings.dimension;
+  }
+
+  get size(): CloudSize {
+    return this.#size;
+  }
+
+  get isOpen(): boolean {
+    return this.#held !== undefined;
+  }
+
+  /** @throws HprError `disposed`. */
+  requireOpen(): Held<Bindings> {
+    if (this.#held === undefined) {
+      throw new HprError("disposed", "this cloud has been disposed of");
+    }
+    return this.#held;
+  }
+
+  /** @throws HprError as `PointCloud.append`. */
+  append(positions: unknown): void {
+    this.requireOpen();
+    const numbers = readPacked(positions, this.settings);
+    // Getters of the argument may have disposed of the cloud while it was read.
+    const { instance, handle } = this.requireOpen();
+    this.#size = instance.call((bindings) => this.add(bindings, handle, numbers));
+  }
+
+  /** @throws HprError as `PointCloud.remove`. */
+  remove(indices: ArrayLike<number>): void {
+    this.requireOpen();
+    const integers = readIndices(indices);
+    const { instance, handle } = this.requireOpen();
+    this.#size = instance.call((bindings) => bindings.remove(handle, integers));
+  }
+
+  /** May be called twice. */
+  dispose(): void {
+    if (this.#held !== undefined) {
+      unreachable.unregister(this);
+      freeCloud(this.#held);
+      this.#held = undefined;
+    }
+  }
+
+  protected create(bindings: Bindings, numbers: Coordinates, choices: CloudChoices): CloudInfo {
+    return numbers.BYTES_PER_ELEMENT === 4
+      ? bindings.createCloudF32(numbers as Float32Array, choices)
+      : bindings.createCloudF64(numbers as Float64Array, choices);
+  }
+
+  protected add(bindings: Bindings, handle: number, numbers: Coordinates): CloudSize {
+    return numbers.BYTES_PER_ELEMENT === 4
+      ? bindings.appendF32(handle, numbers as Float32Array)
+      : bindings.appendF64(handle, numbers as Float64Array);
+  }
+}
+
+function readPacked(positions: unknown, { stride, dimension }: CloudSettings): Coordinates {
+  return packed(readPositions(positions, stride), stride, dimension);
+}

@@ -1,0 +1,13 @@
+import type { SyncInitInput } from "./compile.js";
+import { engine } from "./instance.js";
+import { startSync } from "./start.js";
+
+/**
+ * Starts the wasm from its bytes or its compiled module, at once. Does nothing if it is running
+ * already.
+ *
+ * @throws HprError `load` if it cannot be compiled or started.
+ */
+export function initSync(input: SyncInitInput): void {
+  startSync(engine, input);
+}
