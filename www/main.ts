@@ -3,6 +3,7 @@ import { byId } from "./controls/dom.ts";
 import { loadAhead } from "./loaders/index.ts";
 import { firstSource } from "./page/sources.ts";
 import { showEmbedded } from "./panel/embedded.ts";
+import { bindDrawer } from "./panel/drawer.ts";
 import { bindSheet } from "./panel/sheet.ts";
 import { SAMPLES } from "./samples/samples.ts";
 import { readAddress } from "./settings/read-address.ts";
@@ -18,6 +19,7 @@ loadAhead(first.request);
 init().catch(() => undefined);
 if (wishes.embed) showEmbedded();
 bindSheet();
+bindDrawer();
 
 import("./page/session.ts")
   .then(({ startSession }) => {

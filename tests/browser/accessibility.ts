@@ -62,7 +62,7 @@ const tools: Step[] = ["Pick", "Measure", "Select", "Label", "Compare", "Station
 const sheetOfKeys: Step = {
   name: "the sheet of keys",
   act: async (page) => {
-    await page.getByRole("button", { name: "Keys", exact: true }).click();
+    await page.locator("#view").press("?");
   },
 };
 

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import type { TimedView } from "../../www/ask/inquiry.js";
-import { sentenceOf } from "../../www/view/sentence.js";
+import { captionOf, methodOf, sentenceOf } from "../../www/view/sentence.js";
 import { addStyle } from "./site.js";
 import {
   answerInNode,
@@ -85,9 +85,9 @@ test.for(["dragon_res3", "bunny"])(
     const page = await openReady(`?sample=${sample}`);
     const before = await settled(page);
     const off = await picture(page);
-    await page.getByRole("radio", { name: "Dimmed" }).check();
+    await page.getByRole("radio", { name: "Ghost" }).check();
     const dimmed = await picture(page);
-    await page.getByRole("radio", { name: "Shown" }).check();
+    await page.getByRole("radio", { name: "Highlight" }).check();
     const shown = await picture(page);
     for (const [a, b] of [
       [off, dimmed],
@@ -98,7 +98,7 @@ test.for(["dragon_res3", "bunny"])(
     }
     await page.locator("#view").focus();
     await page.keyboard.press("h");
-    await expect.poll(() => page.getByRole("radio", { name: "Off" }).isChecked()).toBe(true);
+    await expect.poll(() => page.getByRole("radio", { name: "Hide" }).isChecked()).toBe(true);
     // Removes the ring of the keyboard focus.
     await page.locator("#view").blur();
     expect(await differentPixels(page, off, await picture(page))).toBe(0);
@@ -118,7 +118,7 @@ test("a frozen viewpoint stays while the camera flies around, until it is releas
   expect(await page.locator("#sign-frozen").isVisible()).toBe(true);
   await addStyle(page, "#signs { visibility: hidden }");
   expect(await differentPixels(page, unfrozen, await picture(page))).toBe(0);
-  await expect.poll(() => page.locator("#status").textContent()).toMatch(/were visible from the frozen viewpoint/);
+  await expect.poll(() => page.locator("#status").textContent()).toMatch(/can be seen from the frozen viewpoint/);
   const there = await picture(page);
   await drag(page, 200, 0);
   const frozen = await settled(page);
@@ -173,12 +173,16 @@ test("choosing the original up side gives the first view again", async () => {
   expect((await refiltered(page, turned)).viewpoint).toEqual(inside.viewpoint);
 });
 
-test("the sentence has a singular and a plural", () => {
-  const said = (count: number, total: number, frozen = false) =>
-    sentenceOf({ visibility: { count }, quick: false, milliseconds: 3 } as TimedView, total, frozen);
-  expect(said(1, 1)).toMatch(/^1 of 1 point \(100\s%\) is visible from here, /);
-  expect(said(1, 900, true)).toMatch(/^1 of 900 points \(<\s1\s%\) was visible from the frozen viewpoint, /);
-  expect(said(0, 1)).toMatch(/^0 of 1 point \(0\s%\) are visible from here, /);
+test("the sentence, the caption and the method have a singular, a plural and round numbers", () => {
+  const answer = (count: number) =>
+    ({ visibility: { count }, question: { method: { looks: 3 } }, kind: "looks", milliseconds: 3 }) as TimedView;
+  expect(sentenceOf(answer(1), 1, false)).toBe("1 of 1 point can be seen from here.");
+  expect(sentenceOf(answer(1), 900, true)).toBe("1 of 900 points can be seen from the frozen viewpoint.");
+  expect(captionOf(answer(1), 1, false)).toBe("1 point. 1 can be seen from here.");
+  expect(captionOf(answer(38_083), 100_250, false)).toBe("100,000 points. 38,000 can be seen from here.");
+  expect(methodOf(answer(1), 1)).toBe("100\u00a0% of the points, found by 3 looks in 3.0\u00a0ms.");
+  expect(methodOf(answer(1), 900)).toMatch(/^<\s1\s% of the points, /);
+  expect(methodOf(answer(899), 900)).toMatch(/^>\s99\s% of the points, /);
 });
 
 test("the sentence is announced once, after the movement", async () => {

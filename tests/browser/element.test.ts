@@ -419,7 +419,7 @@ test("screen readers get a description of the element, and with announce the vis
   expect(await element(page, "a", (cloud) => cloud.shadowRoot!.activeElement?.localName)).toBe("canvas");
   await expect
     .poll(() => page.locator("#a").getByRole("status").textContent())
-    .toMatch(/^[\d,]+ of 1,839 points .* are visible from here/);
+    .toMatch(/^[\d,]+ of 1,839 points can be seen from here/);
   await element(page, "a", (cloud) => {
     cloud.announce = false;
   });

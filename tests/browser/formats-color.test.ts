@@ -2,6 +2,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
+import { addStyle } from "./site.js";
 import { ball, georeferencedBall, text } from "./clouds.js";
 import { choose } from "./files.js";
 import { attributedPcd, attributedPly, colorOf, glb, inMillimeters, las, table } from "./formats.js";
@@ -84,6 +85,7 @@ async function mean(page: Page): Promise<[number, number, number]> {
 test("a file's own colors are drawn as they are, also 8-bit colors in 16 bits, and other choices look different", async () => {
   const page = await openReady("?sample=bunny&looks=0", { colorScheme: "dark" });
   // All points are red, so the picture is red.
+  await addStyle(page, "#tools, #drawer, #signs { visibility: hidden }");
   const red = text([...near].map((value, i) => `${value}${i % 3 === 2 ? " 250 20 30\n" : " "}`).join(""));
   await open(page, "red.xyz", red);
   const [r, g, b] = await mean(page);
@@ -138,10 +140,7 @@ test("the samples street and tile have classes and intensity, and tile has map c
     ["tile", 200_000, "high vegetation"],
   ] as const) {
     const before = await status(page);
-    await page
-      .locator("#thumbnails")
-      .getByRole("button", { name: sample === "tile" ? "Map tile" : "Street" })
-      .click();
+    await page.locator("#sample").selectOption(sample);
     const now = await answered(page, before);
     expect(now.total).toBeGreaterThan(least);
     expect(await choices(page)).toEqual(expect.arrayContaining(["Intensity", "Classification"]));
@@ -211,6 +210,6 @@ test("loading can be stopped, and the previous cloud stays", async () => {
   await page.getByRole("button", { name: "Stop loading" }).click();
   await reached(page, "error");
   expect(page.url()).toContain("?sample=bunny");
-  await page.getByRole("radio", { name: "Dimmed" }).check();
+  await page.getByRole("radio", { name: "Ghost" }).check();
   await expect.poll(() => page.url()).toContain("hidden=dimmed");
 });

@@ -24,7 +24,7 @@ test.for(Object.entries(CLOUDS))("%s fills the picture", ([, positions]) => {
   const { cloud } = prepareCloud({ positions, colors: null });
   for (const up of ["y", "z", "-y"] as const) {
     for (const aspect of ASPECTS) {
-      const { pose } = findHome(cloud, up, null, null, { fov: 45, aspect });
+      const { pose } = findHome(cloud, up, null, null, { fov: 45, aspect, free: 1 });
       const camera = new PerspectiveCamera(45, aspect, 1e-3, 1e6);
       camera.position.copy(pose.at);
       camera.up.copy(pose.up);

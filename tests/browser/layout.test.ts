@@ -215,7 +215,7 @@ test("with the system's own colors the chosen options are visible", async () => 
     page
       .locator("#hidden-points label", { hasText: text })
       .evaluate((label) => getComputedStyle(label).backgroundColor);
-  expect(await background("Off")).not.toBe(await background("Dimmed"));
+  expect(await background("Hide")).not.toBe(await background("Ghost"));
   const freeze = page.getByRole("button", { name: "Freeze viewpoint" });
   const color = () => freeze.evaluate((button) => getComputedStyle(button).backgroundColor);
   const before = await color();

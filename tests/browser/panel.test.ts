@@ -78,12 +78,12 @@ test("the color of hidden points is explained in the picture, as long as it is t
   const page = await openReady("?sample=bunny");
   const legend = page.locator("#sign-hidden");
   expect(await legend.isVisible()).toBe(false);
-  await page.getByRole("radio", { name: "Shown" }).check();
+  await page.getByRole("radio", { name: "Highlight" }).check();
   expect(await legend.textContent()).toBe("Hidden from here");
   const color = await legend.locator("i").evaluate((dot) => getComputedStyle(dot).backgroundColor);
   expect(color).not.toBe("rgba(0, 0, 0, 0)");
   await page.getByRole("button", { name: "Freeze viewpoint" }).click();
   expect(await legend.textContent()).toBe("Hidden from that viewpoint");
-  await page.getByRole("radio", { name: "Off" }).check();
+  await page.getByRole("radio", { name: "Hide" }).check();
   expect(await legend.isVisible()).toBe(false);
 });

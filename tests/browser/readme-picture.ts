@@ -36,8 +36,8 @@ await page.locator("summary", { hasText: "Look" }).click();
 
 const halves: Half[] = [];
 for (const { label, hidden, size } of [
-  { label: "all points", hidden: "Shown", size: "0.5" },
-  { label: "visible from here", hidden: "Off", size: "2" },
+  { label: "all points", hidden: "Highlight", size: "0.5" },
+  { label: "visible from here", hidden: "Hide", size: "2" },
 ]) {
   await page.getByRole("radio", { name: hidden }).check();
   await page.getByLabel("Point size").fill(size);

@@ -25,7 +25,7 @@ function wall(): number[] {
 }
 
 /** Seen from straight ahead. The light comes from the left, so that the plate's shadow lies 0.45 to 0.75 to the right. */
-const FROM = "?src=clouds/wall.ply&view=0,0,4&smoothing=0";
+const FROM = "?src=clouds/wall.ply&view=0,0,4&smoothing=0&size=2";
 const LEFT_LIGHT = "&light=-1.2,0,1.5";
 
 async function openWall(query: string): Promise<Page> {

@@ -22,7 +22,7 @@ test("a copied address shows the same cloud, camera and settings again", async (
   await page.getByLabel("Soft edges").fill("0.2");
   await unfold(page, "Method and viewpoints");
   await page.getByRole("radio", { name: "Exponential" }).check();
-  await page.getByRole("radio", { name: "Dimmed" }).check();
+  await page.getByRole("radio", { name: "Ghost" }).check();
   await unfold(page, "Look");
   await page.getByLabel("Point size").fill("2");
   await page.getByLabel("Field of view", { exact: true }).fill("30");
@@ -48,7 +48,7 @@ test("a copied address shows the same cloud, camera and settings again", async (
   expect(await again.getByLabel("Point size").inputValue()).toBe("2");
   expect(await again.getByLabel("Field of view", { exact: true }).inputValue()).toBe("30");
   expect(await again.getByLabel("Longest edge").inputValue()).toBe("8");
-  expect(await again.getByRole("radio", { name: "Dimmed" }).isChecked()).toBe(true);
+  expect(await again.getByRole("radio", { name: "Ghost" }).isChecked()).toBe(true);
   expect(await written(again)).toBe(query);
 });
 

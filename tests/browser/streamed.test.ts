@@ -21,7 +21,7 @@ async function expectExact(page: Page, now: Status): Promise<void> {
   expect(now.visible).toBe(whole.count);
   expect(now.visible).toBeGreaterThan(500);
   expect(await said(page)).toMatch(
-    /of 3,000 points are visible from here, exactly: \d+ nodes with [\d,]+ points were read, \d+ more/,
+    /of 3,000 points can be seen from here, exactly: \d+ nodes with [\d,]+ points were read, \d+ more/,
   );
 }
 
@@ -53,7 +53,7 @@ test("a dropped octree is streamed from the file", async () => {
   await expectExact(page, now);
 
   // Another cloud takes its place.
-  await page.locator("#thumbnails").getByRole("button", { name: /bunny/i }).click();
+  await page.locator("#sample").selectOption("bunny");
   await page.locator('#status[data-total="1839"][data-busy="0"]').waitFor({ state: "attached" });
   expect(await status(page)).toMatchObject({ state: "ready", answer: "looks" });
 });
@@ -72,7 +72,7 @@ test("settings that need all points are answered by the coarser levels alone, an
   const page = await openReady(`?src=ranged/octree.copc.laz&${LIMIT}&denoise=6`);
   const now = await status(page);
   expect(now).toMatchObject({ state: "ready", answer: "draft", total: 3000 });
-  expect(await said(page)).toContain("of the 1,000 points of the coarser levels are visible from here");
+  expect(await said(page)).toContain("of the 1,000 points of the coarser levels can be seen from here");
   expect(await page.locator("#message p").textContent()).toContain("the coarser levels alone");
 });
 

@@ -22,7 +22,7 @@ export const served = new Map<string, Uint8Array>();
 
 /** Lets the first sample of the page have 5,205 points. It is for tests about other things than its size. */
 export function serveSmallDragon(): void {
-  served.set("samples/dragon.bin", readFileSync(join(root, "www/dist/samples/dragon_res4.bin")));
+  served.set("samples/dragon_res2.bin", readFileSync(join(root, "www/dist/samples/dragon_res4.bin")));
 }
 
 /** Waits until the address has everything: it is written 300 ms after the last change. */
@@ -83,6 +83,11 @@ export async function openPage(
   });
   page.on("pageerror", (error) => errors.push(String(error)));
   await page.addInitScript(reportViolations);
+  // Most tests use the tools. Those of the first sight forget this.
+  await page.addInitScript(() => {
+    // A frame may have no storage.
+    if (window === top) localStorage.setItem("hidden-point-removal: tools", "open");
+  });
   await prepare?.(page);
   await page.goto(site.address + query);
   return page;
@@ -201,10 +206,10 @@ export async function unfold(page: Page, title: string): Promise<void> {
   while ((await folded.count()) > 0) await folded.first().locator("> summary").click();
 }
 
-/** A mouse drag over the middle of the cloud. */
+/** A mouse drag beside the middle of the cloud, where a divider may stand. */
 export async function drag(page: Page, dx: number, dy: number, button: "left" | "right" = "left"): Promise<void> {
   const box = (await page.locator("#view").boundingBox())!;
-  const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+  const [x, y] = [box.x + 0.45 * box.width, box.y + box.height / 2];
   await page.mouse.move(x, y);
   await page.mouse.down({ button });
   await page.mouse.move(x + dx, y + dy, { steps: 4 });

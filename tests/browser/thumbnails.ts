@@ -13,7 +13,7 @@ const WIDTH = 168;
 const HEIGHT = 112;
 /** Drawn larger, and then scaled down smoothly. */
 const SCALE = 4;
-const SAMPLES = ["dragon", "bunny", "room", "rings", "street", "tile"];
+const SAMPLES = ["dragon_res2", "bunny", "room", "rings", "street", "tile"];
 const FOLDER = join(import.meta.dirname, "../../www/public/thumbnails");
 
 mkdirSync(FOLDER, { recursive: true });

@@ -1,7 +1,6 @@
 import type { Plugin } from "vite";
 import { type Action, type Key, KEYS, SHEET, shownKeys, spokenKeys } from "../controls/keys.ts";
 import { FORMATS, listed, OTHER_ENDINGS } from "../settings/formats.ts";
-import { MAX_POINTS } from "../settings/limits.ts";
 import { type Slider, SLIDERS } from "../settings/sliders.ts";
 import { type Setting, type SettingName, SETTINGS } from "../settings/table.ts";
 import { SETTING_WORDS } from "../settings/words.ts";
@@ -28,7 +27,6 @@ const TEXTS: Record<string, () => string> = {
   "formats, or": () => listed(FORMATS, "or"),
   formats: () => FORMATS.join(", ").replace("LAZ", "LAZ (COPC too)"),
   accept: () => [...FORMATS, ...OTHER_ENDINGS].map((name) => `.${name.toLowerCase()}`).join(),
-  "most points": () => `${MAX_POINTS / 1e6} million`,
 };
 
 export function filled(page: string): string {

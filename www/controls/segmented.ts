@@ -13,12 +13,12 @@ export class Segmented<Value extends string = string> {
     }
   }
 
-  get value(): Value {
-    return this.#inputs.find((input) => input.checked)!.value as Value;
+  get value(): Value | null {
+    return (this.#inputs.find((input) => input.checked)?.value as Value | undefined) ?? null;
   }
 
   /** If the value has no button, no button is chosen. */
-  set value(value: Value) {
+  set value(value: Value | null) {
     for (const input of this.#inputs) input.checked = input.value === value;
   }
 }

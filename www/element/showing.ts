@@ -136,7 +136,7 @@ export class Showing {
       },
       {
         settings: () => settings,
-        aspect: () => this.viewer.stage.camera.aspect,
+        shape: () => this.viewer.stage.shape,
         asked: ASKED,
         shared: true,
         signal,

@@ -10,7 +10,7 @@ import { type AskedView, findHome, type Home, inReachOnly } from "../view/framin
 import type { Opened } from "../view/viewer.ts";
 import type { Previewed } from "../view/waiting-room.ts";
 import { surfaceOf, usableAgainst, usableColor } from "./usable.ts";
-import { usualLook } from "./usual.ts";
+import { touchingSize, usualLook } from "./usual.ts";
 
 /** A cloud to be opened, and the way in which it is to be shown. */
 export interface Wish {
@@ -25,8 +25,8 @@ export interface Wish {
 export interface Place {
   /** The settings at the moment when the cloud has been loaded. */
   settings: () => Settings;
-  /** Width by height of the picture. */
-  aspect: () => number;
+  /** Width by height of the picture, and the share of its height that nothing covers. */
+  shape: () => { aspect: number; free: number };
   /** The words in a sentence for a view that is asked for, such as "in the address". */
   asked: string;
   /** Whether a small cloud shares a worker with the other clouds of the document. */
@@ -44,6 +44,8 @@ export interface Ready {
   settings: Partial<Settings>;
   /** The settings that the cloud has if nothing else is asked for. */
   usual: Pick<Settings, "size" | "fieldOfView" | "up">;
+  /** The point size with which its points touch. */
+  touching: number;
   /** The view that is asked for. `null` if no view is asked for, or if it is out of reach. */
   view: AskedView | null;
   /** Returns the first view, if this view is asked for. */
@@ -82,13 +84,13 @@ export async function openCloud(
       onProgress(sentence(step, request.name, fraction), fraction);
     },
     (points, first) => {
-      const up = wished.up ?? usualLook(sample, name, 0, undefined, first).up;
+      const up = wished.up ?? usualLook(sample, name, undefined, first).up;
       if (signal.aborted) return;
       preview.isShown = true;
       place.preview?.points(points, up);
     },
   );
-  const usual = usualLook(sample, name, cloud.count, loaded.taken?.up, cloud.center);
+  const usual = usualLook(sample, name, loaded.taken?.up, cloud.center);
   const { view, places, notes: farNotes } = inReachOnly(cloud, wanted, wished, place.asked);
   const own: Partial<Settings> = {
     ...usual,
@@ -115,7 +117,7 @@ export async function openCloud(
   const { fieldOfView: fov, up } = { ...usual, ...wished };
   const taken = loaded.taken?.from ? { at: loaded.taken.from, target: null } : null;
   const homeFrom = (asked: AskedView | null) => (upward: Up) => {
-    const lens = { fov, aspect: place.aspect() };
+    const lens = { fov, ...place.shape() };
     const sameUp = upward === up;
     return findHome(cloud, upward, sameUp ? sample : null, sameUp ? (asked ?? taken) : null, lens);
   };
@@ -162,6 +164,7 @@ export async function openCloud(
       opened,
       settings: own,
       usual,
+      touching: touchingSize(sample, cloud.count),
       view,
       homeFrom,
       refusals: [...farNotes, ...colorNote, ...againstNote],

@@ -101,7 +101,7 @@ export class Opening {
     const { request, sample, name, notes, insteadOf } = source;
     const ready = await openCloud(source, {
       settings: () => store.current,
-      aspect: () => viewer.stage.camera.aspect,
+      shape: () => viewer.stage.shape,
       asked: "in the address",
       shared: false,
       signal,
@@ -137,6 +137,7 @@ export class Opening {
       },
     );
     panel.usual = ready.usual;
+    panel.touching = ready.touching;
     address.begin(insteadOf === undefined ? name : null, ready.usual);
     if (insteadOf !== undefined) status.error(insteadOf);
     // The second frame begins when the first one, with the picture, is on screen.

@@ -13,7 +13,9 @@ import { Store } from "../settings/store.ts";
 import { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
 import { canDraw } from "../view/can-draw.ts";
+import { Turning } from "../view/turning.ts";
 import { Viewer } from "../view/viewer.ts";
+import { Introduction } from "./introduction.ts";
 import { Notices, sentenceOf } from "./notices.ts";
 import { Opening } from "./opening.ts";
 import { fromFiles, limitsOf, type Source } from "./sources.ts";
@@ -34,14 +36,16 @@ export function startSession(wishes: Wishes, first: Source): void {
   const settings = { ...USUAL_SETTINGS, ...wishes.settings };
   // Places in space belong to a cloud, and are set with the cloud.
   const store = new Store({ ...settings, freeze: null, lights: [] });
-  const viewer = new Viewer(byId("view", HTMLCanvasElement), store, wishes.embed);
-  const panel = new Panel(viewer, store, settings);
+  const viewer = new Viewer(byId("view", HTMLCanvasElement), store, wishes.embed, () => byId("verbs").offsetHeight);
+  const turning = new Turning(viewer);
+  const introduction = new Introduction(viewer, store, turning, wishes.isFirst);
+  const panel = new Panel(viewer, store, settings, turning);
   const handles = new LightHandles(byId("lights"), viewer, store);
   const notices = new Notices(status, message);
   const address: Address = new Address(store, {
     camera: () => cameraPlace(viewer, opening.askedView),
     marks: () => workshop.marks,
-    introducing: () => workshop.introducing,
+    introducing: () => introduction.going,
   });
   const actions = {
     name: () => opening.shownName,
@@ -52,27 +56,28 @@ export function startSession(wishes: Wishes, first: Source): void {
     whole: () => opening.whole,
     open: (source: Source, whole: Source) => opening.open(source, whole),
   };
-  // A visitor whose address asks for nothing sees the introduction.
-  const workshop: Workshop = new Workshop(viewer, store, actions, location.search === "");
+  const workshop: Workshop = new Workshop(viewer, store, actions);
   const parts = { viewer, store, panel, address, workshop, status, message, notices };
   const opening: Opening = new Opening(parts, wishes.embed ? null : sampleNamed(wishes.sample));
   wire({ ...parts, handles, signs: new Signs(store) });
 
-  byId("how-open").addEventListener("click", () => {
-    if (!viewer.cloud) return;
-    import("../how/how.ts")
-      .then(({ showHow }) => showHow(viewer, store))
-      .catch((error: unknown) => {
-        message.show(sentenceOf(error, "The lesson could not be shown"));
-      });
-  });
+  for (const button of document.querySelectorAll<HTMLButtonElement>(".how")) {
+    button.addEventListener("click", () => {
+      if (!viewer.cloud) return;
+      import("../how/how.ts")
+        .then(({ showHow }) => showHow(viewer, store))
+        .catch((error: unknown) => {
+          message.show(sentenceOf(error, "The lesson could not be shown"));
+        });
+    });
+  }
   onFile({
     open: (files, notes) => void opening.open(fromFiles(files, notes, limitsOf(wishes))),
     refuse: (sentence) => {
       message.show(sentence);
     },
   });
-  void opening.open(first);
+  void opening.open(first).then(() => introduction.begin(wishes.turns));
 }
 
 /** The camera's place for the address. `null` at the first view, unless the address asked for that view. */

@@ -1,7 +1,7 @@
 import { SETTINGS } from "../settings/table.ts";
 import type { Mapped, TimedView } from "../ask/inquiry.ts";
 import { byId } from "../controls/dom.ts";
-import { sentenceOf } from "../view/sentence.ts";
+import { captionOf, methodOf, sentenceOf } from "../view/sentence.ts";
 
 /** Milliseconds between two changes of the sentence. A sentence that stays for this time is announced. */
 const CALM = 800;
@@ -14,7 +14,11 @@ const SETTLED = 1000;
 export class Status {
   readonly #element: HTMLElement;
   readonly #announcement = byId("announcement");
+  /** The sentence over the picture. Screen readers have the status. */
+  readonly #caption = byId("caption");
+  readonly #method = byId("method");
   #sentence = "";
+  #captioned = "";
   #timer: ReturnType<typeof setTimeout> | undefined;
   #announcing: ReturnType<typeof setTimeout> | undefined;
   #refilters = 0;
@@ -100,7 +104,14 @@ export class Status {
   /** Says the last answer again, since the viewpoint may have been frozen or not. */
   describe(frozen: boolean): void {
     if (!this.#last || this.#element.dataset["state"] !== "ready") return;
-    this.#say(this.#last.whole?.sentence ?? sentenceOf(this.#last, this.#last.total, frozen));
+    const { total, whole } = this.#last;
+    if (whole) {
+      this.#say(whole.sentence);
+      this.#method.textContent = "";
+      return;
+    }
+    this.#say(sentenceOf(this.#last, total, frozen), captionOf(this.#last, total, frozen));
+    this.#method.textContent = methodOf(this.#last, total);
   }
 
   /** Lets the next sentence be read at once. */
@@ -109,18 +120,24 @@ export class Status {
     this.#timer = undefined;
   }
 
-  #say(sentence: string): void {
+  #say(sentence: string, caption = sentence): void {
     this.#sentence = sentence;
+    this.#captioned = caption;
     clearTimeout(this.#announcing);
     this.#announcing = setTimeout(() => {
       this.#announcement.textContent = sentence;
     }, SETTLED);
     if (this.#timer !== undefined) return;
-    this.#element.textContent = sentence;
+    this.#write();
     this.#timer = setTimeout(() => {
       this.#timer = undefined;
-      this.#element.textContent = this.#sentence;
+      this.#write();
     }, CALM);
+  }
+
+  #write(): void {
+    this.#element.textContent = this.#sentence;
+    this.#caption.textContent = this.#captioned;
   }
 }
 

@@ -77,9 +77,9 @@ export function wire({
     panel.markAutomatic(exponent);
     workshop.markAutomatic(exponent);
   };
-  viewer.onBusy = (busy) => {
+  viewer.onBusy = (busy, byMap) => {
     status.busy(busy);
-    signs.busy(busy);
+    signs.busy(busy && !byMap);
   };
   viewer.onError = (error) => {
     notices.refuseView(error, () => {

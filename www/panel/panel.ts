@@ -4,11 +4,13 @@ import { byId } from "../controls/dom.ts";
 import { type Inversion, type Settings, USUAL_SETTINGS } from "../settings/settings.ts";
 import type { Store } from "../settings/store.ts";
 import { Moves } from "../view/moves.ts";
+import type { Turning } from "../view/turning.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { bindColor, type ColorControl } from "./color.ts";
-import { bindFullScreen } from "./full-screen.ts";
+import { toggleFullScreen } from "./full-screen.ts";
 import { bindInversion } from "./inversion.ts";
 import { explainLooks } from "./looks.ts";
+import { PointSize } from "./point-size.ts";
 import { RadiusControl } from "./radius.ts";
 import { bindSections } from "./sections.ts";
 import { bindSettings } from "./settings.ts";
@@ -16,6 +18,7 @@ import { explainViewpoints } from "./several.ts";
 import { bindShadows } from "./shadows.ts";
 import { explainSurface } from "./surface.ts";
 import { bindTheme } from "./theme.ts";
+import { bindVerbs } from "./verbs.ts";
 import { bindFreeze } from "./viewpoint.ts";
 
 /** All controls of the panel: they change the settings, and show them. */
@@ -24,11 +27,12 @@ export class Panel {
   readonly #followInversion: (resolved: Inversion) => void;
   readonly #followSurface: (answer: ViewAnswer) => void;
   readonly #color: ColorControl;
+  readonly #pointSize: PointSize;
   /** The settings that a reset goes back to. */
   usual: Pick<Settings, "fieldOfView"> = USUAL_SETTINGS;
 
   /** `opened`: the settings whose sections are open from the beginning. */
-  constructor(viewer: Viewer, store: Store, opened: Settings) {
+  constructor(viewer: Viewer, store: Store, opened: Settings, turning: Turning) {
     this.#radius = new RadiusControl(store);
     bindSettings(store);
     explainLooks(store);
@@ -39,9 +43,11 @@ export class Panel {
     this.#color = bindColor(store);
     viewer.onLegend = this.#color.explain;
     const moves = new Moves(byId("view", HTMLCanvasElement), viewer, store, () => this.usual, {
-      fullScreen: bindFullScreen(),
+      fullScreen: toggleFullScreen,
     });
     bindFreeze(store, moves);
+    bindVerbs(viewer, store, moves, turning);
+    this.#pointSize = new PointSize(store);
     bindTheme(store, (theme) => {
       viewer.setTheme(theme);
     });
@@ -55,6 +61,11 @@ export class Panel {
   /** Prepares the panel for a cloud that is about to be shown. */
   prepare(cloud: Cloud): void {
     this.#color.offer(cloud);
+  }
+
+  /** Takes the size with which the points of the cloud on screen touch. */
+  set touching(size: number) {
+    this.#pointSize.touching = size;
   }
 
   /** Shows the parameters that an answer was found with. */

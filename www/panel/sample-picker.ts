@@ -1,13 +1,14 @@
 import { SAMPLES, type Sample, sampleNamed } from "../samples/samples.ts";
-import { byId, nextFrame } from "../controls/dom.ts";
+import { byId } from "../controls/dom.ts";
 
 /** The size in CSS pixels. tests/browser/thumbnails.ts makes the pictures twice as large. */
-const THUMBNAIL = { width: 84, height: 56 };
+const THUMBNAIL = { width: 105, height: 70 };
 
-/** Small pictures of some samples, the list of all, and under it the source of the current cloud. */
+/** Small pictures of some samples, the list of all, and the source of the current cloud. */
 export class SamplePicker {
   readonly #select = byId("sample", HTMLSelectElement);
-  readonly #credit = byId("credit");
+  /** The places where the source of the cloud is named. */
+  readonly #credits = document.querySelectorAll(".credit");
   readonly #thumbnails = byId("thumbnails");
   /** The name of the user's own file. */
   readonly #own = byId("own");
@@ -30,20 +31,13 @@ export class SamplePicker {
   }
 
   showSample(sample: Sample): void {
-    void this.#showPictures();
     this.#removeOwn();
     this.#select.value = this.#shown = sample.name;
     this.#mark(sample.name);
-    this.#credit.replaceChildren(`${sample.credit.text} `);
-    if (!sample.credit.link) return;
-    const link = document.createElement("a");
-    link.href = sample.credit.link.href;
-    link.textContent = sample.credit.link.text;
-    this.#credit.append(link);
+    for (const credit of this.#credits) credit.replaceChildren(...creditOf(sample));
   }
 
   showOwn(name: string): void {
-    void this.#showPictures();
     this.#removeOwn();
     const none = new Option("Choose a sample", "", true, true);
     none.hidden = true;
@@ -52,22 +46,12 @@ export class SamplePicker {
     this.#own.hidden = false;
     this.#shown = "";
     this.#mark(null);
-    this.#credit.textContent = "";
+    for (const credit of this.#credits) credit.replaceChildren();
   }
 
   /** Goes back to the cloud on screen, after another one could not be opened. */
   restore(): void {
-    void this.#showPictures();
     this.#select.value = this.#shown ?? "";
-  }
-
-  /** Loads the pictures after the first cloud, so that they do not slow its loading down. */
-  async #showPictures(): Promise<void> {
-    await nextFrame();
-    for (const button of this.#thumbnails.querySelectorAll("button")) {
-      const image = button.querySelector("img")!;
-      if (!image.hasAttribute("src")) image.src = `thumbnails/${button.dataset["sample"]}.webp`;
-    }
   }
 
   /** Presses the picture of the sample that is on screen. */
@@ -84,6 +68,14 @@ export class SamplePicker {
   }
 }
 
+function creditOf({ credit: { text, link } }: Sample): (string | Node)[] {
+  if (!link) return [text];
+  const made = document.createElement("a");
+  made.href = link.href;
+  made.textContent = link.text;
+  return [`${text} `, made];
+}
+
 function thumbnail({ name, label, picture }: Sample, pick: () => void): HTMLButtonElement {
   const button = document.createElement("button");
   button.type = "button";
@@ -93,6 +85,7 @@ function thumbnail({ name, label, picture }: Sample, pick: () => void): HTMLButt
   image.width = THUMBNAIL.width;
   image.height = THUMBNAIL.height;
   image.alt = "";
+  image.src = `thumbnails/${name}.webp`;
   button.append(image, picture!);
   button.addEventListener("click", pick);
   return button;

@@ -30,7 +30,7 @@ export interface Beside {
   camera: () => CameraPlace | null;
   /** `null`: the tools are not there yet, so the address keeps its marks. */
   marks: () => Record<MarkParameter, string[]> | null;
-  /** Whether the picture is divided only as an introduction to the page. */
+  /** Whether the page still shows what it shows by itself, to an address that asks for nothing. */
   introducing: () => boolean;
 }
 
@@ -104,15 +104,13 @@ export class Address {
     const { name, usual } = this.#cloud;
     const address = new URL(location.href);
     const { searchParams } = address;
-    const introducing = this.#beside.introducing();
-    const settings = introducing ? { ...this.#store.current, compare: null } : this.#store.current;
+    // The next visit begins with the introduction, too.
+    if (this.#beside.introducing()) return;
     const values = {
-      ...settingsInAddress(settings, usual),
+      ...settingsInAddress(this.#store.current, usual),
       ...cameraInAddress(this.#beside.camera()),
       ...this.#beside.marks(),
     };
-    // The user has changed nothing yet. The address stays empty, so the next visit begins with the introduction, too.
-    if (introducing && address.search === "" && Object.values(values).every((texts) => texts.length === 0)) return;
     searchParams.delete(name[0] === "src" ? "sample" : "src");
     searchParams.set(...name);
     for (const [parameter, texts] of Object.entries(values)) {

@@ -20,6 +20,15 @@ export const MOST_LIGHTS = 8;
 /** The most rounds that smooth the light. */
 export const MOST_ROUNDS = 1000;
 
+/** Where the line that divides the picture first stands, as a share of its width. */
+export const MIDDLE = 0.5;
+
+/** The usual point size: points do not cover one another, so what lies behind them shows. */
+export const SMALL = 0.35;
+
+/** From this point size on, the points of a surface touch. */
+export const TOUCHING_FROM = 0.75;
+
 /** The limits of the point size, in multiples of the rough distance between neighboring points. */
 export const POINT_SIZE = { least: 0.05, most: 50 };
 

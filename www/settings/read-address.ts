@@ -14,6 +14,10 @@ export interface Wishes {
   points: number | null;
   /** An octree with more points than this is streamed. `null`: not said. */
   stream: number | null;
+  /** Whether the picture turns by itself. */
+  turns: boolean;
+  /** Whether the address asks for nothing, but maybe for whether the picture turns. */
+  isFirst: boolean;
   /** Whether only the picture is shown. */
   embed: boolean;
   /** The settings that are in the address. */
@@ -64,6 +68,8 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
       "Looks in the address exclude exponent, radius and inversion, so there is one hull, as these parameters say.",
     );
   }
+  const turn = read("turn", PARAMETERS.turn);
+  const isFirst = [...query.keys()].every((name) => name === "turn");
   if (query.has("light")) settings.lights = readLights(query.getAll("light"), notes);
 
   return {
@@ -73,6 +79,8 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
     target: read("target", PARAMETERS.target) ?? null,
     points: read("points", PARAMETERS.points) ?? null,
     stream: read("stream", PARAMETERS.stream) ?? null,
+    turns: turn === undefined ? isFirst : turn === "1",
+    isFirst,
     embed: read("embed", PARAMETERS.embed) === "1",
     settings,
     notes,

@@ -29,7 +29,7 @@ export const SLIDERS = {
   ambient: { least: 0, most: 1, step: 0.01, text: (at) => at.toFixed(2) },
   smoothing: { least: 0, most: 10, step: 1, text: (at) => `${at} ${at === 1 ? "round" : "rounds"}` },
   splat: { least: 1, most: MOST_SPLAT, step: 1, text: (at) => `${at} px` },
-  size: { least: 0.2, most: 5, step: 0.1, text: (at) => `${Number(at.toFixed(1))} ×` },
+  size: { least: 0.1, most: 5, step: 0.05, text: (at) => `${Number(at.toFixed(2))} ×` },
   fieldOfView: { ...FIELD_OF_VIEW, step: 1, text: (at) => `${Math.round(at)}°` },
   exponent: { least: 0, most: MOST_EXPONENT, step: 0.05, text: (at) => at.toFixed(2) },
 } satisfies Record<string, Slider>;

@@ -21,6 +21,7 @@ import {
   MOST_ROUNDS,
   MOST_SPLAT,
   POINT_SIZE,
+  SMALL,
 } from "./limits.ts";
 import type { Against, HiddenMode, Inversion, Looks, Radius, ThemeChoice, Viewpoint, Viewpoints } from "./types.ts";
 
@@ -208,7 +209,7 @@ export const SETTINGS = {
   size: setting<number>({
     parameter: "size",
     ...between(POINT_SIZE.least, POINT_SIZE.most),
-    usual: 1,
+    usual: SMALL,
     called: "point size",
     otherwise: "the usual one is used",
     ofCloud: true,
@@ -263,6 +264,10 @@ export const PARAMETERS = {
     ...wholeBetween(1, MAX_POINTS),
     called: "number of points to stream from",
     otherwise: "only octrees with more points than the page shows at once are streamed",
+  }),
+  turn: parameter<"0" | "1">({
+    ...oneOf("0", "1"),
+    otherwise: "the picture stands still",
   }),
   embed: parameter<"0" | "1">({
     ...oneOf("0", "1"),

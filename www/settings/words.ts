@@ -72,7 +72,7 @@ export const SETTING_WORDS: Record<SettingName, SettingWords> = {
   },
   hidden: {
     is: "how hidden points are drawn",
-    labels: { off: "Off", dimmed: "Dimmed", shown: "Shown" },
+    labels: { off: "Hide", dimmed: "Ghost", shown: "Highlight" },
   },
   compare: {
     is: "where the picture is divided, as a share of its width; visible points are to the right",
@@ -90,7 +90,6 @@ export const SETTING_WORDS: Record<SettingName, SettingWords> = {
   },
   size: {
     is: "the size of a point, in multiples of the points’ rough distance from one another",
-    without: "by their number",
   },
   fieldOfView: {
     is: "the vertical field of view",
@@ -126,6 +125,10 @@ export const PARAMETER_WORDS: Record<keyof typeof PARAMETERS, Words> = {
   stream: {
     is: "an octree (COPC) with more points than this is streamed: nodes that are hidden are not read",
     without: `${MAX_POINTS / 1e6} million; with \`points\`, nothing is streamed`,
+  },
+  turn: {
+    is: "`1` lets the picture turn by itself until it is touched",
+    without: "`1` if the address asks for nothing else",
   },
   embed: {
     is: "`1` shows the picture alone, for a frame in another page",

@@ -10,7 +10,7 @@ export function sentenceOfStep(
   isLast: boolean,
 ): string {
   const count = positions.length / 3;
-  const seen = `${number.format(count)} of ${counted(total, "point")} ${count === 1 ? "is" : "are"} visible from here`;
+  const seen = `${number.format(count)} of ${counted(total, "point")} can be seen from here`;
   const read = `${counted(nodes.read, "node")} with ${counted(points, "point")} ${nodes.read === 1 ? "was" : "were"} read`;
   const hidden = `${number.format(nodes.hidden)} more ${nodes.hidden === 1 ? "is" : "are"} hidden`;
   if (exact) return `${seen}, exactly: ${read}, ${hidden}.`;
@@ -22,7 +22,7 @@ export function sentenceOfStep(
 
 /** The answer about the overview in words. */
 export function sentenceOfOverview(count: number, shown: number, total: number): string {
-  return `${number.format(count)} of the ${counted(shown, "point")} of the coarser levels ${count === 1 ? "is" : "are"} visible from here; the file has ${counted(total, "point")}.`;
+  return `${number.format(count)} of the ${counted(shown, "point")} of the coarser levels can be seen from here; the file has ${counted(total, "point")}.`;
 }
 
 /** Why only the overview answers. */

@@ -2,23 +2,16 @@ import { AgainstPicture } from "../compare/against-picture.ts";
 import { AgainstSurface } from "../compare/against-surface.ts";
 import { byId } from "../controls/dom.ts";
 import { pressed } from "../controls/keys.ts";
+import { MIDDLE } from "../settings/limits.ts";
 import type { Settings } from "../settings/settings.ts";
 import type { Store } from "../settings/store.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { CompareCard, type Sides } from "./compare-card.ts";
 
-/** The divider's first place. It is beside the middle, since the middle is needed to turn the cloud. */
-const FIRST = 0.42;
 /** Shares of the width, in the order of the keys: left, right, down, up, page down, page up, home, end. */
 const STEPS = [-0.02, 0.02, -0.02, 0.02, -0.1, 0.1, -1, 1];
 
-const number = new Intl.NumberFormat("en-US");
-
-/**
- * The line that divides the picture: the reference is to its left, our answer is to its right. It is also an
- * introduction to the page. Then it is there at the start, with all points to its left and without its card, until the
- * camera first moves.
- */
+/** The line that divides the picture: the reference is to its left, our answer is to its right. */
 export class Compare {
   readonly #viewer: Viewer;
   readonly #store: Store;
@@ -27,19 +20,15 @@ export class Compare {
   readonly #card: CompareCard;
   /** `null` for a comparison with all points. */
   #reference: AgainstPicture | AgainstSurface | null = null;
-  /** Whether the line is there only as an introduction, until the camera moves. */
-  introducing: boolean;
 
-  constructor(viewer: Viewer, store: Store, introduce: boolean) {
+  constructor(viewer: Viewer, store: Store) {
     this.#viewer = viewer;
     this.#store = store;
-    this.introducing = introduce;
     this.#card = new CompareCard(store, () => {
       if (!(this.#reference instanceof AgainstSurface)) return;
       if (this.#reference.stopped) this.#reference.again();
       else this.#reference.stop();
     });
-    if (introduce) store.change({ compare: FIRST });
     const button = byId("tool-compare");
     button.addEventListener("click", () => {
       this.toggle();
@@ -53,8 +42,7 @@ export class Compare {
   }
 
   toggle(): void {
-    this.introducing = false;
-    this.#store.change({ compare: this.#store.current.compare === null ? FIRST : null });
+    this.#store.change({ compare: this.#store.current.compare === null ? MIDDLE : null });
   }
 
   /** Drops the reference: another cloud or another comparison is about to come. */
@@ -69,7 +57,7 @@ export class Compare {
     const { compare } = this.#store.current;
     const idle = compare === null || this.#viewer.cloud === null;
     this.#divider.hidden = this.#note.hidden = idle;
-    this.#card.show(idle || this.introducing ? null : this.#viewer.scene.surface);
+    this.#card.show(idle ? null : this.#viewer.scene.surface);
     if (idle) return;
     const [left, right] = this.#note.children;
     const sides = this.#sides();
@@ -84,10 +72,6 @@ export class Compare {
   /** Called every frame. */
   place(): void {
     if (this.#viewer.cloud === null) return;
-    if (this.introducing && !this.#viewer.isHome) {
-      this.introducing = false;
-      this.#store.change({ compare: null });
-    }
     const { current } = this.#store;
     if (current.compare === null) return;
     this.#reference ??= this.#begin(current);
@@ -106,13 +90,7 @@ export class Compare {
   }
 
   #sides(): Sides {
-    const { cloud, visible } = this.#viewer.scene;
-    const known = this.#compared(cloud.count);
-    if (known) return known;
-    return {
-      left: cloud.count === 1 ? "The only point" : `All ${number.format(cloud.count)} points`,
-      right: `${number.format(visible.length)} seen from here`,
-    };
+    return this.#compared(this.#viewer.scene.cloud.count) ?? { left: "All points", right: "Seen from here" };
   }
 
   /** Shows the figures; `null` as long as there are none. */

@@ -15,7 +15,6 @@ export function bindKeysSheet(): void {
     if (sheet.open) sheet.close();
     else open();
   };
-  byId("tool-keys").addEventListener("click", toggle);
   byId("keys-close").addEventListener("click", toggle);
   // A click beside the sheet is a click on the dialog itself.
   sheet.addEventListener("click", (event) => {

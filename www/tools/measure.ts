@@ -23,7 +23,7 @@ export class Measure implements Tool {
   #lines: { ends: readonly [number, number]; mark: Mark }[] = [];
   readonly #mode = modeChoice(() => {
     this.clear();
-    void this.#begin(this.#mode.value);
+    void this.#begin(this.#mode.value!);
   });
   /** The measure of another kind. Its code is downloaded when it is chosen. */
   #other: AreaMeasure | Profile | null = null;

@@ -12,7 +12,6 @@ import type { Viewer } from "../view/viewer.ts";
 import { Compare } from "./compare.ts";
 import { LateEdits } from "./edit/late-edits.ts";
 import { Export, type ExportActions } from "./export.ts";
-import { offerGuide } from "./guide.ts";
 import { Information } from "./information/information.ts";
 import { ScaleBar } from "./information/scale-bar.ts";
 import { bindKeysSheet } from "./keys.ts";
@@ -44,7 +43,7 @@ export class Tools {
   readonly #marked: Marked;
   #active: Tool | null = null;
 
-  constructor(viewer: Viewer, store: Store, actions: ExportActions, introduce: boolean) {
+  constructor(viewer: Viewer, store: Store, actions: ExportActions) {
     this.#viewer = viewer;
     this.#marks = new Marks(document.querySelector<SVGSVGElement>("#marks")!, viewer);
     this.#patience = new Patience(viewer);
@@ -102,18 +101,12 @@ export class Tools {
     this.#canvas.addEventListener("dblclick", (event) => {
       this.#goTo(spotOf(this.#canvas, event));
     });
-    this.#compare = new Compare(viewer, store, introduce);
+    this.#compare = new Compare(viewer, store);
     this.#information = new Information(bench);
     this.#scaleBar = new ScaleBar(this.#marks.svg, viewer);
     bindKeysSheet();
     byId("tools").hidden = false;
     this.#bindKeys(viewer);
-    if (introduce) offerGuide(viewer, store);
-  }
-
-  /** Whether the picture is divided only as an introduction to the page. */
-  get introducing(): boolean {
-    return this.#compare.introducing;
   }
 
   /** Marks, the selection and stations for the address. Those of a streamed cloud end when the camera moves. */

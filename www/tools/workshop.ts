@@ -15,24 +15,17 @@ export class Workshop {
   #coming = false;
   /** An address whose marks wait for the tools. */
   #search: string | null = null;
-  readonly #introduce: boolean;
   readonly #changed: () => void;
   /** The last known exponent of the automatic radius. */
   #automatic: number | null = null;
 
-  constructor(viewer: Viewer, store: Store, actions: ExportActions, introduce: boolean) {
+  constructor(viewer: Viewer, store: Store, actions: ExportActions) {
     this.#viewer = viewer;
-    this.#introduce = introduce;
     this.#changed = actions.changed;
     this.#load = async () => {
       const [{ Tools }, { Plot }] = await Promise.all([import("./tools.ts"), import("./plot.ts")]);
-      return { tools: new Tools(viewer, store, actions, introduce), plot: new Plot(viewer, store) };
+      return { tools: new Tools(viewer, store, actions), plot: new Plot(viewer, store) };
     };
-  }
-
-  /** Whether the picture is divided only as an introduction to the page. */
-  get introducing(): boolean {
-    return this.#here ? this.#here.tools.introducing : this.#introduce;
   }
 
   /** Marks, the selection and stations for the address. `null`: the tools are not there yet. */

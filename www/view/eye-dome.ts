@@ -22,6 +22,8 @@ import {
  */
 
 const STRENGTH = 150;
+/** Of small points: each of them has the background beside it, and would be speckled. */
+const SMALL_STRENGTH = 40;
 /** Points wider than this many device pixels are shaded more softly, since each would get its own dark rim. */
 const SOFT_FROM = 2;
 /** The distance of the neighbors in device pixels. For wide points it grows by this share of their extra width. */
@@ -40,8 +42,7 @@ const fragmentShader = /* glsl */ `
   uniform vec2 planes;
   uniform vec3 background;
   uniform float reach, strength, softness;
-  uniform float opacity;
-  uniform bool layer;
+  uniform bool layer, shadesAll;
   /* How opaque all points are where the scene is empty, and up to which pixel from the left they are drawn alone. */
   uniform float behind, alone;
   /* The distance in pixels of the first neighbors that a gap is looked for between. 0: gaps stay. */
@@ -121,14 +122,17 @@ const fragmentShader = /* glsl */ `
     }
     if (depth < 1.0) {
       gl_FragDepth = depth;
-      result = vec4(shaded(colors, depths, pixel, depth), opacity);
+      result = vec4(shaded(colors, depths, pixel, depth), 1.0);
       return;
     }
     if (layer) discard;
     depth = isAlone || behind > 0.0 ? texelFetch(allDepths, pixel, 0).r : 1.0;
     gl_FragDepth = depth;
     vec3 color = background;
-    if (depth < 1.0) color = mix(color, shaded(allColors, allDepths, pixel, depth), isAlone ? 1.0 : behind);
+    if (depth < 1.0) {
+      vec3 all = shadesAll ? shaded(allColors, allDepths, pixel, depth) : texelFetch(allColors, pixel, 0).rgb;
+      color = mix(color, all, isAlone ? 1.0 : behind);
+    }
     result = vec4(color, 1.0);
   }
 `;
@@ -145,8 +149,11 @@ export interface AllPoints {
 export class EyeDome {
   /** The width of a point in the scene's units. */
   pointWidth = 1;
-  /** Whether gaps of a pixel or two between points are closed. */
-  closesGaps = true;
+  /**
+   * Whether the points of a surface touch. Then gaps of a pixel or two between them are closed, and the picture of all
+   * points is shaded, too. The shade of small points would make the far side darker, and hide it.
+   */
+  touching = true;
   /** Whether the picture is shaded. It is off if something else shows the shape. */
   enabled = true;
   readonly #target = newTarget();
@@ -164,7 +171,6 @@ export class EyeDome {
       vertexShader,
       fragmentShader,
       glslVersion: GLSL3,
-      transparent: true,
       uniforms: {
         colors: { value: this.#target.texture },
         depths: { value: this.#target.depthTexture },
@@ -178,8 +184,8 @@ export class EyeDome {
         reach: { value: REACH },
         strength: { value: STRENGTH },
         softness: { value: 1 },
-        opacity: { value: 1 },
         layer: { value: false },
+        shadesAll: { value: true },
       },
     });
     // This is one triangle that covers the screen.
@@ -210,13 +216,13 @@ export class EyeDome {
       this.#drawInto(this.#allTarget, renderer, all.scene, camera);
     }
     this.#shade(renderer, scene, camera);
-    this.#draw(renderer, null);
+    this.#draw(renderer, false);
   }
 
-  /** Draws a scene as one transparent layer over the one before, whatever their depths are. */
-  renderOver(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera, opacity: number): void {
+  /** Draws a scene as a layer over the one before, whatever their depths are. */
+  renderOver(renderer: WebGLRenderer, scene: Scene, camera: PerspectiveCamera): void {
     this.#shade(renderer, scene, camera);
-    this.#draw(renderer, opacity);
+    this.#draw(renderer, true);
   }
 
   dispose(): void {
@@ -232,8 +238,9 @@ export class EyeDome {
     this.#drawInto(this.#target, renderer, scene, camera);
     this.#planes.set(camera.near, camera.far);
     this.#material.uniforms["reach"]!.value = REACH * renderer.getPixelRatio();
-    this.#material.uniforms["gap"]!.value = this.closesGaps ? Math.max(1, renderer.getPixelRatio()) : 0;
-    this.#material.uniforms["strength"]!.value = this.enabled ? STRENGTH : 0;
+    this.#material.uniforms["gap"]!.value = this.touching ? Math.max(1, renderer.getPixelRatio()) : 0;
+    this.#material.uniforms["shadesAll"]!.value = this.touching;
+    this.#material.uniforms["strength"]!.value = this.enabled ? (this.touching ? STRENGTH : SMALL_STRENGTH) : 0;
     // At this distance a point is as wide as SOFT_FROM pixels. Nearer points are wider in proportion.
     const pixels = (camera.projectionMatrix.elements[5] * this.#size.y) / 2;
     this.#material.uniforms["softness"]!.value = (this.pointWidth * pixels) / SOFT_FROM;
@@ -248,13 +255,11 @@ export class EyeDome {
     renderer.setRenderTarget(null);
   }
 
-  /** Draws onto the screen. `layer`: the opacity of a layer over the picture; `null` begins a new picture. */
-  #draw(renderer: WebGLRenderer, layer: number | null): void {
-    const { uniforms } = this.#material;
-    uniforms["layer"]!.value = layer !== null;
-    uniforms["opacity"]!.value = layer ?? 1;
-    this.#material.depthTest = this.#material.depthWrite = layer === null;
-    if (layer === null) renderer.clear();
+  /** Draws onto the screen: a layer over the picture, or a new picture. */
+  #draw(renderer: WebGLRenderer, layer: boolean): void {
+    this.#material.uniforms["layer"]!.value = layer;
+    this.#material.depthTest = this.#material.depthWrite = !layer;
+    if (!layer) renderer.clear();
     renderer.render(this.#screen, this.#camera);
   }
 }

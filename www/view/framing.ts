@@ -11,10 +11,12 @@ export interface Home {
   viewpoint: Viewpoint;
 }
 
-/** The vertical field of view in degrees, and the ratio width ÷ height. */
+/** The vertical field of view in degrees, the ratio width ÷ height, and what is covered. */
 export interface Lens {
   fov: number;
   aspect: number;
+  /** The share of the height, from the top, that nothing covers. */
+  free: number;
 }
 
 /** The first direction for files without a chosen view: a little from the side and from above. */
@@ -110,7 +112,12 @@ export function inFile(cloud: Cloud, local: Vector3): Viewpoint {
 const FRAMED = 100_000;
 
 /** The least distance along `from` at which the points are in the picture. Of a large cloud, an even share is looked at. */
-function fittingDistance({ local, count, radius }: Cloud, from: Vector3, up: Vector3, { fov, aspect }: Lens): number {
+function fittingDistance(
+  { local, count, radius }: Cloud,
+  from: Vector3,
+  up: Vector3,
+  { fov, aspect, free }: Lens,
+): number {
   const tangent = Math.tan((fov * Math.PI) / 360);
   const right = up.clone().cross(from).normalize();
   const above = from.clone().cross(right);
@@ -118,7 +125,7 @@ function fittingDistance({ local, count, radius }: Cloud, from: Vector3, up: Vec
   let distance = 0.1 * radius;
   for (let i = 0; i < count; i += Math.ceil(count / FRAMED)) {
     point.fromArray(local, 3 * i);
-    const sideways = Math.max(Math.abs(point.dot(right)) / aspect, Math.abs(point.dot(above))) / tangent;
+    const sideways = Math.max(Math.abs(point.dot(right)) / aspect, Math.abs(point.dot(above)) / free) / tangent;
     distance = Math.max(distance, point.dot(from) + sideways);
   }
   return distance;

@@ -1,6 +1,7 @@
 import { type PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { pressed } from "../controls/keys.ts";
+import { isCalm } from "../controls/motion.ts";
 
 /** The camera's place and its target, in the recentered coordinates. */
 export interface Pose {
@@ -68,18 +69,28 @@ export class Navigation {
 
   /** Flies to a place: it gets into the middle of the picture, at half its distance. The direction stays. */
   goTo(place: Vector3): void {
-    const { target } = this.#controls;
     const distance = this.#camera.position.distanceTo(place) / 2;
-    const back = this.#camera.position.clone().sub(target).setLength(distance);
-    const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    const back = this.#camera.position.clone().sub(this.target).setLength(distance);
+    this.#flyTo({ at: place.clone().add(back), target: place.clone() });
+  }
+
+  /** Flies back to a multiple of the distance from the target. `then` is called there, unless the user moves first. */
+  goBack(factor: number, then: () => void): void {
+    const away = this.#camera.position.clone().sub(this.target).multiplyScalar(factor);
+    this.#flyTo({ at: away.add(this.target), target: this.target.clone() }, then);
+  }
+
+  #flyTo(to: Flight["to"], then: () => void = () => undefined): void {
     const flight: Flight = {
-      from: { at: this.#camera.position.clone(), target: target.clone() },
-      to: { at: place.clone().add(back), target: place.clone() },
-      begun: performance.now() - (calm ? FLIGHT : 0),
+      from: { at: this.#camera.position.clone(), target: this.target.clone() },
+      to,
+      begun: performance.now() - (isCalm() ? FLIGHT : 0),
     };
     this.#flight = flight;
     const step = () => {
-      if (this.#flight === flight && this.#fly(flight)) requestAnimationFrame(step);
+      if (this.#flight !== flight) return;
+      if (this.#fly(flight)) requestAnimationFrame(step);
+      else then();
     };
     step();
   }

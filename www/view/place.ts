@@ -16,8 +16,8 @@ export function project({ scene, stage }: Viewer, place: Viewpoint): { x: number
 export function placeAt({ scene, stage }: Viewer, x: number, y: number, like: Viewpoint): Viewpoint {
   const { camera, size } = stage;
   const depth = -inLocal(scene.cloud, like).applyMatrix4(camera.matrixWorldInverse).z;
-  const tangent = Math.tan((camera.fov * Math.PI) / 360);
-  const place = new Vector3((2 * x) / size.width - 1, 1 - (2 * y) / size.height, -1);
-  place.multiply(new Vector3(tangent * camera.aspect, tangent, 1)).multiplyScalar(depth);
+  const place = new Vector3((2 * x) / size.width - 1, 1 - (2 * y) / size.height, 0);
+  place.applyMatrix4(camera.projectionMatrixInverse);
+  place.multiplyScalar(-depth / place.z);
   return inFile(scene.cloud, place.applyMatrix4(camera.matrixWorld));
 }

@@ -1,8 +1,8 @@
 import { VisibilityMap } from "hidden-point-removal";
 import { TINT_SHADER } from "./attributes.ts";
 
-/** The greatest width of a point in device pixels. A wider point would cover the view. */
-export const MOST_PIXELS = 160;
+/** The greatest width of a point in pixels, of points that touch and of small ones. */
+export const MOST_PIXELS = { touching: 160, small: 5 };
 /** A number of device pixels that is wider than any picture. */
 export const EVERYWHERE = 1e9;
 
@@ -10,8 +10,8 @@ export const vertexShader = /* glsl */ `
   ${TINT_SHADER}
   /* The width of a point in the cloud's units, and the length of a unit at distance 1 in pixels. */
   uniform float width, pixels;
-  /* The least width of a point in pixels: a smaller one flickers. */
-  uniform float least;
+  /* The least width of a point in pixels: a smaller one flickers. The greatest one: a wider one would be a balloon. */
+  uniform float least, most;
   uniform vec3 cover;
   uniform float coverage;
   /* 0: all points are drawn. 1: those that the map does not hide. -1: those that it hides. */
@@ -27,7 +27,7 @@ export const vertexShader = /* glsl */ `
       return;
     }
     gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-    size = clamp(width * pixels / gl_Position.w, least, ${MOST_PIXELS.toFixed(1)});
+    size = clamp(width * pixels / gl_Position.w, least, max(least, most));
     gl_PointSize = size;
     // Hidden points have no light of their own.
     tint = chosenOr(coverage > 0.0 ? mix(ownTint(), cover, coverage) : ownTint() * light());

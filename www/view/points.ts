@@ -16,17 +16,17 @@ import {
 import type { VisibilityMap } from "hidden-point-removal";
 import type { Cloud } from "../cloud/cloud.ts";
 import type { Parts } from "./parts.ts";
+import { TOUCHING_FROM } from "../settings/limits.ts";
 import type { HiddenMode } from "../settings/settings.ts";
 import { type CloudAttributes, display } from "./attributes.ts";
-import { EVERYWHERE, fragmentShader, vertexShader } from "./point-shaders.ts";
+import { EVERYWHERE, fragmentShader, MOST_PIXELS, vertexShader } from "./point-shaders.ts";
 import type { Theme } from "./theme.ts";
 
 /** The share of a hidden point's own color that the theme's color for hidden points covers. */
-const COVERAGE = 0.7;
+const COVERAGE = 0.85;
 
-/** Hidden points that are drawn through the visible ones: their opacity, and their greatest width in spacings. */
-export const THROUGH_OPACITY: Record<HiddenMode, number> = { off: 0, dimmed: 0.4, shown: 0.85 };
-const THROUGH_WIDTH = 0.45;
+/** The greatest width of a hidden point, in spacings: it must not look like a surface. */
+const HIDDEN_WIDTH = 0.45;
 
 type Draw = Points<BufferGeometry, ShaderMaterial>;
 
@@ -53,12 +53,13 @@ export class CloudPoints {
   /** Points that only the reference shows; a part of `different`. */
   readonly #missing: Draw;
   readonly #order: BufferAttribute;
-  readonly #spacing: number;
+  /** The rough distance between neighbors. */
+  readonly spacing: number;
   /** The draws of one order, in that order. */
   readonly #parts: Draw[];
   readonly #draws: Draw[];
   #theme: Theme;
-  #dimmed = false;
+  #ghostly = false;
   #width = 0;
   #visible: Uint32Array = new Uint32Array();
   /** The uniforms of a map, shared by all draws. */
@@ -68,8 +69,6 @@ export class CloudPoints {
     hprMargins: { value: new Vector4() },
   };
   #hiddenListed = true;
-  /** Whether `ghost` and `extra` are drawn through the other points: as specks, so that both can be seen. */
-  #throughOthers = true;
   /** The place of the divider, as a share of the picture's width. Hidden points are to its left. */
   #divider = 1;
   /** Whether points that only the reference shows are drawn on both sides. */
@@ -79,7 +78,7 @@ export class CloudPoints {
     this.#theme = theme;
     this.#order = new BufferAttribute(new Uint32Array(cloud.count), 1);
     this.#order.setUsage(DynamicDrawUsage);
-    this.#spacing = roughSpacing(cloud);
+    this.spacing = roughSpacing(cloud);
 
     const draw = (coverage: number, order: BufferAttribute | null = this.#order) => {
       const geometry = new BufferGeometry();
@@ -93,6 +92,7 @@ export class CloudPoints {
           width: { value: 0 },
           pixels: { value: 1 },
           least: { value: 1 },
+          most: { value: 1 },
           cover: { value: new Color() },
           coverage: { value: coverage },
           between: { value: new Vector2(0, EVERYWHERE) },
@@ -119,15 +119,17 @@ export class CloudPoints {
         const { x: width, y: height } = renderer.getDrawingBufferSize(new Vector2());
         const { uniforms } = each.material;
         uniforms["pixels"]!.value = (camera.projectionMatrix.elements[5] * height) / 2;
-        const least = leastPixels(cloud.count) * renderer.getPixelRatio();
-        uniforms["least"]!.value = each === this.ghost && this.#throughOthers ? least / 1.5 : least;
+        const least = leastPixels(cloud.count, width / renderer.getPixelRatio()) * renderer.getPixelRatio();
+        const kind = this.#width < TOUCHING_FROM * this.spacing ? "small" : "touching";
+        uniforms["most"]!.value = MOST_PIXELS[kind] * renderer.getPixelRatio();
+        uniforms["least"]!.value = each === this.ghost ? least / 1.5 : least;
         const left = each === this.ghost || (each === missing && !this.#fill);
         const right = each === this.extra || each === outside;
         const at = this.#divider * width;
         (uniforms["between"]!.value as Vector2).set(right ? at : 0, left ? at : EVERYWHERE);
       };
     }
-    this.show("off", false);
+    this.show("off");
   }
 
   /** The answer for a viewpoint: ascending indices of the visible points. */
@@ -198,12 +200,11 @@ export class CloudPoints {
   }
 
   /** Shows hidden points, up to a share of the picture's width. */
-  show(mode: HiddenMode, frozen: boolean, divider = 1): void {
+  show(mode: HiddenMode, divider = 1): void {
     this.#divider = divider;
     this.ghost.visible = mode !== "off";
     if (this.ghost.visible && !this.#hiddenListed) this.#listHidden();
-    this.#throughOthers = !frozen;
-    this.#dimmed = frozen && mode === "dimmed";
+    this.#ghostly = mode === "dimmed";
     this.setTheme(this.#theme);
     this.#setWidths();
   }
@@ -211,7 +212,7 @@ export class CloudPoints {
   setTheme(theme: Theme): void {
     this.#theme = theme;
     const colors: [Draw, string][] = [
-      [this.ghost, this.#dimmed ? theme.hiddenDimmed : theme.hidden],
+      [this.ghost, this.#ghostly ? theme.hiddenDimmed : theme.hidden],
       [this.extra, theme.onlyOurs],
       [this.#missing, theme.onlyReference],
     ];
@@ -220,7 +221,7 @@ export class CloudPoints {
 
   /** Takes multiples of the rough distance between neighbors. Returns the width of a point in the cloud's units. */
   setPointSize(size: number): number {
-    this.#width = size * this.#spacing;
+    this.#width = size * this.spacing;
     this.#setWidths();
     return this.#width;
   }
@@ -236,9 +237,8 @@ export class CloudPoints {
 
   #setWidths(): void {
     for (const { material } of this.#draws) material.uniforms["width"]!.value = this.#width;
-    if (!this.#throughOthers) return;
     for (const { material } of [this.ghost, this.extra]) {
-      material.uniforms["width"]!.value = Math.min(this.#width, THROUGH_WIDTH * this.#spacing);
+      material.uniforms["width"]!.value = Math.min(this.#width, HIDDEN_WIDTH * this.spacing);
     }
   }
 
@@ -259,7 +259,10 @@ function roughSpacing({ size: [x, y, z], count, among = count }: Cloud): number 
   return Math.sqrt((2 * (x * y + y * z + z * x)) / among);
 }
 
-/** The least width of a point in pixels. If there are few points, it is larger, so that they can be found. */
-function leastPixels(count: number): number {
-  return count < 100 ? 6 : count < 1000 ? 3 : 1.5;
+/**
+ * The least width of a point in pixels. If there are few points, it is larger, so that they can be found. In a narrow
+ * picture it is smaller, so that points do not cover one another.
+ */
+function leastPixels(count: number, width: number): number {
+  return count < 100 ? 6 : count < 1000 ? 3 : Math.min(1.5, Math.max(1, width / 700));
 }

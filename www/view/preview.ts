@@ -117,7 +117,7 @@ export class Preview {
       radius,
     };
     const size = half.multiplyScalar(2).toArray();
-    const { pose } = findHome({ ...box, size }, this.#up, null, null, { fov: camera.fov, aspect: camera.aspect });
+    const { pose } = findHome({ ...box, size }, this.#up, null, null, { fov: camera.fov, ...this.#stage.shape });
     this.#navigation.setHome(pose);
     this.#at = pose.at.clone();
     this.#stage.setExtent(radius);

@@ -3,21 +3,33 @@ import type { TimedView } from "../ask/inquiry.ts";
 const number = new Intl.NumberFormat("en-US");
 
 /** An answer in words, for everybody and for screen readers. */
-export function sentenceOf(
-  { visibility, question, kind, quick, milliseconds }: TimedView,
-  total: number,
-  frozen: boolean,
-): string {
-  const one = visibility.count === 1;
-  const where = frozen
-    ? `${one ? "was" : "were"} visible from the frozen viewpoint`
-    : `${one ? "is" : "are"} visible from here`;
-  const time = milliseconds < 10 ? milliseconds.toFixed(1) : number.format(Math.round(milliseconds));
-  const share = percent(visibility.count, total);
-  const standIn = quick ? ", with the automatic radius while moving" : "";
+export function sentenceOf({ visibility, kind }: TimedView, total: number, frozen: boolean): string {
   const most = kind === "draft" ? "At most " : "";
+  const points = total === 1 ? "point" : "points";
+  return `${most}${number.format(visibility.count)} of ${number.format(total)} ${points} can be seen from ${whereFrom(frozen)}.`;
+}
+
+/** The same in round numbers, to be read at a glance. */
+export function captionOf({ visibility }: TimedView, total: number, frozen: boolean): string {
+  const points = total === 1 ? "point" : "points";
+  return `${rounded(total)} ${points}. ${rounded(visibility.count)} can be seen from ${whereFrom(frozen)}.`;
+}
+
+/** How the answer was found. */
+export function methodOf({ visibility, question, kind, quick, milliseconds }: TimedView, total: number): string {
+  const time = milliseconds < 10 ? milliseconds.toFixed(1) : number.format(Math.round(milliseconds));
+  const standIn = quick ? ", with the automatic radius while moving" : "";
   const by = kind === "looks" ? `by ${question.method.looks} looks ` : "";
-  return `${most}${number.format(visibility.count)} of ${number.format(total)} ${total === 1 ? "point" : "points"} (${share}) ${where}, found ${by}in ${time}\u00a0ms${standIn}.`;
+  return `${percent(visibility.count, total)} of the points, found ${by}in ${time}\u00a0ms${standIn}.`;
+}
+
+function whereFrom(frozen: boolean): string {
+  return frozen ? "the frozen viewpoint" : "here";
+}
+
+/** Two digits of a large number. A small one is told exactly. */
+function rounded(count: number): string {
+  return number.format(count < 10_000 ? count : Number(count.toPrecision(2)));
 }
 
 /** Rounds the percentage. Only no points at all give 0 %, and only all points give 100 %. */

@@ -29,17 +29,19 @@ export class Stage {
     this.#frame();
   });
   #shape = { width: 1, height: 1 };
+  readonly #covered: () => number;
+  #free = 1;
   #changed = true;
   #drawnFrom = "";
   /** Whether there has been something to draw. The first frame compiles the shaders, so it must not be an empty one. */
   #isBegun = false;
   /** The radius of everything that is drawn, around the origin. */
   #extent = 1;
-  #throughOpacity = 1;
   #coarse = false;
 
-  constructor(canvas: HTMLCanvasElement) {
+  constructor(canvas: HTMLCanvasElement, covered: () => number = () => 0) {
     this.#canvas = canvas;
+    this.#covered = covered;
     this.#renderer = new WebGLRenderer({ canvas, powerPreference: "high-performance" });
     this.#renderer.autoClear = false;
     this.#eyeDome = new EyeDome();
@@ -68,6 +70,11 @@ export class Stage {
     return this.#renderer.getDrawingBufferSize(new Vector2());
   }
 
+  /** Width by height of the picture, and the share of its height, from the top, that nothing covers. */
+  get shape(): { aspect: number; free: number } {
+    return { aspect: this.camera.aspect, free: this.#free };
+  }
+
   setTheme({ background }: Theme): void {
     this.#eyeDome.setBackground(display(background));
     this.invalidate();
@@ -94,9 +101,9 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Whether gaps of a pixel or two between points are closed. */
-  setClosingGaps(closes: boolean): void {
-    this.#eyeDome.closesGaps = closes;
+  /** Whether the points of a surface touch. */
+  setTouching(touching: boolean): void {
+    this.#eyeDome.touching = touching;
     this.invalidate();
   }
 
@@ -110,12 +117,6 @@ export class Stage {
     const { opacity, alone } = { ...this.#all, ...part };
     if (opacity === this.#all.opacity && alone === this.#all.alone) return;
     Object.assign(this.#all, { opacity, alone });
-    this.invalidate();
-  }
-
-  /** The opacity of points that are drawn through the others. */
-  setThroughOpacity(opacity: number): void {
-    this.#throughOpacity = opacity;
     this.invalidate();
   }
 
@@ -160,6 +161,9 @@ export class Stage {
     this.#renderer.setPixelRatio(this.#ratio());
     this.#renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
+    this.#free = Math.max(0.5, 1 - this.#covered() / height);
+    // The middle of the free part is the middle of the picture.
+    this.camera.setViewOffset(width, height, 0, ((1 - this.#free) * height) / 2, width, height);
     this.onResize();
     this.invalidate();
   }
@@ -201,7 +205,7 @@ export class Stage {
 
     this.#eyeDome.render(this.#renderer, this.points, this.#all, this.camera);
     if (this.through.children.some((child) => child.visible)) {
-      this.#eyeDome.renderOver(this.#renderer, this.through, this.camera, this.#throughOpacity);
+      this.#eyeDome.renderOver(this.#renderer, this.through, this.camera);
     }
     this.#renderer.render(this.overlay, this.camera);
   }

@@ -5,6 +5,7 @@ import type { Detail, Inquiry, Mapped, TimedView } from "../ask/inquiry.ts";
 import type { Attribute, Cloud, Up } from "../cloud/cloud.ts";
 import type { Parts } from "./parts.ts";
 import type { KnownSurface } from "../samples/samples.ts";
+import { TOUCHING_FROM } from "../settings/limits.ts";
 import type { Settings, Viewpoint } from "../settings/settings.ts";
 import type { Store } from "../settings/store.ts";
 import { CloudAttributes } from "./attributes.ts";
@@ -12,7 +13,7 @@ import { colorBy, type Legend } from "./colors.ts";
 import { type Home, inFile, inLocal } from "./framing.ts";
 import { ViewpointMarker } from "./marker.ts";
 import { Navigation } from "./navigation.ts";
-import { CloudPoints, THROUGH_OPACITY } from "./points.ts";
+import { CloudPoints } from "./points.ts";
 import { Stage } from "./stage.ts";
 import { Surface } from "./surface.ts";
 import { type Theme, THEMES } from "./theme.ts";
@@ -40,6 +41,8 @@ type Shown = Opened & {
   from: Viewpoint;
   /** The viewpoint of the frame before. */
   before: Viewpoint;
+  /** Whether a map is drawn. */
+  byMap: boolean;
   /** The direction of the frozen viewpoint. */
   frozen: Quaternion | null;
 };
@@ -53,8 +56,11 @@ export class Viewer {
   onLight: (answer: LightAnswer | null) => void = () => undefined;
   onAutomatic: (exponent: number) => void = () => undefined;
   onError: (error: unknown) => void = () => undefined;
-  /** Whether an answer for the present camera and settings is still to come. Called whenever that may have changed. */
-  onBusy: (busy: boolean) => void = () => undefined;
+  /**
+   * Whether an answer for the present camera and settings is still to come, and whether a map shows it meanwhile. Called
+   * whenever that may have changed.
+   */
+  onBusy: (busy: boolean, byMap: boolean) => void = () => undefined;
   /** Called with a legend whenever the colors change. */
   onLegend: (legend: Legend | null) => void = () => undefined;
   /** Called when a cloud has got another attribute to color by. */
@@ -79,10 +85,13 @@ export class Viewer {
   /** Whether the picture shows our answer beside a reference. */
   #compared = false;
 
-  /** `polite`: the wheel and one finger over the picture scroll the page around it. */
-  constructor(canvas: HTMLCanvasElement, store: Store, polite: boolean) {
+  /**
+   * `polite`: the wheel and one finger over the picture scroll the page around it. `covered`: how many CSS pixels at the
+   * bottom of the picture are covered, read when the picture gets another size.
+   */
+  constructor(canvas: HTMLCanvasElement, store: Store, polite: boolean, covered?: () => number) {
     this.#store = store;
-    this.stage = new Stage(canvas);
+    this.stage = new Stage(canvas, covered);
     this.navigation = new Navigation(this.stage.camera, canvas, polite);
     this.#marker = new ViewpointMarker(this.stage.overlay);
     this.#waiting = new WaitingRoom(this.stage, this.navigation);
@@ -112,6 +121,11 @@ export class Viewer {
   /** The cloud and its visible points, for the tools. Use it only while there is a cloud. */
   get scene(): Opened & { visible: Uint32Array } {
     return { ...this.#shown!, visible: this.#shown!.answer.visibility.indices };
+  }
+
+  /** The rough distance between neighbors, in the cloud's units. */
+  get spacing(): number {
+    return this.#shown!.points.spacing;
   }
 
   /** The direction of the viewpoint: the camera's, or the frozen one. */
@@ -223,7 +237,7 @@ export class Viewer {
     const points = new CloudPoints(cloud, attributes, this.#theme);
     const mesh = new Surface(attributes, this.#theme);
     const from = opened.answer.question.viewpoint;
-    const shown: Shown = { ...opened, attributes, points, mesh, from, before: from, frozen: null };
+    const shown: Shown = { ...opened, attributes, points, mesh, from, before: from, byMap: false, frozen: null };
     inquiry.onView = (next) => {
       // Its answer may come while other points are shown instead.
       if (this.#shown !== shown) return;
@@ -233,6 +247,7 @@ export class Viewer {
     inquiry.onMap = (mapped) => {
       if (this.#shown !== shown || this.#compared) return;
       shown.from = mapped.viewpoint;
+      shown.byMap = true;
       points.setMap(mapped.map);
       this.stage.invalidate();
       this.onMap(mapped);
@@ -365,7 +380,7 @@ export class Viewer {
     const isHere = isSamePlace(from, viewpoint, cloud.radius) || isStandIn(cloud, from, before);
     this.stage.setAll({ opacity: this.#surfaceShown || isHere ? 0 : 1 });
     this.#isFinal = !inquiry.busy;
-    this.onBusy(!this.#isFinal);
+    this.onBusy(!this.#isFinal, isHere && this.#shown.byMap);
   }
 
   /** Whether the picture is the final answer for the present camera and settings. */
@@ -378,10 +393,9 @@ export class Viewer {
     const { points, mesh } = this.#shown!;
     this.#shown!.answer = answer;
     this.#shown!.from = question.viewpoint;
+    this.#shown!.byMap = false;
     if (!this.#compared) points.setVisible(visibility.indices);
     this.stage.invalidate();
-    // A draft has too many points rather than too few, and it has to be drawn fast.
-    this.stage.setClosingGaps(answer.kind !== "draft");
     mesh.setTriangles(triangles);
     this.#setShape();
   }
@@ -413,18 +427,13 @@ export class Viewer {
     this.stage.invalidate();
   }
 
-  /**
-   * Points have no size of their own, so they do not really cover each other. While the viewpoint goes with the camera,
-   * hidden points are drawn through the visible ones. From another place they are drawn where they are.
-   */
+  /** Hidden points are drawn where they are. Beside a reference, the differences are drawn through the other points. */
   #applyLook({ hidden: chosen, freeze, compare, size, fieldOfView }: Settings): void {
     const { points } = this.#shown!;
-    const frozen = freeze !== null;
-    const hidden = compare === null ? chosen : "off";
-    points.show(hidden, frozen, compare ?? 1);
+    points.show(compare === null ? chosen : "off", compare ?? 1);
     this.stage.setAll({ alone: compare === null || this.#compared ? 0 : compare });
-    (frozen ? this.stage.points : this.stage.through).add(points.ghost, points.extra);
-    this.stage.setThroughOpacity(this.#compared ? 1 : THROUGH_OPACITY[hidden]);
+    (this.#compared && freeze === null ? this.stage.through : this.stage.points).add(points.ghost, points.extra);
+    this.stage.setTouching(size >= TOUCHING_FROM);
     this.stage.setPointWidth(points.setPointSize(size));
     this.stage.setFieldOfView(fieldOfView);
   }

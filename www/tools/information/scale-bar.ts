@@ -37,11 +37,13 @@ export class ScaleBar {
     const now = [pixels, size.width, size.height, cloud?.center].join();
     if (now === this.#placed) return;
     this.#placed = now;
-    const isShown = cloud !== null && !cloud.facts.crs?.isAngular && Number.isFinite(pixels);
+    const measures = cloud && measuresOf(cloud);
+    // A length without a unit says nothing.
+    const isShown = measures?.unit && !cloud?.facts.crs?.isAngular && Number.isFinite(pixels);
     this.#element.style.display = isShown ? "" : "none";
     if (!isShown) return;
 
-    const { unit, scale } = measuresOf(cloud);
+    const { unit, scale } = measures;
     const length = roundLength((LONGEST / pixels) * scale[0]);
     const width = (length * pixels) / scale[0];
     // In a frame of another page, a link is at the right, and signs are at the top.

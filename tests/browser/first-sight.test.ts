@@ -1,0 +1,173 @@
+import type { BrowserContextOptions, Page } from "playwright-core";
+import { expect, test } from "vitest";
+import { addStyle } from "./site.js";
+import { addressWritten, drag, EVERY_PIXEL, openPage, openReady, PHONE, reached, status, upToDate } from "./support.js";
+
+const MOVING: BrowserContextOptions = { reducedMotion: "no-preference" };
+
+/** The page as a stranger opens it. */
+const stranger = async (page: Page) => {
+  await page.addInitScript(() => {
+    localStorage.removeItem("hidden-point-removal: tools");
+  });
+};
+
+const caption = (page: Page) => page.locator("#caption").textContent();
+const line = async (page: Page) => Number(await page.locator("#divider").getAttribute("aria-valuenow"));
+
+/** Everything in sight that takes the focus. */
+const controls = (page: Page) =>
+  page.evaluate(
+    () =>
+      [...document.querySelectorAll<HTMLElement>("a[href], button, input, select, summary, [tabindex='0']")].filter(
+        (element) =>
+          element.checkVisibility({ visibilityProperty: true }) && element.closest("[aria-hidden=true]") === null,
+      ).length,
+  );
+
+test("a stranger sees the cloud turn, a line sweep over it, a caption with its numbers, and few controls", async () => {
+  const page = await openPage("", MOVING, stranger);
+  await reached(page, "ready");
+  await page.locator("#divider").waitFor();
+  await expect.poll(() => line(page), { timeout: 60_000 }).toBe(50);
+  const { visible, total } = await status(page);
+  expect(total).toBe(100_250);
+  const round = (count: number) => Number(count.toPrecision(2)).toLocaleString("en-US");
+  expect(await caption(page)).toBe(`${round(total)} points. ${round(visible)} can be seen from here.`);
+  expect(await controls(page)).toBeLessThanOrEqual(16);
+  expect(await page.locator("#panel").evaluate((panel) => panel.getBoundingClientRect().width)).toBeLessThan(2);
+  // It goes on turning, and maps draw it.
+  const before = await status(page);
+  await expect.poll(async () => (await status(page)).viewpoint).not.toEqual(before.viewpoint);
+  expect(await status(page)).toMatchObject({ answer: "map", busy: 1 });
+  expect(new URL(page.url()).search).toBe("");
+  // Any touch stops it. The line stays.
+  await page.locator("#view").click({ position: { x: 20, y: 200 } });
+  const stopped = await upToDate(page);
+  await page.waitForTimeout(300);
+  expect((await status(page)).viewpoint).toEqual(stopped.viewpoint);
+  expect(await line(page)).toBe(50);
+});
+
+test("with reduced motion nothing turns, and the line stands in the middle at once", async () => {
+  const page = await openReady("", {}, stranger);
+  const { viewpoint } = await status(page);
+  await page.locator("#divider").waitFor();
+  expect(await line(page)).toBe(50);
+  await page.waitForTimeout(500);
+  expect(await status(page)).toMatchObject({ viewpoint, busy: 0 });
+});
+
+test("the address says whether the picture turns", async () => {
+  const page = await openPage("?sample=bunny&turn=1", MOVING);
+  await reached(page, "ready");
+  const { viewpoint } = await status(page);
+  await expect.poll(async () => (await status(page)).viewpoint).not.toEqual(viewpoint);
+  for (const query of ["?turn=0", "?sample=bunny"]) {
+    const still = await openReady(query, MOVING);
+    const before = (await status(still)).viewpoint;
+    await still.waitForTimeout(400);
+    expect((await upToDate(still)).viewpoint, query).toEqual(before);
+  }
+});
+
+test.for(["dark", "light"] as const)(
+  "the two halves differ in a quarter of the body's pixels or more (%s)",
+  async (colorScheme) => {
+    const pictures: Buffer[] = [];
+    const page = await openReady("?turn=0&compare=0", { ...EVERY_PIXEL, colorScheme }, stranger);
+    for (const share of [0, 0.999]) {
+      const half = await openReady(`?turn=0&compare=${share}`, { ...EVERY_PIXEL, colorScheme }, stranger);
+      await addStyle(half, "#divider, #compare-note, #verbs, #drawer, #signs { visibility: hidden }");
+      pictures.push(await half.locator("#view").screenshot());
+    }
+    const { body, different } = await page.evaluate(
+      async (images) => {
+        const [front, all] = await Promise.all(
+          images.map(async (image) => {
+            const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${image}`)).blob());
+            const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d")!;
+            context.drawImage(bitmap, 0, 0);
+            return context.getImageData(0, 0, bitmap.width, bitmap.height);
+          }),
+        );
+        // The body of the cloud: every place with a point at most two pixels away.
+        const { width, height, data } = all!;
+        const isPoint = (x: number, y: number) =>
+          [0, 1, 2].some((channel) => Math.abs(data[4 * (y * width + x) + channel]! - data[channel]!) > 8);
+        let [body, different] = [0, 0];
+        for (let y = 2; y < height - 2; y++) {
+          for (let x = 2; x < width - 2; x++) {
+            let isBody = false;
+            for (let dy = -2; dy <= 2 && !isBody; dy++) {
+              for (let dx = -2; dx <= 2; dx++) isBody ||= isPoint(x + dx, y + dy);
+            }
+            if (!isBody) continue;
+            body++;
+            const at = 4 * (y * width + x);
+            if ([0, 1, 2].some((channel) => Math.abs(data[at + channel]! - front!.data[at + channel]!) > 24)) {
+              different++;
+            }
+          }
+        }
+        return { body, different };
+      },
+      pictures.map((picture) => picture.toString("base64")),
+    );
+    expect(body).toBeGreaterThan(30_000);
+    expect(different / body).toBeGreaterThan(0.25);
+  },
+);
+
+test("freeze and walk around: an eye stands where the viewpoint was, hidden points are ghosts, and the eye can be moved", async () => {
+  const page = await openReady("?sample=bunny", {}, stranger);
+  const { viewpoint } = await status(page);
+  await page.getByRole("button", { name: "Freeze and walk around" }).click();
+  const frozen = await upToDate(page);
+  expect(frozen.viewpoint).toEqual(viewpoint);
+  expect((await addressWritten(page)).get("hidden")).toBe("dimmed");
+  await expect.poll(() => caption(page)).toMatch(/^1,839 points\. [\d,]+ can be seen from the frozen viewpoint\.$/);
+  await drag(page, 150, 40);
+  await page.getByRole("button", { name: "Move the eye here" }).click();
+  await expect.poll(async () => (await upToDate(page)).viewpoint).not.toEqual(viewpoint);
+  const moved = await upToDate(page);
+  const address = await addressWritten(page);
+  expect(address.get("freeze")!.split(",").map(Number)).toEqual(moved.viewpoint);
+  await page.getByRole("button", { name: "Let the eye go with me" }).click();
+  expect((await addressWritten(page)).has("freeze")).toBe(false);
+  expect((await addressWritten(page)).has("hidden")).toBe(false);
+});
+
+test("the camera walks once around a frozen eye, and any touch stops it", async () => {
+  const page = await openReady("?sample=bunny", MOVING, stranger);
+  const camera = async () => (await addressWritten(page)).get("view");
+  await page.getByRole("button", { name: "Freeze and walk around" }).click();
+  const first = await page.locator("#view").screenshot();
+  await expect.poll(async () => (await page.locator("#view").screenshot()).equals(first)).toBe(false);
+  await page.locator("#view").click({ position: { x: 20, y: 200 } });
+  const stopped = await camera();
+  await page.waitForTimeout(400);
+  expect(await camera()).toBe(stopped);
+});
+
+test("the drawer has the tools, and this device remembers it", async () => {
+  const page = await openPage("?sample=bunny", {});
+  await reached(page, "ready");
+  expect(await page.locator("#hidden-points").isVisible()).toBe(true);
+  await page.getByRole("button", { name: "Close tools" }).click();
+  expect(await page.locator("#hidden-points").isVisible()).toBe(false);
+  expect(await page.evaluate(() => localStorage.getItem("hidden-point-removal: tools"))).toBe("closed");
+  await page.getByRole("button", { name: "Tools", exact: true }).click();
+  expect(await page.locator("#tool-bar").isVisible()).toBe(true);
+  await page.getByRole("radio", { name: "Touching" }).check();
+  expect(Number((await addressWritten(page)).get("size"))).toBeGreaterThan(1);
+  await page.getByRole("radio", { name: "Small" }).check();
+  expect((await addressWritten(page)).has("size")).toBe(false);
+});
+
+test("on a phone the picture keeps 70 % of the height", async () => {
+  const page = await openReady("", PHONE, stranger);
+  const top = await page.locator("#caption").evaluate((element) => element.getBoundingClientRect().top);
+  expect(top / 844).toBeGreaterThan(0.7);
+  expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+});

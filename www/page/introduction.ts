@@ -1,0 +1,55 @@
+import { nextFrame } from "../controls/dom.ts";
+import { isCalm } from "../controls/motion.ts";
+import { MIDDLE } from "../settings/limits.ts";
+import type { Store } from "../settings/store.ts";
+import type { Turning } from "../view/turning.ts";
+import type { Viewer } from "../view/viewer.ts";
+
+/** Milliseconds in which the line crosses the picture. */
+const SWEEP = 2600;
+
+/**
+ * The first sight of the page, for an address that asks for nothing: all points; a line sweeps over them and leaves
+ * the visible ones; the picture turns. It ends when the user touches the page, and the line stays.
+ */
+export class Introduction {
+  readonly #viewer: Viewer;
+  readonly #store: Store;
+  readonly #turning: Turning;
+  #going: boolean;
+
+  /** `introduces`: the address asks for nothing. */
+  constructor(viewer: Viewer, store: Store, turning: Turning, introduces: boolean) {
+    this.#viewer = viewer;
+    this.#store = store;
+    this.#turning = turning;
+    this.#going = introduces;
+    if (!introduces) return;
+    store.change({ compare: isCalm() ? MIDDLE : 1 });
+    for (const touch of ["pointerdown", "wheel", "keydown"]) {
+      document.addEventListener(touch, () => (this.#going = false), { once: true, capture: true, passive: true });
+    }
+  }
+
+  /** Whether the page still shows what it showed by itself. Then the address says nothing of it. */
+  get going(): boolean {
+    return this.#going;
+  }
+
+  /** Begins when the first answer is drawn, and the line is there. */
+  async begin(turns: boolean): Promise<void> {
+    while (!this.#viewer.isFinal) await nextFrame();
+    if (turns) this.#turning.begin();
+    if (!this.#going || isCalm()) return;
+    const begun = performance.now();
+    while (this.going) {
+      const share = Math.min(1, (performance.now() - begun) / SWEEP);
+      const done = share * share * (3 - 2 * share);
+      this.#store.change({ compare: 1 - (1 - MIDDLE) * done });
+      if (share === 1) return;
+      await nextFrame();
+    }
+    // A touch in between: the line is at its place at once.
+    if (this.#store.current.compare !== null) this.#store.change({ compare: MIDDLE });
+  }
+}
