@@ -1,6 +1,7 @@
 // The readers of files as users of the package call them.
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
+import { gzipSync } from "node:zlib";
 import { pathToFileURL } from "node:url";
 import { type HprError, readCloud } from "hidden-point-removal/files";
 import { describe, expect, it } from "vitest";
@@ -35,6 +36,27 @@ const setCount = (count: number) => (view: DataView) => {
 };
 
 describe("the formats", () => {
+  it("reads files that are packed with gzip, and refuses a damaged packing", async () => {
+    const plain = await readCloud(buffer(table(" ")));
+    const packed = gzipSync(table(" "));
+    expect(await readCloud(buffer(packed))).toEqual(plain);
+    expect(
+      await readCloud(buffer(Buffer.concat([gzipSync(table(" ").slice(0, 5)), gzipSync(table(" ").slice(5))]))),
+    ).toEqual(plain);
+    expect(await readCloud(new File([packed], "cloud.xyz.gz"))).toEqual(plain);
+    const ball = fixture("ball-14.laz");
+    expect(await readCloud(buffer(gzipSync(ball)))).toEqual(await readCloud(buffer(ball)));
+    for (const damaged of [
+      packed.subarray(0, -9),
+      packed.subarray(0, 12),
+      changed(packed, (view) => view.setUint8(15, 0xff)),
+    ]) {
+      expect(await refused(damaged)).toMatch(/^load: .*it is packed with gzip, and the packing is damaged/);
+    }
+    // Twice packed: what is inside is no format.
+    expect(await refused(gzipSync(packed))).toMatch(/^load: /);
+  });
+
   it.each(["ball-12.laz", "ball-14.laz"])("%s, from a path, a URL, a Blob and a buffer", async (name) => {
     const content = fixture(name);
     for (const source of [path(name), pathToFileURL(path(name)), new Blob([content]), buffer(content)]) {

@@ -1,4 +1,5 @@
 import type { LoadedCloud } from "../cloud/cloud.ts";
+import { unpacked } from "../../src/ts/formats/gzip.js";
 import { FormatProblem } from "../../src/ts/formats/problem.js";
 import { readFile } from "../../src/ts/formats/read.js";
 import { blobSource } from "../../src/ts/formats/source.js";
@@ -20,12 +21,14 @@ export async function readCloud(loading: Loading): Promise<LoadedCloud> {
 }
 
 async function readBy(loading: Loading): Promise<LoadedCloud> {
-  const { blob, name } = loading;
-  const source = blobSource(blob);
-  if (new TextDecoder("latin1").decode(await source.read(0, 4)) === "LASF") {
+  const { blob } = loading;
+  const file = { source: blobSource(blob), name: loading.name };
+  const { source, name } = await unpacked(file);
+  // The nodes of an octree that is packed as a whole cannot be read one by one.
+  if (source === file.source && new TextDecoder("latin1").decode(await source.read(0, 4)) === "LASF") {
     const { isOctree, readCopc } = await import("./las/copc.ts");
     if (await isOctree(source.read)) return readCopc(loading, source.read, blob);
   }
   const lazPerf = async () => (await import("./las/perf.ts")).startLazPerf(name);
-  return loaded(name, await readFile({ ...loading, source, single: true, lazPerf }));
+  return loaded(name, await readFile({ ...loading, name, source, single: true, lazPerf }));
 }

@@ -2,6 +2,7 @@ import { constants, rmSync, write } from "node:fs";
 import { type FileHandle, lstat, open, readlink, rename, rm, stat } from "node:fs/promises";
 import { dirname, resolve } from "node:path";
 import { promisify } from "node:util";
+import { gunzipSync } from "node:zlib";
 
 import { FormatProblem } from "../formats/problem.js";
 import { allocating } from "../formats/builder.js";
@@ -49,11 +50,21 @@ export async function readAs<T>(
   understand: (file: Buffer<ArrayBuffer>) => T | Promise<T>,
 ): Promise<T> {
   try {
-    return await understand(await readWhole(name, onProgress));
+    return await understand(unpackedFile(await readWhole(name, onProgress)));
   } catch (cause) {
     throw cause instanceof FormatProblem
       ? new InputProblem(`${name} cannot be read: ${cause.message}`, { cause })
       : cause;
+  }
+}
+
+/** A file that was packed with gzip, unpacked. */
+function unpackedFile(file: Buffer<ArrayBuffer>): Buffer<ArrayBuffer> {
+  if (file[0] !== 0x1f || file[1] !== 0x8b) return file;
+  try {
+    return gunzipSync(file);
+  } catch (cause) {
+    throw new FormatProblem("it is packed with gzip, and the packing is damaged", { cause });
   }
 }
 

@@ -1,4 +1,5 @@
 import type { CloudFile, Reading } from "./cloud-file.js";
+import { unpacked } from "./gzip.js";
 import { FormatProblem } from "./problem.js";
 import { readObj } from "./read-obj.js";
 import { readPcd } from "./read-pcd.js";
@@ -8,7 +9,7 @@ import { readTable } from "./read-table.js";
 /** Reads a file. Its first bytes show its format. If they do not, the ending of its name is used. */
 export async function readFile(reading: Reading): Promise<CloudFile> {
   try {
-    return await readBy(reading);
+    return await readBy(await unpacked(reading));
   } catch (error) {
     // The allocation of an array that is too long.
     if (error instanceof RangeError) {
