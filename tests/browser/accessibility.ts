@@ -91,7 +91,7 @@ const LOADING: Step = {
   act: async (page) => {
     // The answer never comes.
     await page.route("**/samples/bunny.bin", nothing);
-    await page.getByRole("button", { name: "Bunny" }).click();
+    await page.locator("#sample").selectOption("bunny");
     await page.getByRole("button", { name: "Stop loading" }).waitFor();
   },
 };

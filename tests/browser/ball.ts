@@ -21,7 +21,7 @@ export async function openBall(
   prepare?: (page: Page) => Promise<void>,
 ): Promise<Page> {
   served.set("clouds/utm.ply", file);
-  return openReady(`?src=clouds/utm.ply&up=y&view=${view.join()}&target=${MIDDLE.join()}`, options, prepare);
+  return openReady(`?src=clouds/utm.ply&up=y&size=2&view=${view.join()}&target=${MIDDLE.join()}`, options, prepare);
 }
 
 export const at = (index: number): [number, number, number] => [

@@ -232,7 +232,7 @@ test("compared with the z-buffer: the counts follow its definition, live, and th
   );
   // Comparing does not ask the picture's own questions again.
   expect(await status(page)).toEqual(before);
-  await expect.poll(() => page.url()).toMatch(/compare=0\.42&against=zbuffer&splat=24/);
+  await expect.poll(() => page.url()).toMatch(/compare=0\.5&against=zbuffer&splat=24/);
 
   // When the camera is nearer, a part of the ball is out of the picture. A z-buffer knows nothing of this part.
   await page.locator("#view").focus();
@@ -347,7 +347,7 @@ test("tracing can be stopped and taken up again", async () => {
   await page.getByLabel("True surface").check();
   await page.getByRole("button", { name: "Stop", exact: true }).click();
   expect(await page.locator("#compare-result").textContent()).toBe("Tracing was stopped.");
-  expect(await page.locator("#compare-note span").first().textContent()).toBe("All 5,205 points");
+  expect(await page.locator("#compare-note span").first().textContent()).toBe("All points");
   release();
   await page.getByRole("button", { name: "Trace rays" }).click();
   expect((await figures(page)).of).toBe(5205);
@@ -420,7 +420,7 @@ test("by keys alone: choose, move the divider, leave; and the card fits its plac
   await page.locator("#divider").focus();
   await page.keyboard.press("ArrowRight");
   // In a window of another shape the camera has another place, so rays are traced again.
-  await expect.poll(() => page.locator("#divider").getAttribute("aria-valuetext")).toMatch(/on the left 44 %, 3 looks/);
+  await expect.poll(() => page.locator("#divider").getAttribute("aria-valuetext")).toMatch(/on the left 52 %, 3 looks/);
   await tool(page, "Compare").click();
   expect(await page.locator("#compare-card").isVisible()).toBe(false);
 });

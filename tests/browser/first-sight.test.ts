@@ -1,7 +1,19 @@
 import type { BrowserContextOptions, Page } from "playwright-core";
 import { expect, test } from "vitest";
+import { ball, rows } from "./clouds.js";
 import { addStyle } from "./site.js";
-import { addressWritten, drag, EVERY_PIXEL, openPage, openReady, PHONE, reached, status, upToDate } from "./support.js";
+import {
+  addressWritten,
+  drag,
+  EVERY_PIXEL,
+  openPage,
+  openReady,
+  PHONE,
+  reached,
+  served,
+  status,
+  upToDate,
+} from "./support.js";
 
 const MOVING: BrowserContextOptions = { reducedMotion: "no-preference" };
 
@@ -170,4 +182,21 @@ test("on a phone the picture keeps 70 % of the height", async () => {
   const top = await page.locator("#caption").evaluate((element) => element.getBoundingClientRect().top);
   expect(top / 844).toBeGreaterThan(0.7);
   expect(await page.evaluate(() => document.documentElement.scrollWidth)).toBeLessThanOrEqual(390);
+});
+
+test("one stray point does not make the cloud a dot, and Show all shows it", async () => {
+  served.set(
+    "stray.xyz",
+    new TextEncoder().encode(
+      `${rows(ball(2000))
+        .map((row) => `${row.join(" ")}\n`)
+        .join("")}90000 70000 5\n`,
+    ),
+  );
+  const page = await openReady("?src=stray.xyz&up=z");
+  const far = async () => Math.hypot(...(await upToDate(page)).viewpoint);
+  expect(await far()).toBeLessThan(20);
+  expect(await page.locator("#message p").textContent()).toMatch(/A few points lie far away/);
+  await page.getByRole("button", { name: "Show all" }).click();
+  await expect.poll(far).toBeGreaterThan(50_000);
 });

@@ -43,3 +43,16 @@ test.for(Object.entries(CLOUDS))("%s fills the picture", ([, positions]) => {
     }
   }
 });
+
+test("points that lie far away from all others are not framed, unless the whole cloud is asked for", () => {
+  const body = CLOUDS.plate!;
+  const { cloud } = prepareCloud({ positions: Float64Array.of(...body, 90_000, -40_000, 7e5), colors: null });
+  const lens = { fov: 45, aspect: 1.35, free: 1 };
+  const near = findHome(cloud, "z", null, null, lens);
+  const alone = findHome(prepareCloud({ positions: body, colors: null }).cloud, "z", null, null, lens);
+  for (const axis of [0, 1, 2]) expect(near.viewpoint[axis]!).toBeCloseTo(alone.viewpoint[axis]!, -1);
+  expect(near.extent.radius).toBeLessThan(200);
+  const whole = findHome(cloud, "z", null, null, lens, true);
+  expect(whole.extent.radius).toBe(cloud.radius);
+  expect(whole.pose.at.length()).toBeGreaterThan(1e5);
+});

@@ -35,7 +35,7 @@ test("a click tells a visible point's index and its place in full precision", as
 });
 
 test("if points are drawn large, a click on any part of a disc counts", async () => {
-  const page = await openReady("?sample=bunny");
+  const page = await openReady("?sample=bunny&size=1.4");
   await tool(page, "Pick").click();
   const canvas = (await page.locator("#view").boundingBox())!;
   for (const x of [0.44, 0.48, 0.52, 0.56]) {

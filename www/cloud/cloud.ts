@@ -67,6 +67,8 @@ export interface Cloud {
   /** Width, height and depth of the bounding box, and half its diagonal. */
   size: [number, number, number];
   radius: number;
+  /** The box of nearly all points, if the others lie far away from them: its middle in `local`, and its size. */
+  body: { middle: [number, number, number]; size: [number, number, number] } | null;
   /** If only its visible points are here: the number of points among which they were found. */
   among?: number;
 }

@@ -1,4 +1,5 @@
-import type { LoadedCloud, PreparedCloud } from "./cloud.ts";
+import type { Cloud, LoadedCloud, PreparedCloud } from "./cloud.ts";
+import { spreadOf } from "./spread.ts";
 
 /** Makes a cloud ready to draw. It is slow for many points, so call it in a worker, not in the page's thread. */
 export function prepareCloud({
@@ -39,6 +40,19 @@ export function prepareCloud({
     local,
     size,
     radius: radius > 0 ? radius : 1,
+    body: bodyOf(local, size),
   };
   return { cloud, positions, copy: positions.slice(), ...said };
+}
+
+/** The share of points at either end of an axis that may be strays, and how much larger the whole box is with them. */
+const STRAYS = 0.005;
+const LARGER = 4;
+
+function bodyOf(local: Float32Array, whole: Cloud["size"]): Cloud["body"] {
+  const ends = [0, 1, 2].map((axis) => spreadOf(local.length / 3, (i) => local[3 * i + axis]!, STRAYS));
+  const size = ends.map(([low, high]) => high - low) as Cloud["size"];
+  const middle = ends.map(([low, high]) => low / 2 + high / 2) as Cloud["center"];
+  const length = Math.hypot(...size);
+  return length > 0 && Math.hypot(...whole) > LARGER * length ? { middle, size } : null;
 }

@@ -246,6 +246,8 @@ class HiddenPointCloud extends Base implements Own {
     const fresh = [...problems]
       .filter(([attribute, { message }]) => this.#told.get(attribute) !== message)
       .map(([, problem]) => problem);
+    // Who writes a page has rarely a listener for errors.
+    for (const { message } of fresh) console.warn(`<hidden-point-cloud>: ${message}`);
     this.#told = new Map([...problems].map(([attribute, { message }]) => [attribute, message]));
     return fresh;
   }

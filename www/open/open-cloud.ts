@@ -48,8 +48,8 @@ export interface Ready {
   touching: number;
   /** The view that is asked for. `null` if no view is asked for, or if it is out of reach. */
   view: AskedView | null;
-  /** Returns the first view, if this view is asked for. */
-  homeFrom: (view: AskedView | null) => (up: Up) => Home;
+  /** Returns the first view, if this view is asked for, or the `whole` cloud with points that lie far away. */
+  homeFrom: (view: AskedView | null, whole?: boolean) => (up: Up) => Home;
   /** Sentences about wishes that cannot be met. */
   refusals: string[];
   /** Sentences that the user has to read about the cloud. */
@@ -116,10 +116,10 @@ export async function openCloud(
 
   const { fieldOfView: fov, up } = { ...usual, ...wished };
   const taken = loaded.taken?.from ? { at: loaded.taken.from, target: null } : null;
-  const homeFrom = (asked: AskedView | null) => (upward: Up) => {
+  const homeFrom = (asked: AskedView | null, whole?: boolean) => (upward: Up) => {
     const lens = { fov, ...place.shape() };
     const sameUp = upward === up;
-    return findHome(cloud, upward, sameUp ? sample : null, sameUp ? (asked ?? taken) : null, lens);
+    return findHome(cloud, upward, sameUp ? sample : null, sameUp ? (asked ?? taken) : null, lens, whole);
   };
   const home = homeFrom(view)(up);
   // The answer for a small cloud comes so soon that a picture of all points would only delay it. The picture waits for

@@ -119,7 +119,18 @@ export class Opening {
       },
     });
     const more = [...ready.refusals, ...ready.notes];
-    if (more.length > 0) message.show([...notes, ...more].join(" "));
+    const { home, cloud } = ready.opened;
+    const actions = [];
+    if (cloud.body && home.extent.radius < cloud.radius) {
+      more.push("A few points lie far away from all others, and are not in the picture.");
+      actions.push({
+        label: "Show all",
+        run: () => {
+          viewer.setHome(ready.homeFrom(null, true));
+        },
+      });
+    }
+    if (more.length > 0) message.show([...notes, ...more].join(" "), actions);
     status.loaded();
     viewer.clear();
     store.change(ready.settings);

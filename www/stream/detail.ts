@@ -34,7 +34,7 @@ export async function detailOf(
   leader: Leader,
   { total, sentence, ...said }: Pick<TimedView, "kind" | "asked" | "question"> & NonNullable<TimedView["whole"]>,
 ): Promise<Detail> {
-  const { center, size, radius, facts } = overview;
+  const { center, size, radius, body, facts } = overview;
   const local = new Float32Array(positions.length);
   for (let i = 0; i < positions.length; i++) local[i] = positions[i]! - center[i % 3]!;
   const cloud: Cloud = {
@@ -49,6 +49,7 @@ export async function detailOf(
     local,
     size,
     radius,
+    body,
     // The points have the size that all points have when they are here.
     among: exact ? total : points,
   };

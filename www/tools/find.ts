@@ -16,11 +16,10 @@ const LAYER = 4;
 /**
  * Finds the point that the user means at a spot. Of the points within the tolerance, only the points on the surface
  * nearest to the camera count. The one nearest to the spot is taken. If there is no point within the tolerance, points
- * that cover the spot count as well: each is as wide as the distance to the next one, or as it is drawn.
+ * that cover the spot because they are drawn large count as well.
  */
 export function pointAt(viewer: Viewer, { x, y, tolerance }: Spot, through: boolean): number | null {
-  const { pixelRatio } = viewer.stage;
-  const pointWidth = Math.max(viewer.stage.pointWidth, viewer.spacing);
+  const { pointWidth, pixelRatio } = viewer.stage;
   const widest = MOST_PIXELS.touching / 2 / pixelRatio;
   const among = candidates(viewer, through);
   return (

@@ -9,6 +9,8 @@ import type { Pose } from "./navigation.ts";
 export interface Home {
   pose: Pose;
   viewpoint: Viewpoint;
+  /** The ball in which everything is drawn: its middle in the recentered coordinates, and its radius. */
+  extent: { middle: Vector3; radius: number };
 }
 
 /** The vertical field of view in degrees, the ratio width ÷ height, and what is covered. */
@@ -28,12 +30,24 @@ export interface AskedView {
   target: Viewpoint | null;
 }
 
-/** Returns the view that was asked for, else the sample's own view, else a view of the whole cloud. */
-export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: AskedView | null, lens: Lens): Home {
+/**
+ * Returns the view that was asked for, else the sample's own view, else a view of the cloud: without points that lie far
+ * away from all others, unless the `whole` cloud is asked for.
+ */
+export function findHome(
+  cloud: Cloud,
+  up: Up,
+  sample: Sample | null,
+  view: AskedView | null,
+  lens: Lens,
+  whole = false,
+): Home {
   const upward = new Vector3(...upVector(up));
+  const all = { middle: new Vector3(), radius: cloud.radius };
   const at = (viewpoint: Viewpoint, target: Vector3) => ({
     pose: { at: inLocal(cloud, viewpoint), target, up: upward },
     viewpoint,
+    extent: all,
   });
 
   if (view) {
@@ -45,11 +59,15 @@ export function findHome(cloud: Cloud, up: Up, sample: Sample | null, view: Aske
   }
   if (sample?.eye) return at(sample.eye.at, inLocal(cloud, sample.eye.target));
 
+  const body = whole ? null : cloud.body;
+  const extent = body ? { middle: new Vector3(...body.middle), radius: Math.hypot(...body.size) } : all;
   const from = new Vector3(...(sample?.direction ?? FROM[up])).normalize();
-  const local = from.clone().multiplyScalar(1.07 * fittingDistance(cloud, from, upward, lens));
+  const local = from.clone().multiplyScalar(1.07 * fittingDistance(cloud, extent, from, upward, lens));
+  local.add(extent.middle);
   return {
-    pose: { at: local, target: new Vector3(), up: upward },
+    pose: { at: local, target: extent.middle.clone(), up: upward },
     viewpoint: inFile(cloud, local),
+    extent,
   };
 }
 
@@ -111,9 +129,13 @@ export function inFile(cloud: Cloud, local: Vector3): Viewpoint {
 /** The number of points by which a cloud is framed. With fewer of them, a thin part may be missed. */
 const FRAMED = 100_000;
 
-/** The least distance along `from` at which the points are in the picture. Of a large cloud, an even share is looked at. */
+/**
+ * The least distance along `from` at which the points of the extent are in the picture. Of a large cloud, an even share is
+ * looked at.
+ */
 function fittingDistance(
-  { local, count, radius }: Cloud,
+  { local, count }: Cloud,
+  { middle, radius }: Home["extent"],
   from: Vector3,
   up: Vector3,
   { fov, aspect, free }: Lens,
@@ -124,7 +146,8 @@ function fittingDistance(
   const point = new Vector3();
   let distance = 0.1 * radius;
   for (let i = 0; i < count; i += Math.ceil(count / FRAMED)) {
-    point.fromArray(local, 3 * i);
+    point.fromArray(local, 3 * i).sub(middle);
+    if (point.length() > 1.0001 * radius) continue;
     const sideways = Math.max(Math.abs(point.dot(right)) / aspect, Math.abs(point.dot(above)) / free) / tangent;
     distance = Math.max(distance, point.dot(from) + sideways);
   }

@@ -53,8 +53,7 @@ export class CloudPoints {
   /** Points that only the reference shows; a part of `different`. */
   readonly #missing: Draw;
   readonly #order: BufferAttribute;
-  /** The rough distance between neighbors. */
-  readonly spacing: number;
+  readonly #spacing: number;
   /** The draws of one order, in that order. */
   readonly #parts: Draw[];
   readonly #draws: Draw[];
@@ -78,7 +77,7 @@ export class CloudPoints {
     this.#theme = theme;
     this.#order = new BufferAttribute(new Uint32Array(cloud.count), 1);
     this.#order.setUsage(DynamicDrawUsage);
-    this.spacing = roughSpacing(cloud);
+    this.#spacing = roughSpacing(cloud);
 
     const draw = (coverage: number, order: BufferAttribute | null = this.#order) => {
       const geometry = new BufferGeometry();
@@ -120,7 +119,7 @@ export class CloudPoints {
         const { uniforms } = each.material;
         uniforms["pixels"]!.value = (camera.projectionMatrix.elements[5] * height) / 2;
         const least = leastPixels(cloud.count, width / renderer.getPixelRatio()) * renderer.getPixelRatio();
-        const kind = this.#width < TOUCHING_FROM * this.spacing ? "small" : "touching";
+        const kind = this.#width < TOUCHING_FROM * this.#spacing ? "small" : "touching";
         uniforms["most"]!.value = MOST_PIXELS[kind] * renderer.getPixelRatio();
         uniforms["least"]!.value = each === this.ghost ? least / 1.5 : least;
         const left = each === this.ghost || (each === missing && !this.#fill);
@@ -221,7 +220,7 @@ export class CloudPoints {
 
   /** Takes multiples of the rough distance between neighbors. Returns the width of a point in the cloud's units. */
   setPointSize(size: number): number {
-    this.#width = size * this.spacing;
+    this.#width = size * this.#spacing;
     this.#setWidths();
     return this.#width;
   }
@@ -238,7 +237,7 @@ export class CloudPoints {
   #setWidths(): void {
     for (const { material } of this.#draws) material.uniforms["width"]!.value = this.#width;
     for (const { material } of [this.ghost, this.extra]) {
-      material.uniforms["width"]!.value = Math.min(this.#width, HIDDEN_WIDTH * this.spacing);
+      material.uniforms["width"]!.value = Math.min(this.#width, HIDDEN_WIDTH * this.#spacing);
     }
   }
 
@@ -255,7 +254,8 @@ export class CloudPoints {
  * The distance between neighbors if the points were spread evenly over the faces of their bounding box. It is good
  * enough for a surface, and needs no search.
  */
-function roughSpacing({ size: [x, y, z], count, among = count }: Cloud): number {
+function roughSpacing({ size, body, count, among = count }: Cloud): number {
+  const [x, y, z] = body?.size ?? size;
   return Math.sqrt((2 * (x * y + y * z + z * x)) / among);
 }
 

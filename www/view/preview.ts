@@ -115,11 +115,15 @@ export class Preview {
       center: [0, 0, 0] as [number, number, number],
       local,
       radius,
+      body: null,
     };
     const size = half.multiplyScalar(2).toArray();
-    const { pose } = findHome({ ...box, size }, this.#up, null, null, { fov: camera.fov, ...this.#stage.shape });
+    const { pose, extent } = findHome({ ...box, size }, this.#up, null, null, {
+      fov: camera.fov,
+      ...this.#stage.shape,
+    });
     this.#navigation.setHome(pose);
     this.#at = pose.at.clone();
-    this.#stage.setExtent(radius);
+    this.#stage.setExtent(extent);
   }
 }

@@ -1,4 +1,4 @@
-import { PerspectiveCamera, Scene, Vector2, WebGLRenderer } from "three";
+import { PerspectiveCamera, Scene, Vector2, Vector3, WebGLRenderer } from "three";
 import { display } from "./attributes.ts";
 import { type AllPoints, EyeDome } from "./eye-dome.ts";
 import { type Theme, THEMES } from "./theme.ts";
@@ -35,8 +35,8 @@ export class Stage {
   #drawnFrom = "";
   /** Whether there has been something to draw. The first frame compiles the shaders, so it must not be an empty one. */
   #isBegun = false;
-  /** The radius of everything that is drawn, around the origin. */
-  #extent = 1;
+  /** The ball in which everything is drawn. */
+  #extent = { middle: new Vector3(), radius: 1 };
   #coarse = false;
 
   constructor(canvas: HTMLCanvasElement, covered: () => number = () => 0) {
@@ -80,7 +80,7 @@ export class Stage {
     this.invalidate();
   }
 
-  setExtent(extent: number): void {
+  setExtent(extent: { middle: Vector3; radius: number }): void {
     this.#extent = extent;
     this.invalidate();
   }
@@ -200,7 +200,7 @@ export class Stage {
     this.#changed = false;
     this.#drawnFrom = from;
 
-    Object.assign(this.camera, clipping(this.camera.position.length(), this.#extent));
+    Object.assign(this.camera, clipping(this.camera.position.distanceTo(this.#extent.middle), this.#extent.radius));
     this.camera.updateProjectionMatrix();
 
     this.#eyeDome.render(this.#renderer, this.points, this.#all, this.camera);

@@ -123,11 +123,6 @@ export class Viewer {
     return { ...this.#shown!, visible: this.#shown!.answer.visibility.indices };
   }
 
-  /** The rough distance between neighbors, in the cloud's units. */
-  get spacing(): number {
-    return this.#shown!.points.spacing;
-  }
-
   /** The direction of the viewpoint: the camera's, or the frozen one. */
   get direction(): Quaternion {
     return this.#shown!.frozen ?? this.stage.camera.quaternion;
@@ -175,7 +170,6 @@ export class Viewer {
     if (!this.#waiting.isOpen) return;
     this.#shown = this.#waiting.left;
     this.#waiting.end(true);
-    this.stage.setExtent(this.#shown?.cloud.radius ?? 1);
     if (!this.#shown) return;
     this.#applyLook(this.#store.current);
     this.#placeMarker(this.#store.current.freeze);
@@ -352,6 +346,7 @@ export class Viewer {
     if (!this.#shown) return;
     this.#shown.home = this.#shown.findHome(this.#store.current.up);
     this.navigation.setHome(this.#shown.home.pose);
+    this.#placeMarker(this.#store.current.freeze);
     this.stage.invalidate();
     this.#inquire();
   }
@@ -441,11 +436,11 @@ export class Viewer {
   /** Marks the frozen viewpoint. It has the camera's direction if the camera is there, else it faces the target. */
   #placeMarker(freeze: Viewpoint | null): void {
     this.#marker.remove();
-    const { cloud } = this.#shown!;
+    const { cloud, home } = this.#shown!;
     const { camera } = this.stage;
     if (!freeze) {
       this.#shown!.frozen = null;
-      this.stage.setExtent(cloud.radius);
+      this.stage.setExtent(home.extent);
       return;
     }
     const here = isSamePlace(freeze, this.viewpoint, cloud.radius);
@@ -454,9 +449,10 @@ export class Viewer {
       new Matrix4().lookAt(at, this.navigation.target, camera.up),
     );
     this.#shown!.frozen = here ? camera.quaternion.clone() : toTarget;
-    this.#marker.place(at, this.#shown!.frozen, 0.18 * cloud.radius);
+    this.#marker.place(at, this.#shown!.frozen, 0.18 * home.extent.radius);
     // The marker must be in the picture, too, from every place of the camera.
-    this.stage.setExtent(Math.max(cloud.radius, at.length() + 0.2 * cloud.radius));
+    const { middle, radius } = home.extent;
+    this.stage.setExtent({ middle, radius: Math.max(radius, at.distanceTo(middle) + 0.2 * radius) });
   }
 }
 

@@ -72,7 +72,7 @@ export class WaitingRoom<Left> {
     // Fewer points are wider, so that they close the surface all the same.
     this.#stage.setPointWidth(this.#points.setPointSize(look.size * Math.sqrt(step)));
     this.#stage.setFieldOfView(look.fieldOfView);
-    this.#stage.setExtent(cloud.radius);
+    this.#stage.setExtent(home.extent);
     this.#stage.setAll({ opacity: 1, alone: 0 });
     this.#navigation.setHome(home.pose);
     this.#home = home;

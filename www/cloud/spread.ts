@@ -3,7 +3,7 @@ const STRAYS = 0.01;
 const SAMPLE = 5000;
 
 /** Finds two values that have nearly all other values between them. Only finite values count. */
-export function spreadOf(count: number, value: (i: number) => number): [low: number, high: number] {
+export function spreadOf(count: number, value: (i: number) => number, strays = STRAYS): [low: number, high: number] {
   const step = Math.ceil(count / SAMPLE);
   const sample = new Float64Array(Math.ceil(count / step));
   let finite = 0;
@@ -13,5 +13,5 @@ export function spreadOf(count: number, value: (i: number) => number): [low: num
   }
   const sorted = sample.subarray(0, finite).sort();
   const at = (share: number) => sorted[Math.round(share * (finite - 1))] ?? 0;
-  return [at(STRAYS), at(1 - STRAYS)];
+  return [at(strays), at(1 - strays)];
 }
