@@ -43,7 +43,7 @@ test("indices are short as gaps, and come back", () => {
 });
 
 test("a link has the distances, labels and the selection, and opens with them", async () => {
-  const page = await openReady("?sample=bunny");
+  const page = await openReady("?sample=bunny&size=1.4");
   await tool(page, "Measure").click();
   await click(page, [-40, 0], [40, 10]);
   await page.locator("#marks .measure").waitFor({ state: "attached" });
@@ -62,7 +62,7 @@ test("a link has the distances, labels and the selection, and opens with them", 
   expect(before).toMatchObject({ measures: [expect.stringContaining("units")], labels: ["Ear, left & “<b>”"] });
   expect(before.selected).toBeGreaterThan(5);
   const query = await addressWritten(page);
-  expect([...query.keys()]).toEqual(["sample", "measure", "label", "select"]);
+  expect([...query.keys()]).toEqual(["sample", "size", "measure", "label", "select"]);
 
   const again = await openReady(`?${query.toString()}`);
   await expect.poll(() => marks(again)).toEqual(before);
@@ -72,7 +72,7 @@ test("a link has the distances, labels and the selection, and opens with them", 
   // What is removed is no longer in the address.
   await tool(page, "Measure").click();
   await page.locator("#measure-clear").click();
-  expect([...(await addressWritten(page)).keys()]).toEqual(["sample", "label", "select"]);
+  expect([...(await addressWritten(page)).keys()]).toEqual(["sample", "size", "label", "select"]);
   // Marks do not go to the next cloud.
   await page.locator("#sample").selectOption("dragon_res4");
   await page.locator('#status[data-total="5205"]').waitFor();
@@ -93,7 +93,7 @@ async function cards(page: Page) {
 }
 
 test("a link has the area or the profile, and the stations, and opens with them", async () => {
-  const page = await openReady("?sample=bunny");
+  const page = await openReady("?sample=bunny&size=1.4");
   await tool(page, "Measure").click();
   await page.locator("#measure-what label", { hasText: "Area" }).click();
   await expect.poll(() => page.locator("#measure-result").textContent()).toBe("Click the corners.");
@@ -104,7 +104,7 @@ test("a link has the area or the profile, and the stations, and opens with them"
   const first = await cards(page);
   expect(first.measured).toMatch(/^Corners ?4.*Area/);
   const query = await addressWritten(page);
-  expect([...query.keys()]).toEqual(["sample", "area", "station"]);
+  expect([...query.keys()]).toEqual(["sample", "size", "area", "station"]);
 
   const again = await openReady(`?${query.toString()}`);
   await again.locator("#marks .measure").nth(3).waitFor({ state: "attached" });
@@ -122,7 +122,7 @@ test("a link has the area or the profile, and the stations, and opens with them"
   await again.getByLabel("Width of the strip").press("Tab");
   const second = await cards(again);
   const changed = await addressWritten(again);
-  expect([...changed.keys()]).toEqual(["sample", "profile", "station"]);
+  expect([...changed.keys()]).toEqual(["sample", "size", "profile", "station"]);
   expect(changed.get("profile")).toMatch(/^\d+,\d+,1\.25,through$/);
 
   const last = await openReady(`?${changed.toString()}`);
