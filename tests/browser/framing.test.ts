@@ -45,7 +45,7 @@ test.for(Object.entries(CLOUDS))("%s fills the picture", ([, positions]) => {
 });
 
 test("points that lie far away from all others are not framed, unless the whole cloud is asked for", () => {
-  const body = CLOUDS.plate!;
+  const body = CLOUDS.plate;
   const { cloud } = prepareCloud({ positions: Float64Array.of(...body, 90_000, -40_000, 7e5), colors: null });
   const lens = { fov: 45, aspect: 1.35, free: 1 };
   const near = findHome(cloud, "z", null, null, lens);

@@ -59,7 +59,7 @@ export function startSession(wishes: Wishes, first: Source): void {
   const workshop: Workshop = new Workshop(viewer, store, actions);
   const parts = { viewer, store, panel, address, workshop, status, message, notices };
   const opening: Opening = new Opening(parts, wishes.embed ? null : sampleNamed(wishes.sample));
-  wire({ ...parts, handles, signs: new Signs(store) });
+  wire({ ...parts, turning, handles, signs: new Signs(store) });
 
   for (const button of document.querySelectorAll<HTMLButtonElement>(".how")) {
     button.addEventListener("click", () => {

@@ -5,6 +5,7 @@ import type { Signs } from "../panel/signs.ts";
 import type { Address } from "../settings/address.ts";
 import type { Store } from "../settings/store.ts";
 import type { Workshop } from "../tools/workshop.ts";
+import type { Turning } from "../view/turning.ts";
 import type { Viewer } from "../view/viewer.ts";
 import type { Notices } from "./notices.ts";
 import type { Status } from "./status.ts";
@@ -20,6 +21,7 @@ interface Parts {
   status: Status;
   message: Message;
   notices: Notices;
+  turning: Turning;
 }
 
 /** Connects the parts of the page: the viewer draws and asks, and the other parts follow it. */
@@ -34,6 +36,7 @@ export function wire({
   status,
   message,
   notices,
+  turning,
 }: Parts): void {
   viewer.onFrame = () => {
     handles.place();
@@ -79,7 +82,8 @@ export function wire({
   };
   viewer.onBusy = (busy, byMap) => {
     status.busy(busy);
-    signs.busy(busy && !byMap);
+    // A picture that turns by itself is never up to date, and nobody waits for it.
+    signs.busy(busy && !byMap && !turning.isOn);
   };
   viewer.onError = (error) => {
     notices.refuseView(error, () => {

@@ -7,8 +7,8 @@ import type { Viewer } from "../view/viewer.ts";
 
 /** How many times as fast as usual the camera walks around a frozen viewpoint. */
 const WALK = 5;
-/** How far back the camera goes before it walks around, in its distances. */
-const BACK = 1.35;
+/** How far back the camera goes before it walks around, in its distances: if possible so far that the eye stays in the picture. */
+const BACK = { least: 1.35, most: 2.2 };
 
 /** The verbs over the picture: freeze and walk around, and where the frozen eye goes next. */
 export function bindVerbs(viewer: Viewer, store: Store, moves: Moves, turning: Turning): void {
@@ -29,7 +29,9 @@ export function bindVerbs(viewer: Viewer, store: Store, moves: Moves, turning: T
     }
     if (!viewer.cloud) return;
     store.change({ freeze: viewer.viewpoint, hidden: "dimmed", compare: null });
-    viewer.navigation.goBack(BACK, () => {
+    const { shape, camera } = viewer.stage;
+    const wide = shape.aspect * Math.tan((camera.fov * Math.PI) / 360);
+    viewer.navigation.goBack(Math.min(BACK.most, Math.max(BACK.least, 1.1 / wide)), () => {
       if (moves.frozen) turning.begin(WALK);
     });
   });
@@ -41,7 +43,7 @@ export function bindVerbs(viewer: Viewer, store: Store, moves: Moves, turning: T
   store.follow(({ freeze: frozen, compare: divided }) => {
     compare.setAttribute("aria-pressed", String(divided !== null));
     freeze.setAttribute("aria-pressed", String(frozen !== null));
-    freeze.textContent = frozen ? "Let the eye go with me" : "Freeze and walk around";
+    freeze.textContent = frozen ? "Unfreeze" : "Freeze and walk around";
     here.hidden = frozen === null;
     byId("eye-here-too").hidden = frozen === null;
   });

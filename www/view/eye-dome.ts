@@ -23,7 +23,7 @@ import {
 
 const STRENGTH = 150;
 /** Of small points: each of them has the background beside it, and would be speckled. */
-const SMALL_STRENGTH = 40;
+const SMALL_STRENGTH = 30;
 /** Points wider than this many device pixels are shaded more softly, since each would get its own dark rim. */
 const SOFT_FROM = 2;
 /** The distance of the neighbors in device pixels. For wide points it grows by this share of their extra width. */

@@ -375,7 +375,7 @@ export class Viewer {
     const isHere = isSamePlace(from, viewpoint, cloud.radius) || isStandIn(cloud, from, before);
     this.stage.setAll({ opacity: this.#surfaceShown || isHere ? 0 : 1 });
     this.#isFinal = !inquiry.busy;
-    this.onBusy(!this.#isFinal, isHere && this.#shown.byMap);
+    this.onBusy(!this.#isFinal, this.#shown.byMap);
   }
 
   /** Whether the picture is the final answer for the present camera and settings. */
