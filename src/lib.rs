@@ -69,6 +69,7 @@ pub use view::distortion::CameraModel;
 pub use view::guarantees::{permissible_curvature, radius_bound};
 pub use view::options::{Exponential, Inversion, Options, Radius};
 pub use view::radius::ChosenRadius;
+pub use view::seat::Seat;
 
 /// The documents' Rust snippets, as documentation tests.
 #[cfg(doctest)]

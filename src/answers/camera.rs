@@ -21,6 +21,8 @@ pub struct CameraView {
     pub pixels: Vec<[f32; 2]>,
     /// The depth of each visible point along the optical axis, in the cloud's units.
     pub depths: Vec<f32>,
+    /// The direction of length 1 from each visible point to the camera.
+    pub towards: Vec<[f32; 3]>,
     /// Whether the pose was probably given the wrong way round: its image holds next to none of the
     /// points, and that of the inverse pose many of them.
     pub seems_inverted: bool,
@@ -64,17 +66,29 @@ impl PointCloud {
         let mut indices: Vec<u32> = with_capacity(count)?;
         let mut pixels: Vec<[f32; 2]> = with_capacity(count)?;
         let mut depths: Vec<f32> = with_capacity(count)?;
-        for (&index, &[u, v, depth, ..]) in inside() {
+        let mut towards: Vec<[f32; 3]> = with_capacity(count)?;
+        for (&index, &[u, v, depth, x, y, z]) in inside() {
             indices.push(index);
             pixels.push([u, v]);
             depths.push(depth);
+            towards.push([x, y, z]);
         }
         Ok(CameraView {
             visibility: seen.with_indices(indices),
             pixels,
             depths,
+            towards,
             seems_inverted: self.seems_inverted(camera)?,
         })
+    }
+
+    /// The part of a view that is in the image of a camera.
+    pub(crate) fn in_image(&self, camera: &Camera, seen: Visibility) -> Result<Visibility, Error> {
+        let shown = self.shown(camera, seen.indices())?;
+        let mut indices: Vec<u32> = with_capacity(shown.len())?;
+        let all = seen.indices().iter().zip(&shown);
+        indices.extend(all.filter(|(_, at)| at[2] > 0.0).map(|(index, _)| index));
+        Ok(seen.with_indices(indices))
     }
 
     /// Whether the image of a camera holds at most 1 % of the points that the image of the inverse

@@ -7,6 +7,7 @@ use crate::base::error::{Error, in_range};
 use crate::cloud::point_cloud::PointCloud;
 use crate::view::options::Options;
 use crate::view::refusals::QuestionKind;
+use crate::view::seat::Seat;
 
 /// What is wanted of chosen viewpoints.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -34,7 +35,7 @@ pub struct Placement {
 }
 
 impl PointCloud {
-    /// How many of `viewpoints` see each index? The memory does not grow with their number.
+    /// How many of `viewpoints`, or of cameras, see each index? The memory does not grow with their number.
     ///
     /// ```
     /// use hidden_point_removal::{Options, PointCloud};
@@ -46,8 +47,12 @@ impl PointCloud {
     /// ```
     ///
     /// # Errors
-    /// [`Error::Excludes`] for drafts and scores; otherwise as [`PointCloud::visible_from`].
-    pub fn coverage(&self, viewpoints: &[[f64; 3]], options: &Options) -> Result<Vec<u32>, Error> {
+    /// [`Error::Excludes`] for drafts and scores; [`Error::Camera`]; otherwise as [`PointCloud::visible_from`].
+    pub fn coverage<S: Copy + Into<Seat>>(
+        &self,
+        viewpoints: &[S],
+        options: &Options,
+    ) -> Result<Vec<u32>, Error> {
         let mut counts: Vec<u32> = filled(self.len(), 0)?;
         options.check(QuestionKind::Coverage)?;
         self.each_view(viewpoints, options, &mut |_, seen| {
@@ -57,7 +62,7 @@ impl PointCloud {
         Ok(counts)
     }
 
-    /// Chooses viewpoints among candidates, greedily: always the one that adds most weight, ties to
+    /// Chooses viewpoints, or cameras, among candidates, greedily: always the one that adds most weight, ties to
     /// the lowest number. The choice ends when nothing more is gained. For a number of viewpoints,
     /// it sees at least 1 − 1/e of what the best choice of that number sees.
     ///
@@ -79,9 +84,9 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the numbers of `placing`; otherwise as [`PointCloud::coverage`].
-    pub fn place_viewpoints(
+    pub fn place_viewpoints<S: Copy + Into<Seat>>(
         &self,
-        candidates: &[[f64; 3]],
+        candidates: &[S],
         options: &Options,
         placing: &Placing,
     ) -> Result<Placement, Error> {
@@ -129,20 +134,20 @@ impl PointCloud {
             let Some(best) = highest(&gains) else {
                 break;
             };
-            let view = self.visible_from(candidates[best], options)?;
+            let mut view = Vec::new();
+            self.each_view(&candidates[best..=best], options, &mut |_, seen| {
+                view = seen.into_indices();
+            })?;
             // Sums run over ascending indices, so rounding keeps their order, too.
             if measured[best] < placement.chosen.len() {
-                let new = view
-                    .indices()
-                    .iter()
-                    .filter(|&&index| !seen[index as usize]);
+                let new = view.iter().filter(|&&index| !seen[index as usize]);
                 gains[best] = new.fold(0.0, |sum, &index| sum + weight(index));
                 measured[best] = placement.chosen.len();
                 if highest(&gains) != Some(best) {
                     continue;
                 }
             }
-            for &index in view.indices() {
+            for &index in &view {
                 seen[index as usize] = true;
             }
             placement.chosen.push(best);

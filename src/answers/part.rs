@@ -13,6 +13,7 @@ use crate::cloud::part::Step;
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::selection::{Region, Within};
 use crate::view::options::Options;
+use crate::view::seat::Seat;
 
 impl PointCloud {
     /// The cloud of the indices that `mask` marks, for many views. The answers are those of a
@@ -123,30 +124,51 @@ impl PointCloud {
         )
     }
 
-    /// Passes the view from each viewpoint, with its number. A viewpoint may have its own part.
-    pub(crate) fn each_view(
+    /// Passes the view from each seat, with its number. A seat may have its own part.
+    pub(crate) fn each_view<S: Copy + Into<Seat>>(
         &self,
-        viewpoints: &[[f64; 3]],
+        seats: &[S],
         options: &Options,
         pass: &mut dyn FnMut(usize, Visibility),
     ) -> Result<(), Error> {
+        for &seat in seats {
+            if let Seat::Camera(camera) = seat.into() {
+                camera.lens()?;
+            }
+        }
         let mut memory = ViewMemory::default();
-        if options.has_distance() && !viewpoints.is_empty() {
-            for (number, &viewpoint) in viewpoints.iter().enumerate() {
-                let part = self.part(Some(viewpoint), options)?;
+        if options.has_distance() && !seats.is_empty() {
+            for (number, &seat) in seats.iter().enumerate() {
+                let part = self.part(Some(seat.into().position()), options)?;
                 memory.forget();
-                pass(number, part.seen_from(&mut memory, viewpoint, options)?);
+                pass(number, self.seen_at(&part, &mut memory, seat, options)?);
             }
             return Ok(());
         }
         let part = self.part(None, options)?;
-        if viewpoints.is_empty() {
+        if seats.is_empty() {
             part.check_options(options)?;
         }
-        for (number, &viewpoint) in viewpoints.iter().enumerate() {
-            pass(number, part.seen_from(&mut memory, viewpoint, options)?);
+        for (number, &seat) in seats.iter().enumerate() {
+            pass(number, self.seen_at(&part, &mut memory, seat, options)?);
         }
         Ok(())
+    }
+
+    /// The view of a part of this cloud. Compiled for each kind of seat: what only viewpoints ask for needs no camera.
+    fn seen_at<S: Into<Seat>>(
+        &self,
+        part: &Self,
+        memory: &mut ViewMemory,
+        seat: S,
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        let seat = seat.into();
+        let seen = part.seen_from(memory, seat.position(), options)?;
+        match seat {
+            Seat::Viewpoint(_) => Ok(seen),
+            Seat::Camera(camera) => self.in_image(&camera, seen),
+        }
     }
 
     /// The cloud after a step, which is kept from now on.

@@ -13,9 +13,10 @@ use crate::view::options::{Inversion, Options};
 use crate::view::radius::ChosenRadius;
 use crate::view::refusals::QuestionKind;
 use crate::view::resolved::resolved_inversion;
+use crate::view::seat::Seat;
 
 impl PointCloud {
-    /// Which points are visible from at least one of `viewpoints`? Each view chooses its own R by
+    /// Which points are visible from at least one of `viewpoints`, or in the image of at least one camera? Each view chooses its own R by
     /// `options`. The answer holds the largest R, and the largest c where a distance in
     /// [`Options::within`] gives each view its own. It also holds the number of hulls that all
     /// choices took.
@@ -26,10 +27,10 @@ impl PointCloud {
     /// least two viewpoints with [`PointCloud::visible_from_at_least`].
     ///
     /// # Errors
-    /// As [`PointCloud::visible_from`].
-    pub fn visible_from_any(
+    /// As [`PointCloud::visible_from`]; [`Error::Camera`].
+    pub fn visible_from_any<S: Copy + Into<Seat>>(
         &self,
-        viewpoints: &[[f64; 3]],
+        viewpoints: &[S],
         options: &Options,
     ) -> Result<Visibility, Error> {
         self.visible_from_several(1, viewpoints, options)
@@ -55,20 +56,20 @@ impl PointCloud {
     /// # Errors
     /// [`Error::OutOfRange`] unless 1 ≤ `k` ≤ the number of viewpoints; otherwise as
     /// [`PointCloud::visible_from`].
-    pub fn visible_from_at_least(
+    pub fn visible_from_at_least<S: Copy + Into<Seat>>(
         &self,
         k: usize,
-        viewpoints: &[[f64; 3]],
+        viewpoints: &[S],
         options: &Options,
     ) -> Result<Visibility, Error> {
         in_range("k", k as f64, 1.0, viewpoints.len() as f64)?;
         self.visible_from_several(k, viewpoints, options)
     }
 
-    fn visible_from_several(
+    fn visible_from_several<S: Copy + Into<Seat>>(
         &self,
         k: usize,
-        viewpoints: &[[f64; 3]],
+        viewpoints: &[S],
         options: &Options,
     ) -> Result<Visibility, Error> {
         options.check(QuestionKind::Several)?;

@@ -10,3 +10,4 @@ pub(crate) mod radius;
 pub(crate) mod refusals;
 pub(crate) mod resolved;
 pub(crate) mod search;
+pub(crate) mod seat;

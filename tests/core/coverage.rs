@@ -2,6 +2,7 @@
 
 use hidden_point_removal::{Inversion, Options, Placement, Placing, PointCloud, Within};
 
+use crate::common::NOWHERE;
 use crate::common::placing::{best, eager, masks};
 use crate::common::rng::Rng;
 use crate::common::shapes;
@@ -44,7 +45,10 @@ fn coverage_counts_the_views() {
             assert_eq!(count as usize, views, "{options:?}");
         }
     }
-    assert_eq!(cloud.coverage(&[], &Options::default()), Ok(vec![0; 250]));
+    assert_eq!(
+        cloud.coverage(&NOWHERE, &Options::default()),
+        Ok(vec![0; 250])
+    );
 }
 
 #[test]
@@ -155,7 +159,10 @@ fn questions_that_make_no_sense_are_refused() {
         ..Options::with_inversion(Inversion::Looks(2))
     };
     for options in [draft, scores, Options::with_exponent(-1.0)] {
-        assert_eq!(cloud.coverage(&[], &options).unwrap_err().code(), "option");
+        assert_eq!(
+            cloud.coverage(&NOWHERE, &options).unwrap_err().code(),
+            "option"
+        );
         let refusal = cloud.coverage(&candidates, &options).unwrap_err();
         assert_eq!(refusal.code(), "option");
     }

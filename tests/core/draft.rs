@@ -6,6 +6,7 @@ use hidden_point_removal::{
     Visibility, Within, merge_visible,
 };
 
+use crate::common::NOWHERE;
 use crate::common::drafts::fault;
 use crate::common::rng::Rng;
 use crate::common::scenes::{EXTREME, KINDS};
@@ -265,7 +266,7 @@ fn there_is_no_draft_of_a_search_a_mesh_light_or_a_merged_answer() {
     for radius in [Radius::Search, Radius::Opposite] {
         let options = Options { radius, ..plain };
         refusals.push(cloud.visible_from(viewpoint, &options).err());
-        refusals.push(cloud.visible_from_any(&[], &options).err());
+        refusals.push(cloud.visible_from_any(&NOWHERE, &options).err());
     }
     refusals.push(cloud.reconstruct(viewpoint, &plain, None).err());
     refusals.push(

@@ -6,9 +6,9 @@ use hidden_point_removal::{
     Visibility, Within, merge_visible,
 };
 
-use crate::common::ask;
 use crate::common::rng::Rng;
 use crate::common::scenes::{KINDS, Scene};
+use crate::common::{NOWHERE, ask};
 
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
 
@@ -398,7 +398,10 @@ fn unions_count_the_answers_of_their_views() {
         .visible_from_at_least(1, &viewpoints, &options)
         .unwrap();
     assert_eq!(any, one);
-    assert_eq!(cloud.visible_from_any(&[], &options).unwrap().count(), 0);
+    assert_eq!(
+        cloud.visible_from_any(&NOWHERE, &options).unwrap().count(),
+        0
+    );
 }
 
 #[test]
@@ -445,7 +448,7 @@ fn what_needs_one_hull_refuses_looks() {
         assert_eq!(view(Options { radius, ..options }), refused(name));
         let radius = Options { radius, ..options };
         assert_eq!(
-            cloud.visible_from_any(&[], &radius).unwrap_err(),
+            cloud.visible_from_any(&NOWHERE, &radius).unwrap_err(),
             refused(name)
         );
     }

@@ -7,7 +7,7 @@ use hidden_point_removal::{
 use crate::common::flip::distance;
 use crate::common::rng::Rng;
 use crate::common::scenes::KINDS;
-use crate::common::{ask, shapes};
+use crate::common::{NOWHERE, ask, shapes};
 
 const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
 
@@ -56,7 +56,7 @@ fn a_union_is_what_any_of_the_views_shows() {
 fn no_viewpoint_sees_nothing() {
     let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(1), 50)).unwrap();
     let options = Options::with_inversion(Inversion::Exponential(Exponential::Scale(0.5)));
-    let answer = cloud.visible_from_any(&[], &options).unwrap();
+    let answer = cloud.visible_from_any(&NOWHERE, &options).unwrap();
     assert_eq!(
         (answer.count(), answer.radius(), answer.exponent()),
         (0, 0.0, 0.0)
@@ -97,7 +97,7 @@ fn no_viewpoint_is_refused_what_one_is() {
     ] {
         let one = cloud.visible_from([0.0; 3], &options).err();
         assert!(one.is_some(), "{options:?}");
-        assert_eq!(cloud.visible_from_any(&[], &options).err(), one);
+        assert_eq!(cloud.visible_from_any(&NOWHERE, &options).err(), one);
         let lighting = Lighting::default();
         assert_eq!(cloud.illuminate(&[], &options, &lighting).err(), one);
     }
@@ -132,7 +132,7 @@ fn what_does_not_fit_is_refused() {
     assert_eq!(error.code(), "viewpoint");
     let bad = Options::with_inversion(Inversion::Power(0.5));
     assert_eq!(
-        cloud.visible_from_any(&[], &bad).unwrap_err().code(),
+        cloud.visible_from_any(&NOWHERE, &bad).unwrap_err().code(),
         "option"
     );
 }

@@ -6,6 +6,7 @@ use hidden_point_removal::{
     Radius, Sector, Within, merge_visible,
 };
 
+use crate::common::NOWHERE;
 use crate::common::chosen::{alone, chosen, facts, only, some_choice};
 use crate::common::rng::Rng;
 use crate::common::scenes::{EXTREME, KINDS};
@@ -287,7 +288,7 @@ fn choices_that_make_no_sense_are_refused() {
         let refusal = cloud.visible_from(far, &options).unwrap_err();
         assert_eq!(refusal.code(), "option");
         assert!(refusal.to_string().contains("within distance"));
-        assert!(cloud.visible_from_any(&[], &options).is_err());
+        assert!(cloud.visible_from_any(&NOWHERE, &options).is_err());
         let dark = cloud.illuminate(&[], &options, &Lighting::default());
         assert!(dark.is_err());
     }
@@ -300,7 +301,7 @@ fn choices_that_make_no_sense_are_refused() {
         for refusal in [
             cloud.visible_from(far, &options),
             cloud.visible_from_direction(far, &options),
-            cloud.visible_from_any(&[], &options),
+            cloud.visible_from_any(&NOWHERE, &options),
         ] {
             assert_eq!(refusal.unwrap_err(), Error::BoundsInvalid);
         }

@@ -28,6 +28,9 @@ pub mod shapes;
 pub mod structured;
 pub mod walk;
 
+/// No viewpoints.
+pub const NOWHERE: [[f64; 3]; 0] = [];
+
 use hidden_point_removal::{Options, PointCloud, Position, Visibility};
 
 use certify::Certifier;
