@@ -13,18 +13,36 @@ viewpoint, and those on the convex hull of the flipped cloud and the viewpoint a
 
 from __future__ import annotations
 
-from ._native import Horizon, HprError, Placement, PointCloud, Share, Visibility, merge_visible, share_visible
+from ._native import (
+    Horizon,
+    HprError,
+    Placement,
+    PointCloud,
+    Share,
+    Visibility,
+    VisibilityMap,
+    merge_visible,
+    orient_normals,
+    share_visible,
+    transfer,
+)
+from .answers import Calibration, SeenBy
 
 __all__ = [
+    "Calibration",
     "Horizon",
     "HprError",
     "Placement",
     "PointCloud",
+    "SeenBy",
     "Share",
     "Visibility",
+    "VisibilityMap",
     "hidden_point_removal",
     "merge_visible",
+    "orient_normals",
     "share_visible",
+    "transfer",
 ]
 __version__ = "0.1.0"
 

@@ -5,6 +5,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 from typing_extensions import NotRequired, Unpack
 
+from .answers import Calibration, SeenBy
+
 Rule = Literal["auto", "search", "opposite"]
 Inversion = Literal["spherical"] | dict[str, float | str]
 
@@ -44,6 +46,20 @@ class Options(TypedDict):
     within: NotRequired[Within | None]
     """Only these points take part, as if the cloud held no others."""
 
+class Cone(TypedDict):
+    """A cone of directions."""
+
+    direction: ArrayLike
+    angle: float
+    """Its full opening in degrees, above 0 and at most 360."""
+
+class Station(TypedDict):
+    """Where a scanner stood, and the points that it measured, by exactly one of `indices` and `mask`."""
+
+    viewpoint: ArrayLike
+    indices: NotRequired[ArrayLike | None]
+    mask: NotRequired[ArrayLike | None]
+
 class MergeOptions(TypedDict):
     radius: NotRequired[float | None]
     inversion: NotRequired[Inversion | None]
@@ -69,6 +85,9 @@ class Camera(TypedDict):
     """The coefficients as COLMAP lists them for the model; k1, k2, p1, p2 for "OPENCV", and k3 where there is one."""
     near: NotRequired[float]
     far: NotRequired[float]
+
+Seat = ArrayLike | Camera
+"""A viewpoint, or a camera, which sees only what is in its image."""
 
 class HprError(ValueError):
     """Bad input."""
@@ -126,6 +145,23 @@ class Placement:
     def unseen(self) -> NDArray[np.uint32]:
         """The indices that no candidate sees, ascending."""
 
+class VisibilityMap:
+    """A map of directions around a viewpoint. It never hides a visible point, except a few with looks."""
+
+    @property
+    def viewpoint(self) -> tuple[float, float, float]: ...
+    @property
+    def origin(self) -> tuple[float, float, float]:
+        """The place that positions in a shader are relative to."""
+    @property
+    def data(self) -> NDArray[np.float32]:
+        """The shader's texture `hprDepths`: rows of 256 numbers. It is empty where nothing is hidden."""
+    @property
+    def uniforms(self) -> dict[str, tuple[float, ...]]:
+        """The numbers of the shader: `hprViewpoint` and `hprMargins`."""
+    def hides(self, positions: ArrayLike) -> NDArray[np.bool_]:
+        """Which places are certainly hidden."""
+
 class PointCloud:
     """A point cloud, prepared for visibility queries.
 
@@ -149,21 +185,21 @@ class PointCloud:
         """The points that can be seen from a viewpoint (paper, section 3, algorithm 1)."""
     def visible_from_direction(self, direction: ArrayLike, **options: Unpack[Options]) -> Visibility:
         """The points that can be seen along a direction, from infinitely far away."""
-    def visible_from_any(self, viewpoints: Iterable[ArrayLike], **options: Unpack[Options]) -> Visibility:
+    def visible_from_any(self, viewpoints: Iterable[Seat], **options: Unpack[Options]) -> Visibility:
         """The points that at least one viewpoint sees."""
     def visible_from_at_least(
-        self, k: int, viewpoints: Iterable[ArrayLike], **options: Unpack[Options]
+        self, k: int, viewpoints: Iterable[Seat], **options: Unpack[Options]
     ) -> Visibility:
         """The points that at least `k` of the viewpoints see."""
     def visible_from_camera(self, camera: Camera, **options: Unpack[Options]) -> Visibility:
         """The points that a camera sees: `visible_from` its place, cut to its image, with `pixels` and `depths`."""
     def sees(self, viewpoint: ArrayLike, positions: ArrayLike, **options: Unpack[Options]) -> NDArray[np.bool_]:
         """For points that are not in the cloud: whether each would be visible if it were added alone."""
-    def coverage(self, viewpoints: Iterable[ArrayLike], **options: Unpack[Options]) -> NDArray[np.uint32]:
+    def coverage(self, viewpoints: Iterable[Seat], **options: Unpack[Options]) -> NDArray[np.uint32]:
         """How many of the viewpoints see each index."""
     def place_viewpoints(
         self,
-        candidates: Iterable[ArrayLike],
+        candidates: Iterable[Seat],
         count: int | None = None,
         share: float | None = None,
         weights: ArrayLike | None = None,
@@ -174,6 +210,21 @@ class PointCloud:
         At most `count` are chosen, and no more than see `share` of the weight that some candidate sees. `weights` has
         a number of at least 0 for each index.
         """
+    def seen_by(self, cameras: Iterable[Camera], **options: Unpack[Options]) -> SeenBy:
+        """Which cameras see each point, and where: the rows of a sparse matrix."""
+    def calibrate(self, stations: Iterable[Station], **options: Unpack[Options]) -> Calibration:
+        """The smallest thickness at which each station of a scan sees the points that it measured."""
+    def visibility_map(
+        self,
+        viewpoint: ArrayLike,
+        *,
+        points: int | None = 32_768,
+        corners: int | None = 65_536,
+        towards: Camera | Cone | None = None,
+        origin: ArrayLike | None = None,
+        **options: Unpack[Options],
+    ) -> VisibilityMap:
+        """A map of directions, which tells for any number of places whether they are certainly hidden."""
     def auto_radius(self, viewpoint: ArrayLike, rule: Rule = "auto") -> tuple[float, float, int]:
         """(radius, exponent, evaluations) as the rule chooses them."""
     def reconstruct(
@@ -209,6 +260,21 @@ class Horizon:
         """Whether every point in a box is certainly hidden."""
     def visible(self) -> NDArray[np.float64]:
         """The points that were added and are visible among them: (m, 3)."""
+
+def orient_normals(normals: ArrayLike, seen_by: SeenBy) -> NDArray[np.floating]:
+    """New normals, turned to the side that most of the cameras that see their points look at."""
+
+def transfer(
+    cloud: PointCloud,
+    cameras: Iterable[Camera],
+    images: Iterable[ArrayLike],
+    *,
+    merge: Literal["median", "mean", "vote", "best"] | None = "median",
+    weights: Literal["distance", "angle", "score"] | None = None,
+    sampling: Literal["nearest", "bilinear"] | None = "nearest",
+    **options: Unpack[Options],
+) -> tuple[NDArray[np.float32], NDArray[np.uint32]]:
+    """From images to points: (values, seen). NaN where no camera sees a point."""
 
 def merge_visible(
     parts: Sequence[tuple[ArrayLike, ArrayLike]], viewpoint: ArrayLike, **options: Unpack[MergeOptions]

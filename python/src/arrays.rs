@@ -2,6 +2,7 @@
 
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::failure::problem;
 
@@ -101,16 +102,26 @@ pub fn place(argument: &Bound<'_, PyAny>, name: &str) -> PyResult<[f64; 3]> {
 
 /// Several places.
 pub fn places(argument: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<[f64; 3]>> {
-    let wrong = |_| {
-        problem(
-            argument.py(),
-            "viewpoint",
-            format!("{name} must be a list of 3 numbers each"),
-        )
-    };
-    let list = argument.try_iter().map_err(wrong)?;
+    each(argument, name, place)
+}
+
+/// Reads each entry of a list. Errors name it.
+pub fn each<'py, T>(
+    given: &Bound<'py, PyAny>,
+    name: &str,
+    read: impl Fn(&Bound<'py, PyAny>, &str) -> PyResult<T>,
+) -> PyResult<Vec<T>> {
+    // A camera is also a list, of its names.
+    let list = given
+        .try_iter()
+        .ok()
+        .filter(|_| !given.is_instance_of::<PyDict>());
+    let list = list.ok_or_else(|| {
+        let message = format!("{name} must be a list with an entry for each of them");
+        problem(given.py(), "viewpoint", message)
+    })?;
     list.enumerate()
-        .map(|(number, entry)| place(&entry?, &format!("{name}[{number}]")))
+        .map(|(number, entry)| read(&entry?, &format!("{name}[{number}]")))
         .collect()
 }
 

@@ -1,19 +1,35 @@
 //! A camera as a dictionary.
 
-use hidden_point_removal::{Camera, CameraModel, Convention, Pose};
+use hidden_point_removal::{Camera, CameraModel, Convention, Pose, Seat};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::arrays::numbers;
+use crate::arrays::{each, numbers, place};
 use crate::failure::{option, problem};
 use crate::options::number;
 
-const SHAPES: &str =
-    "exactly one of camera_to_world and world_to_camera must hold 16 numbers: 4 rows as an array of shape (4, 4), or flat, column by column";
+const SHAPES: &str = "exactly one of camera_to_world and world_to_camera must hold 16 numbers: 4 rows as an array of shape (4, 4), or flat, column by column";
+
+/// Several viewpoints, or cameras in their place.
+pub fn seats(given: &Bound<'_, PyAny>, name: &str) -> PyResult<Vec<Seat>> {
+    each(given, name, |entry, name| {
+        if entry.is_instance_of::<PyDict>() {
+            read(entry, name).map(Seat::Camera)
+        } else {
+            place(entry, name).map(Seat::Viewpoint)
+        }
+    })
+}
+
+/// Several cameras.
+pub fn cameras(given: &Bound<'_, PyAny>) -> PyResult<Vec<Camera>> {
+    each(given, "cameras", read)
+}
 
 /// Reads a camera. The core checks its numbers.
-pub fn read(py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Camera> {
-    let wrong = |message: String| problem(py, "viewpoint", format!("camera: {message}"));
+pub fn read(given: &Bound<'_, PyAny>, whose: &str) -> PyResult<Camera> {
+    let py = given.py();
+    let wrong = |message: String| problem(py, "viewpoint", format!("{whose}: {message}"));
     let entries = given
         .cast::<PyDict>()
         .map_err(|_| wrong("must be a dictionary".into()))?;
@@ -53,7 +69,10 @@ pub fn read(py: Python<'_>, given: &Bound<'_, PyAny>) -> PyResult<Camera> {
                 let names = CameraModel::ALL.map(CameraModel::name);
                 let number = names.iter().position(|own| given.as_deref() == Some(own));
                 let number = number.ok_or_else(|| {
-                    option(py, format!("camera: model must be one of {}", names.join(", ")))
+                    option(
+                        py,
+                        format!("{whose}: model must be one of {}", names.join(", ")),
+                    )
                 })?;
                 camera.model = CameraModel::ALL[number];
             }
@@ -95,4 +114,31 @@ fn matrix(value: &Bound<'_, PyAny>) -> Option<[f64; 16]> {
     let rows: Vec<Vec<f64>> = list.extract().ok()?;
     let is_square = rows.len() == 4 && rows.iter().all(|row| row.len() == 4);
     is_square.then(|| core::array::from_fn(|at| rows[at % 4][at / 4]))
+}
+
+/// How much wider the image of a distorted lens may be.
+const DISTORTED: f64 = 1.3;
+
+/// The cone around a camera's image: its axis, and its full opening in degrees.
+pub fn cone(camera: &Camera) -> ([f64; 3], f64) {
+    let half = |size: f64, middle: f64, focal: f64| middle.abs().max((size - middle).abs()) / focal;
+    let wide =
+        half(camera.width, camera.cx, camera.fx).hypot(half(camera.height, camera.cy, camera.fy));
+    let bends = ["FISHEYE", "FOV"]
+        .iter()
+        .any(|word| camera.model.name().contains(word));
+    let is_plain = camera.distortion == [0.0; 8];
+    let angle = if bends {
+        180.0
+    } else {
+        (2.0 * (if is_plain { wide } else { wide * DISTORTED }).atan()).to_degrees()
+    };
+    let ahead = match camera.pose {
+        Pose::CameraToWorld(matrix) => [8, 9, 10].map(|at| matrix[at]),
+        Pose::WorldToCamera(matrix) => [2, 6, 10].map(|at| matrix[at]),
+    };
+    match camera.convention {
+        Convention::OpenCv => (ahead, angle),
+        Convention::OpenGl => (ahead.map(|x| -x), angle),
+    }
 }

@@ -1,18 +1,21 @@
 //! The cloud, and what it can be asked.
 
 use hidden_point_removal as core;
-use hidden_point_removal::{Lighting, NonFinite, Options, Placing};
+use hidden_point_removal::{Camera, CameraView, Lighting, NonFinite, Options, Placing};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::arrays::{Points, Positions, indices as read_indices, numbers, place, places};
+use crate::calibration;
 use crate::camera;
 use crate::failure::{option, refused};
-use crate::options::{self, Asked};
+use crate::map::{self, VisibilityMap};
+use crate::options::{self, Asked, refuse_draft_and_scores};
 use crate::placement::Placement;
+use crate::seen_by;
 use crate::shared::Shared;
-use crate::visibility::Visibility;
+use crate::visibility::{Visibility, warn_if_inverted};
 
 /// A point cloud, prepared for visibility queries.
 ///
@@ -40,6 +43,23 @@ impl PointCloud {
             Some(mask) => query(&cloud.masked(&mask)?),
             None => query(cloud),
         })
+    }
+
+    /// What each camera sees. Warns of poses that were probably given the wrong way round.
+    pub fn camera_views(
+        &self,
+        py: Python<'_>,
+        cameras: &[Camera],
+        Asked { options, mask }: Asked,
+    ) -> PyResult<Vec<CameraView>> {
+        let views = self.ask(py, mask, |cloud| {
+            let view = |camera| cloud.visible_from_camera(camera, &options);
+            cameras.iter().map(view).collect::<Result<Vec<_>, _>>()
+        })?;
+        views
+            .iter()
+            .try_for_each(|view| warn_if_inverted(py, view))?;
+        Ok(views)
     }
 
     fn view(
@@ -79,7 +99,7 @@ impl PointCloud {
         })
     }
 
-    fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
+    pub fn __len__(&self, py: Python<'_>) -> PyResult<usize> {
         self.cloud.get(py, core::PointCloud::len)
     }
 
@@ -102,7 +122,7 @@ impl PointCloud {
         self.cloud.ask(py, core::PointCloud::noise)
     }
 
-    #[doc = asks!("visible_from", "viewpoint")]
+    #[doc = asks!("visible_from($self, viewpoint, *")]
     /// The points that can be seen from a viewpoint.
     ///
     /// The operator flips all points on a sphere around the viewpoint. Those on the convex hull of the flipped points and
@@ -139,7 +159,7 @@ impl PointCloud {
         })
     }
 
-    #[doc = asks!("visible_from_direction", "direction")]
+    #[doc = asks!("visible_from_direction($self, direction, *")]
     /// The points that can be seen along a direction, from infinitely far away: an orthographic view.
     ///
     /// direction: 3 numbers, the way the viewer looks. Their length does not matter.
@@ -158,10 +178,11 @@ impl PointCloud {
         })
     }
 
-    #[doc = asks!("visible_from_any", "viewpoints")]
+    #[doc = asks!("visible_from_any($self, viewpoints, *")]
     /// The points that at least one viewpoint sees.
     ///
-    /// viewpoints: list of 3 numbers each, or array of shape (m, 3). Each view chooses its own radius.
+    /// viewpoints: list of 3 numbers each, or array of shape (m, 3). A camera may stand in the place of a viewpoint; it
+    ///     sees only what is in its image. Each view chooses its own radius.
     /// Options: those of `visible_from`. Not with scores.
     /// Returns a `Visibility` with the largest radius.
     #[pyo3(signature = (viewpoints, **options), text_signature = None)]
@@ -171,17 +192,18 @@ impl PointCloud {
         viewpoints: &Bound<'_, PyAny>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Visibility> {
-        let viewpoints = places(viewpoints, "viewpoints")?;
+        let viewpoints = camera::seats(viewpoints, "viewpoints")?;
         self.view(py, options, |cloud, options| {
             cloud.visible_from_any(&viewpoints, options)
         })
     }
 
-    #[doc = asks!("visible_from_at_least", "k, viewpoints")]
+    #[doc = asks!("visible_from_at_least($self, k, viewpoints, *")]
     /// The points that at least `k` viewpoints see.
     ///
     /// k: int, from 1 to the number of viewpoints.
-    /// viewpoints: list of 3 numbers each, or array of shape (m, 3). Each view chooses its own radius.
+    /// viewpoints: list of 3 numbers each, or array of shape (m, 3). A camera may stand in the place of a viewpoint; it
+    ///     sees only what is in its image. Each view chooses its own radius.
     /// Options: those of `visible_from`. Not with scores.
     /// Returns a `Visibility` with the largest radius.
     #[pyo3(signature = (k, viewpoints, **options), text_signature = None)]
@@ -193,13 +215,13 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Visibility> {
         let k = options::count(py, "k", k)?;
-        let viewpoints = places(viewpoints, "viewpoints")?;
+        let viewpoints = camera::seats(viewpoints, "viewpoints")?;
         self.view(py, options, |cloud, options| {
             cloud.visible_from_at_least(k, &viewpoints, options)
         })
     }
 
-    #[doc = asks!("visible_from_camera", "camera")]
+    #[doc = asks!("visible_from_camera($self, camera, *")]
     /// The points that a camera sees: `visible_from` its place, cut to its image.
     ///
     /// camera: dict of
@@ -218,7 +240,7 @@ impl PointCloud {
         camera: &Bound<'_, PyAny>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Visibility> {
-        let camera = camera::read(py, camera)?;
+        let camera = camera::read(camera, "camera")?;
         let Asked { options, mask } = options::read(py, options)?;
         let view = self.ask(py, mask, |cloud| {
             cloud.visible_from_camera(&camera, &options)
@@ -226,7 +248,7 @@ impl PointCloud {
         Visibility::of_camera(py, view)
     }
 
-    #[doc = asks!("sees", "viewpoint, positions")]
+    #[doc = asks!("sees($self, viewpoint, positions, *")]
     /// Which places could be seen that are not in the cloud: labels, sensors, targets.
     ///
     /// viewpoint: 3 numbers.
@@ -253,10 +275,11 @@ impl PointCloud {
         Ok(seen.into_pyarray(py))
     }
 
-    #[doc = asks!("coverage", "viewpoints")]
+    #[doc = asks!("coverage($self, viewpoints, *")]
     /// How many of the viewpoints see each point.
     ///
-    /// viewpoints: list of 3 numbers each, or array of shape (m, 3).
+    /// viewpoints: list of 3 numbers each, or array of shape (m, 3). A camera may stand in the place of a viewpoint; it
+    ///     sees only what is in its image.
     /// Options: those of `visible_from`. Not with draft and scores.
     /// Returns an array of uint32, one number for each index.
     #[pyo3(signature = (viewpoints, **options), text_signature = None)]
@@ -266,16 +289,16 @@ impl PointCloud {
         viewpoints: &Bound<'_, PyAny>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<u32>>> {
-        let viewpoints = places(viewpoints, "viewpoints")?;
+        let viewpoints = camera::seats(viewpoints, "viewpoints")?;
         let Asked { options, mask } = options::read(py, options)?;
         let counts = self.ask(py, mask, |cloud| cloud.coverage(&viewpoints, &options))?;
         Ok(counts.into_pyarray(py))
     }
 
-    #[doc = asks!("place_viewpoints", "candidates, count=None, share=None, weights=None")]
+    #[doc = asks!("place_viewpoints($self, candidates, count=None, share=None, weights=None, *")]
     /// Chooses viewpoints that together see much: always the one that adds most weight, ties to the lowest number.
     ///
-    /// candidates: list of 3 numbers each, or array of shape (m, 3).
+    /// candidates: list of 3 numbers each, or array of shape (m, 3). Cameras may stand in their places.
     /// count: int. At most so many are chosen.
     /// share: float, above 0 and at most 1. No more are chosen than see this share of the weight that some candidate sees.
     /// weights: n numbers of at least 0, one for each index. Default 1 each.
@@ -291,7 +314,7 @@ impl PointCloud {
         weights: Option<&Bound<'_, PyAny>>,
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Placement> {
-        let candidates = places(candidates, "candidates")?;
+        let candidates = camera::seats(candidates, "candidates")?;
         let Asked { options, mask } = options::read(py, options)?;
         let weights = weights.map(|given| numbers(given, "weights")).transpose()?;
         let wrong = || option(py, "share must be a number".into());
@@ -330,7 +353,93 @@ impl PointCloud {
         Ok((chosen.radius, chosen.exponent, chosen.evaluations))
     }
 
-    #[doc = asks!("reconstruct", "viewpoint, max_edge=None")]
+    #[doc = asks!("seen_by($self, cameras, *")]
+    /// Which cameras see each point, and where.
+    ///
+    /// cameras: list of cameras, as for `visible_from_camera`.
+    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Returns a `SeenBy`: `offsets`, `cameras`, `pixels` and `towards`, the rows of a sparse matrix.
+    #[pyo3(signature = (cameras, **options), text_signature = None)]
+    fn seen_by<'py>(
+        &self,
+        py: Python<'py>,
+        cameras: &Bound<'_, PyAny>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let cameras = camera::cameras(cameras)?;
+        let asked = options::read(py, options)?;
+        refuse_draft_and_scores(py, &asked.options, "seen_by")?;
+        let views = self.camera_views(py, &cameras, asked)?;
+        seen_by::rows(py, self.__len__(py)?, &views)
+    }
+
+    #[doc = asks!("calibrate($self, stations, *")]
+    /// For scans whose stations are known: the smallest thickness at which each station sees the points that it measured.
+    ///
+    /// stations: list of dicts of viewpoint (3 numbers) and of indices (list or array of int) or mask (n truth values):
+    ///     where a scanner stood, and its points.
+    /// Options: those of `visible_from`; looks is 3 by default. A thickness that is given is only measured.
+    /// Returns a `Calibration`: `thickness`, `recall` (the share of its own points that each station sees) and `options`
+    /// to ask with. Takes about ten views for each station.
+    #[pyo3(signature = (stations, **options), text_signature = None)]
+    fn calibrate<'py>(
+        &self,
+        py: Python<'py>,
+        stations: &Bound<'_, PyAny>,
+        options: Option<&Bound<'py, PyDict>>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let stations = calibration::stations(stations, self.__len__(py)?)?;
+        let given = options.map_or_else(|| Ok(PyDict::new(py)), |options| options.copy())?;
+        if given.get_item("looks")?.is_none_or(|looks| looks.is_none()) {
+            given.set_item("looks", 3)?;
+        }
+        let Asked { options, mask } = options::read(py, Some(&given))?;
+        let spacing = self.spacing(py)?;
+        let found = self.ask(py, mask, |cloud| {
+            calibration::calibrated(cloud, spacing, &stations, &options)
+        })?;
+        given.set_item("thickness", found.thickness)?;
+        let answers = py.import("hidden_point_removal.answers")?;
+        (answers.getattr("Calibration")?).call1((found.thickness, found.recall, given))
+    }
+
+    #[doc = asks!("visibility_map($self, viewpoint, *, points=32768, corners=65536, towards=None, origin=None")]
+    /// A map of directions, which tells for any number of places whether they are certainly hidden.
+    ///
+    /// viewpoint: 3 numbers.
+    /// points: int, at least 16. So many points has the map's hull at most.
+    /// corners: int, from 64 to 4194304. So many directions has the map at most.
+    /// towards: a camera, or a dict of direction (3 numbers) and angle (the full opening of a cone, in degrees). Only
+    ///     these directions get points and corners.
+    /// origin: 3 numbers that positions in a shader are relative to. Default: 0 for float32, else the middle of the
+    ///     cloud's box.
+    /// Options: those of `visible_from`. Not with draft, scores, vote, "search" and "opposite".
+    /// Returns a `VisibilityMap`.
+    #[pyo3(
+        signature = (viewpoint, *, points=None, corners=None, towards=None, origin=None, **options),
+        text_signature = None
+    )]
+    #[expect(clippy::too_many_arguments, reason = "they are keywords in Python")]
+    fn visibility_map(
+        &self,
+        py: Python<'_>,
+        viewpoint: &Bound<'_, PyAny>,
+        points: Option<&Bound<'_, PyAny>>,
+        corners: Option<&Bound<'_, PyAny>>,
+        towards: Option<&Bound<'_, PyAny>>,
+        origin: Option<&Bound<'_, PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<VisibilityMap> {
+        let viewpoint = place(viewpoint, "viewpoint")?;
+        let choices = map::choices(py, points, corners, towards, origin)?;
+        let Asked { options, mask } = options::read(py, options)?;
+        let made = self.ask(py, mask, |cloud| {
+            cloud.visibility_map(viewpoint, &options, &choices)
+        })?;
+        Ok(VisibilityMap::new(made))
+    }
+
+    #[doc = asks!("reconstruct($self, viewpoint, max_edge=None, *")]
     /// The visible points, and the triangles between them.
     ///
     /// viewpoint: 3 numbers.
@@ -359,7 +468,7 @@ impl PointCloud {
         ))
     }
 
-    #[doc = asks!("illuminate", "lights, triangles=None, smoothing=1, ambient=0.0")]
+    #[doc = asks!("illuminate($self, lights, triangles=None, smoothing=1, ambient=0.0, *")]
     /// Light and shadow: ambient + (1 - ambient) * (lights that see a point / lights), then softened.
     ///
     /// lights: list of 3 numbers each, or array of shape (m, 3).

@@ -1,15 +1,13 @@
 //! What `help()` shows of every question to a cloud.
 
-/// The signature of a method that takes the options of a view, in the form in which Python reads it from a docstring.
+/// The signature of a question that takes the options of a view, in the form in which Python reads it from a docstring.
 /// Inside, the options are one dictionary, so that an unknown one is refused as any bad input is.
 macro_rules! asks {
-    ($name:literal, $arguments:literal) => {
+    ($head:literal) => {
         concat!(
-            $name,
-            "($self, ",
-            $arguments,
-            ", *, radius=None, exponent=None, inversion=None, looks=None, scores=False, thickness=None, ",
-            "denoise=None, vote=None, draft=False, sample=None, within=None)\n--\n"
+            $head,
+            ", radius=None, exponent=None, inversion=None, looks=None, scores=False, thickness=None, denoise=None, ",
+            "vote=None, draft=False, sample=None, within=None)\n--\n"
         )
     };
 }

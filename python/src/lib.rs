@@ -4,15 +4,20 @@
 mod help;
 
 mod arrays;
+mod calibration;
 mod camera;
 mod cloud;
 mod failure;
 mod horizon;
+mod map;
+mod merge_values;
 mod options;
 mod parts;
 mod placement;
+mod seen_by;
 mod share;
 mod shared;
+mod transfer;
 mod visibility;
 
 use pyo3::prelude::*;
@@ -25,7 +30,10 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<placement::Placement>()?;
     module.add_class::<share::Share>()?;
     module.add_class::<visibility::Visibility>()?;
+    module.add_class::<map::VisibilityMap>()?;
     module.add_function(wrap_pyfunction!(parts::merge_visible, module)?)?;
+    module.add_function(wrap_pyfunction!(seen_by::orient_normals, module)?)?;
+    module.add_function(wrap_pyfunction!(transfer::transfer, module)?)?;
     module.add_function(wrap_pyfunction!(share::share_visible, module)?)?;
     Ok(())
 }

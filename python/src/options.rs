@@ -88,15 +88,28 @@ pub fn read(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Asked
     Ok(asked)
 }
 
+/// Refuses what a question about several cameras cannot answer.
+pub fn refuse_draft_and_scores(py: Python<'_>, options: &Options, name: &str) -> PyResult<()> {
+    for (word, is_given) in [("draft", options.draft), ("scores", options.scores)] {
+        if is_given {
+            return Err(option(py, format!("{word} cannot be combined with {name}")));
+        }
+    }
+    Ok(())
+}
+
 /// Reads a number, or "auto".
 fn thickness(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<Option<f64>> {
     if value.extract::<&str>().is_ok_and(|word| word == "auto") {
         return Ok(None);
     }
-    let wrong = || format!("thickness must be a number or \"auto\", got {}", shown(value));
-    number(value)
-        .map(Some)
-        .ok_or_else(|| option(py, wrong()))
+    let wrong = || {
+        format!(
+            "thickness must be a number or \"auto\", got {}",
+            shown(value)
+        )
+    };
+    number(value).map(Some).ok_or_else(|| option(py, wrong()))
 }
 
 /// Reads a distance and a box into the options. Returns the mask.
@@ -152,7 +165,7 @@ fn within(
 }
 
 /// Truth values, or integers of which 0 is false.
-fn truths(py: Python<'_>, value: &Bound<'_, PyAny>) -> Option<Vec<bool>> {
+pub fn truths(py: Python<'_>, value: &Bound<'_, PyAny>) -> Option<Vec<bool>> {
     let array = py
         .import("numpy")
         .ok()?
@@ -262,7 +275,7 @@ fn truth(py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<bool>
 }
 
 /// A short text of a value, for messages.
-fn shown(value: &Bound<'_, PyAny>) -> String {
+pub fn shown(value: &Bound<'_, PyAny>) -> String {
     let text = value
         .repr()
         .map_or_else(|_| "?".into(), |text| text.to_string());

@@ -60,10 +60,7 @@ impl Visibility {
     }
 
     pub fn of_camera(py: Python<'_>, view: core::CameraView) -> PyResult<Self> {
-        if view.seems_inverted {
-            let category = py.get_type::<pyo3::exceptions::PyUserWarning>();
-            PyErr::warn(py, &category, INVERTED, 1)?;
-        }
+        warn_if_inverted(py, &view)?;
         let count = view.pixels.len();
         let pixels = view.pixels.into_flattened().into_pyarray(py);
         Ok(Self {
@@ -72,6 +69,15 @@ impl Visibility {
             ..Self::new(py, view.visibility)
         })
     }
+}
+
+/// Warns if the pose of a camera was probably given the wrong way round.
+pub fn warn_if_inverted(py: Python<'_>, view: &core::CameraView) -> PyResult<()> {
+    if view.seems_inverted {
+        let category = py.get_type::<pyo3::exceptions::PyUserWarning>();
+        PyErr::warn(py, &category, INVERTED, 1)?;
+    }
+    Ok(())
 }
 
 #[pymethods]

@@ -5,7 +5,7 @@ import { readFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 
 const [, , packagePath, casesPath] = process.argv;
-const { init, PointCloud } = await import(pathToFileURL(packagePath).href);
+const { init, orientNormals, PointCloud, transfer } = await import(pathToFileURL(packagePath).href);
 await init();
 
 /** The bytes of one answer after another. */
@@ -15,12 +15,29 @@ function digest(...arrays) {
   return hash.digest("hex");
 }
 
+function ask(cloud, call, given) {
+  if (call === "orientNormals") return orientNormals(Float64Array.from(given[0]), cloud.seenBy(given[1]));
+  if (call !== "transfer") return cloud[call](...given);
+  const [cameras, images, options] = given;
+  const typed = images.map(({ type, data, ...size }) => ({
+    ...size,
+    data: globalThis[type].from(data, (value) => value ?? NaN),
+  }));
+  return transfer(cloud, cameras, typed, options);
+}
+
 function answer({ file, precision, call, arguments: given }) {
   const bytes = readFileSync(file).buffer;
   const cloud = new PointCloud(precision === "single" ? new Float32Array(bytes) : new Float64Array(bytes));
   try {
-    const result = cloud[call](...given);
-    if (result instanceof Float32Array) return digest(result);
+    const result = ask(cloud, call, given);
+    if (ArrayBuffer.isView(result)) return digest(result);
+    if ("recall" in result) return digest(Float64Array.of(result.thickness, ...result.recall));
+    if ("offsets" in result) return digest(result.offsets, result.cameras, result.pixels, result.towards);
+    if ("values" in result) return digest(result.values, result.seen);
+    if ("uniforms" in result) return digest(result.data, Float64Array.from(Object.values(result.uniforms).flat()));
+    if ("gains" in result)
+      return digest(Float64Array.of(...result.chosen, ...result.gains), result.seen, result.unseen);
     const numbers = new Float64Array([result.radius, result.exponent]);
     return digest(result.indices, numbers, result.scores ?? new Float32Array(), result.triangles ?? new Uint32Array());
   } finally {

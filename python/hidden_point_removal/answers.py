@@ -1,0 +1,37 @@
+"""Answers of several parts."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Calibration(NamedTuple):
+    """How a cloud is to be asked, so that its scanners see the points that they measured."""
+
+    thickness: float
+    """The smallest thickness that was found, in the cloud's units."""
+    recall: list[float]
+    """For each station, the share of its own points that `options` see, from 0 to 1."""
+    options: dict[str, Any]
+    """The given options with `looks` and this `thickness`."""
+
+
+class SeenBy(NamedTuple):
+    """Which cameras see each point: the rows of a sparse matrix. The cameras of point i are
+    `cameras[offsets[i]:offsets[i + 1]]`, ascending.
+
+    `scipy.sparse.csr_array((values, seen.cameras, seen.offsets))` with one value for each entry is the matrix of points
+    and cameras.
+    """
+
+    offsets: NDArray[np.uint32]
+    """One number more than the cloud has indices."""
+    cameras: NDArray[np.uint32]
+    """The number of the camera of each entry."""
+    pixels: NDArray[np.float32]
+    """Where the camera shows the point, x and y: shape (entries, 2)."""
+    towards: NDArray[np.float32]
+    """The direction of length 1 from the point to the camera: shape (entries, 3)."""

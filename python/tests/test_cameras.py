@@ -1,0 +1,183 @@
+"""Cameras in bulk, maps of directions and stations. That the answers are those of JavaScript is tested in test_bits."""
+
+import numpy as np
+import pytest
+
+from hidden_point_removal import HprError, PointCloud, orient_normals, transfer
+
+VIEWPOINT = [0.0, 0.5, 4.0]
+
+
+def ball(count=2000, seed=3):
+    points = np.random.default_rng(seed).normal(size=(count, 3))
+    return points / np.linalg.norm(points, axis=1)[:, None]
+
+
+def camera(place, **more):
+    """A camera at `place` that looks at the origin."""
+    ahead = -np.array(place) / np.linalg.norm(place)
+    right = np.cross(ahead, [0.3, 1, 0.2])
+    right /= np.linalg.norm(right)
+    pose = np.eye(4)
+    pose[:3, :3] = np.column_stack([right, np.cross(ahead, right), ahead])
+    pose[:3, 3] = place
+    return {"camera_to_world": pose, "fx": 80, "fy": 80, "cx": 32, "cy": 24, "width": 64, "height": 48, **more}
+
+
+PLACES = [[0, 0, 3.0], [3.0, 0.2, 0], [2.0, 0, 2.0]]
+CAMERAS = [camera(place) for place in PLACES]
+CLOUD = PointCloud(ball())
+MASKS = [CLOUD.visible_from_camera(one).mask() for one in CAMERAS]
+
+
+def test_cameras_stand_where_viewpoints_stand():
+    everywhere = CLOUD.visible_from(VIEWPOINT).mask()
+    seats, masks = [*CAMERAS, VIEWPOINT], [*MASKS, everywhere]
+    counts = np.sum(masks, axis=0)
+    assert 0 < MASKS[0].sum() < CLOUD.visible_from(PLACES[0]).count
+    assert np.array_equal(CLOUD.coverage(seats), counts)
+    assert np.array_equal(CLOUD.visible_from_any(seats).mask(), counts > 0)
+    assert np.array_equal(CLOUD.visible_from_at_least(3, seats).mask(), counts > 2)
+    placed = CLOUD.place_viewpoints(seats)
+    assert placed.gains[0] == max(mask.sum() for mask in masks)
+    assert np.array_equal(placed.seen, np.flatnonzero(counts))
+
+
+def test_seen_by_is_a_sparse_matrix():
+    seen = CLOUD.seen_by(CAMERAS)
+    assert [array.dtype.name for array in seen] == ["uint32", "uint32", "float32", "float32"]
+    count = sum(mask.sum() for mask in MASKS)
+    assert len(seen.offsets) == 2001 and seen.offsets[-1] == count
+    assert seen.pixels.shape == (count, 2) and seen.towards.shape == (count, 3)
+    rows = np.repeat(np.arange(2000), np.diff(seen.offsets))
+    for number, one in enumerate(CAMERAS):
+        view, own = CLOUD.visible_from_camera(one), seen.cameras == number
+        assert np.array_equal(rows[own], view.indices) and np.array_equal(seen.pixels[own], view.pixels)
+        away = PLACES[number] - ball()[view.indices]
+        assert np.allclose(seen.towards[own], away / np.linalg.norm(away, axis=1)[:, None], atol=1e-6)
+    sparse = pytest.importorskip("scipy.sparse")
+    matrix = sparse.csr_array((np.ones(count), seen.cameras, seen.offsets), shape=(2000, 3))
+    assert np.array_equal(matrix.toarray(), np.transpose(MASKS))
+    assert CLOUD.seen_by([]).offsets.tolist() == [0] * 2001
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+def test_normals_turn_to_the_cameras(dtype):
+    seen = CLOUD.seen_by(CAMERAS)
+    flipped = np.random.default_rng(1).choice([-1, 1], (2000, 1))
+    normals = (ball() * flipped).astype(dtype)
+    before = normals.copy()
+    turned = orient_normals(normals, seen)
+    assert turned.dtype == dtype and np.array_equal(normals, before)
+    rows = np.repeat(np.arange(2000), np.diff(seen.offsets))
+    is_seen = np.diff(seen.offsets) > 0
+    # At the horizon, a camera may see a point from behind.
+    faces = is_seen.copy()
+    faces[rows[(ball()[rows] * seen.towards).sum(axis=1) < 0.01]] = False
+    assert 500 < faces.sum() < 2000
+    assert np.array_equal(turned[faces], ball().astype(dtype)[faces])
+    assert np.array_equal(turned[~is_seen], before[~is_seen])
+
+
+def test_colors_go_from_images_to_points():
+    images = [np.full((48, 64, 3), 10 * (number + 1), np.uint8) for number in range(3)]
+    masks = [CLOUD.visible_from_camera(one, looks=3).mask() for one in CAMERAS]
+    values, seen = transfer(CLOUD, CAMERAS, images, merge="mean")
+    assert values.dtype == np.float32 and values.shape == (2000, 3) and seen.dtype == np.uint32
+    assert np.array_equal(seen, np.sum(masks, axis=0)) and seen.max() > 1
+    assert np.array_equal(np.isnan(values[:, 0]), seen == 0)
+    with np.errstate(invalid="ignore"):
+        expected = np.sum([10 * (number + 1) * mask for number, mask in enumerate(masks)], axis=0) / seen
+    assert np.allclose(values[:, 1], expected, equal_nan=True)
+    for kind in (bool, np.uint16, np.float16, np.int64, ">f4"):
+        ones, _ = transfer(CLOUD, CAMERAS, [np.ones((48, 64), kind)] * 3, weights="angle", looks=2)
+        assert ones.shape == (2000,) and set(ones[~np.isnan(ones)]) == {1.0}
+    ramp = np.tile(np.arange(64) + 0.5, (48, 1))
+    view = CLOUD.visible_from_camera(CAMERAS[0], exponent=3)
+    smooth, _ = transfer(CLOUD, CAMERAS[:1], [ramp], sampling="bilinear", exponent=3)
+    assert np.allclose(smooth[view.indices], view.pixels[:, 0].clip(0.5, 63.5), atol=1e-3)
+
+
+def test_a_map_hides_no_visible_point():
+    points = ball(20_000)
+    for options in ({}, {"exponent": 3}, {"towards": camera(VIEWPOINT)}, {"towards": {"direction": [0, 0, -1], "angle": 60}}):
+        cloud = PointCloud(points)
+        found = cloud.visibility_map(VIEWPOINT, points=6000, **options)
+        options.pop("towards", None)
+        seen = cloud.visible_from(VIEWPOINT, **options).mask()
+        hidden = found.hides(points)
+        assert hidden.dtype == bool and not (hidden & seen).any()
+        assert hidden.sum() > 0.4 * (~seen).sum()
+        assert found.viewpoint == tuple(VIEWPOINT) and len(found.data) % 256 == 0
+        assert {name: len(numbers) for name, numbers in found.uniforms.items()} == {"hprViewpoint": 3, "hprMargins": 4}
+    assert found.hides([[0, 0, 0], VIEWPOINT, [np.nan, 0, 0]]).tolist() == [True, False, False]
+
+
+def test_a_scanner_sees_its_own_points():
+    random = np.random.default_rng(5)
+    inner = ball(30_000, seed=6)
+    inner = inner[inner @ [0, 0, 1] > 0.3]
+    points = inner * (1 + 0.01 * random.normal(size=(len(inner), 1)))
+    cloud = PointCloud(points)
+    station = {"viewpoint": [0, 0, 5], "indices": np.arange(len(points))}
+    found = cloud.calibrate([station])
+    assert found.recall[0] >= 0.98 and found.options == {"looks": 3, "thickness": found.thickness}
+    assert cloud.visible_from([0, 0, 5], **found.options).count == round(found.recall[0] * len(points))
+    mask = np.ones(len(points), np.uint8)
+    assert cloud.calibrate([{"viewpoint": [0, 0, 5], "mask": mask}]) == found
+    given = cloud.calibrate([station], thickness=0)
+    assert given.thickness == 0 and given.recall[0] < found.recall[0]
+
+
+IMAGE = np.zeros((48, 64))
+
+
+@pytest.mark.parametrize(
+    ("code", "words", "call"),
+    [
+        ("viewpoint", "cameras", lambda: CLOUD.seen_by(7)),
+        ("viewpoint", "cameras", lambda: CLOUD.seen_by(CAMERAS[0])),
+        ("viewpoint", r"cameras\[1\]", lambda: CLOUD.seen_by([CAMERAS[0], VIEWPOINT])),
+        ("viewpoint", r"viewpoints\[1\].*exactly one", lambda: CLOUD.coverage([VIEWPOINT, {"fx": 3}])),
+        ("viewpoint", "finite and positive", lambda: CLOUD.visible_from_any([camera(VIEWPOINT, fx=0)])),
+        ("option", "draft.*seen_by", lambda: CLOUD.seen_by(CAMERAS, draft=True)),
+        ("option", "scores.*seen_by", lambda: CLOUD.seen_by(CAMERAS, looks=3, scores=True)),
+        ("option", "normals", lambda: orient_normals(ball(3), CLOUD.seen_by(CAMERAS))),
+        ("option", "normals", lambda: orient_normals("up", CLOUD.seen_by(CAMERAS))),
+        ("option", "seen_by", lambda: orient_normals(ball(), CAMERAS)),
+        ("option", "seen_by", lambda: orient_normals(ball(), CLOUD.seen_by(CAMERAS)._replace(towards=np.zeros((1, 3), "f4")))),
+        ("option", "one image for each of 3", lambda: transfer(CLOUD, CAMERAS, [IMAGE])),
+        ("option", "images", lambda: transfer(CLOUD, CAMERAS, 7)),
+        ("option", r"images\[1\].*array", lambda: transfer(CLOUD, CAMERAS, [IMAGE, "red", IMAGE])),
+        ("option", r"images\[1\].*array", lambda: transfer(CLOUD, CAMERAS, [IMAGE, IMAGE[0], IMAGE])),
+        ("option", r"images\[2\].*64 x 48", lambda: transfer(CLOUD, CAMERAS, [IMAGE, IMAGE, IMAGE.T])),
+        ("option", r"images\[2\].*1 channels", lambda: transfer(CLOUD, CAMERAS, [IMAGE, IMAGE, np.zeros((48, 64, 3))])),
+        ("option", "channels", lambda: transfer(CLOUD, CAMERAS[:1], [np.zeros((48, 64, 0))])),
+        ("option", "merge must be one of", lambda: transfer(CLOUD, CAMERAS, [IMAGE] * 3, merge="max")),
+        ("option", "weights must be one of", lambda: transfer(CLOUD, CAMERAS, [IMAGE] * 3, weights=1)),
+        ("option", "cannot be combined", lambda: transfer(CLOUD, CAMERAS, [IMAGE] * 3, merge="vote", sampling="bilinear")),
+        ("option", "draft.*transfer", lambda: transfer(CLOUD, CAMERAS, [IMAGE] * 3, draft=True)),
+        ("option", "looks", lambda: transfer(CLOUD, CAMERAS, [IMAGE] * 3, weights="score", exponent=3)),
+        ("option", "unknown option", lambda: transfer(CLOUD, CAMERAS, [IMAGE] * 3, colour=1)),
+        ("option", "points", lambda: CLOUD.visibility_map(VIEWPOINT, points=3)),
+        ("option", "corners", lambda: CLOUD.visibility_map(VIEWPOINT, corners=0)),
+        ("option", "towards", lambda: CLOUD.visibility_map(VIEWPOINT, towards=7)),
+        ("option", "towards", lambda: CLOUD.visibility_map(VIEWPOINT, towards={"direction": [0, 0, 1]})),
+        ("option", "draft", lambda: CLOUD.visibility_map(VIEWPOINT, draft=True)),
+        ("viewpoint", "finite", lambda: CLOUD.visibility_map(VIEWPOINT, origin=[0, 0, np.inf])),
+        ("positions-length", "positions", lambda: CLOUD.visibility_map(VIEWPOINT).hides([[0, 0]])),
+        ("option", "at least one station", lambda: CLOUD.calibrate([])),
+        ("option", "at least one station", lambda: CLOUD.calibrate(7)),
+        ("option", r"stations\[0\]", lambda: CLOUD.calibrate([7])),
+        ("option", "viewpoint", lambda: CLOUD.calibrate([{"indices": [1]}])),
+        ("option", "one of indices and mask", lambda: CLOUD.calibrate([{"viewpoint": VIEWPOINT}])),
+        ("option", "no points", lambda: CLOUD.calibrate([{"viewpoint": VIEWPOINT, "indices": []}])),
+        ("option", "index 2000", lambda: CLOUD.calibrate([{"viewpoint": VIEWPOINT, "indices": [2000]}])),
+        ("option", "mask", lambda: CLOUD.calibrate([{"viewpoint": VIEWPOINT, "mask": [True]}])),
+        ("viewpoint", r"stations\[0\]", lambda: CLOUD.calibrate([{"viewpoint": [0], "indices": [1]}])),
+    ],
+)
+def test_bad_input_is_refused(code, words, call):
+    with pytest.raises(HprError, match=words) as refused:
+        call()
+    assert refused.value.code == code, str(refused.value)
