@@ -2,7 +2,7 @@
 
 use hidden_point_removal::{Error, Exponential, Inversion, Options, PointCloud, Radius};
 
-use super::flip::{distance, farthest};
+use super::flip::distance;
 use super::rng::Rng;
 use super::scenes::Scene;
 
@@ -77,13 +77,13 @@ pub fn places(rng: &mut Rng, scene: &Scene, count: usize) -> Vec<[f64; 3]> {
 pub fn check(scene: &Scene, options: &Options, places: &[[f64; 3]], title: &str) {
     let cloud = PointCloud::new(&scene.points).unwrap();
     for &place in places {
-        // The unit S of a power cannot be given for a point beyond it.
-        let is_power = matches!(options.inversion, Inversion::Power(_));
-        if is_power && distance(place, scene.viewpoint) > farthest(&scene.points, scene.viewpoint) {
-            continue;
-        }
         let found = cloud.sees(scene.viewpoint, &[place], options);
         let expected = by_definition(&scene.points, place, scene.viewpoint, options);
+        // The unit S of a power cannot be given for a point beyond it.
+        let is_power = matches!(options.inversion, Inversion::Power(_));
+        if is_power && matches!(expected, Err(Error::RadiusTooSmall { .. })) {
+            continue;
+        }
         // A cloud that cannot be viewed itself is refused before the point is looked at.
         if cloud.visible_from(scene.viewpoint, options).is_ok() || found.is_ok() {
             let found = found.map(|seen| seen[0]);
