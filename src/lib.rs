@@ -50,6 +50,7 @@ pub use answers::horizon::Horizon;
 pub use answers::illumination::Lighting;
 pub use answers::merge::{merge_visible, merge_visible_u64};
 pub use answers::observer::Observer;
+pub use answers::panorama::{Panorama, PanoramaOptions};
 pub use answers::reconstruct::Reconstruction;
 pub use answers::share::{Share, share_visible};
 pub use answers::union::ring_of_viewpoints;

@@ -16,6 +16,7 @@ from __future__ import annotations
 from ._native import (
     Horizon,
     HprError,
+    Panorama,
     Placement,
     PointCloud,
     Share,
@@ -32,6 +33,7 @@ __all__ = [
     "Calibration",
     "Horizon",
     "HprError",
+    "Panorama",
     "Placement",
     "PointCloud",
     "SeenBy",

@@ -129,6 +129,22 @@ class Visibility:
         """One truth value for each index: True where the point is visible."""
     def __len__(self) -> int: ...
 
+class Panorama:
+    """What stands in each direction around a viewpoint. Row 0 is up, column 0 looks along +x."""
+
+    @property
+    def ranges(self) -> NDArray[np.float32]:
+        """The distance to the surface in each direction: (height, width). Infinity for the sky."""
+    @property
+    def indices(self) -> NDArray[np.uint32]:
+        """The visible point that is nearest by angle: (height, width). 2**32 - 1 for the sky."""
+    @property
+    def sky_view_factor(self) -> float:
+        """The share of the sky in the upper half of the sphere, weighted by the cosine from up: 0 to 1."""
+    @property
+    def solid_angle(self) -> float:
+        """How much of the sphere is surface, in steradians."""
+
 class Placement:
     """Viewpoints that were chosen among candidates."""
 
@@ -225,6 +241,10 @@ class PointCloud:
         **options: Unpack[Options],
     ) -> VisibilityMap:
         """A map of directions, which tells for any number of places whether they are certainly hidden."""
+    def panorama(
+        self, viewpoint: ArrayLike, width: int, height: int, up: ArrayLike = (0, 0, 1), **options: Unpack[Options]
+    ) -> Panorama:
+        """The surface of the visible points as an equirectangular image of ranges, and how much sky is left."""
     def auto_radius(self, viewpoint: ArrayLike, rule: Rule = "auto") -> tuple[float, float, int]:
         """(radius, exponent, evaluations) as the rule chooses them."""
     def reconstruct(

@@ -1,7 +1,9 @@
 //! The cloud, and what it can be asked.
 
 use hidden_point_removal as core;
-use hidden_point_removal::{Camera, CameraView, Lighting, NonFinite, Options, Placing};
+use hidden_point_removal::{
+    Camera, CameraView, Lighting, NonFinite, Options, PanoramaOptions, Placing,
+};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -12,6 +14,7 @@ use crate::camera;
 use crate::failure::{option, refused};
 use crate::map::{self, VisibilityMap};
 use crate::options::{self, Asked, refuse_draft_and_scores};
+use crate::panorama::Panorama;
 use crate::placement::Placement;
 use crate::seen_by;
 use crate::shared::Shared;
@@ -331,6 +334,37 @@ impl PointCloud {
             cloud.place_viewpoints(&candidates, &options, &placing)
         })?;
         Ok(Placement::new(py, placed))
+    }
+
+    #[doc = asks!("panorama($self, viewpoint, width, height, up=(0, 0, 1), *")]
+    /// The surface of the visible points as an equirectangular image of ranges, and how much sky is left.
+    ///
+    /// viewpoint: 3 numbers.
+    /// width: int, 1 to 16384. Column 0 looks along +x, the column at a quarter of the width along +y.
+    /// height: int, 1 to 16384. Row 0 is up.
+    /// up: 3 numbers, the direction above row 0. Column 0 then looks along the part of +x that is perpendicular to it.
+    /// Options: those of `visible_from`. Not with draft and scores.
+    /// Returns a `Panorama`.
+    #[pyo3(signature = (viewpoint, width, height, up=None, **options), text_signature = None)]
+    fn panorama(
+        &self,
+        py: Python<'_>,
+        viewpoint: &Bound<'_, PyAny>,
+        width: &Bound<'_, PyAny>,
+        height: &Bound<'_, PyAny>,
+        up: Option<&Bound<'_, PyAny>>,
+        options: Option<&Bound<'_, PyDict>>,
+    ) -> PyResult<Panorama> {
+        let viewpoint = place(viewpoint, "viewpoint")?;
+        let width = options::count(py, "width", width)?;
+        let size = PanoramaOptions {
+            width,
+            height: options::count(py, "height", height)?,
+            up: up.map_or(Ok([0.0, 0.0, 1.0]), |up| place(up, "direction"))?,
+        };
+        let Asked { options, mask } = options::read(py, options)?;
+        let made = self.ask(py, mask, |cloud| cloud.panorama(viewpoint, &options, &size))?;
+        Panorama::new(py, made, width)
     }
 
     /// The radius that a rule chooses for a viewpoint.

@@ -12,6 +12,7 @@ mod horizon;
 mod map;
 mod merge_values;
 mod options;
+mod panorama;
 mod parts;
 mod placement;
 mod seen_by;
@@ -27,6 +28,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add("HprError", module.py().get_type::<failure::HprError>())?;
     module.add_class::<cloud::PointCloud>()?;
     module.add_class::<horizon::Horizon>()?;
+    module.add_class::<panorama::Panorama>()?;
     module.add_class::<placement::Placement>()?;
     module.add_class::<share::Share>()?;
     module.add_class::<visibility::Visibility>()?;

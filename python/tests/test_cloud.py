@@ -377,3 +377,24 @@ def test_parts_of_points_are_refused_where_there_is_no_cloud(within):
         with pytest.raises(HprError) as refused:
             call()
         assert refused.value.code == "option" and "within" in str(refused.value)
+
+
+def test_panorama():
+    rng = np.random.default_rng(3)
+    z, turn = rng.random(10_000), rng.random(10_000) * 2 * np.pi
+    across = np.sqrt(1 - z * z)
+    dome = PointCloud(5 * np.stack([across * np.cos(turn), across * np.sin(turn), z], axis=1))
+    seen = dome.panorama([0, 0, 0], 64, 32)
+    assert (seen.ranges.shape, seen.indices.shape) == ((32, 64), (32, 64))
+    assert seen.ranges[:15] == pytest.approx(5, rel=0.01)
+    assert np.isinf(seen.ranges[16:]).all() and (seen.indices[16:] == 2**32 - 1).all()
+    assert seen.solid_angle == pytest.approx(2 * np.pi, rel=0.01)
+    assert seen.sky_view_factor < 0.001
+    assert dome.panorama([0, 0, 0], width=64, height=32, up=[0, 0, -1], looks=3).sky_view_factor > 0.999
+    for wrong in ({"width": 0}, {"height": 16_385}, {"draft": True}):
+        with pytest.raises(HprError) as refused:
+            dome.panorama([0, 0, 0], **{"width": 8, "height": 8, **wrong})
+        assert refused.value.code == "option"
+    with pytest.raises(HprError) as refused:
+        dome.panorama([0, 0, 0], 8, 8, up=[0, 0, 0])
+    assert refused.value.code == "viewpoint"

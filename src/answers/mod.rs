@@ -1,6 +1,6 @@
 //! All questions to a cloud. A view can be from one viewpoint, from one after another, from
 //! several at once, along a direction, or divided among threads. A cloud can be in parts or
-//! noisy, and only a part of it may take part. The answer can also be a surface or light.
+//! noisy, and only a part of it may take part. The answer can also be a surface, light, or an image of ranges.
 
 pub(crate) mod camera;
 pub(crate) mod coverage;
@@ -12,6 +12,7 @@ pub(crate) mod looks;
 pub(crate) mod memory;
 pub(crate) mod merge;
 pub(crate) mod observer;
+pub(crate) mod panorama;
 pub(crate) mod part;
 pub(crate) mod reconstruct;
 pub(crate) mod sample;

@@ -36,7 +36,7 @@ impl PointCloud {
             let (given, len) = (mask.len(), self.len());
             return Err(Error::MaskLength { given, len });
         }
-        let rest = self.sequence.without(|index| !mask[index as usize])?;
+        let rest = self.sequence.without(&|index| !mask[index as usize])?;
         Ok(self.of_sequence(rest)?)
     }
 

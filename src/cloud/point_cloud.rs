@@ -235,7 +235,7 @@ impl PointCloud {
         for &index in indices {
             removed[index as usize] = true;
         }
-        let rest = self.sequence.without(|index| removed[index as usize])?;
+        let rest = self.sequence.without(&|index| removed[index as usize])?;
         if rest.points.len() == self.sequence.points.len() {
             // The positions are the same: only duplicates were removed.
             self.sequence = rest;

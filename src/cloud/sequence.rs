@@ -85,7 +85,7 @@ impl Sequence {
 
     /// This sequence without the indices that `removed` names. A point goes when its last
     /// index goes.
-    pub(crate) fn without(&self, removed: impl Fn(u32) -> bool) -> Result<Self, OutOfMemory> {
+    pub(crate) fn without(&self, removed: &dyn Fn(u32) -> bool) -> Result<Self, OutOfMemory> {
         let mut kept = with_capacity(self.points.len())?;
         let mut indices = Groups::with_capacity(self.indices.order.len())?;
         for k in 0..self.points.len() {

@@ -1,14 +1,19 @@
 //! A complete hull gives more than the visible points: its outer faces as triangles, and the
 //! face through which the ray of any point leaves the hull.
 
+use glam::DVec3;
+
 use super::flipped::Flipped;
 use super::incremental::Hull;
 use super::locate::Location;
 use super::memory::Memory;
-use super::topology::{FaceId, Surface, Vertex};
+use super::topology::{FaceId, HalfEdge, Surface, Vertex};
 use crate::base::allocation::OutOfMemory;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
+
+/// A factor for places that are certainly in the hull, if their ray leaves it.
+const NEAR: f64 = 1e-30;
 
 /// The outer faces of a complete hull, as its viewer sees them.
 pub(crate) trait OuterFaces {
@@ -129,6 +134,32 @@ impl OuterFaces for FlippedFaces<'_> {
 }
 
 impl FlippedFaces<'_> {
+    /// The outer face through which the ray to `place` leaves the hull, and its corners. `None` if there
+    /// is none. The place is relative to the viewpoint and as far from it as the farthest point.
+    pub(crate) fn exit_towards(&mut self, place: DVec3) -> Option<(FaceId, [Vertex; 3])> {
+        let place = place * self.inward;
+        // A wide face may be nearer to the viewpoint.
+        for q in [place, place * NEAR] {
+            match self.hull.locate_out_of_line(q, self.last) {
+                Location::Inside(face) | Location::Boundary(face) => {
+                    self.last = face;
+                    return Some((face, self.hull.surface.face(face).vertices));
+                }
+                Location::Outside(face) if self.hull.is_outer(face) => self.last = face,
+                Location::Outside(beyond) => {
+                    // The walk has left the outer faces. The next one starts where it left them.
+                    let twins = self.hull.surface.face(beyond).twins;
+                    let left = twins.map(HalfEdge::face);
+                    if let Some(&last) = left.iter().find(|&&face| self.hull.is_outer(face)) {
+                        self.last = last;
+                    }
+                    return None;
+                }
+            }
+        }
+        None
+    }
+
     #[cold]
     fn exit_of_flipped(&mut self, point: u32) {
         if let Some(q) = self.flipped.get_out_of_line(point) {

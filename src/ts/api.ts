@@ -31,6 +31,7 @@ export type { ViewpointOrCamera } from "./query/seats.js";
 export { orientNormals } from "./query/orient-normals.js";
 export type { SeenBy } from "./query/seen-by.js";
 export type { Cone, VisibilityMapOptions } from "./query/map-options.js";
+export type { Panorama, PanoramaOptions } from "./query/panorama-options.js";
 export type { Placement } from "./query/placement.js";
 export type { CoverageOptions, PlacementOptions } from "./query/surveys.js";
 export type { Within } from "./query/within.js";

@@ -13,6 +13,7 @@ pub(crate) enum QuestionKind {
     Sees,
     Coverage,
     PlaceViewpoints,
+    Panorama,
     Reconstruct,
     Illuminate,
     Merge,
@@ -113,6 +114,7 @@ impl QuestionKind {
             Self::Sees => ("sees", &[DRAFT, SCORES]),
             Self::Coverage => ("coverage", &[DRAFT, SCORES]),
             Self::PlaceViewpoints => ("placeViewpoints", &[DRAFT, SCORES]),
+            Self::Panorama => ("panorama", &[DRAFT, SCORES]),
             Self::Reconstruct => ("reconstruct", &[DRAFT, LOOKS]),
             Self::Illuminate => ("illuminate", &[DRAFT, LOOKS]),
             // The neighbors of a point in a part are not its neighbors in the cloud.

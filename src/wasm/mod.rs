@@ -28,6 +28,8 @@ mod objects;
 mod options;
 #[cfg(feature = "wasm")]
 mod outputs;
+#[cfg(feature = "wasm")]
+mod panoramas;
 mod space;
 mod transfer;
 mod view;

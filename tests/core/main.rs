@@ -26,6 +26,7 @@ mod maps;
 mod merge;
 mod noise;
 mod oracle;
+mod panorama;
 mod plane;
 mod queries;
 mod radius;

@@ -4,25 +4,22 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::look::Look;
-use super::part::Part;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::real::square_root;
-use crate::cloud::points::Points;
 use crate::hull::{FaceId, OuterFaces, Vertex};
 
-/// The vertices of one look's hull, by their numbers.
-pub(super) struct Corners {
+/// The vertices of a hull, by their numbers.
+pub(crate) struct Corners {
     /// The corners of each outer face.
     triangles: Vec<[Vertex; 3]>,
     all: Vec<Corner>,
     /// The largest local spacing.
-    pub widest: f64,
+    pub(super) widest: f64,
 }
 
 #[derive(Clone, Copy)]
-pub(super) struct Corner {
-    /// The [place](Look::place) before the flip.
+pub(crate) struct Corner {
+    /// The place before the flip.
     pub place: DVec3,
     /// The local spacing: the mean of the vertex's two shortest edges in the hull. If an earlier
     /// look has found a smaller one, it is that. It is infinite for vertices without outer faces.
@@ -30,21 +27,18 @@ pub(super) struct Corner {
 }
 
 impl Corners {
-    pub(super) fn of(
+    /// `place` gives the place of a point before the flip, and `known` the local spacing that an earlier
+    /// look has found there, or infinity.
+    pub(crate) fn of(
         faces: &dyn OuterFaces,
-        points: &Points,
-        part: &Part,
-        look: &Look,
+        place: &dyn Fn(u32) -> DVec3,
+        known: &dyn Fn(u32) -> f64,
     ) -> Result<Self, OutOfMemory> {
         let numbered = faces.points_of_vertices();
         let mut all = with_capacity(numbered.len())?;
         all.extend(numbered.iter().enumerate().map(|(vertex, &own)| Corner {
             // The first number is the ghost vertex's.
-            place: if vertex == 0 {
-                DVec3::ZERO
-            } else {
-                look.place(points.get(part.place(own as usize)))
-            },
+            place: if vertex == 0 { DVec3::ZERO } else { place(own) },
             spacing: f64::INFINITY,
         }));
         let mut triangles = with_capacity(faces.slots())?;
@@ -66,7 +60,7 @@ impl Corners {
             if here == f64::INFINITY {
                 continue;
             }
-            let before = part.spacing(own as usize);
+            let before = known(own);
             corner.spacing = if before < here { before } else { here };
             if corner.spacing > widest {
                 widest = corner.spacing;
@@ -79,9 +73,26 @@ impl Corners {
         })
     }
 
+    /// The same with the geometric mean of the neighbors' local spacings instead of each vertex's own:
+    /// it depends less on chance, and a neighbor far from all others changes it little.
+    pub(crate) fn smoothed(mut self) -> Result<Self, OutOfMemory> {
+        let mut sums = filled(self.all.len(), [0.0; 2])?;
+        for &[a, b, c] in &self.triangles {
+            for [vertex, one, other] in [[a, b, c], [b, c, a], [c, a, b]] {
+                let [sum, count] = &mut sums[vertex as usize];
+                *sum += libm::log(self.at(one).spacing * self.at(other).spacing);
+                *count += 2.0;
+            }
+        }
+        for (corner, [sum, count]) in self.all.iter_mut().zip(sums) {
+            corner.spacing = libm::exp(sum / count);
+        }
+        Ok(self)
+    }
+
     /// The vertex of this number.
     #[inline]
-    pub(super) fn at(&self, vertex: Vertex) -> Corner {
+    pub(crate) fn at(&self, vertex: Vertex) -> Corner {
         self.all[vertex as usize]
     }
 

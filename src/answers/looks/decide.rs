@@ -10,7 +10,7 @@ use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::beat;
 use crate::base::real::square_root;
 use crate::cloud::points::Points;
-use crate::hull::{Exit, OuterFaces, Vertex};
+use crate::hull::{Exit, FaceId, OuterFaces, Vertex};
 
 /// Surface hides a point that lies farther behind it, along the ray, than this share of the
 /// triangle's longest edge.
@@ -39,14 +39,15 @@ impl Verdicts {
         faces: &mut dyn OuterFaces,
         part: &Part,
     ) -> Result<Left, OutOfMemory> {
-        let corners = Corners::of(faces, points, part, look)?;
+        let place = |own: u32| look.place(points.get(part.place(own as usize)));
+        let corners = Corners::of(faces, &place, &|own| part.spacing(own as usize))?;
         let mut left = self.take_vertices(look, faces, part, &corners)?;
         let longest = match self.longest {
             Some(longest) => longest,
             None => self.longest_of_surface(look, points, faces, part, &corners, &left)?,
         };
         self.longest = Some(longest);
-        let mut last: Option<Triangle> = None;
+        let mut last: Option<(FaceId, Triangle)> = None;
         for own in 0..left.spacing.len() {
             beat::step_at(own);
             let point = part.place(own);
@@ -63,8 +64,8 @@ impl Verdicts {
                 continue;
             };
             let triangle = match last.take() {
-                Some(triangle) if triangle.face == face => triangle,
-                _ => Triangle::of(face, vertices, &corners),
+                Some((known, triangle)) if known == face => triangle,
+                _ => Triangle::of(vertices, &corners),
             };
             let place = look.place(points.get(point));
             let behind = triangle.behind(place, look.ahead);
@@ -81,7 +82,7 @@ impl Verdicts {
                     left.takes_part[numbered[corner as usize] as usize] = true;
                 }
             }
-            last = Some(triangle);
+            last = Some((face, triangle));
         }
         Ok(left)
     }

@@ -30,9 +30,12 @@ use alloc::vec::Vec;
 use crate::base::allocation::filled;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;
+pub(crate) use corners::Corners;
 pub(crate) use look::Seen;
 pub(crate) use rays::Projection;
 pub(crate) use series::{Question, Series, even_scales, loosest_look};
+pub(crate) use surface::longest_of;
+pub(crate) use triangle::Triangle;
 
 /// The scores of distinct points as those of the caller's indices; 0 where there is none.
 pub(crate) fn scores_of_indices(cloud: &PointCloud, scores: &[f32]) -> Result<Vec<f32>, Error> {

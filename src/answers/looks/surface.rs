@@ -10,6 +10,7 @@ use super::part::{Left, Part};
 use super::triangle::Triangle;
 use crate::base::allocation::{OutOfMemory, push};
 use crate::base::beat;
+use crate::base::real::larger;
 use crate::base::sort::percentile;
 use crate::cloud::points::Points;
 use crate::hull::{Exit, OuterFaces};
@@ -58,25 +59,28 @@ impl Verdicts {
                 continue;
             }
             before = step - 1;
-            let Exit::Face(face, vertices) = faces.exit(own as u32) else {
+            let Exit::Face(_, vertices) = faces.exit(own as u32) else {
                 continue;
             };
-            let triangle = Triangle::of(face, vertices, corners);
+            let triangle = Triangle::of(vertices, corners);
             let place = look.place(points.get(part.place(own)));
             if triangle.is_facing(place, look.ahead) {
                 push(&mut lengths, triangle.longest / triangle.size)?;
             }
         }
-        let usual = percentile(&lengths, PERCENTILE)?;
-        let longest = usual.map_or(0.0, |usual| LONGER * usual);
-        if longest > LEAST {
-            let wide = look.tuning.wide;
-            return Ok(if wide == 1.0 {
-                longest
-            } else {
-                LEAST + (longest - LEAST) * wide
-            });
-        }
-        Ok(LEAST)
+        let longest = longest_of(&lengths)?;
+        let wide = look.tuning.wide;
+        Ok(if wide == 1.0 {
+            longest
+        } else {
+            LEAST + (longest - LEAST) * wide
+        })
     }
+}
+
+/// The longest edge that a triangle of a surface has, in local spacings. `lengths` are those of
+/// triangles that face the viewer.
+pub(crate) fn longest_of(lengths: &[f64]) -> Result<f64, OutOfMemory> {
+    let usual = percentile(lengths, PERCENTILE)?;
+    Ok(larger(LEAST, usual.map_or(0.0, |usual| LONGER * usual)))
 }

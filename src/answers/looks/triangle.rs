@@ -4,28 +4,26 @@ use glam::DVec3;
 
 use super::corners::Corners;
 use crate::base::real::{root_of_largest, square_root};
-use crate::hull::{FaceId, Vertex};
+use crate::hull::Vertex;
 
-/// An outer face of a look's hull, with its corners back in their places.
-pub(super) struct Triangle {
-    pub face: FaceId,
+/// An outer face of a hull, with its corners back in their places.
+pub(crate) struct Triangle {
     normal: DVec3,
     /// normal·x on the plane of the triangle.
     height: f64,
     /// The mean local spacing of the corners.
-    pub size: f64,
-    pub longest: f64,
+    pub(crate) size: f64,
+    pub(crate) longest: f64,
 }
 
 impl Triangle {
-    pub(super) fn of(face: FaceId, vertices: [Vertex; 3], corners: &Corners) -> Self {
+    pub(crate) fn of(vertices: [Vertex; 3], corners: &Corners) -> Self {
         let [a, b, c] = vertices.map(|vertex| corners.at(vertex));
         let size = (a.spacing + b.spacing + c.spacing) / 3.0;
         let [a, b, c] = [a.place, b.place, c.place];
         let (ab, bc, ca) = (b - a, c - b, a - c);
         let normal = ab.cross(c - a);
         Self {
-            face,
             normal,
             height: normal.dot(a),
             size,
@@ -37,15 +35,18 @@ impl Triangle {
     /// seen edge-on. The place is relative to the viewpoint, unless all rays go `ahead`.
     pub(super) fn behind(&self, place: DVec3, ahead: Option<DVec3>) -> f64 {
         let Some(ahead) = ahead else {
-            // Where the plane crosses the ray, in units of the place's distance.
-            let crossing = self.height / self.normal.dot(place);
-            return (1.0 - crossing) * square_root(place.length_squared());
+            return (1.0 - self.crossing(place)) * square_root(place.length_squared());
         };
         (self.normal.dot(place) - self.height) / self.normal.dot(ahead)
     }
 
+    /// Where the triangle's plane crosses the ray to `place`, in units of the place's distance.
+    pub(crate) fn crossing(&self, place: DVec3) -> f64 {
+        self.height / self.normal.dot(place)
+    }
+
     /// Whether the triangle faces the viewer: its normal is within 60° of the ray to `place`.
-    pub(super) fn is_facing(&self, place: DVec3, ahead: Option<DVec3>) -> bool {
+    pub(crate) fn is_facing(&self, place: DVec3, ahead: Option<DVec3>) -> bool {
         let ray = ahead.unwrap_or(place);
         let along = self.normal.dot(ray);
         along * along >= 0.25 * (self.normal.length_squared() * ray.length_squared())

@@ -8,6 +8,7 @@ import { requireInstance } from "../instance/instance.js";
 import { CLOUD_OPTIONS, cloudSettings, givenOptions, pick, type PointCloudOptions } from "../query/options.js";
 import type { Positions, Viewpoint } from "../query/positions.js";
 import type { Camera } from "../query/camera.js";
+import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
 import type { VisibilityMapOptions } from "../query/map-options.js";
 import type { IlluminationOptions, ReconstructionOptions } from "../query/queries.js";
 import { type Calibration, calibration, type Station } from "../query/calibration.js";
@@ -124,6 +125,24 @@ export class PointCloud {
    */
   visibilityMap(viewpoint: Viewpoint, options?: VisibilityMapOptions): VisibilityMap {
     return this.#ask("visibilityMap", viewpoint, options);
+  }
+
+  /**
+   * Makes an image of what stands in each direction: the surface of the points that
+   * {@link PointCloud.visibleFrom} shows with the same options. The image is equirectangular: the middle of
+   * pixel (row, column) looks at the elevation 90° − 180°·(row + ½)/height and at the azimuth
+   * 360°·column/width, from +x to up × x (for the usual up: to +y). So it is mirrored, as a map of the sky.
+   * A triangle between visible points is surface if its edges are at most about six times as long as
+   * those between neighbors, in space or by angle.
+   *
+   * @param viewpoint x, y, z in the cloud's units. Needs a cloud of dimension 3.
+   * @returns arrays that are the caller's own; `skyViewFactor` and `solidAngle` do not depend on the
+   *   size of the image.
+   * @throws HprError `viewpoint` also for `up`, `option` also for `draft` and `scores`, `too-large`;
+   *   otherwise as {@link PointCloud.visibleFrom}.
+   */
+  panorama(viewpoint: Viewpoint, options: PanoramaOptions): Panorama {
+    return this.#ask("panorama", viewpoint, options);
   }
 
   /**

@@ -6,6 +6,7 @@ import {
   ILLUMINATION_OPTIONS,
   illuminationQuery,
   mapQuery,
+  panoramaQuery,
   type Query,
   type QueryKind,
   radiusQuery,
@@ -16,6 +17,7 @@ import {
   viewQuery,
 } from "../query/queries.js";
 import { MAP_OPTIONS } from "../query/map-options.js";
+import { PANORAMA_OPTIONS } from "../query/panorama-options.js";
 import { VIEW_OPTIONS } from "../query/view-options.js";
 import { CameraAnswer, ReconstructionAnswer, VisibilityAnswer } from "./visibility.js";
 import { VisibilityMap } from "./visibility-map.js";
@@ -55,6 +57,12 @@ export const METHODS = {
     MAP_OPTIONS,
     ({ dimension }, given, viewpoint) => mapQuery(dimension, viewpoint, given),
     (made) => new VisibilityMap(made),
+  ),
+  panorama: method<"panorama">(
+    1,
+    PANORAMA_OPTIONS,
+    ({ dimension }, given, viewpoint) => panoramaQuery(dimension, viewpoint, given),
+    (made) => made,
   ),
   visibleFromDirection: method<"visibleFromDirection">(
     1,

@@ -41,6 +41,20 @@ const performers: { [K in QueryKind]: (target: Target, query: Query<K>) => Answe
     return { ...instance.call((bindings) => bindings.visibilityMap(handle, x, y, z, options, map)), viewpoint };
   },
 
+  panorama: ({ instance, handle }, { viewpoint, settings, width, height, up }) => {
+    const pixels = width * height;
+    const { ranges, indices } = allocating(`${pixels} pixels`, () => ({
+      ranges: new Float32Array(pixels),
+      indices: new Uint32Array(pixels),
+    }));
+    const asked = Float64Array.of(...viewpoint, width, height, ...up);
+    const areas = new Float64Array(2);
+    instance.call((bindings) => {
+      bindings.panorama(handle, asked, coreOptions(settings), ranges, indices, areas);
+    });
+    return { ranges, indices, skyViewFactor: areas[0]!, solidAngle: areas[1]! };
+  },
+
   visibleFromDirection: (target, { direction, settings }) => {
     const [x, y, z] = direction as [number, number, number];
     const options = coreOptions(settings, target.spares);

@@ -52,6 +52,12 @@ export interface Answers {
     origin: [number, number, number];
     numbers: [number, number, number, number];
   };
+  panorama: {
+    ranges: Float32Array<ArrayBuffer>;
+    indices: Uint32Array<ArrayBuffer>;
+    skyViewFactor: number;
+    solidAngle: number;
+  };
   reconstruct: Found & { triangles: Uint32Array<ArrayBuffer> };
   illuminate: { brightness: Float32Array<ArrayBuffer> };
 }

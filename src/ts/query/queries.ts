@@ -2,6 +2,7 @@ import { describe, HprError } from "../base/errors.js";
 import { allocating } from "../base/memory.js";
 import { readCamera } from "./camera.js";
 import { mapNumbers } from "./map-options.js";
+import { type PanoramaSize, panoramaSize } from "./panorama-options.js";
 import { type CloudSettings, integer, number } from "./options.js";
 import { packed, readPositions, readViewpoint, readViewpoints } from "./positions.js";
 import { isCameraSeat, readSeats, type Seat } from "./seats.js";
@@ -58,6 +59,7 @@ export interface Questions {
   visibleFrom: { viewpoint: number[]; settings: ViewSettings; divisible: boolean; sector?: Sector };
   /** `map`: see `mapNumbers`. */
   visibilityMap: { viewpoint: [number, number, number]; settings: ViewSettings; map: Float64Array<ArrayBuffer> };
+  panorama: PanoramaSize & { viewpoint: number[]; settings: ViewSettings };
   visibleFromDirection: { direction: number[]; settings: ViewSettings };
   /** Asks for points visible from at least `k` of the viewpoints. These are stored one after another. */
   visibleFromSeveral: { viewpoints: Float64Array<ArrayBuffer>; k: number; settings: ViewSettings };
@@ -137,6 +139,12 @@ export function mapQuery(dimension: number, viewpoint: unknown, given: GivenOpti
   requireSpace("visibilityMap", dimension);
   const place = readViewpoint(viewpoint, 3) as [number, number, number];
   return { kind: "visibilityMap", viewpoint: place, settings: viewSettings(given, dimension), map: mapNumbers(given) };
+}
+
+export function panoramaQuery(dimension: number, viewpoint: unknown, given: GivenOptions): Query<"panorama"> {
+  requireSpace("panorama", dimension);
+  const place = readViewpoint(viewpoint, 3);
+  return { kind: "panorama", viewpoint: place, settings: viewSettings(given, dimension), ...panoramaSize(given) };
 }
 
 export function directionQuery(

@@ -33,6 +33,7 @@ import {
   readSurvey,
   type SurveyTask,
 } from "../query/surveys.js";
+import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
 import type { RadiusRule, VisibilityOptions } from "../query/view-options.js";
 import type { PointCloud } from "../cloud/cloud.js";
 import { METHODS, type MethodName, readQuestion } from "../cloud/methods.js";
@@ -103,8 +104,10 @@ type Promised<Method> = Method extends (...args: [...infer Head, (infer Options)
 
 /** The questions to a cloud, as promises. Requests are answered in order. */
 export type PromisedQuestions = {
-  [Name in Exclude<MethodName, "autoRadius">]: Promised<PointCloud[Name]>;
+  [Name in Exclude<MethodName, "autoRadius" | "panorama">]: Promised<PointCloud[Name]>;
 } & {
+  /** What stands in each direction around a viewpoint; see `PointCloud.panorama`. */
+  panorama(viewpoint: Viewpoint, options: PanoramaOptions & RequestOptions): Promise<Panorama>;
   /** The radius that a rule chooses for a viewpoint; see `PointCloud.autoRadius`. */
   autoRadius(viewpoint: Viewpoint, rule?: RadiusRule, options?: RequestOptions): Promise<ChosenRadius>;
 };

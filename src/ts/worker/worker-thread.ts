@@ -79,7 +79,7 @@ function answer(letter: Letter<Request>, post: Post): Replies[Request["kind"]] {
     default: {
       cloud.keepMemory(request.spare);
       const found = cloud.ask(request);
-      if (request.listing === true && "indices" in found) {
+      if (request.listing === true && "length" in found) {
         found.indices = withHidden(found.indices, found.length);
       }
       return found;

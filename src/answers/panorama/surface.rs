@@ -1,0 +1,124 @@
+//! Which triangles between visible points are surface, and which are sky.
+
+use alloc::vec::Vec;
+use glam::DVec3;
+
+use crate::answers::looks::{Corners, Triangle, longest_of};
+use crate::base::allocation::{OutOfMemory, filled, push};
+use crate::base::real::square_root;
+use crate::hull::{FaceId, OuterFaces, Vertex};
+
+/// How much longer a triangle may be than one that may hide a point in a look. Between samples that lie
+/// at random are wide gaps: at 1, 0.6 % of a closed room of 100,000 points would be sky, at 1.5 nothing.
+const LONGER: f64 = 1.5;
+
+/// What an outer face is.
+#[derive(Clone, Copy, PartialEq)]
+enum Kind {
+    Sky,
+    /// The corners are beside each other as the viewer sees them, but may be on two surfaces.
+    Beside,
+    Surface,
+}
+
+/// The outer faces of the hull of visible points.
+pub(super) struct Surface {
+    /// The vertices at their places, and as unit vectors.
+    places: Corners,
+    directions: Corners,
+    /// By the number of the face.
+    kinds: Vec<Kind>,
+}
+
+impl Surface {
+    /// `place` gives the place of a point, relative to the viewpoint.
+    pub(super) fn of(
+        faces: &dyn OuterFaces,
+        place: &dyn Fn(u32) -> DVec3,
+    ) -> Result<Self, OutOfMemory> {
+        let direction = |own: u32| {
+            let place = place(own);
+            place / square_root(place.length_squared())
+        };
+        let unknown = |_: u32| f64::INFINITY;
+        let places = Corners::of(faces, place, &unknown)?.smoothed()?;
+        let directions = Corners::of(faces, &direction, &unknown)?.smoothed()?;
+        Ok(Self {
+            kinds: kinds(faces, &places, &directions)?,
+            places,
+            directions,
+        })
+    }
+
+    /// The range in a direction, and the vertex that is nearest by angle; `None` for the sky. The
+    /// ray in this direction leaves the hull by this face.
+    pub(super) fn at(
+        &self,
+        face: FaceId,
+        corners: [Vertex; 3],
+        direction: DVec3,
+    ) -> Option<(f64, Vertex)> {
+        let kind = self.kinds[face as usize];
+        if kind == Kind::Sky {
+            return None;
+        }
+        let [mut nearest, others @ ..] = corners;
+        let near = |vertex| self.directions.at(vertex).place.dot(direction);
+        for other in others {
+            if near(other) > near(nearest) {
+                nearest = other;
+            }
+        }
+        let place = |vertex| self.places.at(vertex).place;
+        let range = if kind == Kind::Surface {
+            // The triangle's point in this direction is between its corners along it. A plane that is
+            // seen edge-on crosses the ray anywhere.
+            let [a, b, c] = corners.map(|vertex| place(vertex).dot(direction));
+            let crossing = Triangle::of(corners, &self.places).crossing(direction);
+            crossing.max(a.min(b).min(c)).min(a.max(b).max(c))
+        } else {
+            square_root(place(nearest).length_squared())
+        };
+        Some((range, nearest))
+    }
+
+    /// Passes the directions of the corners of each triangle that is surface.
+    pub(super) fn each(&self, faces: &dyn OuterFaces, pass: &mut dyn FnMut([DVec3; 3])) {
+        for (id, corners) in outer(faces) {
+            if self.kinds[id as usize] != Kind::Sky {
+                pass(corners.map(|vertex| self.directions.at(vertex).place));
+            }
+        }
+    }
+}
+
+/// Tells surface from sky.
+fn kinds(
+    faces: &dyn OuterFaces,
+    places: &Corners,
+    directions: &Corners,
+) -> Result<Vec<Kind>, OutOfMemory> {
+    let length = |triangle: &Triangle| triangle.longest / triangle.size;
+    let mut lengths = Vec::new();
+    for (_, corners) in outer(faces) {
+        let triangle = Triangle::of(corners, places);
+        if triangle.is_facing(places.at(corners[0]).place, None) {
+            push(&mut lengths, length(&triangle))?;
+        }
+    }
+    let longest = LONGER * longest_of(&lengths)?;
+    let mut kinds = filled(faces.slots(), Kind::Sky)?;
+    for (id, corners) in outer(faces) {
+        let is_short = |among| length(&Triangle::of(corners, among)) <= longest;
+        if is_short(places) {
+            kinds[id as usize] = Kind::Surface;
+        } else if is_short(directions) {
+            kinds[id as usize] = Kind::Beside;
+        }
+    }
+    Ok(kinds)
+}
+
+fn outer(faces: &dyn OuterFaces) -> impl Iterator<Item = (FaceId, [Vertex; 3])> {
+    (0..faces.slots() as FaceId).filter_map(|id| Some((id, faces.corners(id)?)))
+}

@@ -1,0 +1,338 @@
+//! Panoramas of shapes whose ranges and areas have a closed form.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use hidden_point_removal::{
+    Error, Exponential, Inversion, Options, Panorama, PanoramaOptions, PointCloud,
+};
+
+use crate::common::rng::Rng;
+
+const HALF: [f64; 3] = [2.0, 1.5, 1.25];
+const INSIDE: [f64; 3] = [0.5, -0.3, 0.2];
+const SIZE: PanoramaOptions = PanoramaOptions {
+    width: 256,
+    height: 128,
+    up: [0.0, 0.0, 1.0],
+};
+
+/// Random points on the walls of a box, evenly; with a roof or without.
+fn room(count: usize, has_roof: bool) -> Vec<[f64; 3]> {
+    let mut rng = Rng::new(7);
+    let mut points = Vec::new();
+    let density = count as f64 / 59.0;
+    for axis in 0..3 {
+        let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+        for side in [-1.0, 1.0] {
+            if !has_roof && axis == 2 && side > 0.0 {
+                continue;
+            }
+            for _ in 0..(4.0 * HALF[u] * HALF[v] * density) as usize {
+                let mut point = [0.0; 3];
+                point[axis] = side * HALF[axis];
+                point[u] = HALF[u] * (2.0 * rng.unit() - 1.0);
+                point[v] = HALF[v] * (2.0 * rng.unit() - 1.0);
+                points.push(point);
+            }
+        }
+    }
+    points
+}
+
+fn dome(count: usize, radius: f64, side: f64) -> Vec<[f64; 3]> {
+    let mut rng = Rng::new(8);
+    let point = |_| {
+        let (z, turn) = (rng.unit(), TAU * rng.unit());
+        let across = radius * (1.0 - z * z).sqrt();
+        [across * turn.cos(), across * turn.sin(), side * radius * z]
+    };
+    (0..count).map(point).collect()
+}
+
+fn ways() -> [Options; 3] {
+    [
+        Options::default(),
+        Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
+        Options::with_inversion(Inversion::Looks(3)),
+    ]
+}
+
+fn seen(points: &[[f64; 3]], from: [f64; 3], options: &Options) -> Panorama {
+    let cloud = PointCloud::new(points).unwrap();
+    cloud.panorama(from, options, &SIZE).unwrap()
+}
+
+/// The direction of a pixel for the usual up.
+fn direction(pixel: usize) -> [f64; 3] {
+    let (row, column) = (pixel / SIZE.width, pixel % SIZE.width);
+    let elevation = FRAC_PI_2 - PI * (row as f64 + 0.5) / SIZE.height as f64;
+    let azimuth = TAU * column as f64 / SIZE.width as f64;
+    let across = elevation.cos();
+    [
+        across * azimuth.cos(),
+        across * azimuth.sin(),
+        elevation.sin(),
+    ]
+}
+
+/// The sum of the pixels' solid angles that are surface.
+fn covered(panorama: &Panorama) -> f64 {
+    let pixel = TAU / SIZE.width as f64;
+    let cosine = |edge: usize| (PI * edge as f64 / SIZE.height as f64).cos();
+    let rows = panorama.indices.chunks(SIZE.width).enumerate();
+    rows.map(|(row, indices)| {
+        let surface = indices.iter().filter(|&&index| index != Panorama::SKY);
+        surface.count() as f64 * pixel * (cosine(row) - cosine(row + 1))
+    })
+    .sum()
+}
+
+#[track_caller]
+fn close(found: f64, expected: f64, share: f64) {
+    let error = (found - expected).abs();
+    assert!(error <= share * expected, "{found}, not {expected}");
+}
+
+#[test]
+fn in_a_box_every_direction_is_wall() {
+    let points = room(20_000, true);
+    for options in ways() {
+        let panorama = seen(&points, INSIDE, &options);
+        close(panorama.solid_angle, 4.0 * PI, 1e-9);
+        assert!(panorama.sky_view_factor < 1e-9);
+        let mut errors = Vec::new();
+        for (pixel, &range) in panorama.ranges.iter().enumerate() {
+            let d = direction(pixel);
+            let wall = |axis: usize| {
+                let wall = HALF[axis].copysign(d[axis]) - INSIDE[axis];
+                if d[axis] == 0.0 {
+                    f64::INFINITY
+                } else {
+                    wall / d[axis]
+                }
+            };
+            let expected = wall(0).min(wall(1)).min(wall(2));
+            errors.push((f64::from(range) / expected - 1.0).abs());
+
+            // Its point is within some spacings of where the ray ends.
+            let point = points[panorama.indices[pixel] as usize];
+            let beside = (0..3).map(|axis| INSIDE[axis] + expected * d[axis] - point[axis]);
+            assert!(beside.map(|x| x * x).sum::<f64>() < 0.4 * 0.4);
+        }
+        errors.sort_by(f64::total_cmp);
+        // Only the triangles that cut an edge of the room are off.
+        assert!(errors[errors.len() / 2] < 1e-6, "{errors:?}");
+        assert!(errors[errors.len() * 99 / 100] < 0.01);
+        assert!(errors[errors.len() - 1] < 0.1);
+    }
+}
+
+#[test]
+fn an_open_box_shows_the_sky() {
+    // A rectangle of x by y seen from below its corner.
+    let h = HALF[2] - INSIDE[2];
+    let corners = [-1.0, 1.0].map(|x| [-1.0, 1.0].map(|y| [x, y]));
+    let (mut factor, mut solid_angle) = (0.0, 4.0 * PI);
+    for [x, y] in corners.into_iter().flatten() {
+        let (x, y) = ((HALF[0] - x * INSIDE[0]) / h, (HALF[1] - y * INSIDE[1]) / h);
+        let (a, b) = ((1.0 + x * x).sqrt(), (1.0 + y * y).sqrt());
+        factor += (x / a * (y / a).atan() + y / b * (x / b).atan()) / TAU;
+        solid_angle -= (x * y / (1.0 + x * x + y * y).sqrt()).atan();
+    }
+    for options in ways() {
+        let panorama = seen(&room(20_000, false), INSIDE, &options);
+        close(panorama.sky_view_factor, factor, 0.01);
+        close(panorama.solid_angle, solid_angle, 0.01);
+        close(covered(&panorama), panorama.solid_angle, 0.005);
+        assert_eq!(panorama.indices[0], Panorama::SKY);
+        assert_eq!(panorama.ranges[0], f32::INFINITY);
+    }
+}
+
+#[test]
+fn a_dome_covers_half_of_the_sphere() {
+    for options in ways() {
+        for (side, factor) in [(1.0, 0.0), (-1.0, 1.0)] {
+            let panorama = seen(&dome(20_000, 5.0, side), [0.0; 3], &options);
+            close(panorama.solid_angle, TAU, 0.01);
+            assert!((panorama.sky_view_factor - factor).abs() < 0.001);
+            let pixels = panorama.ranges.iter().zip(&panorama.indices);
+            for (pixel, (&range, &index)) in pixels.enumerate() {
+                let is_surface = index != Panorama::SKY;
+                let height = side * direction(pixel)[2];
+                assert_eq!(is_surface, range < f32::INFINITY);
+                assert!(is_surface || height < 0.06, "{pixel}");
+                assert!(!is_surface || height > 0.0, "{pixel}");
+                assert!(
+                    !is_surface || (range - 5.0).abs() < 0.05,
+                    "{pixel}: {range}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_wall_has_its_solid_angle() {
+    let mut rng = Rng::new(9);
+    let mut point = |_| [3.0, 4.0 * rng.unit() - 2.0, 2.5 * rng.unit() - 1.0];
+    let points: Vec<_> = (0..20_000).map(&mut point).collect();
+    let part = |y: f64, z: f64| (y * z / (3.0 * (y * y + z * z + 9.0).sqrt())).atan();
+    let expected = 2.0 * part(2.0, 1.0) + 2.0 * part(2.0, 1.5);
+    for options in ways() {
+        let panorama = seen(&points, [0.0; 3], &options);
+        close(panorama.solid_angle, expected, 0.01);
+        close(covered(&panorama), expected, 0.02);
+        // Column 0 looks at it.
+        let middle = SIZE.width * SIZE.height / 2;
+        assert!((panorama.ranges[middle] - 3.0).abs() < 0.01);
+    }
+}
+
+#[test]
+fn eight_corners_are_a_closed_box() {
+    let corner = |k: u32| [0, 1, 2].map(|axis| if k >> axis & 1 == 1 { 1.0 } else { -1.0 });
+    let points: Vec<_> = (0..8).map(corner).collect();
+    let panorama = seen(&points, [0.0; 3], &Options::default());
+    close(panorama.solid_angle, 4.0 * PI, 1e-12);
+    assert!(!panorama.indices.contains(&Panorama::SKY));
+    close(
+        f64::from(panorama.ranges[SIZE.width * SIZE.height / 2]),
+        1.0,
+        1e-3,
+    );
+}
+
+#[test]
+fn a_point_alone_in_the_sky_does_not_close_it() {
+    let mut points = room(20_000, false);
+    let before = seen(&points, INSIDE, &Options::default());
+    points.push([0.7, 0.1, 6.0]);
+    let after = seen(&points, INSIDE, &Options::default());
+    close(after.sky_view_factor, before.sky_view_factor, 0.005);
+}
+
+#[test]
+fn the_axes_may_change_places() {
+    let points = room(5000, false);
+    let usual = seen(&points, INSIDE, &Options::default());
+    // With +x up, column 0 looks along +y.
+    let turned: Vec<_> = points.iter().map(|&[x, y, z]| [z, x, y]).collect();
+    let [x, y, z] = INSIDE;
+    let up = [7.0, 0.0, 0.0];
+    let cloud = PointCloud::new(&turned).unwrap();
+    let options = Options::default();
+    let found = cloud
+        .panorama([z, x, y], &options, &PanoramaOptions { up, ..SIZE })
+        .unwrap();
+    close(found.sky_view_factor, usual.sky_view_factor, 1e-9);
+    close(found.solid_angle, usual.solid_angle, 1e-9);
+    let same = |(a, b): (&u32, &u32)| a == b;
+    let pixels = found.indices.iter().zip(&usual.indices);
+    assert!(pixels.filter(|&pair| same(pair)).count() > SIZE.width * SIZE.height * 999 / 1000);
+
+    // A tilt moves the horizon, but no area of the sphere.
+    let up = [0.3, 0.2, 1.0];
+    let tilted = PointCloud::new(&points).unwrap();
+    let tilted = tilted
+        .panorama(INSIDE, &options, &PanoramaOptions { up, ..SIZE })
+        .unwrap();
+    close(tilted.solid_angle, usual.solid_angle, 1e-12);
+    close(covered(&tilted), usual.solid_angle, 0.005);
+    assert!(tilted.sky_view_factor < usual.sky_view_factor - 0.01);
+}
+
+#[test]
+fn neither_order_nor_duplicates_nor_units_change_it() {
+    let points = room(3000, false);
+    let usual = seen(&points, INSIDE, &Options::default());
+    let count = points.len() as u32;
+    let mut turned: Vec<_> = points.iter().rev().copied().collect();
+    turned.extend_from_slice(&points[..500]);
+    let found = seen(&turned, INSIDE, &Options::default());
+    assert_eq!(found.ranges, usual.ranges);
+    assert_eq!(found.solid_angle, usual.solid_angle);
+    for (&index, &before) in found.indices.iter().zip(&usual.indices) {
+        // The lowest of equal points.
+        let expected = if before == Panorama::SKY {
+            before
+        } else {
+            count - 1 - before
+        };
+        assert_eq!(index, expected);
+    }
+    for unit in [2f64.powi(-90), 2f64.powi(90)] {
+        let scaled: Vec<_> = points.iter().map(|p| p.map(|x| x * unit)).collect();
+        let found = seen(&scaled, INSIDE.map(|x| x * unit), &Options::default());
+        assert_eq!(found.indices, usual.indices);
+        assert_eq!(found.sky_view_factor, usual.sky_view_factor);
+    }
+}
+
+#[test]
+fn few_points_are_no_surface() {
+    let flat: Vec<_> = (0..50).map(|i| [f64::from(i), 3.0, 0.0]).collect();
+    let few: [&[[f64; 3]]; 5] = [
+        &[],
+        &[[0.0; 3]],
+        &[[1.0, 0.0, 0.0]],
+        &[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [2.0, 0.0, 0.0]],
+        &flat,
+    ];
+    for points in few {
+        for options in ways() {
+            let panorama = seen(points, [0.0; 3], &options);
+            assert!(panorama.indices.iter().all(|&index| index == Panorama::SKY));
+            assert_eq!((panorama.sky_view_factor, panorama.solid_angle), (1.0, 0.0));
+        }
+    }
+}
+
+#[test]
+fn what_has_no_panorama_is_refused() {
+    let cloud = PointCloud::new(&room(100, true)).unwrap();
+    let ask = |options: &Options, size: &PanoramaOptions, from: [f64; 3]| {
+        cloud.panorama(from, options, size).unwrap_err()
+    };
+    let usual = Options::default();
+    for size in [0, 16_385] {
+        for size in [
+            PanoramaOptions {
+                width: size,
+                ..SIZE
+            },
+            PanoramaOptions {
+                height: size,
+                ..SIZE
+            },
+        ] {
+            assert!(matches!(
+                ask(&usual, &size, INSIDE),
+                Error::OutOfRange { .. }
+            ));
+        }
+    }
+    for up in [[0.0; 3], [f64::NAN, 0.0, 1.0]] {
+        let size = PanoramaOptions { up, ..SIZE };
+        assert!(matches!(
+            ask(&usual, &size, INSIDE),
+            Error::Direction { .. }
+        ));
+    }
+    let refused = ask(&usual, &SIZE, [f64::INFINITY, 0.0, 0.0]);
+    assert!(matches!(refused, Error::Viewpoint { .. }));
+    let draft = Options {
+        draft: true,
+        ..usual
+    };
+    let scores = Options {
+        scores: true,
+        ..ways()[2]
+    };
+    for options in [draft, scores] {
+        assert!(matches!(
+            ask(&options, &SIZE, INSIDE),
+            Error::Excludes { .. }
+        ));
+    }
+}

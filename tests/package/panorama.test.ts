@@ -1,0 +1,99 @@
+import { expect, it } from "vitest";
+
+import { randomNumbers, readyPackage } from "./support";
+
+const { PointCloud, WorkerPointCloud } = await readyPackage();
+
+const SKY = 2 ** 32 - 1;
+const size = { width: 128, height: 64 };
+
+/** Points on a hemisphere of radius 5 above the origin. */
+function dome(count: number): Float32Array {
+  const random = randomNumbers(1);
+  const points = Array.from({ length: count }, () => {
+    const [z, turn] = [random(), 2 * Math.PI * random()];
+    const across = 5 * Math.sqrt(1 - z * z);
+    return [across * Math.cos(turn), across * Math.sin(turn), 5 * z];
+  });
+  return Float32Array.from(points.flat());
+}
+
+const positions = dome(10_000);
+const cloud = new PointCloud(positions);
+
+it("gives ranges, points and areas of a dome", () => {
+  for (const options of [{}, { looks: 3 as const }, { inversion: { exponential: "auto" as const } }]) {
+    const { ranges, indices, skyViewFactor, solidAngle } = cloud.panorama([0, 0, 0], { ...size, ...options });
+    expect([ranges.length, indices.length]).toEqual([128 * 64, 128 * 64]);
+    expect(Math.abs(solidAngle / (2 * Math.PI) - 1)).toBeLessThan(0.01);
+    expect(skyViewFactor).toBeLessThan(0.001);
+    ranges.forEach((range, pixel) => {
+      const isSky = indices[pixel] === SKY;
+      expect(range === Infinity).toBe(isSky);
+      if (pixel < 128 * 30) expect(Math.abs(range - 5)).toBeLessThan(0.05);
+      if (pixel >= 128 * 32) expect(isSky).toBe(true);
+    });
+    // Column 0 looks along +x, a quarter of the width later it is +y.
+    const [x, y] = [0, 32].map((column) => indices[20 * 128 + column]!);
+    expect(positions[3 * x!]! / 5).toBeGreaterThan(0.7);
+    expect(positions[3 * y! + 1]! / 5).toBeGreaterThan(0.7);
+  }
+});
+
+it("looks up where it is told", () => {
+  const { skyViewFactor, indices } = cloud.panorama([0, 0, 0], { ...size, up: [0, 0, -3] });
+  expect(skyViewFactor).toBeGreaterThan(0.999);
+  expect([indices[0], indices.at(-1) === SKY]).toEqual([SKY, false]);
+});
+
+it("takes parts, and the answers of workers are the same", async () => {
+  const worker = await WorkerPointCloud.create(positions, { workers: 2 });
+  const mask = Uint8Array.from({ length: 10_000 }, (_, i) => i % 2);
+  for (const options of [{}, { looks: 2 as const }, { within: { mask } }, { sample: 2000 }, { denoise: 8, vote: 6 }]) {
+    const asked = { ...size, ...options };
+    const here = cloud.panorama([1, 0.5, 0.2], asked);
+    expect(await worker.panorama([1, 0.5, 0.2], asked)).toEqual(here);
+    if ("within" in options) expect(here.indices.every((index) => index === SKY || index % 2 === 1)).toBe(true);
+  }
+  await expect(worker.panorama([0, 0, 0], { ...size, width: 0 })).rejects.toMatchObject({ code: "option" });
+  await worker.dispose();
+});
+
+it("is the same after other questions", () => {
+  const asked = { ...size, looks: 3 as const };
+  const first = cloud.panorama([1, 0.5, 0.2], asked);
+  cloud.visibleFrom([1, 0.5, 0.2], { draft: true });
+  cloud.visibilityMap([0, 0, 9]);
+  expect(cloud.panorama([1, 0.5, 0.2], asked)).toEqual(first);
+});
+
+it("refuses what has no panorama", () => {
+  const refused = (options: object, at: unknown = [0, 0, 0], of = cloud) => {
+    try {
+      of.panorama(at as number[], options as never);
+    } catch (error) {
+      return (error as { code: string }).code;
+    }
+    return "no error";
+  };
+  const wrong = [
+    {},
+    { width: 8 },
+    { height: 8 },
+    { ...size, width: 0 },
+    { ...size, width: 16_385 },
+    { ...size, height: 1.5 },
+    { ...size, height: "8" },
+    { ...size, draft: true },
+    { ...size, looks: 3, scores: true },
+    { ...size, size: 1 },
+  ];
+  for (const options of wrong) expect([options, refused(options)]).toEqual([options, "option"]);
+  for (const up of [[0, 0, 0], [1, 2], [NaN, 0, 1], "z"]) expect(refused({ ...size, up })).toBe("viewpoint");
+  expect(refused(size, [NaN, 0, 0])).toBe("viewpoint");
+  expect(refused(size, [0, 0])).toBe("viewpoint");
+  expect(refused({ ...size, radius: 1 })).toBe("radius");
+  const flat = new PointCloud([1, 2, 3, 4], { dimension: 2 });
+  expect(refused(size, [0, 0], flat as never)).toBe("option");
+  flat.dispose();
+});
