@@ -49,7 +49,9 @@ describe("the formats", () => {
     for (const damaged of [
       packed.subarray(0, -9),
       packed.subarray(0, 12),
-      changed(packed, (view) => view.setUint8(15, 0xff)),
+      changed(packed, (view) => {
+        view.setUint8(15, 0xff);
+      }),
     ]) {
       expect(await refused(damaged)).toMatch(/^load: .*it is packed with gzip, and the packing is damaged/);
     }
