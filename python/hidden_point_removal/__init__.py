@@ -49,10 +49,14 @@ __all__ = [
 __version__ = "0.1.0"
 
 
-def hidden_point_removal(points, camera_location, radius):
+def hidden_point_removal(points, camera_location, radius=None):
     """The indices of the visible points, ascending: uint32.
 
-    The arguments are those of Open3D's method of the same name. `points` has the shape (n, 3), `radius` is the
-    radius of the flipping sphere in the units of the points. It is at least the distance of the farthest point.
+    points: array of shape (n, 3), or an Open3D point cloud: whatever `PointCloud` takes.
+    camera_location: 3 numbers, in the units of the points.
+    radius: float, the radius of the flipping sphere in the same units, at least the distance of the farthest point.
+        None (default): chosen automatically.
+
+    The arguments are those of Open3D's method of the same name.
     """
     return PointCloud(points).visible_from(camera_location, radius=radius).indices

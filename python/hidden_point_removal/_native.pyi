@@ -1,5 +1,5 @@
 from collections.abc import Iterable, Sequence
-from typing import Literal, TypedDict
+from typing import Any, Literal, Protocol, TypedDict
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -175,18 +175,27 @@ class VisibilityMap:
     @property
     def uniforms(self) -> dict[str, tuple[float, ...]]:
         """The numbers of the shader: `hprViewpoint` and `hprMargins`."""
-    def hides(self, positions: ArrayLike) -> NDArray[np.bool_]:
+    def hides(self, positions: Positions) -> NDArray[np.bool_]:
         """Which places are certainly hidden."""
+
+class HasPoints(Protocol):
+    """A cloud of another library, such as Open3D's."""
+
+    @property
+    def points(self) -> Any: ...
+
+Positions = ArrayLike | HasPoints
 
 class PointCloud:
     """A point cloud, prepared for visibility queries.
 
-    `positions` has the shape (n, 3), in any units. Arrays of float32 and float64 are read without a copy. Other
+    `positions` has the shape (n, 3), in any units; of more columns, the first three count. It may also be a tensor, or
+    a cloud with its array as `points`. Arrays of float32 and float64 are read without a copy. Other
     numbers are converted to float64. With `non_finite="skip"`, points that are not finite keep their index and are
     never visible. A masked coordinate of a masked array counts as not finite.
     """
 
-    def __init__(self, positions: ArrayLike, non_finite: Literal["error", "skip"] = "error") -> None: ...
+    def __init__(self, positions: Positions, non_finite: Literal["error", "skip"] = "error") -> None: ...
     def __len__(self) -> int: ...
     @property
     def skipped(self) -> int:
@@ -209,7 +218,7 @@ class PointCloud:
         """The points that at least `k` of the viewpoints see."""
     def visible_from_camera(self, camera: Camera, **options: Unpack[Options]) -> Visibility:
         """The points that a camera sees: `visible_from` its place, cut to its image, with `pixels` and `depths`."""
-    def sees(self, viewpoint: ArrayLike, positions: ArrayLike, **options: Unpack[Options]) -> NDArray[np.bool_]:
+    def sees(self, viewpoint: ArrayLike, positions: Positions, **options: Unpack[Options]) -> NDArray[np.bool_]:
         """For points that are not in the cloud: whether each would be visible if it were added alone."""
     def coverage(self, viewpoints: Iterable[Seat], **options: Unpack[Options]) -> NDArray[np.uint32]:
         """How many of the viewpoints see each index."""
@@ -260,7 +269,7 @@ class PointCloud:
         **options: Unpack[Options],
     ) -> NDArray[np.float32]:
         """The brightness of each index, from 0 to 1."""
-    def append(self, positions: ArrayLike) -> None:
+    def append(self, positions: Positions) -> None:
         """Adds points, which take the next indices."""
     def remove(self, indices: ArrayLike) -> None:
         """Removes points. Their indices are never given again."""
@@ -272,9 +281,9 @@ class Horizon:
     """
 
     def __init__(self, viewpoint: ArrayLike, **options: Unpack[MergeOptions]) -> None: ...
-    def add(self, positions: ArrayLike) -> None:
+    def add(self, positions: Positions) -> None:
         """Adds points."""
-    def screen(self, positions: ArrayLike) -> NDArray[np.uint32]:
+    def screen(self, positions: Positions) -> NDArray[np.uint32]:
         """The numbers of the points that the horizon does not hide, ascending."""
     def hides_box(self, min: ArrayLike, max: ArrayLike) -> bool:
         """Whether every point in a box is certainly hidden."""

@@ -2,11 +2,11 @@
 
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PySlice};
 
 use crate::failure::problem;
 
-/// Positions: (n, 3), in single or double precision, row after row in memory.
+/// Positions: (n, 3), in single or double precision, row after row in memory. Of more columns, the first three count.
 #[derive(FromPyObject)]
 pub enum Positions<'py> {
     Single(PyReadonlyArray2<'py, f32>),
@@ -34,6 +34,7 @@ impl<'py> Positions<'py> {
     /// Reads an argument. Arrays of other numbers, or with gaps in memory, are converted.
     pub fn read(argument: &Bound<'py, PyAny>, name: &str) -> PyResult<Self> {
         let py = argument.py();
+        let argument = &array_of(argument)?;
         let wrong = |message: &str| problem(py, "positions-type", format!("{name} {message}"));
         let numpy = py.import("numpy")?;
         let array = numpy
@@ -56,9 +57,15 @@ impl<'py> Positions<'py> {
         let shape: Vec<usize> = array.getattr("shape")?.extract()?;
         let array = match shape[..] {
             [_, 3] => array,
+            // So many columns are points side by side, and not columns of a scan.
+            [rows, columns] if columns > 3 && columns <= rows.max(64) => {
+                let [all, first] = [PySlice::full(py), PySlice::new(py, 0, 3, 1)];
+                array.get_item((all, first))?
+            }
             [0] => array.call_method1("reshape", ((0, 3),))?,
             _ => {
-                let message = format!("{name} must have the shape (n, 3), got {shape:?}");
+                let message =
+                    format!("{name} must have the shape (n, 3) or more columns, got {shape:?}");
                 return Err(problem(py, "positions-length", message));
             }
         };
@@ -77,6 +84,19 @@ impl<'py> Positions<'py> {
             Self::Single(array) => Points::Single(rows(array.as_slice().unwrap_or(&[]))),
             Self::Double(array) => Points::Double(rows(array.as_slice().unwrap_or(&[]))),
         }
+    }
+}
+
+/// What NumPy can read: a cloud of another library has its array as `points`, and a tensor as `numpy()`.
+fn array_of<'py>(argument: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
+    if argument.hasattr("__array__")? {
+        Ok(argument.clone())
+    } else if argument.hasattr("points")? {
+        argument.getattr("points")
+    } else if argument.hasattr("numpy")? {
+        argument.call_method0("numpy")
+    } else {
+        Ok(argument.clone())
     }
 }
 

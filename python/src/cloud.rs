@@ -22,8 +22,10 @@ use crate::visibility::{Visibility, warn_if_inverted};
 
 /// A point cloud, prepared for visibility queries.
 ///
-/// positions: array of float32 or float64, shape (n, 3), in any units. Arrays that are contiguous are read without a
-///     copy. Other numbers are converted to float64. A masked coordinate counts as not finite.
+/// positions: array of float32 or float64, shape (n, 3), in any units. Of more columns, the first three count. Also a
+///     tensor in main memory, or a cloud of another library that has its array as `points`, such as Open3D's. Arrays that
+///     are contiguous are read without a copy. Other numbers are converted to float64. A masked coordinate counts as not
+///     finite.
 /// non_finite: "error" (default) refuses NaN and infinity. With "skip", such points keep their index and are never
 ///     visible.
 ///
