@@ -7,6 +7,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ._native import Visibility
+
 
 class Calibration(NamedTuple):
     """How a cloud is to be asked, so that its scanners see the points that they measured."""
@@ -35,3 +37,8 @@ class SeenBy(NamedTuple):
     """Where the camera shows the point, x and y: shape (entries, 2)."""
     towards: NDArray[np.float32]
     """The direction of length 1 from the point to the camera: shape (entries, 3)."""
+
+
+def restored(*state):
+    """A `Visibility` that was pickled."""
+    return Visibility._restored(*state)

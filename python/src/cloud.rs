@@ -6,7 +6,7 @@ use hidden_point_removal::{
 };
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyType};
 
 use crate::arrays::{Points, Positions, indices as read_indices, numbers, place, places};
 use crate::calibration;
@@ -34,6 +34,7 @@ use crate::visibility::{Visibility, warn_if_inverted};
 #[pyclass(frozen, module = "hidden_point_removal")]
 pub struct PointCloud {
     cloud: Shared<core::PointCloud>,
+    non_finite: &'static str,
 }
 
 impl PointCloud {
@@ -79,14 +80,21 @@ impl PointCloud {
     }
 }
 
+/// What pickle makes a cloud of: the class, its arguments, and the indices to remove.
+type Reduced<'py> = (
+    Bound<'py, PyType>,
+    (Bound<'py, PyAny>, &'static str),
+    Bound<'py, PyArray1<u32>>,
+);
+
 #[pymethods]
 impl PointCloud {
     #[new]
     #[pyo3(signature = (positions, non_finite="error"))]
     fn new(py: Python<'_>, positions: &Bound<'_, PyAny>, non_finite: &str) -> PyResult<Self> {
-        let choice = match non_finite {
-            "error" => NonFinite::Error,
-            "skip" => NonFinite::Skip,
+        let (choice, non_finite) = match non_finite {
+            "error" => (NonFinite::Error, "error"),
+            "skip" => (NonFinite::Skip, "skip"),
             other => {
                 let message = format!(r#"non_finite must be "error" or "skip", got {other:?}"#);
                 return Err(option(py, message));
@@ -101,6 +109,7 @@ impl PointCloud {
         let cloud = made.map_err(|error| refused(py, error))?;
         Ok(Self {
             cloud: Shared::new(cloud),
+            non_finite,
         })
     }
 
@@ -558,6 +567,46 @@ impl PointCloud {
     fn remove(&self, py: Python<'_>, indices: &Bound<'_, PyAny>) -> PyResult<()> {
         let removed = read_indices(indices, "indices")?;
         self.cloud.change(py, |cloud| cloud.remove(&removed))
+    }
+
+    /// For pickle and copy: the arguments of a new cloud, and the indices to remove from it.
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
+        let (py, own) = (slf.py(), slf.get());
+        let (positions, is_single, mut skipped) = own.ask(py, None, |cloud| {
+            Ok((cloud.positions()?, cloud.is_single(), cloud.skipped()))
+        })?;
+        let mut removed = Vec::new();
+        // A removed point needs some place; that of another point changes nothing.
+        let other = positions
+            .iter()
+            .flatten()
+            .next()
+            .copied()
+            .unwrap_or_default();
+        let place = |(index, position): (u32, Option<[f64; 3]>)| {
+            position.unwrap_or_else(|| {
+                if skipped > 0 {
+                    skipped -= 1;
+                    return [f64::NAN; 3];
+                }
+                removed.push(index);
+                other
+            })
+        };
+        let rows: Vec<[f64; 3]> = (0..).zip(positions).map(place).collect();
+        let count = rows.len();
+        let positions = rows.into_flattened().into_pyarray(py).reshape([count, 3])?;
+        let precision = if is_single { "float32" } else { "float64" };
+        let positions = positions.call_method1("astype", (precision,))?;
+        Ok((
+            slf.get_type(),
+            (positions, own.non_finite),
+            removed.into_pyarray(py),
+        ))
+    }
+
+    fn __setstate__(&self, py: Python<'_>, removed: &Bound<'_, PyAny>) -> PyResult<()> {
+        self.remove(py, removed)
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {

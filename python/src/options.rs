@@ -217,7 +217,8 @@ pub fn radius(py: Python<'_>, name: &str, value: &Bound<'_, PyAny>) -> PyResult<
     }
 }
 
-fn inversion(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<Inversion> {
+/// Reads an inversion.
+pub fn inversion(py: Python<'_>, value: &Bound<'_, PyAny>) -> PyResult<Inversion> {
     if value
         .extract::<String>()
         .is_ok_and(|word| word == "spherical")

@@ -4,7 +4,10 @@ use hidden_point_removal as core;
 use hidden_point_removal::{Exponential, Inversion};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyTuple};
+
+use crate::failure::option;
+use crate::options;
 
 const INVERTED: &std::ffi::CStr = c"next to no points are in this image, but many are in that of the inverse pose: is it camera_to_world or world_to_camera?";
 
@@ -81,6 +84,7 @@ pub fn warn_if_inverted(py: Python<'_>, view: &core::CameraView) -> PyResult<()>
 }
 
 #[pymethods]
+#[expect(clippy::too_many_arguments, reason = "they are the fields")]
 impl Visibility {
     /// How many points are visible.
     #[getter]
@@ -110,6 +114,67 @@ impl Visibility {
     fn mask<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<bool>> {
         let mask: Vec<bool> = self.mask.iter().map(|&byte| byte == 1).collect();
         mask.into_pyarray(py)
+    }
+
+    /// For pickle and copy.
+    fn __reduce__<'py>(
+        &self,
+        py: Python<'py>,
+    ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyTuple>)> {
+        let state = (
+            &self.indices,
+            &self.scores,
+            (self.radius, self.exponent, self.evaluations, self.exact),
+            &self.pixels,
+            &self.depths,
+            self.inversion(py)?,
+            self.mask.len(),
+        );
+        let answers = py.import("hidden_point_removal.answers")?;
+        Ok((answers.getattr("restored")?, state.into_pyobject(py)?))
+    }
+
+    #[staticmethod]
+    fn _restored(
+        py: Python<'_>,
+        indices: Py<PyArray1<u32>>,
+        scores: Option<Py<PyArray1<f32>>>,
+        numbers: (f64, f64, u32, bool),
+        pixels: Option<Py<PyArray2<f32>>>,
+        depths: Option<Py<PyArray1<f32>>>,
+        inversion: &Bound<'_, PyAny>,
+        length: usize,
+    ) -> PyResult<Self> {
+        let (radius, exponent, evaluations, exact) = numbers;
+        let looks: Vec<f64> = match inversion.cast::<PyDict>() {
+            Ok(entries) => {
+                (entries.get_item("looks")?).map_or(Ok(Vec::new()), |looks| looks.extract())?
+            }
+            Err(_) => Vec::new(),
+        };
+        let inversion = if looks.is_empty() {
+            options::inversion(py, inversion)?
+        } else {
+            Inversion::Looks(looks.len())
+        };
+        let mut mask = vec![0; length];
+        for &index in indices.bind(py).readonly().as_array() {
+            let marked = mask.get_mut(index as usize);
+            *marked.ok_or_else(|| option(py, format!("index {index} must be below {length}")))? = 1;
+        }
+        Ok(Self {
+            indices,
+            scores,
+            radius,
+            exponent,
+            evaluations,
+            exact,
+            pixels,
+            depths,
+            inversion,
+            looks,
+            mask,
+        })
     }
 
     fn __len__(&self, py: Python<'_>) -> PyResult<usize> {

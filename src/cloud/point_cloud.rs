@@ -11,7 +11,7 @@ use crate::base::error::Error;
 use crate::cloud::blocks::Blocks;
 use crate::cloud::noise::Noise;
 use crate::cloud::part::KeptParts;
-use crate::cloud::points::{Given, Position, checked_len, is_finite};
+use crate::cloud::points::{Given, Points, Position, checked_len, is_finite};
 use crate::cloud::sequence::Sequence;
 use crate::cloud::spatial::{Bounds, HilbertCurve};
 use crate::cloud::statistics::Statistics;
@@ -269,6 +269,26 @@ impl PointCloud {
     #[must_use]
     pub fn skipped(&self) -> usize {
         self.skipped
+    }
+
+    /// The position of each index, in double precision; none for a point that was removed or skipped.
+    ///
+    /// # Errors
+    /// [`Error::OutOfMemory`].
+    pub fn positions(&self) -> Result<Vec<Option<[f64; 3]>>, Error> {
+        let mut positions = filled(self.len, None)?;
+        for (place, point) in self.sequence.points.iter().enumerate() {
+            for &index in self.sequence.indices_of(place) {
+                positions[index as usize] = Some(point);
+            }
+        }
+        Ok(positions)
+    }
+
+    /// Whether the positions are kept in single precision.
+    #[must_use]
+    pub fn is_single(&self) -> bool {
+        matches!(self.sequence.points, Points::Single(_))
     }
 
     /// The mean distance of a point from its 6 nearest other points, in the cloud's units. The

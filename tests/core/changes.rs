@@ -246,3 +246,22 @@ fn a_refused_change_changes_nothing() {
     let options = Options::with_exponent(2.0);
     changed.check([0.1; 3], &options, "refused");
 }
+
+#[test]
+fn positions_are_those_of_the_present_points() {
+    let single = [
+        [1.0f32, 2.0, 3.0],
+        [f32::NAN, 0.0, 0.0],
+        [1.0, 2.0, 3.0],
+        [0.0; 3],
+    ];
+    let mut cloud = PointCloud::with_non_finite(&single, NonFinite::Skip).unwrap();
+    cloud.remove(&[0]).unwrap();
+    let expected = vec![None, None, Some([1.0, 2.0, 3.0]), Some([0.0; 3])];
+    assert_eq!(cloud.positions(), Ok(expected.clone()));
+    assert!(cloud.is_single());
+    cloud.append(&[[0.1, 0.2, 0.3]]).unwrap();
+    let expected = [expected, vec![Some([0.1, 0.2, 0.3])]].concat();
+    assert_eq!(cloud.positions(), Ok(expected));
+    assert!(!cloud.is_single());
+}
