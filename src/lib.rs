@@ -21,8 +21,8 @@
 //! `no_std` builds give the same bits.
 //!
 //! # Features
-//! - `std` (default): the platform's square root. Without it the crate needs
-//!   only `alloc`; answers are the same.
+//! - `std` (default): threads, and the platform's square root. Without it the
+//!   crate needs only `alloc`; answers are the same.
 //! - `higher` (default): clouds of four and more dimensions.
 //! - `wasm`: the JavaScript bindings of the npm package; not a Rust API. `lite`: those of its small
 //!   module, which holds the operator alone.
@@ -53,6 +53,8 @@ pub use answers::observer::Observer;
 pub use answers::panorama::{Panorama, PanoramaOptions};
 pub use answers::reconstruct::Reconstruction;
 pub use answers::share::{Share, share_visible};
+#[cfg(feature = "std")]
+pub use answers::threads::Threads;
 pub use answers::union::ring_of_viewpoints;
 pub use answers::visibility::Visibility;
 pub use answers::visibility_map::{MapOptions, VisibilityMap};

@@ -52,9 +52,19 @@ impl PointCloud {
         camera: &Camera,
         options: &Options,
     ) -> Result<CameraView, Error> {
+        self.visible_from_camera_by(1, camera, options)
+    }
+
+    /// [`PointCloud::visible_from_camera`] with so many threads.
+    pub(crate) fn visible_from_camera_by(
+        &self,
+        threads: usize,
+        camera: &Camera,
+        options: &Options,
+    ) -> Result<CameraView, Error> {
         // The camera is checked first.
         self.shown(camera, &[])?;
-        let seen = self.visible_from(camera.position(), options)?;
+        let seen = self.visible_from_by(threads, camera.position(), options)?;
         let shown = self.shown(camera, seen.indices())?;
         let inside = || {
             seen.indices()

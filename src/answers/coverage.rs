@@ -48,14 +48,24 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::Excludes`] for drafts and scores; [`Error::Camera`]; otherwise as [`PointCloud::visible_from`].
-    pub fn coverage<S: Copy + Into<Seat>>(
+    pub fn coverage<S: Copy + Into<Seat> + Sync>(
         &self,
+        viewpoints: &[S],
+        options: &Options,
+    ) -> Result<Vec<u32>, Error> {
+        self.coverage_by(1, viewpoints, options)
+    }
+
+    /// [`PointCloud::coverage`] with so many threads.
+    pub(crate) fn coverage_by<S: Copy + Into<Seat> + Sync>(
+        &self,
+        threads: usize,
         viewpoints: &[S],
         options: &Options,
     ) -> Result<Vec<u32>, Error> {
         let mut counts: Vec<u32> = filled(self.len(), 0)?;
         options.check(QuestionKind::Coverage)?;
-        self.each_view(viewpoints, options, &mut |_, seen| {
+        self.each_view(threads, viewpoints, options, &mut |_, seen| {
             let indices = seen.indices().iter();
             indices.for_each(|&index| counts[index as usize] += 1);
         })?;
@@ -84,8 +94,19 @@ impl PointCloud {
     ///
     /// # Errors
     /// [`Error::OutOfRange`] for the numbers of `placing`; otherwise as [`PointCloud::coverage`].
-    pub fn place_viewpoints<S: Copy + Into<Seat>>(
+    pub fn place_viewpoints<S: Copy + Into<Seat> + Sync>(
         &self,
+        candidates: &[S],
+        options: &Options,
+        placing: &Placing,
+    ) -> Result<Placement, Error> {
+        self.place_viewpoints_by(1, candidates, options, placing)
+    }
+
+    /// [`PointCloud::place_viewpoints`] with so many threads.
+    pub(crate) fn place_viewpoints_by<S: Copy + Into<Seat> + Sync>(
+        &self,
+        threads: usize,
         candidates: &[S],
         options: &Options,
         placing: &Placing,
@@ -114,7 +135,7 @@ impl PointCloud {
         let mut gains: Vec<f64> = filled(candidates.len(), 0.0)?;
         let mut seen_by_any: Vec<bool> = filled(self.len(), false)?;
         options.check(QuestionKind::PlaceViewpoints)?;
-        self.each_view(candidates, options, &mut |number, seen| {
+        self.each_view(threads, candidates, options, &mut |number, seen| {
             let indices = seen.indices();
             gains[number] = indices.iter().fold(0.0, |sum, &index| sum + weight(index));
             for &index in indices {
@@ -125,6 +146,8 @@ impl PointCloud {
         let mut seen: Vec<bool> = filled(self.len(), false)?;
         let mut measured: Vec<usize> = filled(candidates.len(), 0)?;
         let mut placement = Placement::default();
+        // The indices that some candidates see.
+        let mut views: Vec<(usize, Vec<u32>)> = Vec::new();
         while placement.chosen.len() < count {
             // With a share of 1, the choice ends when nothing is gained: sums in another order may
             // differ.
@@ -134,10 +157,13 @@ impl PointCloud {
             let Some(best) = highest(&gains) else {
                 break;
             };
-            let mut view = Vec::new();
-            self.each_view(&candidates[best..=best], options, &mut |_, seen| {
-                view = seen.into_indices();
-            })?;
+            if views.iter().all(|(number, _)| *number != best) {
+                let asked = highest_of(&gains, threads)?;
+                views = self.views_of(threads, &asked, candidates, options)?;
+            }
+            let Some((_, view)) = views.iter().find(|(number, _)| *number == best) else {
+                break;
+            };
             // Sums run over ascending indices, so rounding keeps their order, too.
             if measured[best] < placement.chosen.len() {
                 let new = view.iter().filter(|&&index| !seen[index as usize]);
@@ -147,7 +173,7 @@ impl PointCloud {
                     continue;
                 }
             }
-            for &index in &view {
+            for &index in view {
                 seen[index as usize] = true;
             }
             placement.chosen.push(best);
@@ -158,6 +184,35 @@ impl PointCloud {
         placement.unseen = marked(&seen_by_any, false)?;
         Ok(placement)
     }
+
+    /// The indices that these candidates see, each with its number.
+    fn views_of<S: Copy + Into<Seat> + Sync>(
+        &self,
+        threads: usize,
+        asked: &[usize],
+        candidates: &[S],
+        options: &Options,
+    ) -> Result<Vec<(usize, Vec<u32>)>, Error> {
+        let mut seats: Vec<S> = with_capacity(asked.len())?;
+        seats.extend(asked.iter().map(|&number| candidates[number]));
+        let mut views = with_capacity(asked.len())?;
+        self.each_view(threads, &seats, options, &mut |at, seen| {
+            views.push((asked[at], seen.into_indices()));
+        })?;
+        Ok(views)
+    }
+}
+
+/// The numbers of the `count` highest gains, as far as they are above 0.
+fn highest_of(gains: &[f64], count: usize) -> Result<Vec<usize>, Error> {
+    let mut others: Vec<f64> = with_capacity(gains.len())?;
+    others.extend_from_slice(gains);
+    let mut numbers: Vec<usize> = with_capacity(count.min(gains.len()))?;
+    while let Some(next) = highest(&others).filter(|_| numbers.len() < count) {
+        numbers.push(next);
+        others[next] = 0.0;
+    }
+    Ok(numbers)
 }
 
 /// The lowest number of the highest gain, if that is above 0.

@@ -68,6 +68,17 @@ impl PointCloud {
         options: &Options,
         lighting: &Lighting,
     ) -> Result<Vec<f32>, Error> {
+        self.illuminate_by(1, lights, options, lighting)
+    }
+
+    /// [`PointCloud::illuminate`] with so many threads.
+    pub(crate) fn illuminate_by(
+        &self,
+        threads: usize,
+        lights: &[[f64; 3]],
+        options: &Options,
+        lighting: &Lighting,
+    ) -> Result<Vec<f32>, Error> {
         options.check(QuestionKind::Illuminate)?;
         let ambient = in_range("ambient", lighting.ambient, 0.0, 1.0)?;
         in_range("smoothing", lighting.smoothing as f64, 0.0, MOST_ROUNDS)?;
@@ -78,7 +89,7 @@ impl PointCloud {
         }
 
         let mut brightness = filled(len, 0.0)?;
-        self.each_view(lights, options, &mut |_, seen| {
+        self.each_view(threads, lights, options, &mut |_, seen| {
             for &index in seen.indices() {
                 brightness[index as usize] += 1.0;
             }

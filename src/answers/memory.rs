@@ -22,6 +22,14 @@ pub(crate) struct ViewMemory {
 }
 
 impl ViewMemory {
+    /// A memory that knows only what this one knows of noise.
+    pub(crate) fn sibling(&self) -> Self {
+        Self {
+            survey: self.survey.clone(),
+            ..Self::default()
+        }
+    }
+
     /// Forgets the last view, but keeps the room for hulls.
     pub(crate) fn forget(&mut self) {
         self.hull.forget();

@@ -19,6 +19,8 @@ pub(crate) mod sample;
 pub(crate) mod sector;
 pub(crate) mod sees;
 pub(crate) mod share;
+#[cfg(feature = "std")]
+pub(crate) mod threads;
 pub(crate) mod union;
 pub(crate) mod visibility;
 pub(crate) mod visibility_map;

@@ -9,10 +9,12 @@ use crate::answers::memory::ViewMemory;
 use crate::answers::visibility::Visibility;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::error::Error;
+use crate::base::threads::deal;
 use crate::cloud::part::Step;
 use crate::cloud::point_cloud::PointCloud;
 use crate::cloud::selection::{Region, Within};
 use crate::view::options::Options;
+use crate::view::resolved::looks;
 use crate::view::seat::Seat;
 
 impl PointCloud {
@@ -124,47 +126,59 @@ impl PointCloud {
         )
     }
 
-    /// Passes the view from each seat, with its number. A seat may have its own part.
-    pub(crate) fn each_view<S: Copy + Into<Seat>>(
+    /// Passes the view from each seat, with its number, in any order. A seat may have its own part.
+    /// The threads share the seats, and a view if there are fewer seats.
+    pub(crate) fn each_view<S: Copy + Into<Seat> + Sync>(
         &self,
+        threads: usize,
         seats: &[S],
         options: &Options,
-        pass: &mut dyn FnMut(usize, Visibility),
+        pass: &mut (dyn FnMut(usize, Visibility) + Send),
     ) -> Result<(), Error> {
         for &seat in seats {
             if let Seat::Camera(camera) = seat.into() {
                 camera.lens()?;
             }
         }
+        let count = seats.len();
+        let for_each = threads / count.max(1);
         let mut memory = ViewMemory::default();
-        if options.has_distance() && !seats.is_empty() {
-            for (number, &seat) in seats.iter().enumerate() {
-                let part = self.part(Some(seat.into().position()), options)?;
-                memory.forget();
-                pass(number, self.seen_at(&part, &mut memory, seat, options)?);
+        let part = if options.has_distance() && count > 0 {
+            None
+        } else {
+            let part = self.part(None, options)?;
+            if count == 0 {
+                return part.check_options(options);
             }
-            return Ok(());
-        }
-        let part = self.part(None, options)?;
-        if seats.is_empty() {
-            part.check_options(options)?;
-        }
-        for (number, &seat) in seats.iter().enumerate() {
-            pass(number, self.seen_at(&part, &mut memory, seat, options)?);
-        }
-        Ok(())
+            if looks(options)?.is_some() {
+                // For all threads.
+                memory.survey(&part, options.thickness)?;
+            }
+            Some(part)
+        };
+        let view = |memory: &mut ViewMemory, number: usize| {
+            let seat = seats[number];
+            if let Some(part) = &part {
+                return self.seen_at(part, for_each, memory, seat, options);
+            }
+            let own = self.part(Some(seat.into().position()), options)?;
+            memory.forget();
+            self.seen_at(&own, for_each, memory, seat, options)
+        };
+        deal(threads, count, &|| memory.sibling(), &view, pass)
     }
 
     /// The view of a part of this cloud. Compiled for each kind of seat: what only viewpoints ask for needs no camera.
     fn seen_at<S: Into<Seat>>(
         &self,
         part: &Self,
+        threads: usize,
         memory: &mut ViewMemory,
         seat: S,
         options: &Options,
     ) -> Result<Visibility, Error> {
         let seat = seat.into();
-        let seen = part.seen_from(memory, seat.position(), options)?;
+        let seen = part.seen_by(threads, memory, seat.position(), options)?;
         match seat {
             Seat::Viewpoint(_) => Ok(seen),
             Seat::Camera(camera) => self.in_image(&camera, seen),

@@ -1,13 +1,15 @@
 //! A view divided among several threads or workers. Each thread answers for its own points.
 //! It does not need the others.
 
+use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::answers::memory::ViewMemory;
 use crate::answers::visibility::Visibility;
-use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::error::Error;
 use crate::base::real::square_root;
+use crate::base::threads::{HAS_THREADS, deal};
 use crate::cloud::point_cloud::PointCloud;
 use crate::flip::inversion::Flip;
 use crate::flip::kernel::Kernel;
@@ -88,7 +90,9 @@ impl PointCloud {
         if !options.asks_for_looks() && !options.draft && options.vote.is_none() {
             let view = self.view(viewpoint, options)?;
             if is_divisible(&view) {
-                let division = self.division(viewpoint, view.chosen.radius, sector)?;
+                let radius = view.chosen.radius;
+                let sample = self.seen_sample(viewpoint, radius)?;
+                let division = self.division(viewpoint, radius, &sample, sector)?;
                 let points = &self.sequence.points;
                 let blocks = &self.blocks.levels[0];
                 let hull = &mut memory.hull;
@@ -113,12 +117,40 @@ impl PointCloud {
         self.answer(&[], options, view.chosen, view.inversion)
     }
 
-    fn division(
+    /// The visible points of a view that `threads` threads share, one sector each. `None` if the
+    /// view is not divided.
+    pub(crate) fn marked_by(
         &self,
+        threads: usize,
         viewpoint: [f64; 3],
-        radius: f64,
-        sector: Sector,
-    ) -> Result<Division, OutOfMemory> {
+        view: &View,
+        options: &Options,
+    ) -> Result<Option<Vec<bool>>, OutOfMemory> {
+        let points = &self.sequence.points;
+        let blocks = &self.blocks.levels[0];
+        let count = threads.min(blocks.len() / FEWEST_BLOCKS);
+        if !HAS_THREADS || count < 2 || options.draft || !is_divisible(view) {
+            return Ok(None);
+        }
+        let radius = view.chosen.radius;
+        let sample = self.seen_sample(viewpoint, radius)?;
+        let mut visible = filled(points.len(), false)?;
+        let mark = |memory: &mut Memory, number: usize| -> Result<Vec<bool>, OutOfMemory> {
+            let [number, count] = [number, count].map(|number| number as u32);
+            let division = self.division(viewpoint, radius, &sample, Sector { number, count })?;
+            hull::mark_sector(points, blocks, &view.flip, division, memory)?;
+            Ok(memory.take_visible())
+        };
+        deal(count, count, &Memory::default, &mark, &mut |_, own| {
+            for (visible, own) in visible.iter_mut().zip(own) {
+                *visible |= own;
+            }
+        })?;
+        Ok(Some(visible))
+    }
+
+    /// Which points of a sample are visible. This decides how the work is shared.
+    fn seen_sample(&self, viewpoint: [f64; 3], radius: f64) -> Result<Vec<bool>, OutOfMemory> {
         let mut sample = with_capacity(self.blocks.levels[0].len())?;
         sample.extend(Division::sample(&self.blocks));
         let points = self.sequence.points.gathered(&sample)?;
@@ -135,16 +167,30 @@ impl PointCloud {
         let mut memory = Memory::default();
         let flip = Flip::new(viewpoint, Kernel::Spherical { radius: coarse });
         hull::mark_visible(&points, &[], &flip, &mut memory)?;
+        Ok(memory.take_visible())
+    }
+
+    fn division(
+        &self,
+        viewpoint: [f64; 3],
+        radius: f64,
+        sample: &[bool],
+        sector: Sector,
+    ) -> Result<Division, OutOfMemory> {
         Division::new(
             &self.sequence.points,
             &self.blocks,
-            center,
+            DVec3::from_array(viewpoint),
             radius,
-            memory.visible(),
+            sample,
             sector,
         )
     }
 }
+
+/// The fewest blocks of points for each thread. To start a thread takes as long as to decide about
+/// some hundred points.
+const FEWEST_BLOCKS: usize = 16;
 
 /// Whether bounds of flipped points are known and useful. They are not useful where squares
 /// overflow or underflow, nor where 2R − d keeps too few digits of d.

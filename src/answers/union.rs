@@ -28,12 +28,12 @@ impl PointCloud {
     ///
     /// # Errors
     /// As [`PointCloud::visible_from`]; [`Error::Camera`].
-    pub fn visible_from_any<S: Copy + Into<Seat>>(
+    pub fn visible_from_any<S: Copy + Into<Seat> + Sync>(
         &self,
         viewpoints: &[S],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        self.visible_from_several(1, viewpoints, options)
+        self.visible_from_several(1, 1, viewpoints, options)
     }
 
     /// Which points are visible from at least `k` of `viewpoints`? Otherwise as
@@ -56,38 +56,61 @@ impl PointCloud {
     /// # Errors
     /// [`Error::OutOfRange`] unless 1 ≤ `k` ≤ the number of viewpoints; otherwise as
     /// [`PointCloud::visible_from`].
-    pub fn visible_from_at_least<S: Copy + Into<Seat>>(
+    pub fn visible_from_at_least<S: Copy + Into<Seat> + Sync>(
         &self,
         k: usize,
         viewpoints: &[S],
         options: &Options,
     ) -> Result<Visibility, Error> {
-        in_range("k", k as f64, 1.0, viewpoints.len() as f64)?;
-        self.visible_from_several(k, viewpoints, options)
+        self.visible_from_at_least_by(1, k, viewpoints, options)
     }
 
-    fn visible_from_several<S: Copy + Into<Seat>>(
+    /// [`PointCloud::visible_from_at_least`] with so many threads.
+    pub(crate) fn visible_from_at_least_by<S: Copy + Into<Seat> + Sync>(
         &self,
+        threads: usize,
+        k: usize,
+        viewpoints: &[S],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        in_range("k", k as f64, 1.0, viewpoints.len() as f64)?;
+        self.visible_from_several(threads, k, viewpoints, options)
+    }
+
+    pub(crate) fn visible_from_several<S: Copy + Into<Seat> + Sync>(
+        &self,
+        threads: usize,
         k: usize,
         viewpoints: &[S],
         options: &Options,
     ) -> Result<Visibility, Error> {
         options.check(QuestionKind::Several)?;
         let mut views: Vec<u32> = filled(self.len(), 0)?;
-        let mut joined: Option<Visibility> = None;
-        self.each_view(viewpoints, options, &mut |_, seen| {
+        let mut joined: Option<(usize, Visibility)> = None;
+        let size = |view: &Visibility| (view.radius(), view.scale());
+        self.each_view(threads, viewpoints, options, &mut |number, seen| {
             for &index in seen.indices() {
                 views[index as usize] += 1;
             }
             joined = Some(match joined.take() {
-                // Of equal radii with own points each, the exponent is the last one's.
-                Some(joined) if options.has_distance() => seen.joined(joined),
-                Some(joined) => joined.joined(seen),
-                None => seen,
+                Some((other, joined)) => {
+                    let is_larger = if size(&seen) == size(&joined) {
+                        // Of equal radii the first one's exponent counts; with own points each, the last one's.
+                        (number > other) == options.has_distance()
+                    } else {
+                        size(&seen) > size(&joined)
+                    };
+                    if is_larger {
+                        (number, seen.joined(joined))
+                    } else {
+                        (other, joined.joined(seen))
+                    }
+                }
+                None => (number, seen),
             });
         })?;
         let joined = match joined {
-            Some(joined) => joined,
+            Some((_, joined)) => joined,
             None => self.part(None, options)?.nothing(options)?,
         };
         let is_seen = |&index: &u32| views[index as usize] as usize >= k;

@@ -71,7 +71,7 @@ impl Visibility {
     }
 
     /// The largest scale c of its hulls; 0 where there is none.
-    fn scale(&self) -> f64 {
+    pub(crate) fn scale(&self) -> f64 {
         match self.inversion {
             Inversion::Exponential(Exponential::Scale(scale)) => scale,
             _ => self.looks.first().copied().unwrap_or(0.0),
@@ -205,6 +205,18 @@ impl PointCloud {
         self.visible_from_with(&mut ViewMemory::default(), viewpoint, options)
     }
 
+    /// [`PointCloud::visible_from`] with so many threads.
+    pub(crate) fn visible_from_by(
+        &self,
+        threads: usize,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        options.check(QuestionKind::View)?;
+        let part = self.part(Some(viewpoint), options)?;
+        part.seen_by(threads, &mut ViewMemory::default(), viewpoint, options)
+    }
+
     /// [`PointCloud::visible_from`] with the memory of earlier views.
     pub(crate) fn visible_from_with(
         &self,
@@ -219,9 +231,20 @@ impl PointCloud {
     }
 
     /// The view of all points of this cloud, which takes no step to a part.
-    #[inline(never)]
     pub(crate) fn seen_from(
         &self,
+        memory: &mut ViewMemory,
+        viewpoint: [f64; 3],
+        options: &Options,
+    ) -> Result<Visibility, Error> {
+        self.seen_by(1, memory, viewpoint, options)
+    }
+
+    /// The same with so many threads, which share views that can be divided.
+    #[inline(never)]
+    pub(crate) fn seen_by(
+        &self,
+        threads: usize,
         memory: &mut ViewMemory,
         viewpoint: [f64; 3],
         options: &Options,
@@ -229,26 +252,33 @@ impl PointCloud {
         if let Some(count) = looks(options)? {
             return self.seen_by_looks(memory, Projection::Perspective(viewpoint), count, options);
         }
-        self.seen_by_hull(&mut memory.hull, viewpoint, options)
+        self.seen_by_hull(threads, &mut memory.hull, viewpoint, options)
     }
 
     /// The view of one hull, without options that choose or move points. `memory` holds the last one.
     pub(crate) fn seen_by_hull(
         &self,
+        threads: usize,
         memory: &mut hull::Memory,
         viewpoint: [f64; 3],
         options: &Options,
     ) -> Result<Visibility, Error> {
         let view = self.view(viewpoint, options)?;
-        let points = &self.sequence.points;
-        let blocks = &self.blocks.levels[0];
-        let mark = if FULL && options.draft {
-            hull::mark_draft
-        } else {
-            hull::mark_visible
+        let shared = self.marked_by(threads, viewpoint, &view, options)?;
+        let visible = match &shared {
+            Some(shared) => shared,
+            None => {
+                let points = &self.sequence.points;
+                let blocks = &self.blocks.levels[0];
+                let mark = if FULL && options.draft {
+                    hull::mark_draft
+                } else {
+                    hull::mark_visible
+                };
+                mark(points, blocks, &view.flip, memory)?;
+                memory.visible()
+            }
         };
-        mark(points, blocks, &view.flip, memory)?;
-        let visible = memory.visible();
         match options.vote {
             Some(k) if FULL => {
                 let voted = self.vote(k, visible)?;

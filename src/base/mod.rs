@@ -1,5 +1,5 @@
 //! Tools that do not depend on points: the error type, the limit of a cloud's size, memory
-//! that may be refused, square roots without `std`, and the only sort.
+//! that may be refused, threads, square roots without `std`, and the only sort.
 
 pub(crate) mod allocation;
 pub(crate) mod beat;
@@ -11,3 +11,4 @@ pub(crate) mod limit;
 pub(crate) mod random;
 pub(crate) mod real;
 pub(crate) mod sort;
+pub(crate) mod threads;

@@ -55,6 +55,12 @@ impl Memory {
         &self.visible
     }
 
+    /// The same, which are no longer kept.
+    pub(crate) fn take_visible(&mut self) -> Vec<bool> {
+        self.forget();
+        core::mem::take(&mut self.visible)
+    }
+
     /// Forgets the last view, but keeps the room.
     pub(crate) fn forget(&mut self) {
         self.state = State::Empty;

@@ -38,6 +38,8 @@ mod sees;
 mod share;
 mod survivors;
 mod thin;
+#[cfg(feature = "std")]
+mod threads;
 mod union;
 mod within;
 
