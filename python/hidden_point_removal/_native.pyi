@@ -45,6 +45,8 @@ class Options(TypedDict):
     """Only an even sample of about this many points takes part."""
     within: NotRequired[Within | None]
     """Only these points take part, as if the cloud held no others."""
+    threads: NotRequired[int | None]
+    """How many threads compute, from 1 to 256; they change no answer. Default: all cores from 200,000 points on, else 1."""
 
 class Cone(TypedDict):
     """A cone of directions."""

@@ -2,7 +2,7 @@
 
 use hidden_point_removal as core;
 use hidden_point_removal::{
-    Camera, CameraView, Lighting, NonFinite, Options, PanoramaOptions, Placing,
+    Camera, CameraView, Lighting, NonFinite, Options, PanoramaOptions, Placing, Threads,
 };
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
@@ -13,7 +13,7 @@ use crate::calibration;
 use crate::camera;
 use crate::failure::{option, refused};
 use crate::map::{self, VisibilityMap};
-use crate::options::{self, Asked, refuse_draft_and_scores};
+use crate::options::{self, Asked, How, refuse_draft_and_scores};
 use crate::panorama::Panorama;
 use crate::placement::Placement;
 use crate::seen_by;
@@ -42,12 +42,15 @@ impl PointCloud {
     fn ask<T: Send>(
         &self,
         py: Python<'_>,
-        mask: Option<Vec<bool>>,
-        query: impl Send + FnOnce(&core::PointCloud) -> Result<T, core::Error>,
+        how: How,
+        query: impl Send + FnOnce(Threads<'_>) -> Result<T, core::Error>,
     ) -> PyResult<T> {
-        self.cloud.ask(py, |cloud| match mask {
-            Some(mask) => query(&cloud.masked(&mask)?),
-            None => query(cloud),
+        self.cloud.ask(py, |cloud| {
+            let threads = how.threads.unwrap_or_else(|| default_threads(cloud.len()));
+            match how.mask {
+                Some(mask) => query(cloud.masked(&mask)?.with_threads(threads)?),
+                None => query(cloud.with_threads(threads)?),
+            }
         })
     }
 
@@ -56,9 +59,9 @@ impl PointCloud {
         &self,
         py: Python<'_>,
         cameras: &[Camera],
-        Asked { options, mask }: Asked,
+        Asked { options, how }: Asked,
     ) -> PyResult<Vec<CameraView>> {
-        let views = self.ask(py, mask, |cloud| {
+        let views = self.ask(py, how, |cloud| {
             let view = |camera| cloud.visible_from_camera(camera, &options);
             cameras.iter().map(view).collect::<Result<Vec<_>, _>>()
         })?;
@@ -72,10 +75,10 @@ impl PointCloud {
         &self,
         py: Python<'_>,
         given: Option<&Bound<'_, PyDict>>,
-        query: impl Send + FnOnce(&core::PointCloud, &Options) -> Result<core::Visibility, core::Error>,
+        query: impl Send + FnOnce(Threads<'_>, &Options) -> Result<core::Visibility, core::Error>,
     ) -> PyResult<Visibility> {
-        let Asked { options, mask } = options::read(py, given)?;
-        let seen = self.ask(py, mask, |cloud| query(cloud, &options))?;
+        let Asked { options, how } = options::read(py, given)?;
+        let seen = self.ask(py, how, |cloud| query(cloud, &options))?;
         Ok(Visibility::new(py, seen))
     }
 }
@@ -157,6 +160,8 @@ impl PointCloud {
     /// draft: bool. An early answer: all visible points, and some hidden ones.
     /// sample: int. Only an even sample of about so many points takes part.
     /// within: dict of distance (float), box (two corners) and mask (n truth values). Only these points take part.
+    /// threads: int, from 1 to 256. So many threads compute; they change no answer. Default: all cores from 200,000 points
+    ///     on, else 1.
     ///
     /// An option that is None counts as left out. Returns a `Visibility`. Raises `HprError` with the code "viewpoint",
     /// "radius", "option" or "too-large".
@@ -255,8 +260,8 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Visibility> {
         let camera = camera::read(camera, "camera")?;
-        let Asked { options, mask } = options::read(py, options)?;
-        let view = self.ask(py, mask, |cloud| {
+        let Asked { options, how } = options::read(py, options)?;
+        let view = self.ask(py, how, |cloud| {
             cloud.visible_from_camera(&camera, &options)
         })?;
         Visibility::of_camera(py, view)
@@ -279,10 +284,10 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<bool>>> {
         let viewpoint = place(viewpoint, "viewpoint")?;
-        let Asked { options, mask } = options::read(py, options)?;
+        let Asked { options, how } = options::read(py, options)?;
         let positions = Positions::read(positions, "positions")?;
         let points = positions.points();
-        let seen = self.ask(py, mask, |cloud| match points {
+        let seen = self.ask(py, how, |cloud| match points {
             Points::Single(points) => cloud.sees(viewpoint, points, &options),
             Points::Double(points) => cloud.sees(viewpoint, points, &options),
         })?;
@@ -304,8 +309,8 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<u32>>> {
         let viewpoints = camera::seats(viewpoints, "viewpoints")?;
-        let Asked { options, mask } = options::read(py, options)?;
-        let counts = self.ask(py, mask, |cloud| cloud.coverage(&viewpoints, &options))?;
+        let Asked { options, how } = options::read(py, options)?;
+        let counts = self.ask(py, how, |cloud| cloud.coverage(&viewpoints, &options))?;
         Ok(counts.into_pyarray(py))
     }
 
@@ -329,7 +334,7 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Placement> {
         let candidates = camera::seats(candidates, "candidates")?;
-        let Asked { options, mask } = options::read(py, options)?;
+        let Asked { options, how } = options::read(py, options)?;
         let weights = weights.map(|given| numbers(given, "weights")).transpose()?;
         let wrong = || option(py, "share must be a number".into());
         let placing = Placing {
@@ -341,7 +346,7 @@ impl PointCloud {
                 .transpose()?,
             weights: weights.as_deref(),
         };
-        let placed = self.ask(py, mask, |cloud| {
+        let placed = self.ask(py, how, |cloud| {
             cloud.place_viewpoints(&candidates, &options, &placing)
         })?;
         Ok(Placement::new(py, placed))
@@ -373,8 +378,8 @@ impl PointCloud {
             height: options::count(py, "height", height)?,
             up: up.map_or(Ok([0.0, 0.0, 1.0]), |up| place(up, "direction"))?,
         };
-        let Asked { options, mask } = options::read(py, options)?;
-        let made = self.ask(py, mask, |cloud| cloud.panorama(viewpoint, &options, &size))?;
+        let Asked { options, how } = options::read(py, options)?;
+        let made = self.ask(py, how, |cloud| cloud.panorama(viewpoint, &options, &size))?;
         Panorama::new(py, made, width)
     }
 
@@ -394,7 +399,7 @@ impl PointCloud {
         let viewpoint = place(viewpoint, "viewpoint")?;
         let word = rule.into_pyobject(py)?.into_any();
         let rule = options::radius(py, "radius", &word)?;
-        let chosen = self.ask(py, None, |cloud| cloud.auto_radius(viewpoint, rule))?;
+        let chosen = self.ask(py, How::default(), |cloud| cloud.auto_radius(viewpoint, rule))?;
         Ok((chosen.radius, chosen.exponent, chosen.evaluations))
     }
 
@@ -438,10 +443,10 @@ impl PointCloud {
         if given.get_item("looks")?.is_none_or(|looks| looks.is_none()) {
             given.set_item("looks", 3)?;
         }
-        let Asked { options, mask } = options::read(py, Some(&given))?;
+        let Asked { options, how } = options::read(py, Some(&given))?;
         let spacing = self.spacing(py)?;
-        let found = self.ask(py, mask, |cloud| {
-            calibration::calibrated(cloud, spacing, &stations, &options)
+        let found = self.ask(py, how, |cloud| {
+            calibration::calibrated(&cloud, spacing, &stations, &options)
         })?;
         given.set_item("thickness", found.thickness)?;
         let answers = py.import("hidden_point_removal.answers")?;
@@ -477,8 +482,8 @@ impl PointCloud {
     ) -> PyResult<VisibilityMap> {
         let viewpoint = place(viewpoint, "viewpoint")?;
         let choices = map::choices(py, points, corners, towards, origin)?;
-        let Asked { options, mask } = options::read(py, options)?;
-        let made = self.ask(py, mask, |cloud| {
+        let Asked { options, how } = options::read(py, options)?;
+        let made = self.ask(py, how, |cloud| {
             cloud.visibility_map(viewpoint, &options, &choices)
         })?;
         Ok(VisibilityMap::new(made))
@@ -501,8 +506,8 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<(Visibility, Bound<'py, PyArray2<u32>>)> {
         let viewpoint = place(viewpoint, "viewpoint")?;
-        let Asked { options, mask } = options::read(py, options)?;
-        let made = self.ask(py, mask, |cloud| {
+        let Asked { options, how } = options::read(py, options)?;
+        let made = self.ask(py, how, |cloud| {
             cloud.reconstruct(viewpoint, &options, max_edge)
         })?;
         let count = made.triangles.len();
@@ -533,7 +538,7 @@ impl PointCloud {
         options: Option<&Bound<'_, PyDict>>,
     ) -> PyResult<Bound<'py, PyArray1<f32>>> {
         let lights = places(lights, "lights")?;
-        let Asked { options, mask } = options::read(py, options)?;
+        let Asked { options, how } = options::read(py, options)?;
         let corners = triangles
             .map(|given| corners(given, self.__len__(py)?))
             .transpose()?;
@@ -542,7 +547,7 @@ impl PointCloud {
             smoothing,
             ambient,
         };
-        let brightness = self.ask(py, mask, |cloud| {
+        let brightness = self.ask(py, how, |cloud| {
             cloud.illuminate(&lights, &options, &lighting)
         })?;
         Ok(brightness.into_pyarray(py))
@@ -572,7 +577,7 @@ impl PointCloud {
     /// For pickle and copy: the arguments of a new cloud, and the indices to remove from it.
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<Reduced<'py>> {
         let (py, own) = (slf.py(), slf.get());
-        let (positions, is_single, mut skipped) = own.ask(py, None, |cloud| {
+        let (positions, is_single, mut skipped) = own.ask(py, How::default(), |cloud| {
             Ok((cloud.positions()?, cloud.is_single(), cloud.skipped()))
         })?;
         let mut removed = Vec::new();
@@ -612,6 +617,14 @@ impl PointCloud {
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
         Ok(format!("PointCloud({} points)", self.__len__(py)?))
     }
+}
+
+/// All cores for clouds from 200,000 points on: a second thread gains too little for smaller ones.
+fn default_threads(points: usize) -> usize {
+    if points < 200_000 {
+        return 1;
+    }
+    std::thread::available_parallelism().map_or(1, |cores| cores.get().min(256))
 }
 
 /// Corners of triangles, checked to be points of the cloud.

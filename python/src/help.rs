@@ -7,7 +7,7 @@ macro_rules! asks {
         concat!(
             $head,
             ", radius=None, exponent=None, inversion=None, looks=None, scores=False, thickness=None, denoise=None, ",
-            "vote=None, draft=False, sample=None, within=None)\n--\n"
+            "vote=None, draft=False, sample=None, within=None, threads=None)\n--\n"
         )
     };
 }

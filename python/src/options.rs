@@ -7,7 +7,7 @@ use pyo3::types::{PyBool, PyDict};
 
 use crate::failure::option;
 
-const NAMES: [&str; 11] = [
+const NAMES: [&str; 12] = [
     "radius",
     "exponent",
     "inversion",
@@ -19,21 +19,33 @@ const NAMES: [&str; 11] = [
     "draft",
     "sample",
     "within",
+    "threads",
 ];
 
 /// The options of a view.
 #[derive(Default)]
 pub struct Asked {
     pub options: Options,
+    pub how: How,
+}
+
+/// How a cloud is asked.
+#[derive(Default)]
+pub struct How {
     /// Only these indices take part.
     pub mask: Option<Vec<bool>>,
+    /// How many threads compute. Without a number, the cloud's size decides.
+    pub threads: Option<usize>,
 }
 
 /// Reads the options of a question that is not to one cloud. The core refuses a choice of points there.
 pub fn read_without_cloud(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Options> {
-    let Asked { mut options, mask } = read(py, given)?;
-    if mask.is_some() {
+    let Asked { mut options, how } = read(py, given)?;
+    if how.mask.is_some() {
         options.within.get_or_insert_default();
+    }
+    if how.threads.is_some() {
+        return Err(option(py, "threads needs a PointCloud".into()));
     }
     Ok(options)
 }
@@ -44,7 +56,7 @@ pub fn read(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Asked
     let Some(given) = given else {
         return Ok(asked);
     };
-    let Asked { options, mask } = &mut asked;
+    let Asked { options, how } = &mut asked;
     let mut has_radius = false;
     let mut has_inversion = false;
     for (name, value) in given.iter() {
@@ -80,7 +92,8 @@ pub fn read(py: Python<'_>, given: Option<&Bound<'_, PyDict>>) -> PyResult<Asked
             "denoise" => options.denoise = Some(count(py, &name, &value)?),
             "vote" => options.vote = Some(count(py, &name, &value)?),
             "sample" => options.sample = Some(count(py, &name, &value)?),
-            "within" => *mask = within(py, &value, options)?,
+            "within" => how.mask = within(py, &value, options)?,
+            "threads" => how.threads = Some(count(py, &name, &value)?),
             "scores" => options.scores = truth(py, &name, &value)?,
             _ => options.draft = truth(py, &name, &value)?,
         }

@@ -1,11 +1,11 @@
-"""Threads that ask, append and remove at once: every answer is that of some order of the changes."""
+"""Threads that ask, append and remove at once: every answer is that of some order of the changes. Threads of one question."""
 
 import threading
 
 import numpy as np
 import pytest
 
-from hidden_point_removal import Horizon, PointCloud
+from hidden_point_removal import Horizon, HprError, PointCloud, merge_visible
 
 VIEWPOINT = [0.0, 0.0, 5.0]
 OPTIONS = {"radius": 100.0}
@@ -100,3 +100,50 @@ def test_points_join_a_horizon_while_others_are_screened():
     # More points only hide more.
     assert left == sorted(left, reverse=True)
     assert set(horizon.screen(points)) == set(PointCloud(points).visible_from(VIEWPOINT, **OPTIONS).indices)
+
+
+def test_threads_of_one_question_change_no_answer():
+    random = np.random.default_rng(4)
+    # So many that all cores answer by default.
+    points = random.normal(size=(210_000, 3))
+    cloud = PointCloud(points)
+    mask = random.random(len(points)) < 0.5
+    viewpoints = random.normal(size=(3, 3)) * 4
+    camera = {"camera_to_world": np.eye(4), "fx": 500, "fy": 500, "cx": 320, "cy": 240, "width": 640, "height": 480}
+
+    def answers(**threads):
+        options = {"exponent": 2.5, **threads}
+        seen = [
+            cloud.visible_from(viewpoints[0], **options),
+            cloud.visible_from(viewpoints[0], within={"mask": mask}, **options),
+            cloud.visible_from_any(viewpoints, **options),
+            cloud.visible_from_at_least(2, viewpoints, **options),
+            cloud.visible_from_direction([0, 0, -1], **options),
+            cloud.visible_from_camera(camera, **options),
+        ]
+        placed = cloud.place_viewpoints(viewpoints, **options)
+        return [
+            *((view.indices.tobytes(), view.radius, view.exponent) for view in seen),
+            cloud.coverage(viewpoints, **options).tobytes(),
+            cloud.illuminate(viewpoints, smoothing=0, **options).tobytes(),
+            cloud.sees(viewpoints[0], viewpoints, **options).tobytes(),
+            (list(placed.chosen), list(placed.gains)),
+        ]
+
+    expected = answers(threads=1)
+    for threads in [None, 2, 3]:
+        assert answers(threads=threads) == expected
+
+
+@pytest.mark.parametrize("threads", [0, -1, 257, 1.5, "2", True])
+def test_a_wrong_number_of_threads_is_refused(threads):
+    cloud = PointCloud([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0]])
+    with pytest.raises(HprError, match="threads") as refused:
+        cloud.visible_from(VIEWPOINT, threads=threads)
+    assert refused.value.code == "option"
+
+
+def test_threads_belong_to_clouds():
+    with pytest.raises(HprError, match="threads") as refused:
+        merge_visible([], VIEWPOINT, radius=100.0, threads=2)
+    assert refused.value.code == "option"
