@@ -262,3 +262,15 @@ describe("combinations without a meaning", () => {
     expect([status, stderr]).toEqual([1, expect.stringMatching(/radius 1 is smaller than the distance.*\(radius\)/)]);
   });
 });
+
+describe("--workers", () => {
+  it("changes no answer", () => {
+    done(...FROM, "--exponent", "2", "-o", "one.idx");
+    done(...FROM, "--exponent", "2", "--workers", "3", "-o", "three.idx");
+    expect(numbers("three.idx")).toEqual(numbers("one.idx"));
+  });
+
+  it.each(["0", "65", "1.5", "-1", "many"])("refuses %s", (workers) => {
+    expect(refused(...FROM, "--workers", workers)).toBe(`--workers needs a whole number from 1 to 64, not ${workers}`);
+  });
+});

@@ -4,14 +4,15 @@ import { parseArgs } from "node:util";
 import { HprError } from "../base/errors.js";
 import type { ChosenColumns } from "../formats/axes.js";
 import { viewSettings, type VisibilityOptions } from "../query/view-options.js";
+import { MAX_WORKERS } from "../worker/workers.js";
 import { FORMATS } from "./formats/formats.js";
 import { chosenFormat, type OutputFormat } from "./output-format.js";
 import {
   readColumns,
+  readCount,
   readExponent,
   readInversion,
   readLooks,
-  readNeighbors,
   readRadius,
   readThreshold,
   readViewpoint,
@@ -30,6 +31,8 @@ export interface Settings {
   threshold: number | undefined;
   /** Undefined for the columns that the file itself names. */
   columns: ChosenColumns | undefined;
+  /** How many workers share the work. Without a number, the cloud's size decides. */
+  workers: number | undefined;
   /** Whether the output may replace an input. */
   overwrite: boolean;
   /** Whether a file that contradicts itself is read. */
@@ -85,6 +88,7 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
     options,
     threshold,
     columns: values.columns === undefined ? undefined : readColumns(values.columns),
+    workers: values.workers === undefined ? undefined : readCount("workers", values.workers, MAX_WORKERS),
     overwrite: values.overwrite === true,
     damaged: values.damaged === true,
     progress: values.progress === true,
@@ -112,6 +116,7 @@ function parsed(args: string[]) {
         "score-threshold": { type: "string" },
         denoise: { type: "string" },
         vote: { type: "string" },
+        workers: { type: "string" },
         columns: { type: "string" },
         overwrite: { type: "boolean" },
         damaged: { type: "boolean" },
@@ -128,7 +133,7 @@ function parsed(args: string[]) {
 
 /** parseArgs insists on `--from=-1,2,3`, so `--from -1,2,3` is changed to that. */
 function joinedToNegative(args: string[]) {
-  const takesNumber = /^--(from|radius|exponent|looks|score-threshold|denoise|vote)$/;
+  const takesNumber = /^--(from|radius|exponent|looks|score-threshold|denoise|vote|workers)$/;
   const isValue = (i: number) => takesNumber.test(args[i - 1] ?? "") && /^-[\d.]/.test(args[i] ?? "");
   return (word: string, i: number): string[] => {
     if (isValue(i)) return [];
@@ -159,8 +164,8 @@ function viewOptions(values: Values): VisibilityOptions {
     ...(exponent === undefined ? {} : { exponent: readExponent(exponent) }),
     ...(inversion === undefined ? {} : { inversion: readInversion(inversion) }),
     ...(looks === 0 ? {} : { looks }),
-    ...(denoise === undefined ? {} : { denoise: readNeighbors("denoise", denoise) }),
-    ...(vote === undefined ? {} : { vote: readNeighbors("vote", vote) }),
+    ...(denoise === undefined ? {} : { denoise: readCount("denoise", denoise) }),
+    ...(vote === undefined ? {} : { vote: readCount("vote", vote) }),
   };
   // `--exponent auto` says the same as no exponent, but it excludes the same options.
   const asked = { ...options, ...(exponent === undefined ? {} : { exponent: options.exponent ?? 0 }) };

@@ -1,6 +1,8 @@
 import type { Camera } from "../query/camera.js";
-import type { VisibilityOptions } from "../query/view-options.js";
+import { isDivisible } from "../query/queries.js";
+import { viewSettings, type VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker.js";
+import { defaultWorkers, MAX_WORKERS } from "../worker/workers.js";
 import type { PointFile } from "./formats/point-file.js";
 import type { NamedViewpoint } from "./places.js";
 
@@ -37,11 +39,13 @@ type OnProgress = (share: number, doing: string) => void;
 export async function* ask(
   { positions }: PointFile,
   question: Question,
+  workers: number | undefined,
   onProgress: OnProgress,
 ): AsyncGenerator<Answer> {
   const cloud = await WorkerPointCloud.create(positions, {
     nonFinite: "skip",
     transfer: true,
+    workers: workers ?? (isShared(question) ? await defaultWorkers(positions.length / 3, MAX_WORKERS) : 1),
     onProgress: (share) => {
       onProgress(share / 2, "preparing");
     },
@@ -53,6 +57,11 @@ export async function* ask(
   } finally {
     await cloud.dispose();
   }
+}
+
+/** Whether several workers can share the work: the viewpoints, or each view. */
+function isShared({ kind, options }: Question): boolean {
+  return kind === "any" || kind === "coverage" || isDivisible(3, viewSettings({ ...options }, 3));
 }
 
 async function* answers(

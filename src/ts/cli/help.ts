@@ -37,6 +37,9 @@ What to write:
                        All but points are text, one line each, or NumPy arrays (.npy)
   --overwrite          OUT may be the same file as IN, CAMERA or PLACES
   --damaged            reads a file that contradicts itself, and says how
+  --workers N          how many workers share the work, from 1 to 64; they change no answer. The default is
+                       one for each core from 200,000 points on, but no more than hold 16 million
+                       points together, and 1 for smaller files
   --progress           reports the progress, also if standard error is not a terminal
   -h, --help           shows this
   --version            shows the version

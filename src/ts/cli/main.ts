@@ -74,7 +74,7 @@ async function filter(settings: Settings, progress: Progress): Promise<string> {
   const onAsked = (share: number, doing: string) => {
     progress.show(0.3 + 0.6 * share, doing);
   };
-  for await (const answer of ask(file, question, onAsked)) {
+  for await (const answer of ask(file, question, settings.workers, onAsked)) {
     await write(settings, file, answer);
     const from = answer.name === undefined ? "" : ` from ${answer.name}`;
     seen.push(`${answer.indices.length} of ${answer.length} points are visible${from}`);

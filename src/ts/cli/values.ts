@@ -54,9 +54,13 @@ export function readLooks(text: string): 0 | 2 | 3 {
 }
 
 /** @param option the name of the option, for the message */
-export function readNeighbors(option: string, text: string): number {
+export function readCount(option: string, text: string, most = Infinity): number {
   const count = /^\d+$/.test(text) ? Number(text) : 0;
-  if (count < 1) throw new UsageProblem(`--${option} needs a whole number from 1, not ${text}`);
+  if (count < 1 || count > most) {
+    throw new UsageProblem(
+      `--${option} needs a whole number from 1${most < Infinity ? ` to ${most}` : ""}, not ${text}`,
+    );
+  }
   return count;
 }
 

@@ -106,7 +106,7 @@ export function viewQuery(dimension: number, viewpoint: unknown, given: GivenOpt
 }
 
 /** Whether a view can be divided into sectors, and gains by it. */
-function isDivisible(dimension: number, settings: ViewSettings): boolean {
+export function isDivisible(dimension: number, settings: ViewSettings): boolean {
   // Votes, moved points and other inversions have no bounds that hold from far away. Drafts and
   // samples are not divided because one worker computes them in little time.
   const { kernel, denoise, vote, draft, sample } = settings;

@@ -2,14 +2,14 @@ import { describe, HprError } from "../base/errors.js";
 import { hasNodeModules, importNodeModule } from "../base/node.js";
 
 /** More workers would only wait for memory, and each of them holds the whole cloud. */
-const MAX_WORKERS = 64;
+export const MAX_WORKERS = 64;
 /**
  * For fewer points, a second worker gains too little. For more points, it makes views from outside
  * 1.4 to 1.7 times as fast. Some views from inside gain nothing, and large clouds gain less.
  */
 const CROSSOVER = 200_000;
 /**
- * The largest number of workers by default: the page needs cores and memory for other work, too.
+ * The largest number of workers by default: a page needs cores and memory for other work, too.
  */
 const MAX_DEFAULT = 4;
 /** The largest number of points by default, summed over the copies of all workers. */
@@ -27,13 +27,13 @@ export function readWorkers(workers: unknown): number | undefined {
   return workers as number;
 }
 
-/** The default number of workers for a cloud with this number of points. */
-export async function defaultWorkers(points: number): Promise<number> {
+/** The default number of workers for a cloud with this number of points: the number of cores, but at most `most`. */
+export async function defaultWorkers(points: number, most = MAX_DEFAULT): Promise<number> {
   if (points < CROSSOVER) {
     return 1;
   }
   const fit = Math.floor(MAX_DEFAULT_POINTS / points);
-  return Math.max(1, Math.min(await cores(), MAX_DEFAULT, fit));
+  return Math.max(1, Math.min(await cores(), most, fit));
 }
 
 async function cores(): Promise<number> {
