@@ -32,7 +32,7 @@ test.for([
   expect(visible).toBeGreaterThan(0);
   expect(visible).toBeLessThan(total);
   expect(await page.locator("#sample").inputValue()).toBe(name);
-  expect(await page.locator("#credit").textContent()).toMatch(
+  expect(await page.locator("#panel .credit").textContent()).toMatch(
     { bunny: /public domain/, room: /Generated/ }[name as string] ??
       /Stanford Computer Graphics Laboratory.*no commercial use/,
   );
@@ -68,7 +68,7 @@ test("?src opens a file from the web", async () => {
 test("a plain sentence names each parameter of the address that cannot be met", async () => {
   serveSmallDragon();
   const page = await openReady("?sample=unicorn&exponent=-1&view=1,2");
-  expect(await page.locator("#sample").inputValue()).toBe("dragon");
+  expect(await page.locator("#sample").inputValue()).toBe("dragon_res2");
   const message = await page.locator("#message").textContent();
   for (const part of [/no sample called “unicorn”/, /exponent .* is not a number/, /view .* is not three numbers/]) {
     expect(message).toMatch(part);

@@ -77,15 +77,16 @@ test("a file without a coordinate system says so, and its lengths have no unit",
 });
 
 test("the scale bar is as long as it says, follows the zoom, and is in the saved picture's marks", async () => {
-  served.set("clouds/scale.ply", asciiPly(georeferencedBall(600)));
-  const page = await openReady("?src=clouds/scale.ply");
+  served.set("clouds/scale.las", las(georeferencedBall(600), { wkt: UTM }));
+  const page = await openReady("?src=clouds/scale.las");
   const bar = page.locator("#marks .scale");
   const seen = async () => {
     const pixels = await bar.locator("path.over").evaluate((path: SVGPathElement) => path.getBBox().width);
     return { pixels, text: (await bar.locator("text").textContent())! };
   };
   const before = await seen();
-  expect(before.text).toMatch(/^[\d.]+\sunits$/);
+  const [, length, unit] = /^([\d.]+)\s(m|cm)$/.exec(before.text)!;
+  const meters = Number(length) * (unit === "m" ? 1 : 0.01);
   // The bar is measured at the distance of the middle of the cloud.
   const share = await page.evaluate(() => {
     const { viewpoint } = document.getElementById("status")!.dataset;
@@ -93,7 +94,7 @@ test("the scale bar is as long as it says, follows the zoom, and is in the saved
   });
   const middle = [512_345.5, 5_403_210.25, 431.75];
   const distance = Math.hypot(...share.at.map((value, axis) => value - middle[axis]!));
-  const expected = (share.height * Number.parseFloat(before.text)) / (2 * distance * Math.tan(Math.PI / 8));
+  const expected = (share.height * meters) / (2 * distance * Math.tan(Math.PI / 8));
   expect(before.pixels / expected).toBeGreaterThan(0.97);
   expect(before.pixels / expected).toBeLessThan(1.03);
   await page.locator("#view").focus();

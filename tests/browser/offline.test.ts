@@ -69,6 +69,7 @@ test("after the first load the page works without a network; a message names fil
   await page.locator("#view").press("ArrowLeft");
   await answered(page, before);
 
+  await page.getByRole("button", { name: "Tools" }).click();
   await page.locator("#sample").selectOption("dragon_res4");
   expect((await reached(page, "error")).sentence).toBe(
     "Stanford dragon, 5k could not be downloaded: there is no connection, and it has not been opened on this device before.",

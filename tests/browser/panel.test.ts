@@ -21,7 +21,9 @@ test("the first screen has a file, samples, hidden points and freeze; all other 
           (control) => control.closest("fieldset, section, details")!.querySelector("h2, legend, summary")!.textContent,
         ),
     );
-  expect(new Set(seen)).toEqual(new Set(["Hidden points", "Viewpoint", "Cloud", "Information", "Look", "Advanced"]));
+  expect(new Set(seen)).toEqual(
+    new Set(["Hidden points", "Viewpoint", "Points", "Cloud", "Method", "Information", "Look", "Advanced"]),
+  );
 });
 
 test("a section that the user has opened is open at the next visit, and a folded one stays folded", async () => {
@@ -52,7 +54,7 @@ test("an address opens the sections that have its settings", async () => {
     await reached(page, "ready");
     expect(await open(page), query).toEqual(sections);
     // Only the user's own choice is remembered.
-    expect(await page.evaluate(() => Object.keys(localStorage)), query).toEqual([]);
+    expect(await page.evaluate(() => Object.keys(localStorage)), query).toEqual(["hidden-point-removal: tools"]);
   }
 });
 

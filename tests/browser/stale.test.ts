@@ -111,7 +111,7 @@ test(
   { timeout: 900_000 },
   async () => {
     served.set("clouds/four-balls.ply", fourBalls(POINTS));
-    const query = "?src=clouds/four-balls.ply&up=y&view=0,1,8.5&embed=1&theme=dark&color=plain";
+    const query = "?src=clouds/four-balls.ply&up=y&view=0,1,8.5&embed=1&theme=dark&color=plain&size=2";
     const page = await openReady(query, { viewport: SIZE, deviceScaleFactor: 1 });
     // Software drawing of millions of points takes long.
     page.setDefaultTimeout(300_000);

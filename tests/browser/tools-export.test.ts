@@ -180,7 +180,7 @@ test("the picture is saved as it is on the screen, with its marks", async () => 
   const png = await saved(page, "PNG");
   expect(png.name).toBe("utm-picture.png");
   await tool(page, "Export").click();
-  await addStyle(page, "#tools { visibility: hidden }");
+  await addStyle(page, "#tools, #drawer { visibility: hidden }");
   await page.locator("#view").blur();
   const shown = await picture(page);
   expect(await differentPixels(page, shown, png.content)).toBeLessThan(60);
