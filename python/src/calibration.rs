@@ -100,10 +100,7 @@ pub fn calibrated(
     options: &Options,
 ) -> Result<Trial, Error> {
     let tried = |thickness: f64| {
-        let asked = Options {
-            thickness: Some(thickness),
-            ..*options
-        };
+        let asked = options.thickness(thickness);
         let mut recall = Vec::new();
         for station in stations {
             let mask = cloud.visible_from(station.viewpoint, &asked)?.mask();

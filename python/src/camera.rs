@@ -138,7 +138,7 @@ pub fn cone(camera: &Camera) -> ([f64; 3], f64) {
         Pose::WorldToCamera(matrix) => [2, 6, 10].map(|at| matrix[at]),
     };
     match camera.convention {
-        Convention::OpenCv => (ahead, angle),
         Convention::OpenGl => (ahead.map(|x| -x), angle),
+        _ => (ahead, angle),
     }
 }

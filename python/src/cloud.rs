@@ -399,7 +399,9 @@ impl PointCloud {
         let viewpoint = place(viewpoint, "viewpoint")?;
         let word = rule.into_pyobject(py)?.into_any();
         let rule = options::radius(py, "radius", &word)?;
-        let chosen = self.ask(py, How::default(), |cloud| cloud.auto_radius(viewpoint, rule))?;
+        let chosen = self.ask(py, How::default(), |cloud| {
+            cloud.auto_radius(viewpoint, rule)
+        })?;
         Ok((chosen.radius, chosen.exponent, chosen.evaluations))
     }
 

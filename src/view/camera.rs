@@ -2,11 +2,12 @@
 
 use glam::{DMat3, DVec3};
 
-use super::distortion::{CameraModel, Distortion};
 use crate::base::error::Error;
+use crate::view::distortion::{CameraModel, Distortion};
 
 /// The axes of a camera.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Convention {
     /// x to the right, y down, z forward.
     #[default]

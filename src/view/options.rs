@@ -34,6 +34,7 @@ pub enum Radius {
 /// The distance to which the flip moves a point at distance d from the viewpoint: the kernel
 /// f of q = f(d)·v/|v|, strictly decreasing in d.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub enum Inversion {
     /// 2R − d, spherical flipping (paper §3, eq. 1); R by [`Options::radius`].
     #[default]
@@ -66,8 +67,16 @@ pub enum Exponential {
     Scale(f64),
 }
 
-/// The options of one visibility query.
+/// The options of one visibility query. Each has a field, and a method that sets it.
+///
+/// ```
+/// use hidden_point_removal::{Inversion, Options};
+///
+/// let options = Options::with_inversion(Inversion::Looks(3)).scores(true);
+/// assert!(options.scores && options.sample.is_none());
+/// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[non_exhaustive]
 pub struct Options {
     /// How R is chosen. With [`Inversion::Power`] it may only be [`Radius::Auto`] or
     /// [`Radius::Absolute`], with [`Inversion::Exponential`] only [`Radius::Auto`].
@@ -152,30 +161,92 @@ impl Options {
         ])
     }
 
+    const DEFAULT: Self = Self {
+        radius: Radius::Auto,
+        inversion: Inversion::Spherical,
+        denoise: None,
+        vote: None,
+        scores: false,
+        thickness: None,
+        draft: false,
+        sample: None,
+        within: None,
+    };
+
     /// Options with R given in the cloud's units.
     #[must_use]
-    pub fn with_radius(radius: f64) -> Self {
-        Self {
-            radius: Radius::Absolute(radius),
-            ..Self::default()
-        }
+    pub const fn with_radius(radius: f64) -> Self {
+        Self::DEFAULT.radius(Radius::Absolute(radius))
     }
 
     /// Options with R = farthest distance · 10^exponent.
     #[must_use]
-    pub fn with_exponent(exponent: f64) -> Self {
-        Self {
-            radius: Radius::Exponent(exponent),
-            ..Self::default()
-        }
+    pub const fn with_exponent(exponent: f64) -> Self {
+        Self::DEFAULT.radius(Radius::Exponent(exponent))
     }
 
     /// Options with another inversion than the spherical one.
     #[must_use]
-    pub fn with_inversion(inversion: Inversion) -> Self {
-        Self {
-            inversion,
-            ..Self::default()
-        }
+    pub const fn with_inversion(inversion: Inversion) -> Self {
+        Self::DEFAULT.inversion(inversion)
+    }
+
+    /// These options with another [`Options::radius`].
+    #[must_use]
+    pub const fn radius(self, radius: Radius) -> Self {
+        Self { radius, ..self }
+    }
+
+    /// These options with another [`Options::inversion`].
+    #[must_use]
+    pub const fn inversion(self, inversion: Inversion) -> Self {
+        Self { inversion, ..self }
+    }
+
+    /// These options with [`Options::denoise`], by a number or none.
+    #[must_use]
+    pub fn denoise(self, k: impl Into<Option<usize>>) -> Self {
+        let denoise = k.into();
+        Self { denoise, ..self }
+    }
+
+    /// These options with [`Options::vote`], by a number or none.
+    #[must_use]
+    pub fn vote(self, k: impl Into<Option<usize>>) -> Self {
+        let vote = k.into();
+        Self { vote, ..self }
+    }
+
+    /// These options with or without [`Options::scores`].
+    #[must_use]
+    pub const fn scores(self, scores: bool) -> Self {
+        Self { scores, ..self }
+    }
+
+    /// These options with [`Options::thickness`], by a number or none.
+    #[must_use]
+    pub fn thickness(self, thickness: impl Into<Option<f64>>) -> Self {
+        let thickness = thickness.into();
+        Self { thickness, ..self }
+    }
+
+    /// These options with or without [`Options::draft`].
+    #[must_use]
+    pub const fn draft(self, draft: bool) -> Self {
+        Self { draft, ..self }
+    }
+
+    /// These options with [`Options::sample`], by a number or none.
+    #[must_use]
+    pub fn sample(self, count: impl Into<Option<usize>>) -> Self {
+        let sample = count.into();
+        Self { sample, ..self }
+    }
+
+    /// These options with [`Options::within`], or without.
+    #[must_use]
+    pub fn within(self, within: impl Into<Option<Within>>) -> Self {
+        let within = within.into();
+        Self { within, ..self }
     }
 }

@@ -64,7 +64,7 @@ impl Collector {
             Inversion::Spherical | Inversion::Looks(_) => {}
             Inversion::Power(gamma) => self.number(gamma),
             Inversion::Exponential(Exponential::Scale(scale)) => self.number(scale),
-            Inversion::Exponential(Exponential::Auto) => panic!("a scale without a number"),
+            other => panic!("{other:?} has no number"),
         }
         self.numbers(view.looks().iter());
         self.indices(view.indices());

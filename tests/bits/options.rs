@@ -6,10 +6,7 @@ use super::clouds::Subject;
 use super::flip::distance;
 
 pub fn with_rule(radius: Radius) -> Options {
-    Options {
-        radius,
-        ..Options::default()
-    }
+    Options::default().radius(radius)
 }
 
 pub fn with_kernel(inversion: Inversion) -> Options {
@@ -29,22 +26,13 @@ pub fn exponential_of(subject: &Subject) -> Options {
 
 /// Options for several looks, with scores.
 pub fn looks(count: usize) -> Options {
-    Options {
-        scores: true,
-        ..with_kernel(Inversion::Looks(count))
-    }
+    with_kernel(Inversion::Looks(count)).scores(true)
 }
 
 pub fn denoise() -> Options {
-    Options {
-        denoise: Some(9),
-        ..Options::default()
-    }
+    Options::default().denoise(9)
 }
 
 pub fn vote() -> Options {
-    Options {
-        vote: Some(7),
-        ..Options::default()
-    }
+    Options::default().vote(7)
 }

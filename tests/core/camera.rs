@@ -29,17 +29,11 @@ fn a_camera_sees_the_view_from_its_place_cut_to_its_image() {
                     Options::default(),
                     Options::with_exponent(3.0),
                     Options::with_inversion(Inversion::Looks(2)),
-                    Options {
-                        denoise: Some(5),
-                        ..Options::default()
-                    },
-                    Options {
-                        within: Some(Within {
-                            distance: Some(2.2),
-                            bounds: None,
-                        }),
-                        ..Options::default()
-                    },
+                    Options::default().denoise(5),
+                    Options::default().within(Within {
+                        distance: Some(2.2),
+                        bounds: None,
+                    }),
                 ];
                 // Each lens with some of the options: all of them take a minute.
                 for options in [&all[number % 5], &all[(number + 2) % 5]] {
@@ -319,11 +313,7 @@ fn cameras_stand_where_viewpoints_stand() {
     });
     for options in [
         Options::default(),
-        Options {
-            denoise: Some(5),
-            within,
-            ..Options::default()
-        },
+        Options::default().denoise(5).within(within),
     ] {
         let whole = |seat: &Seat| {
             cloud

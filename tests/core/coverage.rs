@@ -26,17 +26,10 @@ fn coverage_counts_the_views() {
     for options in [
         Options::default(),
         Options::with_inversion(Inversion::Looks(2)),
-        Options {
-            denoise: Some(4),
-            vote: Some(3),
-            sample: Some(120),
-            ..Options::default()
-        },
-        Options {
-            within: Some(Within { distance, bounds }),
-            denoise: Some(3),
-            ..Options::default()
-        },
+        Options::default().denoise(4).vote(3).sample(120),
+        Options::default()
+            .within(Within { distance, bounds })
+            .denoise(3),
     ] {
         let masks = masks(&cloud, &places, &options);
         let counts = cloud.coverage(&places, &options).unwrap();
@@ -150,14 +143,8 @@ fn questions_that_make_no_sense_are_refused() {
         let refusal = cloud.place_viewpoints(&candidates, &default, &placing);
         assert_eq!(refusal.unwrap_err().code(), "option");
     }
-    let draft = Options {
-        draft: true,
-        ..default
-    };
-    let scores = Options {
-        scores: true,
-        ..Options::with_inversion(Inversion::Looks(2))
-    };
+    let draft = default.draft(true);
+    let scores = Options::with_inversion(Inversion::Looks(2)).scores(true);
     for options in [draft, scores, Options::with_exponent(-1.0)] {
         assert_eq!(
             cloud.coverage(&NOWHERE, &options).unwrap_err().code(),

@@ -22,10 +22,7 @@ fn exponential(scale: f64) -> Options {
 fn an_empty_cloud_refuses_the_radii_that_any_cloud_refuses() {
     let empty = PointCloud::new::<[f64; 3]>(&[]).unwrap();
     let ask = |radius| {
-        let options = Options {
-            radius,
-            ..Options::default()
-        };
+        let options = Options::default().radius(radius);
         empty.visible_from_direction([0.0, 0.0, 1.0], &options)
     };
     for radius in [f64::NAN, 0.0, -1.0, f64::INFINITY] {
@@ -249,10 +246,7 @@ fn what_does_not_fit_is_refused() {
     }
     let down = [0.0, 0.0, -1.0];
     for radius in [Radius::Search, Radius::Opposite] {
-        let options = Options {
-            radius,
-            ..Options::default()
-        };
+        let options = Options::default().radius(radius);
         let error = refused(down, &options);
         assert!(matches!(error, Error::Excludes { .. }) && error.code() == "option");
     }

@@ -17,10 +17,7 @@ use crate::common::walk::Walk;
 const MANY: usize = 6000;
 
 fn drafted(options: Options) -> Options {
-    Options {
-        draft: true,
-        ..options
-    }
+    options.draft(true)
 }
 
 fn assert_sound(points: &[[f64; 3]], viewpoint: [f64; 3], options: &Options, title: &str) {
@@ -36,10 +33,7 @@ fn inversions() -> [Options; 6] {
         Options::with_exponent(4.0),
         Options::with_inversion(Inversion::Power(1.5)),
         Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
-        Options {
-            vote: Some(5),
-            ..Options::with_exponent(2.0)
-        },
+        Options::with_exponent(2.0).vote(5),
     ]
 }
 
@@ -120,10 +114,7 @@ fn what_was_asked_before_changes_no_draft() {
         walk.step(&mut rng);
         if rng.chance(3) {
             // An exact view, or a draft without an exact answer after it.
-            let options = Options {
-                draft: rng.chance(2),
-                ..walk.options
-            };
+            let options = walk.options.draft(rng.chance(2));
             let _ = observer.visible_from(walk.viewpoint, &options);
             walk.step(&mut rng);
         }
@@ -138,13 +129,10 @@ fn other_questions_may_come_between_a_draft_and_its_exact_view() {
     let cloud = PointCloud::new(&points).expect("an acceptable cloud");
     let (here, elsewhere) = ([0.3, 1.2, 2.4], [-2.0, 1.0, 0.5]);
     let looks = Options::with_inversion(Inversion::Looks(3));
-    let near = Options {
-        within: Some(Within {
-            distance: Some(2.4),
-            bounds: None,
-        }),
-        ..Options::default()
-    };
+    let near = Options::default().within(Within {
+        distance: Some(2.4),
+        bounds: None,
+    });
     type Between<'a> = &'a dyn Fn(&mut Observer, &Options);
     let other_view = |at, options: Options| {
         let cloud = &cloud;
@@ -264,7 +252,7 @@ fn there_is_no_draft_of_a_search_a_mesh_light_or_a_merged_answer() {
     let plain = drafted(Options::default());
     let mut refusals = Vec::new();
     for radius in [Radius::Search, Radius::Opposite] {
-        let options = Options { radius, ..plain };
+        let options = plain.radius(radius);
         refusals.push(cloud.visible_from(viewpoint, &options).err());
         refusals.push(cloud.visible_from_any(&NOWHERE, &options).err());
     }
@@ -276,10 +264,7 @@ fn there_is_no_draft_of_a_search_a_mesh_light_or_a_merged_answer() {
     );
     let parts = [(&points[..], &[0, 1, 2][..])];
     for options in [plain, sampled(2)] {
-        let options = Options {
-            radius: Radius::Absolute(9.0),
-            ..options
-        };
+        let options = options.radius(Radius::Absolute(9.0));
         refusals.push(merge_visible(&parts, viewpoint, &options).err());
     }
     for refusal in refusals {
@@ -288,19 +273,13 @@ fn there_is_no_draft_of_a_search_a_mesh_light_or_a_merged_answer() {
 }
 
 fn sampled(count: usize) -> Options {
-    Options {
-        sample: Some(count),
-        ..Options::default()
-    }
+    Options::default().sample(count)
 }
 
 /// The indices that a sample of `count` points takes. The cloud must be a sphere: from a
 /// viewpoint inside it, all sampled points are visible.
 fn sample_of(cloud: &PointCloud, count: usize) -> Vec<u32> {
-    let options = Options {
-        radius: Radius::Exponent(9.0),
-        ..sampled(count)
-    };
+    let options = sampled(count).radius(Radius::Exponent(9.0));
     let seen = cloud.visible_from([0.0; 3], &options).unwrap();
     assert!(!seen.exact());
     seen.into_indices()
@@ -348,10 +327,7 @@ fn a_sample_answers_as_a_cloud_of_its_points() {
     let viewpoint = [0.2, 1.4, 1.9];
     for kept in [false, true] {
         for options in inversions() {
-            let asked = Options {
-                sample: Some(700),
-                ..options
-            };
+            let asked = options.sample(700);
             if kept {
                 cloud.prepare_for(&asked).expect("enough memory");
             }
@@ -424,22 +400,13 @@ fn looks_have_samples_with_scores_but_no_drafts() {
     let (option, other) = ("looks", "draft");
     assert_eq!(error.unwrap_err(), Error::Excludes { option, other });
 
-    let sampled = Options {
-        sample: Some(1000),
-        ..looks
-    };
+    let sampled = looks.sample(1000);
     let seen = cloud.visible_from([0.0, 0.0, 3.0], &sampled).unwrap();
     assert!(!seen.exact() && seen.count() > 0 && seen.count() < 1000);
-    let scored = Options {
-        scores: true,
-        ..sampled
-    };
+    let scored = sampled.scores(true);
     let seen = cloud.visible_from([0.0, 0.0, 3.0], &scored).unwrap();
     let sample = cloud.sampled(1000).unwrap();
-    let options = Options {
-        sample: None,
-        ..scored
-    };
+    let options = scored.sample(None);
     let alone = sample.visible_from([0.0, 0.0, 3.0], &options).unwrap();
     assert_eq!(
         (seen.indices(), seen.scores()),

@@ -1,7 +1,7 @@
 //! Horizons: what a part of a cloud hides from other points and from boxes.
 
 use hidden_point_removal::{
-    Error, Exponential, Horizon, Inversion, Options, PointCloud, Radius, merge_visible,
+    Error, Exponential, Horizon, Inversion, Options, PointCloud, merge_visible,
 };
 
 use crate::common::flip::farthest;
@@ -20,10 +20,7 @@ fn numbered(rng: &mut Rng, scene: &Scene) -> Option<Options> {
         0 => Options::with_radius(farthest),
         1 => Options::with_radius(2.0 * farthest),
         2 => Options::with_radius(1000.0 * farthest),
-        3 => Options {
-            radius: Radius::Absolute(farthest),
-            ..Options::with_inversion(Inversion::Power(2.0))
-        },
+        3 => Options::with_radius(farthest).inversion(Inversion::Power(2.0)),
         4 => Options::with_inversion(Inversion::Exponential(Exponential::Scale(0.3 * farthest))),
         _ => Options::with_inversion(Inversion::Exponential(Exponential::Scale(1e-3 * farthest))),
     })

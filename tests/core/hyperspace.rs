@@ -339,16 +339,7 @@ fn what_does_not_fit_is_refused() {
             ("viewpoint", Error::ViewpointDimension { dimension: 4 })
         );
     }
-    let noisy = [
-        Options {
-            vote: Some(1),
-            ..options
-        },
-        Options {
-            denoise: Some(1),
-            ..options
-        },
-    ];
+    let noisy = [options.vote(1), options.denoise(1)];
     for options in noisy {
         let error = cloud.visible_from(&[0.0; 4], &options).unwrap_err();
         assert!(matches!(error, Error::Dimension { dimension: 4, .. }) && error.code() == "option");

@@ -80,10 +80,7 @@ fn a_power_of_two_scale_changes_no_index() {
             let points: Vec<_> = scene.points.iter().map(|&p| by(p)).collect();
             let options = match scene.options.radius {
                 Radius::Absolute(radius) => Options::with_radius(radius * scale),
-                other => Options {
-                    radius: other,
-                    ..Options::default()
-                },
+                other => Options::default().radius(other),
             };
             let after = ask(&points, by(scene.viewpoint), &options);
             assert_eq!(
@@ -127,10 +124,7 @@ fn single_precision_positions_are_widened() {
         let wide: Vec<[f64; 3]> = narrow.iter().map(|p| p.map(f64::from)).collect();
         let options = match scene.options.radius {
             Radius::Absolute(_) => Options::with_exponent(2.0),
-            other => Options {
-                radius: other,
-                ..Options::default()
-            },
+            other => Options::default().radius(other),
         };
         let narrow = ask(&narrow, scene.viewpoint, &options);
         let wide = ask(&wide, scene.viewpoint, &options);

@@ -24,10 +24,7 @@ const AUTOMATIC: Inversion = Inversion::Exponential(Exponential::Auto);
 /// Every kind of inversion, mild and strong.
 fn choices(farthest: f64) -> Vec<Options> {
     let mut choices: Vec<_> = [1.0000001, 1.2, 2.0, 3.5, 16.0].map(power).to_vec();
-    choices.push(Options {
-        radius: Radius::Absolute(farthest.max(1e-300) * 3.0),
-        ..power(2.0)
-    });
+    choices.push(power(2.0).radius(Radius::Absolute(farthest.max(1e-300) * 3.0)));
     choices
         .extend([1e-9, 1e-3, 0.1, 3.0, 1e4].map(|times| exponential(times * farthest.max(1e-300))));
     choices.push(Options::with_inversion(AUTOMATIC));
@@ -85,10 +82,7 @@ fn answers_say_which_inversion_they_used() {
         (answer.radius(), answer.exponent(), answer.evaluations()),
         (far, 0.0, 0)
     );
-    let unit = Options {
-        radius: Radius::Absolute(4.0 * far),
-        ..power(2.5)
-    };
+    let unit = power(2.5).radius(Radius::Absolute(4.0 * far));
     let scaled = ask(&points, FRONT, &unit);
     assert_eq!(scaled.radius(), 4.0 * far);
     assert_eq!(scaled.indices(), answer.indices());
@@ -150,13 +144,7 @@ fn parts_flipped_alike_merge_exactly() {
     let mut rng = Rng::new(12);
     let points = shapes::bumpy(&mut rng, 900);
     let unit = Radius::Absolute(9.0);
-    for options in [
-        Options {
-            radius: unit,
-            ..power(1.7)
-        },
-        exponential(0.02),
-    ] {
+    for options in [power(1.7).radius(unit), exponential(0.02)] {
         let whole = ask(&points, FRONT, &options);
         let ids: Vec<u32> = (0..900).collect();
         let parts: Vec<_> = points.chunks(300).zip(ids.chunks(300)).collect();
@@ -187,26 +175,14 @@ fn what_does_not_fit_is_refused() {
         refused(exponential(scale), "exponential");
     }
     for inversion in [Inversion::Power(2.0), AUTOMATIC] {
-        let with = |radius| Options {
-            radius,
-            ..Options::with_inversion(inversion)
-        };
+        let with = |radius| Options::with_inversion(inversion).radius(radius);
         refused(with(Radius::Exponent(2.0)), "exponent");
         refused(with(Radius::Search), "search");
         refused(with(Radius::Opposite), "opposite");
     }
     let radius = Radius::Absolute(100.0);
-    refused(
-        Options {
-            radius,
-            ..Options::with_inversion(AUTOMATIC)
-        },
-        "radius",
-    );
-    let too_small = Options {
-        radius: Radius::Absolute(0.5),
-        ..power(2.0)
-    };
+    refused(Options::with_inversion(AUTOMATIC).radius(radius), "radius");
+    let too_small = power(2.0).radius(Radius::Absolute(0.5));
     assert_eq!(
         cloud.visible_from(FRONT, &too_small).unwrap_err().code(),
         "radius"

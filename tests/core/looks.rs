@@ -13,10 +13,7 @@ use crate::common::{NOWHERE, ask};
 const FRONT: [f64; 3] = [0.0, 0.0, 5.0];
 
 fn looks(count: usize) -> Options {
-    Options {
-        scores: true,
-        ..Options::with_inversion(Inversion::Looks(count))
-    }
+    Options::with_inversion(Inversion::Looks(count)).scores(true)
 }
 
 /// Small, degenerate and larger scenes of every kind, and both numbers of looks.
@@ -307,13 +304,10 @@ fn in_one_plane_with_the_viewpoint_each_look_sees_what_its_flat_hull_does() {
 fn each_index_has_a_score_if_no_point_takes_part() {
     let points: Vec<[f64; 3]> = (0..49).map(|i| on_a_grid((i, [0.0; 3]))).collect();
     let mut cloud = PointCloud::new(&points).unwrap();
-    let options = Options {
-        within: Some(Within {
-            distance: Some(0.0),
-            bounds: None,
-        }),
-        ..looks(3)
-    };
+    let options = looks(3).within(Within {
+        distance: Some(0.0),
+        bounds: None,
+    });
     let answer = cloud.visible_from(FRONT, &options).unwrap();
     assert_eq!(answer.scores(), [0.0; 49]);
     let indices: Vec<u32> = (0..49).collect();
@@ -350,11 +344,7 @@ fn noise_options_go_with_looks_and_scores_are_those_before_the_vote() {
         .for_each(|p| p[2] += rng.between(-0.02, 0.02));
     let cloud = PointCloud::new(&points).unwrap();
     let denoised = cloud.denoised(12).unwrap();
-    let options = |denoise, vote| Options {
-        denoise,
-        vote,
-        ..looks(3)
-    };
+    let options = |denoise, vote| looks(3).denoise(denoise).vote(vote);
     let both = cloud
         .visible_from(FRONT, &options(Some(12), Some(8)))
         .unwrap();
@@ -445,8 +435,8 @@ fn what_needs_one_hull_refuses_looks() {
         (Radius::Absolute(9.0), "radius"),
         (Radius::Exponent(2.0), "exponent"),
     ] {
-        assert_eq!(view(Options { radius, ..options }), refused(name));
-        let radius = Options { radius, ..options };
+        assert_eq!(view(options.radius(radius)), refused(name));
+        let radius = options.radius(radius);
         assert_eq!(
             cloud.visible_from_any(&NOWHERE, &radius).unwrap_err(),
             refused(name)
@@ -466,10 +456,7 @@ fn what_needs_one_hull_refuses_looks() {
         );
         assert_eq!(error.code(), "option");
     }
-    let scores = Options {
-        scores: true,
-        ..Options::default()
-    };
+    let scores = Options::default().scores(true);
     let without = |other| Error::Excludes {
         option: "scores",
         other,
@@ -516,10 +503,7 @@ fn answers_and_scores_are_the_same_bits_everywhere() {
         for kind in KINDS {
             for (seed, n, count) in [(100, 12, 3), (101, 150, 3), (102, 2000, 3), (103, 2500, 2)] {
                 let scene = kind.scene(seed, n);
-                let options = Options {
-                    thickness,
-                    ..looks(count)
-                };
+                let options = looks(count).thickness(thickness);
                 let answer = ask(&scene.points, scene.viewpoint, &options);
                 answer.indices().iter().for_each(|&i| add(i));
                 bits(&answer).into_iter().for_each(&mut add);

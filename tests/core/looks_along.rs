@@ -7,10 +7,7 @@ use crate::common::scenes::KINDS;
 use crate::common::{ask, shapes};
 
 fn looks(count: usize) -> Options {
-    Options {
-        scores: true,
-        ..Options::with_inversion(Inversion::Looks(count))
-    }
+    Options::with_inversion(Inversion::Looks(count)).scores(true)
 }
 
 fn along(points: &[[f64; 3]], direction: [f64; 3], options: &Options) -> Visibility {
@@ -163,34 +160,18 @@ fn options_that_go_with_looks_go_with_directions_too() {
     let points: Vec<[f64; 3]> = shapes::bumpy(&mut rng, 600);
     let cloud = PointCloud::new(&points).unwrap();
     let direction = [0.3, -0.5, 0.8];
-    let options = Options {
-        denoise: Some(8),
-        vote: Some(8),
-        ..looks(3)
-    };
+    let options = looks(3).denoise(8).vote(8);
     let both = cloud.visible_from_direction(direction, &options).unwrap();
     let denoised = cloud.denoised(8).unwrap();
-    let voted = Options {
-        denoise: None,
-        ..options
-    };
+    let voted = options.denoise(None);
     assert_eq!(
         both,
         denoised.visible_from_direction(direction, &voted).unwrap()
     );
     for (wrong, code) in [
+        (looks(3).draft(true), "option"),
         (
-            Options {
-                draft: true,
-                ..looks(3)
-            },
-            "option",
-        ),
-        (
-            Options {
-                radius: hidden_point_removal::Radius::Exponent(2.0),
-                ..looks(3)
-            },
+            looks(3).radius(hidden_point_removal::Radius::Exponent(2.0)),
             "option",
         ),
         (Options::with_inversion(Inversion::Looks(4)), "option"),

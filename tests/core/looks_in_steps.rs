@@ -5,10 +5,7 @@ use hidden_point_removal::{Inversion, Observer, Options, PointCloud, Visibility}
 use crate::common::scenes::KINDS;
 
 fn looks(count: usize) -> Options {
-    Options {
-        scores: true,
-        ..Options::with_inversion(Inversion::Looks(count))
-    }
+    Options::with_inversion(Inversion::Looks(count)).scores(true)
 }
 
 /// The answer after slices of about `budget` points, and the number of slices.
@@ -80,14 +77,7 @@ fn other_questions_may_come_between_slices() {
     let whole = |at, options: &Options| cloud.visible_from(at, options).unwrap();
     let between: [(&str, [f64; 3], Options); 5] = [
         ("one hull", viewpoint, Options::default()),
-        (
-            "a draft",
-            viewpoint,
-            Options {
-                draft: true,
-                ..Options::default()
-            },
-        ),
+        ("a draft", viewpoint, Options::default().draft(true)),
         ("two looks", viewpoint, looks(2)),
         (
             "no scores",
@@ -135,13 +125,10 @@ fn a_view_of_some_points_does_not_go_on_from_slices_of_all() {
     });
     let mut sorted: Vec<f64> = distances.collect();
     sorted.sort_by(f64::total_cmp);
-    let near = Options {
-        within: Some(hidden_point_removal::Within {
-            distance: Some(sorted[300]),
-            ..Default::default()
-        }),
-        ..looks(3)
-    };
+    let near = looks(3).within(hidden_point_removal::Within {
+        distance: Some(sorted[300]),
+        ..Default::default()
+    });
     let mut observer = cloud.observer();
     for _ in 0..3 {
         observer.go_on(viewpoint, &looks(3), 100).unwrap();

@@ -9,23 +9,10 @@ use crate::common::rng::Rng;
 
 type Place = [f64; 3];
 
-const LOOKS: Options = Options {
-    inversion: Inversion::Looks(3),
-    radius: Radius::Auto,
-    denoise: None,
-    vote: None,
-    scores: false,
-    thickness: None,
-    draft: false,
-    sample: None,
-    within: None,
-};
+const LOOKS: Options = Options::with_inversion(Inversion::Looks(3));
 
 fn thick(thickness: f64) -> Options {
-    Options {
-        thickness: Some(thickness),
-        ..LOOKS
-    }
+    LOOKS.thickness(thickness)
 }
 
 /// A normal number, as a sum of uniform ones.
@@ -245,10 +232,7 @@ fn neither_order_nor_duplicates_nor_slices_nor_scale_change_a_bit() {
     let (layers, _) = room(5);
     for points in [layers, sphere(6000, 0.02), scan()] {
         let cloud = PointCloud::new(&points).unwrap();
-        let options = Options {
-            scores: true,
-            ..LOOKS
-        };
+        let options = LOOKS.scores(true);
         let viewpoint = [0.0, 0.0, 0.1];
         let seen = cloud.visible_from(viewpoint, &options).unwrap();
 
@@ -335,10 +319,7 @@ fn the_automatic_radius_is_larger_for_measured_surfaces() {
 fn a_thickness_needs_looks_and_a_number() {
     let cloud = PointCloud::new(&sphere(30, 0.0)).unwrap();
     let refused = |options: &Options| cloud.visible_from([3.0; 3], options).unwrap_err();
-    let without_looks = Options {
-        thickness: Some(0.1),
-        ..Options::default()
-    };
+    let without_looks = Options::default().thickness(0.1);
     assert_eq!(
         refused(&without_looks),
         Error::Excludes {

@@ -159,10 +159,7 @@ fn wrong_maps_are_refused() {
     assert_eq!(refused(MapOptions { towards, ..map }), "viewpoint");
     let origin = Some([f64::NAN; 3]);
     assert_eq!(refused(MapOptions { origin, ..map }), "viewpoint");
-    let draft = Options {
-        draft: true,
-        ..Options::default()
-    };
+    let draft = Options::default().draft(true);
     let made = cloud.visibility_map([0.0; 3], &draft, &map);
     assert!(matches!(made, Err(Error::Excludes { .. })));
 }

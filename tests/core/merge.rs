@@ -124,15 +124,7 @@ fn what_cannot_be_merged_is_refused() {
     let fits = Options::with_radius(100.0);
 
     for radius in [Radius::Auto, Radius::Exponent(3.0)] {
-        let error = merge(
-            &[part()],
-            FRONT,
-            &Options {
-                radius,
-                ..Options::default()
-            },
-        )
-        .unwrap_err();
+        let error = merge(&[part()], FRONT, &Options::default().radius(radius)).unwrap_err();
         assert_eq!((error, error.code()), (Error::MergeRadius, "option"));
         assert!(error.to_string().contains("radius"));
     }

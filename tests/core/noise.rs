@@ -9,17 +9,11 @@ use crate::common::{ask, shapes};
 const FRONT: [f64; 3] = [0.0, 0.0, 3.0];
 
 fn voting(k: usize) -> Options {
-    Options {
-        vote: Some(k),
-        ..Options::default()
-    }
+    Options::default().vote(k)
 }
 
 fn denoising(k: usize) -> Options {
-    Options {
-        denoise: Some(k),
-        ..Options::default()
-    }
+    Options::default().denoise(k)
 }
 
 /// The distinct points, sorted by their distance from `p`, and by coordinates if distances are
@@ -49,10 +43,7 @@ fn votes_are_counted_among_the_nearest_distinct_points() {
         ] {
             let scene = kind.scene(seed, n);
             let plain = ask(&scene.points, scene.viewpoint, &scene.options);
-            let options = Options {
-                vote: Some(k),
-                ..scene.options
-            };
+            let options = scene.options.vote(k);
             let voted = ask(&scene.points, scene.viewpoint, &options);
             assert_eq!(voted.radius(), plain.radius());
             let mut cloud = PointCloud::new(&scene.points).unwrap();
@@ -100,10 +91,7 @@ fn both_help_where_there_is_noise() {
     };
     let raw = wrong(&Options::default());
     let denoised = wrong(&denoising(16));
-    let both = wrong(&Options {
-        vote: Some(16),
-        ..denoising(32)
-    });
+    let both = wrong(&denoising(32).vote(16));
     assert!(denoised * 10 < raw * 7, "{denoised} against {raw}");
     assert!(both * 10 < raw * 7, "{both} against {raw}");
 }
@@ -145,11 +133,8 @@ fn a_prepared_cloud_answers_like_one_made_anew() {
     let views = [FRONT, [0.5, 3.0, 0.0]];
     for round in 0..4 {
         for k in [9, 14] {
-            let [voting, both] = [None, Some(k)].map(|denoise| Options {
-                denoise,
-                vote: Some(5 + round % 2),
-                ..Options::default()
-            });
+            let [voting, both] = [None, Some(k)]
+                .map(|denoise| Options::default().denoise(denoise).vote(5 + round % 2));
             keeping.prepare_for(&voting).unwrap();
             let other = denoising(9 + 2 * round);
             keeping
@@ -214,11 +199,7 @@ fn order_and_duplicates_change_nothing() {
             .collect();
         rng.shuffle(&mut order);
         let points: Vec<_> = order.iter().map(|&i| scene.points[i]).collect();
-        let options = Options {
-            vote: Some(7),
-            denoise: Some(5),
-            ..Options::default()
-        };
+        let options = Options::default().vote(7).denoise(5);
         let before = ask(&scene.points, scene.viewpoint, &options);
         let after = ask(&points, scene.viewpoint, &options);
         assert_eq!(
@@ -243,10 +224,7 @@ fn removed_and_skipped_points_are_no_neighbors() {
     cloud.remove(&removed).unwrap();
     let kept: Vec<usize> = (0..300).filter(|i| i % 3 != 0).collect();
     let rest: Vec<_> = kept.iter().map(|&i| points[i]).collect();
-    let options = Options {
-        vote: Some(9),
-        ..denoising(9)
-    };
+    let options = denoising(9).vote(9);
     let expected: Vec<u32> = ask(&rest, FRONT, &options)
         .indices()
         .iter()
@@ -274,10 +252,7 @@ fn what_does_not_fit_is_refused() {
     }
     for options in [voting(19), denoising(19)] {
         assert!(cloud.visible_from(FRONT, &options).is_ok());
-        let options = Options {
-            radius: Options::with_radius(9.0).radius,
-            ..options
-        };
+        let options = options.radius(Options::with_radius(9.0).radius);
         let parts = [(&points[..], &[0; 20][..])];
         let error = merge_visible(&parts, FRONT, &options).unwrap_err();
         assert_eq!(

@@ -321,14 +321,8 @@ fn what_has_no_panorama_is_refused() {
     }
     let refused = ask(&usual, &SIZE, [f64::INFINITY, 0.0, 0.0]);
     assert!(matches!(refused, Error::Viewpoint { .. }));
-    let draft = Options {
-        draft: true,
-        ..usual
-    };
-    let scores = Options {
-        scores: true,
-        ..ways()[2]
-    };
+    let draft = usual.draft(true);
+    let scores = ways()[2].scores(true);
     for options in [draft, scores] {
         assert!(matches!(
             ask(&options, &SIZE, INSIDE),

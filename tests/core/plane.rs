@@ -126,16 +126,7 @@ fn clouds_in_the_plane_do_what_clouds_do() {
     );
     let chosen = cloud.auto_radius(front, Radius::Search).unwrap();
     assert!(chosen.radius >= 4.0);
-    for options in [
-        Options {
-            vote: Some(1),
-            ..options
-        },
-        Options {
-            denoise: Some(1),
-            ..options
-        },
-    ] {
+    for options in [options.vote(1), options.denoise(1)] {
         let error = cloud.visible_from(front, &options).unwrap_err();
         assert!(matches!(error, Error::Dimension { dimension: 2, .. }));
     }

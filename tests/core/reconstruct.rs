@@ -177,11 +177,7 @@ fn triangles_face_the_viewer_and_cover_what_it_sees() {
 fn denoised_and_voted_views_are_reconstructed() {
     let points = shapes::bumpy(&mut Rng::new(43), 800);
     let cloud = PointCloud::new(&points).unwrap();
-    let options = Options {
-        denoise: Some(8),
-        vote: Some(6),
-        ..Options::default()
-    };
+    let options = Options::default().denoise(8).vote(6);
     let mesh = cloud.reconstruct(FRONT, &options, Some(0.2)).unwrap();
     assert_eq!(
         mesh.visibility,

@@ -226,13 +226,7 @@ fn a_refusal_leaves_the_cloud_usable() {
     ] {
         assert!(
             cloud
-                .visible_from(
-                    ORIGIN,
-                    &Options {
-                        radius,
-                        ..Options::default()
-                    }
-                )
+                .visible_from(ORIGIN, &Options::default().radius(radius))
                 .is_err()
         );
     }

@@ -11,10 +11,7 @@ const FRONT: [f64; 3] = [0.3, -0.2, 3.0];
 const RULES: [Radius; 2] = [Radius::Search, Radius::Opposite];
 
 fn by(radius: Radius) -> Options {
-    Options {
-        radius,
-        ..Options::default()
-    }
+    Options::default().radius(radius)
 }
 
 fn chosen(points: &[[f64; 3]], viewpoint: [f64; 3], rule: Radius) -> ChosenRadius {

@@ -160,10 +160,7 @@ fn changed_clouds_divide_as_new_ones() {
 fn refusals_are_those_of_the_whole() {
     let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(11), 500)).unwrap();
     for radius in [f64::NAN, -1.0, 0.5, f64::MAX] {
-        let options = Options {
-            radius: Radius::Absolute(radius),
-            ..Options::default()
-        };
+        let options = Options::default().radius(Radius::Absolute(radius));
         compare(&cloud, [0.0, 0.0, 3.0], &options, 2, "a bad radius");
     }
     for viewpoint in [

@@ -71,23 +71,13 @@ fn looks_neighbors_and_searches_count_the_point() {
         viewpoint: [0.2, 0.4, 2.0],
         options: Options::default(),
     };
-    let noise = Options {
-        denoise: Some(4),
-        vote: Some(5),
-        ..Options::default()
-    };
+    let noise = Options::default().denoise(4).vote(5);
     for options in [
         Options::with_inversion(Inversion::Looks(2)),
         Options::with_inversion(Inversion::Looks(3)),
         noise,
-        Options {
-            radius: Radius::Search,
-            ..Options::default()
-        },
-        Options {
-            radius: Radius::Opposite,
-            ..Options::default()
-        },
+        Options::default().radius(Radius::Search),
+        Options::default().radius(Radius::Opposite),
     ] {
         let places = places(&mut rng, &scene, 6);
         check(&scene, &options, &places, "needs others");
@@ -133,10 +123,7 @@ fn positions_outside_of_a_choice_are_not_seen() {
         bounds: Some([[-1.0, -1.0, 0.0], [1.0, 0.6, 5.0]]),
     };
     for options in [Options::default(), Options::with_radius(2.0)] {
-        let options = Options {
-            within: Some(within),
-            ..options
-        };
+        let options = options.within(within);
         let scene = Scene {
             points: points.clone(),
             viewpoint,
@@ -163,18 +150,9 @@ fn questions_that_make_no_sense_are_refused() {
     let refusal = Error::NonFinite { count: 2, first: 1 };
     assert_eq!(ask(&[far, nan, nan], &default), Err(refusal));
     let refused = [
-        Options {
-            draft: true,
-            ..default
-        },
-        Options {
-            scores: true,
-            ..Options::with_inversion(Inversion::Looks(2))
-        },
-        Options {
-            vote: Some(0),
-            ..default
-        },
+        default.draft(true),
+        Options::with_inversion(Inversion::Looks(2)).scores(true),
+        default.vote(0),
         Options::with_exponent(-1.0),
     ];
     for options in refused {
@@ -206,11 +184,9 @@ fn a_view_that_is_refused_is_refused_for_positions_outside_of_a_choice_too() {
     // One point takes part, so it has no neighbor.
     let few = (
         vec![[0.0, 0.0, 1.0], [0.0, 1.0, 4.0]],
-        Options {
-            within: inside([[-1.0; 3], [2.0; 3]]),
-            denoise: Some(1),
-            ..Options::default()
-        },
+        Options::default()
+            .within(inside([[-1.0; 3], [2.0; 3]]))
+            .denoise(1),
     );
     // Noise removal moves a point beyond the radius.
     let mut rng = Rng::new(3);
@@ -219,11 +195,9 @@ fn a_view_that_is_refused_is_refused_for_positions_outside_of_a_choice_too() {
     let farthest = crate::common::flip::farthest(&ring, viewpoint);
     let beyond = (
         ring,
-        Options {
-            within: inside([[-2.0; 3], [9.0; 3]]),
-            denoise: Some(4),
-            ..Options::with_radius(farthest)
-        },
+        Options::with_radius(farthest)
+            .within(inside([[-2.0; 3], [9.0; 3]]))
+            .denoise(4),
     );
     for ((points, options), code) in [(few, "option"), (beyond, "radius")] {
         let cloud = PointCloud::new(&points).unwrap();
@@ -244,10 +218,7 @@ fn a_sample_answers_as_a_cloud_of_the_sampled_points() {
     };
     let cloud = PointCloud::new(&scene.points).unwrap();
     let places = places(&mut rng, &scene, 60);
-    let options = Options {
-        sample: Some(50),
-        ..Options::default()
-    };
+    let options = Options::default().sample(50);
     let seen = cloud.sees(scene.viewpoint, &places, &options).unwrap();
     let sample = cloud.sampled(50).unwrap();
     let alone = sample.sees(scene.viewpoint, &places, &Options::default());

@@ -124,10 +124,7 @@ fn bad_input_is_refused() {
         ask(&points, &[], &Options::default()),
         Err(Error::MergeRadius)
     );
-    let vote = Options {
-        vote: Some(1),
-        ..options
-    };
+    let vote = options.vote(1);
     assert_eq!(
         ask(&points, &[], &vote),
         Err(Error::Excludes {

@@ -10,10 +10,7 @@ use crate::common::{ask, sectors, shapes};
 /// the ray along x, and the points on rays of their own. More than two fifths must be visible.
 #[test]
 fn two_of_five_votes_are_not_enough() {
-    let options = Options {
-        vote: Some(4),
-        ..Options::default()
-    };
+    let options = Options::default().vote(4);
     let [a, b, c, d] = [1.0, 2.0, 3.0, 4.0].map(|x| [x, 0.0, 0.0]);
     let (e, f) = ([0.0, 1.0, 0.0], [0.0, 0.0, 1.0]);
     let two = ask(&[a, b, c, d, e], [0.0; 3], &options);
@@ -28,11 +25,7 @@ fn sectors_of_views_with_votes_and_denoising_give_the_whole_answer() {
     let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(1), 600)).unwrap();
     for vote in [None, Some(6), Some(0), Some(600)] {
         for denoise in [None, Some(8), Some(0), Some(600)] {
-            let options = Options {
-                vote,
-                denoise,
-                ..Options::default()
-            };
+            let options = Options::default().vote(vote).denoise(denoise);
             for count in [1, 3] {
                 let difference = sectors::compare(&cloud, [0.0, 0.5, 3.0], &options, count).err();
                 assert_eq!(difference, None, "vote {vote:?}, denoise {denoise:?}");
@@ -44,10 +37,7 @@ fn sectors_of_views_with_votes_and_denoising_give_the_whole_answer() {
 #[test]
 fn a_cloud_that_is_prepared_twice_answers_alike() {
     let points = shapes::bumpy(&mut Rng::new(3), 600);
-    let options = Options {
-        denoise: Some(8),
-        ..Options::default()
-    };
+    let options = Options::default().denoise(8);
     let mut cloud = PointCloud::new(&points).unwrap();
     cloud.prepare_for(&options).unwrap();
     cloud.prepare_for(&options).unwrap();

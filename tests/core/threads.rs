@@ -83,8 +83,7 @@ fn kinds_of_options(farthest: f64) -> Vec<Options> {
         Inversion::Looks(3),
     ]
     .map(Options::with_inversion);
-    let [search, opposite] =
-        [Radius::Search, Radius::Opposite].map(|radius| Options { radius, ..plain });
+    let [search, opposite] = [Radius::Search, Radius::Opposite].map(|radius| plain.radius(radius));
     let within = Within {
         distance: Some(farthest),
         bounds: None,
@@ -99,40 +98,16 @@ fn kinds_of_options(farthest: f64) -> Vec<Options> {
         exponential,
         power,
         looks,
-        Options {
-            vote: Some(3),
-            ..looks
-        },
-        Options {
-            thickness: Some(0.01),
-            ..looks
-        },
+        looks.vote(3),
+        looks.thickness(0.01),
         search,
         opposite,
-        Options {
-            vote: Some(4),
-            ..plain
-        },
-        Options {
-            denoise: Some(5),
-            ..plain
-        },
-        Options {
-            draft: true,
-            ..plain
-        },
-        Options {
-            sample: Some(200),
-            ..plain
-        },
-        Options {
-            within: nearby,
-            ..plain
-        },
-        Options {
-            within: nearby,
-            ..exponential
-        },
+        plain.vote(4),
+        plain.denoise(5),
+        plain.draft(true),
+        plain.sample(200),
+        plain.within(nearby),
+        exponential.within(nearby),
     ]
 }
 
@@ -185,20 +160,14 @@ fn nor_do_they_where_each_has_a_sector() {
     for points in [shapes::bumpy(&mut rng, 8200), shapes::room(&mut rng, 8200)] {
         let viewpoints = scattered(&mut rng, 2, 2.0);
         let plain = Options::default();
-        let vote = Options {
-            vote: Some(4),
-            ..plain
-        };
-        let draft = Options {
-            draft: true,
-            ..plain
-        };
+        let vote = plain.vote(4);
+        let draft = plain.draft(true);
         let distance = Some(2.5);
         let within = Some(Within {
             distance,
             bounds: None,
         });
-        let nearby = Options { within, ..plain };
+        let nearby = plain.within(within);
         for options in [plain, Options::with_exponent(2.5), vote, draft, nearby] {
             compare(&points, &viewpoints[..1], &options, "a large cloud");
             compare(&points, &viewpoints, &options, "a large cloud");

@@ -74,26 +74,11 @@ fn no_viewpoint_is_refused_what_one_is() {
     for options in [
         Options::with_radius(-1.0),
         Options::with_exponent(-1.0),
-        Options {
-            radius: Radius::Absolute(0.0),
-            ..power
-        },
-        Options {
-            radius: Radius::Search,
-            ..power
-        },
-        Options {
-            radius: Radius::Absolute(9.0),
-            ..scale
-        },
-        Options {
-            vote: Some(50),
-            ..usual
-        },
-        Options {
-            denoise: Some(0),
-            ..usual
-        },
+        power.radius(Radius::Absolute(0.0)),
+        power.radius(Radius::Search),
+        scale.radius(Radius::Absolute(9.0)),
+        usual.vote(50),
+        usual.denoise(0),
     ] {
         let one = cloud.visible_from([0.0; 3], &options).err();
         assert!(one.is_some(), "{options:?}");
@@ -106,10 +91,7 @@ fn no_viewpoint_is_refused_what_one_is() {
 #[test]
 fn every_choice_of_a_radius_is_counted() {
     let cloud = PointCloud::new(&shapes::bumpy(&mut Rng::new(1), 200)).unwrap();
-    let options = Options {
-        radius: Radius::Search,
-        ..Options::default()
-    };
+    let options = Options::default().radius(Radius::Search);
     let viewpoints = [FRONT, [0.0, 9.0, 0.0], [1.0, -1.0, 4.0]];
     let answer = cloud.visible_from_any(&viewpoints, &options).unwrap();
     assert_eq!(answer.evaluations(), 18);

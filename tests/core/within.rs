@@ -73,31 +73,12 @@ fn every_question_follows_a_choice() {
         Options::default(),
         Options::with_exponent(2.0),
         Options::with_inversion(exponential),
-        Options {
-            scores: true,
-            ..looks
-        },
-        Options {
-            denoise: Some(6),
-            vote: Some(4),
-            ..Options::default()
-        },
-        Options {
-            sample: Some(150),
-            ..Options::default()
-        },
-        Options {
-            draft: true,
-            ..Options::default()
-        },
-        Options {
-            radius: Radius::Search,
-            ..Options::default()
-        },
-        Options {
-            radius: Radius::Opposite,
-            ..Options::default()
-        },
+        looks.scores(true),
+        Options::default().denoise(6).vote(4),
+        Options::default().sample(150),
+        Options::default().draft(true),
+        Options::default().radius(Radius::Search),
+        Options::default().radius(Radius::Opposite),
     ];
     for distance in [None, Some(2.9)] {
         let within = Within { distance, bounds };
@@ -161,11 +142,7 @@ fn several_viewpoints_and_lights_each_have_their_own_points() {
     for plain in [
         Options::default(),
         Options::with_inversion(Inversion::Exponential(Exponential::Auto)),
-        Options {
-            denoise: Some(5),
-            sample: Some(120),
-            ..Options::default()
-        },
+        Options::default().denoise(5).sample(120),
     ] {
         let options = only(within, &plain);
         let mut views = vec![0; points.len()];

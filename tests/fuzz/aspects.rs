@@ -217,10 +217,7 @@ fn voted(scene: &Scene, visible: &[bool], rng: &mut Rng) -> Option<(Vec<u32>, Ve
         return None;
     }
     let k = 1 + rng.below(points.len() - 1);
-    let options = Options {
-        vote: Some(k),
-        ..scene.options
-    };
+    let options = scene.options.vote(k);
     let cloud = PointCloud::new(points).ok()?;
     let found = cloud.visible_from(scene.viewpoint, &options).ok()?;
     let is_seen = |p: &[f64; 3]| visible[points.iter().position(|q| q == p).expect("a point")];

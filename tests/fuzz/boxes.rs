@@ -6,7 +6,7 @@
 
 use std::collections::BTreeMap;
 
-use hidden_point_removal::{Exponential, Horizon, Inversion, Options, Radius};
+use hidden_point_removal::{Exponential, Horizon, Inversion, Options};
 
 #[path = "../core/common/mod.rs"]
 mod common;
@@ -136,10 +136,7 @@ fn options(rng: &mut Rng, reach: f64) -> Options {
         0 => Options::with_radius(reach),
         1 => Options::with_radius(10.0 * reach),
         2 => Options::with_radius(1e4 * reach),
-        3 => Options {
-            radius: Radius::Absolute(reach),
-            ..Options::with_inversion(Inversion::Power(2.0))
-        },
+        3 => Options::with_radius(reach).inversion(Inversion::Power(2.0)),
         kind => {
             let scale = [1e-3, 1e-2, 0.1, 3.0][kind - 4] * reach;
             Options::with_inversion(Inversion::Exponential(Exponential::Scale(scale)))

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use hidden_point_removal::{Exponential, Inversion, Options, Radius};
+use hidden_point_removal::{Inversion, Options};
 
 use super::common::rng::Rng;
 use super::common::scenes::Scene;
@@ -104,26 +104,12 @@ pub fn literal(scene: &Scene) -> String {
 }
 
 pub fn options_literal(options: &Options) -> String {
-    let radius = match options.radius {
-        Radius::Auto => "Radius::Auto".to_string(),
-        Radius::Absolute(radius) => format!("Radius::Absolute({radius:?})"),
-        Radius::Exponent(exponent) => format!("Radius::Exponent({exponent:?})"),
-        Radius::Search => "Radius::Search".to_string(),
-        Radius::Opposite => "Radius::Opposite".to_string(),
-    };
     let inversion = match options.inversion {
-        Inversion::Spherical => "Inversion::Spherical".to_string(),
-        Inversion::Power(gamma) => format!("Inversion::Power({gamma:?})"),
-        Inversion::Exponential(Exponential::Auto) => {
-            "Inversion::Exponential(Exponential::Auto)".to_string()
-        }
-        Inversion::Exponential(Exponential::Scale(scale)) => {
-            format!("Inversion::Exponential(Exponential::Scale({scale:?}))")
-        }
-        Inversion::Looks(looks) => format!("Inversion::Looks({looks})"),
+        Inversion::Exponential(scale) => format!("Exponential(Exponential::{scale:?})"),
+        other => format!("{other:?}"),
     };
     format!(
-        "Options {{ radius: {radius}, inversion: {inversion}, vote: {:?}, ..Options::default() }}",
-        options.vote
+        "Options::with_inversion(Inversion::{inversion}).radius(Radius::{:?}).vote({:?})",
+        options.radius, options.vote
     )
 }

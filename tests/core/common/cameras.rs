@@ -50,6 +50,7 @@ fn with_axes(
     let axes = match convention {
         Convention::OpenCv => [right, down, ahead],
         Convention::OpenGl => [right, down.map(|x| -x), ahead.map(|x| -x)],
+        other => unreachable!("{other:?}"),
     };
     let mut camera = Camera::new(500.0, 510.0, 310.0, 245.0, 640.0, 480.0);
     camera.convention = convention;
@@ -80,6 +81,7 @@ pub fn in_camera(camera: &Camera, p: [f64; 3]) -> [f64; 3] {
     match camera.convention {
         Convention::OpenCv => [x, y, z],
         Convention::OpenGl => [x, -y, -z],
+        other => unreachable!("{other:?}"),
     }
 }
 

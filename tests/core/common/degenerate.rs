@@ -27,10 +27,8 @@ pub const DEGENERATE: &[Kind] = &[
     Kind::new("powers of two, exactly flipped by a power", |rng, n| {
         // d/S is a power of two. If the exponent is an integer, s is a power of two, too.
         let points = vectors(rng, n, &THREE, &[1.0, 2.0, 4.0, 8.0]);
-        let options = Options {
-            radius: Radius::Absolute(rng.pick(&[24.0, 48.0, 3072.0])),
-            ..Options::with_inversion(Inversion::Power(f64::from(rng.integer(2, 6))))
-        };
+        let options = Options::with_inversion(Inversion::Power(f64::from(rng.integer(2, 6))))
+            .radius(Radius::Absolute(rng.pick(&[24.0, 48.0, 3072.0])));
         seen_from_origin(points, options)
     }),
     Kind::new("all flipped to one sphere", |rng, n| {

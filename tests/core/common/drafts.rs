@@ -10,10 +10,7 @@ pub fn fault(
     viewpoint: [f64; 3],
     options: &Options,
 ) -> Option<String> {
-    let asked = Options {
-        draft: true,
-        ..*options
-    };
+    let asked = options.draft(true);
     let draft = observer.visible_from(viewpoint, &asked);
     let exact = observer.visible_from(viewpoint, options);
     let cold = cloud.visible_from(viewpoint, options);
@@ -70,10 +67,7 @@ fn in_slices(
     draft: &Visibility,
     budget: usize,
 ) -> Result<Visibility, Error> {
-    let asked = Options {
-        draft: true,
-        ..*options
-    };
+    let asked = options.draft(true);
     observer.visible_from(viewpoint, &asked)?;
     observer.go_on(viewpoint, options, budget)?;
     assert_eq!(&observer.visible_from(viewpoint, &asked)?, draft);

@@ -43,9 +43,7 @@ pub fn flip_as(p: [f64; 3], viewpoint: [f64; 3], answer: &Visibility) -> Option<
         Inversion::Spherical => return flip(p, viewpoint, answer.radius()),
         Inversion::Power(gamma) => libm::pow(d / answer.radius(), -gamma),
         Inversion::Exponential(Exponential::Scale(c)) => libm::exp((c / d).min(200.0)) / d,
-        Inversion::Exponential(Exponential::Auto) | Inversion::Looks(_) => {
-            panic!("not one resolved inversion")
-        }
+        other => panic!("{other:?} is not one resolved inversion"),
     };
     // A point beyond the range of f64 counts like a point at the viewpoint.
     Some(v.map(|x| x * s)).filter(|q| q.iter().all(|x| x.is_finite()))

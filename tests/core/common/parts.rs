@@ -78,10 +78,8 @@ fn numbers_of(scene: &Scene) -> Option<Options> {
     let whole = ask(&scene.points, scene.viewpoint, &scene.options);
     match whole.inversion() {
         inversion @ Inversion::Exponential(_) => Some(Options::with_inversion(inversion)),
-        inversion => (whole.radius() > 0.0).then(|| Options {
-            radius: Radius::Absolute(whole.radius()),
-            ..Options::with_inversion(inversion)
-        }),
+        inversion => (whole.radius() > 0.0)
+            .then(|| Options::with_inversion(inversion).radius(Radius::Absolute(whole.radius()))),
     }
 }
 

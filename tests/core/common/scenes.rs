@@ -210,9 +210,6 @@ fn with_any_radius(rng: &mut Rng, points: Points, viewpoint: [f64; 3]) -> Scene 
     Scene {
         points,
         viewpoint,
-        options: Options {
-            radius,
-            ..Options::default()
-        },
+        options: Options::default().radius(radius),
     }
 }

@@ -355,10 +355,7 @@ pub fn options(rng: &mut Rng, points: &[[f64; 3]], viewpoint: [f64; 3]) -> Optio
         }
         _ => Radius::Exponent(rng.pick(&[0.5, 1.0, 2.0, 3.0, 4.0, 6.0])),
     };
-    Options {
-        radius,
-        ..Options::default()
-    }
+    Options::default().radius(radius)
 }
 
 /// A cloud of about `n` points of a kind, with a viewpoint and options.

@@ -18,11 +18,9 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let Scene {
         points, viewpoint, ..
     } = scene;
-    let options = Options {
-        scores: true,
-        denoise: (points.len() > 3 && rng.chance(4)).then_some(3),
-        ..Options::with_inversion(Inversion::Looks(2 + rng.below(2)))
-    };
+    let options = Options::with_inversion(Inversion::Looks(2 + rng.below(2)))
+        .scores(true)
+        .denoise((points.len() > 3 && rng.chance(4)).then_some(3));
     let n = points.len();
     let straight: Vec<usize> = (0..n).collect();
     let cloud = cloud_of(points, false);
@@ -96,10 +94,7 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
 }
 
 fn without(cloud: &PointCloud, scene: &Scene, options: &Options) -> Result<Vec<u32>, String> {
-    let options = Options {
-        scores: false,
-        ..*options
-    };
+    let options = options.scores(false);
     let answer = cloud.visible_from(scene.viewpoint, &options);
     answer
         .map(Visibility::into_indices)

@@ -1,6 +1,6 @@
 //! Points that are not in the cloud: the answer of a cloud with the point added.
 
-use hidden_point_removal::{Inversion, Options, Radius};
+use hidden_point_removal::{Inversion, Radius};
 
 use super::super::common::added::{check as compare, places};
 use super::super::common::rng::Rng;
@@ -13,7 +13,7 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
         && rng.chance(4)
     {
         let radius = rng.pick(&[Radius::Auto, Radius::Exponent(2.0), Radius::Exponent(7.0)]);
-        options = Options { radius, ..options };
+        options = options.radius(radius);
     }
     let places = places(rng, scene, 5);
     compare(scene, &options, &places, "sees");

@@ -12,10 +12,7 @@ pub fn check(scene: &Scene, rng: &mut Rng) -> Result<(), String> {
     let Scene {
         points, viewpoint, ..
     } = scene;
-    let plain = Options {
-        within: None,
-        ..options(scene, rng)
-    };
+    let plain = options(scene, rng).within(None);
     let within = some_choice(rng, scene);
     let options = only(within, &plain);
     let mut cloud = cloud_of(points, rng.chance(2));
