@@ -2,8 +2,8 @@
 
 use alloc::sync::Arc;
 
-use super::looks::{Question, Seen, Series};
-use super::visibility_map::kept::MapMemory;
+use crate::answers::looks::{Question, Seen, Series};
+use crate::answers::visibility_map::kept::MapMemory;
 use crate::base::error::Error;
 use crate::cloud::part::Steps;
 use crate::cloud::point_cloud::{PointCloud, Survey};

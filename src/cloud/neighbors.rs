@@ -61,7 +61,7 @@ impl<'a> Neighbors<'a> {
     /// room for, or all of them. It is fast if the query before was in the same leaf or near it.
     pub(crate) fn find(&self, query: usize, nearest: &mut Nearest) {
         beat::step();
-        let Nearest { best, around } = nearest;
+        let Nearest { best, nearby } = nearest;
         best.found.clear();
         // The points next to the query in the spatial order come first. So a small bound is known
         // before other boxes are looked at.
@@ -71,13 +71,13 @@ impl<'a> Neighbors<'a> {
         for leaf in side.clone().filter(|&leaf| leaf != own) {
             self.scan_leaf(leaf, query, best);
         }
-        if around.leaf != own || best.worst() > around.reach {
+        if nearby.leaf != own || best.worst() > nearby.reach {
             // Most other queries of this leaf find their neighbors in this reach, too.
-            self.look_around(own, 2.0 * best.worst(), around);
+            self.list_nearby(own, 2.0 * best.worst(), nearby);
         }
         let center = self.points.get(query);
-        if around.is_complete {
-            for &leaf in &around.leaves {
+        if nearby.is_complete {
+            for &leaf in &nearby.leaves {
                 // A box at exactly the worst distance may hold a point that wins the tie.
                 if self.levels[0][leaf as usize].distance_squared(center) <= best.worst() {
                     self.scan_leaf(leaf as usize, query, best);
@@ -97,30 +97,30 @@ impl<'a> Neighbors<'a> {
     }
 
     /// Lists the leaves that are at most the root of `reach` away from the leaf `own`.
-    fn look_around(&self, own: usize, reach: f64, around: &mut Around) {
-        around.leaf = own;
-        around.reach = reach;
-        around.is_complete = true;
-        around.leaves.clear();
+    fn list_nearby(&self, own: usize, reach: f64, nearby: &mut NearbyLeaves) {
+        nearby.leaf = own;
+        nearby.reach = reach;
+        nearby.is_complete = true;
+        nearby.leaves.clear();
         let top = self.levels.len() - 1;
         for node in 0..self.levels[top].len() {
-            self.list(top, node, around);
+            self.list(top, node, nearby);
         }
     }
 
-    fn list(&self, level: usize, node: usize, around: &mut Around) {
-        let own = &self.levels[0][around.leaf];
-        if !around.is_complete || self.levels[level][node].gap_squared(own) > around.reach {
+    fn list(&self, level: usize, node: usize, nearby: &mut NearbyLeaves) {
+        let own = &self.levels[0][nearby.leaf];
+        if !nearby.is_complete || self.levels[level][node].gap_squared(own) > nearby.reach {
             return;
         }
         if level > 0 {
             for child in self.children(level, node) {
-                self.list(level - 1, child, around);
+                self.list(level - 1, child, nearby);
             }
-        } else if !self.beside(around.leaf).contains(&node) {
-            around.is_complete = around.leaves.len() < around.leaves.capacity();
-            if around.is_complete {
-                around.leaves.push(node as u32);
+        } else if !self.beside(nearby.leaf).contains(&node) {
+            nearby.is_complete = nearby.leaves.len() < nearby.leaves.capacity();
+            if nearby.is_complete {
+                nearby.leaves.push(node as u32);
             }
         }
     }
@@ -188,7 +188,7 @@ impl Neighbor {
 /// The nearest points of one query, and what is known for the next query.
 pub(crate) struct Nearest {
     best: Best,
-    around: Around,
+    nearby: NearbyLeaves,
 }
 
 /// The nearest points met so far, nearest first, ties by coordinates.
@@ -198,7 +198,7 @@ struct Best {
 }
 
 /// The leaves around the leaf of the last query.
-struct Around {
+struct NearbyLeaves {
     leaf: usize,
     /// The square of the largest distance from that leaf.
     reach: f64,
@@ -215,7 +215,7 @@ impl Nearest {
                 found: with_capacity(most)?,
                 most,
             },
-            around: Around {
+            nearby: NearbyLeaves {
                 leaf: usize::MAX,
                 reach: 0.0,
                 leaves: with_capacity(AROUND)?,

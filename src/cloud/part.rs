@@ -3,7 +3,7 @@
 
 use alloc::boxed::Box;
 
-use super::selection::Region;
+use crate::cloud::selection::Region;
 
 /// A step from a cloud to a part of it, or to other places of its points. Indices stay.
 #[derive(Clone, Copy, PartialEq)]

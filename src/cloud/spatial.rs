@@ -5,8 +5,8 @@
 //! ties on the curve. It does not depend on the order of the input, or on earlier changes of
 //! the cloud. So everything that is computed in this order is reproducible to the bit.
 
-use super::hilbert::{BITS, hilbert_key};
 use crate::base::real::{floor, positive_part};
+use crate::cloud::hilbert::{BITS, hilbert_key};
 
 /// Cells along an axis.
 const CELLS: f64 = (1u32 << BITS) as f64;

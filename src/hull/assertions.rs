@@ -3,9 +3,9 @@
 
 use glam::DVec3;
 
-use super::incremental::{Hull, ORIGIN};
-use super::topology::{FaceId, HalfEdge};
+use crate::hull::incremental::{Hull, ORIGIN};
 use crate::hull::predicates::{Sign, side_of_origin};
+use crate::hull::topology::{FaceId, HalfEdge};
 
 /// If there are more faces than this, only an even sample is checked.
 const MOST_FACES: usize = 4096;

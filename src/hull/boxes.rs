@@ -11,9 +11,9 @@
 
 use glam::DVec3;
 
-use super::kept::KeptHull;
-use super::topology::FaceId;
 use crate::base::real::square_root;
+use crate::hull::kept::KeptHull;
+use crate::hull::topology::FaceId;
 
 /// How many rectangles are tried for one box.
 const MOST_TRIED: u32 = 4096;

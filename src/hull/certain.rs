@@ -7,18 +7,18 @@
 
 use alloc::vec::Vec;
 
-use super::division::Elsewhere;
-use super::flipped::Flipped;
-use super::incremental::Hull;
-use super::locate::Location;
-use super::memory::Memory;
-use super::outer_boundary::mark_visible;
-use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, filled, push};
 use crate::base::sort::sort_keyed;
 use crate::cloud::blocks::Sphere;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
+use crate::hull::division::Elsewhere;
+use crate::hull::flipped::Flipped;
+use crate::hull::incremental::Hull;
+use crate::hull::locate::Location;
+use crate::hull::memory::Memory;
+use crate::hull::outer_boundary::mark_visible;
+use crate::hull::topology::FaceId;
 
 /// What a hull of some points tells about a larger cloud.
 pub(crate) struct Certain {

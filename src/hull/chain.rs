@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::predicates::{Sign, orient2d};
+use crate::hull::predicates::{Sign, orient2d};
 
 /// Andrew's monotone chain: the hull's lower side for points sorted from left to right,
 /// its upper side from right to left. Points in line with their neighbors are kept.

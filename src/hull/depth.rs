@@ -13,12 +13,12 @@ mod tests;
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::flipped::Flipped;
-use super::incremental::Hull;
-use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, reserve};
 use crate::base::real::{larger, smaller, square_root};
 use crate::cloud::blocks::{BLOCK, Sphere};
+use crate::hull::flipped::Flipped;
+use crate::hull::incremental::Hull;
+use crate::hull::topology::FaceId;
 
 /// A map is made only for this many points or more. Fewer points are located faster than a
 /// map is made.

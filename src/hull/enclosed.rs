@@ -13,14 +13,14 @@
 
 use alloc::vec::Vec;
 
-use super::incremental::ORIGIN;
-use super::locate::Location;
-#[cfg(debug_assertions)]
-use super::predicates::Sign;
-use super::share::Share;
-use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, filled, push};
 use crate::base::sort::sort_keyed;
+use crate::hull::incremental::ORIGIN;
+use crate::hull::locate::Location;
+#[cfg(debug_assertions)]
+use crate::hull::predicates::Sign;
+use crate::hull::share::Share;
+use crate::hull::topology::FaceId;
 
 impl Share<'_> {
     /// Marks the own vertices of faces that no far point can see, because a closed ring of faces

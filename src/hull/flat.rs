@@ -7,9 +7,9 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::chain::convex_chain;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::sort::sorted_places;
+use crate::hull::chain::convex_chain;
 use crate::hull::predicates::{Sign, orient2d};
 
 const ORIGIN: [f64; 2] = [0.0; 2];

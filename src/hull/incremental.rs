@@ -12,10 +12,10 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::dual_plane::{Plane, Spoke};
-use super::topology::{Face, FaceId, Surface, Vertex};
 use crate::base::allocation::{OutOfMemory, reserve};
+use crate::hull::dual_plane::{Plane, Spoke};
 use crate::hull::predicates::{Sign, side_of_face, side_of_origin};
+use crate::hull::topology::{Face, FaceId, Surface, Vertex};
 
 /// The ghost vertex.
 pub(super) const ORIGIN: Vertex = 0;

@@ -9,17 +9,17 @@
 
 use glam::DVec3;
 
-use super::flat::collinear_with_origin;
-use super::flipped::Flipped;
-use super::locate::Location;
-use super::memory::Memory;
-use super::outer_boundary::mark_visible;
-use super::predicates::{Sign, side_of_origin};
-use super::topology::FaceId;
 use crate::base::allocation::OutOfMemory;
 use crate::cloud::blocks::Sphere;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
+use crate::hull::flat::collinear_with_origin;
+use crate::hull::flipped::Flipped;
+use crate::hull::locate::Location;
+use crate::hull::memory::Memory;
+use crate::hull::outer_boundary::mark_visible;
+use crate::hull::predicates::{Sign, side_of_origin};
+use crate::hull::topology::FaceId;
 
 /// A hull that answers for points outside of its cloud.
 pub(crate) struct KeptHull {

@@ -3,11 +3,11 @@
 
 use glam::DVec3;
 
-use super::dual_plane::Plane;
-use super::incremental::Hull;
-use super::topology::{Face, FaceId, HalfEdge};
 use crate::base::real::larger;
+use crate::hull::dual_plane::Plane;
+use crate::hull::incremental::Hull;
 use crate::hull::predicates::Sign;
+use crate::hull::topology::{Face, FaceId, HalfEdge};
 
 /// After this many steps a walk looks for a better start.
 const PATIENCE: usize = 64;

@@ -12,13 +12,13 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::chain::convex_chain;
-use super::order;
-use super::outer_faces::{Exit, OuterFaces, border_of};
-use super::topology::{Face, FaceId, Surface, Vertex};
 use crate::base::allocation::{OutOfMemory, filled, push, reserve, with_capacity};
 use crate::base::sort::sorted_places;
+use crate::hull::chain::convex_chain;
+use crate::hull::order;
+use crate::hull::outer_faces::{Exit, OuterFaces, border_of};
 use crate::hull::predicates::{Sign, orient2d, side_of_face};
+use crate::hull::topology::{Face, FaceId, Surface, Vertex};
 
 /// The ghost vertex, infinitely far up.
 const ABOVE: Vertex = 0;

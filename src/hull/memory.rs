@@ -3,18 +3,18 @@
 
 use alloc::vec::Vec;
 
-use super::around::Around;
-use super::depth::DepthMap;
-use super::flipped::Flipped;
-use super::incremental::Hull;
-use super::locate::Location;
-use super::order::{self, LAST_ROUND, points_at};
-use super::topology::FaceId;
 use crate::base::allocation::{OutOfMemory, push};
 use crate::base::beat;
 use crate::base::bits::bits_of;
 use crate::base::build::FULL;
 use crate::flip::inversion::Flip;
+use crate::hull::angular_order::AngularOrder;
+use crate::hull::depth::DepthMap;
+use crate::hull::flipped::Flipped;
+use crate::hull::incremental::Hull;
+use crate::hull::locate::Location;
+use crate::hull::order::{self, LAST_ROUND, points_at};
+use crate::hull::topology::FaceId;
 
 /// The last view's hull, whose room the next view uses. Its content never changes an answer, as
 /// long as it is only used for one sequence of points.
@@ -158,14 +158,14 @@ impl Memory {
     /// Adds every point to a hull that was just started. Except for roundings, the cloud lies in
     /// one plane with the viewpoint.
     #[inline(never)]
-    pub(super) fn add_around(
+    pub(super) fn add_by_angle(
         &mut self,
-        plane: &Around,
+        order: &AngularOrder,
         flipped: &Flipped,
     ) -> Result<(), OutOfMemory> {
         let mut hint = 0;
         for round in order::coarse_rounds().chain([order::last_round()]) {
-            for (at, (_, index)) in plane.sorted(round, flipped)?.into_iter().enumerate() {
+            for (at, (_, index)) in order.sorted(round, flipped)?.into_iter().enumerate() {
                 beat::step_at(at);
                 hint = self.add(index, flipped, hint)?;
             }

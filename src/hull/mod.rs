@@ -10,7 +10,7 @@
 
 pub(crate) mod division;
 
-mod around;
+mod angular_order;
 #[cfg(debug_assertions)]
 mod assertions;
 mod boxes;

@@ -4,17 +4,17 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::around::Around;
-use super::division::Division;
-use super::flipped::Flipped;
-use super::memory::{Memory, State};
-use super::predicates::{Sign, side_of_origin};
-use super::{flat, order, share};
 use crate::base::allocation::OutOfMemory;
 use crate::base::beat;
 use crate::cloud::blocks::Sphere;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
+use crate::hull::angular_order::AngularOrder;
+use crate::hull::division::Division;
+use crate::hull::flipped::Flipped;
+use crate::hull::memory::{Memory, State};
+use crate::hull::predicates::{Sign, side_of_origin};
+use crate::hull::{flat, order, share};
 
 /// Finds the visible points among `points`, flipped by `flip`. [`Memory::visible`] then holds
 /// them.
@@ -150,8 +150,8 @@ fn start(flipped: &Flipped, count: usize, memory: &mut Memory) -> Result<bool, O
         return Ok(false);
     };
     memory.hull.start(corners, flipped.reach(), count)?;
-    if let Some(plane) = Around::of(&corners, flipped) {
-        memory.add_around(&plane, flipped)?;
+    if let Some(order) = AngularOrder::of(&corners, flipped) {
+        memory.add_by_angle(&order, flipped)?;
         memory.finish(flipped)?;
         return Ok(false);
     }

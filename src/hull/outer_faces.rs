@@ -3,14 +3,14 @@
 
 use glam::DVec3;
 
-use super::flipped::Flipped;
-use super::incremental::Hull;
-use super::locate::Location;
-use super::memory::Memory;
-use super::topology::{FaceId, HalfEdge, Surface, Vertex};
 use crate::base::allocation::OutOfMemory;
 use crate::cloud::points::Points;
 use crate::flip::inversion::Flip;
+use crate::hull::flipped::Flipped;
+use crate::hull::incremental::Hull;
+use crate::hull::locate::Location;
+use crate::hull::memory::Memory;
+use crate::hull::topology::{FaceId, HalfEdge, Surface, Vertex};
 
 /// A factor for places that are certainly in the hull, if their ray leaves it.
 const NEAR: f64 = 1e-30;

@@ -8,11 +8,11 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::depth::{Window, direction, place, turned};
-use super::dual_plane::Plane;
-use super::memory::Memory;
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::real::{floor, larger, smaller, square_root};
+use crate::hull::depth::{Window, direction, place, turned};
+use crate::hull::dual_plane::Plane;
+use crate::hull::memory::Memory;
 
 /// The largest number of cells along a side of length 1. Then single precision still finds the cell
 /// of a direction, except near its border.

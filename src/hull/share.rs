@@ -37,17 +37,17 @@ mod tests;
 
 use alloc::vec::Vec;
 
-use super::depth::DepthMap;
-use super::flipped::Flipped;
-use super::incremental::Hull;
-use super::locate::Location;
-use super::memory::Memory;
-use super::order::{EIGHTH, LAST_ROUND, points_at};
-use super::topology::{FaceId, Vertex};
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::base::beat;
 use crate::cloud::blocks::BLOCK;
+use crate::hull::depth::DepthMap;
 use crate::hull::division::Division;
+use crate::hull::flipped::Flipped;
+use crate::hull::incremental::Hull;
+use crate::hull::locate::Location;
+use crate::hull::memory::Memory;
+use crate::hull::order::{EIGHTH, LAST_ROUND, points_at};
+use crate::hull::topology::{FaceId, Vertex};
 
 /// The step of the sample of the far points: a point is in it if its place in the spatial
 /// order is a multiple of this number.

@@ -3,12 +3,12 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::dual_plane::Plane;
-use super::flipped::Flipped;
-use super::incremental::Hull;
-use super::topology::{Face, FaceId, HalfEdge};
 use crate::base::allocation::OutOfMemory;
+use crate::hull::dual_plane::Plane;
+use crate::hull::flipped::Flipped;
+use crate::hull::incremental::Hull;
 use crate::hull::predicates::{Sign, side_of_origin};
+use crate::hull::topology::{Face, FaceId, HalfEdge};
 
 impl Hull {
     /// The outer faces, counter-clockwise seen from the viewpoint, every vertex set

@@ -21,7 +21,7 @@ use crate::view::search::{self, Seen};
 type Seeing<'a> = dyn Fn(&[f64], Kernel) -> Result<Vec<bool>, Error> + 'a;
 
 /// A cloud of any dimension, as far as a choice of R needs to know it.
-pub(crate) struct Sight<'a> {
+pub(crate) struct RadiusInput<'a> {
     pub viewpoint: &'a [f64],
     pub centroid: &'a [f64],
     /// R by the closed form.
@@ -34,7 +34,7 @@ pub(crate) struct Sight<'a> {
     pub seen: &'a Seeing<'a>,
 }
 
-impl Sight<'_> {
+impl RadiusInput<'_> {
     /// Turns the caller's choice into a radius.
     pub(crate) fn resolve(&self, choice: Radius) -> Result<ChosenRadius, Error> {
         let (viewpoint, farthest) = (self.viewpoint, self.farthest);
@@ -82,7 +82,7 @@ pub(crate) fn resolve(
     farthest: f64,
 ) -> Result<ChosenRadius, Error> {
     let place = |p: &[f64]| [p[0], p[1], p[2]];
-    let sight = Sight {
+    let input = RadiusInput {
         viewpoint: &viewpoint,
         centroid: &statistics.centroid,
         automatic: automatic(statistics, texture, viewpoint, farthest),
@@ -93,5 +93,5 @@ pub(crate) fn resolve(
         },
         seen: &|p, kernel| Ok(visible_once(points, &Flip::new(place(p), kernel))?),
     };
-    sight.resolve(choice)
+    input.resolve(choice)
 }

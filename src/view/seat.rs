@@ -1,6 +1,6 @@
 //! From where a cloud is seen.
 
-use super::camera::Camera;
+use crate::view::camera::Camera;
 
 /// A viewpoint, which looks everywhere, or a camera, which sees only what is in its image. Points outside of the image
 /// still hide others.

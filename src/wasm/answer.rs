@@ -5,12 +5,12 @@ use js_sys::{Float32Array, Uint32Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
-use super::failure::Failure;
-use super::objects::to_js;
-use super::options::ViewOptions;
-use super::transfer::{copy_out, copy_out_singles};
 #[cfg(feature = "wasm")]
 use crate::Error;
+use crate::wasm::failure::Failure;
+use crate::wasm::objects::to_js;
+use crate::wasm::options::ViewOptions;
+use crate::wasm::transfer::{copy_out, copy_out_singles};
 use crate::{ChosenRadius, Exponential, Inversion, Visibility};
 
 #[derive(Serialize)]

@@ -9,13 +9,13 @@ use js_sys::Uint8Array;
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
-use super::failure::Failure;
-use super::objects::to_js;
-use super::options::ViewOptions;
-use super::transfer::copy_in_bytes;
 use crate::answers::memory::ViewMemory;
 use crate::base::allocation::push;
 use crate::base::build::FULL;
+use crate::wasm::failure::Failure;
+use crate::wasm::objects::to_js;
+use crate::wasm::options::ViewOptions;
+use crate::wasm::transfer::copy_in_bytes;
 use crate::{Error, Options, PointCloud};
 #[cfg(feature = "wasm")]
 use crate::{Horizon, PointCloudNd};

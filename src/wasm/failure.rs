@@ -4,7 +4,7 @@
 use serde::Serialize;
 use wasm_bindgen::JsValue;
 
-use super::objects::to_js;
+use crate::wasm::objects::to_js;
 use crate::{Error, MAX_POINTS};
 
 /// A refusal: its code, and the option and the numbers that its message names.

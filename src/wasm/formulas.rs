@@ -3,7 +3,7 @@
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
-use super::answer::refused;
+use crate::wasm::answer::refused;
 use crate::{permissible_curvature, radius_bound, ring_of_viewpoints};
 
 /// Fills `ring`, three numbers a viewpoint, with viewpoints around `viewpoint`, on a circle

@@ -6,13 +6,13 @@ use alloc::vec::Vec;
 use js_sys::Float64Array;
 use wasm_bindgen::prelude::*;
 
-use super::answer::{answered, chosen, refused};
-use super::cloud_options::{CloudOptions, non_finite};
-use super::clouds::{Cloud, change_any, created, resized, with_hyper};
-use super::options::ViewOptions;
-use super::transfer::numbers;
 use crate::PointCloudNd;
 use crate::base::allocation::with_capacity;
+use crate::wasm::answer::{answered, chosen, refused};
+use crate::wasm::cloud_options::{CloudOptions, non_finite};
+use crate::wasm::clouds::{Cloud, change_any, created, resized, with_hyper};
+use crate::wasm::options::ViewOptions;
+use crate::wasm::transfer::numbers;
 
 /// A cloud of `dimension` numbers a point.
 #[wasm_bindgen(js_name = createHyperCloud, unchecked_return_type = "CloudInfo")]

@@ -5,10 +5,10 @@ use alloc::boxed::Box;
 use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use super::clouds::{Cloud, created, with_horizon};
-use super::options::ViewOptions;
-use super::transfer::{copy_out, copy_out_doubles, doubles, singles};
 use crate::cloud::points::Points;
+use crate::wasm::clouds::{Cloud, created, with_horizon};
+use crate::wasm::options::ViewOptions;
+use crate::wasm::transfer::{copy_out, copy_out_doubles, doubles, singles};
 use crate::{Error, Horizon};
 
 /// A horizon without points, seen from (x, y, z).

@@ -4,11 +4,11 @@ use js_sys::{Float32Array, Float64Array};
 use serde::Serialize;
 use wasm_bindgen::prelude::*;
 
-use super::clouds::{with_memory, with_view};
-use super::objects::to_js;
-use super::options::ViewOptions;
-use super::transfer::copy_out_singles;
 use crate::MapOptions;
+use crate::wasm::clouds::{with_memory, with_view};
+use crate::wasm::objects::to_js;
+use crate::wasm::options::ViewOptions;
+use crate::wasm::transfer::copy_out_singles;
 
 #[derive(Serialize)]
 struct Map {

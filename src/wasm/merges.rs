@@ -3,12 +3,12 @@
 use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use super::failure::Failure;
-use super::options::ViewOptions;
-use super::transfer::{copy_in_integers, copy_out, doubles, singles};
 use crate::Error;
 use crate::answers::merge::{Ids, merge};
 use crate::cloud::points::Points;
+use crate::wasm::failure::Failure;
+use crate::wasm::options::ViewOptions;
+use crate::wasm::transfer::{copy_in_integers, copy_out, doubles, singles};
 
 /// The ids of the visible points among single-precision positions; each position has one id.
 #[wasm_bindgen(js_name = mergeVisibleF32)]

@@ -3,11 +3,11 @@
 use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use super::answer::answer;
-use super::clouds::with_view;
-use super::options::ViewOptions;
-use super::transfer::{corners, triples};
 use crate::Lighting;
+use crate::wasm::answer::answer;
+use crate::wasm::clouds::with_view;
+use crate::wasm::options::ViewOptions;
+use crate::wasm::transfer::{corners, triples};
 
 /// The points that are visible from (x, y, z), and the triangles between them.
 #[wasm_bindgen(unchecked_return_type = "Answer")]

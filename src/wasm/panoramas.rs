@@ -3,9 +3,9 @@
 use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use super::clouds::{with_memory, with_view};
-use super::options::ViewOptions;
 use crate::PanoramaOptions;
+use crate::wasm::clouds::{with_memory, with_view};
+use crate::wasm::options::ViewOptions;
 
 /// Writes what stands in each direction into `ranges` and `indices`, which have a place for each pixel, and
 /// the sky view factor and the solid angle into `areas`. `asked` holds x, y, z of the viewpoint, the width,

@@ -5,12 +5,12 @@ use alloc::boxed::Box;
 use js_sys::{Float32Array, Float64Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use super::cloud_options::{CloudOptions, non_finite};
-use super::clouds::{Cloud, change_any, created, resized};
-use super::failure::Failure;
-use super::transfer::{copy_in_integers, doubles, singles};
 use crate::base::build::FULL;
 use crate::cloud::points::Points;
+use crate::wasm::cloud_options::{CloudOptions, non_finite};
+use crate::wasm::clouds::{Cloud, change_any, created, resized};
+use crate::wasm::failure::Failure;
+use crate::wasm::transfer::{copy_in_integers, doubles, singles};
 use crate::{Error, PointCloud};
 
 /// A cloud of single-precision positions, three a point, kept in single precision.

@@ -5,10 +5,10 @@ use alloc::vec::Vec;
 
 use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
 
-use super::options::ViewOptions;
 use crate::Error;
 use crate::base::allocation::filled;
 use crate::cloud::points::Points;
+use crate::wasm::options::ViewOptions;
 
 #[inline(never)]
 pub(super) fn singles(positions: &Float32Array) -> Result<Points, Error> {

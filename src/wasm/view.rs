@@ -2,13 +2,13 @@
 
 use wasm_bindgen::prelude::*;
 
-use super::answer::{answered, chosen};
-use super::clouds::{with_cloud, with_memory, with_view};
-use super::options::ViewOptions;
 use crate::Sector;
 use crate::base::build::FULL;
 use crate::hull::Memory;
 use crate::view::refusals::QuestionKind;
+use crate::wasm::answer::{answered, chosen};
+use crate::wasm::clouds::{with_cloud, with_memory, with_view};
+use crate::wasm::options::ViewOptions;
 
 /// Which points are visible from (x, y, z)?
 #[wasm_bindgen(js_name = visibleFrom, unchecked_return_type = "Answer")]

@@ -3,13 +3,13 @@
 use js_sys::{Float32Array, Float64Array, Uint8Array, Uint32Array};
 use wasm_bindgen::prelude::*;
 
-use super::answer::answered;
-use super::clouds::{with_cloud, with_memory, with_view};
-use super::failure::Failure;
-use super::options::ViewOptions;
-use super::transfer::{copy_in_integers, triples};
-use super::view::seen;
 use crate::cloud::points::Given;
+use crate::wasm::answer::answered;
+use crate::wasm::clouds::{with_cloud, with_memory, with_view};
+use crate::wasm::failure::Failure;
+use crate::wasm::options::ViewOptions;
+use crate::wasm::transfer::{copy_in_integers, triples};
+use crate::wasm::view::seen;
 use crate::{Camera, Sector};
 
 /// Goes on from the draft of a view, if the last view was that draft, with about `budget` points.

@@ -3,9 +3,9 @@
 
 use alloc::vec::Vec;
 
-use super::look::{Look, Verdict, Verdicts};
-use super::rays::{Ray, Rays};
-use super::tuning::Tuning;
+use crate::answers::looks::look::{Look, Verdict, Verdicts};
+use crate::answers::looks::rays::{Ray, Rays};
+use crate::answers::looks::tuning::Tuning;
 use crate::base::allocation::{OutOfMemory, push};
 use crate::cloud::points::Points;
 

@@ -2,10 +2,10 @@
 
 use alloc::vec::Vec;
 
-use super::corners::{Corner, Corners};
-use super::look::{Look, Verdicts};
-use super::part::{Left, Part};
-use super::triangle::Triangle;
+use crate::answers::looks::corners::{Corner, Corners};
+use crate::answers::looks::look::{Look, Verdicts};
+use crate::answers::looks::part::{Left, Part};
+use crate::answers::looks::triangle::Triangle;
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::beat;
 use crate::base::real::square_root;

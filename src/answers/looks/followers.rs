@@ -2,7 +2,7 @@
 
 use alloc::vec::Vec;
 
-use super::look::{Verdict, Verdicts};
+use crate::answers::looks::look::{Verdict, Verdicts};
 use crate::base::allocation::{OutOfMemory, push, with_capacity};
 use crate::cloud::neighbors::{Nearest, Neighbors};
 use crate::cloud::points::Points;

@@ -3,8 +3,8 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::part::Part;
-use super::tuning::Tuning;
+use crate::answers::looks::part::Part;
+use crate::answers::looks::tuning::Tuning;
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::square_root;
 

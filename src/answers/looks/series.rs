@@ -3,11 +3,11 @@
 use alloc::sync::Arc;
 use glam::DVec3;
 
-use super::followers::follow;
-use super::look::{Look, Seen, Verdicts};
-use super::part::Part;
-use super::rays::Projection;
-use super::tuning::Tuning;
+use crate::answers::looks::followers::follow;
+use crate::answers::looks::look::{Look, Seen, Verdicts};
+use crate::answers::looks::part::Part;
+use crate::answers::looks::rays::Projection;
+use crate::answers::looks::tuning::Tuning;
 use crate::base::allocation::OutOfMemory;
 use crate::base::error::Error;
 use crate::base::real::power_of_two_below;

@@ -8,7 +8,7 @@
 use alloc::boxed::Box;
 use alloc::sync::Arc;
 
-use super::look::Seen;
+use crate::answers::looks::look::Seen;
 use crate::base::allocation::filled;
 use crate::base::error::Error;
 use crate::cloud::noise::Noise;

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::corners::Corners;
+use crate::answers::looks::corners::Corners;
 use crate::base::real::{root_of_largest, square_root};
 use crate::hull::Vertex;
 

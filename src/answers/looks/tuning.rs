@@ -10,7 +10,7 @@
 
 use glam::DVec3;
 
-use super::rays::{Projection, Ray, Rays};
+use crate::answers::looks::rays::{Projection, Ray, Rays};
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
 use crate::base::sort::percentile;

@@ -15,7 +15,7 @@
 //! Where M is much larger than m, S is larger than m, and nothing is left. But ρ ≥ m·(1 − h²/4) as
 //! well: there, all four corners take the distance of m.
 
-use super::hides::VisibilityMap;
+use crate::answers::visibility_map::hides::VisibilityMap;
 use crate::base::allocation::{OutOfMemory, filled};
 use crate::base::real::{larger, smaller, square_root};
 use crate::flip::inversion::Flip;

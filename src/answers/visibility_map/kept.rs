@@ -1,7 +1,7 @@
 //! What is kept from map to map.
 
-use super::hides::VisibilityMap;
-use super::pool::Pool;
+use crate::answers::visibility_map::hides::VisibilityMap;
+use crate::answers::visibility_map::pool::Pool;
 use crate::hull::Memory;
 
 /// What the last map of a cloud leaves for the next one.

@@ -4,9 +4,9 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::hides::VisibilityMap;
-use super::options::MapOptions;
 use crate::answers::sample::even_places;
+use crate::answers::visibility_map::hides::VisibilityMap;
+use crate::answers::visibility_map::options::MapOptions;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
 use crate::cloud::points::Points;

@@ -7,11 +7,11 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::Asked;
-use super::kept::Tuned;
-use super::pool::Cone;
 use crate::answers::looks::{Projection, Question};
 use crate::answers::memory::ViewMemory;
+use crate::answers::visibility_map::Asked;
+use crate::answers::visibility_map::kept::Tuned;
+use crate::answers::visibility_map::pool::Cone;
 use crate::base::allocation::push;
 use crate::base::error::Error;
 use crate::cloud::point_cloud::PointCloud;

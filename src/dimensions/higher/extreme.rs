@@ -14,11 +14,11 @@
 
 use alloc::vec::Vec;
 
-use super::frame::Frame;
-use super::plane::{Plane, subtract};
-use super::residues::Exact;
 use crate::base::allocation::{OutOfMemory, fill, filled, push, reserve};
 use crate::base::beat;
+use crate::dimensions::higher::frame::Frame;
+use crate::dimensions::higher::plane::{Plane, subtract};
+use crate::dimensions::higher::residues::Exact;
 
 /// A share of a vector in a basis that counts as 0 in rounded steps.
 const NOTHING: f64 = 1e-11;

@@ -19,7 +19,7 @@ use crate::base::error::{Error, in_range};
 use crate::base::real::square_root;
 use crate::cloud::point_cloud::NonFinite;
 use crate::flip::kernel::Kernel;
-use crate::view::choice::Sight;
+use crate::view::choice::RadiusInput;
 use crate::view::options::{Inversion, Options, Radius};
 use crate::view::radius::{self, ChosenRadius};
 use crate::view::refusals::QuestionKind;
@@ -256,7 +256,7 @@ impl PointCloudNd {
         let r_squared = squared(viewpoint, &measures.middle) + measures.variance;
         let count = self.rows.distinct();
         let automatic = radius::closed_form(count, r_squared, measures.gap, farthest);
-        let sight = Sight {
+        let input = RadiusInput {
             viewpoint,
             centroid: &measures.centroid,
             automatic,
@@ -264,7 +264,7 @@ impl PointCloudNd {
             reach: &|place| self.farthest(place).unwrap_or(f64::INFINITY),
             seen: &|place, kernel| Ok(self.mark_visible(place, kernel)?.visible),
         };
-        sight.resolve(choice)
+        input.resolve(choice)
     }
 
     fn mark_visible(&self, viewpoint: &[f64], kernel: Kernel) -> Result<Marks, Error> {

@@ -3,7 +3,6 @@
 
 use alloc::vec::Vec;
 
-use super::flat::Flat;
 use crate::base::allocation::{OutOfMemory, filled, reserve, with_capacity};
 use crate::base::error::Error;
 use crate::base::real::square_root;
@@ -11,6 +10,7 @@ use crate::base::sort::{ordered, sort_by_numbers};
 use crate::cloud::point_cloud::NonFinite;
 use crate::cloud::points::checked_len;
 use crate::cloud::surface;
+use crate::dimensions::higher::flat::Flat;
 
 /// The spacing of a point is its mean distance from `NEIGHBORS` points; it is measured at
 /// `SAMPLES` points.

@@ -3,10 +3,10 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::Sector;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::larger;
 use crate::base::sort::sort_keyed;
+use crate::hull::division::Sector;
 
 /// A block as it is seen: its direction, and the work that it stands for.
 #[derive(Clone, Copy)]

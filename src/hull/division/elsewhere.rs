@@ -3,12 +3,12 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::alike::Alike;
-use super::cone::Cone;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::real::square_root;
 use crate::cloud::blocks::FANOUT;
 use crate::flip::inversion::Flip;
+use crate::hull::division::cone::Cone;
+use crate::hull::division::leaf_cache::LeafCache;
 
 /// A box: the corner with the least coordinates and the corner with the largest ones.
 type Corners = [[f64; 3]; 2];
@@ -22,7 +22,7 @@ pub(crate) struct Elsewhere {
     levels: Vec<Vec<Cone>>,
     /// Boxes that count as above every plane, since no plane is certain for their points.
     everywhere: Vec<u32>,
-    alike: Alike,
+    cache: LeafCache,
 }
 
 impl Elsewhere {
@@ -69,7 +69,7 @@ impl Elsewhere {
         levels.try_reserve(1)?;
         levels.push(cones);
         Ok(Self {
-            alike: Alike::new(spread, levels.len())?,
+            cache: LeafCache::new(spread, levels.len())?,
             levels,
             everywhere,
         })
@@ -93,11 +93,11 @@ impl Elsewhere {
             return Ok(());
         }
         let length = square_root(m.dot(m));
-        self.alike
+        self.cache
             .turn_to((m, limit), length, &self.levels, |_, _| false)?;
         let cones = &self.levels[0];
         let may_be_above = |leaf: &&u32| cones[**leaf as usize].bound(m, length) >= limit;
-        let leaves = self.alike.leaves.iter().filter(may_be_above);
+        let leaves = self.cache.leaves.iter().filter(may_be_above);
         leaves
             .chain(&self.everywhere)
             .for_each(|&number| found(number));

@@ -3,12 +3,12 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::alike::Alike;
-use super::cone::Cone;
-use super::places_in;
 use crate::base::allocation::{OutOfMemory, filled, reserve};
 use crate::base::real::square_root;
 use crate::cloud::blocks::{BLOCK, FANOUT};
+use crate::hull::division::cone::Cone;
+use crate::hull::division::leaf_cache::LeafCache;
+use crate::hull::division::places_in;
 use crate::hull::flipped::Flipped;
 
 /// A block whose points have not been flipped yet.
@@ -25,7 +25,7 @@ pub(super) struct Far {
     opened: Vec<u32>,
     /// The x, y and z of the far points of each opened block, flipped; zero for a point that is not far.
     flipped: Vec<[[f64; BLOCK]; 3]>,
-    alike: Alike,
+    cache: LeafCache,
 }
 
 impl Far {
@@ -58,7 +58,7 @@ impl Far {
         Ok(Self {
             opened: filled(taken.len(), CLOSED)?,
             taken,
-            alike: Alike::new(spread, levels.len())?,
+            cache: LeafCache::new(spread, levels.len())?,
             levels,
             counts,
             flipped: Vec::new(),
@@ -79,11 +79,11 @@ impl Far {
         let length = square_root(m.dot(m));
         let counts = &self.counts;
         let is_empty = |level: usize, node: usize| counts[level][node] == 0;
-        self.alike
+        self.cache
             .turn_to((m, limit), length, &self.levels, is_empty)?;
         let mut most = None;
-        for k in 0..self.alike.leaves.len() {
-            let block = self.alike.leaves[k] as usize;
+        for k in 0..self.cache.leaves.len() {
+            let block = self.cache.leaves[k] as usize;
             if self.counts[0][block] == 0 || self.levels[0][block].bound(m, length) < limit {
                 continue;
             }

@@ -9,11 +9,11 @@
 //!          worker finds the same cells. Any division gives the right answer (see
 //!          `hull::share`). This division has short seams.
 
-mod alike;
 mod cell;
 mod cone;
 mod elsewhere;
 mod far;
+mod leaf_cache;
 #[cfg(test)]
 mod tests;
 

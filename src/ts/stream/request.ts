@@ -75,15 +75,15 @@ function sentenceOf({ message, pause }: Failure, tries: number): string {
 
 async function attempt(network: Network, url: string, asked: Asked, signal?: AbortSignal): Promise<Answer> {
   const { status, most, ...init } = asked;
-  const watch = new Watch(network.timeout, signal);
+  const timer = new StallTimer(network.timeout, signal);
   try {
-    const response = await watch.until(network.fetch(url, { ...init, signal: watch.signal }));
+    const response = await timer.until(network.fetch(url, { ...init, signal: timer.signal }));
     if (response.status === TOO_MANY_REQUESTS || response.status >= 500) {
       drop(response.body);
       throw new Failure(`the server answered ${response.status}`, pauseOf(response.headers));
     }
     if (response.status === status) {
-      return { response, body: await bodyOf(response, url, most, watch) };
+      return { response, body: await bodyOf(response, url, most, timer) };
     }
     drop(response.body);
     return { response, body: new Uint8Array(0) };
@@ -91,22 +91,22 @@ async function attempt(network: Network, url: string, asked: Asked, signal?: Abo
     if (signal?.aborted) {
       throw abortError(BY_SIGNAL);
     }
-    if (watch.isLate) {
+    if (timer.isLate) {
       const why = `no byte came for ${network.timeout} ms (see the option timeout)`;
       throw new HprError("load", `${url} could not be fetched: ${why}`);
     }
     throw error instanceof HprError || error instanceof Failure ? error : new Failure(asError(error).message, 0, error);
   } finally {
-    watch.end();
+    timer.end();
   }
 }
 
-async function bodyOf(response: Response, url: string, most: number, watch: Watch): Promise<Uint8Array> {
+async function bodyOf(response: Response, url: string, most: number, timer: StallTimer): Promise<Uint8Array> {
   const chunks: Uint8Array[] = [];
   let length = 0;
   const reader = response.body?.getReader();
   while (reader !== undefined) {
-    const { done, value } = await watch.until(reader.read());
+    const { done, value } = await timer.until(reader.read());
     if (done) {
       break;
     }
@@ -116,7 +116,7 @@ async function bodyOf(response: Response, url: string, most: number, watch: Watc
       throw new HprError("load", `${url} could not be read: its server sends more than the ${most} bytes asked for`);
     }
     chunks.push(value);
-    watch.begin();
+    timer.begin();
   }
   const body = new Uint8Array(length);
   let at = 0;
@@ -151,7 +151,7 @@ async function pause(milliseconds: number, signal: AbortSignal | undefined): Pro
 const PARTS = 4;
 
 /** Ends a request when its signal aborts, or when no byte comes. */
-class Watch {
+class StallTimer {
   isLate = false;
   readonly #end = new AbortController();
   readonly #timeout: number;

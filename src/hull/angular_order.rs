@@ -9,10 +9,10 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::flipped::Flipped;
-use super::order::Round;
 use crate::base::allocation::{OutOfMemory, with_capacity};
 use crate::base::sort::{ordered, sort_keyed};
+use crate::hull::flipped::Flipped;
+use crate::hull::order::Round;
 
 /// A point counts as in the plane up to this distance from it, as a share of the largest
 /// distance. Rounding errors are 1e-16 of the coordinates, and the coordinates of a cloud in a
@@ -23,11 +23,11 @@ const THICKNESS: f64 = 1e-9;
 const MIN_POINTS: usize = 128;
 
 /// The plane that holds all points except for rounding, given by two axes of unit length.
-pub(super) struct Around {
+pub(super) struct AngularOrder {
     axes: [DVec3; 2],
 }
 
-impl Around {
+impl AngularOrder {
     /// The plane of the first tetrahedron. `None` unless its corners are within [`THICKNESS`] of
     /// one plane with the viewpoint. The last corner is the point farthest from the plane of the
     /// others.

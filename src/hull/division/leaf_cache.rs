@@ -3,17 +3,17 @@
 use alloc::vec::Vec;
 use glam::DVec3;
 
-use super::cone::Cone;
 use crate::base::allocation::{OutOfMemory, push, reserve};
 use crate::base::real::square_root;
 use crate::cloud::blocks::FANOUT;
+use crate::hull::division::cone::Cone;
 
 /// The largest angle between planes that are alike, in spreads of the leaves.
 const TURN: f64 = 0.7;
 
 /// The leaves for one plane and for all planes that are alike. Neighboring faces are asked about
 /// one after another, so one search serves many of them.
-pub(super) struct Alike {
+pub(super) struct LeafCache {
     /// The planes are across about this direction.
     direction: DVec3,
     /// The planes are farther than this from the origin.
@@ -26,7 +26,7 @@ pub(super) struct Alike {
     pub leaves: Vec<u32>,
 }
 
-impl Alike {
+impl LeafCache {
     /// `spread` is the angle of a usual leaf of a tree with `levels` levels.
     pub(super) fn new(spread: f64, levels: usize) -> Result<Self, OutOfMemory> {
         let sin = (TURN * spread).min(0.5);
@@ -122,14 +122,14 @@ mod tests {
     }
 
     /// Asks for a plane. Returns how many nodes were visited.
-    fn ask(alike: &mut Alike, plane: (DVec3, f64), levels: &[Vec<Cone>]) -> u32 {
+    fn ask(cache: &mut LeafCache, plane: (DVec3, f64), levels: &[Vec<Cone>]) -> u32 {
         let visited = core::cell::Cell::new(0);
         let is_empty = |level: usize, node: usize| {
             visited.set(visited.get() + 1);
             [(1, 3), (0, 8)].contains(&(level, node))
         };
         let length = plane.0.length();
-        alike.turn_to(plane, length, levels, is_empty).unwrap();
+        cache.turn_to(plane, length, levels, is_empty).unwrap();
         visited.get()
     }
 
@@ -139,15 +139,15 @@ mod tests {
         let levels = tree(&mut random);
         let mut found = 0;
         for _ in 0..2000 {
-            let mut alike = Alike::new(SPREAD, 2).unwrap();
+            let mut cache = LeafCache::new(SPREAD, 2).unwrap();
             let m = random.between(0.2, 3.0) * random.direction();
             let limit = m.length() * random.between(0.8, 1.9);
-            assert!(ask(&mut alike, (m, limit), &levels) >= 8);
+            assert!(ask(&mut cache, (m, limit), &levels) >= 8);
             let reaches = |cone: &Cone| {
                 let wide = cone.widened((1.0 - SIN * SIN).sqrt(), SIN);
                 wide.bound(m.normalize(), 1.0) >= limit / m.length() * (1.0 - SIN * SIN)
             };
-            let mut leaves = alike.leaves.clone();
+            let mut leaves = cache.leaves.clone();
             leaves.sort_unstable();
             let expected: Vec<u32> = (0..64)
                 .filter(|&leaf| leaf / 8 != 3 && leaf != 8)
@@ -165,16 +165,16 @@ mod tests {
         let mut random = Random::new(8);
         let levels = tree(&mut random);
         for _ in 0..200 {
-            let mut alike = Alike::new(SPREAD, 2).unwrap();
+            let mut cache = LeafCache::new(SPREAD, 2).unwrap();
             let u = random.direction();
             let across = u.any_orthonormal_vector();
             let limit = random.between(0.5, 1.5);
             let turned = |sin: f64| f64::sqrt(1.0 - sin * sin) * u + sin * across;
             let [first, second] = [0; 2].map(|_| random.between(0.2, 5.0));
-            assert!(ask(&mut alike, (first * u, first * limit), &levels) > 0);
+            assert!(ask(&mut cache, (first * u, first * limit), &levels) > 0);
             let mut visits = |sin: f64, lower: f64| {
                 let plane = (second * turned(sin), second * limit * lower);
-                ask(&mut alike, plane, &levels)
+                ask(&mut cache, plane, &levels)
             };
             assert_eq!(visits(0.99 * SIN, 1.0), 0);
             assert_eq!(visits(0.0, 1.0 - 0.99 * SIN * SIN), 0);
@@ -183,7 +183,7 @@ mod tests {
             assert!(visits(1.01 * SIN, 1.0) > 0);
         }
         // Very wide leaves do not make planes alike that are far from each other.
-        let alike = Alike::new(5.0, 2).unwrap();
-        assert_eq!(alike.turn, (0.75f64.sqrt(), 0.5));
+        let cache = LeafCache::new(5.0, 2).unwrap();
+        assert_eq!(cache.turn, (0.75f64.sqrt(), 0.5));
     }
 }
