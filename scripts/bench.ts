@@ -1,9 +1,7 @@
 // npm run bench: builds, then prints the benchmark tables. Arguments go to the benchmarks.
-import { spawnSync } from "node:child_process";
-
 import { build } from "./build/build.js";
 import { command } from "./lib/command.js";
-import { environment, inRoot, root } from "./lib/paths.js";
+import { runCompiled } from "./lib/compiled.js";
 import { mustRun } from "./lib/run.js";
 import { findBrowser } from "./setup/browser.js";
 import { setUpForBuild } from "./setup/setup.js";
@@ -11,15 +9,8 @@ import { setUpForBuild } from "./setup/setup.js";
 await command(async () => {
   await setUpForBuild();
   await build();
-  await mustRun(
-    "cargo",
-    ["build", "--locked", "--release", "--package", "hpr-tests", "--bin", "bench_native"],
-    "The native benchmark does not build",
-  );
-  await mustRun("tsc", ["-p", "tests/bench"], "The benchmarks do not compile");
-  const args = [inRoot("target", "bench", "tests", "bench", "main.js"), ...process.argv.slice(3)];
+  const what = ["--package", "hpr-tests", "--bin", "bench_native"];
+  await mustRun("cargo", ["build", "--locked", "--release", ...what], "The native benchmark does not build");
   const browser = findBrowser();
-  const env = environment(browser === undefined ? {} : { HPR_CHROMIUM: browser });
-  const { status } = spawnSync(process.execPath, args, { cwd: root, env, stdio: "inherit" });
-  process.exitCode = status ?? 1;
+  await runCompiled("bench", browser === undefined ? {} : { HPR_CHROMIUM: browser });
 });

@@ -6,7 +6,7 @@ mod corpus;
 #[cfg(target_arch = "wasm32")]
 use wasm_bindgen_test::wasm_bindgen_test as test;
 
-/// `npm run bits` prints it for other platforms. The tests of `core` prove that the answers are right. A change that gives
+/// The program `bits_corpus` prints it on other platforms. The tests of `core` prove that the answers are right. A change that gives
 /// other answers on purpose changes this number: write the one that the failure prints.
 const EXPECTED: u64 = 0x1e81_d9a9_c317_7e03;
 

@@ -12,8 +12,8 @@ const OPTIONS = [
   "--one-caller-inline-max-function-size=40",
 ];
 
-/** Shrinks a module as wasm-bindgen made it, in place. It must have names, and keeps them if `keepsNames`. */
-export async function optimize(module: string, failed: string, keepsNames = false): Promise<void> {
+/** Shrinks a module as wasm-bindgen made it, in place. It must have names, and loses them. */
+export async function optimize(module: string, failed: string): Promise<void> {
   writeFileSync(module, withoutMessages(readFileSync(module)));
-  await mustRun("wasm-opt", [...OPTIONS, ...(keepsNames ? ["-g"] : []), module, "-o", module], failed);
+  await mustRun("wasm-opt", [...OPTIONS, module, "-o", module], failed);
 }

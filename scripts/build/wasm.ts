@@ -18,9 +18,7 @@ interface Module {
   env?: Record<string, string>;
 }
 
-/**
- * The modules, by their folder in src/ts and in dist. The full one comes last: `npm run size` reads what cargo has left.
- */
+/** The modules, by their folder in src/ts and in dist. */
 export const MODULES: Record<string, Module> = {
   // Level 2 saves 1.8 kB of 52, and views take as long as with 3.
   lite: { options: ["--no-default-features"], env: { CARGO_PROFILE_RELEASE_OPT_LEVEL: "2" } },

@@ -1,8 +1,8 @@
 import { existsSync, readFileSync } from "node:fs";
 
 import { print } from "../lib/output.js";
+import { findOnPath } from "../lib/paths.js";
 import { notAllowed } from "../supply/allowed.js";
-import { hasCargoDeny } from "../supply/deny.js";
 import { notLocked } from "../supply/locked.js";
 import { THIRD_PARTY, shipped, thirdPartyText } from "../supply/third-party.js";
 import { SETUP } from "./build.js";
@@ -31,9 +31,9 @@ export const supplyChecks: Check[] = [
     needs: [SETUP],
     // Building it takes two minutes. That is too long for a machine that runs the tests once.
     run: async () =>
-      hasCargoDeny()
+      findOnPath("cargo-deny") !== undefined
         ? checkCommand("cargo-deny", ["--offline", "check", "licenses", "bans", "sources"])
-        : { passed: 0, failed: 0, skipped: "cargo-deny is not installed; `npm run supply` installs and runs it" },
+        : { passed: 0, failed: 0, skipped: "cargo-deny is not installed: `cargo install --locked cargo-deny`" },
   },
 ];
 

@@ -6,16 +6,11 @@ import type { Peer } from "./peers.js";
 
 const [loadBefore = 0] = loadavg();
 
-export function describeMachine(chromium: string | undefined, peers: Peer[]): Record<string, string> {
+export function describeMachine(peers: Peer[]): Record<string, string> {
   const cores = cpus();
   const memory = `${Math.round(totalmem() / 2 ** 30)} GiB`;
   const rustc = spawnSync("rustc", ["--version"], { encoding: "utf8" }).stdout.trim();
-  const versions = [
-    `Node ${process.versions.node}`,
-    ...(chromium === undefined ? [] : [`Chromium ${chromium}`]),
-    rustc,
-    ...peers.map(({ name, version }) => `${name} ${version}`),
-  ];
+  const versions = [`Node ${process.versions.node}`, rustc, ...peers.map(({ name, version }) => `${name} ${version}`)];
   return {
     // This load is read before anything is timed. Only the build before the benchmark should add to it.
     "load before (one minute)": loadBefore.toFixed(2),

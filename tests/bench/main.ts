@@ -5,16 +5,13 @@
 
 import { init } from "hidden-point-removal";
 
-import { timeAdapter } from "./adapter.js";
 import { fidelityTables } from "../fidelity/tables.js";
-import { type BrowserEngine, openChromium } from "./chromium.js";
 import { CLOUDS, type Cloud } from "./clouds.js";
 import { timeDrafts } from "./drafts.js";
-import { localEngines } from "./engines.js";
 import { describeMachine } from "./machine.js";
-import { timeNodes } from "./nodes.js";
-import { type BenchOptions, readOptions, USAGE } from "./options.js";
-import { measurePage } from "./page/page.js";
+import { readOctrees } from "./octrees.js";
+import { type BenchOptions, readOptions, type Section, USAGE } from "./options.js";
+import { timePage } from "./page.js";
 import { peers } from "./peers.js";
 import { markdown, type Table } from "./report.js";
 import { timeSectors } from "./sectors.js";
@@ -25,25 +22,21 @@ const args = process.argv.slice(2);
 const options = optionsOrExit();
 await init();
 
-const tables: Table[] = [];
 const others = options.sections.has("speed") ? peers(options.peers) : [];
-const browser = options.sections.has("speed") ? await openChromium() : undefined;
-try {
-  if (options.sections.has("speed")) tables.push(...(await timeQueries(chosenClouds(), enginesWith(browser), others)));
-  if (options.sections.has("drafts")) tables.push(timeDrafts());
-  if (options.sections.has("workers")) tables.push(...[await timeWorkers()].filter((table) => table !== undefined));
-  if (options.sections.has("sectors")) tables.push(timeSectors());
-  if (options.sections.has("adapter")) tables.push(await timeAdapter(), await timeNodes());
-  if (options.sections.has("fidelity")) tables.push(...(await fidelityTables(console.error)));
-} finally {
-  await browser?.close();
-}
+const sections: Record<Section, () => Table[] | Promise<Table[]>> = {
+  speed: () => timeQueries(chosenClouds(), others),
+  drafts: () => [timeDrafts()],
+  workers: async () => [await timeWorkers()],
+  sectors: () => [timeSectors()],
+  octrees: async () => [await readOctrees()],
+  page: async () => [await timePage()],
+  fidelity: () => fidelityTables(console.error),
+};
+const tables: Table[] = [];
+for (const section of options.sections) tables.push(...(await sections[section]()));
 
-const demo = options.sections.has("page") ? await measurePage() : undefined;
-
-const machine = describeMachine(demo?.chromium ?? browser?.version, others);
-const all = [...tables, ...(demo?.tables ?? [])];
-console.log(options.json ? JSON.stringify({ machine, tables: all }, undefined, 2) : textOf(all));
+const machine = describeMachine(others);
+console.log(options.json ? JSON.stringify({ machine, tables }, undefined, 2) : textOf(tables));
 
 function textOf(tables: Table[]): string {
   return [
@@ -69,8 +62,4 @@ function* chosenClouds(): Generator<Cloud> {
     const cloud = CLOUDS[name]!();
     if (cloud !== undefined) yield cloud;
   }
-}
-
-function enginesWith(chromium: BrowserEngine | undefined) {
-  return chromium === undefined ? localEngines() : [...localEngines(), chromium];
 }

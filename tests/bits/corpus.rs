@@ -2,7 +2,7 @@
 //!
 //! Prints one line for each case, `name digest count radius`: a digest of the whole answer, how
 //! many points are visible (or lit), and the bits of the radius (`-` if the answer has none). The
-//! last line is a digest of all cases. `npm run bits` compares the lines of many platforms.
+//! last line is a digest of all cases. tests/README.md says how to compare platforms.
 //!
 //! Every point and viewpoint comes from exactly rounded arithmetic, so that all platforms ask
 //! the same. Dimensions 4 and higher are left out: their answers are only promised to within

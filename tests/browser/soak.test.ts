@@ -1,6 +1,6 @@
 /*
  * The page's memory. `npm test` runs a short form, which notices if an answer's arrays, an element, a listener, a worker
- * or a WebGL object stays. `npm run soak` runs the long form (HPR_SOAK=1), which also notices smaller growth.
+ * or a WebGL object stays. HPR_SOAK=1 runs the long form, which also notices smaller growth.
  */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";

@@ -8,8 +8,6 @@ import { liteBytes, wasmBytes } from "./support";
 // compilation for another type of number, or a library for one operation can each add 10
 // to 40 kB unnoticed.
 //
-// `npm run size` prints the share of each part.
-//
 // What costs bytes or speed, measured (gzipped): a limit of 50 for inlining saves 4 kB, and makes views 5 % slower
 // unless the functions in the hot loops are marked #[inline]. A limit of 5 saves 1.9 kB more, and views take 0 to 3 % longer. Large functions with one caller, left as they
 // are by wasm-opt, save 1.5 kB. Compiled for size as a whole, the wasm is 4 kB (opt-level "s") or 16 kB ("z") smaller; with

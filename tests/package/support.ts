@@ -1,7 +1,10 @@
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { vi } from "vitest";
+import { seeded as randomNumbers } from "../bench/generators";
 import "./same-bytes";
+
+export { randomNumbers };
 
 const require = createRequire(import.meta.url);
 
@@ -22,17 +25,6 @@ export async function readyPackage() {
   const hpr = await freshPackage();
   await hpr.init();
   return hpr;
-}
-
-/** Random numbers in [0, 1) that are the same for the same seed (mulberry32). */
-export function randomNumbers(seed: number): () => number {
-  let state = seed;
-  return () => {
-    state = (state + 0x6d2b79f5) | 0;
-    let t = Math.imul(state ^ (state >>> 15), 1 | state);
-    t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
-    return ((t ^ (t >>> 14)) >>> 0) / 2 ** 32;
-  };
 }
 
 /** Points on a bumpy sphere of radius about 1: some hide others from any viewpoint. */
