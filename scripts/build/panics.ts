@@ -1,33 +1,74 @@
 import { functionNames, HEADER, Reader, SECTION, sectionsOf } from "../lib/wasm-reader.js";
 
-/** The functions of Rust's libraries that a failed check calls, and that make and print its message. */
-const PANICS =
-  /\bpanicking::(panic\b|panic_fmt|panic_bounds_check|panic_const|panic_with_hook|assert_failed)|::panic_already_|::panic_access_error/;
+/**
+ * Functions that a module never needs to run: those that a failed check calls, those that word its message, and those
+ * by which JavaScript would call closures of Rust, of which there are none. A module keeps the last two because their
+ * numbers are in its table.
+ */
+const NEEDLESS =
+  /\bpanicking::(panic\b|panic_fmt|panic_bounds_check|panic_const|panic_with_hook|assert_failed)|::panic_already_|::panic_access_error|\bfmt::|::closures::_::invoke|js_sys::futures/;
 
 /** No local variables, then `unreachable` and `end`. */
 const TRAP = Uint8Array.of(0, 0x00, 0x0b);
 
 /**
- * Makes a failed check trap without a message. The package reports a trap as the error `internal`. The places in the
- * code and the numbers of each message would take 3.7 kB of the gzipped module.
+ * Makes a failed check trap without a message. The package reports a trap as the error `internal`. Messages, and the
+ * places in the code that they name, would take 7 kB of the gzipped module.
  *
- * `module` needs the names of its functions. Throws if it has no function to change.
+ * `module` needs the names of its functions. Throws if it has no function to change, or no place.
  */
 export function withoutMessages(module: Uint8Array): Uint8Array {
-  const panics = new Set([...namesOf(module)].filter(([, name]) => PANICS.test(name)).map(([number]) => number));
-  if (panics.size === 0) throw new Error("The module has no function for panics, or no names.");
+  const needless = new Set([...namesOf(module)].filter(([, name]) => NEEDLESS.test(name)).map(([number]) => number));
+  if (needless.size === 0) throw new Error("The module has no function for panics, or no names.");
   let imported = 0;
   const sections = sectionsOf(module).map(({ id, bytes }) => {
     const section = new Reader(bytes);
     // All imports are functions: the glue imports no memory and no table.
     if (id === SECTION.import) imported = section.number();
+    if (id === SECTION.data) return [Uint8Array.of(id), withLength(withoutPlaces(bytes))];
     if (id !== SECTION.code) return [Uint8Array.of(id), withLength(bytes)];
     const bodies = section.list(() => section.bytes());
-    const changed = bodies.map((body, i) => withLength(panics.has(imported + i) ? TRAP : body));
+    const changed = bodies.map((body, i) => withLength(needless.has(imported + i) ? TRAP : body));
     return [Uint8Array.of(id), withLength(Buffer.concat([encoded(bodies.length), ...changed]))];
   });
   return Buffer.concat([module.subarray(0, HEADER), ...sections.flat()]);
 }
+
+/**
+ * Clears the places in the code that panics name: `core::panic::Location`, which is the address and the length of a
+ * file's name, a line and a column, and the names. wasm-opt leaves out what is zero.
+ */
+function withoutPlaces(section: Uint8Array): Uint8Array {
+  const cleared = Uint8Array.from(section);
+  const reader = new Reader(cleared);
+  const segments = reader.list(() => {
+    // Two bytes before the address say that it is a constant; one byte ends it.
+    reader.skip(2);
+    const start = reader.number();
+    reader.skip(1);
+    return { start, bytes: reader.bytes() };
+  });
+  const at = (address: number, length: number) => {
+    const holder = segments.find(({ start, bytes }) => address >= start && address + length <= start + bytes.length);
+    return holder?.bytes.subarray(address - holder.start, address - holder.start + length);
+  };
+  const places: Uint8Array[] = [];
+  for (const { bytes } of segments) {
+    const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.length);
+    for (let place = 0; place + PLACE <= bytes.length; place += 4) {
+      const [address, length, line, column] = [0, 4, 8, 12].map((from) => view.getUint32(place + from, true));
+      const name = length! < 200 ? at(address!, length!) : undefined;
+      if (name === undefined || line! > 100_000 || column! > 1000) continue;
+      if (FILE_NAME.test(Buffer.from(name).toString("latin1"))) places.push(bytes.subarray(place, place + PLACE), name);
+    }
+  }
+  if (places.length === 0) throw new Error("The module has no places in the code.");
+  for (const place of places) place.fill(0);
+  return cleared;
+}
+
+const PLACE = 16;
+const FILE_NAME = /^[\w./-]+\.rs$/;
 
 function namesOf(module: Uint8Array): Map<number, string> {
   for (const { id, bytes } of sectionsOf(module)) {
