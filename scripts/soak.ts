@@ -1,0 +1,33 @@
+// npm run soak [-- --views N --points N]: what takes too long for npm test. The page's memory in its long form
+// (tests/browser/soak.test.ts), many views in workers, and one large cloud (tests/soak). Ends with status 1 if an
+// answer was wrong or memory grew.
+import { parseArgs } from "node:util";
+
+import { build } from "./build/build.js";
+import { command } from "./lib/command.js";
+import { load } from "./lib/load.js";
+import { run } from "./lib/run.js";
+import { setUpBrowser } from "./setup/browser.js";
+import { setUpForBuild } from "./setup/setup.js";
+
+interface Soak {
+  views: (count: number) => Promise<boolean>;
+  large: (points: number) => Promise<boolean>;
+}
+
+await command(async () => {
+  const text = { type: "string" } as const;
+  const { values } = parseArgs({ args: process.argv.slice(3), options: { views: text, points: text } });
+  await setUpForBuild();
+  await build();
+  const env = { HPR_CHROMIUM: await setUpBrowser(), HPR_SOAK: "1" };
+  const page = await run("vitest", ["run", "tests/browser/soak.test.ts"], { show: "results", env });
+  const { large, views } = await load<Soak>("tests/soak/soak.ts");
+  const right = [
+    page.ok,
+    await views(Number(values.views ?? 20_000)),
+    await large(Number(values.points ?? 10_000_000)),
+  ];
+  // Open workers must not keep the process alive.
+  process.exit(right.every(Boolean) ? 0 : 1);
+});
