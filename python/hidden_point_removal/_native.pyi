@@ -300,7 +300,7 @@ def transfer(
     cameras: Iterable[Camera],
     images: Iterable[ArrayLike],
     *,
-    merge: Literal["median", "mean", "vote", "best"] | None = "median",
+    merge: Literal["median", "mean", "vote", "best"] | None = "mean",
     weights: Literal["distance", "angle", "score"] | None = None,
     sampling: Literal["nearest", "bilinear"] | None = "nearest",
     **options: Unpack[Options],

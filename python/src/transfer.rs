@@ -52,7 +52,7 @@ struct Entries {
     next: usize,
 }
 
-#[doc = asks!("transfer(cloud, cameras, images, *, merge='median', weights=None, sampling='nearest'")]
+#[doc = asks!("transfer(cloud, cameras, images, *, merge='mean', weights=None, sampling='nearest'")]
 /// Takes values from images to the points of a cloud: colors, labels or features.
 ///
 /// A point has a value from each camera that sees it. Three looks decide what it sees, unless looks, radius, exponent or
@@ -62,7 +62,7 @@ struct Entries {
 /// cameras: list of cameras, as for `visible_from_camera`.
 /// images: list of arrays of shape (height, width) or (height, width, channels), one for each camera and of its size. A
 ///     pixel with a NaN gives no value, nor one with alpha 0 in an image of 4 uint8 a pixel.
-/// merge: "median" (default) or "mean" of each channel, weighted; "vote": the pixel with the most weight among equal
+/// merge: "mean" (default) or "median" of each channel, weighted; "vote": the pixel with the most weight among equal
 ///     ones, for labels; "best": that of the camera with the highest weight.
 /// weights: None (all the same; for "best", "distance"), "distance" (1 / depth**2), "angle" (the cosine between the ray
 ///     and the optical axis) or "score" (the view's, with looks).
@@ -87,7 +87,7 @@ pub fn transfer<'py>(
     sampling: Option<&Bound<'py, PyAny>>,
     options: Option<&Bound<'py, PyDict>>,
 ) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyArray1<u32>>)> {
-    let merge = word(py, "merge", merge, &Merge::WORDS)?.unwrap_or(Merge::Median);
+    let merge = word(py, "merge", merge, &Merge::WORDS)?.unwrap_or(Merge::Mean);
     let usual = if merge == Merge::Best {
         Weights::Distance
     } else {

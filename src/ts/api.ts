@@ -12,7 +12,9 @@ export {
   simdEnabled,
 } from "./cloud/formulas.js";
 export { Horizon } from "./cloud/horizon.js";
-export { transfer, type Transferred, type TransferImage, type TransferOptions } from "./cloud/transfer.js";
+export { transfer } from "./cloud/transfer.js";
+export type { TransferImage } from "./query/images.js";
+export type { Transferred, TransferOptions } from "./query/transfer.js";
 export { type MergeOptions, mergeVisible, type VisiblePart } from "./cloud/merge.js";
 export type { PointCloudOptions } from "./query/options.js";
 export type { Positions, Viewpoint } from "./query/positions.js";

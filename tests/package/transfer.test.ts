@@ -4,6 +4,7 @@ import { expect, it } from "vitest";
 import { bumpySphere, readyPackage } from "./support";
 
 const { PointCloud, cameraFromThree, transfer } = await readyPackage();
+const { WorkerPointCloud } = await import("hidden-point-removal/worker");
 
 const positions = bumpySphere(5, 3000);
 const cloud = new PointCloud(positions);
@@ -52,6 +53,23 @@ it("takes the values of the nearest pixels, and merges them", () => {
     expect(seen.filter((count) => count > 1).length).toBeGreaterThan(500);
     expect(seen.filter((count) => count === 0).length).toBeGreaterThan(500);
   }
+});
+
+it("workers share the cameras, and give the same values", async () => {
+  const images = [image((x, y) => x + 100 * y), image((x, y) => 7 * x - y), image(() => 5)];
+  const remote = await WorkerPointCloud.create(positions, { workers: 2 });
+  for (const options of [{}, { merge: "median", weights: "score" }, { exponent: 3, merge: "best" }] as const) {
+    const heard: number[] = [];
+    const onProgress = (share: number) => heard.push(share);
+    expect(await transfer(remote, cameras, images, { ...options, onProgress })).toEqual(
+      transfer(cloud, cameras, images, options),
+    );
+    expect(heard.at(-1)).toBe(1);
+  }
+  const signal = AbortSignal.abort();
+  await expect(transfer(remote, cameras, images, { signal })).rejects.toMatchObject({ name: "AbortError" });
+  await expect(transfer(remote, cameras, [])).rejects.toMatchObject({ code: "option" });
+  await remote.dispose();
 });
 
 it("labels are voted for, and never mixed", () => {

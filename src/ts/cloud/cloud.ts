@@ -25,7 +25,8 @@ import {
   readListener,
   readPlacing,
   readSurvey,
-  type SurveyTask,
+  SURVEY,
+  type SurveyQuestion,
 } from "../query/surveys.js";
 import { type RadiusRule, VIEW_OPTIONS, type VisibilityOptions } from "../query/view-options.js";
 import { type CameraView, type Reconstruction, type Visibility, VisibilityAnswer } from "./visibility.js";
@@ -225,10 +226,9 @@ export class PointCloud {
    * @throws HprError `option` also for `draft` and `scores`; otherwise as {@link PointCloud.visibleFrom}.
    */
   coverage(viewpoints: readonly ViewpointOrCamera[], options?: CoverageOptions): Uint32Array {
-    this.#core.requireOpen();
-    const given = givenOptions(options, COVERAGE_OPTIONS);
-    const survey = readSurvey(this.#core.dimension, viewpoints, given, "coverage");
-    return this.#answered(new CoverageTask(survey, readListener(given))).result(this.length);
+    return this[SURVEY]("coverage", options, COVERAGE_OPTIONS, (dimension, given, progress) => {
+      return new CoverageTask(readSurvey(dimension, viewpoints, given, "coverage"), progress);
+    });
   }
 
   /**
@@ -239,10 +239,9 @@ export class PointCloud {
    *   {@link PointCloud.visibleFromCamera}.
    */
   seenBy(cameras: readonly Camera[], options?: CoverageOptions): SeenBy {
-    this.#core.requireOpen();
-    const given = givenOptions(options, COVERAGE_OPTIONS);
-    const survey = readSurvey(this.#core.dimension, cameras, given, "seenBy");
-    return this.#answered(new SeenByTask(survey, readListener(given))).result(this.length);
+    return this[SURVEY]("seenBy", options, COVERAGE_OPTIONS, (dimension, given, progress) => {
+      return new SeenByTask(readSurvey(dimension, cameras, given, "seenBy"), progress);
+    });
   }
 
   /**
@@ -253,10 +252,10 @@ export class PointCloud {
    * @throws HprError `option` also for `draft` and `scores`; otherwise as {@link PointCloud.visibleFrom}.
    */
   placeViewpoints(candidates: readonly ViewpointOrCamera[], options?: PlacementOptions): Placement {
-    this.#core.requireOpen();
-    const given = givenOptions(options, PLACEMENT_OPTIONS);
-    const survey = readSurvey(this.#core.dimension, candidates, given, "placeViewpoints");
-    return this.#answered(new PlacementTask(survey, readPlacing(given), readListener(given))).result(this.length);
+    return this[SURVEY]("placeViewpoints", options, PLACEMENT_OPTIONS, (dimension, given, progress) => {
+      const survey = readSurvey(dimension, candidates, given, "placeViewpoints");
+      return new PlacementTask(survey, readPlacing(given), progress);
+    });
   }
 
   /**
@@ -280,13 +279,16 @@ export class PointCloud {
   }
 
   /** Asks all views of a task, one after another. */
-  #answered<T extends SurveyTask>(task: T): T {
+  [SURVEY]<Result>(...[, options, names, read]: SurveyQuestion<Result>): Result {
+    this.#core.requireOpen();
+    const given = givenOptions(options, names);
+    const task = read(this.#core.dimension, given, readListener(given));
     for (let next = task.next(0); next !== undefined; next = task.next(0)) {
       const found: Found = this.#core.ask(next.view);
       task.take(next.number, found);
       this.#core.keepMemory(found.indices.buffer);
     }
-    return task;
+    return task.result(this.length);
   }
 
   /**

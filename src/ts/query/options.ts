@@ -141,3 +141,16 @@ export function flag(given: Record<string, unknown>, name: string): boolean {
   }
   return value;
 }
+
+/** An option that is one of some words. */
+export function word<T extends string>(
+  given: Record<string, unknown>,
+  name: string,
+  words: readonly T[],
+): T | undefined {
+  const value = given[name];
+  if (value !== undefined && !words.includes(value as T)) {
+    throw new HprError("option", `${name} must be one of ${words.join(", ")}, got ${describe(value)}`);
+  }
+  return value as T | undefined;
+}

@@ -19,7 +19,7 @@ export interface SeenBy {
 }
 
 /** Collects what each camera sees. The memory is that of the answer, twice. */
-export class SeenByTask extends SurveyTask {
+export class SeenByTask extends SurveyTask<SeenBy> {
   readonly #views = new Map<number, { indices: Uint32Array; pixels: Float32Array; towards: Float32Array }>();
 
   protected override add(number: number, found: Found): void {

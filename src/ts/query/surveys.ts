@@ -113,8 +113,19 @@ export function viewFrom(seat: Seat, settings: ViewSettings, towards = false): V
     : { kind: "visibleFrom", viewpoint: seat, settings, divisible: false };
 }
 
+/** The method by which clouds, here and in workers, answer a survey. */
+export const SURVEY = Symbol("survey");
+
+/** The question of a survey: its name, the options with their known names, and how they become a task. */
+export type SurveyQuestion<Result> = [
+  method: string,
+  options: unknown,
+  names: readonly string[],
+  read: (dimension: number, given: GivenOptions, progress?: (fraction: number) => void) => SurveyTask<Result>,
+];
+
 /** Many views of one cloud, whose answers come in any order. */
-export abstract class SurveyTask {
+export abstract class SurveyTask<Result = unknown> {
   readonly #survey: Survey;
   #wanted: number[];
   readonly #progress: ((fraction: number) => void) | undefined;
@@ -169,6 +180,9 @@ export abstract class SurveyTask {
     return this.#survey.seats.length;
   }
 
+  /** @param length the length of the cloud */
+  abstract result(length: number): Result;
+
   /** Takes the answer to one view. */
   protected abstract add(number: number, found: Found): void;
 
@@ -176,7 +190,7 @@ export abstract class SurveyTask {
   protected abstract more(): number[];
 }
 
-export class CoverageTask extends SurveyTask {
+export class CoverageTask extends SurveyTask<Uint32Array> {
   #counts: Uint32Array<ArrayBuffer> | undefined;
 
   protected override add(_: number, { indices, length }: Found): void {
@@ -198,7 +212,7 @@ export function newCounts(length: number): Uint32Array<ArrayBuffer> {
   return allocating(`${length} counts`, () => new Uint32Array(length));
 }
 
-export class PlacementTask extends SurveyTask {
+export class PlacementTask extends SurveyTask<Placement> {
   readonly #wanted: PlacementSettings;
   #choice: GreedyChoice | undefined;
 

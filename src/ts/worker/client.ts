@@ -31,7 +31,8 @@ import {
   PlacementTask,
   readPlacing,
   readSurvey,
-  type SurveyTask,
+  SURVEY,
+  type SurveyQuestion,
 } from "../query/surveys.js";
 import type { Panorama, PanoramaOptions } from "../query/panorama-options.js";
 import type { RadiusRule, VisibilityOptions } from "../query/view-options.js";
@@ -244,10 +245,9 @@ export class WorkerPointCloud {
     viewpoints: readonly ViewpointOrCamera[],
     options?: CoverageOptions & RequestOptions,
   ): Promise<Uint32Array> {
-    const task = await this.#survey("coverage", options, COVERAGE_OPTIONS, (dimension, given, progress) => {
+    return this[SURVEY]("coverage", options, COVERAGE_OPTIONS, (dimension, given, progress) => {
       return new CoverageTask(readSurvey(dimension, viewpoints, given, "coverage"), progress);
     });
-    return task.result(this.length);
   }
 
   /**
@@ -257,10 +257,9 @@ export class WorkerPointCloud {
    * @throws HprError (as a rejection) the same as `PointCloud.seenBy`.
    */
   async seenBy(cameras: readonly Camera[], options?: CoverageOptions & RequestOptions): Promise<SeenBy> {
-    const task = await this.#survey("seenBy", options, COVERAGE_OPTIONS, (dimension, given, progress) => {
+    return this[SURVEY]("seenBy", options, COVERAGE_OPTIONS, (dimension, given, progress) => {
       return new SeenByTask(readSurvey(dimension, cameras, given, "seenBy"), progress);
     });
-    return task.result(this.length);
   }
 
   /**
@@ -273,11 +272,10 @@ export class WorkerPointCloud {
     candidates: readonly ViewpointOrCamera[],
     options?: PlacementOptions & RequestOptions,
   ): Promise<Placement> {
-    const task = await this.#survey("placeViewpoints", options, PLACEMENT_OPTIONS, (dimension, given, progress) => {
+    return this[SURVEY]("placeViewpoints", options, PLACEMENT_OPTIONS, (dimension, given, progress) => {
       const survey = readSurvey(dimension, candidates, given, "placeViewpoints");
       return new PlacementTask(survey, readPlacing(given), progress);
     });
-    return task.result(this.length);
   }
 
   /**
@@ -356,12 +354,7 @@ export class WorkerPointCloud {
   }
 
   /** Answers all views of a task, as the options of the request say. */
-  async #survey<T extends SurveyTask>(
-    method: string,
-    options: unknown,
-    names: readonly string[],
-    read: (dimension: number, given: Record<string, unknown>, progress: (fraction: number) => void) => T,
-  ): Promise<T> {
+  async [SURVEY]<Result>(...[method, options, names, read]: SurveyQuestion<Result>): Promise<Result> {
     this.#queue.requireOpen();
     const given = givenOptions(options, names, REQUEST_OPTIONS);
     const latest = flag(given, "latest") ? method : undefined;
@@ -370,7 +363,7 @@ export class WorkerPointCloud {
     const task = read(this.#settings.dimension, given, (fraction) => progress?.at(fraction));
     if (signal !== undefined) task.stopWhen(() => signal.aborted);
     await untilAborted(signal, this.#queue.ask({ kind: "survey", task }, { latest, signal, owner: this }));
-    return task;
+    return task.result(this.length);
   }
 
   async #ask(name: MethodName, args: readonly unknown[]): Promise<unknown> {
