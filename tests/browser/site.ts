@@ -17,7 +17,7 @@ const TYPES: Record<string, string> = {
   ".svg": "image/svg+xml",
   ".wasm": "application/wasm",
   ".webmanifest": "application/manifest+json",
-  ".webp": "image/webp",
+  ".avif": "image/avif",
 };
 
 export interface Site {

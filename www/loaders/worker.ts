@@ -5,9 +5,8 @@ import { makeSample } from "../samples/generators.ts";
 import { download, downloadRanges } from "./download.ts";
 import { MAX_POINTS } from "../settings/limits.ts";
 import { checkedCloud } from "./limits.ts";
-import { LoadProblem } from "./problem.ts";
+import { LoadProblem, missingPart } from "./problem.ts";
 import type { LoadReply, LoadRequest } from "./protocol.ts";
-import { readCloud } from "./read.ts";
 
 const post = (reply: LoadReply, transfer: Transferable[] = []) => {
   self.postMessage(reply, { transfer });
@@ -102,5 +101,9 @@ async function load(request: LoadRequest): Promise<LoadedCloud> {
   if (blob.size === 0) throw new LoadProblem(`${name} is empty.`);
   progress("Reading", null);
   const base = request.kind === "url" ? new URL(".", request.url).href : undefined;
+  // Samples do not need it, and the first cloud is one.
+  const { readCloud } = await import("./read.ts").catch(() => {
+    throw missingPart(name);
+  });
   return check(await readCloud({ name, blob, limit, streamFrom, onProgress, onPoints, base }));
 }

@@ -85,7 +85,7 @@ function thumbnail({ name, label, picture }: Sample, pick: () => void): HTMLButt
   image.width = THUMBNAIL.width;
   image.height = THUMBNAIL.height;
   image.alt = "";
-  image.src = `thumbnails/${name}.webp`;
+  image.src = `thumbnails/${name}.avif`;
   button.append(image, picture!);
   button.addEventListener("click", pick);
   return button;
