@@ -1,4 +1,5 @@
 import { byId } from "../controls/dom.ts";
+import { isCalm } from "../controls/motion.ts";
 import { MIDDLE } from "../settings/limits.ts";
 import type { Store } from "../settings/store.ts";
 import type { Moves } from "../view/moves.ts";
@@ -9,6 +10,9 @@ import type { Viewer } from "../view/viewer.ts";
 const WALK = 5;
 /** How far back the camera goes before it walks around, in its distances: if possible so far that the eye stays in the picture. */
 const BACK = { least: 1.35, most: 2.2 };
+
+/** In radians. */
+const ASIDE = 0.9;
 
 /** The verbs over the picture: freeze and walk around, and where the frozen eye goes next. */
 export function bindVerbs(viewer: Viewer, store: Store, moves: Moves, turning: Turning): void {
@@ -31,8 +35,11 @@ export function bindVerbs(viewer: Viewer, store: Store, moves: Moves, turning: T
     store.change({ freeze: viewer.viewpoint, hidden: "dimmed", compare: null });
     const { shape, camera } = viewer.stage;
     const wide = shape.aspect * Math.tan((camera.fov * Math.PI) / 360);
-    viewer.navigation.goBack(Math.min(BACK.most, Math.max(BACK.least, 1.1 / wide)), () => {
-      if (moves.frozen) turning.begin(WALK);
+    viewer.navigation.goBack(Math.min(BACK.most, Math.max(BACK.least, Math.hypot(1, 1.1 / wide))), () => {
+      if (!moves.frozen) return;
+      // Without motion, the camera stands at the side at once.
+      if (isCalm()) viewer.navigation.turn(ASIDE);
+      else turning.begin(WALK);
     });
   });
   for (const button of [here, byId("eye-here-too")]) {

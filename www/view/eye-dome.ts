@@ -71,7 +71,9 @@ const fragmentShader = /* glsl */ `
       ratios *= other < 1.0 ? max(1.0, nearness(other) / own) : 1.0;
     }
     float shade = exp(-strength * soft * log2(ratios) / 8.0);
-    return texelFetch(colors, pixel, 0).rgb * mix(0.2, 1.0, shade);
+    // Small points fade into the background: black ones would stand out from a light one.
+    vec3 color = texelFetch(colors, pixel, 0).rgb;
+    return mix(shadesAll ? vec3(0.0) : background, color, mix(0.2, 1.0, shade));
   }
 
   /*

@@ -161,7 +161,7 @@ export class Stage {
     this.#renderer.setPixelRatio(this.#ratio());
     this.#renderer.setSize(width, height, false);
     this.camera.aspect = width / height;
-    this.#free = Math.max(0.5, 1 - this.#covered() / height);
+    this.#free = Math.max(0.4, 1 - this.#covered() / height);
     // The middle of the free part is the middle of the picture.
     this.camera.setViewOffset(width, height, 0, ((1 - this.#free) * height) / 2, width, height);
     this.onResize();
