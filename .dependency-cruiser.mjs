@@ -45,6 +45,8 @@ const PAGE = [
   ["how", "how/"],
   ["panel", "panel/"],
   ["tools", "tools/"],
+  ["right", "right/"],
+  ["stories", "stories/"],
   ["page", "page/"],
 ];
 

@@ -1,7 +1,7 @@
 import { init } from "hidden-point-removal";
 import { byId } from "./controls/dom.ts";
 import { loadAhead } from "./loaders/index.ts";
-import { firstSource } from "./page/sources.ts";
+import { sourceOf } from "./page/sources.ts";
 import { showEmbedded } from "./panel/embedded.ts";
 import { bindDrawer } from "./panel/drawer.ts";
 import { bindSheet } from "./panel/sheet.ts";
@@ -13,7 +13,7 @@ const wishes = readAddress(
   location.search,
   SAMPLES.map((sample) => sample.name),
 );
-const first = firstSource(wishes);
+const first = sourceOf(wishes, location.search);
 loadAhead(first.request);
 // If that fails, the error is reported when a cloud needs it.
 init().catch(() => undefined);

@@ -70,8 +70,17 @@ const LESSON: Step = {
   name: "how it works",
   act: async (page) => {
     await page.keyboard.press("Escape");
-    await page.getByRole("button", { name: "Show how it works" }).click();
+    await page.getByRole("button", { name: "How it works" }).click();
     await page.locator("#how [data-say]:not(:empty)").waitFor();
+  },
+};
+
+const JUDGMENT: Step = {
+  name: "how right it is",
+  act: async (page) => {
+    await page.keyboard.press("Escape");
+    await page.getByRole("button", { name: "How right is it?" }).click();
+    await page.locator("#right canvas").first().waitFor();
   },
 };
 
@@ -110,7 +119,7 @@ export const VISITS: Visit[] = [
     name: "1280 × 800",
     query: `?${SMALL}&hidden=dimmed`,
     options: WIDE,
-    steps: [first, unfolded, ...tools, sheetOfKeys, LESSON, REFUSED, LOADING],
+    steps: [first, unfolded, ...tools, sheetOfKeys, LESSON, JUDGMENT, REFUSED, LOADING],
   },
   { name: "390 × 844", query: `?${SMALL}`, options: PHONE, steps: [first, sheet, unfolded] },
   { name: "in another page", query: `?${SMALL}&embed=1`, options: WIDE, steps: [first] },

@@ -4,7 +4,7 @@ import { asciiPly, ball } from "./clouds.js";
 import { differentPixels, openReady, PHONE, served } from "./support.js";
 
 async function openLesson(page: Page): Promise<void> {
-  await page.getByRole("button", { name: "Show how it works" }).click();
+  await page.getByRole("button", { name: "How it works" }).click();
   await page.locator("#how [data-say]:not(:empty)").waitFor();
 }
 

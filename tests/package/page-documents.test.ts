@@ -34,7 +34,7 @@ const BLOCKS: Record<string, { document: string; text: () => string }> = {
       const names = SAMPLES.map(({ name }) => name).join(", ");
       const clouds = [
         ["`sample`", "a cloud of the page", names, SAMPLES[0]!.name],
-        ["`src`", "a file on the web, instead of `sample`; another site must allow it by CORS", "an address", ""],
+        ["`src`", "a file on the web; CORS must allow it", "an address", ""],
       ];
       const others = parameters.map(([name, { values }]) => {
         const { is, without = "" } = PARAMETER_WORDS[name];

@@ -25,7 +25,6 @@ const TEXTS: Record<string, () => string> = {
   keys: () =>
     `${spokenKeys(["orbit", "pan", "zoom", "lens"])}. ${spokenKeys(["pick"])}; ${lower(spokenKeys(["sheet"]))}`,
   "formats, or": () => listed(FORMATS, "or"),
-  formats: () => FORMATS.join(", ").replace("LAZ", "LAZ (COPC too)"),
   accept: () => [...FORMATS, ...OTHER_ENDINGS].map((name) => `.${name.toLowerCase()}`).join(),
 };
 

@@ -2,6 +2,7 @@ import "./how.css";
 import { Truth } from "../compare/truth.ts";
 import { upVector } from "../cloud/cloud.ts";
 import type { Store } from "../settings/store.ts";
+import { eased } from "../controls/ease.ts";
 import { THEMES } from "../view/theme.ts";
 import type { Viewer } from "../view/viewer.ts";
 import { drawCloud, drawFlipped, type Drawn, HIDDEN, MISSED, type Turn, VISIBLE, WRONG } from "./picture.ts";
@@ -204,7 +205,7 @@ class Lesson {
       kinds: this.#kinds(),
       turn: this.#turn,
       // It begins and ends slowly.
-      progress: share * share * (3 - 2 * share),
+      progress: eased(share),
       colors: {
         visible: plain,
         hidden: hiddenDimmed,

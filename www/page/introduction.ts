@@ -4,9 +4,7 @@ import { MIDDLE } from "../settings/limits.ts";
 import type { Store } from "../settings/store.ts";
 import type { Turning } from "../view/turning.ts";
 import type { Viewer } from "../view/viewer.ts";
-
-/** Milliseconds in which the line crosses the picture. */
-const SWEEP = 2600;
+import { sweep } from "./sweep.ts";
 
 /**
  * The first sight of the page, for an address that asks for nothing: all points; a line sweeps over them and leaves
@@ -41,15 +39,6 @@ export class Introduction {
     while (!this.#viewer.isFinal) await nextFrame();
     if (turns) this.#turning.begin();
     if (!this.#going || isCalm()) return;
-    const begun = performance.now();
-    while (this.going) {
-      const share = Math.min(1, (performance.now() - begun) / SWEEP);
-      const done = share * share * (3 - 2 * share);
-      this.#store.change({ compare: 1 - (1 - MIDDLE) * done });
-      if (share === 1) return;
-      await nextFrame();
-    }
-    // A touch in between: the line is at its place at once.
-    if (this.#store.current.compare !== null) this.#store.change({ compare: MIDDLE });
+    await sweep(this.#store, MIDDLE, () => this.going);
   }
 }

@@ -8,7 +8,8 @@ import type { Panel } from "../panel/panel.ts";
 import { Progress } from "../panel/progress.ts";
 import { SamplePicker } from "../panel/sample-picker.ts";
 import type { Sample } from "../samples/samples.ts";
-import type { Address } from "../settings/address.ts";
+import type { Address, Usual } from "../settings/address.ts";
+import { USUAL_SETTINGS } from "../settings/settings.ts";
 import type { Store } from "../settings/store.ts";
 import type { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
@@ -33,6 +34,10 @@ interface Parts {
 export class Opening {
   /** The name of the cloud on screen, for use in a sentence. */
   shownName = "";
+  /** The settings that the cloud on screen has if nothing else is asked for. */
+  usual: Usual = USUAL_SETTINGS;
+  /** Called when a cloud is about to be opened. */
+  onOpen: (source: Source) => void = () => undefined;
   /** The view that was asked for. It stays in the address although it is the first view. */
   askedView: AskedView | null = null;
   readonly #parts: Parts;
@@ -60,6 +65,7 @@ export class Opening {
 
   /** Gives up a cloud that is being loaded, and loads this one. `whole`: the cloud of which it is a part. */
   async open(source: Source, whole = source): Promise<void> {
+    this.onOpen(source);
     this.#loading.abort();
     const { signal } = (this.#loading = new AbortController());
     this.#source = source;
@@ -147,7 +153,7 @@ export class Opening {
         message.show("The tools of this page could not be loaded; reload the page to try again.");
       },
     );
-    panel.usual = ready.usual;
+    panel.usual = this.usual = ready.usual;
     panel.touching = ready.touching;
     address.begin(insteadOf === undefined ? name : null, ready.usual);
     if (insteadOf !== undefined) status.error(insteadOf);

@@ -10,6 +10,7 @@ import { Address, type CameraPlace } from "../settings/address.ts";
 import type { Wishes } from "../settings/read-address.ts";
 import { USUAL_SETTINGS } from "../settings/settings.ts";
 import { Store } from "../settings/store.ts";
+import type { StoryName } from "../settings/table.ts";
 import { Workshop } from "../tools/workshop.ts";
 import type { AskedView } from "../view/framing.ts";
 import { canDraw } from "../view/can-draw.ts";
@@ -20,6 +21,7 @@ import { Notices, sentenceOf } from "./notices.ts";
 import { Opening } from "./opening.ts";
 import { fromFiles, limitsOf, type Source } from "./sources.ts";
 import { Status } from "./status.ts";
+import { Storytelling } from "./storytelling.ts";
 import { wire } from "./wiring.ts";
 
 /** Makes the parts of the page, and opens the first cloud in them. Without WebGL 2, says so. */
@@ -36,7 +38,7 @@ export function startSession(wishes: Wishes, first: Source): void {
   const settings = { ...USUAL_SETTINGS, ...wishes.settings };
   // Places in space belong to a cloud, and are set with the cloud.
   const store = new Store({ ...settings, freeze: null, lights: [] });
-  const viewer = new Viewer(byId("view", HTMLCanvasElement), store, wishes.embed, () => byId("verbs").offsetHeight);
+  const viewer = new Viewer(byId("view", HTMLCanvasElement), store, wishes.embed, coveredHeight);
   const turning = new Turning(viewer);
   const introduction = new Introduction(viewer, store, turning, wishes.isFirst);
   const panel = new Panel(viewer, store, settings, turning);
@@ -45,7 +47,7 @@ export function startSession(wishes: Wishes, first: Source): void {
   const address: Address = new Address(store, {
     camera: () => cameraPlace(viewer, opening.askedView),
     marks: () => workshop.marks,
-    introducing: () => introduction.going,
+    isOwn: () => introduction.going || storytelling.isTelling,
   });
   const actions = {
     name: () => opening.shownName,
@@ -59,25 +61,47 @@ export function startSession(wishes: Wishes, first: Source): void {
   const workshop: Workshop = new Workshop(viewer, store, actions);
   const parts = { viewer, store, panel, address, workshop, status, message, notices };
   const opening: Opening = new Opening(parts, wishes.embed ? null : sampleNamed(wishes.sample));
+  const storytelling: Storytelling = new Storytelling({ viewer, store, address, workshop, opening });
   wire({ ...parts, turning, handles, signs: new Signs(store) });
 
-  for (const button of document.querySelectorAll<HTMLButtonElement>(".how")) {
-    button.addEventListener("click", () => {
-      if (!viewer.cloud) return;
-      import("../how/how.ts")
-        .then(({ showHow }) => showHow(viewer, store))
-        .catch((error: unknown) => {
-          message.show(sentenceOf(error, "The lesson could not be shown"));
-        });
-    });
-  }
   onFile({
     open: (files, notes) => void opening.open(fromFiles(files, notes, limitsOf(wishes))),
     refuse: (sentence) => {
       message.show(sentence);
     },
   });
-  void opening.open(first).then(() => introduction.begin(wishes.turns));
+  bindLessons(viewer, store, storytelling, message);
+  if (wishes.story) void storytelling.tell(wishes.story);
+  else void opening.open(first).then(() => introduction.begin(wishes.turns));
+}
+
+/** The gaps between and below the tools, in CSS pixels. */
+const AROUND_TOOLS = 28;
+
+/** The height at the bottom of the picture that the verbs or the tools cover, in CSS pixels. */
+function coveredHeight(): number {
+  const tools = ["tool-card", "compare-card", "tool-bar"].reduce((sum, id) => sum + byId(id).offsetHeight, 0);
+  return Math.max(byId("verbs").offsetHeight, tools && tools + AROUND_TOOLS);
+}
+
+/** The lesson, the judgment and the stories. Each is downloaded when it is asked for. */
+function bindLessons(viewer: Viewer, store: Store, storytelling: Storytelling, message: Message): void {
+  const bind = (selector: string, what: string, show: (button: HTMLElement) => Promise<void>) => {
+    for (const button of document.querySelectorAll<HTMLElement>(selector)) {
+      button.addEventListener("click", () => {
+        show(button).catch((error: unknown) => {
+          message.show(sentenceOf(error, `${what} could not be shown`));
+        });
+      });
+    }
+  };
+  bind(".how", "The lesson", async () => {
+    if (viewer.cloud) await (await import("../how/how.ts")).showHow(viewer, store);
+  });
+  bind(".right", "The judgment", async () => {
+    if (viewer.cloud) await (await import("../right/right.ts")).showRight(viewer);
+  });
+  bind("[data-story]", "The story", (button) => storytelling.tell(button.dataset["story"] as StoryName));
 }
 
 /** The camera's place for the address. `null` at the first view, unless the address asked for that view. */

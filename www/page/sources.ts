@@ -18,6 +18,8 @@ export interface Source extends Wish {
   marks?: string;
   /** The reason why the cloud that was asked for could not be opened, if this cloud replaces it. */
   insteadOf?: string;
+  /** Whether a story asks for it. */
+  isTold?: true;
 }
 
 export function fromSample(sample: Sample, view: AskedView | null = null): Source {
@@ -52,12 +54,12 @@ function nameOf(file: File, others: readonly File[]): string {
   return `${file.name} and ${others.length === 1 ? others[0]!.name : `${others.length} more files`}`;
 }
 
-/** The cloud that the page's address asks for. */
-export function firstSource(wishes: Wishes): Source {
+/** The cloud that an address asks for. */
+export function sourceOf(wishes: Wishes, search: string): Source {
   const { sample, src, settings, notes } = wishes;
   const view = wishes.view && { at: wishes.view, target: wishes.target };
   const source = src === null ? fromSample(sampleNamed(sample), view) : fromAddress(src, view, limitsOf(wishes));
-  return { ...source, settings, notes, marks: location.search };
+  return { ...source, settings, notes, marks: search };
 }
 
 /** The largest number of points of a file, and that from which on an octree is streamed, as the address asks for them. */

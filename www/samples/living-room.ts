@@ -40,7 +40,11 @@ export function make(): LoadedCloud {
     }
     i++;
   }
-  return { positions, colors };
+  return {
+    positions,
+    colors,
+    facts: { crs: { name: "Its own", unit: { name: "m", meters: 1 }, heightUnit: null, isAngular: false } },
+  };
 }
 
 /** A point's place on its surface, its distance from the surface, and a random number from 0 to 1 for its color. */

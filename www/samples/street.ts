@@ -62,6 +62,7 @@ export function make(): LoadedCloud {
   return {
     positions: positions.slice(0, 3 * count),
     colors: colors.slice(0, 3 * count),
+    facts: { crs: { name: "Its own", unit: { name: "m", meters: 1 }, heightUnit: null, isAngular: false } },
     attributes: [
       { name: "intensity", kind: "scalar", values: intensity.slice(0, count) },
       { name: "classification", kind: "category", values: classification.slice(0, count), labels: LABELS },

@@ -30,8 +30,8 @@ export interface Beside {
   camera: () => CameraPlace | null;
   /** `null`: the tools are not there yet, so the address keeps its marks. */
   marks: () => Record<MarkParameter, string[]> | null;
-  /** Whether the page still shows what it shows by itself, to an address that asks for nothing. */
-  introducing: () => boolean;
+  /** Whether the page shows something by itself: its first sight, or a story. */
+  isOwn: () => boolean;
 }
 
 /** The address is written after this many milliseconds without a change. Browsers refuse to write it every frame. */
@@ -75,6 +75,13 @@ export class Address {
     replace(address);
   }
 
+  /** Writes the name of a story, and nothing else. It stays while the story is told. */
+  tell(story: string): void {
+    const address = new URL(location.href);
+    address.search = new URLSearchParams({ story }).toString();
+    replace(address);
+  }
+
   /** Brings the address of the cloud before back, because the chosen cloud could not be opened. */
   giveUp(): void {
     if (!this.#before) return;
@@ -104,14 +111,14 @@ export class Address {
     const { name, usual } = this.#cloud;
     const address = new URL(location.href);
     const { searchParams } = address;
-    // The next visit begins with the introduction, too.
-    if (this.#beside.introducing()) return;
+    // The next visit begins with the same.
+    if (this.#beside.isOwn()) return;
     const values = {
       ...settingsInAddress(this.#store.current, usual),
       ...cameraInAddress(this.#beside.camera()),
       ...this.#beside.marks(),
     };
-    searchParams.delete(name[0] === "src" ? "sample" : "src");
+    for (const other of ["sample", "src", "story"]) if (other !== name[0]) searchParams.delete(other);
     searchParams.set(...name);
     for (const [parameter, texts] of Object.entries(values)) {
       searchParams.delete(parameter);

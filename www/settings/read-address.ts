@@ -1,7 +1,7 @@
 import { PLACE } from "./kinds.ts";
 import { MOST_LIGHTS } from "./limits.ts";
 import { canLook, rowOf, type Settings, USUAL_SETTINGS, type Viewpoint, withLooks } from "./settings.ts";
-import { type Parameter, PARAMETERS, refusalOf, type SettingName, SETTINGS } from "./table.ts";
+import { type Parameter, PARAMETERS, refusalOf, type SettingName, SETTINGS, STORIES, type StoryName } from "./table.ts";
 
 /** What the address of the page asks for. The notes name, in plain words, everything that cannot be used. */
 export interface Wishes {
@@ -16,6 +16,8 @@ export interface Wishes {
   stream: number | null;
   /** Whether the picture turns by itself. */
   turns: boolean;
+  /** The story that is told. It chooses the sample. */
+  story: StoryName | null;
   /** Whether the address asks for nothing, but maybe for whether the picture turns. */
   isFirst: boolean;
   /** Whether only the picture is shown. */
@@ -69,12 +71,14 @@ export function readAddress(search: string, samples: readonly string[]): Wishes 
     );
   }
   const turn = read("turn", PARAMETERS.turn);
+  const story = read("story", PARAMETERS.story) ?? null;
   const isFirst = [...query.keys()].every((name) => name === "turn");
   if (query.has("light")) settings.lights = readLights(query.getAll("light"), notes);
 
   return {
-    sample,
-    src: src === "" ? null : src,
+    sample: story ? STORIES[story] : sample,
+    src: src === "" || story ? null : src,
+    story,
     view: read("view", PARAMETERS.view) ?? null,
     target: read("target", PARAMETERS.target) ?? null,
     points: read("points", PARAMETERS.points) ?? null,

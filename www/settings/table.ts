@@ -240,6 +240,11 @@ export const SETTINGS = {
 
 export type SettingName = keyof typeof SETTINGS;
 
+/** The stories that the page tells, and the sample that each of them is about. */
+export const STORIES = { measure: "street", label: "room", survey: "street" } as const;
+
+export type StoryName = keyof typeof STORIES;
+
 /** Parameters of the address that are not settings. */
 export const PARAMETERS = {
   view: parameter<Viewpoint>({
@@ -268,6 +273,10 @@ export const PARAMETERS = {
   turn: parameter<"0" | "1">({
     ...oneOf("0", "1"),
     otherwise: "the picture stands still",
+  }),
+  story: parameter<StoryName>({
+    ...oneOf<StoryName>("measure", "label", "survey"),
+    otherwise: "none is told",
   }),
   embed: parameter<"0" | "1">({
     ...oneOf("0", "1"),

@@ -20,79 +20,79 @@ const NEIGHBORS = { 0: "Off", 6: "6", 16: "16", 32: "32" };
 
 export const SETTING_WORDS: Record<SettingName, SettingWords> = {
   radius: {
-    is: "the radius of the flipping sphere: a rule, or a length in the file’s units. Excludes `exponent`",
+    is: "the radius of the sphere, by a rule or as a length",
   },
   looks: {
-    is: "how many looks make the answer when the camera rests; `0` is one hull, as in the paper. Only with the automatic radius and the spherical method",
-    without: "`3`; `0` if `exponent`, `radius` or `inversion` is given",
+    is: "looks at rest; `0`: one hull, as in the paper",
+    without: "`3`; with `exponent`, `radius` or `inversion` `0`",
     labels: { 0: "One hull", 2: "2 looks", 3: "3 looks" },
   },
   inversion: {
-    is: "how points are flipped; c counts in spacings",
+    is: "how points are flipped; c in spacings",
     labels: { spherical: "Spherical", exponential: "Exponential", power: "Power" },
   },
   viewpoints: {
-    is: "who has to see a point: the one viewpoint, or of five viewpoints any or at least two",
+    is: "who sees a point: one viewpoint, any of five, two of five",
     labels: { one: "One place", any: "Any of 5", two: "At least 2" },
   },
   denoise: {
-    is: "how many nearest neighbors smooth the noise of a point",
-    without: "0: off",
+    is: "neighbors that smooth a point’s noise",
+    without: "`0`",
     labels: NEIGHBORS,
   },
   vote: {
-    is: "how many nearest neighbors vote on a point",
-    without: "0: off",
+    is: "neighbors that vote on a point",
+    without: "`0`",
     labels: NEIGHBORS,
   },
   show: {
-    is: "the visible points, or the surface between them",
+    is: "visible points, or the surface between them",
     labels: { points: "Points", surface: "Surface" },
   },
   edge: {
-    is: "the longest edge of the surface’s triangles",
+    is: "the surface’s longest edge",
   },
   lights: {
-    is: "where a light is; with a light there are shadows",
-    without: "no light",
+    is: "a light, which casts shadows",
+    without: "none",
   },
   soft: {
-    is: "the radius of a light, as a share of its distance from the middle of the cloud",
-    without: "0: a point",
+    is: "a light’s radius ÷ its distance",
+    without: "`0`",
   },
   ambient: {
-    is: "how bright a point is that no light reaches",
+    is: "brightness without light",
   },
   smoothing: {
-    is: "how many rounds smooth the light",
+    is: "rounds that smooth the light",
   },
   freeze: {
-    is: `where the viewpoint stays while the camera moves on; within ${powerOfTen(REACH)} radii of the cloud`,
-    without: "the viewpoint goes with the camera",
+    is: "where the viewpoint stays",
+    without: "the camera",
   },
   hidden: {
     is: "how hidden points are drawn",
     labels: { off: "Hide", dimmed: "Ghost", shown: "Highlight" },
   },
   compare: {
-    is: "where the picture is divided, as a share of its width; visible points are to the right",
-    without: "it is not divided",
+    is: "the dividing line, as a share of the width",
+    without: "none",
   },
   against: {
-    is: "what is to the left of the divider: all points, the z-buffer of the same picture, or the truth, where the surface is known",
+    is: "the left side: all points, the picture’s z-buffer, the true surface",
     labels: { all: "All points", zbuffer: "Z-buffer", surface: "True surface" },
   },
   splat: {
-    is: "how wide the z-buffer draws a point, in pixels",
+    is: "the z-buffer’s points, in pixels",
   },
   color: {
-    is: "what points are colored by",
+    is: "colors",
   },
   size: {
-    is: "the size of a point, in multiples of the points’ rough distance from one another",
+    is: "point size ÷ the points’ rough distance",
   },
   fieldOfView: {
-    is: "the vertical field of view",
+    is: "vertical field of view",
   },
   up: {
     is: "which way is up",
@@ -100,38 +100,42 @@ export const SETTING_WORDS: Record<SettingName, SettingWords> = {
     labels: { y: "Y", z: "Z", "-y": "−Y" },
   },
   theme: {
-    is: "the colors of the page",
+    is: "colors of the page",
     labels: { system: "System", dark: "Dark", light: "Light" },
   },
 };
 
 export const PARAMETER_WORDS: Record<keyof typeof PARAMETERS, Words> = {
   view: {
-    is: `where the camera is, in the file’s coordinates; within ${powerOfTen(REACH)} radii of the cloud`,
-    without: "all of the cloud is seen",
+    is: `the camera’s place, within ${powerOfTen(REACH)} radii`,
+    without: "the whole cloud is seen",
   },
   target: {
-    is: "what the camera looks at",
-    without: "the middle of the cloud",
+    is: "the place it looks at",
+    without: "the middle",
   },
   exponent: {
-    is: "the radius as log₁₀ of radius ÷ farthest distance",
+    is: "log₁₀ of radius ÷ farthest distance",
     without: "automatic",
   },
   points: {
-    is: "how many points of a file are shown at most; of a larger file an even share is shown",
+    is: "the most points; of more, an even share",
     without: `${MAX_POINTS / 1e6} million`,
   },
   stream: {
-    is: "an octree (COPC) with more points than this is streamed: nodes that are hidden are not read",
+    is: "larger octrees are streamed",
     without: `${MAX_POINTS / 1e6} million; with \`points\`, nothing is streamed`,
   },
   turn: {
-    is: "`1` lets the picture turn by itself until it is touched",
-    without: "`1` if the address asks for nothing else",
+    is: "whether the picture turns until touched",
+    without: "`1` if nothing else is asked",
+  },
+  story: {
+    is: "a story; it sets everything else",
+    without: "none",
   },
   embed: {
-    is: "`1` shows the picture alone, for a frame in another page",
+    is: "whether the picture is alone, for a frame",
     without: "`0`",
   },
 };

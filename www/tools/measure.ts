@@ -84,6 +84,12 @@ export class Measure implements Tool {
     return this.#lines.map(({ ends }) => ends);
   }
 
+  /** The last distance. `null`: there is none. */
+  get distance(): number | null {
+    const { distance } = this.#output.dataset;
+    return distance === undefined ? null : Number(distance);
+  }
+
   /** Shows the distance between two points. */
   measure(from: number, to: number): void {
     const { viewer, marks } = this.#bench;

@@ -115,6 +115,12 @@ export class Tools {
     return isStreamed ? noMarks() : linkOf(this.#marked).parameters;
   }
 
+  /** The last distance, or how many points no station sees. `null`: it is not known. */
+  figure(name: "distance" | "unseen"): number | null {
+    const { measure, stations } = this.#marked;
+    return name === "distance" ? measure.distance : (stations.here?.unseen ?? null);
+  }
+
   /** Sets the marks of an address. Resolves with a sentence if some of them do not suit the cloud. */
   async restore(search: string): Promise<string | null> {
     const { cloud, answer } = this.#viewer.scene;

@@ -12,7 +12,7 @@ export class Workshop {
   readonly #load: () => Promise<{ tools: Tools; plot: Plot }>;
   readonly #viewer: Viewer;
   #here: { tools: Tools; plot: Plot } | null = null;
-  #coming = false;
+  #coming: Promise<void> | null = null;
   /** An address whose marks wait for the tools. */
   #search: string | null = null;
   readonly #changed: () => void;
@@ -69,18 +69,24 @@ export class Workshop {
       this.#here.tools.begin();
       return;
     }
-    if (this.#coming) return;
-    this.#coming = true;
-    try {
-      await nextFrame();
-      this.#here = await this.#load();
-    } finally {
-      this.#coming = false;
-    }
-    this.#here.plot.clear();
-    this.#here.tools.follow();
-    this.#here.plot.answer(this.#viewer.scene.answer);
-    if (this.#automatic !== null) this.#here.plot.markAutomatic(this.#automatic);
+    this.#coming ??= this.#make().finally(() => {
+      this.#coming = null;
+    });
+    await this.#coming;
+  }
+
+  async #make(): Promise<void> {
+    await nextFrame();
+    const { tools, plot } = (this.#here = await this.#load());
+    plot.clear();
+    tools.follow();
+    plot.answer(this.#viewer.scene.answer);
+    if (this.#automatic !== null) plot.markAutomatic(this.#automatic);
+  }
+
+  /** A number that the tools have found. `null`: none. */
+  figure(name: "distance" | "unseen"): number | null {
+    return this.#here?.tools.figure(name) ?? null;
   }
 
   /** Called every frame. */

@@ -1,5 +1,6 @@
 import { type PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { eased } from "../controls/ease.ts";
 import { pressed } from "../controls/keys.ts";
 import { isCalm } from "../controls/motion.ts";
 
@@ -71,20 +72,22 @@ export class Navigation {
   goTo(place: Vector3): void {
     const distance = this.#camera.position.distanceTo(place) / 2;
     const back = this.#camera.position.clone().sub(this.target).setLength(distance);
-    this.#flyTo({ at: place.clone().add(back), target: place.clone() });
+    this.flyTo({ at: place.clone().add(back), target: place.clone() });
   }
 
   /** Flies back to a multiple of the distance from the target. `then` is called there, unless the user moves first. */
   goBack(factor: number, then: () => void): void {
     const away = this.#camera.position.clone().sub(this.target).multiplyScalar(factor);
-    this.#flyTo({ at: away.add(this.target), target: this.target.clone() }, then);
+    this.flyTo({ at: away.add(this.target), target: this.target.clone() }, then);
   }
 
-  #flyTo(to: Flight["to"], then: () => void = () => undefined): void {
+  /** `milliseconds`: how long it flies. */
+  flyTo(to: Flight["to"], then: () => void = () => undefined, milliseconds = FLIGHT): void {
     const flight: Flight = {
       from: { at: this.#camera.position.clone(), target: this.target.clone() },
       to,
-      begun: performance.now() - (isCalm() ? FLIGHT : 0),
+      milliseconds,
+      begun: performance.now() - (isCalm() ? milliseconds : 0),
     };
     this.#flight = flight;
     const step = () => {
@@ -101,10 +104,10 @@ export class Navigation {
   }
 
   /** One step of a flight. Returns whether there is a next one. */
-  #fly({ from, to, begun }: Flight): boolean {
-    const share = Math.min(1, (performance.now() - begun) / FLIGHT);
+  #fly({ from, to, begun, milliseconds }: Flight): boolean {
+    const share = Math.min(1, (performance.now() - begun) / milliseconds);
     // It begins and ends slowly.
-    const done = share * share * (3 - 2 * share);
+    const done = eased(share);
     this.#camera.position.lerpVectors(from.at, to.at, done);
     this.#controls.target.lerpVectors(from.target, to.target, done);
     this.#controls.update();
@@ -175,9 +178,10 @@ interface Flight {
   from: Omit<Pose, "up">;
   to: Omit<Pose, "up">;
   begun: number;
+  milliseconds: number;
 }
 
-/** The number of milliseconds of a flight. */
+/** The usual number of milliseconds of a flight. */
 const FLIGHT = 300;
 
 /** The steps for each press of a key: radians, a share of the distance, pixels, and a factor of the field of view. */

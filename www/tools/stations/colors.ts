@@ -1,5 +1,5 @@
 /** The color of points that no station sees: it stands out from all counts, also for the color-blind. */
-const NONE = "#e0559b";
+const NONE = "#f0433a";
 /** From few stations to many: each one is lighter than the one before, so that the order is seen without the legend. */
 const FEW = [38, 79, 120];
 const MANY = [240, 228, 150];

@@ -78,6 +78,11 @@ export class Stations implements Tool {
     return this.#stations;
   }
 
+  /** How many points no station sees. `null`: it is not known. */
+  get unseen(): number | null {
+    return this.#found?.unseen ?? null;
+  }
+
   add(stations: readonly Station[]): void {
     const room = MOST_STATIONS - this.#stations.length;
     this.#stations = [...this.#stations, ...stations.slice(0, room)];

@@ -1,0 +1,98 @@
+import { byId, nextFrame } from "../controls/dom.ts";
+import { SAMPLES } from "../samples/samples.ts";
+import type { Address } from "../settings/address.ts";
+import { readAddress } from "../settings/read-address.ts";
+import { USUAL_SETTINGS } from "../settings/settings.ts";
+import type { Store } from "../settings/store.ts";
+import { type StoryName, STORIES } from "../settings/table.ts";
+import type { Player } from "../stories/player.ts";
+import type { Workshop } from "../tools/workshop.ts";
+import { inLocal } from "../view/framing.ts";
+import type { Viewer } from "../view/viewer.ts";
+import type { Opening } from "./opening.ts";
+import { sourceOf } from "./sources.ts";
+import { sweep } from "./sweep.ts";
+
+/** Milliseconds in which the camera flies to the next step. */
+const FLIGHT = 1500;
+
+interface Parts {
+  viewer: Viewer;
+  store: Store;
+  address: Address;
+  workshop: Workshop;
+  opening: Opening;
+}
+
+/** Tells stories with the picture and the tools of the page. Their code is downloaded when the first one begins. */
+export class Storytelling {
+  readonly #parts: Parts;
+  #player: Player | null = null;
+  #isTelling = false;
+
+  constructor(parts: Parts) {
+    this.#parts = parts;
+    // Another cloud ends the story.
+    parts.opening.onOpen = ({ isTold }) => {
+      if (!isTold) this.#player?.end();
+    };
+  }
+
+  /** Whether the page shows what a story asks for. */
+  get isTelling(): boolean {
+    return this.#isTelling;
+  }
+
+  async tell(name: StoryName): Promise<void> {
+    const [{ Player }, { TOLD }] = await Promise.all([import("../stories/player.ts"), import("../stories/stories.ts")]);
+    this.#player?.end();
+    this.#isTelling = true;
+    this.#parts.address.tell(name);
+    const player = (this.#player = new Player(TOLD[name], {
+      show: (address, signal) => this.#show(`?sample=${STORIES[name]}&${address}`, signal),
+      figure: (figure) => this.#parts.workshop.figure(figure),
+      ended: () => {
+        if (this.#player !== player) return;
+        this.#player = null;
+        this.#isTelling = false;
+        this.#parts.address.touch();
+        byId("view").focus();
+      },
+    }));
+    player.begin(byId("stage"));
+  }
+
+  async #show(search: string, signal: AbortSignal): Promise<void> {
+    const { viewer, store, opening, workshop } = this.#parts;
+    const goes = () => !signal.aborted;
+    const wishes = readAddress(
+      search,
+      SAMPLES.map(({ name }) => name),
+    );
+    if (opening.shownName !== wishes.sample || !viewer.cloud) {
+      await opening.open({ ...sourceOf(wishes, search), isTold: true });
+      // The page has said why it could not be opened.
+      if (opening.shownName !== wishes.sample && goes()) this.#player?.end();
+    } else {
+      const { theme, compare } = store.current;
+      const to = { ...USUAL_SETTINGS, ...opening.usual, theme, ...wishes.settings };
+      // The line goes to its place after the marks are there.
+      store.change({ ...to, compare: to.compare === null || compare === null ? to.compare : compare });
+      await this.#fly(wishes.view, wishes.target);
+      if (!goes()) return;
+      workshop.clear();
+      await workshop.begin(search);
+      if (to.compare !== null && goes()) await sweep(store, to.compare, goes);
+    }
+    while (!viewer.isFinal && goes()) await nextFrame();
+  }
+
+  #fly(view: ReturnType<typeof readAddress>["view"], target: ReturnType<typeof readAddress>["target"]): Promise<void> {
+    const { cloud, navigation } = this.#parts.viewer;
+    if (!cloud || !view || !target) return Promise.resolve();
+    const to = { at: inLocal(cloud, view), target: inLocal(cloud, target) };
+    return new Promise((resolve) => {
+      navigation.flyTo(to, resolve, FLIGHT);
+    });
+  }
+}
