@@ -3,33 +3,34 @@
 //!
 //! K contains each face and everything between the face and the viewpoint. So along a direction
 //! (x, y, 1) that is certainly inside a face with the dual plane m, K reaches at least 1/(m·(x, y, 1))
-//! times as far. A corner that is certainly inside no face, as on an edge, keeps no reach.
+//! times as far. A corner that is certainly inside no face, as on an edge, stays unknown.
 
 use alloc::vec::Vec;
 use glam::DVec3;
 
 use crate::base::allocation::{OutOfMemory, filled, with_capacity};
 use crate::base::real::{floor, larger, smaller, square_root};
-use crate::hull::depth::{Window, direction, place, turned};
+use crate::hull::depth::{Window, place, turned};
 use crate::hull::dual_plane::Plane;
 use crate::hull::memory::Memory;
 
 /// The largest number of cells along a side of length 1. Then single precision still finds the cell
 /// of a direction, except near its border.
 const MOST_CELLS: f64 = 4096.0;
-/// A bound of the relative errors of a flipped point, a dual plane and a reach.
-const ROUNDING: f64 = 1e-12;
+/// A bound of the roundings of a height, for each |m|: about twenty of terms up to 3|m|.
+const HEIGHT_ERROR: f64 = 64.0 * f64::EPSILON;
 
 /// A grid of directions, and how far K reaches along each corner. The numbers of the grid are exact in
 /// single precision.
 pub(crate) struct Reaches {
     pub windows: [Window; 6],
     pub cells_per_unit: f64,
-    /// Lower bounds of the length |q| where K ends; 0 where none is known.
-    pub lengths: Vec<f64>,
+    /// For each corner an upper bound of w: K ends at 1/w times (x, y, 1) or beyond. Infinite where
+    /// none is known.
+    pub heights: Vec<f64>,
 }
 
-/// The corners of a face on a side of the cube.
+/// Three corners of a face on a side of the cube.
 type Places = [[f64; 2]; 3];
 
 impl Memory {
@@ -40,14 +41,20 @@ impl Memory {
         if !self.holds_hull() {
             return Ok(None);
         }
-        let mut seen = with_capacity(self.hull.vertices.positions.len())?;
+        let vertices = &self.hull.vertices.positions;
+        let mut seen = with_capacity(vertices.len())?;
         // The origin comes first, and is on no face that is passed.
-        seen.extend(self.hull.vertices.positions.iter().map(|&q| {
+        seen.extend(vertices.iter().map(|&q| {
             let (side, x, y, _) = place(q);
             (side, [x, y])
         }));
         let mut sides = [Side::NONE; 6];
-        self.each_face(&seen, &mut |side, places, _| sides[side].include(places));
+        for &(side, place) in &seen[1..] {
+            sides[side].include(place);
+        }
+        self.each_face_across(&seen, &mut |side, places, _| {
+            places.iter().for_each(|&place| sides[side].include(place));
+        });
         let Some((windows, cells_per_unit)) = grid(&sides, count) else {
             return Ok(None);
         };
@@ -55,26 +62,36 @@ impl Memory {
         let mut reaches = Reaches {
             windows,
             cells_per_unit,
-            lengths: filled(corners, 0.0)?,
+            heights: filled(corners, f64::INFINITY)?,
         };
-        self.each_face(&seen, &mut |side, places, plane| {
+        for (side, place) in &mut seen {
+            *place = reaches.in_cells(*side, *place);
+        }
+        for (_, face) in self.hull.surface.alive() {
+            let [(a, p), (b, q), (c, r)] = face.vertices.map(|vertex| seen[vertex as usize]);
+            if a == b && a == c && !face.data.is_exact_only() {
+                reaches.fill(a, [p, q, r], &face.data);
+            }
+        }
+        self.each_face_across(&seen, &mut |side, places, plane| {
+            let places = places.map(|place| reaches.in_cells(side, place));
             reaches.fill(side, places, plane);
         });
         Ok(Some(reaches))
     }
 
-    /// Passes each outer face on each side of the cube that it is on. `seen`: the side and the place
-    /// of each vertex.
-    #[inline(always)]
-    fn each_face(&self, seen: &[(usize, [f64; 2])], pass: &mut impl FnMut(usize, &Places, &Plane)) {
+    /// Passes each outer face with vertices on several sides of the cube, on each of them. `seen`: the
+    /// side of each vertex.
+    #[inline(never)]
+    fn each_face_across(
+        &self,
+        seen: &[(usize, [f64; 2])],
+        pass: &mut dyn FnMut(usize, Places, &Plane),
+    ) {
         let hull = &self.hull;
         for (_, face) in hull.surface.alive() {
-            if face.data.is_exact_only() {
-                continue;
-            }
-            let [(a, p), (b, q), (c, r)] = face.vertices.map(|vertex| seen[vertex as usize]);
-            if a == b && a == c {
-                pass(a, &[p, q, r], &face.data);
+            let [a, b, c] = face.vertices.map(|vertex| seen[vertex as usize].0);
+            if (a == b && a == c) || face.data.is_exact_only() {
                 continue;
             }
             let corners = face.vertices.map(|vertex| hull.vertices.at(vertex));
@@ -85,7 +102,7 @@ impl Memory {
                 // A face that reaches behind a side is left out there.
                 let ahead = corners.map(|q| place_on(side, q));
                 if let [Some(a), Some(b), Some(c)] = ahead {
-                    pass(side, &[a, b, c], &face.data);
+                    pass(side, [a, b, c], &face.data);
                 }
             }
         }
@@ -112,13 +129,11 @@ impl Side {
         high: [f64::NEG_INFINITY; 2],
     };
 
-    fn include(&mut self, places: &Places) {
-        for place in places {
-            for axis in 0..2 {
-                let x = larger(smaller(place[axis], 1.0), -1.0);
-                self.low[axis] = smaller(self.low[axis], x);
-                self.high[axis] = larger(self.high[axis], x);
-            }
+    fn include(&mut self, place: [f64; 2]) {
+        for axis in 0..2 {
+            let x = larger(smaller(place[axis], 1.0), -1.0);
+            self.low[axis] = smaller(self.low[axis], x);
+            self.high[axis] = larger(self.high[axis], x);
         }
     }
 }
@@ -166,12 +181,19 @@ fn grid(sides: &[Side; 6], count: usize) -> Option<([Window; 6], f64)> {
 }
 
 impl Reaches {
-    /// Writes the reach of each corner that is certainly inside a face.
+    /// A place on a side of the cube, in cells from its window's first corner.
     #[inline]
-    fn fill(&mut self, side: usize, places: &Places, plane: &Plane) {
-        let window = self.windows[side];
+    fn in_cells(&self, side: usize, [x, y]: [f64; 2]) -> [f64; 2] {
+        let window = &self.windows[side];
         let scale = self.cells_per_unit;
-        let [a, b, c] = places.map(|[x, y]| [(x - window.x) * scale, (y - window.y) * scale]);
+        [(x - window.x) * scale, (y - window.y) * scale]
+    }
+
+    /// Writes the height of each corner that is certainly inside a face.
+    #[inline(always)]
+    fn fill(&mut self, side: usize, places: Places, plane: &Plane) {
+        let window = self.windows[side];
+        let [a, b, c] = places;
         let range = |axis: usize, last: usize| {
             let [a, b, c] = [a[axis], b[axis], c[axis]];
             let low = larger(smaller(smaller(a, b), c), -1.0);
@@ -183,7 +205,7 @@ impl Reaches {
         let (bottom, top) = range(1, window.rows);
         // Most faces have no corner inside.
         if left <= right && bottom <= top {
-            self.fill_rows(side, [a, b, c], [left, right, bottom, top], plane);
+            self.fill_rows(side, places, [left, right, bottom, top], plane);
         }
     }
 
@@ -196,6 +218,7 @@ impl Reaches {
         plane: &Plane,
     ) {
         let window = self.windows[side];
+        let cell = 1.0 / self.cells_per_unit;
         let turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
         if turn < 0.0 {
             core::mem::swap(&mut b, &mut c);
@@ -205,38 +228,36 @@ impl Reaches {
             Edge::new(b, c, self),
             Edge::new(c, a, self),
         ];
+        // The height is linear in the column and the row.
+        let (x, y, z) = turned(side, plane.m);
+        let spread = x.abs() + y.abs() + z.abs();
+        let (along, base) = (x * cell, x * window.x + z);
+        let (larger_by, more) = (1.0 + 2.0 * plane.error, spread * HEIGHT_ERROR);
         let mut row = bottom;
         while row <= top {
+            let starts = [0, 1, 2].map(|edge| edges[edge].start(row));
             let (mut first, mut last) = (left, right);
             if last - first > 3.0 {
-                for edge in &edges {
-                    edge.narrow(row, &mut first, &mut last);
+                for (edge, start) in edges.iter().zip(starts) {
+                    edge.narrow(start, &mut first, &mut last);
                 }
             }
+            let start = base + y * (window.y + row * cell);
+            let line = window.first + row as usize * (window.columns + 1);
             let mut column = first;
             while column <= last {
-                if edges.iter().all(|edge| edge.is_inside(column, row)) {
-                    self.write(side, &window, column, row, plane);
+                let is_inside =
+                    (edges.iter().zip(starts)).all(|(edge, start)| start > edge.down * column);
+                if is_inside {
+                    let height = start + along * column;
+                    if height > 0.0 {
+                        let known = &mut self.heights[line + column as usize];
+                        *known = smaller(*known, height * larger_by + more);
+                    }
                 }
                 column += 1.0;
             }
             row += 1.0;
-        }
-    }
-
-    fn write(&mut self, side: usize, window: &Window, column: f64, row: f64, plane: &Plane) {
-        let corner = direction(
-            side,
-            window.x + column / self.cells_per_unit,
-            window.y + row / self.cells_per_unit,
-        );
-        let height = plane.m.dot(corner);
-        let spread = plane.m.x.abs() + plane.m.y.abs() + plane.m.z.abs();
-        let bound = height * (1.0 + 2.0 * plane.error) + spread * 16.0 * f64::EPSILON;
-        if height > 0.0 {
-            let place = window.first + row as usize * (window.columns + 1) + column as usize;
-            let length = square_root(corner.dot(corner)) / bound * (1.0 - ROUNDING);
-            self.lengths[place] = larger(self.lengths[place], length);
         }
     }
 }
@@ -245,32 +266,41 @@ impl Reaches {
 struct Edge {
     x: f64,
     y: f64,
-    along: [f64; 2],
+    right: f64,
+    down: f64,
     /// A bound of the error of a comparison.
     doubt: f64,
 }
 
 impl Edge {
+    #[inline]
     fn new([x, y]: [f64; 2], end: [f64; 2], grid: &Reaches) -> Self {
-        let along = [end[0] - x, end[1] - y];
-        let length = along[0].abs() + along[1].abs();
+        let [right, down] = [end[0] - x, end[1] - y];
+        let length = right.abs() + down.abs();
         // Places and corners are rounded by some units; products reach over the whole window.
         let largest = x.abs() + y.abs() + end[0].abs() + end[1].abs();
         let doubt = 64.0 * f64::EPSILON * (4.0 * grid.cells_per_unit + largest) * (length + 1.0);
-        Self { x, y, along, doubt }
+        Self {
+            x,
+            y,
+            right,
+            down,
+            doubt,
+        }
     }
 
+    /// A corner of this row is certainly on the left if this is more than `down` times its column.
     #[inline]
-    fn is_inside(&self, column: f64, row: f64) -> bool {
-        self.along[0] * (row - self.y) - self.along[1] * (column - self.x) > self.doubt
+    fn start(&self, row: f64) -> f64 {
+        self.right * (row - self.y) + self.down * self.x - self.doubt
     }
 
     /// Leaves out columns of a row that are on the right of the edge, except for two.
-    fn narrow(&self, row: f64, first: &mut f64, last: &mut f64) {
-        let crossing = self.x + self.along[0] * (row - self.y) / self.along[1];
-        if self.along[1] < 0.0 && crossing > *first {
+    fn narrow(&self, start: f64, first: &mut f64, last: &mut f64) {
+        let crossing = start / self.down;
+        if self.down < 0.0 && crossing > *first {
             *first = smaller(floor(crossing), *last + 1.0);
-        } else if self.along[1] > 0.0 && crossing < *last {
+        } else if self.down > 0.0 && crossing < *last {
             *last = larger(floor(crossing) + 1.0, *first - 1.0);
         }
     }

@@ -5,14 +5,16 @@
 //! |cᵢ|/ρᵢ (`hull/depth`). So ρ is at least |c|/Σλᵢ|cᵢ| times the harmonic mean of the ρᵢ with the
 //! weights μᵢ, which are λᵢ|cᵢ| divided by their sum.
 //!
-//! - |c| is convex with second derivatives up to 1, so Σλᵢ|cᵢ| ≤ |c|·(1 + h²/4).
-//! - The harmonic mean is at most (√M − √m)² below the arithmetic one.
+//! - |c| is convex. An interpolation is above it by at most h²/8 times the sum of its second
+//!   derivatives along x and y, which is (2 + x² + y²)/|c|³ ≤ 2. From a corner into the cells around
+//!   it, this sum divided by |c| grows by at most e^5h. So Σλᵢ|cᵢ| ≤ |c|·(1 + `bulge`).
+//! - The harmonic mean is at most (√M − √m)² ≤ (M − m)²/4m below the arithmetic one.
 //! - |cᵢ| changes by at most h√2 in a cell, so to take λᵢ for μᵢ costs at most (M − m)·h/√2.
 //!
-//! Together ρ ≥ Σλᵢ(ρᵢ·(1 − h²/4) − S), where S is the sum of the last two. The distance is convex in
-//! the reach. So its interpolation, made with the largest S around each corner, is a bound.
+//! Together ρ ≥ Σλᵢ(ρᵢ − S)·(1 − bulgeᵢ), where S is the sum of the last two. The distance is convex
+//! in the reach. So its interpolation, made with the largest S around each corner, is a bound.
 //!
-//! Where M is much larger than m, S is larger than m, and nothing is left. But ρ ≥ m·(1 − h²/4) as
+//! Where M is much larger than m, S is larger than m, and nothing is left. But ρ ≥ m·(1 − bulge) as
 //! well: there, all four corners take the distance of m.
 
 use crate::answers::visibility_map::hides::VisibilityMap;
@@ -29,6 +31,8 @@ const LEAST: f64 = 1e-30;
 const MOST_LOST: f64 = 0.5;
 /// The rounding to single precision, upwards.
 const UP: f64 = 1.0 + 2.4e-7;
+/// A bound of the relative errors of a flipped point, a dual plane and a reach.
+const ROUNDING: f64 = 1e-12;
 
 impl VisibilityMap {
     /// Writes the distances of these reaches, each with the thickness behind it.
@@ -38,31 +42,58 @@ impl VisibilityMap {
         flip: &Flip,
         thickness: f64,
     ) -> Result<(), OutOfMemory> {
-        let lengths = &reaches.lengths;
         let cell = 1.0 / reaches.cells_per_unit;
-        let mut slack = filled(lengths.len(), 0.0)?;
-        let mut most = filled(lengths.len(), f64::INFINITY)?;
+        let mut lengths = filled(reaches.heights.len(), 0.0)?;
+        let mut least = filled(lengths.len(), 0.0)?;
+        let mut distances = filled(lengths.len(), NOWHERE)?;
         for window in &reaches.windows {
-            bound(window, cell, lengths, &mut slack, &mut most);
+            each_corner(window, cell, &mut |place, squared| {
+                lengths[place] = square_root(squared) / reaches.heights[place] * (1.0 - ROUNDING);
+                least[place] = lengths[place];
+            });
         }
-        let shrink = 1.0 - 0.25 * cell * cell;
-        let distance = |((&length, slack), most): ((&f64, f64), f64)| {
-            if length > 0.0 {
-                let reach = smaller(length * shrink - slack, most * shrink);
-                let distance = flip.distance_at(reach) + thickness;
-                if distance < f64::from(NOWHERE) {
-                    return (larger(distance, LEAST) * UP) as f32;
+        for window in &reaches.windows {
+            lower(window, cell, &lengths, &mut least);
+            each_corner(window, cell, &mut |place, squared| {
+                if least[place] > 0.0 {
+                    let reach = least[place] * (1.0 - bulge(cell, squared));
+                    let distance = flip.distance_at(reach) + thickness;
+                    if distance < f64::from(NOWHERE) {
+                        distances[place] = (larger(distance, LEAST) * UP) as f32;
+                    }
                 }
-            }
-            NOWHERE
-        };
-        let distances = lengths.iter().zip(slack).zip(most).map(distance);
-        self.set(reaches, distances)
+            });
+        }
+        self.set(reaches, &distances)
     }
 }
 
-/// For all corners of a window, raises what their reaches lose, or lowers what they may be at most.
-fn bound(window: &Window, cell: f64, lengths: &[f64], slack: &mut [f64], most: &mut [f64]) {
+/// Passes the index and the squared length of each corner (x, y, 1) of a window.
+#[inline(always)]
+fn each_corner(window: &Window, cell: f64, pass: &mut impl FnMut(usize, f64)) {
+    let mut place = window.first;
+    for row in 0..window.corners() / (window.columns + 1) {
+        let y = window.y + row as f64 * cell;
+        for column in 0..=window.columns {
+            let x = window.x + column as f64 * cell;
+            pass(place, 1.0 + x * x + y * y);
+            place += 1;
+        }
+    }
+}
+
+/// By what share an interpolation of |c| is at most too large in the cells around the corner with this
+/// |c|².
+#[inline]
+fn bulge(cell: f64, squared: f64) -> f64 {
+    let sum = (1.0 + squared) / (squared * squared);
+    // e^5h < 1 + 8h up to here.
+    let grown = if cell < 0.15 { 1.0 + 8.0 * cell } else { 10.0 };
+    0.125 * cell * cell * smaller(2.0, sum * grown)
+}
+
+/// For all corners of a window, lowers the reaches by what the cells around lose.
+fn lower(window: &Window, cell: f64, lengths: &[f64], least: &mut [f64]) {
     let across = window.columns + 1;
     for row in 0..window.rows {
         for column in 0..window.columns {
@@ -75,14 +106,15 @@ fn bound(window: &Window, cell: f64, lengths: &[f64], slack: &mut [f64], most: &
             }
             // A cell with an unknown corner hides nothing.
             if m > 0.0 {
-                let roots = square_root(above) - square_root(m);
-                let lost = (roots * roots + 0.708 * cell * (above - m)) * (1.0 + 1e-12);
+                let range = above - m;
+                let lost = range * (0.25 * range / m + 0.708 * cell) * (1.0 + 1e-12);
                 for corner in corners {
-                    if lost < MOST_LOST * m {
-                        slack[corner] = larger(slack[corner], lost);
+                    let left = if lost < MOST_LOST * m {
+                        lengths[corner] - lost
                     } else {
-                        most[corner] = smaller(most[corner], m);
-                    }
+                        m
+                    };
+                    least[corner] = smaller(least[corner], left);
                 }
             }
         }

@@ -64,12 +64,8 @@ impl VisibilityMap {
     }
 
     /// Takes the distances along the corners of a grid.
-    pub(super) fn set(
-        &mut self,
-        reaches: &Reaches,
-        distances: impl Iterator<Item = f32>,
-    ) -> Result<(), OutOfMemory> {
-        let len = (HEADER + reaches.lengths.len()).next_multiple_of(ROW);
+    pub(super) fn set(&mut self, reaches: &Reaches, distances: &[f32]) -> Result<(), OutOfMemory> {
+        let len = (HEADER + distances.len()).next_multiple_of(ROW);
         let mut data = filled(len, 0.0)?;
         for (to, window) in data.chunks_exact_mut(8).zip(&reaches.windows) {
             let first = HEADER + window.first;
@@ -81,9 +77,7 @@ impl VisibilityMap {
                 first as f32,
             ]);
         }
-        for (to, distance) in data[HEADER..].iter_mut().zip(distances) {
-            *to = distance;
-        }
+        data[HEADER..HEADER + distances.len()].copy_from_slice(distances);
         let cells = reaches.cells_per_unit;
         let up = |x: f64| (x * (1.0 + UNIT)) as f32;
         self.numbers = [

@@ -29,10 +29,13 @@ use crate::view::resolved::looks;
 pub use hides::VisibilityMap;
 use kept::MapMemory;
 pub use options::MapOptions;
-use pool::Pool;
+use pool::{FEW, Pool};
 
 /// Distances in a map are between the first number and the last one, in the cloud's units.
 const UNITS: core::ops::Range<f64> = 1e-15..1e15;
+
+/// The most corners for each point of a map, of which there are at least `FEW`.
+const CORNERS: usize = 4;
 
 /// What a map is asked about. Points may have been `moved` so far.
 struct Asked<'a> {
@@ -132,10 +135,12 @@ impl PointCloud {
             hull, pool, last, ..
         } = &mut memory.maps;
         let pool = Pool::of(pool, &self.sequence.points, map)?;
-        let chosen = pool.choose(viewpoint, map, last.as_ref())?;
+        let chosen = pool.choose(viewpoint, map, options.asks_for_looks(), last.as_ref())?;
         let flip = flip.rescaled_for(&chosen);
         hull::mark_all(&chosen, &flip, hull)?;
-        if let Some(reaches) = hull.reaches(map.corners)? {
+        pool.mark(hull.visible());
+        let corners = map.corners.min(CORNERS * chosen.len().max(FEW as usize));
+        if let Some(reaches) = hull.reaches(corners)? {
             made.fill(&reaches, &flip, thickness)?;
         }
         *last = Some(made.clone());

@@ -7,7 +7,7 @@ use glam::DVec3;
 use crate::answers::sample::even_places;
 use crate::answers::visibility_map::hides::VisibilityMap;
 use crate::answers::visibility_map::options::MapOptions;
-use crate::base::allocation::{OutOfMemory, with_capacity};
+use crate::base::allocation::{OutOfMemory, filled, reserve};
 use crate::base::real::square_root;
 use crate::cloud::points::Points;
 use crate::view::resolved::normalized;
@@ -15,15 +15,31 @@ use crate::view::resolved::normalized;
 /// How many points a pool has for each point of a map: in all directions, and for a map towards some
 /// of them.
 const TIMES: [usize; 2] = [3, 12];
+/// A map takes one in so many of the points that are probably visible in the whole cloud, but at least
+/// `FEW`: more would cost much of what the exact answer costs. Looks cost more.
+const ONE_IN: u64 = 8;
+const ONE_IN_LOOKS: u64 = 2;
+pub(super) const FEW: u64 = 8192;
 /// One in so many points may always be chosen, so that no place is forgotten.
 const ALWAYS: usize = 16;
+/// A map tests one in so many points of the pool, each time others.
+const TURNS: usize = 4;
+/// If it newly hides more than this share of them, all are tested.
+const STALE: f64 = 0.1;
 /// How much wider than the given cone the points are, as a share of the angle.
 const WIDER: f64 = 1.1;
 
 pub(super) struct Pool {
     /// As it was asked for.
     size: usize,
+    /// How many points the cloud has.
+    all: usize,
     points: Points,
+    /// The points that were hidden when they were asked for last.
+    is_hidden: Vec<bool>,
+    /// The points of the last map.
+    chosen: Vec<u32>,
+    turn: usize,
 }
 
 impl Pool {
@@ -32,7 +48,7 @@ impl Pool {
         kept: &'a mut Option<Self>,
         points: &Points,
         map: &MapOptions,
-    ) -> Result<&'a Self, OutOfMemory> {
+    ) -> Result<&'a mut Self, OutOfMemory> {
         let size = map
             .points
             .saturating_mul(TIMES[usize::from(map.towards.is_some())]);
@@ -41,7 +57,14 @@ impl Pool {
             None => {
                 let all = points.len();
                 let points = points.gathered(&even_places(all, size.min(all))?)?;
-                Self { size, points }
+                Self {
+                    size,
+                    all,
+                    is_hidden: filled(points.len(), false)?,
+                    points,
+                    chosen: Vec::new(),
+                    turn: 0,
+                }
             }
         };
         Ok(kept.insert(new))
@@ -49,33 +72,79 @@ impl Pool {
 
     /// An even part of the points that may hide something.
     pub(super) fn choose(
-        &self,
+        &mut self,
         viewpoint: [f64; 3],
         map: &MapOptions,
+        is_for_looks: bool,
         last: Option<&VisibilityMap>,
     ) -> Result<Points, OutOfMemory> {
         let cone = Cone::of(map);
         let viewpoint = DVec3::from_array(viewpoint);
-        let mut open: Vec<u32> = with_capacity(self.points.len())?;
-        for (place, point) in self.points.iter().enumerate() {
-            let is_seen = cone
-                .as_ref()
-                .is_none_or(|cone| cone.contains(DVec3::from_array(point) - viewpoint));
-            let is_hidden = |last: &VisibilityMap| place % ALWAYS != 0 && last.hides(point);
-            if is_seen && !last.is_some_and(is_hidden) {
-                open.push(place as u32);
+        let is_asked = |point: [f64; 3]| {
+            let seen = |cone: &Cone| cone.contains(DVec3::from_array(point) - viewpoint);
+            cone.as_ref().is_none_or(seen)
+        };
+        if let Some(last) = last {
+            let (tested, new) = self.test(last, self.turn, TURNS, &is_asked);
+            if new as f64 > STALE * tested as f64 {
+                self.test(last, 0, 1, &is_asked);
+            }
+            self.turn = (self.turn + 1) % TURNS;
+        }
+        self.chosen.clear();
+        reserve(&mut self.chosen, self.points.len())?;
+        for (place, &is_hidden) in self.is_hidden.iter().enumerate() {
+            if (!is_hidden || place % ALWAYS == 0) && is_asked(self.points.get(place)) {
+                self.chosen.push(place as u32);
             }
         }
-        let (count, budget) = (open.len() as u64, map.points as u64);
+        let count = self.chosen.len() as u64;
+        let visible = count * self.all as u64 / self.points.len().max(1) as u64;
+        let one_in = match cone {
+            None if is_for_looks => ONE_IN_LOOKS,
+            None => ONE_IN,
+            // Of some directions it takes all.
+            Some(_) => 1,
+        };
+        let budget = (visible / one_in).max(FEW).min(map.points as u64);
         if count > budget {
             let mut number = 0;
-            open.retain(|_| {
+            self.chosen.retain(|_| {
                 let [before, after] = [number, number + 1].map(|n| n * budget / count);
                 number += 1;
                 before != after
             });
         }
-        self.points.gathered(&open)
+        self.points.gathered(&self.chosen)
+    }
+
+    /// Marks the points that this map hides: every `step`th one that is asked for. Returns how many
+    /// there were, and how many of them were not marked before.
+    fn test(
+        &mut self,
+        last: &VisibilityMap,
+        first: usize,
+        step: usize,
+        is_asked: &dyn Fn([f64; 3]) -> bool,
+    ) -> (usize, usize) {
+        let [mut tested, mut new] = [0; 2];
+        for place in (first..self.points.len()).step_by(step) {
+            let point = self.points.get(place);
+            if is_asked(point) {
+                let is_hidden = last.hides(point);
+                tested += 1;
+                new += usize::from(is_hidden && !self.is_hidden[place]);
+                self.is_hidden[place] = is_hidden;
+            }
+        }
+        (tested, new)
+    }
+
+    /// Marks the chosen points that their own hull hides.
+    pub(super) fn mark(&mut self, visible: &[bool]) {
+        for (&place, visible) in self.chosen.iter().zip(visible) {
+            self.is_hidden[place as usize] = !visible;
+        }
     }
 }
 
