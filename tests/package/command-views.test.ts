@@ -211,7 +211,7 @@ describe("--progress", () => {
 describe("combinations without a meaning", () => {
   const LOOKS = ["--looks", "3"];
   it.each<[string[], RegExp]>([
-    [["in.xyz"], /--from X,Y,Z is needed: the viewpoint; or --camera FILE, or --viewpoints FILE/],
+    [["in.xyz"], /--from X,Y,Z is needed: the viewpoint; or --camera, --viewpoints or --cameras FILE/],
     [[...FROM, "--camera", "c.json"], /--from and --camera exclude each other/],
     [[...FROM, "--viewpoints", "places.csv"], /--from and --viewpoints exclude each other/],
     [[...FROM, "--radius", "9", "--exponent", "2"], /radius and exponent exclude each other/],

@@ -4,6 +4,7 @@ import { parseArgs } from "node:util";
 import { HprError } from "../base/errors.js";
 import type { ChosenColumns } from "../formats/axes.js";
 import { viewSettings, type VisibilityOptions } from "../query/view-options.js";
+import type { TransferOptions } from "../query/transfer.js";
 import { MAX_WORKERS } from "../worker/workers.js";
 import { FORMATS } from "./formats/formats.js";
 import { chosenFormat, type OutputFormat } from "./output-format.js";
@@ -13,6 +14,7 @@ import {
   readExponent,
   readInversion,
   readLooks,
+  readMerge,
   readRadius,
   readThreshold,
   readViewpoint,
@@ -24,8 +26,14 @@ export interface Settings {
   /** The name of a file, or "-" for standard output. */
   output: string;
   format: OutputFormat;
-  /** From where: a viewpoint, or the name of a file with a camera or with viewpoints. */
-  place: { viewpoint: number[] } | { camera: string } | { viewpoints: string; each: boolean };
+  /** From where: a viewpoint, or the name of a file with a camera, with viewpoints, or with cameras. */
+  place:
+    | { viewpoint: number[] }
+    | { camera: string }
+    | { viewpoints: string; each: boolean }
+    | { cameras: string; each: boolean };
+  /** The folder of the cameras' images, and how their values become one. */
+  images: { folder: string; merge: TransferOptions["merge"] } | undefined;
   options: VisibilityOptions;
   /** The least score of a point that counts as visible. Undefined for the answer's own choice. */
   threshold: number | undefined;
@@ -53,15 +61,16 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
   if (others.length > 0) throw new UsageProblem(`one file at a time, not also ${others.join(", ")}`);
   checkInput(input, values.columns !== undefined);
   const { output } = values;
-  const given = (["from", "camera", "viewpoints"] as const).filter((name) => values[name] !== undefined);
+  const given = (["from", "camera", "viewpoints", "cameras"] as const).filter((name) => values[name] !== undefined);
   if (given.length === 0) {
-    throw new UsageProblem("--from X,Y,Z is needed: the viewpoint; or --camera FILE, or --viewpoints FILE");
+    throw new UsageProblem("--from X,Y,Z is needed: the viewpoint; or --camera, --viewpoints or --cameras FILE");
   }
-  if (given.length > 1) throw new UsageProblem(`--${given.join(" and --")} exclude each other; give one of the two`);
+  if (given.length > 1) throw new UsageProblem(`--${given.join(" and --")} exclude each other; give one of them`);
   if (output === undefined) throw new UsageProblem("-o OUT is needed: the file to write");
   const each = output.includes(NAME);
-  if (each && values.viewpoints === undefined) {
-    throw new UsageProblem(`${NAME} in the name of the output needs --viewpoints`);
+  const many = values.viewpoints ?? values.cameras;
+  if (each && many === undefined) {
+    throw new UsageProblem(`${NAME} in the name of the output needs --viewpoints or --cameras`);
   }
 
   const options = viewOptions(values);
@@ -71,6 +80,8 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
     input,
     output,
     camera: values.camera !== undefined,
+    cameras: values.cameras !== undefined,
+    images: values.images !== undefined,
     coverage: values.coverage === true,
   });
   checkCompany({ format, options, threshold, isOne, each, values });
@@ -84,7 +95,10 @@ export function readArguments(args: string[]): Settings | "help" | "version" {
         ? { viewpoint: readViewpoint(values.from) }
         : values.camera !== undefined
           ? { camera: values.camera }
-          : { viewpoints: values.viewpoints!, each },
+          : values.cameras !== undefined
+            ? { cameras: values.cameras, each }
+            : { viewpoints: values.viewpoints!, each },
+    images: values.images === undefined ? undefined : { folder: values.images, merge: readMerge(values.merge) },
     options,
     threshold,
     columns: values.columns === undefined ? undefined : readColumns(values.columns),
@@ -106,6 +120,9 @@ function parsed(args: string[]) {
         from: { type: "string" },
         camera: { type: "string" },
         viewpoints: { type: "string" },
+        cameras: { type: "string" },
+        images: { type: "string" },
+        merge: { type: "string" },
         output: { type: "string", short: "o" },
         format: { type: "string" },
         coverage: { type: "boolean" },
@@ -211,14 +228,31 @@ function checkCompany({ format, options, threshold, isOne, each, values }: Compa
     if (is) throw new UsageProblem(`${what} cannot be combined with ${other}`);
   };
   const coverage = values.coverage === true;
-  needs(!coverage || values.viewpoints !== undefined, "--coverage", "--viewpoints FILE");
+  const many = values.viewpoints ?? values.cameras;
+  needs(!coverage || many !== undefined, "--coverage", "--viewpoints FILE or --cameras FILE");
+  needs(values.images === undefined || values.cameras !== undefined, "--images", "--cameras FILE");
+  needs(values.merge === undefined || values.images !== undefined, "--merge", "--images DIR");
+  needs(format !== "colors" || values.images !== undefined, "--format colors", "--images DIR");
+  excludes(values.images !== undefined && format !== "colors", "--images", `--format ${format}`);
+  excludes(values.images !== undefined && coverage, "--images", "--coverage");
+  needs(format !== "vis" || values.cameras !== undefined, "--format vis", "--cameras FILE");
+  excludes(
+    (format === "vis" || format === "colors") && each,
+    `--format ${format}`,
+    `${NAME} in the name of the output`,
+  );
   excludes(coverage && each, "--coverage", `${NAME} in the name of the output`);
   excludes(coverage && format !== "counts", "--coverage", `--format ${format}`);
   needs(format !== "counts" || coverage, "--format counts", "--coverage");
-  needs(format !== "pixels" || values.camera !== undefined, "--format pixels", "--camera FILE");
+  needs(
+    format !== "pixels" || values.camera !== undefined || (values.cameras !== undefined && each),
+    "--format pixels",
+    `--camera FILE, or --cameras FILE with ${NAME} in the name of the output`,
+  );
   const scored = threshold !== undefined ? "--score-threshold" : "--format scores";
   if (threshold === undefined && format !== "scores") return;
   needs(options.looks !== undefined, scored, "--looks 2 or 3");
   excludes(threshold !== undefined && format === "scores", scored, "--format scores, which writes all scores");
+  excludes(values.cameras !== undefined, scored, "--cameras");
   needs(isOne, scored, `one viewpoint: --from X,Y,Z, or --viewpoints FILE with ${NAME} in the name of the output`);
 }

@@ -1,16 +1,22 @@
-import type { Camera } from "../query/camera.js";
+import { transfer } from "../cloud/transfer.js";
+import { type Camera, isCamera } from "../query/camera.js";
+import type { SeenBy } from "../query/seen-by.js";
+import type { TransferOptions, Transferred } from "../query/transfer.js";
 import { isDivisible } from "../query/queries.js";
 import { viewSettings, type VisibilityOptions } from "../query/view-options.js";
 import { WorkerPointCloud } from "../worker.js";
 import { defaultWorkers, MAX_WORKERS } from "../worker/workers.js";
 import type { PointFile } from "./formats/point-file.js";
-import type { NamedViewpoint } from "./places.js";
+import { readImage } from "./images.js";
+import type { NamedCamera, NamedSeat } from "./places.js";
 
 /** What is asked of the cloud. */
 export type Question = { options: VisibilityOptions; threshold: number | undefined } & (
   | { kind: "view"; viewpoint: number[] }
   | { kind: "camera"; camera: Camera }
-  | { kind: "each" | "any" | "coverage"; viewpoints: NamedViewpoint[] }
+  | { kind: "each" | "any" | "coverage"; seats: NamedSeat[] }
+  | { kind: "rows"; seats: NamedCamera[] }
+  | { kind: "colors"; seats: NamedCamera[]; images: string; merge: TransferOptions["merge"] }
 );
 
 export interface Answer {
@@ -24,6 +30,10 @@ export interface Answer {
   scores?: Float32Array;
   /** How many viewpoints see each point. Then `indices` are the points that at least one sees. */
   counts?: Uint32Array;
+  /** Which cameras see each point. */
+  rows?: SeenBy;
+  /** What images say of each point. Then `indices` are the points that at least one camera sees. */
+  colors?: Transferred;
   /** What is probably wrong with the camera. */
   note?: string;
   image?: { pixels: Float32Array; depths: Float32Array };
@@ -44,7 +54,8 @@ export async function* ask(
 ): AsyncGenerator<Answer> {
   const cloud = await WorkerPointCloud.create(positions, {
     nonFinite: "skip",
-    transfer: true,
+    // The output needs the positions again.
+    transfer: question.kind !== "colors",
     workers: workers ?? (isShared(question) ? await defaultWorkers(positions.length / 3, MAX_WORKERS) : 1),
     onProgress: (share) => {
       onProgress(share / 2, "preparing");
@@ -61,7 +72,8 @@ export async function* ask(
 
 /** Whether several workers can share the work: the viewpoints, or each view. */
 function isShared({ kind, options }: Question): boolean {
-  return kind === "any" || kind === "coverage" || isDivisible(3, viewSettings({ ...options }, 3));
+  const isOne = kind === "view" || kind === "camera" || kind === "each";
+  return !isOne || isDivisible(3, viewSettings({ ...options }, 3));
 }
 
 async function* answers(
@@ -70,38 +82,54 @@ async function* answers(
   onProgress: OnProgress,
 ): AsyncGenerator<Omit<Answer, "length" | "skipped">> {
   const { options, threshold } = question;
-  const from = async (viewpoint: number[]) => {
-    const { indices, scores } = await cloud.visibleFrom(viewpoint, options);
+  const from = async (seat: number[] | Camera) => {
+    if (isCamera(seat)) {
+      const { indices, pixels, depths, note } = await cloud.visibleFromCamera(seat as Camera, options);
+      return { indices, image: { pixels, depths }, ...(note !== undefined && { note }) };
+    }
+    const { indices, scores } = await cloud.visibleFrom(seat as number[], options);
     if (scores === undefined) return { indices };
     return { indices: threshold === undefined ? indices : atLeast(scores, threshold), scores };
+  };
+  const listening = {
+    ...options,
+    onProgress: (share: number) => {
+      onProgress(0.5 + share / 2, "looking");
+    },
   };
   switch (question.kind) {
     case "view":
       yield await from(question.viewpoint);
       return;
-    case "camera": {
-      const { indices, pixels, depths, note } = await cloud.visibleFromCamera(question.camera, options);
-      yield { indices, image: { pixels, depths }, ...(note !== undefined && { note }) };
+    case "camera":
+      yield await from(question.camera);
       return;
-    }
     case "each":
-      for (const [i, { name, viewpoint }] of question.viewpoints.entries()) {
-        onProgress(0.5 + i / question.viewpoints.length / 2, "looking");
-        yield { name, ...(await from(viewpoint)) };
+      for (const [i, { name, seat }] of question.seats.entries()) {
+        onProgress(0.5 + i / question.seats.length / 2, "looking");
+        yield { name, ...(await from(seat)) };
       }
       return;
     case "any":
     case "coverage": {
-      const counts = await cloud.coverage(
-        question.viewpoints.map(({ viewpoint }) => viewpoint),
-        {
-          ...options,
-          onProgress: (share) => {
-            onProgress(0.5 + share / 2, "looking");
-          },
-        },
-      );
+      const seats = question.seats.map(({ seat }) => seat);
+      const counts = await cloud.coverage(seats, listening);
       yield { indices: atLeast(counts, 1), counts };
+      return;
+    }
+    case "rows": {
+      const seats = question.seats.map(({ seat }) => seat);
+      const rows = await cloud.seenBy(seats, listening);
+      const counts = rows.offsets.subarray(1).map((end, i) => end - rows.offsets[i]!);
+      yield { indices: atLeast(counts, 1), rows };
+      return;
+    }
+    case "colors": {
+      const { seats, merge } = question;
+      const images = await Promise.all(seats.map(({ image }) => readImage(question.images, image)));
+      const cameras = seats.map(({ seat }) => seat);
+      const colors = await transfer(cloud, cameras, images, { ...listening, merge });
+      yield { indices: atLeast(colors.seen, 1), colors };
     }
   }
 }

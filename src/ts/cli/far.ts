@@ -1,5 +1,5 @@
 // Notes viewpoints that are so far from the cloud that their coordinates are probably of another system.
-import type { Camera } from "../query/camera.js";
+import { type Camera, isCamera } from "../query/camera.js";
 import type { Question } from "./ask.js";
 
 /** How many extents of the cloud a viewpoint may be from it. The cloud then fills half a degree of the view. */
@@ -26,7 +26,11 @@ function viewpointsOf(question: Question): { name: string; viewpoint: readonly n
     case "camera":
       return [{ name: "the camera", viewpoint: placeOf(question.camera) }];
     default:
-      return question.viewpoints.map(({ name, viewpoint }) => ({ name: `the viewpoint ${name}`, viewpoint }));
+      return question.seats.map(({ name, seat }) =>
+        isCamera(seat)
+          ? { name: `the camera ${name}`, viewpoint: placeOf(seat as Camera) }
+          : { name: `the viewpoint ${name}`, viewpoint: seat as number[] },
+      );
   }
 }
 

@@ -1,18 +1,27 @@
 export const HELP = `Usage: hidden-point-removal IN --from X,Y,Z -o OUT [options]
        hidden-point-removal IN --camera CAMERA.json -o OUT.csv
        hidden-point-removal IN --viewpoints PLACES.csv [--coverage] -o OUT
+       hidden-point-removal IN --images DIR --cameras FILE -o COLORED.ply
 
 Writes those points of a file that can be seen, or their indices, a mask, their pixels
-in an image, or from how many places each point is seen.
+in an image, from how many places or by which cameras each point is seen, or its color.
 
   IN                   a LAS, LAZ, COPC, PLY, PCD, XYZ, TXT, CSV or PTS file
   --columns X,Y,Z      which columns of IN are x, y and z: their names or numbers from 1
 
-From where (one of the three, in the coordinates of the file):
+From where (one of the four, in the coordinates of the file):
   --from X,Y,Z         one viewpoint
   --camera FILE        one camera: a JSON file with cameraToWorld, fx, fy, cx, cy,
                        width, height and, if needed, model, distortion, near, far
-  --viewpoints FILE    many viewpoints: a table with the columns x,y,z or name,x,y,z
+  --viewpoints FILE    many viewpoints: a table with the columns x,y,z or name,x,y,z; or cameras
+                       (a folder, or an ending .json, .yaml or .bin)
+  --cameras FILE       many cameras: a list of such JSON objects, each with the name of its
+                       "image"; COLMAP's folder with cameras and images; transforms.json of
+                       nerfstudio; calib.txt of KITTI
+  --images DIR         with --cameras: the folder of their images. Each point gets the color
+                       that the cameras see there (needs sharp: npm install sharp)
+  --merge M            how the values of several images become one: mean (the default), median,
+                       vote (for labels) or best (the nearest camera)
 
 How (the defaults fit most clouds):
   --radius R           R in the units of the file; or auto (the default), search, opposite
@@ -26,14 +35,17 @@ How (the defaults fit most clouds):
   --vote K             for noisy points: lets each point and its K neighbors vote
 
 What to write:
-  -o, --output OUT     the file to write; - is standard output. With --viewpoints, a name with
-                       {name} in it is one file for each viewpoint; without, OUT holds what any
+  -o, --output OUT     the file to write; - is standard output. With --viewpoints or --cameras, a
+                       name with {name} in it is one file for each; without, OUT holds what any
                        of them sees
-  --coverage           with --viewpoints: how many of them see each point
+  --coverage           with --viewpoints or --cameras: how many of them see each point
   --format F           points (a file like IN), indices, mask, scores (with looks), pixels
-                       (index, u, v, depth; with --camera) or counts (with --coverage). The
-                       default follows from OUT: an ending like IN's is points, .idx indices,
-                       .mask and .npy a mask; with --camera, a table or .npy is pixels
+                       (index, u, v, depth; with --camera), counts (with --coverage), colors
+                       (with --images: a PLY file of all points with their colors and "seen", the
+                       number of cameras; or a table) or vis (with --cameras: COLMAP's file of
+                       which images see each point, OUT.vis). The default follows from OUT: an
+                       ending like IN's is points, .idx indices, .mask and .npy a mask; with
+                       --camera, a table or .npy is pixels
                        All but points are text, one line each, or NumPy arrays (.npy)
   --overwrite          OUT may be the same file as IN, CAMERA or PLACES
   --damaged            reads a file that contradicts itself, and says how

@@ -7,15 +7,17 @@ import { HprError } from "../base/errors.js";
 import { printable } from "../formats/problem.js";
 import { type Answer, ask, type Question } from "./ask.js";
 import { NAME, readArguments, type Settings } from "./arguments.js";
+import { coloredPly } from "./colored.js";
 import { farNote } from "./far.js";
 import { readAs, writeWhole } from "./files.js";
 import { FORMATS, readPoints } from "./formats/formats.js";
 import { pointsWritten, type PointFile } from "./formats/point-file.js";
+import { colmapVis } from "../files/cameras/vis.js";
 import { HELP } from "./help.js";
 import { numbersWritten } from "./numbers.js";
 import { isNumpy } from "./output-format.js";
 import { checkOutputs } from "./outputs.js";
-import { cameraIn, viewpointsIn } from "./places.js";
+import { cameraIn, camerasIn, holdsCameras, viewpointsIn } from "./places.js";
 import { Progress } from "./progress.js";
 import { UsageProblem } from "./values.js";
 
@@ -91,33 +93,45 @@ async function filter(settings: Settings, progress: Progress): Promise<string> {
 }
 
 /** Reads the small files first: a mistake in them is told at once. */
-async function questionOf({ place, options, threshold, format }: Settings): Promise<Question> {
+async function questionOf({ place, images, options, threshold, format }: Settings): Promise<Question> {
   const asked = { options, threshold };
   const quietly = () => undefined;
   if ("viewpoint" in place) return { ...asked, kind: "view", viewpoint: place.viewpoint };
   if ("camera" in place) return { ...asked, kind: "camera", camera: await readAs(place.camera, quietly, cameraIn) };
-  const viewpoints = await readAs(place.viewpoints, quietly, (file) => viewpointsIn(file, place.each));
-  return { ...asked, kind: place.each ? "each" : format === "counts" ? "coverage" : "any", viewpoints };
+  const kind = place.each ? "each" : format === "counts" ? "coverage" : "any";
+  const file = "cameras" in place ? place.cameras : place.viewpoints;
+  if ("viewpoints" in place && !(await holdsCameras(file))) {
+    return { ...asked, kind, seats: await readAs(file, quietly, (bytes) => viewpointsIn(bytes, place.each)) };
+  }
+  const seats = await camerasIn(file, place.each);
+  if (images !== undefined) return { ...asked, kind: "colors", seats, images: images.folder, merge: images.merge };
+  return { ...asked, kind: format === "vis" ? "rows" : kind, seats };
 }
 
 function placeFiles({ place }: Settings): string[] {
   if ("camera" in place) return [place.camera];
+  if ("cameras" in place) return [place.cameras];
   return "viewpoints" in place ? [place.viewpoints] : [];
 }
 
 function outputsOf({ output }: Settings, question: Question): string[] {
-  return question.kind === "each" ? question.viewpoints.map(({ name }) => named(output, name)) : [output];
+  return question.kind === "each" ? question.seats.map(({ name }) => named(output, name)) : [output];
 }
 
 function named(output: string, name: string | undefined): string {
   return name === undefined ? output : output.replaceAll(NAME, () => name);
 }
 
-async function write({ output, format }: Settings, file: PointFile, answer: Answer): Promise<void> {
-  const name = named(output, answer.name);
-  const parts =
-    format === "points" ? pointsWritten(file, answer.indices) : numbersWritten(format, answer, isNumpy(output));
-  await writeWhole(name, parts);
+async function write(settings: Settings, file: PointFile, answer: Answer): Promise<void> {
+  await writeWhole(named(settings.output, answer.name), partsOf(settings, file, answer));
+}
+
+function partsOf({ output, format }: Settings, file: PointFile, answer: Answer): Iterable<Uint8Array> {
+  if (format === "points") return pointsWritten(file, answer.indices);
+  if (format === "vis") return [colmapVis(answer.rows!)];
+  const isTable = /\.(npy|csv|txt|idx|mask)$/i.test(output);
+  if (format === "colors" && !isTable) return coloredPly(file.positions, answer.colors!);
+  return numbersWritten(format, answer, isNumpy(output));
 }
 
 function reason(error: unknown): string {

@@ -14,15 +14,13 @@ interface Table {
   type: string;
 }
 
+type NumberFormat = Exclude<OutputFormat, "points" | "vis">;
+
 /** How many rows are made into one piece of text. */
 const PIECE = 65_536;
 
 /** The output with numbers instead of points. */
-export function* numbersWritten(
-  format: Exclude<OutputFormat, "points">,
-  answer: Answer,
-  numpy: boolean,
-): Generator<Uint8Array> {
+export function* numbersWritten(format: NumberFormat, answer: Answer, numpy: boolean): Generator<Uint8Array> {
   const { values, width, names, type } = tableOf(format, answer);
   const rows = values.length / width;
   if (numpy) {
@@ -40,7 +38,7 @@ export function* numbersWritten(
   }
 }
 
-function tableOf(format: Exclude<OutputFormat, "points">, answer: Answer): Table {
+function tableOf(format: NumberFormat, answer: Answer): Table {
   const { indices, length } = answer;
   switch (format) {
     case "indices":
@@ -55,6 +53,12 @@ function tableOf(format: Exclude<OutputFormat, "points">, answer: Answer): Table
       return { values: answer.scores!, width: 1, type: "<f4" };
     case "counts":
       return { values: answer.counts!, width: 1, type: "<u4" };
+    case "colors": {
+      const { values, channels } = answer.colors!;
+      const names =
+        channels === 3 ? "red,green,blue" : Array.from({ length: channels }, (_, c) => `value${c + 1}`).join();
+      return { values, width: channels, names, type: "<f4" };
+    }
     case "pixels": {
       const { pixels, depths } = answer.image!;
       const rows = new Float64Array(4 * indices.length);

@@ -4,23 +4,40 @@ import { FORMATS } from "./formats/formats.js";
 import { UsageProblem } from "./values.js";
 
 /** What the output holds. */
-export const OUTPUT_FORMATS = ["points", "indices", "mask", "scores", "pixels", "counts"] as const;
+export const OUTPUT_FORMATS = ["points", "indices", "mask", "scores", "pixels", "counts", "colors", "vis"] as const;
 export type OutputFormat = (typeof OUTPUT_FORMATS)[number];
 
 /** The endings of files with one line for each number. */
 const TEXT = [".txt", ".csv", ".idx", ".mask"];
 const NUMPY = ".npy";
+/** The ending of COLMAP's files that say which images see each point. */
+const VIS = ".vis";
+
+interface Asked {
+  input: string;
+  output: string;
+  camera: boolean;
+  cameras: boolean;
+  images: boolean;
+  coverage: boolean;
+}
 
 /** What to write, by the option `--format` or the name of the output. */
 export function chosenFormat(
   given: string | undefined,
-  { input, output, camera, coverage }: { input: string; output: string; camera: boolean; coverage: boolean },
+  { input, output, camera, cameras, images, coverage }: Asked,
 ): OutputFormat {
   const format = (OUTPUT_FORMATS as readonly string[]).includes(given ?? "") ? (given as OutputFormat) : undefined;
   if (given !== undefined && format === undefined) {
     throw new UsageProblem(`--format needs one of ${OUTPUT_FORMATS.join(", ")}, not ${given}`);
   }
   const [is, wanted] = [input, output].map((name) => extname(name).toLowerCase()) as [string, string];
+  if (given === undefined && wanted === VIS && cameras && !images && !coverage) return "vis";
+  if (images ? given === undefined : format === "colors" || format === "vis") {
+    const endings = format === "vis" ? [VIS] : [".ply", ...TEXT, NUMPY];
+    if (output === "-" || endings.includes(wanted)) return format ?? "colors";
+    throw new UsageProblem(`${output} must end with ${endings.join(", ")} for ${format ?? "colors"}`);
+  }
   const isLike = FORMATS[is]!.written.includes(wanted);
   const chosen = format ?? (coverage ? "counts" : byEnding(wanted, isLike, output === "-", camera));
   if (output === "-") return chosen ?? "points";

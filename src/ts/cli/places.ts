@@ -1,11 +1,16 @@
-// Reads the files that say from where: a camera, or many viewpoints.
+// Reads the files that say from where: cameras, or viewpoints.
+import { stat } from "node:fs/promises";
+import { parse } from "node:path";
+
 import { HprError } from "../base/errors.js";
 import { FormatProblem, lineProblem, printable } from "../formats/problem.js";
 import { TableRows } from "../formats/table.js";
 import { cell, isComment, separatorOf, split } from "../formats/table-words.js";
 import { bytesSource, lines as linesOf } from "../formats/source.js";
 import { trimmed } from "../formats/text.js";
+import { readCameras } from "../files/read-cameras.js";
 import { type Camera, readCamera } from "../query/camera.js";
+import { InputProblem } from "./files.js";
 
 /** A camera as a JSON object. It is checked as the library checks it, before the points are read. */
 export function cameraIn(file: Buffer): Camera {
@@ -23,9 +28,38 @@ export function cameraIn(file: Buffer): Camera {
   return camera as Camera;
 }
 
-export interface NamedViewpoint {
+/** A viewpoint, or a camera in its place. */
+export interface NamedSeat {
   name: string;
-  viewpoint: number[];
+  seat: number[] | Camera;
+}
+
+/** A camera, and the image that it has taken. */
+export interface NamedCamera extends NamedSeat {
+  seat: Camera;
+  image: string;
+}
+
+/** Whether a name is that of a file, or a folder, of cameras, and not of a table. */
+export async function holdsCameras(name: string): Promise<boolean> {
+  return /\.(json|ya?ml|bin)$/i.test(name) || ((await stat(name).catch(() => undefined))?.isDirectory() ?? false);
+}
+
+/**
+ * The cameras of a file or a folder, as `readCameras` reads them. They are checked before the points are read. A camera is
+ * called as its image is, without the folder and the ending, or by its number, from 1.
+ *
+ * @param inFileNames whether the names become parts of names of files
+ */
+export async function camerasIn(file: string, inFileNames: boolean): Promise<NamedCamera[]> {
+  const cameras = await readCameras(file);
+  const known = new Set<string>();
+  return cameras.map(({ camera, image }, i) => {
+    const refusal = (says: string) => new InputProblem(`${file} cannot be read: camera ${i + 1} (${image}) ${says}`);
+    const name = parse(image.replaceAll("\\", "/")).name || String(i + 1);
+    if (inFileNames) takeName(name, known, refusal);
+    return { name, seat: camera, image };
+  });
 }
 
 /**
@@ -34,14 +68,14 @@ export interface NamedViewpoint {
  *
  * @param inFileNames whether the names become parts of names of files
  */
-export async function viewpointsIn(file: Buffer<ArrayBuffer>, inFileNames: boolean): Promise<NamedViewpoint[]> {
+export async function viewpointsIn(file: Buffer<ArrayBuffer>, inFileNames: boolean): Promise<NamedSeat[]> {
   const lines: { text: string; number: number }[] = [];
   for await (const { texts, number } of linesOf(bytesSource(file), 0)) {
     for (const [i, text] of texts.entries()) lines.push({ text, number: number + i });
   }
   const bareName = hasBareName(lines.map(({ text }) => trimmed(text)).find((text) => text !== "" && !isComment(text)));
   const rows = new TableRows(bareName ? ["2", "3", "4"] : undefined);
-  const found: NamedViewpoint[] = [];
+  const found: NamedSeat[] = [];
   const known = new Set<string>();
   for (const { text, number } of lines) {
     const point = rows.take(text, number);
@@ -53,17 +87,20 @@ export async function viewpointsIn(file: Buffer<ArrayBuffer>, inFileNames: boole
     const column = bareName ? 0 : (names?.bare.indexOf("name") ?? -1);
     const name = column < 0 ? String(found.length + 1) : point.words[column]!;
     if (!point.position.every(Number.isFinite)) throw lineProblem(number, "has a coordinate that is not finite", text);
-    if (inFileNames) {
-      if (!isFileName(name)) throw lineProblem(number, "has a name that no file can have", text);
-      // Some file systems do not tell capitals from small letters.
-      const same = name.normalize("NFC").toLowerCase();
-      if (known.has(same)) throw lineProblem(number, "has a name a second time", text);
-      known.add(same);
-    }
-    found.push({ name, viewpoint: [...point.position] });
+    if (inFileNames) takeName(name, known, (says) => lineProblem(number, says, text));
+    found.push({ name, seat: [...point.position] });
   }
   rows.finish();
   return found;
+}
+
+/** Refuses a name that cannot become part of the name of a file, or would do so twice. */
+function takeName(name: string, known: Set<string>, refusal: (says: string) => Error): void {
+  if (!isFileName(name)) throw refusal("has a name that no file can have");
+  // Some file systems do not tell capitals from small letters.
+  const same = name.normalize("NFC").toLowerCase();
+  if (known.has(same)) throw refusal("has a name a second time");
+  known.add(same);
 }
 
 /** Whether a name can stand in the name of a file on every system, and leads to no other folder. */

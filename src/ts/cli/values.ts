@@ -1,5 +1,6 @@
 // Reads the values of single arguments.
 import { type ChosenColumns, isNumber } from "../formats/axes.js";
+import { type Merge, MERGES } from "../query/merge-values.js";
 import type { RadiusRule, VisibilityOptions } from "../query/view-options.js";
 
 /** Wrong usage: the message says what is wrong. */
@@ -51,6 +52,14 @@ export function readLooks(text: string): 0 | 2 | 3 {
   const looks = ([0, 2, 3] as const).find((count) => String(count) === text);
   if (looks === undefined) throw new UsageProblem(`--looks needs 0, 2 or 3, not ${text}`);
   return looks;
+}
+
+export function readMerge(text: string | undefined): Merge | undefined {
+  const merge = MERGES.find((name) => name === text);
+  if (text !== undefined && merge === undefined) {
+    throw new UsageProblem(`--merge needs one of ${MERGES.join(", ")}, not ${text}`);
+  }
+  return merge;
 }
 
 /** @param option the name of the option, for the message */

@@ -8,14 +8,14 @@ import { readCameraBytes, readImageBytes } from "./cameras/colmap.js";
 import { readCameraLines, readImageLines } from "./cameras/colmap-text.js";
 import { readKitti } from "./cameras/kitti.js";
 import { readOpenCv } from "./cameras/opencv.js";
-import { readTransforms } from "./cameras/transforms.js";
+import { readJson } from "./cameras/transforms.js";
 import { type FileSource, type NamedSource, refusal, sourceOf } from "./source-of.js";
 
 export type { CameraOfImage, FileSource, ImageSize };
 
 /**
- * Reads the cameras of images: COLMAP's `cameras` and `images` (`.bin` or `.txt`), nerfstudio's `transforms.json`, KITTI's
- * `calib.txt`, and the YAML of OpenCV and ROS. u = 0 is the left edge of the first pixel, so cx and cy of OpenCV and KITTI
+ * Reads the cameras of images: COLMAP's `cameras` and `images` (`.bin` or `.txt`), nerfstudio's `transforms.json`, JSON
+ * of one camera or a list of them (each with its `image`, if it has one), KITTI's `calib.txt`, and the YAML of OpenCV and ROS. u = 0 is the left edge of the first pixel, so cx and cy of OpenCV and KITTI
  * get ½ more.
  *
  * @param source a file, as for `readCloud`; a folder (its path, in Node), or a list of files with names (in pages, those of
@@ -57,7 +57,7 @@ async function reading<T>({ name }: NamedSource, read: () => Promise<T>): Promis
 async function readOne({ source, name }: NamedSource, size: ImageSize | undefined): Promise<CameraOfImage[]> {
   const bytes = await source.read(0, 1 << 16);
   const start = new TextDecoder().decode(bytes);
-  if (/^\s*\{/.test(start)) return readTransforms(source, size);
+  if (/^\s*[[{]/.test(start)) return readJson(source, size);
   if (/^(%YAML|camera_matrix\s*:)/im.test(start)) return readOpenCv(source, size);
   if (/^P[0-3]:?[ \t]/m.test(start)) return readKitti(source, size);
   if (looksBinary(bytes) || /(cameras|images)\.(txt|bin)$|^# (Camera|Image) list/im.test(`${name}\n${start}`)) {

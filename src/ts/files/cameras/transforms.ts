@@ -1,6 +1,7 @@
-import { describe } from "../../base/errors.js";
+import { describe, HprError } from "../../base/errors.js";
 import { FormatProblem } from "../../formats/problem.js";
 import { type Source, wholeFile } from "../../formats/source.js";
+import { type Camera, isCamera, readCamera } from "../../query/camera.js";
 import { type CameraOfImage, checked, type ImageSize } from "./camera-file.js";
 
 type Fields = Record<string, unknown>;
@@ -9,8 +10,8 @@ type Fields = Record<string, unknown>;
 const PLAIN = ["SIMPLE_PINHOLE", "PINHOLE", "SIMPLE_RADIAL", "RADIAL", "OPENCV"];
 const FISHEYE = ["OPENCV_FISHEYE", "RADIAL_FISHEYE", "SIMPLE_RADIAL_FISHEYE"];
 
-/** nerfstudio's `transforms.json`. A frame's own numbers go before those of the file. */
-export async function readTransforms(source: Source, size: ImageSize | undefined): Promise<CameraOfImage[]> {
+/** A JSON file: nerfstudio's `transforms.json`, or cameras of this package. */
+export async function readJson(source: Source, size: ImageSize | undefined): Promise<CameraOfImage[]> {
   const bytes = await wholeFile(source);
   let json: unknown;
   try {
@@ -18,9 +19,23 @@ export async function readTransforms(source: Source, size: ImageSize | undefined
   } catch (cause) {
     throw new FormatProblem(`it is not JSON: ${(cause as Error).message}`, { cause });
   }
+  if (Array.isArray(json) || isCamera(json)) return [json].flat().map(ownCamera);
+  // A frame's own numbers go before those of the file.
   const frames = isFields(json) ? json["frames"] : undefined;
   if (!Array.isArray(frames)) throw new FormatProblem(`frames must be an array, got ${describe(frames)}`);
   return frames.map((frame: unknown, i) => cameraOf(json as Fields, frame, `frames[${i}]`, size));
+}
+
+/** A camera as the methods take it, with the name of its image if it has one. */
+function ownCamera(given: unknown, i: number): CameraOfImage {
+  const { image = "", ...camera } = isFields(given) ? given : { given };
+  if (typeof image !== "string") throw new FormatProblem(`cameras[${i}].image must be a text, got ${describe(image)}`);
+  try {
+    readCamera(isFields(given) ? camera : given, `camera [${i}]`);
+  } catch (cause) {
+    throw cause instanceof HprError ? new FormatProblem(cause.message, { cause }) : cause;
+  }
+  return { camera: camera as unknown as Camera, image };
 }
 
 function cameraOf(file: Fields, frame: unknown, where: string, size: ImageSize | undefined): CameraOfImage {
